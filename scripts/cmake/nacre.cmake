@@ -1,0 +1,46 @@
+# Helpers for nacre's own libraries, tests and benchmarks.
+
+find_package(Threads REQUIRED)
+
+# What every target of ours is compiled with.
+add_library(nacre_options INTERFACE)
+target_compile_features(nacre_options INTERFACE cxx_std_20)
+target_include_directories(nacre_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
+# -ffp-contract=off: left alone, GCC fuses multiplies and adds across intrinsics, differently in
+# each context, and then a pixel's bits would depend on which kernel computed it.
+target_compile_options(nacre_options INTERFACE -ffp-contract=off -Wall -Wextra -Wconversion)
+# SSSE3 is left out: nacre offers SCALAR, SSE4, AVX2 and AVX3.
+target_compile_definitions(nacre_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Highway passes vectors between its own inlined functions only.
+  target_compile_options(nacre_options INTERFACE -Wno-psabi)
+endif()
+if(NACRE_WERROR)
+  target_compile_options(nacre_options INTERFACE -Werror)
+endif()
+
+# nacre_library(NAME DEPENDS... ): the library nacre_<NAME> from all of src/<NAME>/*.cc.
+function(nacre_library name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cc)
+  if(sources)
+    add_library(nacre_${name} STATIC ${sources})
+    set_target_properties(nacre_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(nacre_${name} PUBLIC nacre_options ${ARG_DEPENDS})
+  else()
+    add_library(nacre_${name} INTERFACE)
+    target_link_libraries(nacre_${name} INTERFACE nacre_options ${ARG_DEPENDS})
+  endif()
+endfunction()
+
+# nacre_test(FOLDER DEPENDS...): one Catch2 program from tests/<FOLDER>/*_test.cc.
+function(nacre_test folder)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cc)
+  add_executable(nacre_${folder}_test ${sources})
+  set_target_properties(nacre_${folder}_test PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_link_libraries(nacre_${folder}_test PRIVATE nacre_test_main ${ARG_DEPENDS})
+  target_include_directories(nacre_${folder}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  add_test(NAME ${folder} COMMAND nacre_${folder}_test)
+endfunction()

@@ -1,0 +1,55 @@
+// base/aligned.h: arrays that SIMD kernels load from: aligned, zeroed, padded to whole vectors.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <new>
+
+namespace nacre {
+
+// Widest vector in bytes (AVX-512), also a cache line.
+inline constexpr size_t kVectorBytes = 64;
+
+// Batches are padded to a multiple of this many entries, so that no kernel has a tail: a whole
+// vector of the narrowest type that kernels load (4-byte float).
+inline constexpr size_t kBatchPadding = kVectorBytes / sizeof(float);
+
+constexpr size_t RoundUp(size_t value, size_t multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+
+// A fixed-size array of trivial T on a kVectorBytes boundary, zero-initialised; its allocation is
+// rounded up to whole vectors, so kernels may load and store past size() up to the padding.
+template <typename T>
+class AlignedArray {
+ public:
+  AlignedArray() = default;
+  explicit AlignedArray(size_t size) : size_(size) {
+    const size_t bytes = RoundUp(size * sizeof(T), kVectorBytes);
+    if (bytes == 0) return;
+    data_.reset(static_cast<T*>(std::aligned_alloc(kVectorBytes, bytes)));
+    if (!data_) throw std::bad_alloc();
+    std::memset(static_cast<void*>(data_.get()), 0, bytes);
+  }
+
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  size_t size() const { return size_; }
+  T& operator[](size_t i) { return data_.get()[i]; }
+  const T& operator[](size_t i) const { return data_.get()[i]; }
+  T* begin() { return data(); }
+  T* end() { return data() + size_; }
+  const T* begin() const { return data(); }
+  const T* end() const { return data() + size_; }
+
+ private:
+  struct Free {
+    void operator()(T* p) const { std::free(p); }
+  };
+  std::unique_ptr<T[], Free> data_;
+  size_t size_ = 0;
+};
+
+}  // namespace nacre

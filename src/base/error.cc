@@ -1,0 +1,53 @@
+#include "base/error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nacre {
+namespace {
+
+// Levenshtein distance.
+size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<size_t> row(b.size() + 1);
+  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (size_t i = 1; i <= a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i;
+    for (size_t j = 1; j <= b.size(); ++j) {
+      const size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({substituted, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+Error::Error(ExitCode code, std::vector<Fault> faults) : code_(code), faults_(std::move(faults)) {
+  for (const Fault& fault : faults_) {
+    if (!message_.empty()) message_ += '\n';
+    message_ += "error: ";
+    if (!fault.where.empty()) message_ += fault.where + ": ";
+    message_ += fault.what;
+    if (!fault.hint.empty()) message_ += "\n  hint: " + fault.hint;
+  }
+}
+
+Error::Error(ExitCode code, std::string where, std::string what, std::string hint)
+    : Error(code, {Fault{std::move(where), std::move(what), std::move(hint)}}) {}
+
+std::string NearestName(const std::string& word, const std::vector<std::string>& candidates) {
+  std::string nearest;
+  size_t best = std::max<size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = EditDistance(word, candidate);
+    if (distance < best) {
+      best = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace nacre

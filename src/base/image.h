@@ -1,0 +1,55 @@
+// base/image.h: an image in memory: named float channels and the windows they cover.
+// What readers return, compare works on and tests build. Rendering itself works strip by strip
+// and never holds one.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nacre {
+
+// A rectangle of pixels: x0 <= x < x1, y0 <= y < y1, y downwards.
+struct Window {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+  int width() const { return x1 - x0; }
+  int height() const { return y1 - y0; }
+  size_t pixel_count() const { return static_cast<size_t>(width()) * static_cast<size_t>(height()); }
+  bool empty() const { return width() <= 0 || height() <= 0; }
+  bool operator==(const Window&) const = default;
+};
+
+inline Window Intersect(const Window& a, const Window& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+// How a channel's samples are stored in a file.
+enum class PixelType : uint8_t { kHalf, kFloat, kUint };
+
+struct Channel {
+  std::string name;                     // EXR name: "R", "diffuse.G", "N.X", "id.object"
+  PixelType type = PixelType::kFloat;   // in memory always float; uint ids are exact up to 2^24
+  std::vector<float> samples;           // row by row over the data window
+};
+
+struct Image {
+  Window display;  // the full frame
+  Window data;     // the part that the channels cover
+  std::vector<Channel> channels;
+  std::map<std::string, std::string> metadata;  // header attributes as text
+
+  // The channel of this name, or nullptr.
+  const Channel* Find(std::string_view name) const {
+    for (const Channel& channel : channels) {
+      if (channel.name == name) return &channel;
+    }
+    return nullptr;
+  }
+};
+
+}  // namespace nacre

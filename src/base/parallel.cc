@@ -1,0 +1,45 @@
+#include "base/parallel.h"
+
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace nacre {
+
+int ThreadCount(int threads) { return threads > 0 ? threads : tbb::info::default_concurrency(); }
+
+void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body) {
+  if (threads == 1 || count <= 1) {
+    const FlushDenormals flush;
+    for (size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  tbb::task_arena arena(ThreadCount(threads));
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<size_t>(0, count, 1),
+        [&](const tbb::blocked_range<size_t>& range) {
+          const FlushDenormals flush;
+          for (size_t i = range.begin(); i != range.end(); ++i) body(i);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+#if defined(__SSE2__)
+FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
+  constexpr unsigned kFlushToZero = 0x8000;
+  constexpr unsigned kDenormalsAreZero = 0x0040;
+  _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero);
+}
+FlushDenormals::~FlushDenormals() { _mm_setcsr(saved_); }
+#else
+FlushDenormals::FlushDenormals() = default;
+FlushDenormals::~FlushDenormals() = default;
+#endif
+
+}  // namespace nacre

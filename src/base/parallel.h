@@ -1,0 +1,31 @@
+// base/parallel.h: work on all cores. The only folder that knows TBB.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace nacre {
+
+// Calls body(i) for every i in [0, count), on up to `threads` threads (0: as many as the machine
+// has). Order and threads are unspecified. Each worker runs with denormals flushed to zero
+// (FlushDenormals). An exception from a body stops the loop and is thrown to the caller.
+void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
+
+// The number of threads that ParallelFor uses for `threads`.
+int ThreadCount(int threads);
+
+// While alive, denormal results and operands of this thread are treated as zero (FTZ and DAZ on
+// x86): the tails of highlights make denormals, which cost a hundred cycles each. Restores the
+// caller's mode.
+class FlushDenormals {
+ public:
+  FlushDenormals();
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned saved_ = 0;
+};
+
+}  // namespace nacre

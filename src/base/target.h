@@ -1,0 +1,26 @@
+// base/target.h: the SIMD targets that nacre runs on, and which of them this process uses.
+//
+// Kernels are compiled for all of them and dispatched at run time by Highway, whose choice is
+// one per process; PinTarget is therefore called once, before any rendering.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nacre {
+
+enum class Target { kScalar, kSse4, kAvx2, kAvx3 };
+
+// "scalar", "sse4", "avx2" or "avx3".
+std::string TargetName(Target target);
+
+// The targets compiled in and supported by this CPU, slowest first.
+std::vector<Target> SupportedTargets();
+
+// Makes every kernel of this process run on `target`. Must be one of SupportedTargets().
+void PinTarget(Target target);
+
+// The target that kernels run on: the pinned one, else the best supported.
+Target ActiveTarget();
+
+}  // namespace nacre

@@ -1,0 +1,64 @@
+// hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: camera rays,
+// their closest hits, shaded hits and shadow rays. Data only: made by render and visibility,
+// read by shading, which never includes each other.
+//
+// All positions are doubles relative to the camera's position ("camera space without rotation"):
+// world position minus camera position, rounded once. Arrays have room for kBatchCapacity entries
+// and are padded to whole vectors; entries past `count` hold stale but finite values.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "base/aligned.h"
+
+namespace nacre {
+
+// Rays a batch holds at most: all arrays of a batch together stay in L2.
+inline constexpr size_t kBatchCapacity = 1024;
+static_assert(kBatchCapacity % kBatchPadding == 0);
+
+// Primitives are numbered spheres first, in scene order, then the triangles of all meshes.
+inline constexpr uint32_t kNoPrimitive = 0xffffffffu;
+
+// Three coordinate arrays.
+template <typename T>
+struct Soa3 {
+  AlignedArray<T> x{kBatchCapacity}, y{kBatchCapacity}, z{kBatchCapacity};
+};
+
+// Camera rays: points origin + t direction, t > 0. Directions are not normalised.
+struct RayBatch {
+  size_t count = 0;
+  Soa3<double> origin;  // 0 for a perspective camera
+  Soa3<double> direction;
+};
+
+// For each ray of a RayBatch, the closest hit.
+struct ClosestHits {
+  AlignedArray<uint32_t> primitive{kBatchCapacity};  // kNoPrimitive: the ray escapes
+  AlignedArray<double> t{kBatchCapacity};            // in units of the ray's direction
+};
+
+// Hits to shade, compacted, in the order of their ray indices within each run of one material.
+struct HitBatch {
+  size_t count = 0;
+  AlignedArray<uint32_t> ray{kBatchCapacity};        // index into the RayBatch
+  AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
+  AlignedArray<uint32_t> object{kBatchCapacity};     // sphere index, or sphere count + mesh index
+  Soa3<double> position;                             // on the surface
+  Soa3<double> normal;   // unit shading normal on the side that the ray came from
+  Soa3<double> to_view;  // unit, towards the ray's origin
+};
+
+// Shadow rays origin + t direction, 0 < t < t_max.
+struct ShadowRayBatch {
+  size_t count = 0;
+  Soa3<double> origin;     // HitBatch::position
+  Soa3<double> direction;  // towards the light, not normalised
+  AlignedArray<double> t_max{kBatchCapacity};      // 1: a light at origin + direction; or infinity
+  AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
+  AlignedArray<uint8_t> occluded{kBatchCapacity};    // result: 1 if anything is in the way
+};
+
+}  // namespace nacre

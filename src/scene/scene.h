@@ -1,0 +1,195 @@
+// scene/scene.h: the one scene type: plain structs, a default for every field, references as
+// typed handles. What scene_io reads, the generators make and the renderer plans from.
+//
+// World space is right-handed, +y up. All positions and lengths are doubles in world units and
+// stay as the file has them; everything in float later on is relative to the camera.
+// Colours are linear Rec. 709. Directional light: irradiance on a surface facing it. Point and
+// spot: radiant intensity. Ambient and background: radiance.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/image.h"
+#include "base/vec.h"
+#include "sampling/pixel_filter.h"
+
+namespace nacre {
+
+// An index into one of the scene's arrays; kInvalid means none.
+template <typename Tag>
+struct Handle {
+  static constexpr uint32_t kInvalid = 0xffffffffu;
+  uint32_t index = kInvalid;
+
+  bool valid() const { return index != kInvalid; }
+  bool operator==(const Handle&) const = default;
+};
+using MaterialId = Handle<struct MaterialTag>;
+
+// ---- Camera and image ---------------------------------------------------------------------------
+
+enum class Projection : uint8_t { kPerspective, kOrthographic };
+
+struct Camera {
+  Projection projection = Projection::kPerspective;
+  Vec3d position{0, 0, 10};
+  Vec3d look_at{0, 0, 0};
+  Vec3d up{0, 1, 0};
+  double fov_y_deg = 30;  // perspective: full vertical field of view, in (0, 180)
+  double height = 2;      // orthographic: height of the view in world units, > 0
+};
+
+struct ImageSettings {
+  int width = 1280;   // in [1, 65536]
+  int height = 720;   // in [1, 65536]
+  int spp = 16;       // samples per pixel, in [1, 65536]; 1 is the pixel's centre
+  PixelFilter filter;
+  uint32_t seed = 0;    // of the sample pattern
+  bool shadows = true;  // false: no light casts any
+};
+
+// ---- Materials ----------------------------------------------------------------------------------
+
+// How the Phong family's coefficients are read.
+//   kClassic: the equations as the lessons write them: no 1/pi, no lobe normalisation; the
+//     light's irradiance perpendicular to it takes the place of I_l.
+//   kRadiometric: kd/pi, and lobes normalised so that ks is the reflectance at normal incidence;
+//     comparable with the physical models under the same light.
+enum class PhongConvention : uint8_t { kClassic, kRadiometric };
+
+enum class PhongModel : uint8_t {
+  kPhong,          // ks (r.v)^n where n.l > 0 (Phong 1975, gated), without n.l
+  kModifiedPhong,  // ks (r.v)^n n.l (Lewis 1994)
+  kBlinnPhong,     // ks (n.h)^n where n.l > 0 (Blinn 1977), without n.l
+};
+
+struct LambertMaterial {
+  Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
+};
+
+struct PhongMaterial {
+  PhongModel model = PhongModel::kPhong;
+  PhongConvention convention = PhongConvention::kRadiometric;
+  Rgb color{1, 1, 1};  // multiplies ambient and diffuse
+  Rgb ka{0.1, 0.1, 0.1};
+  Rgb kd{0.7, 0.7, 0.7};
+  Rgb ks{0.3, 0.3, 0.3};
+  double shininess = 32;  // exponent n >= 0
+};
+
+// Masking-shadowing of the microfacet models. They differ by up to half at grazing angles.
+enum class Shadowing : uint8_t {
+  kHeightCorrelated,  // Smith, height-correlated (Heitz 2014, eq. 99)
+  kSeparable,         // Smith, product of two G1
+  kSchlickDirect,     // Schlick's G1 with k = (roughness + 1)^2 / 8 (Karis 2013), the lesson's
+};
+
+// Metallic-roughness as in glTF 2.0: GGX, Schlick Fresnel with F0 = mix(0.04, base_color,
+// metallic), diffuse (1 - F)(1 - metallic) base_color / pi.
+struct MetallicRoughnessMaterial {
+  Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
+  double metallic = 0;            // in [0, 1]
+  double roughness = 0.5;         // perceptual, in [0, 1]; alpha = roughness^2
+  Shadowing shadowing = Shadowing::kHeightCorrelated;
+};
+
+// Not a model of its own: chooses among other materials by where the sample lies on screen, in
+// vertical bands. materials.size() == at.size() + 1; `at` ascends in (0, 1), as fractions of the
+// image width.
+struct SplitMaterial {
+  std::vector<double> at;
+  std::vector<MaterialId> materials;
+};
+
+struct Material {
+  std::string name;
+  Rgb emission{0, 0, 0};  // radiance, >= 0
+  std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, SplitMaterial> model;
+};
+
+// ---- Lights -------------------------------------------------------------------------------------
+
+// Fall-off with the distance d of a point or spot light: 1 / (constant + linear d + quadratic d^2).
+struct Attenuation {
+  double constant = 0;   // >= 0
+  double linear = 0;     // >= 0
+  double quadratic = 1;  // >= 0; not all three 0
+
+  static Attenuation None() { return {1, 0, 0}; }
+  static Attenuation InverseSquare() { return {0, 0, 1}; }
+  bool operator==(const Attenuation&) const = default;
+};
+
+struct AmbientLight {
+  Rgb radiance{0, 0, 0};
+};
+
+struct DirectionalLight {
+  Vec3d direction_of_travel{0, -1, 0};  // any length > 0
+  Rgb irradiance{1, 1, 1};              // on a surface facing the light
+};
+
+struct PointLight {
+  Vec3d position{0, 0, 0};
+  Rgb intensity{1, 1, 1};
+  Attenuation attenuation;
+};
+
+// Intensity times cos(a)^exponent within the cone (a: angle from the axis), dark at and beyond
+// cutoff_deg; between inner_deg and cutoff_deg a smooth penumbra. inner_deg == cutoff_deg is the
+// hard cone.
+struct SpotLight {
+  Vec3d position{0, 0, 0};
+  Vec3d direction_of_travel{0, -1, 0};  // the axis, any length > 0
+  Rgb intensity{1, 1, 1};
+  Attenuation attenuation;
+  double cutoff_deg = 30;  // half-angle, in (0, 180]
+  double inner_deg = 30;   // in [0, cutoff_deg]
+  double exponent = 0;     // >= 0
+};
+
+struct Light {
+  std::string name;  // unique; names the layer light.<name>
+  bool shadows = true;
+  std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight> kind;
+};
+
+// ---- Shapes -------------------------------------------------------------------------------------
+
+struct Sphere {
+  Vec3d center{0, 0, 0};
+  double radius = 1;  // > 0
+  MaterialId material;
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Vec3d> positions;     // world space
+  std::vector<Vec3d> normals;       // unit, one per position; empty: face normals
+  std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
+  MaterialId material;
+};
+
+// Text that --labels writes into the PNG, placed at the projection of a world point.
+struct Label {
+  enum class Align : uint8_t { kLeftMargin, kTopMargin };
+  std::string text;
+  Vec3d anchor;
+  Align align = Align::kLeftMargin;
+};
+
+struct Scene {
+  Camera camera;
+  ImageSettings image;
+  std::vector<Material> materials;
+  std::vector<Light> lights;
+  std::vector<Sphere> spheres;
+  std::vector<Mesh> meshes;
+  std::vector<Label> labels;
+  Rgb background{0, 0, 0};
+};
+
+}  // namespace nacre
