@@ -11,14 +11,14 @@ namespace nacre {
 // Process exit codes (sysexits.h where one exists).
 enum class ExitCode : int {
   kOk = 0,
-  kDiffers = 1,         // compare, validate: the images differ
-  kCannotCompare = 2,   // compare, validate: there is nothing to compare
-  kUsage = 64,          // command line, unknown output extension
-  kBadInput = 65,       // missing, unreadable or malformed input
-  kInternal = 70,       // our fault, or out of memory
-  kCannotWrite = 74,    // output unwritable, not a regular file, disk full
-  kInterrupted = 130,   // SIGINT
-  kTerminated = 143,    // SIGTERM
+  kDiffers = 1,        // compare, validate: the images differ
+  kCannotCompare = 2,  // compare, validate: there is nothing to compare
+  kUsage = 64,         // command line, unknown output extension
+  kBadInput = 65,      // missing, unreadable or malformed input
+  kInternal = 70,      // our fault, or out of memory
+  kCannotWrite = 74,   // output unwritable, not a regular file, disk full
+  kInterrupted = 130,  // SIGINT
+  kTerminated = 143,   // SIGTERM
 };
 
 // One thing that is wrong.

@@ -19,7 +19,9 @@ struct Window {
 
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
-  size_t pixel_count() const { return static_cast<size_t>(width()) * static_cast<size_t>(height()); }
+  size_t pixel_count() const {
+    return static_cast<size_t>(width()) * static_cast<size_t>(height());
+  }
   bool empty() const { return width() <= 0 || height() <= 0; }
   bool operator==(const Window&) const = default;
 };
@@ -32,9 +34,9 @@ inline Window Intersect(const Window& a, const Window& b) {
 enum class PixelType : uint8_t { kHalf, kFloat, kUint };
 
 struct Channel {
-  std::string name;                     // EXR name: "R", "diffuse.G", "N.X", "id.object"
-  PixelType type = PixelType::kFloat;   // in memory always float; uint ids are exact up to 2^24
-  std::vector<float> samples;           // row by row over the data window
+  std::string name;                    // EXR name: "R", "diffuse.G", "N.X", "id.object"
+  PixelType type = PixelType::kFloat;  // in memory always float; uint ids are exact up to 2^24
+  std::vector<float> samples;          // row by row over the data window
 };
 
 struct Image {

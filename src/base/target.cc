@@ -14,10 +14,14 @@ constexpr int64_t kFallbackTargets = HWY_SCALAR | HWY_EMU128;
 
 int64_t HighwayTarget(Target target) {
   switch (target) {
-    case Target::kScalar: return HWY_TARGETS & kFallbackTargets;
-    case Target::kSse4: return HWY_SSE4;
-    case Target::kAvx2: return HWY_AVX2;
-    case Target::kAvx3: return HWY_AVX3;
+    case Target::kScalar:
+      return HWY_TARGETS & kFallbackTargets;
+    case Target::kSse4:
+      return HWY_SSE4;
+    case Target::kAvx2:
+      return HWY_AVX2;
+    case Target::kAvx3:
+      return HWY_AVX3;
   }
   return 0;
 }
@@ -26,10 +30,14 @@ int64_t HighwayTarget(Target target) {
 
 std::string TargetName(Target target) {
   switch (target) {
-    case Target::kScalar: return "scalar";
-    case Target::kSse4: return "sse4";
-    case Target::kAvx2: return "avx2";
-    case Target::kAvx3: return "avx3";
+    case Target::kScalar:
+      return "scalar";
+    case Target::kSse4:
+      return "sse4";
+    case Target::kAvx2:
+      return "avx2";
+    case Target::kAvx3:
+      return "avx3";
   }
   return {};
 }

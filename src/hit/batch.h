@@ -54,9 +54,9 @@ struct HitBatch {
 // Shadow rays origin + t direction, 0 < t < t_max.
 struct ShadowRayBatch {
   size_t count = 0;
-  Soa3<double> origin;     // HitBatch::position
-  Soa3<double> direction;  // towards the light, not normalised
-  AlignedArray<double> t_max{kBatchCapacity};      // 1: a light at origin + direction; or infinity
+  Soa3<double> origin;                         // HitBatch::position
+  Soa3<double> direction;                      // towards the light, not normalised
+  AlignedArray<double> t_max{kBatchCapacity};  // 1: a light at origin + direction; or infinity
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
   AlignedArray<uint8_t> occluded{kBatchCapacity};    // result: 1 if anything is in the way
 };

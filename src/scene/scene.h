@@ -1,5 +1,6 @@
 // scene/scene.h: the one scene type: plain structs, a default for every field, references as
 // typed handles. What scene_io reads, the generators make and the renderer plans from.
+// Ranges of all numbers: scene/limits.h.
 //
 // World space is right-handed, +y up. All positions and lengths are doubles in world units and
 // stay as the file has them; everything in float later on is relative to the camera.
@@ -175,7 +176,7 @@ struct Mesh {
 
 // Text that --labels writes into the PNG, placed at the projection of a world point.
 struct Label {
-  enum class Align : uint8_t { kLeftMargin, kTopMargin };
+  enum class Align : uint8_t { kLeftMargin, kTopMargin, kBottomMargin };
   std::string text;
   Vec3d anchor;
   Align align = Align::kLeftMargin;

@@ -1,0 +1,49 @@
+#!/usr/bin/env python3
+"""Prints the polynomial coefficients of src/base/math-inl.h and their errors.
+
+Interpolates at Chebyshev nodes in exact rational arithmetic, then rounds to float. The error
+printed is that of the rounded polynomial, evaluated exactly, over a dense grid.
+"""
+import math
+import struct
+from fractions import Fraction
+
+
+def to_float(x):
+    return struct.unpack('f', struct.pack('f', float(x)))[0]
+
+
+def fit(function, low, high, degree):
+    """Coefficients, lowest first, of the interpolant at the Chebyshev nodes of [low, high]."""
+    count = degree + 1
+    nodes = [Fraction((low + high) / 2 + (high - low) / 2 * math.cos(math.pi * (2 * i + 1) / (2 * count)))
+             for i in range(count)]
+    divided = [Fraction(function(float(x))) for x in nodes]
+    for order in range(1, count):
+        for i in range(count - 1, order - 1, -1):
+            divided[i] = (divided[i] - divided[i - 1]) / (nodes[i] - nodes[i - order])
+    polynomial = [Fraction(0)]
+    for i in range(count - 1, -1, -1):  # Horner over Newton's form
+        shifted = [Fraction(0)] + polynomial
+        polynomial = [a - nodes[i] * b for a, b in zip(shifted, polynomial + [Fraction(0)])]
+        polynomial[0] += divided[i]
+    return polynomial[:count]
+
+
+def show(name, function, low, high, degree):
+    coefficients = [to_float(c) for c in fit(function, low, high, degree)]
+    worst = 0.0
+    for i in range(20001):
+        x = low + (high - low) * i / 20000
+        value = math.fsum(c * x ** k for k, c in enumerate(coefficients))
+        worst = max(worst, abs(value / function(x) - 1))
+    print(f'{name}: degree {degree} on [{low:.6g}, {high:.6g}], relative error {worst:.2g}')
+    print('  {' + ', '.join(f'{c:.9g}f' for c in coefficients) + '}')
+
+
+def log2_over_f(f):
+    return math.log1p(f) / math.log(2) / f if abs(f) > 1e-9 else 1 / math.log(2)
+
+
+show('log2(1 + f) / f', log2_over_f, math.sqrt(0.5) - 1, math.sqrt(2) - 1, 9)
+show('2^f', lambda f: 2.0 ** f, -0.5, 0.5, 6)

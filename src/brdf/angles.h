@@ -1,0 +1,47 @@
+// brdf/angles.h: what every reflection model is a function of: the angles between a surface's
+// normal, a light and a viewer, in forms that keep their precision. SIMD twin: angles-inl.h.
+//
+// Directions are unit length and point away from the surface. The sum u = l + v stays
+// un-normalised: h = u/|u|, and everything about h follows from u without dividing.
+#pragma once
+
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace nacre {
+
+template <typename Real>
+struct Angles {
+  Real n_dot_l;
+  Real n_dot_v;
+  Real n_dot_u;      // |u| cos(theta_h); its sign tells on which side h lies
+  Real u_squared;    // |l + v|^2 = 4 (v.h)^2
+  Real nxu_squared;  // |n x u|^2 = |u|^2 sin^2(theta_h)
+  Real lv_squared;   // |l - v|^2 = 4 (1 - (v.h)^2)
+};
+
+// Lagrange's identity gives sin^2(theta_h) = |n x u|^2 / |u|^2. Once n.h is rounded, no
+// rearrangement of 1 - (n.h)^2 brings it back, and highlights of smooth surfaces are made of it.
+//
+// u is perpendicular to l - v for unit vectors, but rounding makes |l| and |v| differ, which
+// tilts a small u (light and viewer opposed, both grazing) by much. What u has along l - v is
+// taken out: |l - v|^2 is 4 where it matters, so one step needs no division.
+template <typename Real>
+Angles<Real> ComputeAngles(const Imath::Vec3<Real>& n, const Imath::Vec3<Real>& l,
+                           const Imath::Vec3<Real>& v) {
+  const Imath::Vec3<Real> l_minus_v = l - v;
+  const Imath::Vec3<Real> sum = l + v;
+  const Imath::Vec3<Real> u = sum - l_minus_v * ((sum ^ l_minus_v) / 4);
+  const Imath::Vec3<Real> n_cross_u = n % u;
+  Angles<Real> a;
+  a.n_dot_l = n ^ l;
+  a.n_dot_v = n ^ v;
+  a.n_dot_u = n ^ u;
+  a.u_squared = u ^ u;
+  a.nxu_squared = n_cross_u ^ n_cross_u;
+  a.lv_squared = l_minus_v ^ l_minus_v;
+  return a;
+}
+
+}  // namespace nacre

@@ -1,0 +1,63 @@
+// brdf/ggx-inl.h: GGX microfacet terms on SIMD vectors. Scalar twin: brdf/ggx.h.
+#if defined(NACRE_BRDF_GGX_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_BRDF_GGX_INL_H_
+#undef NACRE_BRDF_GGX_INL_H_
+#else
+#define NACRE_BRDF_GGX_INL_H_
+#endif
+
+#include "brdf/angles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Walter et al. 2007, eq. 33. alpha must not be a delta lobe's. 0 where h lies below the surface.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V GgxDistribution(D d, const AnglesV<V>& a, V alpha) {
+  const V zero = hn::Zero(d);
+  const V scaled = hn::Mul(a.n_dot_u, alpha);
+  const V denominator = hn::MulAdd(scaled, scaled, a.nxu_squared);
+  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(denominator, zero));
+  const V k = hn::Div(hn::Mul(alpha, a.u_squared),
+                      hn::IfThenElse(above, denominator, hn::Set(d, hn::TFromD<D>(1))));
+  const V squared = hn::Mul(hn::Mul(k, k), hn::Set(d, hn::TFromD<D>(0.31830988618379067)));
+  return hn::IfThenElseZero(above, squared);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V SmithRoot(D d, V n_dot_x, V alpha) {
+  const V alpha2 = hn::Mul(alpha, alpha);
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  return hn::Sqrt(hn::MulAdd(hn::Mul(n_dot_x, n_dot_x), hn::Sub(one, alpha2), alpha2));
+}
+
+// The denominators of the visibility terms, so that a kernel can merge its divisions.
+// Heitz 2014, eq. 99.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V VisibilityDenominatorHeightCorrelated(D d, V n_dot_l, V n_dot_v, V alpha) {
+  const V sum = hn::MulAdd(n_dot_l, SmithRoot(d, n_dot_v, alpha),
+                           hn::Mul(n_dot_v, SmithRoot(d, n_dot_l, alpha)));
+  return hn::Add(sum, sum);
+}
+
+// Walter et al. 2007, eq. 34.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha) {
+  return hn::Mul(hn::Add(n_dot_l, SmithRoot(d, n_dot_l, alpha)),
+                 hn::Add(n_dot_v, SmithRoot(d, n_dot_v, alpha)));
+}
+
+// Karis 2013, k = (roughness + 1)^2 / 8.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k) {
+  const V one_minus_k = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), k);
+  return hn::Mul(hn::Set(d, hn::TFromD<D>(4)),
+                 hn::Mul(hn::MulAdd(n_dot_l, one_minus_k, k), hn::MulAdd(n_dot_v, one_minus_k, k)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,67 @@
+// brdf/ggx.h: GGX microfacet terms: distribution and masking-shadowing. SIMD twin: ggx-inl.h.
+//
+// alpha = roughness^2, converted in one place: AlphaFromRoughness. There is no floor: the stable
+// forms below are right down to where the peak leaves the number range, and below that a surface
+// is a delta lobe (IsDeltaLobe), which no point or directional light can show.
+#pragma once
+
+#include <cmath>
+
+#include "brdf/angles.h"
+
+namespace nacre {
+
+template <typename Real>
+Real AlphaFromRoughness(Real roughness) {
+  return roughness * roughness;
+}
+
+// True where the peak of D, 1 / (pi alpha^2), comes near the end of what float can hold:
+// roughness 0, and roughness below 9.4e-10.
+template <typename Real>
+bool IsDeltaLobe(Real alpha) {
+  return alpha < static_cast<Real>(0x1p-60);
+}
+
+// Walter et al. 2007, eq. 33, isotropic: alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2), with cos and
+// sin of the half-vector's angle scaled by |u|. 0 where h lies below the surface, where it is
+// undefined (l = -v) and for a delta lobe.
+template <typename Real>
+Real GgxDistribution(const Angles<Real>& a, Real alpha) {
+  if (IsDeltaLobe(alpha) || !(a.n_dot_u > 0)) return 0;
+  const Real scaled = a.n_dot_u * alpha;
+  const Real denominator = scaled * scaled + a.nxu_squared;
+  if (!(denominator > 0)) return 0;  // u underflowed: l = -v to working precision
+  const Real k = alpha * a.u_squared / denominator;
+  return k * k / static_cast<Real>(M_PI);
+}
+
+// The visibility terms V = G / (4 n.l n.v): the division by the cosines is done on paper, so
+// nothing is singular at grazing angles. All want n.l > 0 and n.v >= 0.
+
+// Smith's Lambda-like square root: n_dot_x times sqrt(1 + alpha^2 tan^2).
+template <typename Real>
+Real SmithRoot(Real n_dot_x, Real alpha) {
+  return std::sqrt(alpha * alpha + (1 - alpha * alpha) * n_dot_x * n_dot_x);
+}
+
+// Height-correlated Smith: Heitz 2014, eq. 99.
+template <typename Real>
+Real VisibilityHeightCorrelated(Real n_dot_l, Real n_dot_v, Real alpha) {
+  return 1 / (2 * (n_dot_l * SmithRoot(n_dot_v, alpha) + n_dot_v * SmithRoot(n_dot_l, alpha)));
+}
+
+// Separable Smith: Walter et al. 2007, eq. 34, G1(l) G1(v).
+template <typename Real>
+Real VisibilitySeparable(Real n_dot_l, Real n_dot_v, Real alpha) {
+  return 1 / ((n_dot_l + SmithRoot(n_dot_l, alpha)) * (n_dot_v + SmithRoot(n_dot_v, alpha)));
+}
+
+// Schlick's G1 with Karis' k = (roughness + 1)^2 / 8 for direct light (Karis 2013).
+template <typename Real>
+Real VisibilitySchlickDirect(Real n_dot_l, Real n_dot_v, Real roughness) {
+  const Real k = (roughness + 1) * (roughness + 1) / 8;
+  return 1 / (4 * (n_dot_l * (1 - k) + k) * (n_dot_v * (1 - k) + k));
+}
+
+}  // namespace nacre

@@ -1,0 +1,55 @@
+// brdf/phong-inl.h: the lobes of the Phong family on SIMD vectors. Scalar twin: brdf/phong.h.
+#if defined(NACRE_BRDF_PHONG_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_BRDF_PHONG_INL_H_
+#undef NACRE_BRDF_PHONG_INL_H_
+#else
+#define NACRE_BRDF_PHONG_INL_H_
+#endif
+
+#include "base/math-inl.h"
+#include "brdf/angles-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// c^n for c = 1 - x; 0 where c <= 0, but 1 everywhere for n = 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LobePower(D d, V x, V c, V n) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const auto inside = hn::Gt(c, zero);
+  const V log2 = Log2OneMinus(d, x, hn::IfThenElse(inside, c, one));
+  const V power = hn::IfThenElseZero(inside, Exp2(d, hn::Mul(n, log2)));
+  return hn::IfThenElse(hn::Eq(n, zero), one, power);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
+                       const Vec3V<V>& to_view, V shininess) {
+  const V n_dot_l = Dot(normal, to_light);
+  const Vec3V<V> r = Sub3(Scale3(normal, hn::Add(n_dot_l, n_dot_l)), to_light);
+  const Vec3V<V> r_minus_v = Sub3(r, to_view);
+  const V x = hn::Mul(Dot(r_minus_v, r_minus_v), hn::Set(d, 0.5f));
+  return LobePower(d, x, Dot(r, to_view), shininess);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V BlinnLobe(D d, const AnglesV<V>& a, V shininess) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const V cos2 = hn::Mul(a.n_dot_u, a.n_dot_u);
+  const V u_squared = hn::Add(cos2, a.nxu_squared);
+  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(u_squared, zero));
+  const V scale = hn::Div(one, hn::IfThenElse(above, u_squared, one));
+  // Lanes below the surface get cos^2 = 0, the lobe's zero.
+  const V c = hn::IfThenElseZero(above, hn::Mul(cos2, scale));
+  const V x = hn::Mul(a.nxu_squared, scale);
+  return LobePower(d, x, c, hn::Mul(shininess, hn::Set(d, 0.5f)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,58 @@
+// brdf/phong.h: the specular lobes of the Phong family. SIMD twin: phong-inl.h.
+//
+// With c the lobe's cosine, c^n = exp(n log(c)) loses n roundings of c when written that way:
+// 14 % rms at n = 1e6 in float. Written with x = 1 - c, computed without cancellation,
+// exp(n log1p(-x)) is right to any n.
+#pragma once
+
+#include <cmath>
+
+#include "brdf/angles.h"
+
+namespace nacre {
+
+// c^n for c = 1 - x, both computed without cancellation: 0 where c <= 0, but 1 everywhere for
+// n = 0 (also 0^0: an exponent of 0 is a constant lobe).
+template <typename Real>
+Real LobePower(Real x, Real c, Real n) {
+  if (n == 0) return 1;
+  if (!(c > 0)) return 0;
+  return std::exp(n * (2 * x < 1 ? std::log1p(-x) : std::log(c)));
+}
+
+// Phong 1975: max(r.v, 0)^n, without the gate on n.l. r.v = 1 - |r - v|^2 / 2.
+template <typename Real>
+Real PhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_light,
+               const Imath::Vec3<Real>& to_view, Real shininess) {
+  const Imath::Vec3<Real> r = normal * (2 * (normal ^ to_light)) - to_light;
+  const Imath::Vec3<Real> r_minus_v = r - to_view;
+  return LobePower((r_minus_v ^ r_minus_v) / 2, r ^ to_view, shininess);
+}
+
+// Blinn 1977: max(n.h, 0)^n = (1 - sin^2)^(n/2), without the gate on n.l. 0 where h is undefined
+// (l = -v) or below the surface.
+template <typename Real>
+Real BlinnLobe(const Angles<Real>& a, Real shininess) {
+  if (shininess == 0) return 1;
+  if (!(a.n_dot_u > 0)) return 0;
+  const Real cos2 = a.n_dot_u * a.n_dot_u;
+  // |u|^2 as (n.u)^2 + |n x u|^2: both ratios stay in [0, 1] whatever the rounding.
+  const Real u_squared = cos2 + a.nxu_squared;
+  return LobePower(a.nxu_squared / u_squared, cos2 / u_squared, shininess / 2);
+}
+
+// Scale that makes the reflectance of the lobe c^n n.l, seen along the normal, equal to 1.
+// Phong, modified Phong: (n + 2) / 2 pi (Lafortune and Willems 1994).
+template <typename Real>
+Real PhongNormalization(Real shininess) {
+  return (shininess + 2) / (2 * static_cast<Real>(M_PI));
+}
+
+// Blinn-Phong: (n + 2)(n + 4) / (8 pi (2^(-n/2) + n)) (Giesen 2009).
+template <typename Real>
+Real BlinnNormalization(Real shininess) {
+  return (shininess + 2) * (shininess + 4) /
+         (8 * static_cast<Real>(M_PI) * (std::exp2(-shininess / 2) + shininess));
+}
+
+}  // namespace nacre

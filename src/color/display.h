@@ -1,0 +1,61 @@
+// color/display.h: from linear scene radiance to what a display shows: exposure, tone operator,
+// exact sRGB transfer, 8 bits.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <Imath/ImathColor.h>
+
+#include "color/tone.h"
+
+namespace nacre {
+
+struct DisplaySettings {
+  ToneOperator tone = ToneOperator::kNeutral;
+  double exposure_ev = 0;  // radiance is multiplied by 2^exposure_ev first; in [-60, 60]
+  double white = 4;        // kReinhardExtended: the radiance that becomes white, > 0
+};
+
+// Linear display light in [0, 1]. Negative values count as 0, infinity is allowed, NaN is not.
+template <typename Real>
+Imath::Color3<Real> DisplayLight(const DisplaySettings& settings, Imath::Color3<Real> rgb) {
+  const Real scale = static_cast<Real>(std::exp2(settings.exposure_ev));
+  for (int c = 0; c < 3; ++c) rgb[c] = std::max(rgb[c], Real(0)) * scale;
+  const auto each = [&](auto curve) -> Imath::Color3<Real> {
+    return {curve(rgb.x), curve(rgb.y), curve(rgb.z)};
+  };
+  switch (settings.tone) {
+    case ToneOperator::kNeutral:
+      return ToneNeutral(rgb);
+    case ToneOperator::kReinhard:
+      return each([](Real x) { return ToneReinhard(x); });
+    case ToneOperator::kReinhardExtended: {
+      const Real white = static_cast<Real>(settings.white);
+      return each([white](Real x) { return ToneReinhardExtended(x, white); });
+    }
+    case ToneOperator::kAces:
+      return each([](Real x) { return ToneAces(x); });
+    case ToneOperator::kAgx:
+      return ToneAgx(rgb);
+    case ToneOperator::kNone:
+      return each([](Real x) { return std::min(x, Real(1)); });
+  }
+  return {};
+}
+
+// Encodes `count` pixels, given as three planes of any alignment and without padding, as 8-bit
+// sRGB: 3 count interleaved bytes in `rgb8`, which overlaps no plane.
+//
+// The display light is that of DisplayLight<double>, computed in float with a relative error of
+// at most 1e-6 (AgX: 4e-6, or 1e-6 absolute); its code is exact for that float (color/srgb8.h), so
+// with kNone at exposure 0 codes are exact for every float, and otherwise at most one off, where
+// the light lies that near to a code's threshold.
+//
+// Pixels with a NaN are drawn magenta (255, 0, 255); returns how many there are.
+size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const float* g,
+                     const float* b, size_t count, uint8_t* rgb8);
+
+}  // namespace nacre

@@ -1,0 +1,44 @@
+#include "color/tone.h"
+
+#include <utility>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+constexpr std::pair<ToneOperator, const char*> kToneNames[] = {
+    {ToneOperator::kNeutral, "neutral"},
+    {ToneOperator::kReinhard, "reinhard"},
+    {ToneOperator::kReinhardExtended, "reinhard_extended"},
+    {ToneOperator::kAces, "aces"},
+    {ToneOperator::kAgx, "agx"},
+    {ToneOperator::kNone, "none"},
+};
+
+}  // namespace
+
+std::string ToneOperatorName(ToneOperator tone) {
+  for (const auto& [value, name] : kToneNames) {
+    if (value == tone) return name;
+  }
+  return {};
+}
+
+std::vector<std::string> ToneOperatorNames() {
+  std::vector<std::string> names;
+  for (const auto& [value, name] : kToneNames) names.emplace_back(name);
+  return names;
+}
+
+ToneOperator ParseToneOperator(const std::string& name) {
+  for (const auto& [value, known] : kToneNames) {
+    if (name == known) return value;
+  }
+  const std::string nearest = NearestName(name, ToneOperatorNames());
+  throw Error(ExitCode::kUsage, {}, "unknown tone operator \"" + name + "\"",
+              nearest.empty() ? "one of neutral, reinhard, reinhard_extended, aces, agx, none"
+                              : "did you mean \"" + nearest + "\"?");
+}
+
+}  // namespace nacre

@@ -1,0 +1,179 @@
+#include "image_io/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <random>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string ErrnoText(int error) { return std::generic_category().message(error); }
+
+std::string Folder(const std::string& target) {
+  const std::string folder = fs::path(target).parent_path();
+  return folder.empty() ? "." : folder;
+}
+
+// The file that `path` names, also when that does not exist yet.
+std::string FollowLinks(const std::string& path) {
+  constexpr int kMaxLinks = 40;  // as many as the kernel follows
+  fs::path target = path;
+  for (int i = 0; i < kMaxLinks; ++i) {
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(target, error))) return target;
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) return target;
+    target = target.parent_path() / next;
+  }
+  throw Error(ExitCode::kCannotWrite, path, "too many symbolic links");
+}
+
+// Throws unless `target` does not exist or is a regular file that may be written.
+void CheckTarget(const std::string& path, const std::string& target) {
+  if (target.empty()) throw Error(ExitCode::kCannotWrite, path, "an output file needs a name");
+  struct stat status;
+  if (stat(target.c_str(), &status) != 0) {
+    if (errno == ENOENT || errno == ENOTDIR) return;  // the folder is looked at when opening
+    throw Error(ExitCode::kCannotWrite, path, "cannot write: " + ErrnoText(errno));
+  }
+  if (S_ISDIR(status.st_mode)) {
+    throw Error(ExitCode::kCannotWrite, path, "is a folder", "name a file in it");
+  }
+  if (!S_ISREG(status.st_mode)) {
+    throw Error(ExitCode::kCannotWrite, path, "exists and is not a regular file",
+                "an output replaces the file of its name; choose another name");
+  }
+  if (access(target.c_str(), W_OK) != 0) {
+    throw Error(ExitCode::kCannotWrite, path, "exists and is read-only",
+                "choose another name, or make it writable");
+  }
+}
+
+// An anonymous file in `folder`, or -1. It gets a name through /proc, which must be there.
+int OpenAnonymous(const std::string& folder) {
+  const int descriptor = open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0) return -1;
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
+  if (access(link.c_str(), F_OK) == 0) return descriptor;
+  close(descriptor);
+  return -1;
+}
+
+// ".name.XXXXXX.tmp" in the target's folder, XXXXXX at random.
+std::string NameBeside(const std::string& target) {
+  constexpr char kDigits[] = "0123456789abcdefghijklmnopqrstuvwxyz";
+  constexpr size_t kMaxName = 200;  // file systems stop at 255
+  std::random_device random;
+  std::string suffix;
+  for (int i = 0; i < 6; ++i) suffix += kDigits[random() % (sizeof(kDigits) - 1)];
+  const std::string name = fs::path(target).filename().string().substr(0, kMaxName);
+  return Folder(target) + "/." + name + "." + suffix + ".tmp";
+}
+
+// Attempts at an unused temporary name: one is nearly always enough.
+constexpr int kNameAttempts = 100;
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path), target_(FollowLinks(path)) {
+  CheckTarget(path_, target_);
+  const std::string folder = Folder(target_);
+  descriptor_ = OpenAnonymous(folder);
+  for (int i = 0; descriptor_ < 0 && i < kNameAttempts; ++i) {
+    beside_ = NameBeside(target_);
+    descriptor_ = open(beside_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ >= 0) return;
+  switch (errno) {
+    case ENOENT:
+      throw Error(ExitCode::kCannotWrite, path_, "the folder " + folder + " does not exist",
+                  "mkdir -p " + folder);
+    case ENOTDIR:
+      throw Error(ExitCode::kCannotWrite, path_, folder + " is not a folder");
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      throw Error(ExitCode::kCannotWrite, path_, "the folder " + folder + " is not writable");
+    default:
+      Fail("cannot write into the folder " + folder, errno);
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!beside_.empty()) unlink(beside_.c_str());
+}
+
+void OutputFile::Write(uint64_t offset, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written =
+        pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) Fail("cannot write", written < 0 ? errno : ENOSPC);
+    offset += static_cast<uint64_t>(written);
+    bytes = bytes.subspan(static_cast<size_t>(written));
+  }
+}
+
+void OutputFile::Commit(bool sync) {
+  CheckTarget(path_, target_);  // it may have become something else meanwhile
+  if (sync && fsync(descriptor_) != 0) Fail("cannot write", errno);
+  // A new name is taken in one step. An existing one can only be replaced by a rename.
+  if (beside_.empty() && LinkTo(target_)) {
+    Close();
+  } else {
+    if (beside_.empty()) LinkBeside();
+    Close();
+    if (rename(beside_.c_str(), target_.c_str()) != 0) Fail("cannot replace", errno);
+    beside_.clear();
+  }
+  if (!sync) return;
+  const int folder = open(Folder(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;  // a folder that may not be read cannot be synced
+  fsync(folder);
+  close(folder);
+}
+
+bool OutputFile::LinkTo(const std::string& name) const {
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
+  return linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+}
+
+void OutputFile::LinkBeside() {
+  for (int i = 0; i < kNameAttempts; ++i) {
+    const std::string name = NameBeside(target_);
+    if (LinkTo(name)) {
+      beside_ = name;
+      return;
+    }
+    if (errno != EEXIST) break;
+  }
+  Fail("cannot name the finished file", errno);
+}
+
+void OutputFile::Close() {
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  // Network file systems report a full disk only now.
+  if (close(descriptor) != 0 && errno != EINTR) Fail("cannot write", errno);
+}
+
+void OutputFile::Fail(const std::string& what, int error) const {
+  const bool full = error == ENOSPC || error == EDQUOT || error == EFBIG;
+  throw Error(ExitCode::kCannotWrite, path_, what + ": " + ErrnoText(error),
+              full ? "make room, or write elsewhere" : "");
+}
+
+void CheckWritable(const std::string& path) { const OutputFile probe(path); }
+
+}  // namespace nacre

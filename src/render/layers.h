@@ -1,0 +1,51 @@
+// render/layers.h: the layers that a render can write, and the channels each consists of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+enum class LayerKind : uint8_t {
+  kBeauty,    // R G B: diffuse + specular + ambient + emission, background included
+  kAlpha,     // A: coverage
+  kDiffuse,   // reflected by the diffuse lobes
+  kSpecular,  // reflected by the specular lobes
+  kAmbient,   // of ambient lights
+  kEmission,  // emitted by surfaces, and the background
+  kAlbedo,    // diffuse reflectance or base colour
+  kLight,     // light.<name>: diffuse and specular reflection of one light
+  kNormal,    // N: world-space shading normal, averaged
+  // The rest cannot be averaged: they are those of the hit nearest to the pixel's centre.
+  kPosition,    // P: world space
+  kDepth,       // Z: distance along the viewing direction; 0 where nothing is hit
+  kObjectId,    // id.object: 1 + sphere index, or 1 + sphere count + mesh index; 0: none
+  kMaterialId,  // id.material: 1 + index in the scene's materials; 0: none
+};
+
+struct Layer {
+  LayerKind kind;
+  std::string name;  // as --layers names it
+  size_t light = 0;  // kLight: index into Scene::lights
+};
+
+// Beauty and alpha, then the layers named, each once. "all" names every layer of the scene.
+// Throws Error (usage) for a name the scene does not have.
+std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scene& scene);
+
+// Whether the layer is averaged over a pixel's samples, or taken from one of them.
+bool IsAveraged(LayerKind kind);
+
+// A layer's channels in the order its values are computed in. Colours and normals are stored as
+// `color_type` (half or float), Z, P and ids always in full.
+struct ChannelSpec {
+  std::string name;
+  PixelType type;
+};
+std::vector<ChannelSpec> LayerChannels(const Layer& layer, PixelType color_type);
+
+}  // namespace nacre

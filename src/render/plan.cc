@@ -1,0 +1,168 @@
+#include "render/plan.h"
+
+#include <algorithm>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/target.h"
+
+namespace nacre {
+namespace {
+
+bool IsBlack(const Rgb& color) { return color.x == 0 && color.y == 0 && color.z == 0; }
+
+Rgb SumAmbient(const Scene& scene) {
+  Rgb sum(0, 0, 0);
+  for (const Light& light : scene.lights) {
+    if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) sum += ambient->radiance;
+  }
+  return sum;
+}
+
+Window PlanWindow(const Window& frame, const Window& region) {
+  if (region == Window{}) return frame;
+  const Window window = Intersect(frame, region);
+  if (window.empty()) {
+    throw Error(ExitCode::kUsage, "--region",
+                fmt::format("{},{},{},{} holds no pixel of the {}x{} frame", region.x0, region.y0,
+                            region.x1, region.y1, frame.x1, frame.y1),
+                "give x0,y0,x1,y1 in pixels from the top left, x1 and y1 not included");
+  }
+  return window;
+}
+
+// Why no shadow ray of any light can find anything, or "".
+std::string WhyNothingOccludes(const Scene& scene) {
+  if (!scene.image.shadows) return "the scene turns shadows off";
+  if (scene.meshes.empty() && scene.spheres.size() == 1) {
+    return "a sphere alone is convex and cannot shadow itself";
+  }
+  return {};
+}
+
+void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const std::string why_none = WhyNothingOccludes(scene);
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    if (std::holds_alternative<AmbientLight>(light.kind)) continue;
+    const Rgb color = LightColor(light);
+    const std::string name = fmt::format("light \"{}\"", light.name);
+    if (IsBlack(color)) {
+      plan->items.push_back({name, false, "it is black"});
+      continue;
+    }
+    std::string why = why_none;
+    if (why.empty() && !light.shadows) why = "the light casts none";
+    const bool proven = why == why_none && scene.image.shadows;
+    const bool shadow_rays = why.empty() || (proven && settings.general_path);
+    plan->items.push_back({name + " shadow rays", shadow_rays,
+                           shadow_rays ? "something may lie between a surface and it" : why});
+    plan->lights.push_back({i, color, shadow_rays});
+  }
+}
+
+void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  size_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    plan->mesh_first_triangle.push_back(static_cast<uint32_t>(triangles));
+    triangles += mesh.triangles.size() / 3;
+  }
+  const bool anything = !scene.spheres.empty() || triangles > 0;
+  if (anything) {
+    plan->intersector = std::make_unique<Intersector>(
+        scene, scene.camera.position, IntersectorSettings{.threads = settings.threads});
+  }
+  plan->items.push_back(
+      {"intersector embree", anything,
+       anything ? fmt::format("{} spheres, {} triangles; exact hits in double on target {}",
+                              scene.spheres.size(), triangles, TargetName(ActiveTarget()))
+                : "the scene has no shapes: every pixel is background"});
+}
+
+void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const int spp = scene.image.spp;
+  plan->filter = MakeFilterSampler(scene.image.filter);
+  // One sample a pixel makes small batches; wider tiles fill them.
+  constexpr int kWideTile = static_cast<int>(kBatchCapacity) / kStripRows;
+  plan->tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kWideTile)
+                                            : (spp == 1 ? kWideTile : kStripRows);
+  plan->samples_per_round =
+      std::clamp(static_cast<int>(kBatchCapacity) / (plan->tile_width * kStripRows), 1, spp);
+  plan->items.push_back({"sample pattern", spp > 1,
+                         spp > 1 ? fmt::format("{} Owen-scrambled Sobol samples a pixel", spp)
+                                 : "one sample a pixel goes through its centre"});
+}
+
+void PlanLayers(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  plan->layers = ParseLayers(settings.layers, scene);
+  std::string names;
+  for (size_t i = 2; i < plan->layers.size(); ++i) {
+    names += (names.empty() ? "" : ", ") + plan->layers[i].name;
+  }
+  plan->items.push_back(
+      {"layers", !names.empty(), names.empty() ? "only colour and coverage are asked for" : names});
+}
+
+}  // namespace
+
+RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
+  RenderPlan plan;
+  plan.scene = &scene;
+  plan.frame = {0, 0, scene.image.width, scene.image.height};
+  plan.window = PlanWindow(plan.frame, settings.region);
+  plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  PlanLayers(scene, settings, &plan);
+  PlanSampling(scene, settings, &plan);
+  PlanGeometry(scene, settings, &plan);
+  PlanLights(scene, settings, &plan);
+  const Rgb ambient = SumAmbient(scene);
+  plan.items.push_back({"ambient light", !IsBlack(ambient),
+                        IsBlack(ambient) ? "the scene has none" : "a constant per material"});
+  for (const Material& material : scene.materials) {
+    plan.materials.push_back(ComputeMaterialConstants(material, ambient));
+  }
+  return plan;
+}
+
+MaterialId MaterialAt(const RenderPlan& plan, uint32_t primitive, double film_x) {
+  const Scene& scene = *plan.scene;
+  MaterialId id;
+  if (primitive < scene.spheres.size()) {
+    id = scene.spheres[primitive].material;
+  } else {
+    const uint32_t triangle = primitive - static_cast<uint32_t>(scene.spheres.size());
+    const auto& first = plan.mesh_first_triangle;
+    const auto after = std::upper_bound(first.begin(), first.end(), triangle);
+    id = scene.meshes[static_cast<size_t>(after - first.begin()) - 1].material;
+  }
+  if (const auto* split = std::get_if<SplitMaterial>(&scene.materials[id.index].model)) {
+    const double fraction = film_x / plan.frame.width();
+    const auto band = std::upper_bound(split->at.begin(), split->at.end(), fraction);
+    id = split->materials[static_cast<size_t>(band - split->at.begin())];
+  }
+  return id;
+}
+
+std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats) {
+  std::string text = "plan:\n";
+  for (const PlanItem& item : plan.items) {
+    text +=
+        fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", item.what, item.reason);
+  }
+  if (stats == nullptr) return text;
+  double total = 0;
+  for (const double seconds : stats->stage_seconds) total += seconds;
+  text += "share of the time (all threads):\n";
+  for (size_t i = 0; i < kStageCount; ++i) {
+    const Stage stage = static_cast<Stage>(i);
+    text += fmt::format("  {:<10} {:5.1f} %  {:8.2f} ms\n", StageName(stage),
+                        total > 0 ? 100 * stats->seconds(stage) / total : 0.0,
+                        1e3 * stats->seconds(stage));
+  }
+  return text;
+}
+
+}  // namespace nacre

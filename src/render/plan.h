@@ -1,0 +1,65 @@
+// render/plan.h: what a scene needs, decided once before any ray is traced, and so what is
+// skipped. Everything the tiles read is here; `--explain` prints the reasons.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/camera.h"
+#include "render/layers.h"
+#include "render/settings.h"
+#include "render/stats.h"
+#include "sampling/pixel_filter.h"
+#include "scene/scene.h"
+#include "shading/shade.h"
+#include "visibility/intersector.h"
+
+namespace nacre {
+
+// A decision and its reason. Skipping leaves every bit as the general path would make it.
+struct PlanItem {
+  std::string what;  // "shadow rays of light key"
+  bool used = false;
+  std::string reason;  // "one sphere alone cannot shadow itself"
+};
+
+// A light that hits are shaded by: not ambient, not black.
+struct PlannedLight {
+  size_t index;  // into Scene::lights
+  Rgb color;
+  bool shadow_rays;
+};
+
+struct RenderPlan {
+  const Scene* scene = nullptr;
+  Window frame;   // all pixels: 0, 0, width, height
+  Window window;  // those to render
+  CameraFrame camera;
+  FilterSampler filter;
+  std::vector<Layer> layers;  // beauty, alpha, then those asked for
+  std::vector<PlannedLight> lights;
+  std::vector<MaterialConstants> materials;   // one per material of the scene
+  std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
+  std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
+  int tile_width = 16;                        // pixels; tiles are as high as strips
+  int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
+  std::vector<PlanItem> items;
+};
+
+// Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a
+// time, and 16 rows of all that is needed stay in L2.
+inline constexpr int kStripRows = 16;
+
+// `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error (usage) for a layer
+// or region that the scene does not have.
+RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings);
+
+// The plan as text: each item, used or skipped, and why; with `stats`, each stage's share.
+std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats);
+
+// The material of a primitive where the sample lies at film_x pixels from the frame's left edge:
+// splits resolved.
+MaterialId MaterialAt(const RenderPlan& plan, uint32_t primitive, double film_x);
+
+}  // namespace nacre

@@ -1,0 +1,109 @@
+#include "render/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <mutex>
+
+#include "base/parallel.h"
+#include "render/tile.h"
+
+namespace nacre {
+namespace {
+
+double SecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Hands scratch buffers to workers and takes them back.
+class ScratchPool {
+ public:
+  std::unique_ptr<TileScratch> Take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return std::make_unique<TileScratch>();
+    std::unique_ptr<TileScratch> scratch = std::move(free_.back());
+    free_.pop_back();
+    return scratch;
+  }
+  void Give(std::unique_ptr<TileScratch> scratch) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(scratch));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TileScratch>> free_;
+};
+
+Strip RenderStrip(const RenderPlan& plan, const Window& window, TileScratch* scratch,
+                  RenderStats* stats) {
+  StripFilm film = MakeStripFilm(plan, window);
+  for (int x = window.x0; x < window.x1; x += plan.tile_width) {
+    const Window tile{x, window.y0, std::min(x + plan.tile_width, window.x1), window.y1};
+    RenderTile(plan, tile, scratch, &film, stats);
+  }
+  return ResolveFilm(plan, film);
+}
+
+}  // namespace
+
+RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const StripSink& sink) {
+  const auto start = std::chrono::steady_clock::now();
+  const Window& window = plan.window;
+  const int strip_count = (window.height() + kStripRows - 1) / kStripRows;
+  RenderStats total;
+  total.threads = ThreadCount(settings.threads);
+  ScratchPool pool;
+  std::mutex mutex;
+  int done = 0;
+  ParallelFor(static_cast<size_t>(strip_count), settings.threads, [&](size_t i) {
+    const int y0 = window.y0 + static_cast<int>(i) * kStripRows;
+    const Window rows{window.x0, y0, window.x1, std::min(y0 + kStripRows, window.y1)};
+    RenderStats stats;
+    std::unique_ptr<TileScratch> scratch = pool.Take();
+    const Strip strip = RenderStrip(plan, rows, scratch.get(), &stats);
+    pool.Give(std::move(scratch));
+    const auto output_start = std::chrono::steady_clock::now();
+    sink(strip);
+    stats.seconds(Stage::kOutput) = SecondsSince(output_start);
+    const std::lock_guard lock(mutex);
+    total.Add(stats);
+    ++done;
+    if (settings.on_progress) settings.on_progress(static_cast<double>(done) / strip_count);
+  });
+  total.render_seconds = SecondsSince(start);
+  return total;
+}
+
+Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
+  const auto start = std::chrono::steady_clock::now();
+  const RenderPlan plan = MakePlan(scene, settings);
+  const double plan_seconds = SecondsSince(start);
+  Image image;
+  image.display = plan.frame;
+  image.data = plan.window;
+  for (const ChannelSpec& spec : StripChannels(plan.layers, PixelType::kFloat)) {
+    image.channels.push_back({spec.name, spec.type, std::vector<float>(plan.window.pixel_count())});
+  }
+  const RenderStats rendered = Render(plan, settings, [&](const Strip& strip) {
+    const size_t offset = static_cast<size_t>(strip.window.y0 - plan.window.y0) *
+                          static_cast<size_t>(plan.window.width());
+    auto channel = image.channels.begin();
+    for (const std::vector<float>& plane : strip.colors) {
+      std::copy(plane.begin(), plane.end(),
+                (channel++)->samples.begin() + static_cast<std::ptrdiff_t>(offset));
+    }
+    for (const std::vector<uint32_t>& plane : strip.ids) {
+      std::transform(plane.begin(), plane.end(),
+                     (channel++)->samples.begin() + static_cast<std::ptrdiff_t>(offset),
+                     [](uint32_t id) { return static_cast<float>(id); });
+    }
+  });
+  if (stats != nullptr) {
+    *stats = rendered;
+    stats->plan_seconds = plan_seconds;
+  }
+  return image;
+}
+
+}  // namespace nacre

@@ -1,0 +1,25 @@
+// render/settings.h: what a render is asked for beyond its scene.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+
+namespace nacre {
+
+struct RenderSettings {
+  int threads = 0;                  // 0: as many as the machine has
+  Window region;                    // pixels to render; empty: the whole frame
+  std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
+  int tile_size = 16;  // width of the tiles a strip is worked through in, [1, 64]; changes no bits
+  // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
+  // hold skips and the general path together.
+  bool general_path = false;
+  // Called after every strip, from any thread, one call at a time, with the share done in (0, 1].
+  // Throwing from it stops the render.
+  std::function<void(double)> on_progress;
+};
+
+}  // namespace nacre

@@ -1,0 +1,52 @@
+// render/stats.h: what a render counted and how long its stages took.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace nacre {
+
+// Stages of the work on a tile. Times are summed over threads.
+enum class Stage : uint8_t {
+  kSample,
+  kIntersect,
+  kRefine,
+  kLight,
+  kShadow,
+  kShade,
+  kFilm,
+  kOutput
+};
+inline constexpr size_t kStageCount = 8;
+
+constexpr std::string_view StageName(Stage stage) {
+  constexpr std::string_view kNames[kStageCount] = {"sample", "intersect", "refine", "light",
+                                                    "shadow", "shade",     "film",   "output"};
+  return kNames[static_cast<size_t>(stage)];
+}
+
+struct RenderStats {
+  uint64_t camera_rays = 0;
+  uint64_t hits = 0;
+  uint64_t shadow_rays = 0;
+  uint64_t shades = 0;                              // hits times lights that were evaluated
+  std::array<double, kStageCount> stage_seconds{};  // thread seconds
+  double plan_seconds = 0;                          // wall: planning and building the intersector
+  double render_seconds = 0;                        // wall: the rest
+  int threads = 0;
+
+  double& seconds(Stage stage) { return stage_seconds[static_cast<size_t>(stage)]; }
+  double seconds(Stage stage) const { return stage_seconds[static_cast<size_t>(stage)]; }
+
+  // Adds the counts and stage times of a part of the work.
+  void Add(const RenderStats& part) {
+    camera_rays += part.camera_rays;
+    hits += part.hits;
+    shadow_rays += part.shadow_rays;
+    shades += part.shades;
+    for (size_t i = 0; i < kStageCount; ++i) stage_seconds[i] += part.stage_seconds[i];
+  }
+};
+
+}  // namespace nacre

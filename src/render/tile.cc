@@ -1,0 +1,169 @@
+#include "render/tile.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "render/tile_layers.h"
+
+namespace nacre {
+namespace {
+
+// Charges the time since the last call to a stage.
+class StageClock {
+ public:
+  explicit StageClock(RenderStats* stats) : stats_(stats) {}
+  void Charge(Stage stage) {
+    const auto now = std::chrono::steady_clock::now();
+    stats_->seconds(stage) += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  RenderStats* stats_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// Samples [first, first + count) of each pixel of the tile, and the camera rays through them.
+void MakeRays(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
+  const ImageSettings& image = plan.scene->image;
+  size_t ray = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      for (int i = first; i < first + count; ++i, ++ray) {
+        const FilterSample sample = PixelSample(plan.filter, x, y, i, image.spp, image.seed);
+        s->film_x[ray] = x + 0.5 + sample.dx;
+        s->film_y[ray] = y + 0.5 + sample.dy;
+        s->weight[ray] = sample.weight;
+      }
+    }
+  }
+  MakeCameraRays(plan.camera, s->film_x.data(), s->film_y.data(), ray, &s->rays);
+}
+
+// Sorts the rays that hit something by material: hit_rays lists them run by run, in the order of
+// their index within a run, so that what a hit's lane computes never depends on its neighbours.
+size_t SortHits(const RenderPlan& plan, TileScratch* s) {
+  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+  for (const MaterialRun& run : s->runs) s->run_of_material[run.material.index] = kNone;
+  s->runs.clear();
+  s->run_of_material.resize(plan.scene->materials.size(), kNone);
+  for (size_t ray = 0; ray < s->rays.count; ++ray) {
+    const uint32_t primitive = s->closest.primitive[ray];
+    if (primitive == kNoPrimitive) continue;
+    const MaterialId material = MaterialAt(plan, primitive, s->film_x[ray]);
+    uint32_t& run = s->run_of_material[material.index];
+    if (run == kNone) {
+      run = static_cast<uint32_t>(s->runs.size());
+      s->runs.push_back({material, 0, 0});
+    }
+    s->run_of_ray[ray] = run;
+    ++s->runs[run].end;  // counts the run's hits for now
+  }
+  size_t begin = 0;
+  for (MaterialRun& run : s->runs) {
+    const size_t count = run.end;
+    run.begin = run.end = begin;
+    begin += count;
+  }
+  for (size_t ray = 0; ray < s->rays.count; ++ray) {
+    if (s->closest.primitive[ray] == kNoPrimitive) continue;
+    s->hit_rays[s->runs[s->run_of_ray[ray]].end++] = static_cast<uint32_t>(ray);
+  }
+  return begin;
+}
+
+// Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
+void CastShadows(const RenderPlan& plan, const Light& light, TileScratch* s, RenderStats* stats) {
+  const HitBatch& hits = s->hits;
+  ShadowRayBatch& rays = s->shadow_rays;
+  const auto* directional = std::get_if<DirectionalLight>(&light.kind);
+  Vec3d fixed(0, 0, 0);  // direction, or position relative to the camera
+  if (directional != nullptr) {
+    fixed = -directional->direction_of_travel.normalized();
+  } else if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+    fixed = point->position - plan.scene->camera.position;
+  } else if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
+    fixed = spot->position - plan.scene->camera.position;
+  }
+  rays.count = 0;
+  for (size_t i = 0; i < hits.count; ++i) {
+    if (!(s->light.irradiance[i] > 0)) continue;
+    const size_t ray = rays.count++;
+    s->shadow_hits[ray] = static_cast<uint32_t>(i);
+    rays.primitive[ray] = hits.primitive[i];
+    const Vec3d origin(hits.position.x[i], hits.position.y[i], hits.position.z[i]);
+    const Vec3d direction = directional != nullptr ? fixed : fixed - origin;
+    rays.origin.x[ray] = origin.x;
+    rays.origin.y[ray] = origin.y;
+    rays.origin.z[ray] = origin.z;
+    rays.direction.x[ray] = direction.x;
+    rays.direction.y[ray] = direction.y;
+    rays.direction.z[ray] = direction.z;
+    rays.t_max[ray] = directional != nullptr ? std::numeric_limits<double>::infinity() : 1.0;
+  }
+  stats->shadow_rays += rays.count;
+  if (rays.count == 0) return;
+  plan.intersector->Occluded(&rays);
+  for (size_t ray = 0; ray < rays.count; ++ray) {
+    if (rays.occluded[ray] != 0) s->light.irradiance[s->shadow_hits[ray]] = 0;
+  }
+}
+
+// Adds up what the batch's hits reflect of every light.
+void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
+  const Scene& scene = *plan.scene;
+  PrepareSurface(s->hits, &s->surface);
+  ClearRadiance(s->hits.count, &s->total);
+  clock->Charge(Stage::kRefine);
+  for (const PlannedLight& planned : plan.lights) {
+    const Light& light = scene.lights[planned.index];
+    EvaluateLight(light, scene.camera.position, s->hits, s->surface, &s->light);
+    clock->Charge(Stage::kLight);
+    if (planned.shadow_rays) {
+      CastShadows(plan, light, s, stats);
+      clock->Charge(Stage::kShadow);
+    }
+    const bool apart = WantsLightLayer(plan, planned.index);
+    ReflectedRadiance* radiance = apart ? &s->single : &s->total;
+    if (apart) ClearRadiance(s->hits.count, &s->single);
+    for (const MaterialRun& run : s->runs) {
+      ShadeRun(scene.materials[run.material.index], planned.color, s->surface, s->light, run.begin,
+               run.end, radiance);
+    }
+    if (apart) KeepLightLayer(plan, planned.index, s);
+    stats->shades += s->hits.count;
+    clock->Charge(Stage::kShade);
+  }
+}
+
+}  // namespace
+
+void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, StripFilm* film,
+                RenderStats* stats) {
+  TileScratch& s = *scratch;
+  StageClock clock(stats);
+  const int spp = plan.scene->image.spp;
+  for (int first = 0; first < spp; first += plan.samples_per_round) {
+    const int count = std::min(plan.samples_per_round, spp - first);
+    MakeRays(plan, tile, first, count, &s);
+    stats->camera_rays += s.rays.count;
+    clock.Charge(Stage::kSample);
+    s.hits.count = 0;
+    if (plan.intersector != nullptr) {
+      plan.intersector->Closest(s.rays, &s.closest);
+      clock.Charge(Stage::kIntersect);
+      const size_t hit_count = SortHits(plan, &s);
+      if (hit_count > 0) {
+        plan.intersector->Refine(s.rays, s.closest, s.hit_rays.data(), hit_count, &s.hits);
+        stats->hits += hit_count;
+        ShadeHits(plan, &s, &clock, stats);
+      }
+    }
+    AddToFilm(plan, {tile, count, s.weight.data()}, &s, film);
+    clock.Charge(Stage::kFilm);
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,81 @@
+// scene/cloud.cc: random clouds of spheres.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "scene/generators.h"
+#include "scene/limits.h"
+
+namespace nacre {
+namespace {
+
+// The output function of SplitMix64 (Steele, Lea and Flood 2014): a bijection that mixes well.
+uint64_t Mix(uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+// One SplitMix64 stream for each sphere. The standard library's distributions would differ from
+// one implementation to the next.
+class Stream {
+ public:
+  Stream(uint64_t seed, uint64_t index) : state_(Mix(Mix(seed + kStep) + index)) {}
+
+  uint64_t Next() { return Mix(state_ += kStep); }
+  // Uniform in [0, 1), a multiple of 2^-53.
+  double NextUnit() { return static_cast<double>(Next() >> 11) * 0x1p-53; }
+  double NextBetween(double min, double max) { return min + NextUnit() * (max - min); }
+  // Uniform in [0, n), n < 2^32: the high half of a 32 x 32 bit product.
+  uint64_t NextBelow(uint64_t n) { return ((Next() >> 32) * n) >> 32; }
+
+ private:
+  static constexpr uint64_t kStep = 0x9e3779b97f4a7c15u;
+  uint64_t state_;
+};
+
+Sphere CloudSphere(const Cloud& cloud, uint64_t index) {
+  Stream stream(cloud.seed, index);
+  Sphere sphere;
+  sphere.center.x = stream.NextBetween(cloud.min.x, cloud.max.x);
+  sphere.center.y = stream.NextBetween(cloud.min.y, cloud.max.y);
+  sphere.center.z = stream.NextBetween(cloud.min.z, cloud.max.z);
+  sphere.radius = stream.NextBetween(cloud.radius_min, cloud.radius_max);
+  sphere.material = cloud.materials[stream.NextBelow(cloud.materials.size())];
+  return sphere;
+}
+
+void CheckCloud(const Cloud& cloud) {
+  const auto refuse = [](const char* what, std::string hint) {
+    throw Error(ExitCode::kBadInput, "cloud", what, std::move(hint));
+  };
+  if (!limits::kCloudCount.Contains(static_cast<double>(cloud.count))) {
+    refuse("the number of spheres is out of range", Describe(limits::kCloudCount));
+  }
+  if (cloud.materials.empty()) refuse("no materials", "name at least one");
+  if (!(cloud.min.x <= cloud.max.x && cloud.min.y <= cloud.max.y && cloud.min.z <= cloud.max.z)) {
+    refuse("the box is inside out", "min is at most max in each coordinate");
+  }
+  if (!(limits::kLength.Contains(cloud.radius_min) && limits::kLength.Contains(cloud.radius_max) &&
+        cloud.radius_min <= cloud.radius_max)) {
+    refuse("the radii are out of range or in the wrong order", Describe(limits::kLength));
+  }
+}
+
+}  // namespace
+
+void AddCloud(const Cloud& cloud, Scene* scene) {
+  CheckCloud(cloud);
+  constexpr uint64_t kBlock = 1 << 16;
+  const size_t first = scene->spheres.size();
+  scene->spheres.resize(first + cloud.count);
+  Sphere* const spheres = scene->spheres.data() + first;
+  ParallelFor((cloud.count + kBlock - 1) / kBlock, 0, [&](size_t block) {
+    const uint64_t end = std::min(cloud.count, (block + 1) * kBlock);
+    for (uint64_t i = block * kBlock; i < end; ++i) spheres[i] = CloudSphere(cloud, i);
+  });
+}
+
+}  // namespace nacre

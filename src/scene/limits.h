@@ -1,0 +1,60 @@
+// scene/limits.h: the ranges of the numbers in a scene, defined once: the reader of scene files,
+// Validate() and the test of the JSON Schema all use these.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace nacre {
+
+struct Range {
+  double min = 0;
+  double max = 0;
+  bool min_open = false;  // min itself is outside
+  bool max_open = false;  // max itself is outside
+
+  // False for NaN.
+  bool Contains(double x) const {
+    return (min_open ? x > min : x >= min) && (max_open ? x < max : x <= max);
+  }
+  bool operator==(const Range&) const = default;
+};
+
+// "from 0 to 1", "greater than 0 and at most 16".
+std::string Describe(const Range& range);
+
+namespace limits {
+
+// Positions and lengths: products of four of them stay finite in double, and so do the squares in
+// float; from the size of an atom's core to a light year in metres.
+inline constexpr Range kCoordinate{-1e15, 1e15};
+inline constexpr Range kLength{1e-15, 1e15};
+
+// Radiance, irradiance, radiant intensity: finite in float with room for a sum of many lights.
+inline constexpr Range kRadiance{0, 1e30};
+inline constexpr Range kUnit{0, 1};
+
+inline constexpr Range kFovYDeg{0, 180, true, true};
+inline constexpr Range kImageSide{1, 65536};
+inline constexpr Range kSpp{1, 65536};
+inline constexpr Range kFilterWidth{0, 16, true, false};
+inline constexpr Range kSeed{0, 4294967295.0};
+
+// Exponents of cosines: of the Phong family and of spot lights.
+inline constexpr Range kExponent{0, 1e9};
+inline constexpr Range kAttenuation{0, 1e15};
+inline constexpr Range kCutoffDeg{0, 180, true, false};
+inline constexpr Range kInnerDeg{0, 180};
+inline constexpr Range kSplitAt{0, 1, true, true};
+
+// width x height x spp: about a day of rendering at 1e8 samples a second; more is a slip.
+inline constexpr double kMaxSamples = 1e13;
+
+// Spheres and triangles together: ids are 32 bits wide and the last one means none.
+inline constexpr uint64_t kMaxPrimitives = 0xfffffffeu;
+
+inline constexpr Range kCloudCount{1, 1e8};
+inline constexpr Range kGridCount{1, 1000};
+
+}  // namespace limits
+}  // namespace nacre

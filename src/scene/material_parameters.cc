@@ -1,0 +1,131 @@
+#include "scene/material_parameters.h"
+
+#include <array>
+#include <type_traits>
+#include <variant>
+
+namespace nacre {
+namespace {
+
+template <typename Struct, typename Field>
+Struct StructOf(Field Struct::*);
+
+// The field that a pointer to member names, in the material itself or in its model.
+template <auto kMember, typename AnyMaterial>
+auto& FieldOf(AnyMaterial& material) {
+  using Struct = decltype(StructOf(kMember));
+  if constexpr (std::is_same_v<Struct, Material>) {
+    return material.*kMember;
+  } else {
+    return std::get<Struct>(material.model).*kMember;
+  }
+}
+
+template <auto kMember>
+constexpr MaterialParameter Number(std::string_view name, const Range& range) {
+  return {name, false, range,
+          [](const Material& material) {
+            const double value = FieldOf<kMember>(material);
+            return Rgb(value, value, value);
+          },
+          [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value.x; }};
+}
+
+template <auto kMember>
+constexpr MaterialParameter Color(std::string_view name, const Range& range) {
+  return {name, true, range, [](const Material& material) { return FieldOf<kMember>(material); },
+          [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value; }};
+}
+
+// `options` in the order of the enumeration.
+template <auto kMember>
+constexpr MaterialChoice Choice(std::string_view name, std::span<const std::string_view> options) {
+  return {name, options, [](Material& material, size_t option) {
+            auto& field = FieldOf<kMember>(material);
+            field = static_cast<std::remove_reference_t<decltype(field)>>(option);
+          }};
+}
+
+constexpr MaterialParameter kEmission = Color<&Material::emission>("emission", limits::kRadiance);
+
+constexpr std::array kLambertParameters = {
+    Color<&LambertMaterial::albedo>("albedo", limits::kUnit),
+    kEmission,
+};
+
+constexpr std::array kPhongParameters = {
+    Color<&PhongMaterial::color>("color", limits::kUnit),
+    Color<&PhongMaterial::ka>("ka", limits::kUnit),
+    Color<&PhongMaterial::kd>("kd", limits::kUnit),
+    Color<&PhongMaterial::ks>("ks", limits::kUnit),
+    Number<&PhongMaterial::shininess>("shininess", limits::kExponent),
+    kEmission,
+};
+
+constexpr std::array kMetallicRoughnessParameters = {
+    Color<&MetallicRoughnessMaterial::base_color>("base_color", limits::kUnit),
+    Number<&MetallicRoughnessMaterial::metallic>("metallic", limits::kUnit),
+    Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit),
+    kEmission,
+};
+
+constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
+constexpr std::array<std::string_view, 3> kShadowings = {"height_correlated", "separable",
+                                                         "schlick_direct"};
+constexpr std::array kPhongChoices = {
+    Choice<&PhongMaterial::convention>("convention", kConventions)};
+constexpr std::array kMetallicRoughnessChoices = {
+    Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings)};
+
+template <typename Model>
+Material Make() {
+  Material material;
+  material.model = Model{};
+  return material;
+}
+
+template <PhongModel kModel>
+Material MakePhong() {
+  Material material;
+  material.model = PhongMaterial{.model = kModel};
+  return material;
+}
+
+// The Phong family first and in the order of its enumeration: see ModelOf.
+constexpr std::array<MaterialModel, 5> kModels = {{
+    {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices},
+    {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices},
+    {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices},
+    {"lambert", Make<LambertMaterial>, kLambertParameters, {}},
+    {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
+     kMetallicRoughnessChoices},
+}};
+
+}  // namespace
+
+std::span<const MaterialModel> MaterialModels() { return kModels; }
+
+const MaterialModel* FindModel(std::string_view name) {
+  for (const MaterialModel& model : kModels) {
+    if (model.name == name) return &model;
+  }
+  return nullptr;
+}
+
+const MaterialModel* ModelOf(const Material& material) {
+  if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
+    return &kModels[static_cast<size_t>(phong->model)];
+  }
+  if (std::holds_alternative<LambertMaterial>(material.model)) return &kModels[3];
+  if (std::holds_alternative<MetallicRoughnessMaterial>(material.model)) return &kModels[4];
+  return nullptr;
+}
+
+const MaterialParameter* FindParameter(const MaterialModel& model, std::string_view name) {
+  for (const MaterialParameter& parameter : model.parameters) {
+    if (parameter.name == name) return &parameter;
+  }
+  return nullptr;
+}
+
+}  // namespace nacre

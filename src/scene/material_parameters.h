@@ -1,0 +1,50 @@
+// scene/material_parameters.h: the parameters of each material model by name, defined once. The
+// reader of scene files, the axes of grids, Validate() and the test of the JSON Schema use it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "base/vec.h"
+#include "scene/limits.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+// A number or a colour of a material. A number is passed as a grey: three equal components.
+struct MaterialParameter {
+  std::string_view name;  // as in scene files: "roughness", "base_color"
+  bool is_color;
+  Range range;  // of the number or of each component
+  Rgb (*get)(const Material&);
+  void (*set)(Material&, const Rgb&);
+};
+
+// One of several named options of a material, numbered from 0.
+struct MaterialChoice {
+  std::string_view name;
+  std::span<const std::string_view> options;
+  void (*set)(Material&, size_t option);
+};
+
+struct MaterialModel {
+  std::string_view name;  // "metallic_roughness"
+  Material (*make)();     // one with every default
+  std::span<const MaterialParameter> parameters;
+  std::span<const MaterialChoice> choices;
+};
+
+// All models that have parameters, that is, all but `split`.
+std::span<const MaterialModel> MaterialModels();
+
+// The model of this name, or nullptr.
+const MaterialModel* FindModel(std::string_view name);
+
+// The model of this material; nullptr for a split.
+const MaterialModel* ModelOf(const Material& material);
+
+// The parameter of this name, or nullptr.
+const MaterialParameter* FindParameter(const MaterialModel& model, std::string_view name);
+
+}  // namespace nacre

@@ -1,0 +1,195 @@
+// scene/validate.cc: camera, image, materials and lights. Shapes: validate_shapes.cc.
+#include "scene/validate.h"
+
+#include <algorithm>
+#include <unordered_set>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "scene/limits.h"
+#include "scene/material_parameters.h"
+#include "scene/validate_numbers.h"
+
+namespace nacre {
+
+// In validate_shapes.cc.
+void ValidateShapes(const Scene& scene, FaultList* faults);
+
+namespace {
+
+// Below this sine the camera's basis would be made of rounding errors: coordinates carry 53 bits.
+constexpr double kMinSineOfUp = 1e-12;
+
+void ValidateCamera(const Camera& camera, FaultList* faults) {
+  const size_t before = faults->count();
+  CheckPoint(camera.position, "/camera/position", faults);
+  CheckPoint(camera.look_at, "/camera/look_at", faults);
+  CheckDirection(camera.up, "/camera/up", faults);
+  if (camera.projection == Projection::kPerspective) {
+    CheckNumber(camera.fov_y_deg, limits::kFovYDeg, "/camera/fov_y_deg", faults);
+  } else {
+    CheckNumber(camera.height, limits::kLength, "/camera/height", faults);
+  }
+  if (faults->count() != before) return;
+
+  const Vec3d view = camera.look_at - camera.position;
+  if (view.length() == 0) {
+    faults->Add("/camera/look_at", "is the camera's position", "look at some other point");
+  } else if (view.normalized().cross(camera.up.normalized()).length() < kMinSineOfUp) {
+    faults->Add("/camera/up", "is parallel to the view", "for a view along y take [0, 0, 1]");
+  }
+}
+
+void ValidateImage(const ImageSettings& image, FaultList* faults) {
+  const size_t before = faults->count();
+  CheckNumber(image.width, limits::kImageSide, "/image/width", faults);
+  CheckNumber(image.height, limits::kImageSide, "/image/height", faults);
+  CheckNumber(image.spp, limits::kSpp, "/image/spp", faults);
+  CheckNumber(image.filter.width, limits::kFilterWidth, "/image/filter/width", faults);
+  if (faults->count() != before) return;
+
+  const double samples = static_cast<double>(image.width) * image.height * image.spp;
+  if (samples > limits::kMaxSamples) {
+    faults->Add("/image", fmt::format("width x height x spp is {:g} samples", samples),
+                fmt::format("at most {:g}", limits::kMaxSamples));
+  }
+}
+
+std::string MaterialPlace(const Scene& scene, size_t index) {
+  const std::string& name = scene.materials[index].name;
+  return "/materials/" + (name.empty() ? std::to_string(index) : PointerToken(name));
+}
+
+void ValidateSplit(const Scene& scene, const Material& material, const std::string& where,
+                   FaultList* faults) {
+  const auto& split = std::get<SplitMaterial>(material.model);
+  if (split.materials.size() != split.at.size() + 1) {
+    faults->Add(where + "/materials",
+                fmt::format("{} materials for {} places to split at", split.materials.size(),
+                            split.at.size()),
+                "one more than \"at\" has numbers");
+  }
+  for (size_t i = 0; i < split.at.size(); ++i) {
+    const std::string place = fmt::format("{}/at/{}", where, i);
+    CheckNumber(split.at[i], limits::kSplitAt, place, faults);
+    if (i > 0 && split.at[i] <= split.at[i - 1]) {
+      faults->Add(place, fmt::format("{} after {}", split.at[i], split.at[i - 1]),
+                  "the numbers ascend from left to right");
+    }
+  }
+  for (size_t i = 0; i < split.materials.size(); ++i) {
+    const std::string place = fmt::format("{}/materials/{}", where, i);
+    const MaterialId id = split.materials[i];
+    CheckMaterial(id, scene.materials.size(), place, faults);
+    if (id.index < scene.materials.size() &&
+        std::holds_alternative<SplitMaterial>(scene.materials[id.index].model)) {
+      faults->Add(place, "is a split itself", "name each band's material in one split");
+    }
+  }
+  if (material.emission != Rgb(0, 0, 0)) {
+    faults->Add(where + "/emission", "a split has no emission", "give it to the materials in it");
+  }
+}
+
+void ValidateMaterials(const Scene& scene, FaultList* faults) {
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& material = scene.materials[i];
+    const MaterialModel* model = ModelOf(material);
+    if (model == nullptr) {
+      ValidateSplit(scene, material, MaterialPlace(scene, i), faults);
+      continue;
+    }
+    for (const MaterialParameter& parameter : model->parameters) {
+      const Rgb value = parameter.get(material);
+      const Range& range = parameter.range;
+      if (range.Contains(value.x) && range.Contains(value.y) && range.Contains(value.z)) continue;
+      const std::string where = MaterialPlace(scene, i) + "/" + std::string(parameter.name);
+      if (parameter.is_color) {
+        CheckColor(value, range, where, faults);
+      } else {
+        CheckNumber(value.x, range, where, faults);
+      }
+    }
+  }
+}
+
+void CheckAttenuation(const Attenuation& attenuation, const std::string& where, FaultList* faults) {
+  CheckNumber(attenuation.constant, limits::kAttenuation, where + "/constant", faults);
+  CheckNumber(attenuation.linear, limits::kAttenuation, where + "/linear", faults);
+  CheckNumber(attenuation.quadratic, limits::kAttenuation, where + "/quadratic", faults);
+  if (attenuation.constant == 0 && attenuation.linear == 0 && attenuation.quadratic == 0) {
+    faults->Add(where, "all three terms are 0", "\"none\" is constant 1");
+  }
+}
+
+// One overload for each kind of light.
+struct LightChecker {
+  const std::string& where;
+  FaultList* faults;
+
+  void operator()(const AmbientLight& light) const {
+    CheckColor(light.radiance, limits::kRadiance, where + "/radiance", faults);
+  }
+  void operator()(const DirectionalLight& light) const {
+    CheckDirection(light.direction_of_travel, where + "/direction_of_travel", faults);
+    CheckColor(light.irradiance, limits::kRadiance, where + "/irradiance", faults);
+  }
+  void operator()(const PointLight& light) const {
+    CheckPoint(light.position, where + "/position", faults);
+    CheckColor(light.intensity, limits::kRadiance, where + "/intensity", faults);
+    CheckAttenuation(light.attenuation, where + "/attenuation", faults);
+  }
+  void operator()(const SpotLight& light) const {
+    CheckPoint(light.position, where + "/position", faults);
+    CheckDirection(light.direction_of_travel, where + "/direction_of_travel", faults);
+    CheckColor(light.intensity, limits::kRadiance, where + "/intensity", faults);
+    CheckAttenuation(light.attenuation, where + "/attenuation", faults);
+    CheckNumber(light.cutoff_deg, limits::kCutoffDeg, where + "/cutoff_deg", faults);
+    CheckNumber(light.inner_deg, limits::kInnerDeg, where + "/inner_deg", faults);
+    if (light.inner_deg > light.cutoff_deg) {
+      faults->Add(where + "/inner_deg",
+                  fmt::format("{} is beyond cutoff_deg, {}", light.inner_deg, light.cutoff_deg),
+                  "at most cutoff_deg; equal to it for a hard edge");
+    }
+    CheckNumber(light.exponent, limits::kExponent, where + "/exponent", faults);
+  }
+};
+
+void ValidateLights(const Scene& scene, FaultList* faults) {
+  std::unordered_set<std::string> names;
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const std::string where =
+        "/lights/" + (light.name.empty() ? std::to_string(i) : PointerToken(light.name));
+    if (!IsLayerName(light.name)) {
+      faults->Add(where, "the name cannot name an image layer",
+                  "1 to 64 letters, digits, spaces, '_' or '-'");
+    } else if (!names.insert(light.name).second) {
+      faults->Add(where, "a second light of this name", "names of lights are unique");
+    }
+    std::visit(LightChecker{where, faults}, light.kind);
+  }
+}
+
+}  // namespace
+
+bool IsLayerName(const std::string& name) {
+  return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == ' ';
+  });
+}
+
+std::vector<Fault> Validate(const Scene& scene) {
+  FaultList faults;
+  ValidateCamera(scene.camera, &faults);
+  ValidateImage(scene.image, &faults);
+  CheckColor(scene.background, limits::kRadiance, "/background", &faults);
+  ValidateMaterials(scene, &faults);
+  ValidateLights(scene, &faults);
+  ValidateShapes(scene, &faults);
+  return faults.All();
+}
+
+}  // namespace nacre

@@ -1,0 +1,32 @@
+// scene/validate.h: everything that is wrong with a scene, at once. The second line behind the
+// reader of scene files, and the first for scenes built in code or by generators.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/fault_list.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+// The faults of a scene, empty when it can be rendered; long lists are cut (FaultList). `where`
+// reads like a JSON pointer: camera, image, background, materials and lights by name as in scene
+// files ("/materials/gold/roughness"), spheres and meshes by index ("/spheres/3/radius").
+// Non-finite numbers and numbers outside scene/limits.h, handles that lead nowhere, splits of
+// splits, light names that are used twice or cannot name an image layer, cameras without a
+// direction, meshes with indices out of range or without any area. A triangle of zero area among
+// others is no fault: nothing hits it.
+std::vector<Fault> Validate(const Scene& scene);
+
+// The faults of one sphere or mesh; `where` is their place.
+void ValidateSphere(const Sphere& sphere, size_t material_count, const std::string& where,
+                    FaultList* faults);
+void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& where,
+                  FaultList* faults);
+
+// True if `name` can stand in a layer's name: 1 to 64 of letters, digits, '_', '-' and ' '.
+bool IsLayerName(const std::string& name);
+
+}  // namespace nacre

@@ -1,0 +1,23 @@
+// scene/validate_numbers.h: the checks of single values that Validate() is made of.
+#pragma once
+
+#include <string>
+
+#include "base/vec.h"
+#include "scene/fault_list.h"
+#include "scene/limits.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+void CheckNumber(double value, const Range& range, const std::string& where, FaultList* faults);
+void CheckColor(const Rgb& value, const Range& range, const std::string& where, FaultList* faults);
+void CheckPoint(const Vec3d& value, const std::string& where, FaultList* faults);
+
+// A vector whose length counts for nothing but must not be zero.
+void CheckDirection(const Vec3d& value, const std::string& where, FaultList* faults);
+
+void CheckMaterial(MaterialId id, size_t material_count, const std::string& where,
+                   FaultList* faults);
+
+}  // namespace nacre

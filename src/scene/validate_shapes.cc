@@ -1,0 +1,104 @@
+// scene/validate_shapes.cc: the part of Validate() that looks at spheres and meshes.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scene/limits.h"
+#include "scene/mesh.h"
+#include "scene/validate.h"
+#include "scene/validate_numbers.h"
+
+namespace nacre {
+namespace {
+
+// A normal that was stored in float and read back is unit to 1e-7; ten times that, squared away.
+constexpr double kUnitLengthTolerance = 1e-5;
+
+// Of a mesh's positions or indices only the first bad one is told: the rest has the same cause.
+void ValidatePositions(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  for (size_t i = 0; i < mesh.positions.size(); ++i) {
+    const size_t before = faults->count();
+    CheckPoint(mesh.positions[i], fmt::format("{}/positions/{}", where, i), faults);
+    if (faults->count() != before) return;
+  }
+}
+
+void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  if (mesh.normals.empty()) return;
+  if (mesh.normals.size() != mesh.positions.size()) {
+    faults->Add(
+        where + "/normals",
+        fmt::format("{} normals for {} positions", mesh.normals.size(), mesh.positions.size()),
+        "one per position, or none for face normals");
+  }
+  for (size_t i = 0; i < mesh.normals.size(); ++i) {
+    const double length = mesh.normals[i].length();
+    if (std::abs(length - 1) <= kUnitLengthTolerance) continue;  // also false for NaN
+    faults->Add(fmt::format("{}/normals/{}", where, i), fmt::format("has length {}", length),
+                "normals have length 1");
+    return;
+  }
+}
+
+void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) {
+    faults->Add(where + "/triangles", fmt::format("{} indices", mesh.triangles.size()),
+                "three for each triangle, and at least one triangle");
+    return;
+  }
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangles[i] < mesh.positions.size()) continue;
+    faults->Add(fmt::format("{}/triangles/{}", where, i),
+                fmt::format("there is no position {}", mesh.triangles[i]),
+                fmt::format("the mesh has {}", mesh.positions.size()));
+    return;
+  }
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    if (FaceNormal(mesh, i / 3) != Vec3d(0, 0, 0)) return;
+  }
+  faults->Add(where, "no triangle has an area", {});
+}
+
+bool IsSound(const Sphere& sphere, size_t material_count) {
+  const Range& coordinate = limits::kCoordinate;
+  return coordinate.Contains(sphere.center.x) && coordinate.Contains(sphere.center.y) &&
+         coordinate.Contains(sphere.center.z) && limits::kLength.Contains(sphere.radius) &&
+         sphere.material.index < material_count;
+}
+
+}  // namespace
+
+void ValidateSphere(const Sphere& sphere, size_t material_count, const std::string& where,
+                    FaultList* faults) {
+  CheckPoint(sphere.center, where + "/center", faults);
+  CheckNumber(sphere.radius, limits::kLength, where + "/radius", faults);
+  CheckMaterial(sphere.material, material_count, where + "/material", faults);
+}
+
+void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& where,
+                  FaultList* faults) {
+  const size_t before = faults->count();
+  ValidatePositions(mesh, where, faults);
+  ValidateNormals(mesh, where, faults);
+  if (faults->count() == before) ValidateTriangles(mesh, where, faults);
+  CheckMaterial(mesh.material, material_count, where + "/material", faults);
+}
+
+void ValidateShapes(const Scene& scene, FaultList* faults) {
+  const size_t material_count = scene.materials.size();
+  for (size_t i = 0; i < scene.spheres.size(); ++i) {
+    if (IsSound(scene.spheres[i], material_count)) continue;  // no text made for a million others
+    ValidateSphere(scene.spheres[i], material_count, fmt::format("/spheres/{}", i), faults);
+  }
+  uint64_t primitives = scene.spheres.size();
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    ValidateMesh(scene.meshes[i], material_count, fmt::format("/meshes/{}", i), faults);
+    primitives += scene.meshes[i].triangles.size() / 3;
+  }
+  if (primitives > limits::kMaxPrimitives) {
+    faults->Add("/shapes", fmt::format("{} spheres and triangles", primitives),
+                fmt::format("at most {}", limits::kMaxPrimitives));
+  }
+}
+
+}  // namespace nacre

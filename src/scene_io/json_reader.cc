@@ -1,0 +1,209 @@
+#include "scene_io/json_reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+// "a string", "an object".
+std::string_view KindOf(const Json& json) {
+  switch (json.type()) {
+    case Json::value_t::null:
+      return "null";
+    case Json::value_t::boolean:
+      return "true or false";
+    case Json::value_t::string:
+      return "a string";
+    case Json::value_t::array:
+      return "an array";
+    case Json::value_t::object:
+      return "an object";
+    default:
+      return "a number";
+  }
+}
+
+std::string NumberHint(const Range& range) { return "a number " + Describe(range); }
+
+std::string ComponentHint(const Range& range) {
+  return "[r, g, b] or one number for grey, each " + Describe(range);
+}
+
+bool ReadTriple(const JsonValue& value, const Range& range, std::string_view hint, double* out) {
+  const Json& json = value.json;
+  if (!value.Expect(json.is_array() && json.size() == 3, "three numbers", hint)) return false;
+  double triple[3];
+  bool is_right = true;
+  for (size_t i = 0; i < 3; ++i) {
+    is_right &= ReadNumber({json[i], value.path.Element(i), value.faults}, range, &triple[i]);
+  }
+  if (is_right) std::copy_n(triple, 3, out);
+  return is_right;
+}
+
+}  // namespace
+
+std::string JsonPath::ToString() const {
+  if (parent == nullptr) return {};
+  const std::string token = index == kNoIndex ? PointerToken(name) : std::to_string(index);
+  return parent->ToString() + "/" + token;
+}
+
+void JsonValue::AddFault(std::string what, std::string hint) const {
+  faults->Add(path.ToString(), std::move(what), std::move(hint));
+}
+
+bool JsonValue::Expect(bool is_right, std::string_view expected, std::string_view hint) const {
+  if (is_right) return true;
+  std::string got(KindOf(json));
+  if (json.is_array()) got += fmt::format(" of {}", json.size());
+  AddFault(fmt::format("expected {}, got {}", expected, got), std::string(hint));
+  return false;
+}
+
+bool ReadNumber(const JsonValue& value, const Range& range, double* out) {
+  if (!value.Expect(value.json.is_number(), "a number", NumberHint(range))) return false;
+  const auto number = value.json.get<double>();
+  if (!range.Contains(number)) {
+    value.AddFault(fmt::format("{} is out of range", number), NumberHint(range));
+    return false;
+  }
+  *out = number;
+  return true;
+}
+
+bool ReadWhole(const JsonValue& value, const Range& range, int64_t* out) {
+  double number = 0;
+  const std::string hint = "a whole number " + Describe(range);
+  if (!value.Expect(value.json.is_number(), "a whole number", hint)) return false;
+  number = value.json.get<double>();
+  if (number != std::floor(number)) {
+    value.AddFault(fmt::format("{} is not a whole number", number), hint);
+    return false;
+  }
+  if (!range.Contains(number)) {
+    value.AddFault(fmt::format("{} is out of range", number), hint);
+    return false;
+  }
+  *out = static_cast<int64_t>(number);
+  return true;
+}
+
+bool ReadColor(const JsonValue& value, const Range& range, Rgb* out) {
+  if (value.json.is_number()) {
+    double grey = 0;
+    if (!ReadNumber(value, range, &grey)) return false;
+    *out = Rgb(grey, grey, grey);
+    return true;
+  }
+  if (!value.Expect(value.json.is_array(), "a colour", ComponentHint(range))) return false;
+  return ReadTriple(value, range, ComponentHint(range), &out->x);
+}
+
+bool ReadPoint(const JsonValue& value, const Range& range, Vec3d* out) {
+  return ReadTriple(value, range, "[x, y, z], each " + Describe(range), &out->x);
+}
+
+bool ReadText(const JsonValue& value, std::string* out) {
+  if (!value.Expect(value.json.is_string(), "a string")) return false;
+  *out = value.json.get<std::string>();
+  return true;
+}
+
+void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,
+                      const std::vector<std::string>& names) {
+  const std::string nearest = NearestName(word, names);
+  std::string hint;
+  if (!nearest.empty()) {
+    hint = fmt::format("did you mean \"{}\"?", nearest);
+  } else if (!names.empty()) {
+    hint = fmt::format("one of: {}", fmt::join(names, ", "));
+  }
+  value.AddFault(fmt::format("unknown {} \"{}\"", kind, word), hint);
+}
+
+JsonObject::JsonObject(const JsonValue& value, std::string_view hint) : value_(value) {
+  value.Expect(value.json.is_object(), "an object", hint);
+}
+
+const Json* JsonObject::Find(std::string_view name) {
+  known_.push_back(name);
+  if (!is_object()) return nullptr;
+  const auto found = value_.json.find(name);
+  return found == value_.json.end() ? nullptr : &*found;
+}
+
+const Json* JsonObject::Require(std::string_view name, std::string_view hint) {
+  const Json* const found = Find(name);
+  if (found == nullptr && is_object()) {
+    value_.AddFault(fmt::format("missing key \"{}\"", name), std::string(hint));
+  }
+  return found;
+}
+
+bool JsonObject::Number(std::string_view name, const Range& range, double* out) {
+  const Json* const json = Find(name);
+  return json != nullptr && ReadNumber({*json, path().Member(name), faults()}, range, out);
+}
+
+bool JsonObject::Color(std::string_view name, const Range& range, Rgb* out) {
+  const Json* const json = Find(name);
+  return json != nullptr && ReadColor({*json, path().Member(name), faults()}, range, out);
+}
+
+bool JsonObject::Point(std::string_view name, Vec3d* out) {
+  const Json* const json = Find(name);
+  return json != nullptr &&
+         ReadPoint({*json, path().Member(name), faults()}, limits::kCoordinate, out);
+}
+
+bool JsonObject::Boolean(std::string_view name, bool* out) {
+  const Json* const json = Find(name);
+  if (json == nullptr) return false;
+  const JsonPath member = path().Member(name);
+  if (!JsonValue{*json, member, faults()}.Expect(json->is_boolean(), "true or false")) return false;
+  *out = json->get<bool>();
+  return true;
+}
+
+bool JsonObject::Text(std::string_view name, std::string* out) {
+  const Json* const json = Find(name);
+  return json != nullptr && ReadText({*json, path().Member(name), faults()}, out);
+}
+
+bool JsonObject::WholeNumber(std::string_view name, const Range& range, int64_t* out) {
+  const Json* const json = Find(name);
+  return json != nullptr && ReadWhole({*json, path().Member(name), faults()}, range, out);
+}
+
+bool JsonObject::Choice(std::string_view name, std::span<const std::string_view> names,
+                        size_t* out) {
+  const Json* const json = Find(name);
+  if (json == nullptr) return false;
+  const JsonPath member = path().Member(name);
+  const JsonValue value{*json, member, faults()};
+  std::string word;
+  if (!ReadText(value, &word)) return false;
+  const auto found = std::find(names.begin(), names.end(), word);
+  if (found == names.end()) {
+    FaultUnknownName(value, name, word, {names.begin(), names.end()});
+    return false;
+  }
+  *out = static_cast<size_t>(found - names.begin());
+  return true;
+}
+
+void JsonObject::RefuseOthers() {
+  if (!is_object()) return;
+  for (const auto& [name, member] : value_.json.items()) {
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    FaultUnknownName(value_, "key", name, {known_.begin(), known_.end()});
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,153 @@
+#include "scene_io/json_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+// Deeper than any scene; a guard for whatever walks the tree recursively.
+constexpr size_t kMaxDepth = 100;
+
+// "3:14", counted from 1, of a byte of the text.
+std::string LineAndColumn(std::string_view text, size_t offset) {
+  const std::string_view before = text.substr(0, std::min(offset, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  return fmt::format("{}:{}", line, before.size() - line_start + 1);
+}
+
+// Builds the tree from the parser's events: its own builder tells neither repeated names nor
+// where a number is that overflows.
+class TreeBuilder : public nlohmann::json_sax<Json> {
+ public:
+  TreeBuilder(std::string_view text, const std::string& file, FaultList* faults)
+      : text_(text), file_(file), faults_(faults) {}
+
+  Json TakeRoot() { return std::move(root_); }
+
+  bool null() override { return Add(nullptr); }
+  bool boolean(bool value) override { return Add(value); }
+  bool number_integer(number_integer_t value) override { return Add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return Add(value); }
+  bool number_float(number_float_t value, const string_t&) override { return Add(value); }
+  bool string(string_t& value) override { return Add(std::move(value)); }
+  bool binary(binary_t&) override { return false; }  // JSON text has none
+  bool start_object(size_t) override { return Open(Json::object()); }
+  bool start_array(size_t) override { return Open(Json::array()); }
+  bool end_object() override { return Close(); }
+  bool end_array() override { return Close(); }
+
+  bool key(string_t& name) override {
+    Level& level = levels_.back();
+    if (!level.names.insert(name).second) {
+      faults_->Add(Pointer(), fmt::format("\"{}\" is there twice", name), "keep one of them");
+    }
+    level.name = std::move(name);
+    return true;
+  }
+
+  bool parse_error(size_t offset, const std::string& token,
+                   const nlohmann::json::exception& error) override {
+    constexpr int kNumberOverflow = 406;
+    if (error.id == kNumberOverflow) {
+      throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
+                  fmt::format("{} is not a finite number", token), "at most 1.8e308 in magnitude");
+    }
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: what we want"
+    const std::string message = error.what();
+    const size_t start = message.find(": ", message.find("column"));
+    throw Error(ExitCode::kBadInput, file_ + ":" + LineAndColumn(text_, offset),
+                "not JSON: " + (start == std::string::npos ? message : message.substr(start + 2)),
+                "JSON has no comments and no comma after the last item");
+  }
+
+ private:
+  struct Level {
+    Json* value;       // an object or array; stays where it is while it is the last in its parent
+    std::string name;  // of the member that comes next, in an object
+    std::unordered_set<std::string> names;
+  };
+
+  // The pointer to the innermost open object or array.
+  std::string Pointer() const {
+    std::string pointer;
+    for (size_t i = 0; i + 1 < levels_.size(); ++i) {
+      pointer += "/" + (levels_[i].value->is_array()
+                            ? std::to_string(levels_[i].value->size() - 1)
+                            : PointerToken(levels_[i].name));
+    }
+    return pointer;
+  }
+
+  std::string PointerToNext() const {
+    if (levels_.empty()) return {};
+    const Level& level = levels_.back();
+    return Pointer() + "/" + (level.value->is_array() ? std::to_string(level.value->size())
+                                                      : PointerToken(level.name));
+  }
+
+  Json* Insert(Json value) {
+    if (levels_.empty()) {
+      root_ = std::move(value);
+      return &root_;
+    }
+    Json& parent = *levels_.back().value;
+    if (parent.is_array()) {
+      auto& array = parent.get_ref<Json::array_t&>();
+      return &array.emplace_back(std::move(value));
+    }
+    // Not through operator[], which would search all names before it for each one.
+    auto& object = parent.get_ref<Json::object_t&>();
+    return &static_cast<Json::object_t::Container&>(object)
+                .emplace_back(levels_.back().name, std::move(value))
+                .second;
+  }
+
+  bool Add(Json value) {
+    Insert(std::move(value));
+    return true;
+  }
+
+  bool Open(Json value) {
+    if (levels_.size() >= kMaxDepth) {
+      throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
+                  fmt::format("nested deeper than {} levels", kMaxDepth));
+    }
+    Json* const inserted = Insert(std::move(value));
+    levels_.push_back({inserted, {}, {}});
+    return true;
+  }
+
+  bool Close() {
+    levels_.pop_back();
+    return true;
+  }
+
+  std::string_view text_;
+  const std::string& file_;
+  FaultList* faults_;
+  Json root_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace
+
+std::string PlaceInFile(const std::string& file, const std::string& pointer) {
+  return pointer.empty() ? file : file + ": " + pointer;
+}
+
+Json ParseJson(std::string_view text, const std::string& file, FaultList* faults) {
+  TreeBuilder builder(text, file, faults);
+  Json::sax_parse(text, &builder);
+  return builder.TakeRoot();
+}
+
+}  // namespace nacre

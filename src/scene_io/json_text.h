@@ -1,0 +1,23 @@
+// scene_io/json_text.h: JSON text to a tree, with the strictness that scene files want.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "scene/fault_list.h"
+
+namespace nacre {
+
+// Keeps the order of the file: lights are added up and materials are numbered in it.
+using Json = nlohmann::ordered_json;
+
+// What `text` says. Names that an object has twice are added to `faults` by JSON pointer. Throws
+// Error (kBadInput) with `file` in its place for text that is not JSON (line and column), numbers
+// too large for a double (pointer) and nesting deeper than 100.
+Json ParseJson(std::string_view text, const std::string& file, FaultList* faults);
+
+// "scenes/grid.json: /materials/gold"; the file alone for the pointer to all of it.
+std::string PlaceInFile(const std::string& file, const std::string& pointer);
+
+}  // namespace nacre

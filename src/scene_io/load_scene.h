@@ -1,0 +1,37 @@
+// scene_io/load_scene.h: scene files. What they may contain is written down in
+// scenes/nacre.schema.json, which SceneSchema() returns.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace nacre {
+
+struct LoadOptions {
+  // JSON pointer and JSON text of the value to put there before anything is read ("--set"):
+  // {"/image/spp", "64"}. Objects on the way are made; places in arrays must exist.
+  std::vector<std::pair<std::string, std::string>> overrides;
+
+  // Let the scene refer to files outside its own folder.
+  bool allow_paths = false;
+};
+
+// Reads a scene file (JSON, up to 1 GiB). The scene has passed Validate().
+// Throws Error: kBadInput with all faults of the file at once (the first 20 in words), each with
+// its JSON pointer; kUsage if an override cannot be made.
+Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options = {});
+
+// The same for the text of a scene file. `file` is what errors call it; files that it refers to
+// are looked for in `folder`.
+Scene LoadSceneText(std::string_view text, const std::string& file,
+                    const std::filesystem::path& folder, const LoadOptions& options = {});
+
+// The JSON Schema (draft 2020-12) of scene files.
+std::string_view SceneSchema();
+
+}  // namespace nacre

@@ -1,0 +1,18 @@
+// scene_io/obj.h: triangle meshes from Wavefront OBJ files.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+
+namespace nacre {
+
+// All faces of the file as one mesh, polygons cut into triangles, named after the file. Normals
+// are the file's, made unit, if all corners of all faces have one; otherwise there are none.
+// Texture coordinates, groups, lines, points and materials (MTL) are not read.
+// Throws Error (kBadInput) with the file, and the line where it is known, for numbers that are none
+// or not finite, indices out of range, faces of fewer than 3 or more than 255 corners, normals
+// of length 0 and files without faces.
+Mesh ReadObj(const std::filesystem::path& path);
+
+}  // namespace nacre

@@ -1,0 +1,126 @@
+// scene_io/read_lights.cc: the part "lights".
+#include <array>
+
+#include "scene_io/readers.h"
+
+namespace nacre {
+namespace {
+
+enum class LightType { kAmbient, kDirectional, kPoint, kSpot };
+constexpr std::array<std::string_view, 4> kLightTypes = {"ambient", "directional", "point", "spot"};
+
+void ReadAttenuation(const JsonValue& value, Attenuation* attenuation) {
+  constexpr std::string_view kHint =
+      R"("inverse_square", "none" or {"constant": c, "linear": l, "quadratic": q})";
+  if (value.json.is_string()) {
+    const auto word = value.json.get<std::string>();
+    if (word == "inverse_square") {
+      *attenuation = Attenuation::InverseSquare();
+    } else if (word == "none") {
+      *attenuation = Attenuation::None();
+    } else {
+      FaultUnknownName(value, "attenuation", word, {"inverse_square", "none"});
+    }
+    return;
+  }
+  JsonObject object(value, kHint);
+  if (object.is_object()) *attenuation = {0, 0, 0};
+  object.Number("constant", limits::kAttenuation, &attenuation->constant);
+  object.Number("linear", limits::kAttenuation, &attenuation->linear);
+  object.Number("quadratic", limits::kAttenuation, &attenuation->quadratic);
+  object.RefuseOthers();
+}
+
+void ReadRequiredPoint(JsonObject* object, std::string_view name, std::string_view hint,
+                       Vec3d* out) {
+  object->Require(name, hint);
+  object->Point(name, out);
+}
+
+void ReadRadiance(JsonObject* object, std::string_view name, std::string_view hint, Rgb* out) {
+  object->Require(name, hint);
+  object->Color(name, limits::kRadiance, out);
+}
+
+// What point and spot lights have in common.
+template <typename PointOrSpot>
+void ReadPosition(JsonObject* object, PointOrSpot* light) {
+  ReadRequiredPoint(object, "position", "[x, y, z]", &light->position);
+  ReadRadiance(object, "intensity", "radiant intensity, [r, g, b] or grey", &light->intensity);
+  if (const Json* attenuation = object->Find("attenuation")) {
+    ReadAttenuation({*attenuation, object->path().Member("attenuation"), object->faults()},
+                    &light->attenuation);
+  }
+}
+
+constexpr std::string_view kDirectionHint = "[x, y, z], from the light towards the scene";
+
+AmbientLight ReadAmbient(JsonObject* object) {
+  AmbientLight light;
+  ReadRadiance(object, "radiance", "[r, g, b] or grey, from every direction", &light.radiance);
+  return light;
+}
+
+DirectionalLight ReadDirectional(JsonObject* object) {
+  DirectionalLight light;
+  ReadRequiredPoint(object, "direction_of_travel", kDirectionHint, &light.direction_of_travel);
+  ReadRadiance(object, "irradiance", "[r, g, b] or grey, on a surface facing the light",
+               &light.irradiance);
+  return light;
+}
+
+PointLight ReadPointLight(JsonObject* object) {
+  PointLight light;
+  ReadPosition(object, &light);
+  return light;
+}
+
+SpotLight ReadSpot(JsonObject* object) {
+  SpotLight light;
+  ReadPosition(object, &light);
+  ReadRequiredPoint(object, "direction_of_travel", kDirectionHint, &light.direction_of_travel);
+  object->Number("cutoff_deg", limits::kCutoffDeg, &light.cutoff_deg);
+  light.inner_deg = light.cutoff_deg;
+  object->Number("inner_deg", limits::kInnerDeg, &light.inner_deg);
+  object->Number("exponent", limits::kExponent, &light.exponent);
+  return light;
+}
+
+void ReadLight(const JsonValue& value, Light* light) {
+  JsonObject object(value);
+  object.Require("type", "one of: ambient, directional, point, spot");
+  size_t type = 0;
+  if (!object.Choice("type", kLightTypes, &type)) return;
+  switch (static_cast<LightType>(type)) {
+    case LightType::kAmbient:
+      light->kind = ReadAmbient(&object);
+      break;
+    case LightType::kDirectional:
+      light->kind = ReadDirectional(&object);
+      break;
+    case LightType::kPoint:
+      light->kind = ReadPointLight(&object);
+      break;
+    case LightType::kSpot:
+      light->kind = ReadSpot(&object);
+      break;
+  }
+  if (static_cast<LightType>(type) != LightType::kAmbient) {
+    object.Boolean("shadows", &light->shadows);
+  }
+  object.RefuseOthers();
+}
+
+}  // namespace
+
+void ReadLights(const JsonValue& value, std::vector<Light>* lights) {
+  const JsonObject object(value, R"(lights by name: {"key": {"type": "point", ...}})");
+  if (!object.is_object()) return;
+  for (const auto& [name, json] : value.json.items()) {
+    Light& light = lights->emplace_back();
+    light.name = name;
+    ReadLight({json, object.path().Member(name), object.faults()}, &light);
+  }
+}
+
+}  // namespace nacre

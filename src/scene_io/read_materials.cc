@@ -1,0 +1,143 @@
+// scene_io/read_materials.cc: the part "materials", and materials wherever a shape names one.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "scene/material_parameters.h"
+#include "scene_io/readers.h"
+
+namespace nacre {
+namespace {
+
+constexpr std::string_view kSplit = "split";
+
+void ReadParameters(const MaterialModel& model, JsonObject* object, Material* material) {
+  for (const MaterialParameter& parameter : model.parameters) {
+    Rgb value;
+    double number = 0;
+    if (parameter.is_color) {
+      if (object->Color(parameter.name, parameter.range, &value)) parameter.set(*material, value);
+    } else if (object->Number(parameter.name, parameter.range, &number)) {
+      parameter.set(*material, Rgb(number, number, number));
+    }
+  }
+  for (const MaterialChoice& choice : model.choices) {
+    size_t option = 0;
+    if (object->Choice(choice.name, choice.options, &option)) choice.set(*material, option);
+  }
+}
+
+// The member `name`, an array that must be there; nullptr if it is not.
+const Json* RequireArray(JsonObject* object, std::string_view name, std::string_view hint) {
+  const Json* const json = object->Require(name, hint);
+  if (json == nullptr) return nullptr;
+  const JsonValue value{*json, object->path().Member(name), object->faults()};
+  return value.Expect(json->is_array(), "an array", hint) ? json : nullptr;
+}
+
+SplitMaterial ReadSplit(JsonObject* object, SceneContext* context) {
+  SplitMaterial split;
+  const JsonPath at_path = object->path().Member("at");
+  if (const Json* at = RequireArray(object, "at", "fractions of the image's width, ascending")) {
+    for (size_t i = 0; i < at->size(); ++i) {
+      ReadNumber({(*at)[i], at_path.Element(i), object->faults()}, limits::kSplitAt,
+                 &split.at.emplace_back());
+    }
+  }
+  const JsonPath materials_path = object->path().Member("materials");
+  if (const Json* materials = RequireArray(object, "materials", "one for each band, by name")) {
+    for (size_t i = 0; i < materials->size(); ++i) {
+      MaterialId id;
+      ReadMaterialId({(*materials)[i], materials_path.Element(i), object->faults()}, context, &id);
+      split.materials.push_back(id);
+    }
+  }
+  return split;
+}
+
+// Sets everything but the name.
+void ReadMaterial(const JsonValue& value, SceneContext* context, Material* material) {
+  JsonObject object(value);
+  std::vector<std::string_view> names;
+  for (const MaterialModel& model : MaterialModels()) names.push_back(model.name);
+  names.push_back(kSplit);
+
+  object.Require("model", fmt::format("one of: {}", fmt::join(names, ", ")));
+  size_t choice = 0;
+  if (!object.Choice("model", names, &choice)) return;
+  if (names[choice] == kSplit) {
+    material->model = ReadSplit(&object, context);
+  } else {
+    const MaterialModel& model = MaterialModels()[choice];
+    material->model = model.make().model;
+    ReadParameters(model, &object, material);
+  }
+  object.RefuseOthers();
+}
+
+// The material called `value`; its absence is a fault.
+MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
+  const auto name = value.json.get<std::string>();
+  const auto found = context.materials.find(name);
+  if (found != context.materials.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, id] : context.materials) names.push_back(known);
+  std::sort(names.begin(), names.end());
+  FaultUnknownName(value, "material", name, names);
+  return {};
+}
+
+constexpr std::string_view kReferenceHint = "the name of one in \"materials\", or an object";
+
+}  // namespace
+
+void ReadMaterials(const JsonValue& value, SceneContext* context) {
+  const JsonObject object(value, R"(materials by name: {"gold": {"model": ...}})");
+  if (!object.is_object()) return;
+  // All names first: a split may name a material that comes after it.
+  std::vector<Material>& materials = context->scene->materials;
+  for (const auto& [name, json] : value.json.items()) {
+    context->materials.try_emplace(name, MaterialId{static_cast<uint32_t>(materials.size())});
+    materials.emplace_back().name = name;
+  }
+  size_t index = 0;
+  for (const auto& [name, json] : value.json.items()) {
+    Material material;
+    material.name = name;
+    ReadMaterial({json, object.path().Member(name), object.faults()}, context, &material);
+    materials[index++] = std::move(material);  // not through a reference: inline ones are added
+  }
+}
+
+bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id) {
+  if (value.json.is_string()) {
+    *id = FindMaterial(value, *context);
+    return id->valid();
+  }
+  if (!value.Expect(value.json.is_object(), "a material", kReferenceHint)) return false;
+  Material material;
+  material.name = value.path.ToString();
+  ReadMaterial(value, context, &material);
+  id->index = static_cast<uint32_t>(context->scene->materials.size());
+  context->scene->materials.push_back(std::move(material));
+  return true;
+}
+
+void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id) {
+  const Json* const json = shape->Require("material", kReferenceHint);
+  if (json == nullptr) return;
+  ReadMaterialId({*json, shape->path().Member("material"), shape->faults()}, context, id);
+}
+
+bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material) {
+  if (value.json.is_string()) {
+    const MaterialId id = FindMaterial(value, *context);
+    if (id.valid()) *material = context->scene->materials[id.index];
+    return id.valid();
+  }
+  if (!value.Expect(value.json.is_object(), "a material", kReferenceHint)) return false;
+  ReadMaterial(value, context, material);
+  return true;
+}
+
+}  // namespace nacre

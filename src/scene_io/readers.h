@@ -1,0 +1,48 @@
+// scene_io/readers.h: one reader for each part of a scene file. All report to the faults of the
+// value that they are given and leave defaults in place of what is wrong.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "scene/generators.h"
+#include "scene/scene.h"
+#include "scene_io/json_reader.h"
+
+namespace nacre {
+
+void ReadCamera(const JsonValue& value, Camera* camera);
+void ReadImage(const JsonValue& value, ImageSettings* image);
+void ReadLights(const JsonValue& value, std::vector<Light>* lights);
+
+// What materials and shapes need to know of the rest of the file.
+struct SceneContext {
+  std::filesystem::path folder;  // of the scene file
+  bool allow_paths = false;
+  Scene* scene = nullptr;
+  std::unordered_map<std::string, MaterialId> materials;  // by name
+};
+
+// The object "materials": all of them, in its order.
+void ReadMaterials(const JsonValue& value, SceneContext* context);
+
+// A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
+bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);
+
+// The required member "material" of a shape.
+void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id);
+
+// A copy of a material by name, or an inline one that is not added to the scene.
+bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material);
+
+// The array "shapes".
+void ReadShapes(const JsonValue& value, SceneContext* context);
+
+// The generators among the shapes; each adds what it makes to the scene unless there are faults.
+void ReadGrid(JsonObject* shape, SceneContext* context);
+void ReadPair(JsonObject* shape, SceneContext* context);
+void ReadCloud(JsonObject* shape, SceneContext* context);
+
+}  // namespace nacre

@@ -1,0 +1,20 @@
+// scene_io/text_file.h: whole text files, and the files that a scene may refer to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace nacre {
+
+// The bytes of a file. Throws Error (kBadInput) if it is missing, a folder, unreadable or longer
+// than max_bytes.
+std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes);
+
+// The file that a scene in `folder` refers to as `name`. Throws Error (kBadInput, without a place)
+// unless it is a regular file and, links followed, lies below the folder or allow_paths is set: a
+// scene from elsewhere should not read other files of its user.
+std::filesystem::path ResolveReference(const std::filesystem::path& folder, const std::string& name,
+                                       bool allow_paths);
+
+}  // namespace nacre

@@ -1,0 +1,75 @@
+// visibility/embree_api.h: Embree 3 and Embree 4 under one set of names: all that differs between
+// the two lives here. Queries run on packets of 4, 8 or 16 rays.
+#pragma once
+
+#if __has_include(<embree3/rtcore.h>)
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
+
+namespace nacre {
+
+#if RTC_VERSION_MAJOR == 3
+
+// What is handed unchanged from a query to its callbacks; extended by putting it first in a struct.
+using EmbreeContext = RTCIntersectContext;
+
+inline void InitContext(EmbreeContext* context) {
+  rtcInitIntersectContext(context);
+  context->flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+}
+
+inline void IntersectPacket(int width, const int* valid, RTCScene scene, EmbreeContext* context,
+                            RTCRayHit16* rays) {
+  switch (width) {
+    case 4: return rtcIntersect4(valid, scene, context, reinterpret_cast<RTCRayHit4*>(rays));
+    case 8: return rtcIntersect8(valid, scene, context, reinterpret_cast<RTCRayHit8*>(rays));
+    default: return rtcIntersect16(valid, scene, context, rays);
+  }
+}
+
+inline void OccludedPacket(int width, const int* valid, RTCScene scene, EmbreeContext* context,
+                           RTCRayHit16* rays) {
+  switch (width) {
+    case 4: return rtcOccluded4(valid, scene, context, reinterpret_cast<RTCRay4*>(rays));
+    case 8: return rtcOccluded8(valid, scene, context, reinterpret_cast<RTCRay8*>(rays));
+    default: return rtcOccluded16(valid, scene, context, reinterpret_cast<RTCRay16*>(rays));
+  }
+}
+
+#else
+
+using EmbreeContext = RTCRayQueryContext;
+
+inline void InitContext(EmbreeContext* context) { rtcInitRayQueryContext(context); }
+
+inline void IntersectPacket(int width, const int* valid, RTCScene scene, EmbreeContext* context,
+                            RTCRayHit16* rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.context = context;
+  switch (width) {
+    case 4: return rtcIntersect4(valid, scene, reinterpret_cast<RTCRayHit4*>(rays), &arguments);
+    case 8: return rtcIntersect8(valid, scene, reinterpret_cast<RTCRayHit8*>(rays), &arguments);
+    default: return rtcIntersect16(valid, scene, rays, &arguments);
+  }
+}
+
+inline void OccludedPacket(int width, const int* valid, RTCScene scene, EmbreeContext* context,
+                           RTCRayHit16* rays) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.context = context;
+  switch (width) {
+    case 4: return rtcOccluded4(valid, scene, reinterpret_cast<RTCRay4*>(rays), &arguments);
+    case 8: return rtcOccluded8(valid, scene, reinterpret_cast<RTCRay8*>(rays), &arguments);
+    default: return rtcOccluded16(valid, scene, reinterpret_cast<RTCRay16*>(rays), &arguments);
+  }
+}
+
+#endif
+
+}  // namespace nacre

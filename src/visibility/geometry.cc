@@ -1,0 +1,87 @@
+#include "visibility/geometry.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "base/error.h"
+#include "hit/batch.h"
+
+namespace nacre {
+namespace {
+
+void CheckPrimitiveCount(const Scene& scene) {
+  size_t primitives = scene.spheres.size();
+  size_t vertices = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    primitives += mesh.triangles.size() / 3;
+    vertices += mesh.positions.size();
+  }
+  if (std::max(primitives, vertices) >= kNoPrimitive) {
+    throw Error(ExitCode::kBadInput, "/shapes", "more than 2^32 - 2 primitives or vertices",
+                "split the scene");
+  }
+}
+
+std::vector<uint32_t> FirstCoincident(const std::vector<TraceSphere>& spheres) {
+  const auto key = [&](uint32_t i) {
+    const TraceSphere& s = spheres[i];
+    return std::tuple(s.center.x, s.center.y, s.center.z, s.radius);
+  };
+  std::vector<uint32_t> order(spheres.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+    return std::tuple(key(a), a) < std::tuple(key(b), b);
+  });
+  std::vector<uint32_t> first(spheres.size());
+  bool any = false;
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool coincides = i > 0 && key(order[i - 1]) == key(order[i]);
+    first[order[i]] = coincides ? first[order[i - 1]] : order[i];
+    any = any || coincides;
+  }
+  return any ? first : std::vector<uint32_t>{};
+}
+
+void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normals,
+                TraceGeometry* geometry) {
+  const auto base = static_cast<uint32_t>(geometry->positions.size());
+  for (const Vec3d& position : mesh.positions) {
+    geometry->positions.push_back(position - camera_position);
+    geometry->extent = std::max(geometry->extent, geometry->positions.back().length());
+  }
+  if (with_normals) {
+    geometry->normals.insert(geometry->normals.end(), mesh.normals.begin(), mesh.normals.end());
+    geometry->normals.resize(geometry->positions.size(), Vec3d(0));
+  }
+  for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
+    geometry->triangles.push_back({base + mesh.triangles[i], base + mesh.triangles[i + 1],
+                                   base + mesh.triangles[i + 2]});
+  }
+  geometry->mesh_end.push_back(static_cast<uint32_t>(geometry->triangles.size()));
+}
+
+}  // namespace
+
+uint32_t TraceGeometry::MeshOf(uint32_t triangle) const {
+  const auto mesh = std::upper_bound(mesh_end.begin(), mesh_end.end(), triangle);
+  return static_cast<uint32_t>(mesh - mesh_end.begin());
+}
+
+TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position) {
+  CheckPrimitiveCount(scene);
+  TraceGeometry geometry;
+  geometry.spheres.reserve(scene.spheres.size());
+  for (const Sphere& sphere : scene.spheres) {
+    geometry.spheres.push_back({sphere.center - camera_position, sphere.radius});
+    const double reach = geometry.spheres.back().center.length() + sphere.radius;
+    geometry.extent = std::max(geometry.extent, reach);
+  }
+  geometry.first_coincident = FirstCoincident(geometry.spheres);
+  const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                        [](const Mesh& mesh) { return !mesh.normals.empty(); });
+  for (const Mesh& mesh : scene.meshes) AppendMesh(mesh, camera_position, with_normals, &geometry);
+  return geometry;
+}
+
+}  // namespace nacre

@@ -1,0 +1,46 @@
+// visibility/geometry.h: the scene's primitives as the hit tests read them: doubles relative to
+// the camera (world position minus camera position, rounded once).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+struct TraceSphere {
+  Vec3d center;
+  double radius = 0;
+};
+
+struct TraceGeometry {
+  std::vector<TraceSphere> spheres;  // in scene order
+
+  // For each sphere the first one with the same centre and radius, so that a ray leaving one of
+  // several coincident spheres leaves them all. Empty when no two coincide.
+  std::vector<uint32_t> first_coincident;
+
+  // The vertices of all meshes, one after the other, and their triangles, indexing them.
+  std::vector<Vec3d> positions;
+  std::vector<Vec3d> normals;  // one per position, 0 where a mesh has none; empty if no mesh has any
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<uint32_t> mesh_end;  // for each mesh one past its last triangle
+
+  // No point of any primitive is further than this from the camera.
+  double extent = 0;
+
+  uint32_t SphereCount() const { return static_cast<uint32_t>(spheres.size()); }
+  uint32_t FirstCoincident(uint32_t sphere) const {
+    return first_coincident.empty() ? sphere : first_coincident[sphere];
+  }
+  // The mesh that a triangle belongs to.
+  uint32_t MeshOf(uint32_t triangle) const;
+};
+
+// Throws Error (kBadInput) when there are more primitives than ids.
+TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position);
+
+}  // namespace nacre

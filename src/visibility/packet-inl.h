@@ -1,0 +1,89 @@
+// visibility/packet-inl.h: what the callbacks for spheres and for triangles share: loading a
+// packet's rays, and recording exact hits.
+#if defined(NACRE_VISIBILITY_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_VISIBILITY_PACKET_INL_H_
+#undef NACRE_VISIBILITY_PACKET_INL_H_
+#else
+#define NACRE_VISIBILITY_PACKET_INL_H_
+#endif
+
+#include <algorithm>
+#include <limits>
+
+#include "visibility/packet.h"
+#include "visibility/two_product-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D>
+HWY_INLINE uint32_t BitsOfMask(D d, hn::Mask<D> mask) {
+  uint8_t bytes[4] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  return bytes[0] | static_cast<uint32_t>(bytes[1]) << 8;
+}
+
+// The mask of the lanes from `first` on.
+template <class D>
+HWY_INLINE hn::Mask<D> MaskOfBits(D d, uint32_t bits, int first) {
+  const uint32_t own = (bits >> first) & ((1u << hn::Lanes(d)) - 1);
+  const uint8_t bytes[8] = {static_cast<uint8_t>(own), static_cast<uint8_t>(own >> 8)};
+  return hn::LoadMaskBits(d, bytes);
+}
+
+template <class D>
+HWY_INLINE Vec3V<hn::Vec<D>> Origin(D d, const Packet& packet, int lane) {
+  return Load3(d, packet.origin_x + lane, packet.origin_y + lane, packet.origin_z + lane);
+}
+
+template <class D>
+HWY_INLINE Vec3V<hn::Vec<D>> Direction(D d, const Packet& packet, int lane) {
+  return Load3(d, packet.direction_x + lane, packet.direction_y + lane, packet.direction_z + lane);
+}
+
+// Embree's depths for t: never less. Demoting errs by half a unit in the last place at most, or,
+// near the smallest floats, by one of them.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE auto UpperDepth(D d, V t, V t_scale) {
+  const hn::Rebind<float, D> df;
+  const auto depth = hn::DemoteTo(df, hn::Mul(t, t_scale));
+  return hn::Add(hn::Mul(depth, hn::Set(df, 1 + 0x1p-22f)),
+                 hn::Set(df, std::numeric_limits<float>::min()));
+}
+
+// Keeps the hits (t, primitive), at the lanes from `lane` on, that come before the best ones so
+// far: those nearer, and among equals the lower id. Embree need not look further than them.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void RecordClosest(D d, Packet* packet, int lane, hn::Mask<D> hit, V t,
+                              uint32_t primitive) {
+  const V best = hn::Load(d, packet->best_t + lane);
+  uint32_t ties = BitsOfMask(d, hn::And(hit, hn::Eq(t, best)));
+  for (; ties != 0; ties &= ties - 1) {
+    uint32_t& other = packet->best_primitive[lane + __builtin_ctz(ties)];
+    other = std::min(other, primitive);
+  }
+  const auto nearer = hn::And(hit, hn::Lt(t, best));
+  uint32_t bits = BitsOfMask(d, nearer);
+  if (bits == 0) return;
+  const V new_best = hn::IfThenElse(nearer, t, best);
+  hn::Store(new_best, d, packet->best_t + lane);
+  const hn::Rebind<float, D> df;
+  hn::StoreU(UpperDepth(d, new_best, hn::Load(d, packet->t_scale + lane)), df,
+             packet->tfar() + lane);
+  for (; bits != 0; bits &= bits - 1) packet->best_primitive[lane + __builtin_ctz(bits)] = primitive;
+}
+
+// Marks the lanes of `bits` as occluded; Embree's sign for that is a limit of -infinity.
+HWY_INLINE void RecordOccluded(Packet* packet, uint32_t bits) {
+  packet->occluded |= bits;
+  for (; bits != 0; bits &= bits - 1) {
+    packet->tfar()[__builtin_ctz(bits)] = -std::numeric_limits<float>::infinity();
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

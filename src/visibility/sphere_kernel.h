@@ -1,0 +1,17 @@
+// visibility/sphere_kernel.h: Embree's callbacks for the spheres.
+#pragma once
+
+#include "visibility/embree_api.h"
+
+namespace nacre {
+
+struct PrimitiveCallbacks {
+  RTCIntersectFunctionN intersect;
+  RTCOccludedFunctionN occluded;
+};
+
+// For one user geometry whose primitives are TraceGeometry::spheres and whose user pointer is the
+// TraceGeometry; compiled for the active target. Queries must come with a Packet as context.
+PrimitiveCallbacks SphereCallbacks();
+
+}  // namespace nacre

@@ -1,0 +1,69 @@
+// visibility/sphere_test-inl.h: the ray-sphere test on SIMD vectors. Scalar twin, with the
+// derivation: visibility/sphere_test.h.
+#if defined(NACRE_VISIBILITY_SPHERE_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_VISIBILITY_SPHERE_TEST_INL_H_
+#undef NACRE_VISIBILITY_SPHERE_TEST_INL_H_
+#else
+#define NACRE_VISIBILITY_SPHERE_TEST_INL_H_
+#endif
+
+#include "visibility/two_product-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D, class V = hn::Vec<D>>
+struct SphereHitV {
+  hn::Mask<D> hit;
+  hn::Mask<D> inside;
+  V t;
+  V closest;
+  V half_chord;
+  Vec3V<V> perpendicular;
+};
+
+// inverse_dd is 1 / |direction|^2.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
+                                    V inverse_dd, V radius) {
+  const V zero = hn::Zero(d);
+  const V first_closest = hn::Mul(Dot(to_center, direction), inverse_dd);
+  const auto along_x = TwoProduct(d, first_closest, direction.x);
+  const auto along_y = TwoProduct(d, first_closest, direction.y);
+  const auto along_z = TwoProduct(d, first_closest, direction.z);
+  const Vec3V<V> rough{hn::Sub(hn::Sub(to_center.x, along_x.product), along_x.error),
+                       hn::Sub(hn::Sub(to_center.y, along_y.product), along_y.error),
+                       hn::Sub(hn::Sub(to_center.z, along_z.product), along_z.error)};
+  const V correction = hn::Mul(Dot(rough, direction), inverse_dd);
+  const Vec3V<V> perpendicular = Sub(rough, Scale(direction, correction));
+  const V closest = hn::Add(first_closest, correction);
+
+  const V radius2 = hn::Mul(radius, radius);
+  const V discriminant = hn::Sub(radius2, Dot(perpendicular, perpendicular));
+  const auto line_hit = hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero));
+  const V half_chord = hn::Sqrt(hn::Mul(hn::Max(discriminant, zero), inverse_dd));
+  const V larger = hn::Add(closest, hn::CopySign(half_chord, closest));
+  const V product = hn::Mul(hn::Sub(Dot(to_center, to_center), radius2), inverse_dd);
+  const V smaller = hn::Div(product, larger);
+  const auto ahead = hn::Gt(closest, zero);
+  const V near = hn::IfThenElse(ahead, smaller, larger);
+  const V far = hn::IfThenElse(ahead, larger, smaller);
+  const auto outside = hn::Gt(near, zero);
+  const V t = hn::IfThenElse(outside, near, far);
+  return {hn::And(line_hit, hn::Gt(t, zero)), hn::Not(outside), t, closest, half_chord,
+          perpendicular};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> CenterToHit(D /*d*/, const SphereHitV<D>& hit, const Vec3V<V>& direction) {
+  const Vec3V<V> along = Scale(direction, hn::IfThenElse(hit.inside, hit.half_chord,
+                                                         hn::Neg(hit.half_chord)));
+  return Sub(along, hit.perpendicular);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

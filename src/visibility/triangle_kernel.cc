@@ -1,0 +1,113 @@
+// visibility/triangle_kernel.cc: the double test of a packet of rays against one triangle.
+//
+// Embree's own triangle test is watertight, but its float edges depend on the instruction set and
+// on which rays share a packet, and so would the picture.
+#include "visibility/triangle_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visibility/triangle_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "visibility/packet-inl.h"
+#include "visibility/triangle_test-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+struct Corners {
+  Vec3d a, b, c;
+};
+
+HWY_INLINE Corners CornersOf(const TraceGeometry& geometry, uint32_t triangle) {
+  const auto& indices = geometry.triangles[triangle];
+  return {geometry.positions[indices[0]], geometry.positions[indices[1]],
+          geometry.positions[indices[2]]};
+}
+
+template <class D>
+HWY_INLINE Vec3V<hn::Vec<D>> Set3(D d, const Vec3d& v) {
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE TriangleHitV<D> TestLanes(D d, const Packet& packet, int lane, const Corners& corners) {
+  const auto& shear = packet.shear;
+  const Vec3V<V> origin = Origin(d, packet, lane);
+  return TestTriangle(d, Sub(Set3(d, corners.a), origin), Sub(Set3(d, corners.b), origin),
+                      Sub(Set3(d, corners.c), origin), Direction(d, packet, lane),
+                      hn::Load(d, packet.inverse_dd + lane),
+                      RayShearV<V>{Load3(d, shear[0] + lane, shear[1] + lane, shear[2] + lane),
+                                   Load3(d, shear[3] + lane, shear[4] + lane, shear[5] + lane)});
+}
+
+void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
+  Packet& packet = PacketOf(args->context);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const Corners corners = CornersOf(geometry, args->primID);
+  const uint32_t lanes = ActiveLanes(packet, args->valid, args->rayhit, args->N);
+  const hn::ScalableTag<double> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  for (int lane = 0; lane < packet.width; lane += step) {
+    const auto active = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, active)) continue;
+    const TriangleHitV<decltype(d)> hit = TestLanes(d, packet, lane, corners);
+    RecordClosest(d, &packet, lane, hn::And(active, hit.hit), hit.t,
+                  geometry.SphereCount() + args->primID);
+  }
+  ReturnDepths(packet, args->valid, args->rayhit, args->N);
+}
+
+// The lanes whose origin cannot be told from a point of the triangle's plane: their ray starts on
+// this surface (on a neighbour, or on the same triangle given twice), and is not occluded by it.
+//
+// The distance times |normal| is to_a . normal. With u = 2^-53, E = |e1|_1 |e2|_1 and R the reach
+// of the primitive that the ray starts on, the origin is off by at most 4 u R, its difference to a
+// corner by another u |to_a|, the normal by 4 u E and the dot product by 3 u |to_a| E: altogether
+// at most 12 u E (R + |to_a|_1).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> OnPlane(D d, const Packet& packet, int lane, const Corners& corners) {
+  constexpr double kUnit = 0x1p-53;
+  const Vec3d e1 = corners.b - corners.a, e2 = corners.c - corners.a;
+  const double edges = (std::abs(e1.x) + std::abs(e1.y) + std::abs(e1.z)) *
+                       (std::abs(e2.x) + std::abs(e2.y) + std::abs(e2.z));
+  const Vec3V<V> to_a = Sub(Set3(d, corners.a), Origin(d, packet, lane));
+  const V scaled_distance = hn::Abs(Dot(to_a, Set3(d, e1.cross(e2))));
+  const V reach = hn::Add(hn::Load(d, packet.start_reach + lane), SumOfAbs(to_a));
+  return hn::Le(scaled_distance, hn::Mul(hn::Set(d, 16 * kUnit * edges), reach));
+}
+
+void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
+  Packet& packet = PacketOf(args->context);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const Corners corners = CornersOf(geometry, args->primID);
+  const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N);
+  const hn::ScalableTag<double> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  uint32_t occluded = 0;
+  for (int lane = 0; lane < packet.width; lane += step) {
+    const auto active = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, active)) continue;
+    const TriangleHitV<decltype(d)> hit = TestLanes(d, packet, lane, corners);
+    const auto within = hn::And(hit.hit, hn::Lt(hit.t, hn::Load(d, packet.t_max + lane)));
+    const auto met = hn::And(active, within);
+    if (hn::AllFalse(d, met)) continue;
+    occluded |= BitsOfMask(d, hn::AndNot(OnPlane(d, packet, lane, corners), met)) << lane;
+  }
+  RecordOccluded(&packet, occluded);
+  ReturnDepths(packet, args->valid, args->ray, args->N);
+}
+
+PrimitiveCallbacks Callbacks() { return {&IntersectTriangle, &OccludedByTriangle}; }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(Callbacks);
+PrimitiveCallbacks TriangleCallbacks() { return HWY_DYNAMIC_DISPATCH(Callbacks)(); }
+}  // namespace nacre
+#endif

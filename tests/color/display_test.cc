@@ -1,0 +1,136 @@
+// tests/color/display_test.cc: EncodeDisplay: codes, tails, alignment, NaN and infinities.
+#include "color/display.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "catch.h"
+#include "color/transfer.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+using Color = Imath::Color3<double>;
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+constexpr ToneOperator kAllTones[] = {
+    ToneOperator::kNeutral, ToneOperator::kReinhard, ToneOperator::kReinhardExtended,
+    ToneOperator::kAces,    ToneOperator::kAgx,      ToneOperator::kNone};
+
+int Code(double light) {
+  return static_cast<int>(std::floor(255 * SrgbOetf(std::clamp(light, 0.0, 1.0)) + 0.5));
+}
+
+TEST_CASE("Codes are those of the double twin, within display.h's error", "[color]") {
+  const size_t count = 100'003;
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<float> log2_value(-16, 8);
+  std::vector<float> planes[3];
+  for (auto& plane : planes) {
+    for (size_t i = 0; i < count; ++i) {
+      plane.push_back(i % 7 == 0 ? -1.0f : std::exp2(log2_value(engine)));
+    }
+  }
+  std::vector<uint8_t> rgb8(3 * count);
+  ForEachTarget([&](Target) {
+    for (const ToneOperator tone : kAllTones) {
+      DisplaySettings settings;
+      settings.tone = tone;
+      settings.exposure_ev = 0.7;
+      const bool is_agx = tone == ToneOperator::kAgx;
+      const double relative = is_agx ? 4e-6 : 1e-6;
+      const double absolute = is_agx ? 1e-6 : 1e-7;
+      const size_t nans = EncodeDisplay(settings, planes[0].data(), planes[1].data(),
+                                        planes[2].data(), count, rgb8.data());
+      CHECK(nans == 0);
+      size_t wrong = 0;
+      for (size_t i = 0; i < count; ++i) {
+        const Color light = DisplayLight(settings, Color(planes[0][i], planes[1][i], planes[2][i]));
+        for (size_t c = 0; c < 3; ++c) {
+          const double exact = light[static_cast<int>(c)];
+          const double error = std::max(relative * exact, absolute);
+          const int code = rgb8[3 * i + c];
+          wrong += code < Code(exact - error) || code > Code(exact + error);
+        }
+      }
+      CAPTURE(ToneOperatorName(tone));
+      CHECK(wrong == 0);
+    }
+  });
+}
+
+TEST_CASE("Any count and alignment gives the same pixels and nothing beyond", "[color]") {
+  std::vector<float> planes[3];
+  for (size_t i = 0; i < 400; ++i) {
+    for (size_t c = 0; c < 3; ++c) planes[c].push_back(static_cast<float>((i * (c + 3)) % 97) / 90);
+  }
+  ForEachTarget([&](Target) {
+    std::vector<uint8_t> all(3 * 400);
+    EncodeDisplay({}, planes[0].data(), planes[1].data(), planes[2].data(), 400, all.data());
+    for (size_t count = 0; count <= 300; ++count) {
+      const size_t offset = count % 5;
+      std::vector<uint8_t> some(3 * count + 64, 0xa5);
+      // The planes end with the pixels, for the address sanitizer to see a read beyond.
+      const std::vector<float> r(planes[0].begin(), planes[0].begin() + long(offset + count));
+      const std::vector<float> g(planes[1].begin(), planes[1].begin() + long(offset + count));
+      const std::vector<float> b(planes[2].begin(), planes[2].begin() + long(offset + count));
+      EncodeDisplay({}, r.data() + offset, g.data() + offset, b.data() + offset, count,
+                    some.data());
+      CAPTURE(count);
+      CHECK(
+          std::equal(some.begin(), some.begin() + long(3 * count), all.begin() + long(3 * offset)));
+      CHECK(std::all_of(some.begin() + long(3 * count), some.end(),
+                        [](uint8_t byte) { return byte == 0xa5; }));
+    }
+  });
+}
+
+TEST_CASE("NaN pixels are magenta and counted, infinities are light or dark", "[color]") {
+  std::vector<float> r(301, 0.5f), g(301, 0.5f), b(301, 0.5f);
+  r[0] = g[130] = b[300] = kNan;
+  r[7] = g[7] = b[7] = kInf;
+  r[8] = g[8] = b[8] = -kInf;
+  r[9] = kNan;
+  g[9] = kInf;
+  b[9] = -kInf;
+  r[10] = -std::numeric_limits<float>::quiet_NaN();
+  std::vector<uint8_t> rgb8(3 * r.size());
+  ForEachTarget([&](Target) {
+    for (const ToneOperator tone : kAllTones) {
+      DisplaySettings settings;
+      settings.tone = tone;
+      CAPTURE(ToneOperatorName(tone));
+      CHECK(EncodeDisplay(settings, r.data(), g.data(), b.data(), r.size(), rgb8.data()) == 5);
+      for (const size_t i : {0, 9, 10, 130, 300}) {
+        CHECK((rgb8[3 * i] == 255 && rgb8[3 * i + 1] == 0 && rgb8[3 * i + 2] == 255));
+      }
+      for (const size_t c : {0, 1, 2}) CHECK((rgb8[21 + c] == 255 && rgb8[24 + c] == 0));
+    }
+  });
+}
+
+TEST_CASE("Codes of sorted greys never fall", "[color]") {
+  std::vector<float> greys;
+  for (int i = 0; i < 1'000'000; ++i) {
+    greys.push_back(static_cast<float>(std::exp2(-40 + i * (160.0 / 999'999))));
+  }
+  std::vector<uint8_t> rgb8(3 * greys.size());
+  ForEachTarget([&](Target) {
+    for (const ToneOperator tone : kAllTones) {
+      DisplaySettings settings;
+      settings.tone = tone;
+      EncodeDisplay(settings, greys.data(), greys.data(), greys.data(), greys.size(), rgb8.data());
+      size_t falls = 0;
+      for (size_t i = 3; i < rgb8.size(); ++i) falls += rgb8[i] < rgb8[i - 3];
+      CAPTURE(ToneOperatorName(tone));
+      CHECK(falls == 0);
+      CHECK(rgb8.back() == 255);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace nacre

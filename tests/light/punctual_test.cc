@@ -1,0 +1,111 @@
+// tests/light/punctual_test.cc: fall-off of point and spot lights against tables/punctual.json,
+// in double and in float on every target, and the rules at the edges.
+#include "light/punctual.h"
+
+#include <cmath>
+#include <limits>
+
+#include "catch.h"
+#include "light/punctual_kernel.h"
+#include "tables.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+struct Expected {
+  AttenuationTerms<double> terms;
+  double distance;
+  double value;
+};
+
+struct ExpectedSpot {
+  ConeTerms<double> cone;
+  double cosine;
+  double value;
+};
+
+AttenuationTerms<float> ToFloat(const AttenuationTerms<double>& terms) {
+  return {static_cast<float>(terms.constant), static_cast<float>(terms.linear),
+          static_cast<float>(terms.quadratic)};
+}
+
+ConeTerms<float> ToFloat(const ConeTerms<double>& cone) {
+  return {static_cast<float>(cone.cos_cutoff), static_cast<float>(cone.cos_inner),
+          static_cast<float>(cone.exponent)};
+}
+
+void LoadRows(std::vector<Expected>* falloffs, std::vector<ExpectedSpot>* spots) {
+  const nlohmann::json table = LoadTable("punctual");
+  for (const auto& row : table.at("rows")) {
+    const auto number = [&](const char* key) { return TableNumber(row[key]); };
+    const double distance = number("distance");
+    falloffs->push_back({{0, 0, 1}, distance, TableNumber(row["inv_sq"])});
+    falloffs->push_back({{number("eps"), 0, 1}, distance, TableNumber(row["F3_eps"])});
+    falloffs->push_back(
+        {{number("Kc"), number("Kl"), number("Kq")}, distance, TableNumber(row["F2_poly"])});
+    const double cutoff = number("cos_cutoff");
+    spots->push_back({{cutoff, cutoff, number("exponent")},
+                      number("cos_alpha"),
+                      TableNumber(row["spot_factor"])});
+  }
+  REQUIRE_FALSE(falloffs->empty());
+}
+
+// tables/README: 4u for fall-offs, 8u(exponent + 8) for the spot.
+bool Within(double got, double reference, double units, double u) {
+  return std::abs(got - reference) <= units * u * std::abs(reference) + 1e-300;
+}
+
+TEST_CASE("fall-offs match the table", "[table]") {
+  std::vector<Expected> falloffs;
+  std::vector<ExpectedSpot> spots;
+  LoadRows(&falloffs, &spots);
+  for (const Expected& row : falloffs) {
+    CHECK(Within(AttenuationFactor(row.terms, row.distance), row.value, 4, kHalfUlpDouble));
+  }
+  for (const ExpectedSpot& row : spots) {
+    CHECK(Within(SpotFactor(row.cone, row.cosine), row.value, 8 * (row.cone.exponent + 8),
+                 kHalfUlpDouble));
+  }
+  ForEachTarget([&](Target) {
+    for (const Expected& row : falloffs) {
+      CAPTURE(row.distance, row.value);
+      CHECK(Within(EvaluateAttenuation({ToFloat(row.terms)}, {static_cast<float>(row.distance)})[0],
+                   row.value, 4, kHalfUlpFloat));
+    }
+    for (const ExpectedSpot& row : spots) {
+      CAPTURE(row.cosine, row.cone.exponent, row.value);
+      CHECK(Within(EvaluateSpot({ToFloat(row.cone)}, {static_cast<float>(row.cosine)})[0],
+                   row.value, 8 * (row.cone.exponent + 8), kHalfUlpFloat));
+    }
+  });
+}
+
+TEST_CASE("a light at the shaded point gives nothing, at any attenuation") {
+  const float tiny = std::numeric_limits<float>::min();
+  ForEachTarget([&](Target) {
+    CHECK(EvaluateAttenuation({{0, 0, 1}}, {0.0f})[0] == 0);
+    CHECK(EvaluateAttenuation({{1, 0, 0}}, {0.0f})[0] == 0);
+    CHECK(EvaluateAttenuation({{1, 0, 0}}, {tiny})[0] == 1);
+  });
+}
+
+TEST_CASE("a cone is dark at its cutoff, and a penumbra of no width is a hard edge") {
+  const float cutoff = 0.5f;
+  ForEachTarget([&](Target) {
+    const ConeTerms<float> hard{cutoff, cutoff, 0};
+    CHECK(EvaluateSpot({hard}, {cutoff})[0] == 0);
+    CHECK(EvaluateSpot({hard}, {std::nextafter(cutoff, 1.0f)})[0] == 1);
+    const ConeTerms<float> soft{cutoff, 0.75f, 0};
+    CHECK(EvaluateSpot({soft}, {cutoff})[0] == 0);
+    CHECK(EvaluateSpot({soft}, {0.625f})[0] == 0.5f);  // halfway: smoothstep(1/2)
+    CHECK(EvaluateSpot({soft}, {0.75f})[0] == 1);
+    // A cone wider than a half-space: negative cosines count as 0 for the exponent.
+    CHECK(EvaluateSpot({{-0.5f, -0.5f, 2}}, {-0.25f})[0] == 0);
+    CHECK(EvaluateSpot({{-0.5f, -0.5f, 0}}, {-0.25f})[0] == 1);
+  });
+}
+
+}  // namespace
+}  // namespace nacre
