@@ -33,14 +33,30 @@ function(nacre_library name)
   endif()
 endfunction()
 
-# nacre_test(FOLDER DEPENDS...): one Catch2 program from tests/<FOLDER>/*_test.cc.
+# nacre_test(FOLDER [TABLES] DEPENDS...): one Catch2 program from tests/<FOLDER>/*_test.cc.
+# TABLES: its cases tagged [table] read reference tables and make a ctest of their own,
+# <FOLDER>_table, which can be run on other tables of the same form (tests/tables.h).
 function(nacre_test folder)
-  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "TABLES" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*_test.cc)
   add_executable(nacre_${folder}_test ${sources})
   set_target_properties(nacre_${folder}_test PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(nacre_${folder}_test PRIVATE nacre_test_main ${ARG_DEPENDS})
   target_include_directories(nacre_${folder}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  add_test(NAME ${folder} COMMAND nacre_${folder}_test)
+  add_test(NAME ${folder} COMMAND nacre_${folder}_test ~[table])
+  if(ARG_TABLES)
+    add_test(NAME ${folder}_table COMMAND nacre_${folder}_test [table])
+  endif()
+endfunction()
+
+# nacre_version_source(TARGET): compiles the version and commit of this checkout into TARGET.
+function(nacre_version_source target)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/version.cc)
+  add_custom_target(nacre_version BYPRODUCTS ${output}
+    COMMAND ${CMAKE_COMMAND} -DSOURCE_DIR=${CMAKE_SOURCE_DIR} -DOUTPUT=${output}
+      -DVERSION=${PROJECT_VERSION} -P ${CMAKE_SOURCE_DIR}/scripts/cmake/write_version.cmake
+    COMMENT "Reading the commit")
+  target_sources(${target} PRIVATE ${output})
+  add_dependencies(${target} nacre_version)
 endfunction()

@@ -20,15 +20,15 @@ constexpr size_t RoundUp(size_t value, size_t multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
-// A fixed-size array of trivial T on a kVectorBytes boundary, zero-initialised; its allocation is
-// rounded up to whole vectors, so kernels may load and store past size() up to the padding.
+// A fixed-size array of trivial T on a kVectorBytes boundary, zero-initialised. Its allocation is
+// rounded up to whole vectors and one more, so a kernel may load and store a vector that begins
+// at any entry below size().
 template <typename T>
 class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(size_t size) : size_(size) {
-    const size_t bytes = RoundUp(size * sizeof(T), kVectorBytes);
-    if (bytes == 0) return;
+    const size_t bytes = RoundUp(size * sizeof(T), kVectorBytes) + kVectorBytes;
     data_.reset(static_cast<T*>(std::aligned_alloc(kVectorBytes, bytes)));
     if (!data_) throw std::bad_alloc();
     std::memset(static_cast<void*>(data_.get()), 0, bytes);

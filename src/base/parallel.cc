@@ -30,6 +30,11 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   });
 }
 
+void WithThreads(int threads, const std::function<void()>& body) {
+  tbb::task_arena arena(ThreadCount(threads));
+  arena.execute(body);
+}
+
 #if defined(__SSE2__)
 FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
   constexpr unsigned kFlushToZero = 0x8000;

@@ -11,6 +11,10 @@ namespace nacre {
 // (FlushDenormals). An exception from a body stops the loop and is thrown to the caller.
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
 
+// Calls body() once; parallel work that it starts through TBB (Embree's builds) uses up to
+// `threads` threads, counted as above.
+void WithThreads(int threads, const std::function<void()>& body);
+
 // The number of threads that ParallelFor uses for `threads`.
 int ThreadCount(int threads);
 

@@ -14,8 +14,8 @@
 #include <Imath/ImathColor.h>
 
 namespace nacre {
-
 namespace agx {
+
 struct Matrix {
   double m[3][3];
 };
@@ -24,8 +24,8 @@ inline constexpr Matrix kPublishedInset = {{
     {0.0423282422610123, 0.878468636469772, 0.0791661274605434},
     {0.0423756549057051, 0.0784336, 0.879142973793104},
 }};
+// Its inverse.
 inline constexpr Matrix kPublishedOutset = {{
-    // its inverse
     {1.19687900512017, -0.0980208811401368, -0.0990297440797205},
     {-0.0528968517574562, 1.15190312990417, -0.0989611768448433},
     {-0.0529716355144438, -0.0980434501171241, 1.15107367264116},
@@ -81,6 +81,7 @@ Imath::Color3<Real> Transform(const Matrix& matrix, const Imath::Color3<Real>& r
   };
   return {row(0), row(1), row(2)};
 }
+
 }  // namespace agx
 
 template <typename Real>

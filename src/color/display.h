@@ -49,10 +49,10 @@ Imath::Color3<Real> DisplayLight(const DisplaySettings& settings, Imath::Color3<
 // Encodes `count` pixels, given as three planes of any alignment and without padding, as 8-bit
 // sRGB: 3 count interleaved bytes in `rgb8`, which overlaps no plane.
 //
-// The display light is that of DisplayLight<double>, computed in float with a relative error of
-// at most 1e-6 (AgX: 4e-6, or 1e-6 absolute); its code is exact for that float (color/srgb8.h), so
-// with kNone at exposure 0 codes are exact for every float, and otherwise at most one off, where
-// the light lies that near to a code's threshold.
+// The display light is that of DisplayLight<double>, computed in float with an error of at most
+// 1e-6 of it or 1e-7 (AgX: 4e-6 of it or 1e-6), whichever is more; its code is exact for that float
+// (color/srgb8.h). So with kNone at exposure 0 codes are exact for every float, and otherwise at
+// most one off, where the light lies that near to a code's threshold.
 //
 // Pixels with a NaN are drawn magenta (255, 0, 255); returns how many there are.
 size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const float* g,

@@ -92,10 +92,12 @@ struct AcesTone {
   static HWY_INLINE V Curve(D d, V x) {
     const V u = RatioNumerator(d, x);
     const V v = RatioDenominator(d, x);
-    const V numerator = hn::Mul(u, hn::MulAdd(hn::Set(d, 2.51f), u, hn::Mul(hn::Set(d, 0.03f), v)));
-    const V linear = hn::MulAdd(hn::Set(d, 2.43f), u, hn::Mul(hn::Set(d, 0.59f), v));
-    const V denominator = hn::MulAdd(u, linear, hn::Mul(hn::Mul(hn::Set(d, 0.14f), v), v));
-    return hn::Min(hn::Div(numerator, denominator), hn::Set(d, 1.0f));
+    // Times 100, so that the coefficients are exact.
+    const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
+    const V numerator = hn::Mul(u, hn::MulAdd(set(251), u, hn::Mul(set(3), v)));
+    const V linear = hn::MulAdd(set(243), u, hn::Mul(set(59), v));
+    const V denominator = hn::MulAdd(u, linear, hn::Mul(hn::Mul(set(14), v), v));
+    return hn::Min(hn::Div(numerator, denominator), set(1));
   }
 };
 
@@ -150,16 +152,16 @@ struct AgxTone {
   }
 
   template <class D, class V>
-  static HWY_INLINE void Transform(D d, const double (&m)[3][3], V r, V g, V b, V* out_r, V* out_g,
-                                   V* out_b) {
+  static HWY_INLINE void Transform(D d, const agx::Matrix& matrix, V r, V g, V b, V* out_r,
+                                   V* out_g, V* out_b) {
     const auto row = [&](const double(&k)[3]) HWY_ATTR {
       const V first = hn::Mul(hn::Set(d, static_cast<float>(k[0])), r);
       return hn::MulAdd(hn::Set(d, static_cast<float>(k[2])), b,
                         hn::MulAdd(hn::Set(d, static_cast<float>(k[1])), g, first));
     };
-    *out_r = row(m[0]);
-    *out_g = row(m[1]);
-    *out_b = row(m[2]);
+    *out_r = row(matrix.m[0]);
+    *out_g = row(matrix.m[1]);
+    *out_b = row(matrix.m[2]);
   }
 
   // x^exponent for x > 0.
@@ -168,9 +170,10 @@ struct AgxTone {
     return hn::Exp(d, hn::Mul(hn::Log(d, x), exponent));
   }
 
-  // Logarithmic encoding and sigmoid of one channel.
+  // Logarithmic encoding and sigmoid of one channel. Called, not inlined, as is Linearise: six
+  // copies of their exponentials and logarithms are no faster and take minutes to compile.
   template <class D, class V>
-  static HWY_INLINE V Curve(D d, V x) {
+  static HWY_NOINLINE V Curve(D d, V x) {
     const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
     constexpr double kStopsPerLog = 1.4426950408889634 / agx::kStops;  // log2(e)
     const V clamped = hn::Min(hn::Max(x, set(agx::kDarkest)), set(agx::kBrightest));
@@ -189,7 +192,7 @@ struct AgxTone {
 
   // The light of a display of power 2.2. Below 1e-9 (3e-20 of white, code 0) it gives that.
   template <class D, class V>
-  static HWY_INLINE V Linearise(D d, V x) {
+  static HWY_NOINLINE V Linearise(D d, V x) {
     const V encoded = hn::Min(hn::Max(x, hn::Set(d, 1e-9f)), hn::Set(d, 1.0f));
     const V light = Power(d, encoded, hn::Set(d, static_cast<float>(agx::kDisplayPower)));
     return hn::Min(light, hn::Set(d, 1.0f));

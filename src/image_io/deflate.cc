@@ -39,8 +39,7 @@ size_t FastDeflate(std::span<const uint8_t> bytes, DeflateForm form, Scratch* sc
   return stream.total_out;
 }
 
-size_t SmallDeflate(std::span<const uint8_t> bytes, DeflateForm form, int level,
-                    Scratch* scratch) {
+size_t SmallDeflate(std::span<const uint8_t> bytes, DeflateForm form, int level, Scratch* scratch) {
   constexpr int kMemoryLevel = 9;
   const int window_bits = form == DeflateForm::kZlib ? MAX_WBITS : -MAX_WBITS;  // < 0: raw
   z_stream stream{};

@@ -19,10 +19,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Bits of floats.
 constexpr int32_t kInfinityBits = 0x7f800000;
-constexpr int32_t kMaxHalfBits = 0x477fe000;         // 65504
-constexpr int32_t kMinNormalHalfBits = 0x38800000;   // 2^-14
-constexpr int32_t kHalfBits = 0x3f000000;            // 0.5
-constexpr int32_t kQuietNanBits = 0x47c00000;        // 2^16 * 1.5: becomes 0x7e00 below
+constexpr int32_t kMaxHalfBits = 0x477fe000;          // 65504
+constexpr int32_t kMinNormalHalfBits = 0x38800000;    // 2^-14
+constexpr int32_t kHalfBits = 0x3f000000;             // 0.5
+constexpr int32_t kQuietNanBits = 0x47c00000;         // 2^16 * 1.5: becomes 0x7e00 below
 constexpr int32_t kExponentShift = (127 - 15) << 23;  // between the two formats' biases
 
 template <class VI, class DI>

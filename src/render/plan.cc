@@ -84,7 +84,7 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
 
 void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   const int spp = scene.image.spp;
-  plan->filter = MakeFilterSampler(scene.image.filter);
+  plan->sampler = MakePixelSampler(scene.image.filter, spp, scene.image.seed);
   // One sample a pixel makes small batches; wider tiles fill them.
   constexpr int kWideTile = static_cast<int>(kBatchCapacity) / kStripRows;
   plan->tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kWideTile)

@@ -10,7 +10,7 @@
 #include "render/layers.h"
 #include "render/settings.h"
 #include "render/stats.h"
-#include "sampling/pixel_filter.h"
+#include "sampling/pixel_sampler.h"
 #include "scene/scene.h"
 #include "shading/shade.h"
 #include "visibility/intersector.h"
@@ -36,7 +36,7 @@ struct RenderPlan {
   Window frame;   // all pixels: 0, 0, width, height
   Window window;  // those to render
   CameraFrame camera;
-  FilterSampler filter;
+  PixelSampler sampler;
   std::vector<Layer> layers;  // beauty, alpha, then those asked for
   std::vector<PlannedLight> lights;
   std::vector<MaterialConstants> materials;   // one per material of the scene

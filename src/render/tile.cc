@@ -27,19 +27,10 @@ class StageClock {
 
 // Samples [first, first + count) of each pixel of the tile, and the camera rays through them.
 void MakeRays(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
-  const ImageSettings& image = plan.scene->image;
-  size_t ray = 0;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x) {
-      for (int i = first; i < first + count; ++i, ++ray) {
-        const FilterSample sample = PixelSample(plan.filter, x, y, i, image.spp, image.seed);
-        s->film_x[ray] = x + 0.5 + sample.dx;
-        s->film_y[ray] = y + 0.5 + sample.dy;
-        s->weight[ray] = sample.weight;
-      }
-    }
-  }
-  MakeCameraRays(plan.camera, s->film_x.data(), s->film_y.data(), ray, &s->rays);
+  SamplePixels(plan.sampler, tile, first, count, s->film_x.data(), s->film_y.data(),
+               s->weight.data());
+  const size_t ray_count = tile.pixel_count() * static_cast<size_t>(count);
+  MakeCameraRays(plan.camera, s->film_x.data(), s->film_y.data(), ray_count, &s->rays);
 }
 
 // Sorts the rays that hit something by material: hit_rays lists them run by run, in the order of

@@ -11,7 +11,7 @@ constexpr double DefaultFilterWidth(FilterKind kind) {
     case FilterKind::kBox:
       return 1;
     case FilterKind::kGaussian:
-      return 3;
+      return 3;  // six standard deviations
     case FilterKind::kBlackmanHarris:
       return 3.3;  // 1.1 pixels wide at half its height
     case FilterKind::kMitchell:

@@ -79,12 +79,12 @@ void AddGridLabels(const Grid& grid, const MaterialParameter* row_parameter,
   for (size_t i = 0; row_parameter != nullptr && i < grid.rows.values.size(); ++i) {
     const double y = grid.center.y - Offset(i, grid.rows.count, grid.spacing.y);
     scene->labels.push_back({AxisLabel(*row_parameter, grid.rows, i), Vec3d(left, y, grid.center.z),
-                             Label::Align::kLeftMargin});
+                             Label::Side::kLeft});
   }
   for (size_t i = 0; column_parameter != nullptr && i < grid.columns.values.size(); ++i) {
     const double x = grid.center.x + Offset(i, grid.columns.count, grid.spacing.x);
     scene->labels.push_back({AxisLabel(*column_parameter, grid.columns, i),
-                             Vec3d(x, top, grid.center.z), Label::Align::kTopMargin});
+                             Vec3d(x, top, grid.center.z), Label::Side::kAbove});
   }
 }
 
@@ -99,15 +99,15 @@ void AddPairSphere(const PairRow& row, const PairSide& side, const MaterialParam
 // The values of one side above or below its spheres, of which `first` is the leftmost centre; its
 // name at the left.
 void AddPairLabels(const PairRow& row, const PairSide& side, const MaterialParameter* parameter,
-                   const Vec3d& first, Label::Align align, Scene* scene) {
-  const Vec3d edge(0, align == Label::Align::kTopMargin ? row.radius : -row.radius, 0);
+                   const Vec3d& first, Label::Side align, Scene* scene) {
+  const Vec3d edge(0, align == Label::Side::kAbove ? row.radius : -row.radius, 0);
   for (size_t i = 0; parameter != nullptr && i < side.values.values.size(); ++i) {
     const Vec3d center = first + Vec3d(static_cast<double>(i) * row.pair_spacing, 0, 0);
     scene->labels.push_back({AxisLabel(*parameter, side.values, i), center + edge, align});
   }
   if (row.arrangement == PairRow::Arrangement::kStacked && !side.label.empty()) {
     scene->labels.push_back(
-        {side.label, first - Vec3d(row.radius, 0, 0), Label::Align::kLeftMargin});
+        {side.label, first - Vec3d(row.radius, 0, 0), Label::Side::kLeft});
   }
 }
 
@@ -161,8 +161,8 @@ void AddPair(const PairRow& row, Scene* scene) {
     AddPairSphere(row, row.a, a_parameter, i, middle(i) + to_a, scene);
     AddPairSphere(row, row.b, b_parameter, i, middle(i) - to_a, scene);
   }
-  AddPairLabels(row, row.a, a_parameter, middle(0) + to_a, Label::Align::kTopMargin, scene);
-  AddPairLabels(row, row.b, b_parameter, middle(0) - to_a, Label::Align::kBottomMargin, scene);
+  AddPairLabels(row, row.a, a_parameter, middle(0) + to_a, Label::Side::kAbove, scene);
+  AddPairLabels(row, row.b, b_parameter, middle(0) - to_a, Label::Side::kBelow, scene);
 }
 
 }  // namespace nacre

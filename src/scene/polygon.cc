@@ -63,8 +63,8 @@ void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangle
     while (ear < remaining.size() && !IsEar(flat, remaining, ear)) ++ear;
     if (ear == remaining.size()) ear = IsEar(flat, remaining, 0) ? 0 : 1;
     const size_t n = remaining.size();
-    triangles->insert(triangles->end(), {remaining[(ear + n - 1) % n], remaining[ear],
-                                         remaining[(ear + 1) % n]});
+    triangles->insert(triangles->end(),
+                      {remaining[(ear + n - 1) % n], remaining[ear], remaining[(ear + 1) % n]});
     remaining.erase(remaining.begin() + static_cast<std::ptrdiff_t>(ear));
   }
 }

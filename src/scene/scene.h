@@ -174,12 +174,12 @@ struct Mesh {
   MaterialId material;
 };
 
-// Text that --labels writes into the PNG, placed at the projection of a world point.
+// Text that --labels writes into the PNG, beside the projection of a world point.
 struct Label {
-  enum class Align : uint8_t { kLeftMargin, kTopMargin, kBottomMargin };
+  enum class Side : uint8_t { kLeft, kAbove, kBelow };
   std::string text;
   Vec3d anchor;
-  Align align = Align::kLeftMargin;
+  Side side = Side::kLeft;  // of the anchor
 };
 
 struct Scene {

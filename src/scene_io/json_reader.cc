@@ -1,9 +1,9 @@
 #include "scene_io/json_reader.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -132,7 +132,7 @@ JsonObject::JsonObject(const JsonValue& value, std::string_view hint) : value_(v
 }
 
 const Json* JsonObject::Find(std::string_view name) {
-  known_.push_back(name);
+  if (std::find(known_.begin(), known_.end(), name) == known_.end()) known_.push_back(name);
   if (!is_object()) return nullptr;
   const auto found = value_.json.find(name);
   return found == value_.json.end() ? nullptr : &*found;

@@ -1,12 +1,12 @@
 #include "scene_io/json_text.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <unordered_set>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -16,8 +16,9 @@ namespace {
 // Deeper than any scene; a guard for whatever walks the tree recursively.
 constexpr size_t kMaxDepth = 100;
 
-// "3:14", counted from 1, of a byte of the text.
-std::string LineAndColumn(std::string_view text, size_t offset) {
+// "3:14", counted from 1, of the last of the first `bytes_read` bytes of the text.
+std::string LineAndColumn(std::string_view text, size_t bytes_read) {
+  const size_t offset = bytes_read > 0 ? bytes_read - 1 : 0;
   const std::string_view before = text.substr(0, std::min(offset, text.size()));
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -54,7 +55,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     return true;
   }
 
-  bool parse_error(size_t offset, const std::string& token,
+  bool parse_error(size_t bytes_read, const std::string& token,
                    const nlohmann::json::exception& error) override {
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
@@ -64,7 +65,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: what we want"
     const std::string message = error.what();
     const size_t start = message.find(": ", message.find("column"));
-    throw Error(ExitCode::kBadInput, file_ + ":" + LineAndColumn(text_, offset),
+    throw Error(ExitCode::kBadInput, file_ + ":" + LineAndColumn(text_, bytes_read),
                 "not JSON: " + (start == std::string::npos ? message : message.substr(start + 2)),
                 "JSON has no comments and no comma after the last item");
   }
@@ -80,18 +81,22 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   std::string Pointer() const {
     std::string pointer;
     for (size_t i = 0; i + 1 < levels_.size(); ++i) {
-      pointer += "/" + (levels_[i].value->is_array()
-                            ? std::to_string(levels_[i].value->size() - 1)
-                            : PointerToken(levels_[i].name));
+      const Json& value = *levels_[i].value;
+      pointer += '/';
+      pointer +=
+          value.is_array() ? std::to_string(value.size() - 1) : PointerToken(levels_[i].name);
     }
     return pointer;
   }
 
+  // The pointer to the value that comes next.
   std::string PointerToNext() const {
     if (levels_.empty()) return {};
-    const Level& level = levels_.back();
-    return Pointer() + "/" + (level.value->is_array() ? std::to_string(level.value->size())
-                                                      : PointerToken(level.name));
+    const Json& value = *levels_.back().value;
+    std::string pointer = Pointer();
+    pointer += '/';
+    pointer += value.is_array() ? std::to_string(value.size()) : PointerToken(levels_.back().name);
+    return pointer;
   }
 
   Json* Insert(Json value) {

@@ -1,9 +1,10 @@
 // scene_io/json_text.h: JSON text to a tree, with the strictness that scene files want.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+
+#include <nlohmann/json.hpp>
 
 #include "scene/fault_list.h"
 

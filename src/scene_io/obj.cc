@@ -1,8 +1,5 @@
 #include "scene_io/obj.h"
 
-#include <fmt/format.h>
-#include <tiny_obj_loader.h>
-
 #include <charconv>
 #include <cmath>
 #include <exception>
@@ -10,6 +7,9 @@
 #include <string_view>
 #include <unordered_map>
 #include <utility>
+
+#include <fmt/format.h>
+#include <tiny_obj_loader.h>
 
 #include "base/error.h"
 #include "scene/polygon.h"
@@ -41,21 +41,29 @@ bool IsFiniteNumber(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
 }
 
-// tinyobjloader takes what it cannot read as 0; we would rather say so.
-void CheckNumbers(std::string_view text, const std::string& file) {
-  for (size_t line_number = 1; !text.empty(); ++line_number) {
-    const size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+void CheckNumbers(std::string_view line, std::string_view keyword, const std::string& place) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string_view word = NextWord(&line);
+    if (IsFiniteNumber(word)) continue;
+    Refuse(place, fmt::format("\"{}\" is not a finite number", word),
+           fmt::format("\"{}\" is followed by three", keyword));
+  }
+}
+
+// What tinyobjloader would not survive or not tell: it takes numbers that it cannot read as 0, and
+// makes room for as many tags (t) as the file says there are. Tags become comments.
+void Prepare(const std::string& file, std::string* text) {
+  size_t start = 0;
+  for (size_t line_number = 1; start < text->size(); ++line_number) {
+    const size_t end = std::min(text->find('\n', start), text->size());
+    std::string_view line = std::string_view(*text).substr(start, end - start);
     const std::string_view keyword = NextWord(&line);
-    if (keyword != "v" && keyword != "vn") continue;
-    for (int i = 0; i < 3; ++i) {
-      const std::string_view word = NextWord(&line);
-      if (IsFiniteNumber(word)) continue;
-      Refuse(fmt::format("{}:{}", file, line_number),
-             fmt::format("\"{}\" is not a finite number", word),
-             fmt::format("\"{}\" is followed by three", keyword));
+    if (keyword == "v" || keyword == "vn") {
+      CheckNumbers(line, keyword, fmt::format("{}:{}", file, line_number));
+    } else if (keyword == "t") {
+      (*text)[static_cast<size_t>(keyword.data() - text->data())] = '#';
     }
+    start = end + 1;
   }
 }
 
@@ -76,7 +84,7 @@ ObjFile Parse(std::string text, const std::string& file) {
   try {
     is_read = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &materials, &warning, &error, &stream,
                                nullptr, kTriangulate, kColorsByDefault);
-  } catch (const std::exception& e) {  // it resizes arrays to whatever the file says
+  } catch (const std::exception& e) {
     error = e.what();
   }
   if (!is_read || !error.empty()) {
@@ -180,7 +188,7 @@ class MeshBuilder {
 Mesh ReadObj(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::string text = ReadTextFile(path, kMaxBytes);
-  CheckNumbers(text, file);
+  Prepare(file, &text);
   const ObjFile obj = Parse(std::move(text), file);
   CheckIndices(obj, file);
 

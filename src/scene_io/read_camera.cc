@@ -14,7 +14,7 @@ constexpr std::array<std::string_view, 4> kFilters = {"box", "gaussian", "blackm
 
 void ReadFilter(const JsonValue& value, PixelFilter* filter) {
   JsonObject object(value, R"(for example {"type": "gaussian", "width": 3})");
-  object.Require("type");
+  object.Require("type", "one of: box, gaussian, blackman_harris, mitchell");
   size_t kind = 0;
   if (object.Choice("type", kFilters, &kind)) {
     filter->kind = static_cast<FilterKind>(kind);

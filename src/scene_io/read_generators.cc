@@ -18,11 +18,12 @@ bool ReadParameterValue(const JsonValue& value, const MaterialParameter& paramet
   return true;
 }
 
-// The parameter that the member "parameter" names, or nullptr.
-const MaterialParameter* ReadParameter(JsonObject* object, const Material& material) {
+// The parameter that the member "parameter" names, or nullptr. `material` is what it varies;
+// nullptr if that is at fault itself.
+const MaterialParameter* ReadParameter(JsonObject* object, const Material* material) {
   std::string name;
-  if (!object->Text("parameter", &name)) return nullptr;
-  const MaterialModel* const model = ModelOf(material);
+  if (!object->Text("parameter", &name) || material == nullptr) return nullptr;
+  const MaterialModel* const model = ModelOf(*material);
   const MaterialParameter* const parameter =
       model == nullptr ? nullptr : FindParameter(*model, name);
   if (parameter != nullptr) return parameter;
@@ -44,45 +45,47 @@ void ReadValues(const JsonValue& value, const MaterialParameter& parameter, Grid
   }
 }
 
-// The members parameter and values, or parameter, from, to and count, or only count.
-void ReadAxis(JsonObject* object, const Material& material, GridAxis* axis) {
-  const MaterialParameter* const parameter = ReadParameter(object, material);
-  const Json* const values = object->Find("values");
-  const bool names_one = object->Find("parameter") != nullptr;
-  if (values == nullptr) {
-    object->Require("count", "how many spheres");
-    object->Whole("count", limits::kGridCount, &axis->count);
-  }
-  // Asked for in any case, so that they are not called unknown on top of another fault.
-  const Json* const from = object->Find("from");
-  const Json* const to = object->Find("to");
-  if (parameter == nullptr) {
-    if (!names_one && (values != nullptr || from != nullptr || to != nullptr)) {
-      object->Require("parameter", "what the values are of");
-    }
-    return;
-  }
-  axis->parameter = parameter->name;
-  if (values != nullptr) {
-    ReadValues({*values, object->path().Member("values"), object->faults()}, *parameter, axis);
-    if (from != nullptr || to != nullptr) {
-      object->value().AddFault("both \"values\" and \"from\", \"to\"", "keep one or the other");
-    }
-    return;
-  }
-  object->Require("from", "the first value");
-  object->Require("to", "the last value");
+void ReadEnds(JsonObject* object, const MaterialParameter& parameter, GridAxis* axis) {
+  const Json* const from = object->Require("from", "the first value");
+  const Json* const to = object->Require("to", "the last value");
   if (from == nullptr || to == nullptr) return;
   Rgb first;
   Rgb last;
   const JsonPath from_path = object->path().Member("from");
   const JsonPath to_path = object->path().Member("to");
-  const bool has_from = ReadParameterValue({*from, from_path, object->faults()}, *parameter, &first);
-  const bool has_to = ReadParameterValue({*to, to_path, object->faults()}, *parameter, &last);
+  const bool has_from = ReadParameterValue({*from, from_path, object->faults()}, parameter, &first);
+  const bool has_to = ReadParameterValue({*to, to_path, object->faults()}, parameter, &last);
   if (has_from && has_to) *axis = LinearAxis(axis->parameter, first, last, axis->count);
 }
 
-void ReadGridAxis(JsonObject* shape, std::string_view name, const Material& material,
+// The members parameter and values, or parameter, from, to and count, or count alone.
+void ReadAxis(JsonObject* object, const Material* material, GridAxis* axis) {
+  const MaterialParameter* const parameter = ReadParameter(object, material);
+  const Json* const values = object->Find("values");
+  const Json* const from = object->Find("from");
+  const Json* const to = object->Find("to");
+  const bool has_ends = from != nullptr || to != nullptr;
+  const bool has_count = object->Find("count") != nullptr;
+  object->Whole("count", limits::kGridCount, &axis->count);
+  if (values == nullptr) {
+    object->Require("count", "how many spheres; or give \"values\"");
+  } else if (has_ends || has_count) {
+    object->value().AddFault("\"values\" take the place of \"from\", \"to\" and \"count\"",
+                             "keep one or the other");
+  }
+  if (object->Find("parameter") == nullptr && (values != nullptr || has_ends)) {
+    object->Require("parameter", "what the values are of");
+  }
+  if (parameter == nullptr) return;
+  axis->parameter = parameter->name;
+  if (values != nullptr) {
+    ReadValues({*values, object->path().Member("values"), object->faults()}, *parameter, axis);
+  } else {
+    ReadEnds(object, *parameter, axis);
+  }
+}
+
+void ReadGridAxis(JsonObject* shape, std::string_view name, const Material* material,
                   GridAxis* axis) {
   const Json* const json = shape->Find(name);
   if (json == nullptr) return;
@@ -92,11 +95,14 @@ void ReadGridAxis(JsonObject* shape, std::string_view name, const Material& mate
   object.RefuseOthers();
 }
 
-// The required member "material" as the one that the axes vary.
-void ReadBase(JsonObject* object, SceneContext* context, Material* material) {
+// The required member "material", which the axes vary. Returns `material`, or nullptr if it is at
+// fault.
+const Material* ReadBase(JsonObject* object, SceneContext* context, Material* material) {
   const Json* const json = object->Require("material", "what the axes vary");
-  if (json == nullptr) return;
-  ReadBaseMaterial({*json, object->path().Member("material"), object->faults()}, context, material);
+  if (json == nullptr) return nullptr;
+  const JsonPath path = object->path().Member("material");
+  const bool is_read = ReadBaseMaterial({*json, path, object->faults()}, context, material);
+  return is_read ? material : nullptr;
 }
 
 // One number for both directions, or [x, y].
@@ -106,7 +112,8 @@ void ReadSpacing(const JsonValue& value, Vec2d* spacing) {
     if (ReadNumber(value, limits::kLength, &both)) *spacing = Vec2d(both, both);
     return;
   }
-  if (!value.Expect(value.json.is_array() && value.json.size() == 2, "[x, y] or one number")) return;
+  if (!value.Expect(value.json.is_array() && value.json.size() == 2, "[x, y] or one number"))
+    return;
   ReadNumber({value.json[0], value.path.Element(0), value.faults}, limits::kLength, &spacing->x);
   ReadNumber({value.json[1], value.path.Element(1), value.faults}, limits::kLength, &spacing->y);
 }
@@ -116,10 +123,10 @@ void ReadPairSide(JsonObject* shape, std::string_view name, SceneContext* contex
   if (json == nullptr) return;
   JsonObject object({*json, shape->path().Member(name), shape->faults()},
                     R"({"material": ..., "parameter": "roughness", "values": [0.2, 0.5]})");
-  ReadBase(&object, context, &side->material);
+  const Material* const base = ReadBase(&object, context, &side->material);
   side->label = side->material.name;  // empty for an inline one
   object.Text("label", &side->label);
-  ReadAxis(&object, side->material, &side->values);
+  ReadAxis(&object, base, &side->values);
   object.RefuseOthers();
 }
 
@@ -158,9 +165,9 @@ void ReadGrid(JsonObject* shape, SceneContext* context) {
     ReadSpacing({*spacing, shape->path().Member("spacing"), shape->faults()}, &grid.spacing);
   }
   shape->Number("radius", limits::kLength, &grid.radius);
-  ReadBase(shape, context, &grid.material);
-  ReadGridAxis(shape, "rows", grid.material, &grid.rows);
-  ReadGridAxis(shape, "columns", grid.material, &grid.columns);
+  const Material* const base = ReadBase(shape, context, &grid.material);
+  ReadGridAxis(shape, "rows", base, &grid.rows);
+  ReadGridAxis(shape, "columns", base, &grid.columns);
   if (shape->faults()->count() == 0) AddGrid(grid, context->scene);
 }
 

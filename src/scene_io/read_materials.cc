@@ -1,7 +1,7 @@
 // scene_io/read_materials.cc: the part "materials", and materials wherever a shape names one.
-#include <fmt/format.h>
-
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "scene/material_parameters.h"
 #include "scene_io/readers.h"
@@ -80,6 +80,7 @@ MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
   const auto name = value.json.get<std::string>();
   const auto found = context.materials.find(name);
   if (found != context.materials.end()) return found->second;
+  if (!context.has_materials) return {};
   std::vector<std::string> names;
   for (const auto& [known, id] : context.materials) names.push_back(known);
   std::sort(names.begin(), names.end());
@@ -93,6 +94,7 @@ constexpr std::string_view kReferenceHint = "the name of one in \"materials\", o
 
 void ReadMaterials(const JsonValue& value, SceneContext* context) {
   const JsonObject object(value, R"(materials by name: {"gold": {"model": ...}})");
+  context->has_materials = object.is_object();
   if (!object.is_object()) return;
   // All names first: a split may name a material that comes after it.
   std::vector<Material>& materials = context->scene->materials;
@@ -100,11 +102,13 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
     context->materials.try_emplace(name, MaterialId{static_cast<uint32_t>(materials.size())});
     materials.emplace_back().name = name;
   }
-  size_t index = 0;
+  uint32_t index = 0;
   for (const auto& [name, json] : value.json.items()) {
+    const size_t before = value.faults->count();
     Material material;
     material.name = name;
     ReadMaterial({json, object.path().Member(name), object.faults()}, context, &material);
+    if (value.faults->count() != before) context->unreadable_materials.insert(index);
     materials[index++] = std::move(material);  // not through a reference: inline ones are added
   }
 }
@@ -132,12 +136,14 @@ void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id) {
 bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material) {
   if (value.json.is_string()) {
     const MaterialId id = FindMaterial(value, *context);
-    if (id.valid()) *material = context->scene->materials[id.index];
-    return id.valid();
+    if (!id.valid() || context->unreadable_materials.contains(id.index)) return false;
+    *material = context->scene->materials[id.index];
+    return true;
   }
   if (!value.Expect(value.json.is_object(), "a material", kReferenceHint)) return false;
+  const size_t before = value.faults->count();
   ReadMaterial(value, context, material);
-  return true;
+  return value.faults->count() == before;
 }
 
 }  // namespace nacre

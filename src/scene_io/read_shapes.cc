@@ -33,7 +33,7 @@ void ReadScale(const JsonValue& value, Vec3d* scale) {
   for (const double component : {scale->x, scale->y, scale->z}) {
     if (limits::kLength.Contains(std::abs(component))) continue;
     value.AddFault("would flatten the mesh", "no component is 0");
-    *scale = Vec3d(1, 1, 1);
+    break;
   }
 }
 
@@ -110,7 +110,8 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
 }  // namespace
 
 void ReadShapes(const JsonValue& value, SceneContext* context) {
-  if (!value.Expect(value.json.is_array(), "an array", "[{\"type\": \"sphere\", ...}, ...]")) return;
+  if (!value.Expect(value.json.is_array(), "an array", "[{\"type\": \"sphere\", ...}, ...]"))
+    return;
   for (size_t i = 0; i < value.json.size(); ++i) {
     ReadShape({value.json[i], value.path.Element(i), value.faults}, context);
   }

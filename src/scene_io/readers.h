@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "scene/generators.h"
 #include "scene/scene.h"
@@ -23,6 +24,9 @@ struct SceneContext {
   bool allow_paths = false;
   Scene* scene = nullptr;
   std::unordered_map<std::string, MaterialId> materials;  // by name
+  // So that one fault does not make others of all that refer to it:
+  bool has_materials = true;                          // false: their names could not be read
+  std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
 };
 
 // The object "materials": all of them, in its order.
@@ -34,7 +38,8 @@ bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* i
 // The required member "material" of a shape.
 void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id);
 
-// A copy of a material by name, or an inline one that is not added to the scene.
+// A copy of a material by name, or an inline one that is not added to the scene. False if it has
+// faults, even if they were told before.
 bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material);
 
 // The array "shapes".

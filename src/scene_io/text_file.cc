@@ -1,12 +1,12 @@
 #include "scene_io/text_file.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <system_error>
+
+#include <fmt/format.h>
 
 #include "base/error.h"
 
@@ -43,9 +43,10 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
     file.read(text.data() + before, kPiece);
     text.resize(before + static_cast<size_t>(file.gcount()));
     if (text.size() > max_bytes) {
-      throw Error(ExitCode::kBadInput, path.string(),
-                  fmt::format("is longer than {:g} GiB", static_cast<double>(max_bytes) / kGibibyte),
-                  "is it the right file?");
+      throw Error(
+          ExitCode::kBadInput, path.string(),
+          fmt::format("is longer than {:g} GiB", static_cast<double>(max_bytes) / kGibibyte),
+          "is it the right file?");
     }
   }
   if (file.bad()) {

@@ -23,18 +23,24 @@ inline void InitContext(EmbreeContext* context) {
 inline void IntersectPacket(int width, const int* valid, RTCScene scene, EmbreeContext* context,
                             RTCRayHit16* rays) {
   switch (width) {
-    case 4: return rtcIntersect4(valid, scene, context, reinterpret_cast<RTCRayHit4*>(rays));
-    case 8: return rtcIntersect8(valid, scene, context, reinterpret_cast<RTCRayHit8*>(rays));
-    default: return rtcIntersect16(valid, scene, context, rays);
+    case 4:
+      return rtcIntersect4(valid, scene, context, reinterpret_cast<RTCRayHit4*>(rays));
+    case 8:
+      return rtcIntersect8(valid, scene, context, reinterpret_cast<RTCRayHit8*>(rays));
+    default:
+      return rtcIntersect16(valid, scene, context, rays);
   }
 }
 
 inline void OccludedPacket(int width, const int* valid, RTCScene scene, EmbreeContext* context,
                            RTCRayHit16* rays) {
   switch (width) {
-    case 4: return rtcOccluded4(valid, scene, context, reinterpret_cast<RTCRay4*>(rays));
-    case 8: return rtcOccluded8(valid, scene, context, reinterpret_cast<RTCRay8*>(rays));
-    default: return rtcOccluded16(valid, scene, context, reinterpret_cast<RTCRay16*>(rays));
+    case 4:
+      return rtcOccluded4(valid, scene, context, reinterpret_cast<RTCRay4*>(rays));
+    case 8:
+      return rtcOccluded8(valid, scene, context, reinterpret_cast<RTCRay8*>(rays));
+    default:
+      return rtcOccluded16(valid, scene, context, reinterpret_cast<RTCRay16*>(rays));
   }
 }
 
@@ -51,9 +57,12 @@ inline void IntersectPacket(int width, const int* valid, RTCScene scene, EmbreeC
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   arguments.context = context;
   switch (width) {
-    case 4: return rtcIntersect4(valid, scene, reinterpret_cast<RTCRayHit4*>(rays), &arguments);
-    case 8: return rtcIntersect8(valid, scene, reinterpret_cast<RTCRayHit8*>(rays), &arguments);
-    default: return rtcIntersect16(valid, scene, rays, &arguments);
+    case 4:
+      return rtcIntersect4(valid, scene, reinterpret_cast<RTCRayHit4*>(rays), &arguments);
+    case 8:
+      return rtcIntersect8(valid, scene, reinterpret_cast<RTCRayHit8*>(rays), &arguments);
+    default:
+      return rtcIntersect16(valid, scene, rays, &arguments);
   }
 }
 
@@ -64,9 +73,12 @@ inline void OccludedPacket(int width, const int* valid, RTCScene scene, EmbreeCo
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   arguments.context = context;
   switch (width) {
-    case 4: return rtcOccluded4(valid, scene, reinterpret_cast<RTCRay4*>(rays), &arguments);
-    case 8: return rtcOccluded8(valid, scene, reinterpret_cast<RTCRay8*>(rays), &arguments);
-    default: return rtcOccluded16(valid, scene, reinterpret_cast<RTCRay16*>(rays), &arguments);
+    case 4:
+      return rtcOccluded4(valid, scene, reinterpret_cast<RTCRay4*>(rays), &arguments);
+    case 8:
+      return rtcOccluded8(valid, scene, reinterpret_cast<RTCRay8*>(rays), &arguments);
+    default:
+      return rtcOccluded16(valid, scene, reinterpret_cast<RTCRay16*>(rays), &arguments);
   }
 }
 

@@ -1,3 +1,4 @@
+// visibility/geometry.cc: takes the primitives from the scene.
 #include "visibility/geometry.h"
 
 #include <algorithm>
@@ -30,9 +31,8 @@ std::vector<uint32_t> FirstCoincident(const std::vector<TraceSphere>& spheres) {
   };
   std::vector<uint32_t> order(spheres.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    return std::tuple(key(a), a) < std::tuple(key(b), b);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
   std::vector<uint32_t> first(spheres.size());
   bool any = false;
   for (size_t i = 0; i < order.size(); ++i) {
@@ -55,8 +55,8 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
     geometry->normals.resize(geometry->positions.size(), Vec3d(0));
   }
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
-    geometry->triangles.push_back({base + mesh.triangles[i], base + mesh.triangles[i + 1],
-                                   base + mesh.triangles[i + 2]});
+    geometry->triangles.push_back(
+        {base + mesh.triangles[i], base + mesh.triangles[i + 1], base + mesh.triangles[i + 2]});
   }
   geometry->mesh_end.push_back(static_cast<uint32_t>(geometry->triangles.size()));
 }

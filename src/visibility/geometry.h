@@ -25,7 +25,8 @@ struct TraceGeometry {
 
   // The vertices of all meshes, one after the other, and their triangles, indexing them.
   std::vector<Vec3d> positions;
-  std::vector<Vec3d> normals;  // one per position, 0 where a mesh has none; empty if no mesh has any
+  std::vector<Vec3d>
+      normals;  // one per position, 0 where a mesh has none; empty if no mesh has any
   std::vector<std::array<uint32_t, 3>> triangles;
   std::vector<uint32_t> mesh_end;  // for each mesh one past its last triangle
 

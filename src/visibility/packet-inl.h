@@ -46,7 +46,7 @@ HWY_INLINE Vec3V<hn::Vec<D>> Direction(D d, const Packet& packet, int lane) {
 // Embree's depths for t: never less. Demoting errs by half a unit in the last place at most, or,
 // near the smallest floats, by one of them.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE auto UpperDepth(D d, V t, V t_scale) {
+HWY_INLINE auto UpperDepth(D /*d*/, V t, V t_scale) {
   const hn::Rebind<float, D> df;
   const auto depth = hn::DemoteTo(df, hn::Mul(t, t_scale));
   return hn::Add(hn::Mul(depth, hn::Set(df, 1 + 0x1p-22f)),
@@ -72,7 +72,17 @@ HWY_INLINE void RecordClosest(D d, Packet* packet, int lane, hn::Mask<D> hit, V 
   const hn::Rebind<float, D> df;
   hn::StoreU(UpperDepth(d, new_best, hn::Load(d, packet->t_scale + lane)), df,
              packet->tfar() + lane);
-  for (; bits != 0; bits &= bits - 1) packet->best_primitive[lane + __builtin_ctz(bits)] = primitive;
+  for (; bits != 0; bits &= bits - 1)
+    packet->best_primitive[lane + __builtin_ctz(bits)] = primitive;
+}
+
+// The lanes, as bits, of the rays that start on this primitive.
+HWY_INLINE uint32_t StartingLanes(const Packet& packet, uint32_t primitive) {
+  uint32_t lanes = 0;
+  for (int i = 0; i < packet.width; ++i) {
+    lanes |= static_cast<uint32_t>(packet.start[i] == primitive) << i;
+  }
+  return lanes;
 }
 
 // Marks the lanes of `bits` as occluded; Embree's sign for that is a limit of -infinity.

@@ -47,7 +47,7 @@ struct Packet {
 
   // Occlusion queries.
   const double* t_max = nullptr;
-  alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
+  alignas(64) uint32_t start[kMaxPacketWidth];      // primitive that the ray starts on
   alignas(64) double start_reach[kMaxPacketWidth];  // bounds that primitive's coordinates
   uint32_t occluded = 0;                            // one bit a lane
 

@@ -12,6 +12,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The lanes, as bits, whose float rays come within `error` of the sphere at a depth between 0 and
@@ -32,17 +33,17 @@ HWY_INLINE uint32_t ProposedLanes(D d, Packet& packet, const TraceSphere& sphere
                         hn::Set(d, static_cast<float>(sphere.center.y)),
                         hn::Set(d, static_cast<float>(sphere.center.z))};
   const V radius = hn::Set(d, static_cast<float>(sphere.radius));
-  const V sphere_error = hn::Mul(hn::Add(SumOfAbs(center), radius),
-                                 hn::Set(d, static_cast<float>(32 * kFloatUnit)));
+  const V sphere_error =
+      hn::Mul(hn::Add(SumOfAbs(center), radius), hn::Set(d, static_cast<float>(32 * kFloatUnit)));
   RTCRayN* rays = packet.ray_n();
   const unsigned width = packet.Width();
   uint32_t lanes = 0;
   for (unsigned i = 0; i < width; i += static_cast<unsigned>(hn::Lanes(d))) {
     const Vec3V<V> origin = Load3(d, &RTCRayN_org_x(rays, width, i), &RTCRayN_org_y(rays, width, i),
                                   &RTCRayN_org_z(rays, width, i));
-    const Vec3V<V> direction = Load3(d, &RTCRayN_dir_x(rays, width, i),
-                                     &RTCRayN_dir_y(rays, width, i),
-                                     &RTCRayN_dir_z(rays, width, i));
+    const Vec3V<V> direction =
+        Load3(d, &RTCRayN_dir_x(rays, width, i), &RTCRayN_dir_y(rays, width, i),
+              &RTCRayN_dir_z(rays, width, i));
     const V error = hn::Add(sphere_error, hn::Load(d, packet.origin_error + i));
     const Vec3V<V> to_center = Sub(center, origin);
     const V closest = hn::Mul(Dot(to_center, direction), hn::Load(d, packet.ray_inverse_dd + i));
@@ -80,19 +81,10 @@ void IntersectSphere(const RTCIntersectFunctionNArguments* args) {
   for (int lane = 0; lane < packet.width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    const SphereHitV<decltype(d)> hit = TestLanes(d, packet, lane, sphere);
+    const auto hit = TestLanes(d, packet, lane, sphere);
     RecordClosest(d, &packet, lane, hn::And(proposed, hit.hit), hit.t, args->primID);
   }
   ReturnDepths(packet, args->valid, args->rayhit, args->N);
-}
-
-// The lanes, as bits, of the rays that start on this sphere.
-HWY_INLINE uint32_t StartingLanes(const Packet& packet, uint32_t sphere) {
-  uint32_t lanes = 0;
-  for (int i = 0; i < packet.width; ++i) {
-    lanes |= static_cast<uint32_t>(packet.start[i] == sphere) << i;
-  }
-  return lanes;
 }
 
 void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
@@ -109,7 +101,7 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
   for (int lane = 0; lane < packet.width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    const SphereHitV<decltype(d)> hit = TestLanes(d, packet, lane, sphere);
+    const auto hit = TestLanes(d, packet, lane, sphere);
     // From the sphere itself one root is 0, and the other twice the way to the closest approach:
     // negative for a ray that leaves outward, whatever the rounding of its origin.
     const auto own = MaskOfBits(d, starting, lane);
@@ -124,6 +116,7 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
 
 PrimitiveCallbacks Callbacks() { return {&IntersectSphere, &OccludedBySphere}; }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();

@@ -29,6 +29,7 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
                                     V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
+  SphereHitV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
   const V first_closest = hn::Mul(Dot(to_center, direction), inverse_dd);
   const auto along_x = TwoProduct(d, first_closest, direction.x);
   const auto along_y = TwoProduct(d, first_closest, direction.y);
@@ -37,29 +38,33 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
                        hn::Sub(hn::Sub(to_center.y, along_y.product), along_y.error),
                        hn::Sub(hn::Sub(to_center.z, along_z.product), along_z.error)};
   const V correction = hn::Mul(Dot(rough, direction), inverse_dd);
-  const Vec3V<V> perpendicular = Sub(rough, Scale(direction, correction));
+  result.perpendicular.x = hn::Sub(rough.x, hn::Mul(direction.x, correction));
+  result.perpendicular.y = hn::Sub(rough.y, hn::Mul(direction.y, correction));
+  result.perpendicular.z = hn::Sub(rough.z, hn::Mul(direction.z, correction));
   const V closest = hn::Add(first_closest, correction);
+  result.closest = closest;
 
   const V radius2 = hn::Mul(radius, radius);
-  const V discriminant = hn::Sub(radius2, Dot(perpendicular, perpendicular));
+  const V discriminant = hn::Sub(radius2, Dot(result.perpendicular, result.perpendicular));
   const auto line_hit = hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero));
-  const V half_chord = hn::Sqrt(hn::Mul(hn::Max(discriminant, zero), inverse_dd));
-  const V larger = hn::Add(closest, hn::CopySign(half_chord, closest));
+  result.half_chord = hn::Sqrt(hn::Mul(hn::Max(discriminant, zero), inverse_dd));
+  const V larger = hn::Add(closest, hn::CopySign(result.half_chord, closest));
   const V product = hn::Mul(hn::Sub(Dot(to_center, to_center), radius2), inverse_dd);
   const V smaller = hn::Div(product, larger);
   const auto ahead = hn::Gt(closest, zero);
   const V near = hn::IfThenElse(ahead, smaller, larger);
   const V far = hn::IfThenElse(ahead, larger, smaller);
   const auto outside = hn::Gt(near, zero);
-  const V t = hn::IfThenElse(outside, near, far);
-  return {hn::And(line_hit, hn::Gt(t, zero)), hn::Not(outside), t, closest, half_chord,
-          perpendicular};
+  result.inside = hn::Not(outside);
+  result.t = hn::IfThenElse(outside, near, far);
+  result.hit = hn::And(line_hit, hn::Gt(result.t, zero));
+  return result;
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> CenterToHit(D /*d*/, const SphereHitV<D>& hit, const Vec3V<V>& direction) {
-  const Vec3V<V> along = Scale(direction, hn::IfThenElse(hit.inside, hit.half_chord,
-                                                         hn::Neg(hit.half_chord)));
+  const Vec3V<V> along =
+      Scale(direction, hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)));
   return Sub(along, hit.perpendicular);
 }
 

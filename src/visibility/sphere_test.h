@@ -15,9 +15,10 @@ struct SphereHit {
   bool hit = false;     // there is a root t > 0
   bool inside = false;  // the ray starts inside: t is the far root
   Real t = 0;           // the first root > 0
-  Real closest = 0;     // where the ray is nearest to the centre
   Real half_chord = 0;  // half the distance between the roots
-  Imath::Vec3<Real> perpendicular{0, 0, 0};  // from the ray's nearest point to the centre
+  // Set for rays that miss too:
+  Real closest = 0;                          // where the ray is nearest to the centre
+  Imath::Vec3<Real> perpendicular{0, 0, 0};  // from there to the centre
 };
 
 // The first point of the ray t direction, t > 0, on the sphere of this radius about to_center.
@@ -37,13 +38,15 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
   SphereHit<Real> result;
   Real closest = to_center.dot(direction) * inverse_dd;
   Imath::Vec3<Real> perpendicular;
-  for (unsigned i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const auto along = TwoProduct(closest, direction[i]);
     perpendicular[i] = (to_center[i] - along.product) - along.error;
   }
   const Real correction = perpendicular.dot(direction) * inverse_dd;
   perpendicular -= direction * correction;
   closest = closest + correction;
+  result.closest = closest;
+  result.perpendicular = perpendicular;
 
   const Real radius2 = radius * radius;
   const Real discriminant = radius2 - perpendicular.dot(perpendicular);
@@ -57,9 +60,7 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
   result.inside = !(near > 0);
   result.t = result.inside ? far : near;
   result.hit = result.t > 0;
-  result.closest = closest;
   result.half_chord = half_chord;
-  result.perpendicular = perpendicular;
   return result;
 }
 

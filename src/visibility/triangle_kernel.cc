@@ -14,6 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
+namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 struct Corners {
@@ -52,7 +53,7 @@ void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
   for (int lane = 0; lane < packet.width; lane += step) {
     const auto active = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, active)) continue;
-    const TriangleHitV<decltype(d)> hit = TestLanes(d, packet, lane, corners);
+    const auto hit = TestLanes(d, packet, lane, corners);
     RecordClosest(d, &packet, lane, hn::And(active, hit.hit), hit.t,
                   geometry.SphereCount() + args->primID);
   }
@@ -82,14 +83,15 @@ void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
   Packet& packet = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const Corners corners = CornersOf(geometry, args->primID);
-  const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N);
+  const uint32_t starting = StartingLanes(packet, geometry.SphereCount() + args->primID);
+  const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N) & ~starting;
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   uint32_t occluded = 0;
   for (int lane = 0; lane < packet.width; lane += step) {
     const auto active = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, active)) continue;
-    const TriangleHitV<decltype(d)> hit = TestLanes(d, packet, lane, corners);
+    const auto hit = TestLanes(d, packet, lane, corners);
     const auto within = hn::And(hit.hit, hn::Lt(hit.t, hn::Load(d, packet.t_max + lane)));
     const auto met = hn::And(active, within);
     if (hn::AllFalse(d, met)) continue;
@@ -101,6 +103,7 @@ void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
 
 PrimitiveCallbacks Callbacks() { return {&IntersectTriangle, &OccludedByTriangle}; }
 
+}  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();

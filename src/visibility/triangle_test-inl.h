@@ -61,10 +61,15 @@ HWY_INLINE TriangleHitV<D> TestTriangle(D d, const Vec3V<V>& a, const Vec3V<V>& 
   const auto back = hn::And(hn::And(hn::Le(u, zero), hn::Le(v, zero)), hn::Le(w, zero));
   const auto line_hit = hn::AndNot(hn::Eq(sum, zero), hn::Or(front, back));
   const V inverse_sum = hn::Div(hn::Set(d, 1.0), sum);
-  const Vec3V<V> weights = Scale(Vec3V<V>{u, v, w}, inverse_sum);
+  TriangleHitV<D>
+      result;  // filled member by member: GCC 12 copies nested aggregates through memory
+  result.weights.x = hn::Mul(u, inverse_sum);
+  result.weights.y = hn::Mul(v, inverse_sum);
+  result.weights.z = hn::Mul(w, inverse_sum);
   const Vec3V<V> depths{Dot(a, direction), Dot(b, direction), Dot(c, direction)};
-  const V t = hn::Mul(Dot(depths, weights), inverse_dd);
-  return {hn::And(line_hit, hn::Gt(t, zero)), t, weights};
+  result.t = hn::Mul(Dot(depths, result.weights), inverse_dd);
+  result.hit = hn::And(line_hit, hn::Gt(result.t, zero));
+  return result;
 }
 
 }  // namespace HWY_NAMESPACE

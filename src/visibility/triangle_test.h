@@ -19,11 +19,10 @@ struct RayShear {
 
 template <typename Real>
 RayShear<Real> MakeShear(const Imath::Vec3<Real>& direction) {
-  const Imath::Vec3<Real> size(std::abs(direction.x), std::abs(direction.y),
-                               std::abs(direction.z));
+  const Imath::Vec3<Real> size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
   const bool along_x = size.x >= size.y && size.x >= size.z;
-  const unsigned kz = along_x ? 0 : (size.y >= size.z ? 1 : 2);
-  const unsigned kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+  const int kz = along_x ? 0 : (size.y >= size.z ? 1 : 2);
+  const int kx = (kz + 1) % 3, ky = (kz + 2) % 3;
   RayShear<Real> shear{Imath::Vec3<Real>(0), Imath::Vec3<Real>(0)};
   shear.x_axis[kx] = 1;
   shear.x_axis[kz] = -(direction[kx] / direction[kz]);
@@ -35,7 +34,7 @@ RayShear<Real> MakeShear(const Imath::Vec3<Real>& direction) {
 template <typename Real>
 struct TriangleHit {
   bool hit = false;
-  Real t = 0;                             // in units of the ray's direction
+  Real t = 0;                          // in units of the ray's direction
   Imath::Vec3<Real> weights{0, 0, 0};  // of the three vertices; their sum is 1
 };
 
@@ -63,9 +62,9 @@ TriangleHit<Real> TestTriangle(const Imath::Vec3<Real>& a, const Imath::Vec3<Rea
   const Real inverse_dd = 1 / direction.dot(direction);
   const Real inverse_sum = 1 / sum;
   result.weights = {u * inverse_sum, v * inverse_sum, w * inverse_sum};
-  result.t = Imath::Vec3<Real>(a.dot(direction), b.dot(direction), c.dot(direction))
-                 .dot(result.weights) *
-             inverse_dd;
+  result.t =
+      Imath::Vec3<Real>(a.dot(direction), b.dot(direction), c.dot(direction)).dot(result.weights) *
+      inverse_dd;
   result.hit = result.t > 0;
   return result;
 }

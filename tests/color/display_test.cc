@@ -104,10 +104,10 @@ TEST_CASE("NaN pixels are magenta and counted, infinities are light or dark", "[
       settings.tone = tone;
       CAPTURE(ToneOperatorName(tone));
       CHECK(EncodeDisplay(settings, r.data(), g.data(), b.data(), r.size(), rgb8.data()) == 5);
-      for (const size_t i : {0, 9, 10, 130, 300}) {
+      for (const size_t i : {0u, 9u, 10u, 130u, 300u}) {
         CHECK((rgb8[3 * i] == 255 && rgb8[3 * i + 1] == 0 && rgb8[3 * i + 2] == 255));
       }
-      for (const size_t c : {0, 1, 2}) CHECK((rgb8[21 + c] == 255 && rgb8[24 + c] == 0));
+      for (const size_t c : {0u, 1u, 2u}) CHECK((rgb8[21 + c] == 255 && rgb8[24 + c] == 0));
     }
   });
 }

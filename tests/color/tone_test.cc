@@ -26,7 +26,7 @@ bool Near(double got, double expected, double relative, double absolute = 0) {
 }
 
 TEST_CASE("Reinhard and ACES agree with the table in double", "[color][table]") {
-  // tables/README: 4 half-ulps, of double here, where coefficients as written are exact enough.
+  // The tables' rule: 4 half-ulps, of double here, where coefficients as written are exact enough.
   constexpr double kTolerance = 4 * kHalfUlpDouble;
   for (const auto& row : LoadTable("tonemap").at("scalar")) {
     const double x = TableNumber(row.at("x"));
@@ -46,7 +46,7 @@ TEST_CASE("Neutral agrees with the table in double", "[color][table]") {
     for (int c = 0; c < 3; ++c) {
       const double expected = TableNumber(row.at("khronos_pbr_neutral")[static_cast<size_t>(c)]);
       CAPTURE(in.dump(), c);
-      // tables/README: 16 half-ulps, or 1e-7 absolute in float, 1e-15 in double.
+      // The tables' rule: 16 half-ulps, or 1e-7 absolute in float, 1e-15 in double.
       CHECK(Near(got[c], expected, 16 * kHalfUlpDouble, 1e-15));
     }
   }
@@ -91,15 +91,17 @@ TEST_CASE("The AgX sigmoid is Sobotka's", "[color]") {
     CHECK(std::abs(agx::Sigmoid(t) - static_cast<double>(SobotkaSigmoid(t))) <= 4e-16);
     squares += std::pow(agx::Sigmoid(t) - WrenschPolynomial(t), 2);
   }
-  // He gives a mean squared error of 3.67e-6.
-  CHECK(squares / 10'001 == Approx(3.67e-6).epsilon(0.05));
+  // The least-squares polynomial of this degree has his coefficients and his mean squared error of
+  // 3.67e-6; rounding the coefficients to the four digits that he prints doubles it.
+  CHECK(squares / 10'001 < 8e-6);
+  CHECK(squares / 10'001 > 3.6e-6);
 }
 
 TEST_CASE("The AgX matrices are each other's inverse", "[color]") {
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       double product = 0;
-      for (int k = 0; k < 3; ++k) product += agx::kInset[i][k] * agx::kOutset[k][j];
+      for (int k = 0; k < 3; ++k) product += agx::kInset.m[i][k] * agx::kOutset.m[k][j];
       CHECK(std::abs(product - (i == j)) <= 1e-14);  // they are printed to 15 digits
     }
   }
@@ -109,30 +111,40 @@ TEST_CASE("AgX agrees with an independent evaluation", "[color]") {
   // In long double, in the order of the original: matrix, log2, clamp, curve, matrix, 2.2.
   for (const Color& in : {Color(0.18, 0.18, 0.18), Color(1, 0.2, 0.05), Color(12, 3, 0.1),
                           Color(0.001, 0.01, 0.1), Color(0, 0, 5), Color(300, 20, 1)}) {
-    long double encoded[3], expected[3];
+    long double encoded[3];
     for (int i = 0; i < 3; ++i) {
       long double x = 0;
-      for (int k = 0; k < 3; ++k) x += static_cast<long double>(agx::kInset[i][k]) * in[k];
+      for (int k = 0; k < 3; ++k)
+        x += static_cast<long double>(agx::kPublishedInset.m[i][k]) * in[k];
       const long double t = (std::log2(x) + 12.4739311883324121L) / 16.5L;
       encoded[i] = SobotkaSigmoid(std::clamp(t, 0.0L, 1.0L));
     }
     const Color got = ToneAgx(in);
     for (int i = 0; i < 3; ++i) {
       long double x = 0;
-      for (int k = 0; k < 3; ++k) x += static_cast<long double>(agx::kOutset[i][k]) * encoded[k];
-      expected[i] = std::pow(std::clamp(x, 0.0L, 1.0L), 2.2L);
+      for (int k = 0; k < 3; ++k) {
+        x += static_cast<long double>(agx::kPublishedOutset.m[i][k]) * encoded[k];
+      }
+      const long double expected = std::pow(std::clamp(x, 0.0L, 1.0L), 2.2L);
       CAPTURE(in, i);
-      CHECK(std::abs(got[i] - static_cast<double>(expected[i])) <= 1e-14);
+      // The published matrices, whose rows miss a sum of 1 by 1.4e-4, change a channel's encoded
+      // value by as much at most, and its light by 2.2 times that.
+      CHECK(std::abs(got[i] - static_cast<double>(expected)) <= 3.1e-4);
     }
   }
 }
 
-TEST_CASE("Middle grey comes out as published", "[color]") {
-  const Color grey(0.18, 0.18, 0.18);
-  CHECK(DisplayLight(DisplaySettings{}, grey).x == Approx(0.14));  // less the Fresnel reflection
-  // AgX puts middle grey in the middle of its encoding: 0.5^2.2. The published inset matrix does
-  // not keep greys exactly; its rows sum to 1 but for 1.4e-4.
-  CHECK(ToneAgx(grey).y == Approx(std::pow(0.5, 2.2)).epsilon(3e-4));
+TEST_CASE("AgX keeps greys grey, and middle grey in the middle", "[color]") {
+  for (const double x : {0.001, 0.18, 1.0, 16.0, 1e9}) {
+    const Color out = ToneAgx(Color(x, x, x));
+    CHECK(std::abs(out.x - out.y) <= 1e-13);  // the matrices are printed to 15 digits
+    CHECK(std::abs(out.z - out.y) <= 1e-13);
+  }
+  CHECK(ToneAgx(Color(0.18, 0.18, 0.18)).y == Approx(std::pow(0.5, 2.2)).epsilon(1e-13));
+}
+
+TEST_CASE("Neutral takes off the Fresnel reflection", "[color]") {
+  CHECK(DisplayLight(DisplaySettings{}, Color(0.18, 0.18, 0.18)).x == Approx(0.14).epsilon(1e-15));
 }
 
 TEST_CASE("Every operator is monotone on greys and stays in [0, 1]", "[color]") {
@@ -154,8 +166,7 @@ TEST_CASE("Every operator is monotone on greys and stays in [0, 1]", "[color]") 
       previous = out;
     }
     CHECK(faults == 0);
-    // AgX's published matrices put white at 0.99983 to the power of 2.2 in red.
-    CHECK(previous.x >= (tone == ToneOperator::kAgx ? 0.9996 : 1.0));
+    CHECK(previous.x >= 1 - 1e-13);  // AgX: the digits of its matrices
   }
 }
 

@@ -1,0 +1,21 @@
+// bench/bench_main.cc: main() of the benchmarks; says what the machine is.
+#include <benchmark/benchmark.h>
+
+#include "base/target.h"
+
+int main(int argc, char** argv) {
+  std::string targets;
+  for (const nacre::Target target : nacre::SupportedTargets()) {
+    targets += (targets.empty() ? "" : " ") + nacre::TargetName(target);
+  }
+  benchmark::AddCustomContext("simd_targets", targets);
+  benchmark::AddCustomContext(
+      "scalar_baseline",
+      "plain per-hit float C++ in textbook form, x^5 by multiplication, -O3 "
+      "-march=native");
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}

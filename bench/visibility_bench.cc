@@ -1,0 +1,66 @@
+// bench/visibility_bench.cc: camera rays against spheres: the exact hits of a 1920x1080 frame,
+// one thread, by number of spheres.
+#include <cmath>
+
+#include <benchmark/benchmark.h>
+
+#include "base/parallel.h"
+#include "render/camera.h"
+#include "visibility/intersector.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kWidth = 1920;
+constexpr int kHeight = 1080;
+
+// A square grid of `side`^2 spheres that fills the height of the frame.
+Scene MakeGrid(int side) {
+  Scene scene;
+  scene.camera.position = {0, 0, 10};
+  scene.materials.emplace_back();
+  const double spacing = 5.0 / side;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      scene.spheres.push_back(
+          {.center = {(column - (side - 1) / 2.0) * spacing, ((side - 1) / 2.0 - row) * spacing, 0},
+           .radius = 0.4 * spacing,
+           .material = {0}});
+    }
+  }
+  return scene;
+}
+
+void BenchClosest(benchmark::State& state) {
+  const FlushDenormals flush;
+  const Scene scene = MakeGrid(static_cast<int>(state.range(0)));
+  const Intersector intersector(scene, scene.camera.position, {});
+  const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
+  RayBatch rays;
+  ClosestHits hits;
+  AlignedArray<double> x(kBatchCapacity), y(kBatchCapacity);
+  constexpr int kPixels = kWidth * kHeight;
+  for (auto _ : state) {
+    for (int first = 0; first < kPixels; first += static_cast<int>(kBatchCapacity)) {
+      const int count = std::min(static_cast<int>(kBatchCapacity), kPixels - first);
+      for (int i = 0; i < count; ++i) {
+        x[static_cast<size_t>(i)] = (first + i) % kWidth + 0.5;
+        y[static_cast<size_t>(i)] = (first + i) / kWidth + 0.5;
+      }
+      MakeCameraRays(camera, x.data(), y.data(), static_cast<size_t>(count), &rays);
+      intersector.Closest(rays, &hits);
+      benchmark::DoNotOptimize(hits.primitive.data());
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * kPixels);
+}
+BENCHMARK(BenchClosest)
+    ->Name("visibility/closest/spheres_per_side")
+    ->Arg(5)
+    ->Arg(32)
+    ->Arg(100)
+    ->Arg(316)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace nacre

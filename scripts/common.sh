@@ -1,0 +1,51 @@
+# scripts/common.sh: what the scripts here share. It is sourced by them, not run.
+# shellcheck shell=bash
+set -euo pipefail
+
+# Decimal points, sort order and the tools' closing lines read the same on every machine.
+export LC_ALL=C.UTF-8
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# fail MESSAGE...: one line for each argument on stderr, then exit code 1.
+fail() {
+  printf '%s\n' "$@" >&2
+  exit 1
+}
+
+# help_if_asked ARGUMENTS...: with -h or --help among them, prints the comment at the head of the
+# running script and ends it. Arguments behind -- belong to another program.
+help_if_asked() {
+  local argument
+  for argument in "$@"; do
+    case "$argument" in
+      -h | --help)
+        awk 'NR > 1 { if (!/^#/) exit; sub(/^# ?/, ""); print }' "scripts/${0##*/}"
+        exit 0
+        ;;
+      --) return 0 ;;
+    esac
+  done
+}
+
+# install_packages PRESET: what a build with that preset needs.
+install_packages() {
+  if [[ $1 == clang ]]; then
+    scripts/setup --dev
+  else
+    scripts/setup
+  fi
+}
+
+# compile_jobs: all cores, but no more compilers at once than memory holds. The largest files
+# (SIMD kernels for every target, tests with JSON tables) take a compiler to about 1.5 GiB.
+compile_jobs() {
+  local kib_per_job=$((3 << 19)) cores jobs
+  cores=$(nproc)
+  jobs=$cores
+  if [[ -r /proc/meminfo ]]; then
+    jobs=$(awk -v k="$kib_per_job" '/^MemAvailable:/ { print int($2 / k) }' /proc/meminfo)
+  fi
+  ((jobs >= 1)) || jobs=1
+  echo $((jobs < cores ? jobs : cores))
+}

@@ -1,0 +1,9 @@
+// base/version.h: what this build is. Written at build time.
+#pragma once
+
+namespace nacre {
+
+extern const char kVersion[];  // "0.1.0"
+extern const char kCommit[];   // abbreviated commit, or "unknown" outside a git checkout
+
+}  // namespace nacre

@@ -1,0 +1,160 @@
+// cli/cmd_compare.cc: nacre compare: metrics of an image against a reference, a verdict, a map.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/heat_picture.h"
+#include "compare/verdict.h"
+#include "image_io/image_reader.h"
+#include "image_io/output_file.h"
+
+namespace nacre {
+namespace {
+
+struct Arguments {
+  std::string image, reference;
+  CompareOptions options;
+  Tolerances tolerances;
+  std::string heat_map;
+  std::string heat_layer;
+  HeatScale heat_scale;
+  bool absolute = false;
+  bool json = false;
+};
+
+std::string LayerName(const std::string& layer) { return layer.empty() ? "beauty" : layer; }
+
+void PrintTable(const Verdict& verdict) {
+  fmt::print("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE", "relMSE",
+             "PSNR dB", "max abs", "max rel", "99.9% rel");
+  for (const LayerMetrics& m : verdict.layers) {
+    fmt::print("{:<14} {:>11.4g} {:>11.4g} {:>8.2f} {:>11.4g} {:>11.4g} {:>11.4g}  {},{} {}\n",
+               LayerName(m.layer), m.rmse, m.rel_mse, m.psnr_db, m.max_abs, m.max_rel, m.p999_rel,
+               m.max_abs_at.x, m.max_abs_at.y, m.max_abs_at.channel);
+    if (m.nonfinite_mismatches > 0) {
+      fmt::print("{:<14} {} samples are not finite in one image only\n", "",
+                 m.nonfinite_mismatches);
+    }
+  }
+  fmt::print("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason);
+}
+
+nlohmann::ordered_json ToJson(const Verdict& verdict) {
+  nlohmann::ordered_json layers = nlohmann::ordered_json::array();
+  for (const LayerMetrics& m : verdict.layers) {
+    layers.push_back({{"layer", LayerName(m.layer)},
+                      {"samples", m.samples},
+                      {"rmse", m.rmse},
+                      {"rel_mse", m.rel_mse},
+                      // JSON has no infinity: equal images have no PSNR.
+                      {"psnr_db", std::isfinite(m.psnr_db) ? nlohmann::ordered_json(m.psnr_db)
+                                                           : nlohmann::ordered_json()},
+                      {"max_abs", m.max_abs},
+                      {"max_abs_at", {m.max_abs_at.x, m.max_abs_at.y}},
+                      {"max_rel", m.max_rel},
+                      {"p999_rel", m.p999_rel},
+                      {"mean", m.mean_got},
+                      {"mean_reference", m.mean_reference},
+                      {"nonfinite_mismatches", m.nonfinite_mismatches}});
+  }
+  return {{"match", verdict.match},
+          {"reason", verdict.reason},
+          {"pixels", verdict.pixels},
+          {"exceeding_pixels", verdict.exceeding_pixels},
+          {"layers", layers}};
+}
+
+int RunCompare(const Arguments& arguments) {
+  if (!arguments.heat_map.empty()) const OutputFile opens(arguments.heat_map);
+  const Image image = ReadImage(arguments.image);
+  const Image reference = ReadImage(arguments.reference);
+  CompareOptions options = arguments.options;
+  options.got_name = arguments.image;
+  options.reference_name = arguments.reference;
+  for (std::string& layer : options.layers) {
+    if (layer == "beauty") layer = "";
+  }
+  const Verdict verdict = Judge(image, reference, arguments.tolerances, options);
+  if (arguments.json) {
+    fmt::print("{}\n", ToJson(verdict).dump(2));
+  } else {
+    PrintTable(verdict);
+  }
+  if (!arguments.heat_map.empty()) {
+    const HeatQuantity quantity =
+        arguments.absolute ? HeatQuantity::kAbsolute : HeatQuantity::kRelative;
+    WriteHeatPicture(
+        arguments.heat_map,
+        HeatMap(image, reference, arguments.heat_layer, quantity, arguments.heat_scale), quantity,
+        arguments.heat_scale);
+  }
+  return static_cast<int>(verdict.match ? ExitCode::kOk : ExitCode::kDiffers);
+}
+
+}  // namespace
+
+void AddCompareCommand(CLI::App* app, int* exit_code) {
+  CLI::App* command = app->add_subcommand(
+      "compare", "Compare an image with a reference: metrics per layer, a verdict, a heat map");
+  const auto a = std::make_shared<Arguments>();
+  command->add_option("IMAGE", a->image, "Image to judge")->required();
+  command->add_option("REFERENCE", a->reference, "What it should be")->required();
+  command
+      ->add_option("--layers", a->options.layers,
+                   "Layers to compare, e.g. beauty,diffuse; without it all, and the images must "
+                   "then have the same")
+      ->delimiter(',');
+  const std::string tolerance = "Tolerances (without any, images must be equal)";
+  const CLI::Range not_negative(0.0, 1e30);
+  command->add_option("--max-abs", a->tolerances.max_abs, "Allowed |difference| of a sample, plus")
+      ->check(not_negative)
+      ->group(tolerance);
+  command->add_option("--max-rel", a->tolerances.max_rel, "this times |reference|")
+      ->check(not_negative)
+      ->group(tolerance);
+  command
+      ->add_option("--fraction", a->tolerances.exceeding_fraction,
+                   "Share of the pixels that may exceed both")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(tolerance);
+  command->add_option("--rmse", a->tolerances.rmse, "Allowed RMSE of a layer")
+      ->check(not_negative)
+      ->group(tolerance);
+  const std::string map = "Heat map";
+  command->add_option("--heat-map", a->heat_map, "PNG of where and how much they differ")
+      ->group(map);
+  command->add_option("--heat-layer", a->heat_layer, "Layer that it shows (the beauty)")
+      ->group(map);
+  command->add_option("--heat-low", a->heat_scale.low, "Error at the dark end of the scale")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group(map);
+  command->add_option("--heat-high", a->heat_scale.high, "Error at its bright end")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->group(map);
+  command->add_flag("--absolute", a->absolute, "Absolute errors in place of relative ones")
+      ->group(map);
+  command->add_flag("--json", a->json, "Print JSON");
+  command->footer(
+      "Exit code: 0 they match, 1 they differ, 2 they cannot be compared.\n"
+      "Example:\n"
+      "  nacre compare render.exr reference.exr --max-rel 1e-3 --heat-map error.png");
+  command->callback([a, exit_code] {
+    try {
+      *exit_code = RunCompare(*a);
+    } catch (const Error& error) {
+      // An image that cannot be read cannot be compared.
+      if (error.code() != ExitCode::kBadInput) throw;
+      throw Error(ExitCode::kCannotCompare, error.faults());
+    }
+  });
+}
+
+}  // namespace nacre

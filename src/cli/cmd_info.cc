@@ -1,0 +1,103 @@
+// cli/cmd_info.cc: nacre info: what an image file or scene file holds, and what this build is.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/parallel.h"
+#include "base/target.h"
+#include "base/version.h"
+#include "cli/commands.h"
+#include "cli/metadata.h"
+#include "image_io/exr_reader.h"
+#include "image_io/image_reader.h"
+#include "scene/hash.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+namespace {
+
+std::string TypeName(PixelType type) {
+  switch (type) {
+    case PixelType::kHalf:
+      return "half";
+    case PixelType::kFloat:
+      return "float";
+    case PixelType::kUint:
+      return "uint";
+  }
+  return {};
+}
+
+std::string WindowText(const Window& w) {
+  return fmt::format("{}x{} at {},{}", w.width(), w.height(), w.x0, w.y0);
+}
+
+void PrintImage(const std::string& path) {
+  const bool exr = std::filesystem::path(path).extension() == ".exr";
+  const Image image = exr ? ReadExrHeader(path) : ReadImage(path);
+  fmt::print("{}\n", path);
+  fmt::print("  display window  {}\n", WindowText(image.display));
+  fmt::print("  data window     {}\n", WindowText(image.data));
+  std::vector<std::string> channels;
+  for (const Channel& channel : image.channels) {
+    channels.push_back(channel.name + ":" + TypeName(channel.type));
+  }
+  fmt::print("  channels        {}\n", fmt::join(channels, " "));
+  for (const auto& [name, value] : image.metadata) fmt::print("  {:<15} {}\n", name, value);
+}
+
+void PrintScene(const std::string& path, bool allow_paths) {
+  const Scene scene = LoadScene(path, {.overrides = {}, .allow_paths = allow_paths});
+  size_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
+  fmt::print("{}\n", path);
+  fmt::print("  image       {}x{}, {} samples a pixel\n", scene.image.width, scene.image.height,
+             scene.image.spp);
+  fmt::print("  spheres     {}\n", scene.spheres.size());
+  fmt::print("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles);
+  fmt::print("  materials   {}\n", scene.materials.size());
+  std::vector<std::string> lights;
+  for (const Light& light : scene.lights) lights.push_back(light.name);
+  fmt::print("  lights      {}\n",
+             lights.empty() ? "none" : fmt::format("{}", fmt::join(lights, ", ")));
+  fmt::print("  shadowing   {}\n", ShadowingForms(scene));
+  fmt::print("  hash        {:016x}\n", HashScene(scene));
+}
+
+void PrintBuild() {
+  std::vector<std::string> targets;
+  for (const Target target : SupportedTargets()) targets.push_back(TargetName(target));
+  fmt::print("nacre {} ({})\n", kVersion, kCommit);
+  fmt::print("  SIMD targets here  {}\n", fmt::join(targets, ", "));
+  fmt::print("  threads            {}\n", ThreadCount(0));
+}
+
+}  // namespace
+
+void AddInfoCommand(CLI::App* app, int*) {
+  CLI::App* command =
+      app->add_subcommand("info", "Show what image and scene files hold; alone, about this build");
+  struct Arguments {
+    std::vector<std::string> files;
+    bool allow_paths = false;
+  };
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("FILE", arguments->files, "Images (EXR, PNG, ...) and scenes (.json)");
+  command->add_flag("--allow-paths", arguments->allow_paths,
+                    "Let scenes refer to files outside their own folder");
+  command->callback([arguments] {
+    if (arguments->files.empty()) PrintBuild();
+    for (const std::string& file : arguments->files) {
+      if (std::filesystem::path(file).extension() == ".json") {
+        PrintScene(file, arguments->allow_paths);
+      } else {
+        PrintImage(file);
+      }
+    }
+  });
+}
+
+}  // namespace nacre

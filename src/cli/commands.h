@@ -1,0 +1,18 @@
+// cli/commands.h: the program's commands. Each adds itself to the command line; its work runs as
+// the subcommand's callback and its exit code is left in *exit_code.
+#pragma once
+
+#include <CLI/App.hpp>
+
+namespace nacre {
+
+void AddRenderCommand(CLI::App* app, int* exit_code);
+void AddGridCommand(CLI::App* app, int* exit_code);
+void AddPairCommand(CLI::App* app, int* exit_code);
+void AddCompareCommand(CLI::App* app, int* exit_code);
+void AddValidateCommand(CLI::App* app, int* exit_code);
+void AddTonemapCommand(CLI::App* app, int* exit_code);
+void AddInfoCommand(CLI::App* app, int* exit_code);
+void AddSchemaCommand(CLI::App* app, int* exit_code);
+
+}  // namespace nacre

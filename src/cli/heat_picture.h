@@ -1,0 +1,14 @@
+// cli/heat_picture.h: a heat map with its legend as a PNG.
+#pragma once
+
+#include <string>
+
+#include "compare/heat_map.h"
+
+namespace nacre {
+
+// Writes the map above a bar of its colours with ticks at powers of ten.
+void WriteHeatPicture(const std::string& path, const HeatPicture& map, HeatQuantity quantity,
+                      const HeatScale& scale);
+
+}  // namespace nacre

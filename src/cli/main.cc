@@ -1,0 +1,56 @@
+// cli/main.cc: the program: commands, and the one place where errors are printed.
+#include <new>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "cli/commands.h"
+#include "cli/progress.h"
+
+namespace {
+
+int Run(int argc, char** argv) {
+  using nacre::ExitCode;
+  CLI::App app(
+      "nacre renders shading models on spheres and meshes: exact hits, SIMD shading, HDR output.");
+  app.set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit));
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(36);
+  app.footer(
+      "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
+      "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"
+      "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
+  int exit_code = 0;
+  nacre::AddRenderCommand(&app, &exit_code);
+  nacre::AddGridCommand(&app, &exit_code);
+  nacre::AddPairCommand(&app, &exit_code);
+  nacre::AddCompareCommand(&app, &exit_code);
+  nacre::AddValidateCommand(&app, &exit_code);
+  nacre::AddTonemapCommand(&app, &exit_code);
+  nacre::AddInfoCommand(&app, &exit_code);
+  nacre::AddSchemaCommand(&app, &exit_code);
+  try {
+    nacre::CatchStopSignals();
+    app.parse(argc, argv);
+    return exit_code;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "error: {}\n  hint: see nacre --help, or nacre COMMAND --help\n",
+               error.what());
+    return static_cast<int>(ExitCode::kUsage);
+  } catch (const nacre::Error& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(error.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory\n  hint: a smaller picture or scene needs less\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: internal: {}\n", error.what());
+  }
+  return static_cast<int>(ExitCode::kInternal);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return Run(argc, argv); }

@@ -1,0 +1,78 @@
+#include "cli/metadata.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/target.h"
+#include "base/version.h"
+#include "scene/hash.h"
+
+namespace nacre {
+namespace {
+
+std::string FormName(Shadowing shadowing) {
+  switch (shadowing) {
+    case Shadowing::kHeightCorrelated:
+      return "height_correlated";
+    case Shadowing::kSeparable:
+      return "separable";
+    case Shadowing::kSchlickDirect:
+      return "schlick_direct";
+  }
+  return {};
+}
+
+std::string FilterName(const PixelFilter& filter) {
+  switch (filter.kind) {
+    case FilterKind::kBox:
+      return "box";
+    case FilterKind::kGaussian:
+      return "gaussian";
+    case FilterKind::kBlackmanHarris:
+      return "blackman_harris";
+    case FilterKind::kMitchell:
+      return "mitchell";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string ShadowingForms(const Scene& scene) {
+  std::set<std::string> forms;
+  for (const Material& material : scene.materials) {
+    if (const auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
+      forms.insert(FormName(m->shadowing));
+    }
+  }
+  std::string text;
+  for (const std::string& form : forms) text += (text.empty() ? "" : ", ") + form;
+  return text.empty() ? "none" : text;
+}
+
+ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible) {
+  const Scene& scene = *plan.scene;
+  const ImageSettings& image = scene.image;
+  ExrHeader header;
+  header.display = plan.frame;
+  header.data = plan.window;
+  header.world_to_camera = Imath::M44f(WorldToCamera(scene.camera));
+  header.world_to_ndc = Imath::M44f(WorldToNdc(scene.camera, image.width, image.height));
+  auto& attributes = header.attributes;
+  attributes["Software"] = fmt::format("nacre {}", kVersion);
+  attributes["samplesPerPixel"] = image.spp;
+  attributes["nacre:version"] = std::string(kVersion);
+  attributes["nacre:commit"] = std::string(kCommit);
+  attributes["nacre:target"] = TargetName(ActiveTarget());
+  attributes["nacre:sceneHash"] = fmt::format("{:016x}", HashScene(scene));
+  attributes["nacre:shadowing"] = ShadowingForms(scene);
+  attributes["nacre:settings"] =
+      fmt::format("size={}x{} spp={} filter={} filter_width={} seed={} shadows={}", image.width,
+                  image.height, image.spp, FilterName(image.filter), image.filter.width, image.seed,
+                  image.shadows ? "on" : "off");
+  if (!reproducible) attributes[kRenderTimeAttribute] = 0.0f;
+  return header;
+}
+
+}  // namespace nacre

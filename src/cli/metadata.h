@@ -1,0 +1,21 @@
+// cli/metadata.h: what the files of a render say about it.
+#pragma once
+
+#include "image_io/exr_header.h"
+#include "render/plan.h"
+#include "render/stats.h"
+
+namespace nacre {
+
+// Names of header attributes that nacre writes.
+inline constexpr char kRenderTimeAttribute[] = "renderTime";
+
+// Everything but the channels. `reproducible`: without the render time, which is 0 until
+// ExrWriter::UpdateAttribute.
+ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible);
+
+// The masking-shadowing forms of the scene's materials by name, "height_correlated" or
+// "height_correlated, separable"; "none" if no material has one.
+std::string ShadowingForms(const Scene& scene);
+
+}  // namespace nacre

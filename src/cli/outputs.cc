@@ -1,0 +1,118 @@
+#include "cli/outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error.h"
+#include "cli/labels.h"
+#include "cli/metadata.h"
+#include "image_io/output_file.h"
+
+namespace nacre {
+namespace {
+
+bool IsExr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
+bool IsPng(const std::string& path) { return std::filesystem::path(path).extension() == ".png"; }
+
+StripView ViewOf(const Strip& strip) {
+  StripView view;
+  view.y = strip.window.y0;
+  view.rows = strip.window.height();
+  for (const std::vector<float>& plane : strip.colors) view.channels.emplace_back(plane.data());
+  for (const std::vector<uint32_t>& plane : strip.ids) view.channels.emplace_back(plane.data());
+  return view;
+}
+
+}  // namespace
+
+void CheckOutputPaths(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (!IsExr(path) && !IsPng(path)) {
+      throw Error(ExitCode::kUsage, path, "unknown output extension",
+                  "nacre writes .exr (linear, HDR) and .png (tone-mapped)");
+    }
+    if (std::count(paths.begin(), paths.end(), path) > 1) {
+      throw Error(ExitCode::kUsage, path, "the same file is named twice", "name each output once");
+    }
+    const OutputFile opens(path);
+  }
+}
+
+Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan)
+    : options_(options), plan_(plan) {
+  display_.tone = ParseToneOperator(options.tonemap);
+  display_.exposure_ev = options.exposure;
+  ExrHeader header = MakeExrHeader(plan, options.reproducible);
+  const PixelType color_type = options.depth == "float" ? PixelType::kFloat : PixelType::kHalf;
+  for (const ChannelSpec& channel : StripChannels(plan.layers, color_type)) {
+    header.channels.push_back({channel.name, channel.type});
+  }
+  const ExrOptions exr_options{.compression = ParseCompression(options.compression),
+                               .small = options.small};
+  PngHeader png_header;
+  png_header.width = plan.window.width();
+  png_header.height = plan.window.height();
+  png_header.text = {{"Software", std::get<std::string>(header.attributes.at("Software"))},
+                     {"nacre:shadowing", ShadowingForms(*plan.scene)},
+                     {"nacre:tonemap", options.tonemap}};
+  for (const std::string& path : options.outputs) {
+    if (IsExr(path)) {
+      exr_.push_back(std::make_unique<ExrWriter>(path, header, exr_options));
+    } else {
+      png_.push_back(
+          std::make_unique<PngWriter>(path, png_header, PngOptions{.small = options.small}));
+    }
+  }
+  if (options.labels && !png_.empty()) picture_.resize(3 * plan.window.pixel_count());
+}
+
+void Outputs::WriteStrip(const Strip& strip) {
+  const StripView view = ViewOf(strip);
+  for (const auto& exr : exr_) exr->WriteStrip(view);
+  if (!png_.empty()) WritePng(strip);
+}
+
+void Outputs::WritePng(const Strip& strip) {
+  const size_t count = strip.window.pixel_count();
+  const int row = strip.window.y0 - plan_.window.y0;
+  std::vector<uint8_t> own;
+  uint8_t* rgb8 = nullptr;
+  if (picture_.empty()) {
+    own.resize(3 * count);
+    rgb8 = own.data();
+  } else {
+    rgb8 =
+        picture_.data() + 3 * static_cast<size_t>(row) * static_cast<size_t>(plan_.window.width());
+  }
+  nan_pixels_ += EncodeDisplay(display_, strip.colors[0].data(), strip.colors[1].data(),
+                               strip.colors[2].data(), count, rgb8);
+  if (!picture_.empty()) return;
+  for (const auto& png : png_) png->WriteStrip(row, strip.window.height(), rgb8);
+}
+
+OutputCounts Outputs::Finish(const RenderStats& stats) {
+  if (!picture_.empty()) {
+    DrawLabels(*plan_.scene, plan_.window, picture_);
+    for (const auto& png : png_) {
+      for (int row = 0; row < plan_.window.height(); row += kStripRows) {
+        const size_t offset =
+            3 * static_cast<size_t>(row) * static_cast<size_t>(plan_.window.width());
+        png->WriteStrip(row, std::min(kStripRows, plan_.window.height() - row),
+                        picture_.data() + offset);
+      }
+    }
+  }
+  OutputCounts counts;
+  counts.nan_pixels = nan_pixels_;
+  for (const auto& exr : exr_) {
+    if (!options_.reproducible) {
+      exr->UpdateAttribute(kRenderTimeAttribute, static_cast<float>(stats.render_seconds));
+    }
+    exr->Finish();
+    counts.exr += exr->counts();
+  }
+  for (const auto& png : png_) png->Finish();
+  return counts;
+}
+
+}  // namespace nacre

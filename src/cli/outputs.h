@@ -1,0 +1,53 @@
+// cli/outputs.h: the files of a render: strips in, EXR and PNG files out, whole or not at all.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+#include "image_io/exr_writer.h"
+#include "image_io/png_writer.h"
+#include "render/film.h"
+#include "render/plan.h"
+#include "render/stats.h"
+
+namespace nacre {
+
+// Throws Error for a path that cannot be written (kCannotWrite) or whose extension is neither
+// .exr nor .png (kUsage): before any work is done for it.
+void CheckOutputPaths(const std::vector<std::string>& paths);
+
+// Samples that the files do not hold as they were computed.
+struct OutputCounts {
+  SampleCounts exr;
+  uint64_t nan_pixels = 0;  // drawn magenta in PNG files
+};
+
+class Outputs {
+ public:
+  // Opens all files. `plan` and its scene must outlive this.
+  Outputs(const RenderOptions& options, const RenderPlan& plan);
+
+  // From any thread, in any order.
+  void WriteStrip(const Strip& strip);
+
+  // Completes the files and gives them their names.
+  OutputCounts Finish(const RenderStats& stats);
+
+ private:
+  void WritePng(const Strip& strip);
+
+  const RenderOptions& options_;
+  const RenderPlan& plan_;
+  DisplaySettings display_;
+  std::vector<std::unique_ptr<ExrWriter>> exr_;
+  std::vector<std::unique_ptr<PngWriter>> png_;
+  // With --labels, the whole picture, which text is drawn into at the end.
+  std::vector<uint8_t> picture_;
+  std::atomic<uint64_t> nan_pixels_{0};
+};
+
+}  // namespace nacre

@@ -1,0 +1,92 @@
+#include "cli/progress.h"
+
+#include <algorithm>
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+std::atomic<int> g_stop_signal{0};
+
+int SignalExitCode(int signal) {
+  return static_cast<int>(signal == SIGTERM ? ExitCode::kTerminated : ExitCode::kInterrupted);
+}
+
+extern "C" void NoteStopSignal(int signal) {
+  if (g_stop_signal.exchange(signal) != 0) _exit(SignalExitCode(signal));
+}
+
+std::string FormatSeconds(double seconds) {
+  if (seconds < 60) return fmt::format("{:.1f} s", seconds);
+  const int whole = static_cast<int>(std::min(seconds, 1e8));
+  return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+}
+
+std::string FormatRate(double rate, const std::string& unit) {
+  if (rate >= 1e9) return fmt::format("{:.2f} G {}/s", rate * 1e-9, unit);
+  if (rate >= 1e6) return fmt::format("{:.1f} M {}/s", rate * 1e-6, unit);
+  if (rate >= 1e3) return fmt::format("{:.1f} k {}/s", rate * 1e-3, unit);
+  return fmt::format("{:.1f} {}/s", rate, unit);
+}
+
+}  // namespace
+
+ProgressForm DefaultProgressForm() {
+  return isatty(STDERR_FILENO) != 0 ? ProgressForm::kBar : ProgressForm::kNone;
+}
+
+Progress::Progress(ProgressForm form, std::string what, double unit_count, std::string unit)
+    : form_(form), what_(std::move(what)), unit_count_(unit_count), unit_(std::move(unit)) {}
+
+Progress::~Progress() {
+  if (printed_ && form_ == ProgressForm::kBar) std::fputs("\r\033[K", stderr);
+}
+
+void Progress::Update(double done) {
+  ThrowIfStopped();
+  if (form_ == ProgressForm::kNone) return;
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_printed_ < std::chrono::milliseconds(100)) return;
+  last_printed_ = now;
+  printed_ = true;
+  Print(done, std::chrono::duration<double>(now - start_).count());
+}
+
+void Progress::Print(double done, double elapsed_seconds) const {
+  const double rate = unit_count_ * done / elapsed_seconds;
+  const double left = done > 0 ? elapsed_seconds * (1 - done) / done : 0;
+  if (form_ == ProgressForm::kJson) {
+    fmt::print(stderr,
+               "{{\"progress\": {:.4f}, \"elapsed_s\": {:.3f}, \"left_s\": {:.3f}, "
+               "\"rate_per_s\": {:.6g}}}\n",
+               done, elapsed_seconds, left, rate);
+  } else {
+    constexpr int kBarWidth = 30;
+    const int filled = static_cast<int>(done * kBarWidth);
+    fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}  {} left\033[K", what_, "", filled, "",
+               kBarWidth - filled, 100 * done, FormatRate(rate, unit_), FormatSeconds(left));
+  }
+  std::fflush(stderr);
+}
+
+void CatchStopSignals() {
+  std::signal(SIGINT, NoteStopSignal);
+  std::signal(SIGTERM, NoteStopSignal);
+}
+
+void ThrowIfStopped() {
+  const int signal = g_stop_signal.load();
+  if (signal == 0) return;
+  throw Error(static_cast<ExitCode>(SignalExitCode(signal)), "",
+              signal == SIGTERM ? "terminated" : "interrupted", "no output was written");
+}
+
+}  // namespace nacre

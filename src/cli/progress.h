@@ -1,0 +1,44 @@
+// cli/progress.h: tells the user how far long work is, and notices when it is to stop.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace nacre {
+
+enum class ProgressForm { kNone, kBar, kJson };
+
+// What fits where standard error goes: a bar on a terminal, nothing in a pipe.
+ProgressForm DefaultProgressForm();
+
+// Progress of one job on standard error. Calls from one thread at a time.
+class Progress {
+ public:
+  // `unit_count` of `unit` ("pixel samples") make the job; the rate is told in them.
+  Progress(ProgressForm form, std::string what, double unit_count, std::string unit);
+  ~Progress();
+
+  // `done` in [0, 1]. Prints at most ten times a second. Throws Error (kInterrupted, kTerminated)
+  // once a signal has come, so that whoever works stops and leaves nothing behind.
+  void Update(double done);
+
+ private:
+  void Print(double done, double elapsed_seconds) const;
+
+  ProgressForm form_;
+  std::string what_;
+  double unit_count_;
+  std::string unit_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_printed_ = start_;
+  bool printed_ = false;
+};
+
+// From here on SIGINT and SIGTERM are noted instead of ending the process at once; a second one
+// ends it. Output that is not finished has no name yet, so nothing is left either way.
+void CatchStopSignals();
+
+// Throws Error if a stop signal has come.
+void ThrowIfStopped();
+
+}  // namespace nacre

@@ -1,0 +1,102 @@
+#include "cli/render_job.h"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "cli/stats_json.h"
+#include "cli/text_output.h"
+#include "render/render.h"
+
+namespace nacre {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+ProgressForm ChooseProgressForm(const RenderOptions& options) {
+  if (options.quiet || options.progress == "none") return ProgressForm::kNone;
+  if (options.progress == "bar") return ProgressForm::kBar;
+  if (options.progress == "json") return ProgressForm::kJson;
+  return DefaultProgressForm();
+}
+
+// What the user must know of samples that are not as computed.
+void WarnAboutSamples(const OutputCounts& counts) {
+  if (counts.exr.clamped > 0) {
+    fmt::print(stderr,
+               "warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
+               counts.exr.clamped);
+  }
+  if (counts.exr.infinite > 0) {
+    fmt::print(stderr, "warning: {} samples are infinite\n", counts.exr.infinite);
+  }
+  if (counts.exr.nan > 0)
+    fmt::print(stderr, "warning: {} samples are not numbers\n", counts.exr.nan);
+  if (counts.nan_pixels > 0) {
+    fmt::print(stderr, "warning: {} pixels are not numbers and are drawn in magenta\n",
+               counts.nan_pixels);
+  }
+}
+
+void Summarize(const RenderOptions& options, const RenderPlan& plan, const RenderStats& stats,
+               const JobTimes& times) {
+  std::string files;
+  for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
+  fmt::print(
+      stderr, "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n",
+      files, plan.window.width(), plan.window.height(), plan.scene->image.spp,
+      1e3 * times.total_seconds, 1e3 * stats.render_seconds,
+      1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds);
+}
+
+}  // namespace
+
+void RunRenderJob(const RenderOptions& options,
+                  const std::function<Scene(const LoadOptions&)>& load) {
+  const Clock::time_point start = Clock::now();
+  JobTimes times;
+  const LoadOptions load_options = MakeLoadOptions(options);
+  RenderSettings settings;
+  settings.threads = options.threads;
+  settings.region = ParseRegion(options.region);
+  settings.layers = options.layers;
+  settings.tile_size = options.tile_size;
+  ApplyTarget(options.target);
+  CheckOutputPaths(options.outputs);
+  if (!options.stats.empty()) CheckTextOutput(options.stats);
+
+  const Scene scene = load(load_options);
+  times.load_seconds = SecondsSince(start);
+  ThrowIfStopped();
+
+  const Clock::time_point plan_start = Clock::now();
+  const RenderPlan plan = MakePlan(scene, settings);
+  const double plan_seconds = SecondsSince(plan_start);
+  Outputs outputs(options, plan);
+  RenderStats stats;
+  {
+    const double samples = static_cast<double>(plan.window.pixel_count()) * scene.image.spp;
+    Progress progress(ChooseProgressForm(options), "rendering", samples, "samples");
+    settings.on_progress = [&](double done) { progress.Update(done); };
+    stats = Render(plan, settings, [&](const Strip& strip) { outputs.WriteStrip(strip); });
+  }
+  stats.plan_seconds = plan_seconds;
+  ThrowIfStopped();
+  const Clock::time_point finish_start = Clock::now();
+  const OutputCounts counts = outputs.Finish(stats);
+  times.finish_seconds = SecondsSince(finish_start);
+  times.total_seconds = SecondsSince(start);
+
+  WarnAboutSamples(counts);
+  if (!options.quiet) Summarize(options, plan, stats, times);
+  if (options.explain) fmt::print("{}", ExplainPlan(plan, &stats));
+  if (!options.stats.empty()) WriteText(options.stats, StatsJson(plan, stats, times, counts));
+}
+
+}  // namespace nacre

@@ -1,0 +1,199 @@
+#include "cli/render_options.h"
+
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "base/target.h"
+#include "color/tone.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kMaxSide = 65536;  // pixels, as for ImageSettings
+
+// Whole numbers separated by `separator`; false unless `text` is exactly `count` of them.
+bool ParseIntegers(std::string_view text, char separator, size_t count, std::vector<int>* out) {
+  out->clear();
+  while (true) {
+    const size_t end = std::min(text.find(separator), text.size());
+    int value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + end, value);
+    if (error != std::errc() || rest != text.data() + end) return false;
+    out->push_back(value);
+    if (end == text.size()) return out->size() == count;
+    text.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure) {
+  command
+      ->add_option("--tonemap", *tonemap,
+                   "Tone operator of PNG files: neutral (Khronos PBR Neutral), reinhard, "
+                   "reinhard_extended, aces, agx, or none to clip at 1")
+      ->check(CLI::IsMember(ToneOperatorNames()))
+      ->capture_default_str();
+  command->add_option("--exposure", *exposure, "Exposure of PNG files in stops: values times 2^EV")
+      ->check(CLI::Range(-60.0, 60.0))
+      ->capture_default_str();
+}
+
+void AddRenderOptions(CLI::App* command, RenderOptions* o) {
+  command
+      ->add_option("-o,--output", o->outputs,
+                   "File to write, .exr (linear, HDR) or .png (tone-mapped sRGB); repeatable")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  const std::string picture = "Picture";
+  command->add_option("--size", o->size, "Width and height in pixels")
+      ->type_name("WxH")
+      ->group(picture);
+  command->add_option("--spp", o->spp, "Samples per pixel; 1 goes through the pixel's centre")
+      ->check(CLI::Range(1, 65536))
+      ->group(picture);
+  command
+      ->add_option("--region", o->region,
+                   "Render these pixels only, from the top left, x1 and y1 not included; the same "
+                   "bits as in the full frame")
+      ->type_name("x0,y0,x1,y1")
+      ->group(picture);
+  command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
+  command
+      ->add_option("--set", o->sets,
+                   "Put a value into the scene before it is read, e.g. "
+                   "--set /materials/red/roughness=0.2; repeatable")
+      ->type_name("/POINTER=JSON")
+      ->allow_extra_args(false)
+      ->group(picture);
+  AddDisplayOptions(command, &o->tonemap, &o->exposure);
+  command->add_flag("--labels", o->labels,
+                    "Write the scene's row and column labels into PNG files");
+  const std::string exr = "EXR files";
+  command
+      ->add_option("--layers", o->layers,
+                   "Layers besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, "
+                   "id.object, id.material, light.NAME, or all")
+      ->delimiter(',')
+      ->group(exr);
+  command->add_option("--depth", o->depth, "Samples of colours: half or float")
+      ->check(CLI::IsMember({"half", "float"}))
+      ->capture_default_str()
+      ->group(exr);
+  command->add_option("--compression", o->compression, "none, zip, zips, piz or dwaa")
+      ->check(CLI::IsMember({"none", "zip", "zips", "piz", "dwaa"}))
+      ->capture_default_str()
+      ->group(exr);
+  command->add_flag("--small", o->small, "Smaller files (EXR and PNG), several times slower")
+      ->group(exr);
+  command
+      ->add_flag("--reproducible", o->reproducible,
+                 "Leave times out of the files: equal pictures make equal files")
+      ->group(exr);
+  const std::string machine = "Machine";
+  command->add_option("--threads", o->threads, "Threads to use; 0: as many as the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->group(machine);
+  command->add_option("--target", o->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
+      ->check(CLI::IsMember({"auto", "avx3", "avx2", "sse4", "scalar"}))
+      ->capture_default_str()
+      ->group(machine);
+  command->add_option("--intersector", o->intersector, "auto or embree: all give the same bits")
+      ->check(CLI::IsMember({"auto", "embree"}))
+      ->capture_default_str()
+      ->group(machine);
+  command->add_option("--tile-size", o->tile_size, "Width of the tiles in pixels; changes no bits")
+      ->check(CLI::Range(0, 64))
+      ->group(machine);
+  command
+      ->add_flag("--allow-paths", o->allow_paths,
+                 "Let the scene refer to files outside its own folder")
+      ->group(machine);
+  const std::string telling = "What it tells";
+  command
+      ->add_flag("--explain", o->explain,
+                 "Print the plan: what is used, what is skipped and why, and where time went")
+      ->group(telling);
+  command->add_option("--stats", o->stats, "Write times and counts as JSON")
+      ->type_name("FILE")
+      ->group(telling);
+  command->add_option("--progress", o->progress, "auto (a bar on a terminal), bar, json or none")
+      ->check(CLI::IsMember({"auto", "bar", "json", "none"}))
+      ->capture_default_str()
+      ->group(telling);
+  command->add_flag("--quiet", o->quiet, "Print nothing but errors")->group(telling);
+}
+
+LoadOptions MakeLoadOptions(const RenderOptions& options) {
+  LoadOptions load;
+  load.allow_paths = options.allow_paths;
+  for (const std::string& set : options.sets) {
+    const size_t equals = set.find('=');
+    if (equals == std::string::npos || set.empty() || set.front() != '/') {
+      throw Error(ExitCode::kUsage, "--set", "\"" + set + "\" is not /json/pointer=value",
+                  "for example --set /image/spp=64");
+    }
+    load.overrides.emplace_back(set.substr(0, equals), set.substr(equals + 1));
+  }
+  const auto put = [&](const char* pointer, auto value) {
+    load.overrides.emplace_back(pointer, std::to_string(value));
+  };
+  if (!options.size.empty()) {
+    int width = 0;
+    int height = 0;
+    ParseSize(options.size, &width, &height);
+    put("/image/width", width);
+    put("/image/height", height);
+  }
+  if (options.spp) put("/image/spp", *options.spp);
+  if (options.seed) put("/image/seed", *options.seed);
+  return load;
+}
+
+void ParseSize(const std::string& text, int* width, int* height) {
+  std::vector<int> sides;
+  if (!ParseIntegers(text, 'x', 2, &sides) || sides[0] < 1 || sides[1] < 1 || sides[0] > kMaxSide ||
+      sides[1] > kMaxSide) {
+    throw Error(
+        ExitCode::kUsage, "--size", "\"" + text + "\" is not a size",
+        fmt::format("give WIDTHxHEIGHT with sides from 1 to {}, for example 1920x1080", kMaxSide));
+  }
+  *width = sides[0];
+  *height = sides[1];
+}
+
+Window ParseRegion(const std::string& text) {
+  if (text.empty()) return {};
+  std::vector<int> edges;
+  if (!ParseIntegers(text, ',', 4, &edges) || edges[0] >= edges[2] || edges[1] >= edges[3]) {
+    throw Error(ExitCode::kUsage, "--region", "\"" + text + "\" is not a region",
+                "give x0,y0,x1,y1 in pixels from the top left with x0 < x1 and y0 < y1");
+  }
+  return {edges[0], edges[1], edges[2], edges[3]};
+}
+
+Compression ParseCompression(const std::string& name) {
+  if (name == "none") return Compression::kNone;
+  if (name == "zips") return Compression::kZips;
+  if (name == "piz") return Compression::kPiz;
+  if (name == "dwaa") return Compression::kDwaa;
+  return Compression::kZip;
+}
+
+void ApplyTarget(const std::string& name) {
+  if (name == "auto") return;
+  std::vector<std::string> supported;
+  for (const Target target : SupportedTargets()) {
+    if (TargetName(target) == name) return PinTarget(target);
+    supported.push_back(TargetName(target));
+  }
+  throw Error(ExitCode::kUsage, "--target", "this machine cannot run " + name,
+              fmt::format("it can run {}", fmt::join(supported, ", ")));
+}
+
+}  // namespace nacre

@@ -1,0 +1,64 @@
+// cli/render_options.h: the options that every command that renders shares.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/App.hpp>
+
+#include "color/display.h"
+#include "image_io/exr_header.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+
+struct RenderOptions {
+  std::vector<std::string> outputs;
+  std::string size;  // "WxH"; empty: the scene's
+  std::optional<int> spp;
+  std::optional<uint32_t> seed;
+  int threads = 0;
+  std::string target = "auto";
+  std::string intersector = "auto";
+  std::string region;  // "x0,y0,x1,y1"; empty: all
+  std::vector<std::string> layers;
+  std::string depth = "half";
+  std::string compression = "zip";
+  bool small = false;
+  std::string tonemap = "neutral";
+  double exposure = 0;
+  bool labels = false;
+  std::vector<std::string> sets;  // "/json/pointer=value"
+  bool allow_paths = false;
+  bool explain = false;
+  std::string stats;  // path; empty: none
+  bool reproducible = false;
+  bool quiet = false;
+  std::string progress = "auto";
+  int tile_size = 0;  // 0: chosen by the plan
+};
+
+// Adds all of them to `command`.
+void AddRenderOptions(CLI::App* command, RenderOptions* options);
+
+// The options that say how a PNG looks, for `tonemap` as well.
+void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
+
+// What the options ask of scene_io; --size, --spp and --seed are settings of the scene's image
+// like any that --set makes. Throws Error (usage).
+LoadOptions MakeLoadOptions(const RenderOptions& options);
+
+// "x0,y0,x1,y1" as a window; empty text gives an empty one. Throws Error (usage).
+Window ParseRegion(const std::string& text);
+
+// "WxH". Throws Error (usage).
+void ParseSize(const std::string& text, int* width, int* height);
+
+// "none", "zip", "zips", "piz" or "dwaa".
+Compression ParseCompression(const std::string& name);
+
+// Pins the SIMD target. Throws Error (usage) for one that this machine lacks.
+void ApplyTarget(const std::string& name);
+
+}  // namespace nacre

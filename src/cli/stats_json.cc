@@ -1,0 +1,70 @@
+#include "cli/stats_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "base/target.h"
+#include "base/version.h"
+#include "cli/metadata.h"
+
+namespace nacre {
+
+std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const JobTimes& times,
+                      const OutputCounts& counts) {
+  using Json = nlohmann::ordered_json;
+  const Scene& scene = *plan.scene;
+  size_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
+  const auto ms = [](double seconds) { return 1e3 * seconds; };
+  const auto rate = [&](uint64_t count) {
+    return stats.render_seconds > 0 ? static_cast<double>(count) / stats.render_seconds : 0.0;
+  };
+  Json stages = Json::object();
+  for (size_t i = 0; i < kStageCount; ++i) {
+    stages[std::string(StageName(static_cast<Stage>(i)))] = ms(stats.stage_seconds[i]);
+  }
+  Json items = Json::array();
+  for (const PlanItem& item : plan.items) {
+    items.push_back({{"what", item.what}, {"used", item.used}, {"reason", item.reason}});
+  }
+  const Json json = {
+      {"nacre", {{"version", std::string(kVersion)}, {"commit", std::string(kCommit)}}},
+      {"target", TargetName(ActiveTarget())},
+      {"threads", stats.threads},
+      {"image",
+       {{"width", plan.frame.width()},
+        {"height", plan.frame.height()},
+        {"pixels", plan.window.pixel_count()},
+        {"spp", scene.image.spp}}},
+      {"scene",
+       {{"spheres", scene.spheres.size()},
+        {"triangles", triangles},
+        {"lights", scene.lights.size()},
+        {"materials", scene.materials.size()},
+        {"shadowing", ShadowingForms(scene)}}},
+      {"time_ms",
+       {{"load", ms(times.load_seconds)},
+        {"plan", ms(stats.plan_seconds)},
+        {"render", ms(stats.render_seconds)},
+        {"finish", ms(times.finish_seconds)},
+        {"total", ms(times.total_seconds)},
+        {"stages_all_threads", stages}}},
+      {"counts",
+       {{"camera_rays", stats.camera_rays},
+        {"hits", stats.hits},
+        {"shadow_rays", stats.shadow_rays},
+        {"shades", stats.shades}}},
+      {"per_second",
+       {{"camera_rays", rate(stats.camera_rays)},
+        {"shadow_rays", rate(stats.shadow_rays)},
+        {"shades", rate(stats.shades)}}},
+      {"plan", items},
+      {"samples_not_as_computed",
+       {{"clamped", counts.exr.clamped},
+        {"infinite", counts.exr.infinite},
+        {"nan", counts.exr.nan},
+        {"png_nan_pixels", counts.nan_pixels}}},
+  };
+  return json.dump(2) + "\n";
+}
+
+}  // namespace nacre

@@ -1,0 +1,22 @@
+// cli/stats_json.h: times and counts of a render for programs (--stats).
+#pragma once
+
+#include <string>
+
+#include "cli/outputs.h"
+#include "render/plan.h"
+#include "render/stats.h"
+
+namespace nacre {
+
+// Wall times of a job's parts around the render itself.
+struct JobTimes {
+  double load_seconds = 0;    // reading and checking the scene
+  double finish_seconds = 0;  // completing the files after the last strip
+  double total_seconds = 0;
+};
+
+std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const JobTimes& times,
+                      const OutputCounts& counts);
+
+}  // namespace nacre

@@ -1,0 +1,24 @@
+#include "cli/text_output.h"
+
+#include <cstdio>
+#include <span>
+
+#include "image_io/output_file.h"
+
+namespace nacre {
+
+void CheckTextOutput(const std::string& path) {
+  if (path != "-") const OutputFile opens(path);
+}
+
+void WriteText(const std::string& path, const std::string& text) {
+  if (path == "-") {
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return;
+  }
+  OutputFile file(path);
+  file.Write(0, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+  file.Commit();
+}
+
+}  // namespace nacre

@@ -1,0 +1,12 @@
+// cli/text_output.h: text files that appear whole or not at all.
+#pragma once
+
+#include <string>
+
+namespace nacre {
+
+// Throws Error (kCannotWrite) if `path` cannot be written. "-" is standard output.
+void CheckTextOutput(const std::string& path);
+void WriteText(const std::string& path, const std::string& text);
+
+}  // namespace nacre

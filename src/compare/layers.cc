@@ -1,0 +1,98 @@
+#include "compare/layers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+bool IsWanted(const std::string& layer, const CompareOptions& options) {
+  return options.layers.empty() ||
+         std::find(options.layers.begin(), options.layers.end(), layer) != options.layers.end();
+}
+
+// Throws if `image` lacks a wanted channel of `other`.
+void RequireChannels(const Image& image, const std::string& name, const Image& other,
+                     const std::string& other_name, const CompareOptions& options) {
+  for (const Channel& channel : other.channels) {
+    if (!IsWanted(LayerOfChannel(channel.name), options) || image.Find(channel.name)) continue;
+    throw Error(ExitCode::kCannotCompare, name,
+                fmt::format("has no channel {}, which {} has", channel.name, other_name),
+                "name the layers to compare");
+  }
+}
+
+void RequireLayers(const Image& reference, const CompareOptions& options) {
+  for (const std::string& layer : options.layers) {
+    const auto has_layer = [&](const Channel& c) { return LayerOfChannel(c.name) == layer; };
+    if (std::any_of(reference.channels.begin(), reference.channels.end(), has_layer)) continue;
+    throw Error(ExitCode::kCannotCompare, options.reference_name,
+                layer.empty() ? "has no R, G or B" : "has no layer " + layer);
+  }
+}
+
+// The samples of a channel, at the first pixel of `window`.
+const float* FirstSample(const Channel& channel, const Image& image, const Window& window) {
+  const auto stride = static_cast<size_t>(image.data.width());
+  return channel.samples.data() + static_cast<size_t>(window.y0 - image.data.y0) * stride +
+         static_cast<size_t>(window.x0 - image.data.x0);
+}
+
+}  // namespace
+
+std::string LayerOfChannel(const std::string& channel) {
+  const size_t dot = channel.rfind('.');
+  if (dot != std::string::npos) return channel.substr(0, dot);
+  return channel == "R" || channel == "G" || channel == "B" ? "" : channel;
+}
+
+ImagePair PairImages(const Image& got, const Image& reference, const CompareOptions& options) {
+  const Window& a = got.display;
+  const Window& b = reference.display;
+  if (a.width() != b.width() || a.height() != b.height()) {
+    throw Error(ExitCode::kCannotCompare, options.got_name,
+                fmt::format("is {}x{}, but {} is {}x{}", a.width(), a.height(),
+                            options.reference_name, b.width(), b.height()));
+  }
+  RequireLayers(reference, options);
+  RequireChannels(got, options.got_name, reference, options.reference_name, options);
+  RequireChannels(reference, options.reference_name, got, options.got_name, options);
+  ImagePair pair;
+  pair.window = Intersect(got.data, reference.data);
+  if (pair.window.empty()) {
+    throw Error(ExitCode::kCannotCompare, options.got_name,
+                "has no pixel in common with " + options.reference_name);
+  }
+  pair.got_stride = static_cast<size_t>(got.data.width());
+  pair.reference_stride = static_cast<size_t>(reference.data.width());
+  for (const Channel& channel : reference.channels) {
+    const std::string layer = LayerOfChannel(channel.name);
+    if (!IsWanted(layer, options)) continue;
+    auto found = std::find_if(pair.layers.begin(), pair.layers.end(),
+                              [&](const LayerPair& p) { return p.layer == layer; });
+    if (found == pair.layers.end()) found = pair.layers.insert(found, {layer, {}});
+    found->channels.push_back({channel.name, FirstSample(*got.Find(channel.name), got, pair.window),
+                               FirstSample(channel, reference, pair.window)});
+  }
+  return pair;
+}
+
+double SampleError(float got, float reference) {
+  if (std::isfinite(got) && std::isfinite(reference)) {
+    return std::abs(static_cast<double>(got) - reference);
+  }
+  const bool same = got == reference || (std::isnan(got) && std::isnan(reference));
+  return same ? 0 : std::numeric_limits<double>::infinity();
+}
+
+double RelativeError(double error, float reference) {
+  if (error == 0) return 0;
+  return error / std::hypot(static_cast<double>(reference), kRelativeFloor);
+}
+
+}  // namespace nacre

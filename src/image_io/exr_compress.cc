@@ -1,0 +1,98 @@
+#include "image_io/exr_compress.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStdIO.h>
+
+#include "base/error.h"
+#include "image_io/deflate.h"
+#include "image_io/zip.h"
+
+namespace nacre {
+namespace {
+
+Imf::PixelType LibraryType(PixelType type) {
+  switch (type) {
+    case PixelType::kHalf:
+      return Imf::HALF;
+    case PixelType::kFloat:
+      return Imf::FLOAT;
+    case PixelType::kUint:
+      return Imf::UINT;
+  }
+  return Imf::FLOAT;
+}
+
+Imf::Compression LibraryCompression(Compression compression) {
+  switch (compression) {
+    case Compression::kNone:
+      return Imf::NO_COMPRESSION;
+    case Compression::kZip:
+      return Imf::ZIP_COMPRESSION;
+    case Compression::kZips:
+      return Imf::ZIPS_COMPRESSION;
+    case Compression::kPiz:
+      return Imf::PIZ_COMPRESSION;
+    case Compression::kDwaa:
+      return Imf::DWAA_COMPRESSION;
+  }
+  return Imf::NO_COMPRESSION;
+}
+
+std::span<const uint8_t> Bytes(std::span<const uint16_t> words) {
+  return {reinterpret_cast<const uint8_t*>(words.data()), words.size_bytes()};
+}
+
+}  // namespace
+
+std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level) {
+  thread_local std::vector<uint8_t> predicted;
+  const size_t size = words.size_bytes();
+  if (predicted.size() < size) predicted.resize(size);
+  SplitAndPredict(words.data(), words.size(), predicted.data());
+  std::vector<uint8_t> chunk = Deflate({predicted.data(), size}, DeflateForm::kZlib, deflate_level);
+  if (chunk.size() < size) return chunk;
+  const std::span<const uint8_t> bytes = Bytes(words);
+  return {bytes.begin(), bytes.end()};
+}
+
+// OpenEXR's C++ library compresses for whole files only, and its C library 3.1 has no DWAA
+// encoder: so it writes the chunk to a small file in memory, and the chunk is read from there.
+std::vector<uint8_t> CompressByLibrary(const ExrLayout& layout, Compression compression,
+                                       std::span<const uint16_t> words) {
+  const int rows = static_cast<int>(words.size() / layout.row_words);
+  Imf::Header header(static_cast<int>(layout.width), rows, 1.0f, Imath::V2f(0.0f), 1.0f,
+                     Imf::INCREASING_Y, LibraryCompression(compression));
+  Imf::FrameBuffer frame;
+  auto* place = reinterpret_cast<char*>(const_cast<uint16_t*>(words.data()));  // only read
+  for (const ExrChannel& channel : layout.channels) {
+    const Imf::PixelType type = LibraryType(channel.type);
+    const size_t sample_bytes = 2 * SampleWords(channel.type);
+    header.channels().insert(channel.name, Imf::Channel(type));
+    frame.insert(channel.name, Imf::Slice(type, place, sample_bytes, 2 * layout.row_words));
+    place += layout.width * sample_bytes;
+  }
+  try {
+    constexpr int kNoThreads = 0;
+    Imf::StdOSStream written;
+    {
+      Imf::OutputFile file(written, header, kNoThreads);
+      file.setFrameBuffer(frame);
+      file.writePixels(rows);
+    }
+    Imf::StdISStream source;
+    source.str(written.str());
+    Imf::InputFile file(source, kNoThreads);
+    const char* chunk = nullptr;
+    int size = 0;
+    file.rawPixelData(0, chunk, size);
+    return {chunk, chunk + size};
+  } catch (const std::exception& error) {
+    throw Error(ExitCode::kInternal, "OpenEXR", error.what());
+  }
+}
+
+}  // namespace nacre

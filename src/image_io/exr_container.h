@@ -1,0 +1,55 @@
+// image_io/exr_container.h: an EXR file around chunks that are compressed already.
+// The only file, with its .cc, that uses OpenEXR's C library.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <openexr_context.h>
+
+#include "image_io/exr_header.h"
+#include "image_io/output_file.h"
+
+namespace nacre {
+
+// A single-part scanline file with lines from the top down. One thread at a time.
+class ExrContainer {
+ public:
+  // Opens the file and writes the header. Throws Error: kCannotWrite as OutputFile does,
+  // kInternal for a header that OpenEXR refuses.
+  ExrContainer(const std::string& path, const ExrHeader& header, Compression compression);
+  ~ExrContainer();
+  ExrContainer(const ExrContainer&) = delete;
+  ExrContainer& operator=(const ExrContainer&) = delete;
+
+  // The next chunk, whose first row is `y`.
+  void WriteChunk(int y, std::span<const uint8_t> bytes);
+
+  // Gives an attribute of the header another value of the same type, int or float.
+  void UpdateAttribute(const std::string& name, const ExrAttribute& value);
+
+  // After the last chunk: the file appears.
+  void Finish(bool sync);
+
+ private:
+  static int64_t OnWrite(exr_const_context_t context, void* user, const void* bytes, uint64_t size,
+                         uint64_t offset, exr_stream_error_func_ptr_t error);
+  void WriteHeader(const ExrHeader& header, Compression compression);
+  void SetAttributes(const ExrHeader& header);
+  // Where the value of an attribute stands in the file; 0 if there is none.
+  size_t FindAttribute(const std::string& name, const std::string& type) const;
+  // Throws unless `result` is success.
+  void Check(exr_result_t result);
+
+  std::string path_;
+  OutputFile file_;
+  exr_context_t context_ = nullptr;
+  bool in_header_ = true;
+  std::vector<uint8_t> header_;         // its bytes, written at once, kept for UpdateAttribute
+  std::exception_ptr write_exception_;  // carried across the library's C frames
+};
+
+}  // namespace nacre

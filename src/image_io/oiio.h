@@ -1,0 +1,38 @@
+// image_io/oiio.h: OpenImageIO, loaded when first used.
+//
+// It is in a module of its own, nacre_oiio.so, looked for beside the program, then in
+// ../lib/nacre from there, then (programs of a build tree's subfolders) one folder up.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+
+namespace nacre {
+
+// Any format that OpenImageIO reads; as ReadImage says. First subimage, full resolution.
+Image ReadWithOiio(const std::string& path);
+
+enum class AlignX : uint8_t { kLeft, kCenter, kRight };
+enum class AlignY : uint8_t { kTop, kCenter, kBottom };
+
+// A line of text at (x, y), pixels from the top left corner.
+struct TextItem {
+  std::string text;  // UTF-8
+  int x = 0;
+  int y = 0;
+  int size_px = 16;
+  AlignX align_x = AlignX::kLeft;  // which point of the text (x, y) is
+  AlignY align_y = AlignY::kTop;   // top and centre of capital letters, bottom of descenders
+  std::array<uint8_t, 3> color = {255, 255, 255};
+};
+
+// Draws text in DejaVu Sans with a dark outline, which reads on any background, into width *
+// height RGB pixels of display codes. Throws Error (kInternal) if the module or a font is missing.
+void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items);
+
+}  // namespace nacre

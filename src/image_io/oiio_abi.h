@@ -1,0 +1,42 @@
+// image_io/oiio_abi.h: what the module nacre_oiio offers, in plain C types.
+//
+// The module is the only thing that links OpenImageIO, whose 261 libraries take 0.2 s to load; it
+// is opened when first needed. Both sides are built together.
+#pragma once
+
+#include <cstdint>
+
+extern "C" {
+
+// Free with NacreOiioFreeImage.
+struct NacreOiioImage {
+  int32_t data_window[4];     // x0, y0, x1, y1: x1 and y1 are excluded
+  int32_t display_window[4];  // likewise
+  int32_t channel_count;
+  int32_t
+      integer_samples;   // 1: the file's are integers, here divided by their maximum (ids are not)
+  int32_t half_samples;  // 1: the file's are 16-bit floats
+  float* samples;        // row by row, the channels of a pixel together
+  char* channel_names;   // each ended by a NUL
+  char* attributes;      // name NUL value NUL ...; an empty name ends them
+};
+
+// A line of text in an RGB picture.
+struct NacreOiioText {
+  const char* text;  // UTF-8
+  int32_t x, y;      // pixels from the top left corner
+  int32_t size_px;
+  int32_t align_x;  // x is the text's: -1 left end, 0 middle, 1 right end
+  int32_t align_y;  // y is: -1 top, 0 middle of capital letters, 1 bottom of descenders
+  uint8_t color[3];
+};
+
+// Both return null, or the reason for failing, valid until the thread's next call. Neither lets an
+// exception out. Images of more than max_samples samples are refused.
+const char* NacreOiioReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image);
+const char* NacreOiioDrawText(uint8_t* rgb8, int32_t width, int32_t height,
+                              const NacreOiioText* items, int32_t item_count);
+
+void NacreOiioFreeImage(NacreOiioImage* image);
+
+}  // extern "C"

@@ -1,0 +1,200 @@
+#include "image_io/png_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <isa-l/crc.h>
+#include <isa-l/igzip_lib.h>
+#include <zlib.h>
+
+#include "base/error.h"
+#include "image_io/deflate.h"
+#include "image_io/in_order.h"
+#include "image_io/output_file.h"
+
+namespace nacre {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+constexpr int kSmallDeflate = 9;
+constexpr size_t kPixelBytes = 3;
+
+// Filter types, PNG specification 9.2.
+constexpr uint8_t kFilterSub = 1;
+constexpr uint8_t kFilterUp = 2;
+
+// A deflated strip as an IDAT chunk, and what the zlib stream's checksum needs of it.
+struct PngStrip {
+  Bytes chunk;
+  uint32_t adler;
+  size_t filtered_size;
+};
+
+void AppendUint32(uint32_t value, Bytes* bytes) {
+  for (const int shift : {24, 16, 8, 0}) bytes->push_back(static_cast<uint8_t>(value >> shift));
+}
+
+void AppendText(const std::string& text, Bytes* bytes) {
+  bytes->insert(bytes->end(), text.begin(), text.end());
+}
+
+// Length, type, content, checksum: PNG specification 5.3.
+Bytes MakeChunk(const std::string& type, std::span<const uint8_t> content) {
+  Bytes chunk;
+  chunk.reserve(content.size() + 12);
+  AppendUint32(static_cast<uint32_t>(content.size()), &chunk);
+  AppendText(type, &chunk);
+  chunk.insert(chunk.end(), content.begin(), content.end());
+  AppendUint32(crc32_gzip_refl(0, chunk.data() + 4, chunk.size() - 4), &chunk);
+  return chunk;
+}
+
+void AppendChunk(const std::string& type, std::span<const uint8_t> content, Bytes* bytes) {
+  const Bytes chunk = MakeChunk(type, content);
+  bytes->insert(bytes->end(), chunk.begin(), chunk.end());
+}
+
+// tEXt is Latin-1, so anything else than ASCII goes into iTXt: no compression, no language.
+void AppendTextChunk(const std::string& keyword, const std::string& value, Bytes* bytes) {
+  const bool ascii = std::ranges::all_of(value, [](char c) { return c > 0; });
+  Bytes content;
+  AppendText(keyword, &content);
+  content.insert(content.end(), ascii ? 1 : 5, 0);
+  AppendText(value, &content);
+  AppendChunk(ascii ? "tEXt" : "iTXt", content, bytes);
+}
+
+// Everything up to the first strip.
+Bytes MakeHeader(const PngHeader& header) {
+  Bytes bytes = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  Bytes content;
+  AppendUint32(static_cast<uint32_t>(header.width), &content);
+  AppendUint32(static_cast<uint32_t>(header.height), &content);
+  // 8 bits, RGB, deflate, adaptive filters, not interlaced.
+  content.insert(content.end(), {8, 2, 0, 0, 0});
+  AppendChunk("IHDR", content, &bytes);
+  // Perceptual intent; and, as 11.3.3.5 recommends, the same in gAMA and cHRM for readers that do
+  // not know sRGB: 1/2.2, then x and y of white, red, green, blue, times 100000.
+  AppendChunk("sRGB", Bytes{0}, &bytes);
+  content.clear();
+  AppendUint32(45455, &content);
+  AppendChunk("gAMA", content, &bytes);
+  content.clear();
+  for (const uint32_t v : {31270u, 32900u, 64000u, 33000u, 30000u, 60000u, 15000u, 6000u}) {
+    AppendUint32(v, &content);
+  }
+  AppendChunk("cHRM", content, &bytes);
+  for (const auto& [keyword, value] : header.text) AppendTextChunk(keyword, value, &bytes);
+  return bytes;
+}
+
+// The strip's rows, each after its filter type: the first as differences from the pixel to the
+// left, so that it needs no other strip, the others as differences from the row above.
+void FilterStrip(const uint8_t* rgb8, size_t rows, size_t row_bytes, uint8_t* out) {
+  out[0] = kFilterSub;
+  std::memcpy(out + 1, rgb8, kPixelBytes);
+  for (size_t i = kPixelBytes; i < row_bytes; ++i) {
+    out[1 + i] = static_cast<uint8_t>(rgb8[i] - rgb8[i - kPixelBytes]);
+  }
+  for (size_t row = 1; row < rows; ++row) {
+    const uint8_t* const above = rgb8 + (row - 1) * row_bytes;
+    const uint8_t* const here = above + row_bytes;
+    uint8_t* const filtered = out + row * (1 + row_bytes);
+    filtered[0] = kFilterUp;
+    for (size_t i = 0; i < row_bytes; ++i) {
+      filtered[1 + i] = static_cast<uint8_t>(here[i] - above[i]);
+    }
+  }
+}
+
+}  // namespace
+
+struct PngWriter::State {
+  State(const std::string& path_in, const PngHeader& header_in, const PngOptions& options_in)
+      : path(path_in),
+        header(header_in),
+        options(options_in),
+        file(path_in),
+        in_order([this](size_t, const PngStrip& strip) {
+          Append(strip.chunk);
+          adler = static_cast<uint32_t>(
+              adler32_combine(adler, strip.adler, static_cast<z_off_t>(strip.filtered_size)));
+        }) {}
+
+  void Append(std::span<const uint8_t> bytes) {
+    file.Write(size, bytes);
+    size += bytes.size();
+  }
+  size_t strip_count() const {
+    return static_cast<size_t>((header.height + kStripRows - 1) / kStripRows);
+  }
+  PngStrip MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const;
+
+  const std::string path;
+  const PngHeader header;
+  const PngOptions options;
+  OutputFile file;
+  uint64_t size = 0;  // of what has been written
+  uint32_t adler = 1;
+  InOrder<PngStrip> in_order;
+};
+
+PngStrip PngWriter::State::MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const {
+  thread_local Bytes filtered;
+  const size_t row_bytes = kPixelBytes * static_cast<size_t>(header.width);
+  const size_t filtered_size = rows * (1 + row_bytes);
+  if (filtered.size() < filtered_size) filtered.resize(filtered_size);
+  FilterStrip(rgb8, rows, row_bytes, filtered.data());
+  const bool last = index + 1 == strip_count();
+  Bytes deflated =
+      Deflate({filtered.data(), filtered_size}, last ? DeflateForm::kLastPart : DeflateForm::kPart,
+              options.small ? kSmallDeflate : kFastDeflate);
+  // The stream's header: deflate with a window of 32 KiB, and its check bits.
+  if (index == 0) deflated.insert(deflated.begin(), {0x78, 0x01});
+  return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered.data(), filtered_size),
+          filtered_size};
+}
+
+PngWriter::PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options) {
+  // A strip's bytes, deflated, must fit a chunk's length of 31 bits.
+  constexpr int kMaxWidth = std::numeric_limits<int32_t>::max() / (kStripRows * 4);
+  if (header.width < 1 || header.height < 1 || header.width > kMaxWidth) {
+    throw Error(ExitCode::kInternal, path, "a picture of this size cannot be written as PNG");
+  }
+  state_ = std::make_unique<State>(path, header, options);
+  state_->Append(MakeHeader(header));
+}
+
+PngWriter::~PngWriter() = default;
+
+void PngWriter::WriteStrip(int y, int rows, const uint8_t* rgb8) {
+  const int height = state_->header.height;
+  if (y < 0 || y >= height || y % kStripRows != 0 || rows != std::min(kStripRows, height - y)) {
+    throw Error(ExitCode::kInternal, state_->path, "a strip that is not one of the picture's");
+  }
+  const auto index = static_cast<size_t>(y / kStripRows);
+  state_->in_order.Add(index, state_->MakeStrip(index, static_cast<size_t>(rows), rgb8));
+}
+
+void PngWriter::Finish(const PngText& text) {
+  if (state_->in_order.count() != state_->strip_count()) {
+    throw Error(ExitCode::kInternal, state_->path, "the picture is not complete");
+  }
+  // The zlib stream's checksum is in a last IDAT of its own: its strips were in chunks already
+  // when the total was not known.
+  Bytes content;
+  AppendUint32(state_->adler, &content);
+  Bytes end = MakeChunk("IDAT", content);
+  for (const auto& [keyword, value] : text) AppendTextChunk(keyword, value, &end);
+  AppendChunk("IEND", {}, &end);
+  state_->Append(end);
+  state_->file.Commit(state_->options.sync);
+}
+
+}  // namespace nacre

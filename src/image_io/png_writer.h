@@ -1,0 +1,52 @@
+// image_io/png_writer.h: 8-bit RGB PNG files written strip by strip while the picture is being
+// rendered.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace nacre {
+
+// Text chunks by keyword (1 to 79 printable ASCII characters). Values are UTF-8.
+using PngText = std::map<std::string, std::string>;
+
+struct PngHeader {
+  int width = 0;  // both at least 1
+  int height = 0;
+  PngText text;
+};
+
+struct PngOptions {
+  bool small = false;  // zlib's best instead of ISA-L: a quarter smaller, many times slower
+  bool sync = false;   // Finish returns when the file has reached the disk
+};
+
+// A file of sRGB codes, tagged as such. Strips are filtered and deflated, each by itself, in the
+// threads that bring them, and written in order. All functions throw Error: kCannotWrite when the
+// file cannot be written, kInternal when they are called wrongly.
+class PngWriter {
+ public:
+  // Rows of a strip; the last one may have fewer.
+  static constexpr int kStripRows = 16;
+
+  // Opens the file and writes its header: call before rendering.
+  PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options = {});
+  // Without Finish, nothing remains of the file.
+  ~PngWriter();
+
+  // kStripRows rows from row `y` on (a multiple of kStripRows; the top row is 0): rows * width
+  // pixels of three bytes. Each strip once, in any order, from any thread, several at once.
+  void WriteStrip(int y, int rows, const uint8_t* rgb8);
+
+  // After the last strip has been written: adds text that is only known at the end, such as the
+  // render time, and the file appears.
+  void Finish(const PngText& text = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,168 @@
+// oiio_module/oiio_module.cc: the functions of image_io/oiio_abi.h, on OpenImageIO.
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+#include <OpenImageIO/imageio.h>
+
+#include "image_io/oiio_abi.h"
+
+// Only these names are seen from outside.
+#pragma GCC visibility push(default)
+extern "C" {
+decltype(NacreOiioReadImage) NacreOiioReadImage;
+decltype(NacreOiioDrawText) NacreOiioDrawText;
+decltype(NacreOiioFreeImage) NacreOiioFreeImage;
+}
+#pragma GCC visibility pop
+
+namespace {
+
+const char* KeepMessage(const std::string& message) {
+  thread_local std::string kept;
+  kept = message.empty() ? "unknown reason" : message;
+  return kept.c_str();
+}
+
+// A copy that C frees; `strings` may hold NULs.
+char* Copy(const std::string& strings) {
+  auto* copy = static_cast<char*>(std::malloc(strings.size() + 1));
+  if (copy == nullptr) throw std::bad_alloc();
+  std::memcpy(copy, strings.c_str(), strings.size() + 1);
+  return copy;
+}
+
+void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioImage* image) {
+  const int32_t data[] = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
+  const int32_t display[] = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
+                             spec.full_y + spec.full_height};
+  std::ranges::copy(data, image->data_window);
+  std::ranges::copy(display, image->display_window);
+  image->channel_count = spec.nchannels;
+  image->integer_samples = spec.format.is_floating_point() ? 0 : 1;
+  image->half_samples = spec.format == OIIO::TypeDesc::HALF ? 1 : 0;
+  std::string names;
+  for (int c = 0; c < spec.nchannels; ++c) names += std::string(spec.channel_name(c)) + '\0';
+  image->channel_names = Copy(names);
+  std::string attributes;
+  for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
+    if (attribute.name().empty()) continue;
+    attributes += attribute.name().string() + '\0' + attribute.get_string() + '\0';
+  }
+  image->attributes = Copy(attributes);
+}
+
+// OpenImageIO divides integers by their maximum. EXR's are ids: they stay what they are.
+bool ReadIds(OIIO::ImageInput* input, NacreOiioImage* image) {
+  const OIIO::ImageSpec& spec = input->spec();
+  const auto channels = static_cast<size_t>(spec.nchannels);
+  std::vector<uint32_t> ids(spec.image_pixels());
+  for (int c = 0; c < spec.nchannels; ++c) {
+    if (spec.channelformat(c) != OIIO::TypeDesc::UINT32) continue;
+    if (!input->read_image(0, 0, c, c + 1, OIIO::TypeDesc::UINT32, ids.data())) return false;
+    for (size_t i = 0; i < ids.size(); ++i) {
+      image->samples[i * channels + static_cast<size_t>(c)] = static_cast<float>(ids[i]);
+    }
+  }
+  return true;
+}
+
+std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
+  OIIO::ImageSpec config;
+  config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
+  const auto input = OIIO::ImageInput::open(path, &config);
+  if (!input) return OIIO::geterror();
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
+    return "not a flat picture";
+  }
+  const uint64_t samples = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
+  if (samples > max_samples) return "too large";
+  DescribeImage(spec, image);
+  image->samples = static_cast<float*>(std::malloc(samples * sizeof(float)));
+  if (image->samples == nullptr) return "out of memory";
+  bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image->samples);
+  if (read && std::strcmp(input->format_name(), "openexr") == 0) {
+    read = ReadIds(input.get(), image);
+  }
+  return read ? std::string() : input->geterror();
+}
+
+constexpr char kFont[] = "DejaVuSans";
+
+// From the text's origin, which is on its baseline, to the point that the item places. Vertically
+// that depends on the font only, so that labels in a row stand on one line: the top and the middle
+// of capitals, the bottom of descenders.
+struct Offset {
+  int x, y;
+};
+
+Offset AlignmentOffset(const NacreOiioText& item) {
+  using OIIO::ImageBufAlgo::text_size;
+  const OIIO::ROI text = text_size(item.text, item.size_px, kFont);
+  const OIIO::ROI capital = text_size("H", item.size_px, kFont);
+  const OIIO::ROI descender = text_size("g", item.size_px, kFont);
+  Offset offset = {(text.xbegin + text.xend) / 2, (capital.ybegin + capital.yend) / 2};
+  if (item.align_x < 0) offset.x = text.xbegin;
+  if (item.align_x > 0) offset.x = text.xend;
+  if (item.align_y < 0) offset.y = capital.ybegin;
+  if (item.align_y > 0) offset.y = descender.yend;
+  return offset;
+}
+
+std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
+  if (item.text[0] == '\0') return {};
+  constexpr float kCodes = 255.0f;
+  const float color[] = {static_cast<float>(item.color[0]) / kCodes,
+                         static_cast<float>(item.color[1]) / kCodes,
+                         static_cast<float>(item.color[2]) / kCodes};
+  const int outline_px = std::max(1, item.size_px / 12);
+  const Offset offset = AlignmentOffset(item);
+  using OIIO::ImageBufAlgo::TextAlignX;
+  using OIIO::ImageBufAlgo::TextAlignY;
+  const bool drawn = OIIO::ImageBufAlgo::render_text(
+      *picture, item.x - offset.x, item.y - offset.y, item.text, item.size_px, kFont, color,
+      TextAlignX::Left, TextAlignY::Baseline, outline_px);
+  return drawn ? std::string() : picture->geterror();
+}
+
+}  // namespace
+
+const char* NacreOiioReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
+  *image = {};
+  try {
+    const std::string failure = ReadImage(path, max_samples, image);
+    if (image->samples != nullptr && failure.empty()) return nullptr;
+    NacreOiioFreeImage(image);
+    return KeepMessage(failure);
+  } catch (const std::exception& exception) {
+    NacreOiioFreeImage(image);
+    return KeepMessage(exception.what());
+  }
+}
+
+const char* NacreOiioDrawText(uint8_t* rgb8, int32_t width, int32_t height,
+                              const NacreOiioText* items, int32_t item_count) {
+  try {
+    OIIO::ImageBuf picture(OIIO::ImageSpec(width, height, 3, OIIO::TypeDesc::UINT8), rgb8);
+    for (int32_t i = 0; i < item_count; ++i) {
+      const std::string failure = DrawItem(items[i], &picture);
+      if (!failure.empty()) return KeepMessage(failure);
+    }
+    return nullptr;
+  } catch (const std::exception& exception) {
+    return KeepMessage(exception.what());
+  }
+}
+
+void NacreOiioFreeImage(NacreOiioImage* image) {
+  std::free(image->samples);
+  std::free(image->channel_names);
+  std::free(image->attributes);
+  *image = {};
+}

@@ -1,0 +1,47 @@
+// sampling/pixel_sampler.h: where a pixel's samples lie and what they weigh.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/image.h"
+#include "sampling/pixel_filter.h"
+
+namespace nacre {
+
+// What all pixels of an image share. One Owen-scrambled point set serves them all; each pixel
+// shifts its binary digits by a random number of its own (Kollig and Keller 2002), which keeps its
+// nets and costs one exclusive or, and makes the errors of pixels independent.
+struct PixelSampler {
+  FilterSampler filter;
+  uint32_t seed = 0;
+  int samples_per_pixel = 1;
+  // Samples [0, positive_count) are of the filter's positive part, the others of the negative
+  // one: fixed counts with fixed weights, so that a constant image is reproduced exactly.
+  int positive_count = 1;
+  double positive_weight = 1;
+  double negative_weight = 0;
+  // The point of each sample, as 32 bits after the point; padded for whole vectors.
+  std::vector<uint32_t> points_x, points_y;
+};
+
+// samples_per_pixel in [1, 65536].
+PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
+
+struct PixelSample {
+  double dx, dy;  // from the pixel's centre, in pixels
+  double weight;
+};
+
+// Sample `index` of the pixel in column x and row y of the full image. The mean over a pixel's
+// samples of weight x value estimates the filtered image without bias; the weights have the mean
+// 1. The only sample of one per pixel is the centre.
+PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
+
+// Samples [first, first + count) of each of `pixels`, row by row, all of a pixel together:
+// film positions x + 0.5 + dx and y + 0.5 + dy, and weights, to the bit those of SamplePixel. The
+// arrays take pixels.pixel_count() * count entries.
+void SamplePixels(const PixelSampler& sampler, const Window& pixels, int first, int count,
+                  double* film_x, double* film_y, double* weight);
+
+}  // namespace nacre

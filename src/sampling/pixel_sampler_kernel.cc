@@ -1,0 +1,206 @@
+// sampling/pixel_sampler_kernel.cc: SamplePixels of sampling/pixel_sampler.h. Scalar twin:
+// SamplePixel. Products and sums are never fused, so that both agree to the bit on every target.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "sampling/pixel_sampler_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include <algorithm>
+
+#include "hwy/highway.h"
+
+#include "base/aligned.h"
+#include "sampling/hash.h"
+#include "sampling/pixel_sampler.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+using DU32 = hn::Rebind<uint32_t, D>;
+using VU32 = hn::Vec<DU32>;
+
+// UnitFromBits(bits) - 1/2, exactly: with its top bit flipped a number without sign is, as one
+// with a sign, lower by 2^31.
+HWY_INLINE V CenteredFromBits(VU32 bits) {
+  const hn::Rebind<int32_t, D> di32;
+  const VU32 flipped = hn::Xor(bits, hn::Set(DU32(), 0x80000000u));
+  return hn::Mul(hn::PromoteTo(D(), hn::BitCast(di32, flipped)), hn::Set(D(), 0x1p-32));
+}
+
+// SampleDistance of pixel_filter.cc.
+HWY_INLINE V Distance(const double* HWY_RESTRICT quantiles, V u) {
+  const D d;
+  const hn::Rebind<int32_t, D> di32;
+  const V one = hn::Set(d, 1.0);
+  const V side = hn::Sub(hn::Add(u, u), one);
+  const V rest = hn::Sub(one, hn::Abs(side));
+  const V position = hn::Mul(hn::Sub(one, hn::Sqrt(rest)), hn::Set(d, double{kQuantileSteps}));
+  const auto step = hn::DemoteTo(di32, hn::Min(position, hn::Set(d, kQuantileSteps - 1.0)));
+  const V fraction = hn::Sub(position, hn::PromoteTo(d, step));
+  const auto i = hn::PromoteTo(hn::RebindToSigned<D>(), step);
+  const V low = hn::GatherIndex(d, quantiles, i);
+  const V high = hn::GatherIndex(d, quantiles + 1, i);
+  const V distance = hn::Add(low, hn::Mul(fraction, hn::Sub(high, low)));
+  return hn::IfThenElse(hn::Lt(side, hn::Zero(d)), hn::Neg(distance), distance);
+}
+
+// The only sample of a pixel.
+struct Center {
+  HWY_INLINE void operator()(V, V, V* dx, V* dy) const {
+    *dx = hn::Zero(D());
+    *dy = hn::Zero(D());
+  }
+};
+
+struct Box {
+  double width;
+  HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
+    *dx = hn::Mul(centered_x, hn::Set(D(), width));
+    *dy = hn::Mul(centered_y, hn::Set(D(), width));
+  }
+};
+
+// A filter without negative values.
+struct Positive {
+  const double* quantiles;
+  HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
+    const V half = hn::Set(D(), 0.5);
+    *dx = Distance(quantiles, hn::Add(centered_x, half));
+    *dy = Distance(quantiles, hn::Add(centered_y, half));
+  }
+};
+
+// A part of a filter with both signs.
+struct Signed {
+  const double* first_x;
+  const double* second_x;
+  const double* first_y;
+  const double* second_y;
+  double first_share;
+  HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
+    const D d;
+    const V half = hn::Set(d, 0.5);
+    const V u = hn::Add(centered_x, half);
+    const V v = hn::Add(centered_y, half);
+    const V share = hn::Set(d, first_share);
+    const auto first = hn::Lt(u, share);
+    const V first_u = hn::Div(u, share);
+    const V second_u = hn::Div(hn::Sub(u, share), hn::Set(d, 1 - first_share));
+    // Lanes of the other kind look up something harmless, inside the table.
+    const V zero = hn::Zero(d);
+    *dx = hn::IfThenElse(first, Distance(first_x, hn::IfThenElse(first, first_u, zero)),
+                         Distance(second_x, hn::IfThenElse(first, zero, second_u)));
+    *dy = hn::IfThenElse(first, Distance(first_y, v), Distance(second_y, v));
+  }
+};
+
+// Samples [first, end) of one pixel, all of one part of the filter.
+struct Run {
+  int first, end;
+  double weight;
+};
+
+// Where the next samples go: `left` more entries fit.
+struct Output {
+  double* film_x;
+  double* film_y;
+  double* weight;
+  size_t left;
+
+  // Stores the first n lanes. Whole vectors as long as they fit: later samples overwrite the rest.
+  HWY_INLINE void Append(V x, V y, V w, size_t n) {
+    const D d;
+    if (hn::Lanes(d) <= left) {
+      hn::StoreU(x, d, film_x);
+      hn::StoreU(y, d, film_y);
+      hn::StoreU(w, d, weight);
+    } else {
+      StoreSome(x, n, film_x);
+      StoreSome(y, n, film_y);
+      StoreSome(w, n, weight);
+    }
+    film_x += n;
+    film_y += n;
+    weight += n;
+    left -= n;
+  }
+
+  static void StoreSome(V v, size_t n, double* to) {
+    alignas(HWY_MAX_BYTES) double lanes[HWY_MAX_BYTES / sizeof(double)];
+    hn::Store(v, D(), lanes);
+    std::copy_n(lanes, n, to);
+  }
+};
+
+template <class Filter>
+HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int x, int y, Run run,
+                          Output* output) {
+  const D d;
+  const DU32 du32;
+  const uint64_t shift = PixelSeed(x, y, sampler.seed);
+  const VU32 shift_x = hn::Set(du32, static_cast<uint32_t>(shift));
+  const VU32 shift_y = hn::Set(du32, static_cast<uint32_t>(shift >> 32));
+  const V center_x = hn::Set(d, x + 0.5);
+  const V center_y = hn::Set(d, y + 0.5);
+  const auto end = static_cast<size_t>(run.end);
+  for (auto i = static_cast<size_t>(run.first); i < end; i += hn::Lanes(d)) {
+    V dx, dy;
+    filter(CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_x.data() + i), shift_x)),
+           CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_y.data() + i), shift_y)), &dx,
+           &dy);
+    output->Append(hn::Add(center_x, dx), hn::Add(center_y, dy), hn::Set(d, run.weight),
+                   std::min(hn::Lanes(d), end - i));
+  }
+}
+
+// Positive and negative samples by their own filters; either run may be empty.
+template <class PositiveFilter, class NegativeFilter>
+HWY_INLINE void SampleAll(const PositiveFilter& positive, const NegativeFilter& negative,
+                          const PixelSampler& sampler, const Window& pixels, int first, int end,
+                          Output output) {
+  const int split = std::clamp(sampler.positive_count, first, end);
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      SampleRun(positive, sampler, x, y, {first, split, sampler.positive_weight}, &output);
+      SampleRun(negative, sampler, x, y, {split, end, sampler.negative_weight}, &output);
+    }
+  }
+}
+
+void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, int first, int count,
+                   double* film_x, double* film_y, double* weight) {
+  const FilterSampler& filter = sampler.filter;
+  const Output output{film_x, film_y, weight, pixels.pixel_count() * static_cast<size_t>(count)};
+  const double* p = filter.positive.data();
+  const double* n = filter.negative.data();
+  const auto sample = [&](const auto& positive, const auto& negative) HWY_ATTR {
+    SampleAll(positive, negative, sampler, pixels, first, first + count, output);
+  };
+  if (sampler.samples_per_pixel == 1) {
+    sample(Center(), Center());
+  } else if (filter.positive.empty()) {
+    sample(Box{filter.filter.width}, Center());
+  } else if (filter.negative.empty()) {
+    sample(Positive{p}, Center());
+  } else {
+    sample(Signed{p, n, p, n, FirstRegionShare(filter, FilterPart::kPositive)},
+           Signed{n, p, p, n, FirstRegionShare(filter, FilterPart::kNegative)});
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(SamplePixelsT);
+void SamplePixels(const PixelSampler& sampler, const Window& pixels, int first, int count,
+                  double* film_x, double* film_y, double* weight) {
+  HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, first, count, film_x, film_y, weight);
+}
+}  // namespace nacre
+#endif

@@ -1,0 +1,139 @@
+#include "scene/hash.h"
+
+#include <bit>
+#include <string_view>
+
+namespace nacre {
+namespace {
+
+// Order-dependent mixing of 64-bit words: multiply and fold (constants of MurmurHash3's
+// finaliser, Appleby 2011).
+class Hasher {
+ public:
+  void Word(uint64_t word) {
+    state_ = (state_ ^ word) * 0xff51afd7ed558ccdu;
+    state_ ^= state_ >> 33;
+    state_ *= 0xc4ceb9fe1a85ec53u;
+    state_ ^= state_ >> 29;
+  }
+  void Add(double value) { Word(std::bit_cast<uint64_t>(value)); }
+  void Add(const Vec3d& v) {
+    Add(v.x);
+    Add(v.y);
+    Add(v.z);
+  }
+  void Add(MaterialId id) { Word(id.index); }
+  void Add(std::string_view text) {
+    Word(text.size());
+    for (const char c : text) Word(static_cast<unsigned char>(c));
+  }
+  uint64_t state() const { return state_; }
+
+ private:
+  uint64_t state_ = 0x9e3779b97f4a7c15u;
+};
+
+void Add(const Camera& camera, Hasher* hash) {
+  hash->Word(static_cast<uint64_t>(camera.projection));
+  hash->Add(camera.position);
+  hash->Add(camera.look_at);
+  hash->Add(camera.up);
+  hash->Add(camera.projection == Projection::kPerspective ? camera.fov_y_deg : camera.height);
+}
+
+void Add(const ImageSettings& image, Hasher* hash) {
+  hash->Word(static_cast<uint64_t>(image.width));
+  hash->Word(static_cast<uint64_t>(image.height));
+  hash->Word(static_cast<uint64_t>(image.spp));
+  hash->Word(static_cast<uint64_t>(image.filter.kind));
+  hash->Add(image.filter.width);
+  hash->Word(image.seed);
+  hash->Word(image.shadows);
+}
+
+struct AddModel {
+  Hasher* hash;
+  void operator()(const LambertMaterial& m) const { hash->Add(m.albedo); }
+  void operator()(const PhongMaterial& m) const {
+    hash->Word(static_cast<uint64_t>(m.model));
+    hash->Word(static_cast<uint64_t>(m.convention));
+    hash->Add(m.color);
+    hash->Add(m.ka);
+    hash->Add(m.kd);
+    hash->Add(m.ks);
+    hash->Add(m.shininess);
+  }
+  void operator()(const MetallicRoughnessMaterial& m) const {
+    hash->Add(m.base_color);
+    hash->Add(m.metallic);
+    hash->Add(m.roughness);
+    hash->Word(static_cast<uint64_t>(m.shadowing));
+  }
+  void operator()(const SplitMaterial& m) const {
+    for (const double at : m.at) hash->Add(at);
+    for (const MaterialId id : m.materials) hash->Add(id);
+  }
+};
+
+struct AddLightKind {
+  Hasher* hash;
+  void Falloff(const Attenuation& a) const {
+    hash->Add(a.constant);
+    hash->Add(a.linear);
+    hash->Add(a.quadratic);
+  }
+  void operator()(const AmbientLight& light) const { hash->Add(light.radiance); }
+  void operator()(const DirectionalLight& light) const {
+    hash->Add(light.direction_of_travel);
+    hash->Add(light.irradiance);
+  }
+  void operator()(const PointLight& light) const {
+    hash->Add(light.position);
+    hash->Add(light.intensity);
+    Falloff(light.attenuation);
+  }
+  void operator()(const SpotLight& light) const {
+    hash->Add(light.position);
+    hash->Add(light.direction_of_travel);
+    hash->Add(light.intensity);
+    Falloff(light.attenuation);
+    hash->Add(light.cutoff_deg);
+    hash->Add(light.inner_deg);
+    hash->Add(light.exponent);
+  }
+};
+
+}  // namespace
+
+uint64_t HashScene(const Scene& scene) {
+  Hasher hash;
+  Add(scene.camera, &hash);
+  Add(scene.image, &hash);
+  hash.Add(scene.background);
+  for (const Material& material : scene.materials) {
+    hash.Word(material.model.index());
+    hash.Add(material.emission);
+    std::visit(AddModel{&hash}, material.model);
+  }
+  for (const Light& light : scene.lights) {
+    hash.Word(light.kind.index());
+    hash.Add(std::string_view(light.name));
+    hash.Word(light.shadows);
+    std::visit(AddLightKind{&hash}, light.kind);
+  }
+  for (const Sphere& sphere : scene.spheres) {
+    hash.Add(sphere.center);
+    hash.Add(sphere.radius);
+    hash.Add(sphere.material);
+  }
+  for (const Mesh& mesh : scene.meshes) {
+    hash.Word(mesh.positions.size());
+    for (const Vec3d& position : mesh.positions) hash.Add(position);
+    for (const Vec3d& normal : mesh.normals) hash.Add(normal);
+    for (const uint32_t index : mesh.triangles) hash.Word(index);
+    hash.Add(mesh.material);
+  }
+  return hash.state();
+}
+
+}  // namespace nacre

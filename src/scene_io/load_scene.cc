@@ -1,0 +1,106 @@
+#include "scene_io/load_scene.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene/validate.h"
+#include "scene_io/overrides.h"
+#include "scene_io/readers.h"
+#include "scene_io/text_file.h"
+
+namespace nacre {
+namespace {
+
+constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
+constexpr int kVersion = 1;
+
+// Throws if the rest of the file cannot mean anything to this program.
+void CheckVersion(const Json& root, const std::string& file) {
+  const std::string hint = fmt::format("\"nacre\": {}, the version of the format", kVersion);
+  if (!root.is_object()) {
+    throw Error(ExitCode::kBadInput, file, "not a scene: no object", "a scene begins {" + hint);
+  }
+  const auto version = root.find("nacre");
+  if (version == root.end()) {
+    throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"", "add " + hint);
+  }
+  if (version->is_number() && *version == kVersion) return;
+  throw Error(ExitCode::kBadInput, PlaceInFile(file, "/nacre"),
+              version->is_number()
+                  ? fmt::format("version {} of scene files is not known", version->dump())
+                  : "the version is not a number",
+              fmt::format("this program reads version {}", kVersion));
+}
+
+void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
+  JsonObject object({root, JsonPath{}, faults});
+  Scene* const scene = context->scene;
+  const auto member = [&](std::string_view name, auto&& read) {
+    if (const Json* json = object.Find(name)) {
+      read(JsonValue{*json, object.path().Member(name), faults});
+    }
+  };
+  std::string schema;
+  object.Text("$schema", &schema);  // for editors
+  object.Find("nacre");
+  member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
+  member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+  member("materials", [&](const JsonValue& value) { ReadMaterials(value, context); });
+  member("lights", [&](const JsonValue& value) { ReadLights(value, &scene->lights); });
+  member("shapes", [&](const JsonValue& value) { ReadShapes(value, context); });
+  object.Color("background", limits::kRadiance, &scene->background);
+  object.RefuseOthers();
+}
+
+// The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
+std::string PartOf(const std::string& pointer) {
+  if (pointer.starts_with("/spheres") || pointer.starts_with("/meshes")) return "/shapes";
+  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/");
+  const size_t first_end = pointer.find('/', 1);
+  return pointer.substr(0, is_named ? pointer.find('/', first_end + 1) : first_end);
+}
+
+// Adds what Validate() finds in parts that could be read: elsewhere it would judge the defaults
+// that stand in for what could not.
+void AddValidation(const Scene& scene, FaultList* faults) {
+  std::set<std::string> faulty_parts;
+  for (const Fault& fault : faults->kept()) faulty_parts.insert(PartOf(fault.where));
+  for (const Fault& fault : Validate(scene)) {
+    const bool is_remainder = fault.where.empty();  // "and 7 more": of which parts?
+    if (is_remainder && !faulty_parts.empty()) continue;
+    if (!faulty_parts.contains(PartOf(fault.where))) {
+      faults->Add(fault.where, fault.what, fault.hint);
+    }
+  }
+}
+
+}  // namespace
+
+Scene LoadSceneText(std::string_view text, const std::string& file,
+                    const std::filesystem::path& folder, const LoadOptions& options) {
+  FaultList faults;
+  Json root = ParseJson(text, file, &faults);
+  for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, &root);
+  CheckVersion(root, file);
+
+  Scene scene;
+  SceneContext context{folder, options.allow_paths, &scene, {}};
+  ReadRoot(root, &faults, &context);
+  AddValidation(scene, &faults);
+  if (faults.count() > 0) {
+    std::vector<Fault> all = faults.All();
+    for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
+    throw Error(ExitCode::kBadInput, std::move(all));
+  }
+  return scene;
+}
+
+Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
+  const std::string text = ReadTextFile(path, kMaxBytes);
+  return LoadSceneText(text, path.string(), path.parent_path(), options);
+}
+
+}  // namespace nacre

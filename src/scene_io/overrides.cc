@@ -1,0 +1,66 @@
+#include "scene_io/overrides.h"
+
+#include <charconv>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+[[noreturn]] void Refuse(const std::string& pointer, std::string what, std::string hint) {
+  throw Error(ExitCode::kUsage, "--set " + pointer, std::move(what), std::move(hint));
+}
+
+// The names that a pointer is made of, unescaped.
+std::vector<std::string> Split(const std::string& pointer) {
+  try {
+    Json::json_pointer rest(pointer);
+    std::vector<std::string> tokens;
+    for (; !rest.empty(); rest.pop_back()) tokens.insert(tokens.begin(), rest.back());
+    return tokens;
+  } catch (const Json::exception&) {
+    Refuse(pointer, "is not a JSON pointer", "for example /image/spp or /materials/gold/roughness");
+  }
+}
+
+Json ParseValue(const std::string& pointer, const std::string& text) {
+  FaultList faults;
+  try {
+    Json value = ParseJson(text, {}, &faults);
+    if (faults.count() == 0) return value;
+  } catch (const Error&) {
+  }
+  Refuse(pointer, fmt::format("{} is not JSON", text),
+         fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, text));
+}
+
+Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
+  if (parent->is_object()) return &(*parent)[token];  // made if missing
+  if (!parent->is_array()) Refuse(pointer, fmt::format("there is no \"{}\" in a value", token), {});
+  size_t index = 0;
+  const char* const last = token.data() + token.size();
+  const auto [end, error] = std::from_chars(token.data(), last, index);
+  if (error != std::errc() || end != last || index >= parent->size()) {
+    Refuse(pointer, fmt::format("there is no element \"{}\"", token),
+           fmt::format("the array has {}, counted from 0", parent->size()));
+  }
+  return &(*parent)[index];
+}
+
+}  // namespace
+
+void ApplyOverride(const std::string& pointer, const std::string& text, Json* root) {
+  Json value = ParseValue(pointer, text);
+  Json* place = root;
+  for (const std::string& token : Split(pointer)) {
+    if (place->is_null()) *place = Json::object();
+    place = Step(pointer, token, place);
+  }
+  *place = std::move(value);
+}
+
+}  // namespace nacre

@@ -1,0 +1,204 @@
+// visibility/intersector.cc: sets Embree up: device, instruction set, bounds, callbacks, errors.
+#include "visibility/intersector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/target.h"
+#include "visibility/embree_api.h"
+#include "visibility/geometry.h"
+#include "visibility/packet.h"
+#include "visibility/refine_kernel.h"
+#include "visibility/sphere_kernel.h"
+#include "visibility/trace_kernel.h"
+#include "visibility/triangle_kernel.h"
+
+namespace nacre {
+namespace {
+
+// Embree's name for the instruction set of a target, and the widest packet it walks natively.
+struct EmbreeTarget {
+  const char* isa;
+  int packet_width;
+};
+
+EmbreeTarget EmbreeTargetFor(Target target) {
+  switch (target) {
+    case Target::kScalar:
+      return {"sse2", 4};
+    case Target::kSse4:
+      return {"sse4.2", 4};
+    case Target::kAvx2:
+      return {"avx2", 8};
+    case Target::kAvx3:
+      return {"avx512", 16};
+  }
+  return {"sse2", 4};
+}
+
+// The first error that Embree reported, from any of its threads.
+class ErrorRecord {
+ public:
+  static void Report(void* self, RTCError code, const char* text) {
+    static_cast<ErrorRecord*>(self)->Remember(code, text);
+  }
+
+  void ThrowIfAny() {
+    const std::lock_guard lock(mutex_);
+    if (code_ == RTC_ERROR_NONE) return;
+    if (code_ == RTC_ERROR_OUT_OF_MEMORY) {
+      throw Error(ExitCode::kInternal, "Embree", "out of memory while building the scene");
+    }
+    throw Error(ExitCode::kInternal, "Embree", text_);
+  }
+
+ private:
+  void Remember(RTCError code, const char* text) {
+    const std::lock_guard lock(mutex_);
+    if (code_ != RTC_ERROR_NONE) return;
+    code_ = code;
+    text_ = text != nullptr ? text : "unknown error";
+  }
+
+  std::mutex mutex_;
+  RTCError code_ = RTC_ERROR_NONE;
+  std::string text_;
+};
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+// Embree ignores configuration that it does not know, so what it made of it is read back. Its
+// threads are not set here: threads=1 would throttle TBB in the whole process.
+DevicePointer MakeDevice(Target target) {
+  const EmbreeTarget wanted = EmbreeTargetFor(target);
+  const std::string config = std::string("isa=") + wanted.isa + ",verbose=0,set_affinity=0";
+  DevicePointer device(rtcNewDevice(config.c_str()));
+  if (!device) throw Error(ExitCode::kInternal, "Embree", "cannot create a device: " + config);
+  const auto native = [&](RTCDeviceProperty property) {
+    return rtcGetDeviceProperty(device.get(), property) != 0;
+  };
+  int width = 4;
+  if (native(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) width = 8;
+  if (native(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) width = 16;
+  if (width != wanted.packet_width) {
+    throw Error(ExitCode::kInternal, "Embree",
+                "this build walks packets of " + std::to_string(width) + " rays where " + config +
+                    " calls for " + std::to_string(wanted.packet_width),
+                "choose another target, or install an Embree built for this one");
+  }
+  return device;
+}
+
+// How far the float ray strays from the true one, at or before points within `reach` of the
+// camera: its origin by u |o| and its direction by u |p - o|, with |o| at most the extent. Twice
+// that, for the rounding of the bounds themselves.
+double BoundsMargin(const TraceGeometry& geometry, double reach) {
+  return 2 * kFloatUnit * (2 * geometry.extent + reach);
+}
+
+void SetBounds(const Vec3d& lower, const Vec3d& upper, double margin, RTCBounds* bounds) {
+  bounds->lower_x = static_cast<float>(lower.x - margin);
+  bounds->lower_y = static_cast<float>(lower.y - margin);
+  bounds->lower_z = static_cast<float>(lower.z - margin);
+  bounds->upper_x = static_cast<float>(upper.x + margin);
+  bounds->upper_y = static_cast<float>(upper.y + margin);
+  bounds->upper_z = static_cast<float>(upper.z + margin);
+}
+
+void SphereBounds(const RTCBoundsFunctionArguments* args) {
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const auto& [center, radius] = geometry.spheres[args->primID];
+  SetBounds(center - Vec3d(radius), center + Vec3d(radius),
+            BoundsMargin(geometry, center.length() + radius), args->bounds_o);
+}
+
+void TriangleBounds(const RTCBoundsFunctionArguments* args) {
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const auto& corners = geometry.triangles[args->primID];
+  Vec3d lower = geometry.positions[corners[0]], upper = lower;
+  double reach = 0;
+  for (const uint32_t corner : corners) {
+    const Vec3d& position = geometry.positions[corner];
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], position[i]);
+      upper[i] = std::max(upper[i], position[i]);
+    }
+    reach = std::max(reach, position.length());
+  }
+  SetBounds(lower, upper, BoundsMargin(geometry, reach), args->bounds_o);
+}
+
+void Attach(RTCDevice device, RTCScene scene, TraceGeometry* geometry, size_t count,
+            RTCBoundsFunction bounds, const PrimitiveCallbacks& callbacks) {
+  if (count == 0) return;
+  RTCGeometry shapes = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(shapes, static_cast<unsigned>(count));
+  rtcSetGeometryUserData(shapes, geometry);
+  rtcSetGeometryBoundsFunction(shapes, bounds, nullptr);
+  rtcSetGeometryIntersectFunction(shapes, callbacks.intersect);
+  rtcSetGeometryOccludedFunction(shapes, callbacks.occluded);
+  rtcCommitGeometry(shapes);
+  rtcAttachGeometry(scene, shapes);
+  rtcReleaseGeometry(shapes);
+}
+
+}  // namespace
+
+// Embree holds pointers to the geometry and the errors; the scene goes before the device.
+struct Intersector::State {
+  TraceGeometry geometry;
+  ErrorRecord errors;
+  DevicePointer device;
+  ScenePointer scene;
+  int packet_width = 0;
+
+  TraceScene Traced() const { return {scene.get(), packet_width, &geometry}; }
+};
+
+Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
+                         const IntersectorSettings& settings)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.geometry = MakeTraceGeometry(scene, camera_position);
+  s.device = MakeDevice(ActiveTarget());
+  s.packet_width = EmbreeTargetFor(ActiveTarget()).packet_width;
+  rtcSetDeviceErrorFunction(s.device.get(), &ErrorRecord::Report, &s.errors);
+  s.scene.reset(rtcNewScene(s.device.get()));
+  s.errors.ThrowIfAny();
+  rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
+  Attach(s.device.get(), s.scene.get(), &s.geometry, s.geometry.spheres.size(), &SphereBounds,
+         SphereCallbacks());
+  Attach(s.device.get(), s.scene.get(), &s.geometry, s.geometry.triangles.size(), &TriangleBounds,
+         TriangleCallbacks());
+  WithThreads(settings.threads, [&] { rtcJoinCommitScene(s.scene.get()); });
+  s.errors.ThrowIfAny();
+}
+
+Intersector::~Intersector() = default;
+Intersector::Intersector(Intersector&&) noexcept = default;
+Intersector& Intersector::operator=(Intersector&&) noexcept = default;
+
+void Intersector::Closest(const RayBatch& rays, ClosestHits* hits) const {
+  TraceClosest(state_->Traced(), rays, hits);
+}
+
+void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
+                         const uint32_t* ray_indices, size_t count, HitBatch* hits) const {
+  RefineHits({state_->geometry, rays, closest, ray_indices, count}, hits);
+}
+
+void Intersector::Occluded(ShadowRayBatch* rays) const { TraceOccluded(state_->Traced(), rays); }
+
+}  // namespace nacre

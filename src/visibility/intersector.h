@@ -1,0 +1,59 @@
+// visibility/intersector.h: which surface a ray meets first, and whether anything is in its way.
+// Embree finds candidates; our own tests decide every hit, in double (sphere_test.h,
+// triangle_test.h).
+//
+// Results depend on the scene, the camera's position and the ray alone: not on which rays share a
+// batch, on threads, or on the SIMD target. Of primitives at the same t the lowest id is hit.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "base/vec.h"
+#include "hit/batch.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+struct IntersectorSettings {
+  int threads = 0;  // that building uses; 0: as many as the machine has
+};
+
+// Owns the Embree device and scene, for the SIMD target that is active when it is made. Const
+// methods may be called from several threads at once.
+//
+// Rays start no further from the camera than some point of the scene does: at the camera, on its
+// orthographic image plane, or on a surface. (Farther origins can lose hits: they are beyond the
+// error that the bounds in Embree's tree allow for.) Scene coordinates and radii, relative to the
+// camera, are within 1e-12 and 1e12.
+class Intersector {
+ public:
+  // Takes what it needs of `scene`. Throws Error (kInternal) where Embree fails: out of memory, or
+  // an instruction set that it does not offer.
+  Intersector(const Scene& scene, const Vec3d& camera_position,
+              const IntersectorSettings& settings = {});
+  ~Intersector();
+  Intersector(Intersector&&) noexcept;
+  Intersector& operator=(Intersector&&) noexcept;
+
+  // The first hit with t > 0 of each ray; kNoPrimitive and t = infinity where there is none.
+  // Inside a sphere that is its far side. Fills whole vectors past rays.count with misses.
+  void Closest(const RayBatch& rays, ClosestHits* hits) const;
+
+  // Fills `hits` from the rays ray_indices[0..count), in that order, all of which hit something;
+  // `closest` is what Closest found for `rays`. Entries from count to the next multiple of
+  // kBatchPadding are copies of the last hit.
+  void Refine(const RayBatch& rays, const ClosestHits& closest, const uint32_t* ray_indices,
+              size_t count, HitBatch* hits) const;
+
+  // Sets rays->occluded: whether a surface lies at 0 < t < t_max. The surface that a ray starts on
+  // is in its way only where a sphere's ray leaves inward.
+  void Occluded(ShadowRayBatch* rays) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,20 @@
+// visibility/trace_kernel.h: batches of rays through Embree, packet by packet.
+#pragma once
+
+#include "hit/batch.h"
+#include "visibility/embree_api.h"
+#include "visibility/geometry.h"
+
+namespace nacre {
+
+// A committed scene made of the geometry through SphereCallbacks and TriangleCallbacks.
+struct TraceScene {
+  RTCScene scene = nullptr;
+  int packet_width = 0;  // 4, 8 or 16: the widest that the device walks natively
+  const TraceGeometry* geometry = nullptr;
+};
+
+void TraceClosest(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits);
+void TraceOccluded(const TraceScene& scene, ShadowRayBatch* rays);
+
+}  // namespace nacre

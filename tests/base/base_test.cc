@@ -1,0 +1,71 @@
+// tests/base/base_test.cc: errors, arrays, parallel loops, SIMD targets.
+#include <atomic>
+#include <numeric>
+
+#include "base/aligned.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/target.h"
+#include "catch.h"
+
+namespace nacre {
+namespace {
+
+TEST_CASE("an error's message has a line for each fault and its hint") {
+  const Error error(ExitCode::kBadInput, {{"a.json: /x", "is wrong", "mend it"}, {"b", "too", ""}});
+  CHECK(std::string(error.what()) == "error: a.json: /x: is wrong\n  hint: mend it\nerror: b: too");
+  CHECK(error.code() == ExitCode::kBadInput);
+}
+
+TEST_CASE("the nearest name is a likely slip or nothing") {
+  const std::vector<std::string> names = {"roughness", "metallic", "base_color"};
+  CHECK(NearestName("roughnes", names) == "roughness");
+  CHECK(NearestName("metalic", names) == "metallic");
+  CHECK(NearestName("basecolor", names) == "base_color");
+  CHECK(NearestName("shininess", names).empty());
+  CHECK(NearestName("", names).empty());
+}
+
+TEST_CASE("aligned arrays start on a vector, zeroed, with room for a vector at the last entry") {
+  AlignedArray<float> array(5);
+  CHECK(reinterpret_cast<uintptr_t>(array.data()) % kVectorBytes == 0);
+  for (const float value : array) CHECK(value == 0);
+  for (size_t i = 0; i < kBatchPadding; ++i) array.data()[4 + i] = 1;  // checked by asan
+}
+
+TEST_CASE("a parallel loop visits every index once and passes exceptions on") {
+  for (const int threads : {0, 1, 2, 7}) {
+    std::vector<std::atomic<int>> visits(1000);
+    ParallelFor(visits.size(), threads, [&](size_t i) { ++visits[i]; });
+    for (const auto& count : visits) REQUIRE(count == 1);
+    CHECK_THROWS_AS(ParallelFor(100, threads,
+                                [](size_t i) {
+                                  if (i == 57) throw Error(ExitCode::kInternal, "", "stop");
+                                }),
+                    Error);
+  }
+}
+
+TEST_CASE("denormals are flushed in workers and only there") {
+  volatile double tiny = 1e-300;
+  std::atomic<int> flushed{0};
+  ParallelFor(64, 2, [&](size_t) {
+    volatile double small = 1e-300;
+    if (small * 1e-10 == 0) ++flushed;
+  });
+  CHECK(flushed == 64);
+  CHECK(tiny * 1e-10 != 0);
+}
+
+TEST_CASE("targets pin and report") {
+  const std::vector<Target> targets = SupportedTargets();
+  REQUIRE(targets.front() == Target::kScalar);
+  for (const Target target : targets) {
+    PinTarget(target);
+    CHECK(ActiveTarget() == target);
+  }
+  CHECK(SupportedTargets() == targets);
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,234 @@
+#!/usr/bin/env python3
+"""The program from outside: exit codes, what is written and what is not, and what it prints.
+
+Usage: cli_test.py PROGRAM SOURCE_FOLDER
+"""
+import json
+import os
+import pathlib
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+FIRST_SCENE = str(SOURCE / 'scenes/first_scene.json')
+SMALL = ['--size', '64x36', '--spp', '1']
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120, **options)
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.out = pathlib.Path(self.folder.name)
+
+    def check_fails(self, code, message, *arguments):
+        """Fails with this code, one clear message with a hint, no output and nothing left."""
+        before = sorted(self.out.iterdir())
+        result = run(*arguments)
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertIn('error: ', result.stderr)
+        self.assertIn(message, result.stderr)
+        self.assertEqual(result.stdout, '')
+        self.assertEqual(sorted(self.out.iterdir()), before)
+        return result
+
+    def render(self, *arguments, scene=FIRST_SCENE):
+        result = run('render', scene, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    # ---- What it promises ----
+
+    def test_renders_exr_and_png_and_tells_on_stderr_only(self):
+        result = self.render('-o', self.out / 'a.exr', '-o', self.out / 'a.png', *SMALL)
+        self.assertEqual(result.stdout, '')
+        self.assertIn('64x36', result.stderr)
+        self.assertEqual((self.out / 'a.exr').read_bytes()[:4], b'\x76\x2f\x31\x01')
+        self.assertEqual((self.out / 'a.png').read_bytes()[:4], b'\x89PNG')
+
+    def test_quiet_says_nothing(self):
+        self.assertEqual(self.render('-o', self.out / 'a.png', '--quiet', *SMALL).stderr, '')
+
+    def test_reproducible_files_are_equal_to_the_byte(self):
+        for name in 'a.exr', 'b.exr', 'a.png', 'b.png':
+            threads = '1' if name[0] == 'a' else '2'
+            self.render('-o', self.out / name, '--reproducible', '--threads', threads, *SMALL)
+        for kind in '.exr', '.png':
+            self.assertEqual((self.out / ('a' + kind)).read_bytes(),
+                             (self.out / ('b' + kind)).read_bytes())
+
+    def test_stats_are_json(self):
+        self.render('-o', self.out / 'a.exr', '--stats', self.out / 's.json', *SMALL)
+        stats = json.loads((self.out / 's.json').read_text())
+        self.assertEqual(stats['counts']['camera_rays'], 64 * 36)
+        self.assertGreater(stats['counts']['hits'], 0)
+        self.assertIn('render', stats['time_ms'])
+
+    def test_explain_names_each_decision(self):
+        text = self.render('-o', self.out / 'a.exr', '--explain', *SMALL).stdout
+        self.assertIn('intersector', text)
+        self.assertIn('skipped', text)
+        self.assertIn('%', text)
+
+    def test_progress_for_programs_is_json_lines(self):
+        result = self.render('-o', self.out / 'a.exr', '--progress=json', '--size', '1280x720',
+                             '--spp', '64', scene=str(SOURCE / 'scenes/material_grid.json'))
+        lines = [line for line in result.stderr.splitlines() if line.startswith('{')]
+        self.assertTrue(lines)
+        for line in lines:
+            self.assertIn('progress', json.loads(line))
+
+    def test_set_changes_the_scene(self):
+        self.render('-o', self.out / 'a.exr', '--set', '/image/width=33', '--spp', '1')
+        self.assertIn('33x', run('info', self.out / 'a.exr').stdout)
+
+    def test_region_writes_a_data_window_in_the_display_window(self):
+        self.render('-o', self.out / 'a.exr', '--region', '5,6,25,30', *SMALL)
+        text = run('info', self.out / 'a.exr').stdout
+        self.assertIn('display window  64x36 at 0,0', text)
+        self.assertIn('data window     20x24 at 5,6', text)
+
+    def test_header_says_how_the_picture_was_made(self):
+        self.render('-o', self.out / 'a.exr', '--layers', 'diffuse,Z,id.object', *SMALL)
+        text = run('info', self.out / 'a.exr').stdout
+        for word in ('worldToCamera', 'worldToNDC', 'chromaticities', 'nacre:shadowing',
+                     'nacre:sceneHash', 'nacre:target', 'nacre:commit', 'Software',
+                     'diffuse.R:half', 'Z:float', 'id.object:uint'):
+            self.assertIn(word, text)
+
+    def test_schema_is_the_one_beside_the_scenes(self):
+        schema = (SOURCE / 'scenes/nacre.schema.json').read_text()
+        self.assertEqual(run('schema').stdout, schema)
+
+    def test_grid_and_pair_need_no_scene(self):
+        for command in (['grid', '--rows', 'shininess=4:64:2', '--columns', 'ks=0:1:3',
+                         '--material', 'phong'],
+                        ['pair'], ['pair', '--layout', 'side', '--a', 'lambert']):
+            result = run(*command, '-o', self.out / 'a.png', *SMALL)
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_tonemap_makes_what_render_makes(self):
+        self.render('-o', self.out / 'a.exr', '-o', self.out / 'a.png', '--depth', 'float',
+                    '--tonemap', 'aces', '--exposure', '0.5', *SMALL)
+        result = run('tonemap', self.out / 'a.exr', '-o', self.out / 'b.png', '--tonemap', 'aces',
+                     '--exposure', '0.5')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(run('compare', self.out / 'a.png', self.out / 'b.png').returncode, 0)
+
+    def test_compare_tells_equal_from_different(self):
+        self.render('-o', self.out / 'a.exr', *SMALL)
+        self.render('-o', self.out / 'b.exr', '--spp', '4', '--size', '64x36')
+        a, b = self.out / 'a.exr', self.out / 'b.exr'
+        self.assertEqual(run('compare', a, a).returncode, 0)
+        result = run('compare', a, b, '--heat-map', self.out / 'heat.png')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('RMSE', result.stdout)
+        self.assertTrue((self.out / 'heat.png').exists())
+        self.assertEqual(run('compare', a, b, '--max-abs', '1000').returncode, 0)
+        self.assertFalse(json.loads(run('compare', a, b, '--json').stdout)['match'])
+
+    def test_help_teaches(self):
+        for command in ([], ['render'], ['grid'], ['compare']):
+            result = run(*command, '--help')
+            self.assertEqual(result.returncode, 0)
+            self.assertIn('xample' if command else 'Exit codes', result.stdout)
+
+    # ---- What it refuses ----
+
+    def test_usage_errors(self):
+        scene = FIRST_SCENE
+        out = ['-o', self.out / 'a.exr']
+        cases = [
+            ('subcommand', []),
+            ('paint', ['paint']),
+            ('--output', ['render', scene]),
+            ('SCENE', ['render', *out]),
+            ('extension', ['render', scene, '-o', self.out / 'a.jpg']),
+            ('twice', ['render', scene, *out, *out]),
+            ('--size', ['render', scene, *out, '--size', '0x10']),
+            ('--size', ['render', scene, *out, '--size', '100000x10']),
+            ('--size', ['render', scene, *out, '--size', '10']),
+            ('--spp', ['render', scene, *out, '--spp', '0']),
+            ('--spp', ['render', scene, *out, '--spp', 'many']),
+            ('--region', ['render', scene, *out, '--region', '5,5,5,9']),
+            ('--region', ['render', scene, *out, '--region', '9999,0,10000,5']),
+            ('--layers', ['render', scene, *out, '--layers', 'difuse']),
+            ('did you mean "diffuse"', ['render', scene, *out, '--layers', 'difuse']),
+            ('--tonemap', ['render', scene, *out, '--tonemap', 'filmic']),
+            ('--exposure', ['render', scene, *out, '--exposure', '1000']),
+            ('--target', ['render', scene, *out, '--target', 'mmx']),
+            ('--threads', ['render', scene, *out, '--threads', '-3']),
+            ('--set', ['render', scene, *out, '--set', 'image.spp']),
+            ('--set', ['render', scene, *out, '--set', '/image/spp={']),
+            ('--rows', ['grid', *out, '--rows', 'roughness']),
+            ('--material', ['grid', *out, '--material', '{broken']),
+        ]
+        for message, arguments in cases:
+            with self.subTest(arguments=arguments):
+                self.check_fails(64, message, *arguments)
+
+    def test_bad_input(self):
+        out = ['-o', self.out / 'a.exr']
+        self.check_fails(65, 'missing.json', 'render', 'missing.json', *out)
+        self.check_fails(65, str(self.out), 'render', self.out, *out)
+        self.check_fails(65, 'roughnes', 'render', FIRST_SCENE, *out, '--set',
+                         '/materials/x={"model":"metallic_roughness","roughnes":1}')
+        self.check_fails(65, 'spp', 'render', FIRST_SCENE, *out, '--set', '/image/spp=-1')
+        self.check_fails(65, 'shininess', 'grid', *out, '--rows', 'shininess=1:2:2')
+        (self.out / 'bad.json').write_text('{"nacre": 1,')
+        self.check_fails(65, 'bad.json', 'render', self.out / 'bad.json', *out)
+        (self.out / 'bad.exr').write_bytes(b'\x76\x2f\x31\x01 not really')
+        self.check_fails(65, 'bad.exr', 'tonemap', self.out / 'bad.exr', '-o', self.out / 'b.png')
+        self.check_fails(65, 'bad.exr', 'info', self.out / 'bad.exr')
+
+    def test_output_that_cannot_be_written_is_refused_before_rendering(self):
+        (self.out / 'folder.exr').mkdir()
+        os.mkfifo(self.out / 'pipe.exr')
+        cases = [self.out / 'nowhere/a.exr', self.out / 'folder.exr', self.out / 'pipe.exr']
+        for path in cases:
+            with self.subTest(path=path):
+                start = time.monotonic()
+                self.check_fails(74, str(path), 'render', SOURCE / 'scenes/material_grid.json',
+                                 '-o', path, '--size', '8192x8192', '--spp', '1024')
+                self.assertLess(time.monotonic() - start, 30)  # rendering would take hours
+        self.assertTrue(stat.S_ISFIFO((self.out / 'pipe.exr').stat().st_mode))
+
+    def test_cannot_compare(self):
+        self.render('-o', self.out / 'a.exr', *SMALL)
+        self.render('-o', self.out / 'b.exr', '--size', '32x36', '--spp', '1')
+        self.check_fails(2, 'b.exr', 'compare', self.out / 'a.exr', self.out / 'b.exr')
+        self.check_fails(2, 'missing.exr', 'compare', self.out / 'a.exr', self.out / 'missing.exr')
+        self.check_fails(2, 'empty', 'validate', self.out / 'empty')
+
+    def test_an_old_file_survives_a_failed_render(self):
+        self.render('-o', self.out / 'a.exr', *SMALL)
+        old = (self.out / 'a.exr').read_bytes()
+        self.check_fails(65, 'spp', 'render', FIRST_SCENE, '-o', self.out / 'a.exr', '--set',
+                         '/image/spp=-1')
+        self.assertEqual((self.out / 'a.exr').read_bytes(), old)
+
+    def test_signals_stop_it_and_leave_nothing(self):
+        for number, code in (signal.SIGINT, 130), (signal.SIGTERM, 143):
+            with self.subTest(signal=number):
+                process = subprocess.Popen(
+                    [PROGRAM, 'render', str(SOURCE / 'scenes/material_grid.json'), '-o',
+                     str(self.out / 'a.exr'), '-o', str(self.out / 'a.png'), '--size',
+                     '4096x4096', '--spp', '256', '--progress=json'], stderr=subprocess.PIPE)
+                process.stderr.readline()  # rendering has begun
+                process.send_signal(number)
+                process.communicate(timeout=60)
+                self.assertEqual(process.returncode, code)
+                self.assertEqual(list(self.out.iterdir()), [])
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=1)

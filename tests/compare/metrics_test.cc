@@ -1,0 +1,91 @@
+// tests/compare/metrics_test.cc: the figures of a comparison, on images made so that they are
+// known.
+#include "compare/metrics.h"
+
+#include <cmath>
+#include <limits>
+
+#include "catch.h"
+#include "compare/test_images.h"
+
+namespace nacre {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+TEST_CASE("Equal images have no error", "[compare]") {
+  const Image image = MakeImage({0, 0, 10, 10}, {"R", "G", "B", "Z"}, 0.7f);
+  const auto layers = CompareImages(image, image);
+  REQUIRE(layers.size() == 2);
+  for (const LayerMetrics& m : layers) {
+    CHECK((m.rmse == 0 && m.rel_mse == 0 && m.max_abs == 0 && m.max_rel == 0 && m.p999_rel == 0));
+    CHECK(std::isinf(m.psnr_db));
+    CHECK(m.max_abs_at.channel.empty());
+    CHECK(m.mean_got == m.mean_reference);
+  }
+  CHECK(layers[0].samples == 300);
+  CHECK(layers[1].layer == "Z");
+}
+
+TEST_CASE("A known difference has known figures", "[compare]") {
+  Image got = MakeImage({0, 0, 10, 10}, {"R", "G", "B"}, 2);
+  Image reference = got;
+  SampleAt(got, "G", 3, 4) = 2.5f;
+  SampleAt(got, "B", 9, 9) = 1.75f;
+  const LayerMetrics m = CompareImages(got, reference).at(0);
+  CHECK(m.rmse == Approx(std::sqrt((0.25 + 0.0625) / 300)).epsilon(1e-14));
+  CHECK(m.rel_mse == Approx((0.25 + 0.0625) / 4.0001 / 300).epsilon(1e-14));
+  CHECK(m.max_abs == 0.5);
+  CHECK((m.max_abs_at.x == 3 && m.max_abs_at.y == 4 && m.max_abs_at.channel == "G"));
+  CHECK((m.max_abs_at.got == 2.5f && m.max_abs_at.reference == 2));
+  CHECK(m.max_rel == Approx(0.5 / std::sqrt(4.0001)).epsilon(1e-7));  // kept as float
+  CHECK(m.psnr_peak == 2);
+  CHECK(m.psnr_db == Approx(20 * std::log10(2 / m.rmse)).epsilon(1e-14));
+  CHECK(m.mean_reference == 2);
+  CHECK(m.mean_got == Approx(2 + 0.25 / 300).epsilon(1e-14));
+}
+
+TEST_CASE("The 99.9 % quantile ignores one sample in a thousand", "[compare]") {
+  Image got = MakeImage({0, 0, 100, 20}, {"Y"}, 1);
+  Image reference = got;
+  SampleAt(got, "Y", 0, 0) = 9;
+  SampleAt(got, "Y", 1, 0) = 9;
+  CHECK(CompareImages(got, reference).at(0).p999_rel == 0);  // 2 of 2000
+  SampleAt(got, "Y", 2, 0) = 1.5f;
+  CHECK(CompareImages(got, reference).at(0).p999_rel == Approx(0.5).epsilon(1e-4));
+  CHECK(CompareImages(got, reference).at(0).max_rel == Approx(8).epsilon(1e-4));
+}
+
+TEST_CASE("Metrics know NaN and infinity", "[compare]") {
+  Image got = MakeImage({0, 0, 4, 4}, {"R"}, 1);
+  Image reference = got;
+  SampleAt(got, "R", 0, 0) = SampleAt(reference, "R", 0, 0) = kNan;
+  SampleAt(got, "R", 1, 0) = SampleAt(reference, "R", 1, 0) = -kInf;
+  SampleAt(got, "R", 3, 3) = 1.25f;
+  LayerMetrics m = CompareImages(got, reference).at(0);
+  CHECK(m.nonfinite_mismatches == 0);
+  CHECK(m.samples == 16);
+  CHECK(m.rmse == Approx(0.25 / std::sqrt(14)).epsilon(1e-14));
+  SampleAt(got, "R", 2, 1) = kNan;
+  SampleAt(reference, "R", 2, 2) = kInf;
+  m = CompareImages(got, reference).at(0);
+  CHECK(m.nonfinite_mismatches == 2);
+  CHECK((m.max_abs_at.x == 2 && m.max_abs_at.y == 1));
+  CHECK(m.max_abs == 0.25);  // of the finite ones
+  CHECK(m.rmse == Approx(0.25 / std::sqrt(12)).epsilon(1e-14));
+  CHECK(std::isfinite(m.mean_got));
+}
+
+TEST_CASE("Only the layers asked for are compared", "[compare]") {
+  Image got = MakeImage({0, 0, 4, 4}, {"R", "diffuse.R", "id.object"}, 1);
+  const Image reference = MakeImage({0, 0, 4, 4}, {"R", "diffuse.R"}, 1);
+  CompareOptions options;
+  options.layers = {"diffuse"};
+  const auto layers = CompareImages(got, reference, options);
+  REQUIRE(layers.size() == 1);
+  CHECK(layers[0].layer == "diffuse");
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,89 @@
+// tests/compare/verdict_test.cc: match or differ, and the reason in words.
+#include "compare/verdict.h"
+
+#include <limits>
+
+#include "catch.h"
+#include "compare/test_images.h"
+
+namespace nacre {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+struct Pair {
+  Image got = MakeImage({0, 0, 100, 100}, {"R", "G", "B"}, 2);
+  Image reference = got;
+};
+
+TEST_CASE("By default images must be equal", "[compare]") {
+  Pair pair;
+  Verdict verdict = Judge(pair.got, pair.reference, {});
+  CHECK(verdict.match);
+  CHECK(verdict.reason == "none of 10000 pixels differs");
+  SampleAt(pair.got, "B", 12, 34) = 2.5f;
+  verdict = Judge(pair.got, pair.reference, {});
+  CHECK_FALSE(verdict.match);
+  CHECK(verdict.exceeding_pixels == 1);
+  CHECK(verdict.reason ==
+        "1 of 10000 pixels (0.01 %) differ, 0 % may; worst B at (12, 34): 2.5 instead of 2");
+}
+
+TEST_CASE("Absolute and relative tolerances add up", "[compare]") {
+  Pair pair;
+  SampleAt(pair.got, "R", 0, 0) = 2.375f;
+  Tolerances tolerances;
+  tolerances.max_abs = 0.125;
+  tolerances.max_rel = 0.125;  // 0.375 in all, met exactly
+  CHECK(Judge(pair.got, pair.reference, tolerances).match);
+  SampleAt(pair.got, "R", 0, 0) = 2.376f;
+  CHECK_FALSE(Judge(pair.got, pair.reference, tolerances).match);
+  SampleAt(pair.got, "R", 0, 0) = 1.624f;
+  const Verdict verdict = Judge(pair.got, pair.reference, tolerances);
+  CHECK_FALSE(verdict.match);
+  CHECK(verdict.reason.find("differ by more than 0.125 + 0.125 |reference|") != std::string::npos);
+}
+
+TEST_CASE("A fraction of the pixels may exceed", "[compare]") {
+  Pair pair;
+  Tolerances tolerances;
+  tolerances.exceeding_fraction = 2e-4;
+  SampleAt(pair.got, "R", 0, 0) = 9;
+  SampleAt(pair.got, "G", 0, 0) = 9;  // the same pixel
+  SampleAt(pair.got, "G", 1, 0) = 9;
+  Verdict verdict = Judge(pair.got, pair.reference, tolerances);
+  CHECK(verdict.match);
+  CHECK(verdict.exceeding_pixels == 2);
+  CHECK(verdict.reason == "2 of 10000 pixels (0.02 %) differ, 0.02 % may");
+  SampleAt(pair.got, "B", 2, 0) = 9;
+  CHECK_FALSE(Judge(pair.got, pair.reference, tolerances).match);
+}
+
+TEST_CASE("RMSE is judged by layer", "[compare]") {
+  Image got = MakeImage({0, 0, 10, 10}, {"R", "N.X"}, 1);
+  const Image reference = got;
+  SampleAt(got, "N.X", 5, 5) = 2;
+  Tolerances tolerances;
+  tolerances.exceeding_fraction = 1;
+  tolerances.rmse = 0.1000001;
+  CHECK(Judge(got, reference, tolerances).match);
+  tolerances.rmse = 0.05;
+  const Verdict verdict = Judge(got, reference, tolerances);
+  CHECK_FALSE(verdict.match);
+  CHECK(verdict.reason == "RMSE of N is 0.1, 0.05 is allowed");
+}
+
+TEST_CASE("No tolerance forgives a NaN", "[compare]") {
+  Pair pair;
+  SampleAt(pair.got, "R", 7, 8) = kNan;
+  Tolerances tolerances;
+  tolerances.max_abs = 1e30;
+  const Verdict verdict = Judge(pair.got, pair.reference, tolerances);
+  CHECK_FALSE(verdict.match);
+  CHECK(verdict.reason.find("worst R at (7, 8): nan instead of 2") != std::string::npos);
+  SampleAt(pair.reference, "R", 7, 8) = kNan;
+  CHECK(Judge(pair.got, pair.reference, tolerances).match);
+}
+
+}  // namespace
+}  // namespace nacre

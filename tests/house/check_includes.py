@@ -1,0 +1,176 @@
+#!/usr/bin/env python3
+"""Checks every #include and every nacre_library() of src/ against the dependency order.
+
+The order is the table below. A folder may use those that its DEPENDS line in src/CMakeLists.txt
+names, and what these depend on; and that line may name only what the table allows.
+"""
+import argparse
+import pathlib
+import re
+import sys
+
+# The trunk: a folder may depend on those above it.
+TRUNK = (
+    ("base",),
+    ("color",),
+    ("sampling",),
+    ("texture",),
+    ("brdf",),
+    ("light",),
+    ("scene",),
+    ("hit",),
+    ("visibility", "shading"),  # side by side: they meet in hit/ and never see each other
+    ("render",),
+)
+# Side branches, and what each may depend on.
+BRANCHES = {
+    "image_io": {"base", "color"},
+    "oiio_module": {"image_io"},  # loaded by it; they share one header
+    "scene_io": {"base", "scene", "image_io"},
+    "compare": {"base", "color"},
+    "report": {"base", "compare"},
+}
+# Depends on whatever it likes; nothing depends on it.
+TOP = "cli"
+
+TRUNK_FOLDERS = {folder for tier in TRUNK for folder in tier}
+FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
+
+# SIMD code: these files are compiled once for every target.
+SIMD_FILE = r"\w+/(\w+-inl\.h|\w+_kernel\.cc)"
+# Headers with a rule of their own: their names, the files of src/ that may include them, the rule.
+HEADER_RULES = (
+    (r"embree\d/", r"visibility/", "Embree only in visibility/"),
+    (r"OpenImageIO/", r"oiio_module/", "OpenImageIO only in oiio_module/"),
+    (r"OpenEXR/|Imf\w*\.h|openexr\w*\.h", r"image_io/", "OpenEXR only in image_io/"),
+    (r"isa-l|igzip|zlib\.h", r"image_io/", "deflate only in image_io/"),
+    (r"(oneapi/)?tbb/", r"base/", "TBB only in base/"),
+    (r"hwy/highway\.h", rf"{SIMD_FILE}|base/target\.cc",
+     "Highway only in *-inl.h and *_kernel.cc, highway.h also in base/target.cc"),
+    (r"hwy/", SIMD_FILE, "Highway only in *-inl.h and *_kernel.cc"),
+    (r"\w+/\w+-inl\.h", SIMD_FILE, "-inl.h only in *-inl.h and *_kernel.cc"),
+    (r"nlohmann/", rf"(?!({'|'.join(sorted(TRUNK_FOLDERS))})/)", "JSON in no folder up to render/"),
+    (r"tiny_obj_loader\.h|tiny_gltf\.h", r"scene_io/", "scene file libraries only in scene_io/"),
+    (r"CLI/", r"cli/", "CLI11 only in cli/"),
+)
+
+INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
+LIBRARY_CALL = re.compile(r"nacre_library\(\s*(\w+)([^)]*)\)")
+# The program `nacre` is all of cli/.
+PROGRAM_CALL = re.compile(r"target_link_libraries\(\s*nacre\s([^)]*)\)")
+
+
+def allowed_by_table(folder):
+    """The folders that `folder` may name in its DEPENDS line."""
+    if folder == TOP:
+        return FOLDERS - {TOP}
+    if folder in BRANCHES:
+        return BRANCHES[folder]
+    above = set()
+    for tier in TRUNK:
+        if folder in tier:
+            break
+        above.update(tier)
+    return above
+
+
+def read_cmake(src):
+    """{folder: folders it depends on directly}, from src/CMakeLists.txt."""
+    depends = {}
+    text = re.sub(r"#.*", "", (src / "CMakeLists.txt").read_text())
+    for folder, arguments in LIBRARY_CALL.findall(text):
+        depends[folder] = re.findall(r"\bnacre_(\w+)", arguments)
+    for arguments in PROGRAM_CALL.findall(text):
+        depends[TOP] = re.findall(r"\bnacre_(\w+)", arguments)
+    # A folder with a CMakeLists.txt of its own has no DEPENDS line: it is held to the table.
+    for cmake in src.glob("*/CMakeLists.txt"):
+        depends[cmake.parent.name] = sorted(BRANCHES.get(cmake.parent.name, ()))
+    return depends
+
+
+def closure(folder, depends):
+    """`folder` and all that it depends on, directly or not."""
+    found, todo = set(), [folder]
+    while todo:
+        name = todo.pop()
+        if name not in found:
+            found.add(name)
+            todo.extend(depends.get(name, ()))
+    return found
+
+
+def check_cmake(depends, folders_on_disk):
+    """Faults of the DEPENDS lines against the table."""
+    where = "src/CMakeLists.txt"
+    for folder in sorted(folders_on_disk - set(depends)):
+        yield f"{where}: src/{folder} is there, but no line names what it DEPENDS on"
+    for folder, names in depends.items():
+        if folder not in FOLDERS:
+            yield f"{where}: {folder} is not in the table of tests/house/check_includes.py"
+            continue
+        for name in names:
+            if name not in allowed_by_table(folder):
+                yield f"{where}: {folder} depends on {name}, which the dependency order forbids"
+
+
+def check_quoted(file, path, depends):
+    """Fault of an #include "path" in src/<file>, or None."""
+    included, slash, _ = path.partition("/")
+    folder = file.partition("/")[0]
+    if not slash:
+        return f'"{path}": write "folder/file.h"'
+    if not path.endswith(".h"):
+        return f'"{path}" is not a header'
+    if included not in FOLDERS:
+        return f'"{path}": src/ has no folder {included}'
+    if included not in closure(folder, depends):
+        return f'"{path}": {folder} does not depend on {included} (DEPENDS in src/CMakeLists.txt)'
+    return None
+
+
+def check_source(src, source, depends):
+    """Faults of one source file's includes."""
+    file = source.relative_to(src).as_posix()
+    for number, line in enumerate(source.read_text().splitlines(), 1):
+        match = INCLUDE.match(line)
+        if not match:
+            continue
+        quote, path = match.groups()
+        at = f"src/{file}:{number}"
+        for pattern, users, rule in HEADER_RULES:
+            if re.match(pattern, path):
+                if not re.match(users, file):
+                    yield f"{at}: {path}: {rule}"
+                break
+        if quote == '"' and not path.startswith("hwy/"):
+            fault = check_quoted(file, path, depends)
+            if fault:
+                yield f"{at}: {fault}"
+
+
+def check(root):
+    """All faults of the tree at `root`, and how many files were read."""
+    src = pathlib.Path(root) / "src"
+    depends = read_cmake(src)
+    # What lies in src/ itself, such as the public header, is no folder of the order.
+    sources = sorted(path for path in src.glob("*/**/*") if path.suffix in (".h", ".cc"))
+    on_disk = {source.relative_to(src).parts[0] for source in sources}
+    faults = list(check_cmake(depends, on_disk))
+    for source in sources:
+        faults.extend(check_source(src, source, depends))
+    return faults, len(sources)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("root", help="the root of the repository")
+    faults, count = check(parser.parse_args().root)
+    for fault in faults:
+        print(fault)
+    print(f"{count} files in src/, {len(faults)} faults")
+    # No file read is a fault too: a check that saw nothing has checked nothing.
+    return 1 if faults or count == 0 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

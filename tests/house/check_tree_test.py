@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Tests check_tree.py: a small sound tree has no faults, and each planted fault is found."""
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import check_tree
+
+SOUND_TREE = {
+    "scripts/build": "#!/usr/bin/env bash\nsource scripts/common.sh\n",
+    "scripts/common.sh": "# shellcheck shell=bash\nset -eu\n",
+    "src/base/error.h": "// base/error.h: the one error type.\n",
+    "src/base/error.cc": '#include "base/error.h"\n',
+    "tests/base/error_test.cc": "// Tests of base/error.h.\n",
+}
+
+
+class CheckTree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name).resolve()
+        for name, text in SOUND_TREE.items():
+            self.write(name, text)
+        (self.root / "scripts/build").chmod(0o755)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    def faults(self):
+        return check_tree.check(self.root)[0]
+
+    def assert_one_fault(self, start):
+        faults = self.faults()
+        self.assertEqual(len(faults), 1, faults)
+        self.assertTrue(faults[0].startswith(start), faults)
+
+    def test_sound_tree_has_no_faults(self):
+        faults, names = check_tree.check(self.root)
+        self.assertEqual(faults, [])
+        self.assertEqual(names, sorted(SOUND_TREE))
+
+    def test_git_lists_new_files_but_not_ignored_ones(self):
+        subprocess.run(["git", "init", "-q", str(self.root)], check=True)
+        self.write(".gitignore", "/junk/\n")
+        self.write("junk/big", "x" * (check_tree.MAX_BYTES + 1))
+        self.assertEqual(self.faults(), [])
+        self.write("big", "x" * (check_tree.MAX_BYTES + 1))
+        self.assert_one_fault("big: ")
+
+    def test_size_limit_is_inclusive(self):
+        self.write("data.bin", "x" * check_tree.MAX_BYTES)
+        self.assertEqual(self.faults(), [])
+
+    def test_run_bit(self):
+        (self.root / "scripts/build").chmod(0o644)
+        self.assert_one_fault("scripts/build: has no run bit")
+
+    def test_first_line_of_scripts(self):
+        self.write("scripts/other", "echo\n")
+        self.assert_one_fault("scripts/other:1: ")
+
+    def test_shell_syntax(self):
+        self.write("scripts/common.sh", "# shellcheck shell=bash\nif true; then\n")
+        self.assertTrue(any("bash -n" in fault for fault in self.faults()))
+
+    def test_first_line_of_sources(self):
+        for name, text in (
+            ("src/base/vec.h", "#pragma once\n"),
+            ("src/base/vec.h", ""),
+            ("src/base/vec.h", "//\n"),
+            ("src/base/main.cc", "#include <vector>\n"),
+            ("src/base/main.cc", '#include "base/main.h"\n'),  # there is no such header
+            ("src/base/main.cc", '#include "base/error.h"\n'),  # another file's header
+            ("tests/base/vec_test.cc", '#include "base/error.h"\n'),
+        ):
+            with self.subTest(name=name, text=text):
+                self.write(name, text)
+                self.assert_one_fault(f"{name}:1: ")
+                (self.root / name).unlink()
+
+    def test_long_files_are_noted(self):
+        self.write("src/base/vec.h", "// A header\n" * (check_tree.LONG_HEADER + 1))
+        self.write("src/base/error.cc", "// A source\n" * check_tree.LONG_FILE)
+        faults, names = check_tree.check(self.root)
+        self.assertEqual(faults, [])
+        self.assertEqual(check_tree.long_files(self.root, names),
+                         [(check_tree.LONG_HEADER + 1, "src/base/vec.h")])
+
+
+if __name__ == "__main__":
+    unittest.main()

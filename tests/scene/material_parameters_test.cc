@@ -1,0 +1,99 @@
+// The table of material parameters against the structs that it is about.
+#include "scene/material_parameters.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "catch.h"
+#include "scene/limits.h"
+
+namespace nacre {
+namespace {
+
+TEST_CASE("each model is found by its name and recognised in its materials") {
+  for (const MaterialModel& model : MaterialModels()) {
+    INFO(model.name);
+    CHECK(FindModel(model.name) == &model);
+    CHECK(ModelOf(model.make()) == &model);
+  }
+  CHECK(FindModel("split") == nullptr);
+  CHECK(FindModel("") == nullptr);
+  Material split;
+  split.model = SplitMaterial{};
+  CHECK(ModelOf(split) == nullptr);
+}
+
+TEST_CASE("what is set is got, and nothing else changes") {
+  for (const MaterialModel& model : MaterialModels()) {
+    std::set<std::string_view> names;
+    for (const MaterialParameter& parameter : model.parameters) {
+      INFO(model.name << " " << parameter.name);
+      CHECK(names.insert(parameter.name).second);
+      CHECK(FindParameter(model, parameter.name) == &parameter);
+
+      Material material = model.make();
+      const Rgb before = parameter.get(material);
+      CHECK(parameter.range.Contains(before.x));
+      const Rgb value = parameter.is_color ? Rgb(0.125, 0.25, 0.375) : Rgb(0.125, 0.125, 0.125);
+      parameter.set(material, value);
+      CHECK(parameter.get(material) == value);
+      for (const MaterialParameter& other : model.parameters) {
+        if (&other != &parameter) CHECK(other.get(material) == other.get(model.make()));
+      }
+      CHECK(ModelOf(material) == &model);
+    }
+  }
+}
+
+TEST_CASE("names mean the fields of the same name") {
+  Material material = FindModel("metallic_roughness")->make();
+  FindParameter(*ModelOf(material), "roughness")->set(material, Rgb(0.25, 0.25, 0.25));
+  FindParameter(*ModelOf(material), "base_color")->set(material, Rgb(1, 0.5, 0));
+  FindParameter(*ModelOf(material), "emission")->set(material, Rgb(3, 2, 1));
+  const auto& metal = std::get<MetallicRoughnessMaterial>(material.model);
+  CHECK(metal.roughness == 0.25);
+  CHECK(metal.metallic == 0);
+  CHECK(metal.base_color == Rgb(1, 0.5, 0));
+  CHECK(material.emission == Rgb(3, 2, 1));
+
+  material = FindModel("blinn_phong")->make();
+  FindParameter(*ModelOf(material), "ks")->set(material, Rgb(0.1, 0.2, 0.3));
+  CHECK(std::get<PhongMaterial>(material.model).ks == Rgb(0.1, 0.2, 0.3));
+  CHECK(std::get<PhongMaterial>(material.model).model == PhongModel::kBlinnPhong);
+}
+
+TEST_CASE("options are in the order of the enumerations") {
+  Material material = FindModel("metallic_roughness")->make();
+  const MaterialChoice& shadowing = ModelOf(material)->choices[0];
+  REQUIRE(shadowing.options.size() == 3);
+  const std::pair<std::string_view, Shadowing> names[] = {
+      {"height_correlated", Shadowing::kHeightCorrelated},
+      {"separable", Shadowing::kSeparable},
+      {"schlick_direct", Shadowing::kSchlickDirect}};
+  for (size_t i = 0; i < 3; ++i) {
+    CHECK(shadowing.options[i] == names[i].first);
+    shadowing.set(material, i);
+    CHECK(std::get<MetallicRoughnessMaterial>(material.model).shadowing == names[i].second);
+  }
+  material = FindModel("phong")->make();
+  const MaterialChoice& convention = ModelOf(material)->choices[0];
+  CHECK(convention.options[0] == "classic");
+  convention.set(material, 0);
+  CHECK(std::get<PhongMaterial>(material.model).convention == PhongConvention::kClassic);
+}
+
+TEST_CASE("ranges contain their ends unless they are open, and never NaN") {
+  CHECK(limits::kUnit.Contains(0));
+  CHECK(limits::kUnit.Contains(1));
+  CHECK(!limits::kUnit.Contains(1 + 1e-15));
+  CHECK(!limits::kFovYDeg.Contains(0));
+  CHECK(!limits::kFovYDeg.Contains(180));
+  CHECK(!limits::kUnit.Contains(std::nan("")));
+  CHECK(Describe(limits::kUnit) == "from 0 to 1");
+  CHECK(Describe(limits::kFovYDeg) == "greater than 0 and less than 180");
+  CHECK(Describe(limits::kFilterWidth) == "greater than 0 and at most 16");
+}
+
+}  // namespace
+}  // namespace nacre

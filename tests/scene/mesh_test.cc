@@ -1,0 +1,162 @@
+// Face normals, smooth normals, transforms and polygons.
+#include "scene/mesh.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "catch.h"
+#include "scene/polygon.h"
+
+namespace nacre {
+namespace {
+
+// A cube of two triangles a face, its diagonals in no particular order.
+Mesh Cube() {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i) {
+    mesh.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  }
+  mesh.triangles = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                    2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+  return mesh;
+}
+
+double Volume(const Mesh& mesh) {
+  double volume = 0;
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    volume += mesh.positions[mesh.triangles[i]].dot(
+        mesh.positions[mesh.triangles[i + 1]].cross(mesh.positions[mesh.triangles[i + 2]]));
+  }
+  return volume / 6;
+}
+
+TEST_CASE("face normals follow the right hand and do not know scale") {
+  for (const double size : {1e-12, 1.0, 1e12}) {
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {size, 0, 0}, {0, size, 0}};
+    mesh.triangles = {0, 1, 2, 0, 2, 1, 0, 1, 1};
+    CHECK(FaceNormal(mesh, 0) == Vec3d(0, 0, 1));
+    CHECK(FaceNormal(mesh, 1) == Vec3d(0, 0, -1));
+    CHECK(FaceNormal(mesh, 2) == Vec3d(0, 0, 0));
+  }
+}
+
+TEST_CASE("smooth normals do not depend on how faces are cut") {
+  // Weighting by count or by area would pull them towards faces that have two triangles at the
+  // corner.
+  const Mesh cube = Cube();
+  const std::vector<Vec3d> normals = AngleWeightedNormals(cube);
+  for (size_t i = 0; i < 8; ++i) {
+    // Sums of three right angles, a few roundings each.
+    CHECK((normals[i] - cube.positions[i] / std::sqrt(3)).length() < 1e-15);
+  }
+}
+
+TEST_CASE("positions without any area around them have some unit normal") {
+  Mesh mesh = Cube();
+  mesh.positions.emplace_back(5, 5, 5);
+  mesh.triangles.insert(mesh.triangles.end(), {8, 8, 0});
+  CHECK(AngleWeightedNormals(mesh)[8] == Vec3d(0, 1, 0));
+}
+
+TEST_CASE("transforms scale, rotate about x, y, z and translate") {
+  const auto moved = [](const Transform& transform) {
+    Mesh mesh;
+    mesh.positions = {{1, 2, 3}};
+    ApplyTransform(transform, &mesh);
+    return mesh.positions[0];
+  };
+  // cos(90 degrees) is 6e-17 in double; the components are at most 3.
+  constexpr double kTolerance = 1e-15;
+  CHECK((moved({.rotate_deg = {90, 0, 0}}) - Vec3d(1, -3, 2)).length() < kTolerance);
+  CHECK((moved({.rotate_deg = {0, 90, 0}}) - Vec3d(3, 2, -1)).length() < kTolerance);
+  CHECK((moved({.rotate_deg = {0, 0, 90}}) - Vec3d(-2, 1, 3)).length() < kTolerance);
+  // x first: (1, -3, 2), then y: (2, -3, -1), then z: (3, 2, -1).
+  CHECK((moved({.rotate_deg = {90, 90, 90}}) - Vec3d(3, 2, -1)).length() < kTolerance);
+  CHECK(moved({.translate = {10, 0, 0}, .scale = {2, 3, -1}}) == Vec3d(12, 6, -3));
+}
+
+TEST_CASE("normals stay perpendicular to a scaled surface") {
+  Mesh mesh;
+  mesh.positions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {0, 1, 2};
+  mesh.normals.assign(3, FaceNormal(mesh, 0));
+  ApplyTransform({.translate = {0, 0, 0}, .scale = {1, 5, 0.2}, .rotate_deg = {10, 20, 30}}, &mesh);
+  CHECK((mesh.normals[0] - FaceNormal(mesh, 0)).length() < 1e-15);
+}
+
+TEST_CASE("a mirrored mesh keeps its outside outside") {
+  for (const Vec3d& scale : {Vec3d(-1, 1, 1), Vec3d(-1, -1, 1), Vec3d(-1, -2, -3)}) {
+    Mesh mesh = Cube();
+    mesh.normals = AngleWeightedNormals(mesh);
+    ApplyTransform({.translate = {0, 0, 0}, .scale = scale, .rotate_deg = {0, 0, 0}}, &mesh);
+    CHECK(Volume(mesh) == Approx(8 * std::abs(scale.x * scale.y * scale.z)));
+    for (size_t i = 0; i < 8; ++i) CHECK(mesh.normals[i].dot(mesh.positions[i]) > 0);
+  }
+}
+
+double TriangleArea(const std::vector<Vec3d>& corners, const uint32_t* triangle) {
+  const Vec3d& a = corners[triangle[0]];
+  return (corners[triangle[1]] - a).cross(corners[triangle[2]] - a).length() / 2;
+}
+
+// The vector area and the sum of the triangles' areas are equal only if none is turned over, and
+// the latter is the polygon's only if none overlap.
+void CheckTriangulation(const std::vector<Vec3d>& corners, double area) {
+  std::vector<uint32_t> triangles;
+  Triangulate(corners, &triangles);
+  REQUIRE(triangles.size() == 3 * (corners.size() - 2));
+  double sum = 0;
+  Vec3d vector_area(0, 0, 0);
+  for (size_t i = 0; i < triangles.size(); i += 3) {
+    sum += TriangleArea(corners, &triangles[i]);
+    const Vec3d& a = corners[triangles[i]];
+    vector_area += (corners[triangles[i + 1]] - a).cross(corners[triangles[i + 2]] - a) / 2;
+  }
+  CHECK(sum == Approx(area).epsilon(1e-9));
+  CHECK(vector_area.length() == Approx(area).epsilon(1e-9));
+}
+
+TEST_CASE("convex polygons become fans") {
+  std::vector<uint32_t> triangles = {9};
+  const std::array<Vec3d, 5> corners = {{{0, 0, 0}, {2, 0, 0}, {3, 1, 0}, {2, 2, 0}, {0, 2, 0}}};
+  Triangulate(corners, &triangles);
+  CHECK(triangles == std::vector<uint32_t>{9, 0, 1, 2, 0, 2, 3, 0, 3, 4});
+}
+
+TEST_CASE("concave polygons are cut right wherever they lie and whichever way they turn") {
+  const std::vector<Vec3d> shape = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}};
+  for (const Vec3d& offset :
+       {Vec3d(0, 0, 0), Vec3d(10, 0, 0), Vec3d(-10, 3, 1), Vec3d(-3, -20, 7)}) {
+    for (const int axis : {0, 1, 2}) {
+      std::vector<Vec3d> corners;
+      for (const Vec3d& p : shape) {
+        const Vec3d turned(p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]);
+        corners.push_back(turned + offset);
+      }
+      CheckTriangulation(corners, 10);
+      CheckTriangulation({corners.rbegin(), corners.rend()}, 10);
+    }
+  }
+  // A comb: every other corner is concave.
+  std::vector<Vec3d> comb = {{20, -1, 0}};
+  for (int i = 20; i >= 0; --i) comb.emplace_back(i, i % 2 == 0 ? 5 : 0, 0);
+  comb.emplace_back(0, -1, 0);
+  CheckTriangulation(comb, 20 + 10 * 5);
+}
+
+TEST_CASE("concave quads are cut along the inner diagonal") {
+  CheckTriangulation({{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}}, 2);
+}
+
+TEST_CASE("polygons without an area still give triangles") {
+  std::vector<uint32_t> triangles;
+  Triangulate(std::array<Vec3d, 4>{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}}, &triangles);
+  CHECK(triangles.size() == 6);
+  Triangulate(std::vector<Vec3d>(4, Vec3d(1, 2, 3)), &triangles);
+  CHECK(triangles.size() == 12);
+}
+
+}  // namespace
+}  // namespace nacre

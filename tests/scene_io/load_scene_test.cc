@@ -1,0 +1,342 @@
+// Scene files of every kind, what --set changes, and the scenes that ship.
+#include "scene_io/load_scene.h"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include <unistd.h>
+
+#include "base/error.h"
+#include "catch.h"
+#include "scene/filter_width.h"
+#include "scene_io/text_file.h"
+
+namespace nacre {
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(NACRE_SOURCE_DIR) / "scenes";
+
+Scene Load(const std::string& members, const LoadOptions& options = {}) {
+  return LoadSceneText(R"({"nacre": 1)" + members + "}", "test.json", kScenes, options);
+}
+
+// A folder of its own, gone at the end.
+struct TemporaryFolder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() /
+                               ("nacre_load_scene_test_" + std::to_string(getpid()));
+  TemporaryFolder() { std::filesystem::create_directories(path); }
+  ~TemporaryFolder() { std::filesystem::remove_all(path); }
+};
+
+std::string MessageOf(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_CASE("a scene that says nothing has the defaults") {
+  const Scene scene = Load("");
+  CHECK(scene.camera.fov_y_deg == Camera{}.fov_y_deg);
+  CHECK(scene.image.width == ImageSettings{}.width);
+  CHECK(scene.materials.empty());
+  CHECK(scene.lights.empty());
+  CHECK(scene.spheres.empty());
+  CHECK(scene.background == Rgb(0, 0, 0));
+}
+
+TEST_CASE("cameras") {
+  const Scene perspective = Load(R"(, "camera": {"position": [1, 2, 3], "look_at": [4, 5, 6],
+      "up": [0, 2, 0.5], "fov_y_deg": 45.5})");
+  CHECK(perspective.camera.projection == Projection::kPerspective);
+  CHECK(perspective.camera.position == Vec3d(1, 2, 3));
+  CHECK(perspective.camera.look_at == Vec3d(4, 5, 6));
+  CHECK(perspective.camera.up == Vec3d(0, 2, 0.5));
+  CHECK(perspective.camera.fov_y_deg == 45.5);
+
+  const Scene orthographic = Load(R"(, "camera": {"type": "orthographic", "height": 3})");
+  CHECK(orthographic.camera.projection == Projection::kOrthographic);
+  CHECK(orthographic.camera.height == 3);
+}
+
+TEST_CASE("images and filters") {
+  const Scene scene =
+      Load(R"(, "image": {"width": 640, "height": 3.6e2, "spp": 1, "seed": 4294967295,
+      "shadows": false, "filter": {"type": "mitchell", "width": 5}}, "background": [0.1, 0.2, 0.3])");
+  CHECK(scene.image.width == 640);
+  CHECK(scene.image.height == 360);  // a whole number, however it is written
+  CHECK(scene.image.spp == 1);
+  CHECK(scene.image.seed == 4294967295u);
+  CHECK(!scene.image.shadows);
+  CHECK(scene.image.filter.kind == FilterKind::kMitchell);
+  CHECK(scene.image.filter.width == 5);
+  CHECK(scene.background == Rgb(0.1, 0.2, 0.3));
+
+  const std::pair<const char*, FilterKind> kinds[] = {
+      {"box", FilterKind::kBox},
+      {"gaussian", FilterKind::kGaussian},
+      {"blackman_harris", FilterKind::kBlackmanHarris},
+      {"mitchell", FilterKind::kMitchell}};
+  for (const auto& [name, kind] : kinds) {
+    const Scene with = Load(R"(, "image": {"filter": {"type": ")" + std::string(name) + "\"}}");
+    CHECK(with.image.filter.kind == kind);
+    CHECK(with.image.filter.width == DefaultFilterWidth(kind));
+  }
+}
+
+TEST_CASE("materials keep the order of the file") {
+  const Scene scene = Load(R"(, "materials": {
+      "z": {"model": "lambert", "albedo": 0.25, "emission": [1, 2, 3]},
+      "a": {"model": "modified_phong", "convention": "classic", "color": [0.1, 0.2, 0.3],
+            "ka": 0.5, "kd": 0.6, "ks": [0.7, 0.8, 0.9], "shininess": 1e6},
+      "m": {"model": "metallic_roughness", "base_color": [1, 0.5, 0], "metallic": 1, "roughness": 0,
+            "shadowing": "schlick_direct"}})");
+  REQUIRE(scene.materials.size() == 3);
+  CHECK(scene.materials[0].name == "z");
+  CHECK(scene.materials[0].emission == Rgb(1, 2, 3));
+  CHECK(std::get<LambertMaterial>(scene.materials[0].model).albedo == Rgb(0.25, 0.25, 0.25));
+
+  CHECK(scene.materials[1].name == "a");
+  const auto& phong = std::get<PhongMaterial>(scene.materials[1].model);
+  CHECK(phong.model == PhongModel::kModifiedPhong);
+  CHECK(phong.convention == PhongConvention::kClassic);
+  CHECK(phong.color == Rgb(0.1, 0.2, 0.3));
+  CHECK(phong.ka == Rgb(0.5, 0.5, 0.5));
+  CHECK(phong.kd == Rgb(0.6, 0.6, 0.6));
+  CHECK(phong.ks == Rgb(0.7, 0.8, 0.9));
+  CHECK(phong.shininess == 1e6);
+
+  const auto& metal = std::get<MetallicRoughnessMaterial>(scene.materials[2].model);
+  CHECK(metal.base_color == Rgb(1, 0.5, 0));
+  CHECK(metal.metallic == 1);
+  CHECK(metal.roughness == 0);
+  CHECK(metal.shadowing == Shadowing::kSchlickDirect);
+}
+
+TEST_CASE("every model name makes its model") {
+  const auto phong_model = [](const char* name) {
+    const Scene scene = Load(R"(, "materials": {"m": {"model": ")" + std::string(name) + "\"}}");
+    return std::get<PhongMaterial>(scene.materials.at(0).model).model;
+  };
+  CHECK(phong_model("phong") == PhongModel::kPhong);
+  CHECK(phong_model("modified_phong") == PhongModel::kModifiedPhong);
+  CHECK(phong_model("blinn_phong") == PhongModel::kBlinnPhong);
+}
+
+TEST_CASE("splits may name materials that come later, and materials may stand inline") {
+  const Scene scene = Load(R"(, "materials": {
+      "both": {"model": "split", "at": [0.25, 0.5], "materials": ["b", "a", {"model": "phong"}]},
+      "a": {"model": "lambert"}, "b": {"model": "phong"}},
+      "shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "both"},
+                 {"type": "sphere", "center": [0, 3, 0], "radius": 2,
+                  "material": {"model": "lambert", "albedo": 1}}])");
+  REQUIRE(scene.materials.size() == 5);
+  CHECK(scene.materials[3].name == "/materials/both/materials/2");
+  CHECK(scene.materials[4].name == "/shapes/1/material");
+  const auto& split = std::get<SplitMaterial>(scene.materials[0].model);
+  CHECK(split.at == std::vector<double>{0.25, 0.5});
+  REQUIRE(split.materials.size() == 3);
+  CHECK(split.materials[0].index == 2);
+  CHECK(split.materials[1].index == 1);
+  CHECK(split.materials[2].index == 3);
+  REQUIRE(scene.spheres.size() == 2);
+  CHECK(scene.spheres[0].material.index == 0);
+  CHECK(scene.spheres[1].material.index == 4);
+  CHECK(scene.spheres[1].center == Vec3d(0, 3, 0));
+  CHECK(scene.spheres[1].radius == 2);
+}
+
+TEST_CASE("lights of every kind") {
+  const Scene scene = Load(R"(, "lights": {
+      "sky": {"type": "ambient", "radiance": 0.5},
+      "sun": {"type": "directional", "direction_of_travel": [1, -2, 0], "irradiance": [3, 2, 1]},
+      "bulb": {"type": "point", "position": [1, 2, 3], "intensity": 10, "attenuation": "none",
+               "shadows": false},
+      "lamp": {"type": "spot", "position": [0, 1, 0], "direction_of_travel": [0, -1, 0],
+               "intensity": 2, "attenuation": {"constant": 1, "quadratic": 0.1},
+               "cutoff_deg": 12, "exponent": 3}})");
+  REQUIRE(scene.lights.size() == 4);
+  CHECK(scene.lights[0].name == "sky");
+  CHECK(std::get<AmbientLight>(scene.lights[0].kind).radiance == Rgb(0.5, 0.5, 0.5));
+
+  CHECK(scene.lights[1].shadows);
+  const auto& sun = std::get<DirectionalLight>(scene.lights[1].kind);
+  CHECK(sun.direction_of_travel == Vec3d(1, -2, 0));
+  CHECK(sun.irradiance == Rgb(3, 2, 1));
+
+  CHECK(!scene.lights[2].shadows);
+  const auto& bulb = std::get<PointLight>(scene.lights[2].kind);
+  CHECK(bulb.position == Vec3d(1, 2, 3));
+  CHECK(bulb.intensity == Rgb(10, 10, 10));
+  CHECK(bulb.attenuation == Attenuation::None());
+
+  const auto& lamp = std::get<SpotLight>(scene.lights[3].kind);
+  CHECK(lamp.attenuation == Attenuation{1, 0, 0.1});
+  CHECK(lamp.cutoff_deg == 12);
+  CHECK(lamp.inner_deg == 12);  // a hard edge unless the file says otherwise
+  CHECK(lamp.exponent == 3);
+}
+
+TEST_CASE("grids, pairs and clouds are made") {
+  const Scene scene = Load(R"(, "materials": {"pbr": {"model": "metallic_roughness"}}, "shapes": [
+      {"type": "grid", "material": "pbr", "spacing": [2, 1],
+       "rows": {"parameter": "roughness", "from": 0.1, "to": 0.9, "count": 5},
+       "columns": {"parameter": "base_color", "values": [0, [1, 0, 0]]}},
+      {"type": "pair", "a": {"material": {"model": "phong"}, "label": "Phong", "count": 2},
+       "b": {"material": "pbr", "count": 2}, "arrangement": "side_by_side"},
+      {"type": "cloud", "count": 100, "min": [0, 0, 0], "max": [1, 1, 1], "radius": 0.5,
+       "materials": ["pbr", {"model": "lambert"}]}])");
+  CHECK(scene.spheres.size() == 10 + 4 + 100);
+  CHECK(scene.materials.size() == 1 + 10 + 4 + 1);
+  CHECK(scene.labels.size() == 5 + 2);
+  CHECK(scene.spheres[1].center.x - scene.spheres[0].center.x == 2);
+  CHECK(scene.labels[6].text == "base_color 1 0 0");
+  CHECK(scene.spheres[113].radius == 0.5);
+}
+
+TEST_CASE("meshes are placed by their transforms") {
+  const std::string shape = R"({"type": "mesh", "file": "meshes/torus_knot.obj",
+      "material": {"model": "lambert"})";
+  const Scene scene = Load(R"(, "shapes": [)" + shape + "}, " + shape +
+                           R"(, "smooth": false, "transform": {"scale": 2, "rotate_deg": [0, 0, 90],
+                                "translate": [10, 0, 0]}}])");
+  REQUIRE(scene.meshes.size() == 2);
+  const Mesh& plain = scene.meshes[0];
+  const Mesh& moved = scene.meshes[1];
+  CHECK(plain.name == "torus_knot");
+  CHECK(plain.normals.size() == plain.positions.size());
+  CHECK(moved.normals.empty());
+  const Vec3d p = plain.positions[0];
+  // A few roundings of numbers up to 12.
+  CHECK((moved.positions[0] - Vec3d(10 - 2 * p.y, 2 * p.x, 2 * p.z)).length() < 1e-14);
+}
+
+TEST_CASE("--set changes values, adds them, and makes what is missing on the way") {
+  const LoadOptions options{.overrides = {{"/image/spp", "64"},
+                                          {"/camera/fov_y_deg", "20"},
+                                          {"/materials/m/albedo", "[1, 0, 0]"},
+                                          {"/shapes/0/radius", "3"},
+                                          {"/image/filter", R"({"type": "box"})"}}};
+  const std::string members =
+      R"(, "camera": {"fov_y_deg": 45}, "materials": {"m": {"model": "lambert"}},
+      "shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}])";
+  const Scene scene = Load(members, options);
+  CHECK(scene.image.spp == 64);
+  CHECK(scene.camera.fov_y_deg == 20);
+  CHECK(std::get<LambertMaterial>(scene.materials.at(0).model).albedo == Rgb(1, 0, 0));
+  CHECK(scene.spheres.at(0).radius == 3);
+}
+
+TEST_CASE("--set that cannot be done is a usage error") {
+  const auto set = [](const std::string& pointer, const std::string& value) {
+    try {
+      Load(R"(, "shapes": [], "background": 0)",
+           {.overrides = {{pointer, value}}, .allow_paths = false});
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::kUsage);
+      CHECK(error.faults().at(0).where == "--set " + pointer);
+      return error.faults().at(0).what + " | " + error.faults().at(0).hint;
+    }
+    return std::string("no error");
+  };
+  CHECK(Contains(set("image/spp", "4"), "not a JSON pointer"));
+  CHECK(Contains(set("/background", "red"), R"(red is not JSON | a string needs quotes)"));
+  CHECK(Contains(set("/background", "1e999"), "is not JSON"));
+  CHECK(Contains(set("/shapes/0/radius", "1"), "no element \"0\" | the array has 0"));
+  CHECK(Contains(set("/shapes/-", "1"), "no element"));
+  CHECK(Contains(set("/background/red", "1"), "no \"red\" in a value"));
+}
+
+TEST_CASE("what --set puts in is checked like the file") {
+  const std::string message = MessageOf([] { Load("", {.overrides = {{"/image/sppp", "64"}}}); });
+  CHECK(Contains(message, "test.json: /image: unknown key \"sppp\""));
+  CHECK(Contains(message, "did you mean \"spp\"?"));
+}
+
+TEST_CASE("files outside the scene's folder need leave") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path / "scene");
+  std::ofstream(folder.path / "mesh.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::filesystem::create_symlink("../mesh.obj", folder.path / "scene/link.obj");
+  const auto write = [&](const std::string& file) {
+    std::ofstream(folder.path / "scene/scene.json")
+        << R"({"nacre": 1, "shapes": [{"type": "mesh", "material": {"model": "lambert"}, "file": ")"
+        << file << "\"}]}";
+  };
+  for (const std::string file : {"../mesh.obj", "link.obj", "../scene/../mesh.obj"}) {
+    write(file);
+    CHECK(Contains(MessageOf([&] { LoadScene(folder.path / "scene/scene.json"); }),
+                   "/shapes/0/file: \"" + file + "\" is outside the scene's folder"));
+    const Scene scene =
+        LoadScene(folder.path / "scene/scene.json", {.overrides = {}, .allow_paths = true});
+    CHECK(scene.meshes.size() == 1);
+  }
+}
+
+TEST_CASE("scenes that cannot be read") {
+  CHECK(Contains(MessageOf([] { LoadScene("/no/such/scene.json"); }),
+                 "/no/such/scene.json: cannot be opened: No such file or directory"));
+  CHECK(Contains(MessageOf([] { LoadScene(kScenes); }), "is a folder"));
+  CHECK(Contains(MessageOf([] { ReadTextFile("/dev/zero", 3 << 20); }),
+                 "/dev/zero: is longer than 0.00292969 GiB"));
+}
+
+TEST_CASE("the scenes that ship load") {
+  size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
+    if (entry.path().extension() != ".json" || entry.path().stem().extension() == ".schema")
+      continue;
+    ++count;
+    INFO(entry.path());
+    Scene scene;
+    CHECK_NOTHROW(scene = LoadScene(entry.path()));
+    CHECK(!scene.lights.empty());
+    CHECK(scene.spheres.size() + scene.meshes.size() > 0);
+  }
+  CHECK(count > 0);
+}
+
+TEST_CASE("the material grid is the founding lesson's") {
+  const Scene scene = LoadScene(kScenes / "material_grid.json");
+  REQUIRE(scene.spheres.size() == 25);
+  for (size_t row = 0; row < 5; ++row) {
+    for (size_t column = 0; column < 5; ++column) {
+      const Sphere& sphere = scene.spheres[5 * row + column];
+      const double x = static_cast<double>(column) - 2;
+      const double y = 2 - static_cast<double>(row);
+      CHECK(sphere.center == Vec3d(x, y, 0));
+      const auto& material =
+          std::get<MetallicRoughnessMaterial>(scene.materials[sphere.material.index].model);
+      CHECK(material.roughness == Approx(0.1 + 0.2 * static_cast<double>(row)).epsilon(1e-15));
+      CHECK(material.metallic == static_cast<double>(column) / 4);
+      CHECK(material.base_color == Rgb(0.9, 0.6, 0.2));
+    }
+  }
+}
+
+TEST_CASE("the pairs' highlights match in width") {
+  const Scene scene = LoadScene(kScenes / "phong_vs_pbr_pair.json");
+  REQUIRE(scene.spheres.size() % 2 == 0);
+  for (size_t i = 0; i < scene.spheres.size(); i += 2) {
+    const auto& phong =
+        std::get<PhongMaterial>(scene.materials[scene.spheres[i].material.index].model);
+    const auto& pbr = std::get<MetallicRoughnessMaterial>(
+        scene.materials[scene.spheres[i + 1].material.index].model);
+    CHECK(phong.model == PhongModel::kBlinnPhong);  // the rule is for cos^n of the half angle
+    const double alpha = pbr.roughness * pbr.roughness;
+    // The file has seven digits.
+    CHECK(phong.shininess == Approx(2 / (alpha * alpha) - 2).epsilon(1e-6));
+    CHECK(scene.spheres[i].center.y > scene.spheres[i + 1].center.y);
+  }
+}
+
+}  // namespace
+}  // namespace nacre

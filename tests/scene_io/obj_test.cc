@@ -1,0 +1,159 @@
+// OBJ files, good and bad.
+#include "scene_io/obj.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "catch.h"
+#include "scene/mesh.h"
+
+namespace nacre {
+namespace {
+
+// Reads `text` as an OBJ file.
+Mesh Read(const std::string& text) {
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("nacre_" + std::to_string(getpid()) + ".obj");
+  std::ofstream(path, std::ios::binary) << text;
+  try {
+    Mesh mesh = ReadObj(path);
+    std::filesystem::remove(path);
+    return mesh;
+  } catch (...) {
+    std::filesystem::remove(path);
+    throw;
+  }
+}
+
+std::string MessageOf(const std::string& text) {
+  try {
+    Read(text);
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::kBadInput);
+    return error.what();
+  }
+  return "no error";
+}
+
+bool Refused(const std::string& text, const std::string& part) {
+  const std::string message = MessageOf(text);
+  INFO(message);
+  const bool refused = message.find(part) != std::string::npos;
+  CHECK(refused);
+  return refused;
+}
+
+double Volume(const Mesh& mesh) {
+  double volume = 0;
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    volume += mesh.positions[mesh.triangles[i]].dot(
+        mesh.positions[mesh.triangles[i + 1]].cross(mesh.positions[mesh.triangles[i + 2]]));
+  }
+  return volume / 6;
+}
+
+const std::string kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+TEST_CASE("a triangle") {
+  const Mesh mesh = Read("# comment\r\n" + kTriangle + "f 1 2 3\n");
+  CHECK(mesh.positions == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2});
+  CHECK(mesh.normals.empty());
+}
+
+TEST_CASE("positions are read in double") {
+  const Mesh mesh = Read("v 0.123456789012 0 1e6\nv +1 0 0\nv 0 1 0\nf 1 2 3");
+  // tinyobjloader's own conversion is right to about an ulp, not correctly rounded.
+  CHECK(std::abs(mesh.positions[0].x - 0.123456789012) < 1e-16);
+  CHECK(mesh.positions[0].z == 1e6);
+}
+
+TEST_CASE("relative indices, groups, materials and texture coordinates") {
+  const Mesh mesh = Read("mtllib no.mtl\no one\n" + kTriangle +
+                         "vt 0 0\nusemtl red\nf -3/1 -2/1 -1/1\ng two\nusemtl blue\nf 1 3 2\n"
+                         "l 1 2\n");
+  CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2, 0, 2, 1});
+  CHECK(mesh.positions.size() == 3);
+}
+
+TEST_CASE("a position with two normals becomes two vertices, normals become unit") {
+  const Mesh mesh = Read(kTriangle + "vn 0 0 2\nvn 0 0 -1\nf 1//1 2//1 3//1\nf 1//2 3//2 2//2\n");
+  CHECK(mesh.positions.size() == 6);
+  REQUIRE(mesh.normals.size() == 6);
+  CHECK(mesh.normals[0] == Vec3d(0, 0, 1));
+  CHECK(mesh.normals[3] == Vec3d(0, 0, -1));
+}
+
+TEST_CASE("normals count only if every corner has one") {
+  CHECK(Read(kTriangle + "vn 0 0 1\nf 1//1 2//1 3\n").normals.empty());
+}
+
+TEST_CASE("polygons are cut into as many triangles as they need") {
+  std::string text;
+  std::string face = "f";
+  for (int i = 0; i < 200; ++i) {
+    text += fmt::format("v {} {} 0\n", std::cos(i * 0.0314159), std::sin(i * 0.0314159));
+    face += fmt::format(" {}", i + 1);
+  }
+  CHECK(Read(text + face).triangles.size() == 3 * 198);
+}
+
+TEST_CASE("the torus knot that ships is closed and inside out it is not") {
+  const Mesh mesh =
+      ReadObj(std::filesystem::path(NACRE_SOURCE_DIR) / "scenes/meshes/torus_knot.obj");
+  CHECK(mesh.positions.size() == 160 * 14);
+  CHECK(mesh.triangles.size() == 3 * 2 * mesh.positions.size());  // Euler: of a torus, F = 2 V
+  // The tube: its length (of the curve 0.46 (2 + cos 3t, ...)) times the area of a 14-gon. The
+  // length is summed here; bends change the volume by the tube's offset only, a few percent.
+  double length = 0;
+  const auto curve = [](double t) {
+    const double r = 0.46 * (2 + std::cos(3 * t));
+    return Vec3d(r * std::cos(2 * t), r * std::sin(2 * t), -0.46 * std::sin(3 * t));
+  };
+  constexpr int kSteps = 10000;
+  constexpr double kTurn = 6.283185307179586;
+  for (int i = 0; i < kSteps; ++i) {
+    length += (curve(kTurn * (i + 1) / kSteps) - curve(kTurn * i / kSteps)).length();
+  }
+  const double section = 7 * 0.2 * 0.2 * std::sin(kTurn / 14);
+  CHECK(Volume(mesh) == Approx(length * section).epsilon(0.03));
+}
+
+TEST_CASE("what is wrong with an OBJ file is said") {
+  CHECK(Refused("", "has no faces"));
+  CHECK(Refused(kTriangle, "has no faces"));
+  CHECK(Refused(kTriangle + "f 1 2 4\n", "a face has position 4\n  hint: there are 3"));
+  CHECK(Refused(kTriangle + "f 1 2 0\n", "zero value"));
+  CHECK(Refused(kTriangle + "f 1 2 -4\n", "a face has position 0"));
+  CHECK(Refused(kTriangle + "f 1 2 -400\n", "a face has position -396"));
+  CHECK(Refused(kTriangle + "f 1 2 99999999999\n", "a face has position"));
+  CHECK(Refused(kTriangle + "f 1//1 2//1 3//1\n", "a face has normal 1\n  hint: there are 0"));
+  CHECK(Refused(kTriangle + "f a b c\n", "zero value"));
+  CHECK(Refused(kTriangle + "f 1 2\n", "fewer than three corners"));
+  CHECK(Refused("v 0 0\n", ".obj:1: \"\" is not a finite number"));
+  CHECK(Refused(kTriangle + "v 0 x 0\n", ".obj:4: \"x\" is not a finite number"));
+  CHECK(Refused(kTriangle + "v 0 nan 0\n", "\"nan\" is not a finite number"));
+  CHECK(Refused(kTriangle + "v 0 inf 0\n", "\"inf\" is not a finite number"));
+  CHECK(Refused(kTriangle + "v 0 1e999 0\n", "\"1e999\" is not a finite number"));
+  CHECK(Refused(kTriangle + "vn 0 1,5 0\n", "\"1,5\" is not a finite number"));
+  CHECK(Refused(kTriangle + "vn 0 0 0\nf 1//1 2//1 3//1\n", "normal 1 has length 0"));
+}
+
+TEST_CASE("tags are not read: nobody makes room for two thousand million of them") {
+  CHECK(Read(kTriangle + " t x 2000000000/2000000000/2000000000\nf 1 2 3\n").positions.size() == 3);
+}
+
+TEST_CASE("a face of 256 corners is refused, not wrapped around") {
+  std::string face = "f";
+  for (int i = 0; i < 256; ++i) face += fmt::format(" {}", i % 3 + 1);
+  CHECK(Refused(kTriangle + face, "more than 255 corners"));
+}
+
+}  // namespace
+}  // namespace nacre

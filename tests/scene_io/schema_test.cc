@@ -1,0 +1,139 @@
+// The schema that the program carries, against the tables that the reader uses. Against scenes:
+// schema_test.py.
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "catch.h"
+#include "scene/filter_width.h"
+#include "scene/limits.h"
+#include "scene/material_parameters.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+namespace {
+
+using nlohmann::json;
+
+json Schema() { return json::parse(SceneSchema()); }
+
+// What a property says once its references are followed; its own keys win.
+json Resolved(const json& schema, json property) {
+  while (property.contains("$ref")) {
+    const std::string reference = property["$ref"];
+    property.erase("$ref");
+    json target = schema.at(json::json_pointer(reference.substr(1)));
+    target.update(property);
+    property = target;
+  }
+  return property;
+}
+
+Range RangeOf(const json& number) {
+  const bool min_open = number.contains("exclusiveMinimum");
+  const bool max_open = number.contains("exclusiveMaximum");
+  return {number[min_open ? "exclusiveMinimum" : "minimum"].get<double>(),
+          number[max_open ? "exclusiveMaximum" : "maximum"].get<double>(), min_open, max_open};
+}
+
+json Property(const std::string& definition, const std::string& name) {
+  const json schema = Schema();
+  return Resolved(schema, schema.at("$defs").at(definition).at("properties").at(name));
+}
+
+TEST_CASE("the program carries the schema file") {
+  std::ifstream file(NACRE_SOURCE_DIR "/scenes/nacre.schema.json");
+  const std::string text((std::istreambuf_iterator<char>(file)), {});
+  REQUIRE(!text.empty());
+  CHECK(SceneSchema() == text);
+}
+
+TEST_CASE("the schema's materials are those of the parameter table") {
+  const json schema = Schema();
+  std::set<std::string> in_schema;
+  for (const json& option : schema["$defs"]["material"]["oneOf"]) in_schema.insert(option["$ref"]);
+  std::set<std::string> in_table = {"#/$defs/split_material"};
+
+  for (const MaterialModel& model : MaterialModels()) {
+    const std::string name = std::string(model.name) + "_material";
+    in_table.insert("#/$defs/" + name);
+    INFO(name);
+    const json& definition = schema["$defs"].at(name);
+    CHECK(definition["additionalProperties"] == false);
+    CHECK(definition["properties"]["model"]["const"] == model.name);
+    CHECK(definition["properties"].size() == 1 + model.parameters.size() + model.choices.size());
+
+    for (const MaterialParameter& parameter : model.parameters) {
+      INFO(parameter.name);
+      const json property = Property(name, std::string(parameter.name));
+      const double value = parameter.get(model.make()).x;
+      CHECK(property["default"] == value);
+      CHECK(property.contains("description"));
+      CHECK(parameter.is_color == property.contains("anyOf"));
+      if (parameter.is_color) {
+        CHECK(RangeOf(property["anyOf"][0]) == parameter.range);
+        CHECK(RangeOf(property["anyOf"][1]["items"]) == parameter.range);
+      } else {
+        CHECK(RangeOf(property) == parameter.range);
+      }
+    }
+    for (const MaterialChoice& choice : model.choices) {
+      const json property = Property(name, std::string(choice.name));
+      CHECK(property["enum"] ==
+            json(std::vector<std::string>(choice.options.begin(), choice.options.end())));
+    }
+  }
+  CHECK(in_schema == in_table);
+}
+
+TEST_CASE("the schema's ranges are those of scene/limits.h") {
+  const json definitions = Schema()["$defs"];
+  CHECK(RangeOf(definitions["coordinate"]) == limits::kCoordinate);
+  CHECK(RangeOf(definitions["length"]) == limits::kLength);
+  CHECK(RangeOf(definitions["exponent"]) == limits::kExponent);
+  CHECK(RangeOf(definitions["seed"]) == limits::kSeed);
+  CHECK(RangeOf(definitions["radiance"]["anyOf"][0]) == limits::kRadiance);
+  CHECK(RangeOf(definitions["axis_count"]) == limits::kGridCount);
+  CHECK(RangeOf(Property("perspective_camera", "fov_y_deg")) == limits::kFovYDeg);
+  CHECK(RangeOf(Property("image", "width")) == limits::kImageSide);
+  CHECK(RangeOf(Property("image", "height")) == limits::kImageSide);
+  CHECK(RangeOf(Property("image", "spp")) == limits::kSpp);
+  CHECK(RangeOf(Property("filter", "width")) == limits::kFilterWidth);
+  CHECK(RangeOf(Property("spot_light", "cutoff_deg")) == limits::kCutoffDeg);
+  CHECK(RangeOf(Property("spot_light", "inner_deg")) == limits::kInnerDeg);
+  CHECK(RangeOf(Property("split_material", "at")["items"]) == limits::kSplitAt);
+  CHECK(RangeOf(Property("cloud", "count")) == limits::kCloudCount);
+  for (const char* term : {"constant", "linear", "quadratic"}) {
+    CHECK(RangeOf(definitions["attenuation"]["anyOf"][1]["properties"][term]) ==
+          limits::kAttenuation);
+  }
+}
+
+TEST_CASE("the schema's defaults are those of scene/scene.h") {
+  const Scene scene;
+  CHECK(Property("image", "width")["default"] == scene.image.width);
+  CHECK(Property("image", "height")["default"] == scene.image.height);
+  CHECK(Property("image", "spp")["default"] == scene.image.spp);
+  CHECK(Property("perspective_camera", "fov_y_deg")["default"] == scene.camera.fov_y_deg);
+  CHECK(Property("orthographic_camera", "height")["default"] == scene.camera.height);
+  CHECK(Property("spot_light", "cutoff_deg")["default"] == SpotLight{}.cutoff_deg);
+}
+
+// Objects that do not say additionalProperties would let slips through.
+void CheckClosed(const json& node, const std::string& where) {
+  if (node.is_object() && node.value("type", json()) == "object") {
+    INFO(where);
+    CHECK(node.contains("additionalProperties"));
+    CHECK((node.contains("title") || node.contains("description") || where.ends_with("/anyOf/1")));
+  }
+  if (!node.is_structured()) return;
+  for (const auto& [name, child] : node.items()) CheckClosed(child, where + "/" + name);
+}
+
+TEST_CASE("the schema is closed and explained everywhere") { CheckClosed(Schema(), ""); }
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,237 @@
+// tests/visibility/intersector_test.cc: closest hits against brute force, and what they must not
+// depend on.
+#include "visibility/intersector.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "catch.h"
+#include "targets.h"
+#include "visibility/rays.h"
+
+namespace nacre {
+namespace {
+
+// Checks that the intersector finds what brute force finds, to the bit, on every target.
+void CheckClosest(const Scene& scene, const Vec3d& eye, const std::vector<Ray>& rays) {
+  const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
+  std::vector<Hit> expected;
+  for (const Ray& ray : rays) expected.push_back(BruteForce(geometry, ray));
+  ForEachTarget([&](Target) {
+    const std::vector<Hit> hits = Trace(Intersector(scene, eye), rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      INFO("ray " << i << " t " << hits[i].t << " expected " << expected[i].t);
+      REQUIRE(hits[i].primitive == expected[i].primitive);
+      REQUIRE(hits[i].t == expected[i].t);
+    }
+  });
+}
+
+std::vector<Ray> RaysAllAround(Random* random, size_t count) {
+  std::vector<Ray> rays(count);
+  for (Ray& ray : rays) ray.direction = random->Direction() * random->Magnitude(1e-3, 1e3);
+  return rays;
+}
+
+TEST_CASE("an empty scene has no hits") {
+  const Intersector intersector({}, Vec3d(0));
+  CHECK(Trace(intersector, {Ray{}}).front() == Hit{});
+  CHECK_FALSE(TraceShadows(intersector, {{Ray{}, 1, kNoPrimitive}}).front());
+}
+
+TEST_CASE("closest hits are brute force's") {
+  Random random(11);
+  for (const unsigned count : {1u, 2u, 7u, 25u, 200u, 2000u}) {
+    const Scene scene = RandomSpheres(&random, count);
+    CheckClosest(scene, Vec3d(0), CameraRays(&random, 2000));
+  }
+}
+
+TEST_CASE("closest hits are brute force's from an orthographic camera") {
+  Random random(12);
+  const Scene scene = RandomSpheres(&random, 300);
+  const Vec3d eye(1, -2, 5);
+  std::vector<Ray> rays(3000);
+  for (Ray& ray : rays) ray.origin = Vec3d(random.Uniform(-4, 3), random.Uniform(-1, 5), 0);
+  CheckClosest(scene, eye, rays);
+}
+
+TEST_CASE("far spheres, and tiny and huge ones in one scene") {
+  Random random(13);
+  Scene scene;
+  for (int i = 0; i < 400; ++i) {
+    const double distance = random.Magnitude(1e-3, 1e6);
+    scene.spheres.push_back(
+        MakeSphere(random.Direction() * distance, distance * random.Magnitude(1e-7, 0.2)));
+  }
+  std::vector<Ray> rays = RaysAllAround(&random, 2000);
+  // Aimed at each sphere, so that the small ones are met.
+  for (const Sphere& sphere : scene.spheres) {
+    rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.7});
+  }
+  CheckClosest(scene, Vec3d(0), rays);
+  scene.spheres.push_back(MakeSphere({0, -1e7 - 1, 0}, 1e7));
+  scene.spheres.push_back(MakeSphere({0, -1e-5, -1e-5}, 1e-6));
+  rays.push_back({Vec3d(0), Vec3d(1e-7, -1, -1)});
+  CheckClosest(scene, Vec3d(0), rays);
+}
+
+TEST_CASE("the camera in, on and between spheres") {
+  Random random(14);
+  Scene scene;
+  scene.spheres = {MakeSphere({0, 0, 0}, 2),        MakeSphere({0, 0, 0}, 3),
+                   MakeSphere({1, 0, 0}, 1),        MakeSphere({0, 0, 0}, 2),
+                   MakeSphere({0.5, 0, 0}, 0.25),   MakeSphere({-0.25, 0, 0}, 0.125),
+                   MakeSphere({0, 0, 0}, 2 + 4e-5), MakeSphere({0, 0, -5}, 1)};
+  for (const Vec3d& eye : {Vec3d(0), Vec3d(0.5, 0, 0), Vec3d(2, 0, 0), Vec3d(2.5, 0, 0),
+                           Vec3d(0, 2 + 2e-5, 0), Vec3d(0, 10, 0)}) {
+    CheckClosest(scene, eye, RaysAllAround(&random, 2000));
+  }
+}
+
+TEST_CASE("shells 4e-5 apart are told apart, from a distance and with a hit on each") {
+  Random random(15);
+  Scene scene;
+  scene.spheres = {MakeSphere({0, 0, -1000}, 1), MakeSphere({0, 0, -1000}, 1 + 4e-5)};
+  std::vector<Ray> rays(5000);
+  for (Ray& ray : rays) {
+    ray.direction = Vec3d(random.Uniform(-1e-3, 1e-3), random.Uniform(-1e-3, 1e-3), -1);
+  }
+  CheckClosest(scene, Vec3d(0), rays);
+  const auto hits = Trace(Intersector(scene, Vec3d(0)), rays);
+  for (const Hit& hit : hits) CHECK((hit.primitive == 1 || hit.primitive == kNoPrimitive));
+}
+
+TEST_CASE("of coincident spheres the first is hit") {
+  Random random(16);
+  Scene scene;
+  scene.spheres.push_back(MakeSphere({0, 3, -5}, 1));
+  for (int i = 0; i < 20; ++i) scene.spheres.push_back(MakeSphere({0, 0, -5}, 1));
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    for (const Hit& hit : Trace(intersector, CameraRays(&random, 1000))) {
+      CHECK((hit.primitive <= 1 || hit.primitive == kNoPrimitive));
+    }
+    CHECK(Trace(intersector, {Ray{}}).front() == Hit{1, 4});
+  });
+}
+
+TEST_CASE("a hit does not depend on the rays that share its batch") {
+  Random random(17);
+  const Scene scene = RandomSpheres(&random, 500);
+  std::vector<Ray> rays = CameraRays(&random, 1024);
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    const std::vector<Hit> hits = Trace(intersector, rays);
+    for (const unsigned batch_size : {1u, 3u, 17u, 100u}) {
+      CHECK(Trace(intersector, rays, batch_size) == hits);
+    }
+    std::vector<size_t> order(rays.size());
+    for (size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::shuffle(order.begin(), order.end(), random.engine());
+    std::vector<Ray> shuffled;
+    for (const size_t i : order) shuffled.push_back(rays[i]);
+    const std::vector<Hit> shuffled_hits = Trace(intersector, shuffled);
+    for (size_t i = 0; i < order.size(); ++i) CHECK(shuffled_hits[i] == hits[order[i]]);
+  });
+}
+
+TEST_CASE("a hit depends neither on the threads that build nor on those that trace") {
+  Random random(18);
+  const Scene scene = RandomSpheres(&random, 2000);
+  const std::vector<Ray> rays = CameraRays(&random, 1024);
+  const std::vector<Hit> hits = Trace(Intersector(scene, Vec3d(0), {1}), rays);
+  const Intersector intersector(scene, Vec3d(0), {2});
+  CHECK(Trace(intersector, rays) == hits);
+  std::vector<int> same(16);
+  ParallelFor(same.size(), 2, [&](size_t i) { same[i] = Trace(intersector, rays) == hits; });
+  CHECK(std::count(same.begin(), same.end(), 1) == 16);
+}
+
+TEST_CASE("scaling a scene by a power of two changes no bit") {
+  Random random(19);
+  const Scene scene = RandomSpheres(&random, 300);
+  const Vec3d eye(0.3, -0.2, 0.7);
+  const std::vector<Ray> rays = CameraRays(&random, 2000);
+  const Intersector unscaled(scene, eye);
+  const std::vector<Hit> hits = Trace(unscaled, rays);
+  const std::vector<Surface> surfaces = TraceSurfaces(unscaled, rays);
+  for (const int exponent : {-40, -20, -7, 1, 13, 20, 39}) {
+    const double scale = std::ldexp(1.0, exponent);
+    Scene scaled = scene;
+    for (Sphere& sphere : scaled.spheres) {
+      sphere.center *= scale;
+      sphere.radius *= scale;
+    }
+    const Intersector intersector(scaled, eye * scale);
+    const std::vector<Hit> scaled_hits = Trace(intersector, rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      REQUIRE(scaled_hits[i] == Hit{hits[i].primitive, hits[i].t * scale});
+    }
+    const std::vector<Surface> scaled_surfaces = TraceSurfaces(intersector, rays);
+    REQUIRE(scaled_surfaces.size() == surfaces.size());
+    for (size_t i = 0; i < surfaces.size(); ++i) {
+      REQUIRE(scaled_surfaces[i].normal == surfaces[i].normal);
+      REQUIRE(scaled_surfaces[i].position == surfaces[i].position * scale);
+    }
+  }
+}
+
+TEST_CASE("the length of a direction does not matter") {
+  Random random(20);
+  const Scene scene = RandomSpheres(&random, 100);
+  const std::vector<Ray> rays = CameraRays(&random, 1000);
+  const Intersector intersector(scene, Vec3d(0));
+  const std::vector<Hit> hits = Trace(intersector, rays);
+  for (const double scale : {0x1p-60, 0x1p-1, 0x1p60}) {
+    std::vector<Ray> scaled = rays;
+    for (Ray& ray : scaled) ray.direction *= scale;
+    const std::vector<Hit> scaled_hits = Trace(intersector, scaled);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      REQUIRE(scaled_hits[i] == Hit{hits[i].primitive, hits[i].t / scale});
+    }
+  }
+}
+
+TEST_CASE("directions along the axes and in their planes") {
+  Random random(21);
+  const Scene scene = RandomSpheres(&random, 300);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 26; ++i) {
+    const int code = i < 13 ? i : i + 1;  // all but (0, 0, 0)
+    rays.push_back({Vec3d(0), Vec3d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1)});
+  }
+  CheckClosest(scene, Vec3d(0, 0, -3), rays);
+}
+
+TEST_CASE("padding repeats the last hit") {
+  Random random(22);
+  Scene scene;
+  scene.spheres.push_back(MakeSphere({0, 0, -3}, 2.5));
+  const Intersector intersector(scene, Vec3d(0));
+  RayBatch rays;
+  ClosestHits closest;
+  HitBatch hits;
+  rays.count = 20;
+  for (size_t i = 0; i < rays.count; ++i) {
+    SetRay({Vec3d(0), Vec3d(random.Uniform(-0.1, 0.1), 0, -1)}, i, &rays);
+  }
+  intersector.Closest(rays, &closest);
+  for (const unsigned count : {1u, 5u, 16u, 17u}) {
+    const std::vector<uint32_t> indices{19, 3, 3, 7, 1, 0, 2, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14};
+    intersector.Refine(rays, closest, indices.data(), count, &hits);
+    REQUIRE(hits.count == count);
+    for (size_t i = 0; i < count; ++i) CHECK(hits.ray[i] == indices[i]);
+    for (size_t i = count; i < RoundUp(count, kBatchPadding); ++i) {
+      CHECK(hits.ray[i] == indices[count - 1]);
+      CHECK(hits.primitive[i] == 0);
+      CHECK(At(hits.position, i) == At(hits.position, count - 1));
+      CHECK(At(hits.normal, i) == At(hits.normal, count - 1));
+      CHECK(At(hits.to_view, i) == At(hits.to_view, count - 1));
+    }
+  }
+  intersector.Refine(rays, closest, nullptr, 0, &hits);
+  CHECK(hits.count == 0);
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,74 @@
+// tests/visibility/packet_test.cc: the parts beneath the intersector: geometry, exact products,
+// and packets of which Embree hands on some rays in another order.
+#include "visibility/packet.h"
+
+#include "catch.h"
+#include "visibility/rays.h"
+#include "visibility/two_product.h"
+
+namespace nacre {
+namespace {
+
+TEST_CASE("a two-product is exact") {
+  Random random(51);
+  for (int i = 0; i < 1000; ++i) {
+    const double a = random.Uniform(-2, 2), b = random.Magnitude(1e-9, 1e9);
+    const auto [product, error] = TwoProduct(a, b);
+    CHECK(static_cast<__float128>(a) * b == static_cast<__float128>(product) + error);
+  }
+}
+
+TEST_CASE("a difference of products has the exact sign") {
+  // (1 + e)(1 - e) - 1 = -e^2, which plain products round to 0.
+  const double e = 0x1p-30;
+  CHECK(DifferenceOfProducts(1 + e, 1 - e, 1.0, 1.0) == -e * e);
+  CHECK(DifferenceOfProducts(1.0, 1.0, 1 + e, 1 - e) == e * e);
+  CHECK(DifferenceOfProducts(3.0, 7.0, 7.0, 3.0) == 0);
+}
+
+TEST_CASE("geometry is relative to the camera and knows coincident spheres") {
+  Scene scene;
+  scene.spheres = {MakeSphere({1, 2, 3}, 1), MakeSphere({0, 0, 0}, 2), MakeSphere({1, 2, 3}, 1),
+                   MakeSphere({1, 2, 3}, 2)};
+  Mesh triangle;
+  triangle.positions = {{0, 0, 0}, {1, 0, 0}, {0, 30, 40}};
+  triangle.triangles = {0, 1, 2};
+  scene.meshes = {triangle, Mesh{}, triangle};
+  const TraceGeometry geometry = MakeTraceGeometry(scene, {1, 1, 1});
+  CHECK(geometry.spheres[0].center == Vec3d(0, 1, 2));
+  CHECK(geometry.first_coincident == std::vector<uint32_t>{0, 1, 0, 3});
+  CHECK(geometry.extent == Vec3d(-1, 29, 39).length());
+  CHECK(geometry.MeshOf(0) == 0);
+  CHECK(geometry.MeshOf(1) == 2);
+  scene.spheres.erase(scene.spheres.begin() + 2);
+  CHECK(MakeTraceGeometry(scene, Vec3d(0)).first_coincident.empty());
+}
+
+TEST_CASE("rays handed on as a copy are found by their ids") {
+  Packet packet;
+  packet.width = 8;
+  for (unsigned i = 0; i < 8; ++i) {
+    RTCRayN_id(packet.ray_n(), 8, i) = i;
+    packet.tfar()[i] = static_cast<float>(10 + i);
+  }
+  const int all_but_two[8] = {-1, -1, 0, -1, -1, -1, -1, -1};
+  CHECK(ActiveLanes(packet, all_but_two, &packet.rays, 8) == 0b11111011u);
+
+  RTCRayHit4 copy;
+  auto* rays = reinterpret_cast<RTCRayN*>(&copy);
+  const unsigned ids[4] = {6, 1, 5, 0};
+  const int valid[4] = {-1, -1, 0, -1};
+  for (unsigned i = 0; i < 4; ++i) {
+    RTCRayN_id(rays, 4, i) = ids[i];
+    RTCRayN_tfar(rays, 4, i) = 99;
+  }
+  CHECK(ActiveLanes(packet, valid, rays, 4) == 0b01000011u);
+  ReturnDepths(packet, valid, rays, 4);
+  CHECK(RTCRayN_tfar(rays, 4, 0) == 16);
+  CHECK(RTCRayN_tfar(rays, 4, 1) == 11);
+  CHECK(RTCRayN_tfar(rays, 4, 2) == 99);
+  CHECK(RTCRayN_tfar(rays, 4, 3) == 10);
+}
+
+}  // namespace
+}  // namespace nacre

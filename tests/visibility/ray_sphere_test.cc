@@ -1,0 +1,219 @@
+// tests/visibility/ray_sphere_test.cc: the ray-sphere test against exact references.
+#include "catch.h"
+#include "tables.h"
+#include "targets.h"
+#include "visibility/rays.h"
+
+namespace nacre {
+namespace {
+
+using Quad = __float128;
+
+Vec3d TableVector(const nlohmann::json& v) {
+  return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+}
+
+struct TableRow {
+  std::string id, family;
+  Ray ray;
+  TraceSphere sphere;
+  nlohmann::json reference;
+};
+
+std::vector<TableRow> LoadRows() {
+  const nlohmann::json table = LoadTable("ray_sphere");
+  std::vector<TableRow> rows;
+  for (const auto& row : table["rows"]) {
+    rows.push_back({row["id"],
+                    row["family"],
+                    {TableVector(row["o"]), TableVector(row["d"])},
+                    {TableVector(row["c"]), row["r"].get<double>()},
+                    row["ref"]});
+  }
+  return rows;
+}
+
+// Whether the ray hits, and where, by the table's rule for double.
+void CheckRow(const TableRow& row, const Hit& hit) {
+  INFO(row.id << " " << row.family << ": t = " << hit.t);
+  const bool hits = hit.primitive != kNoPrimitive;
+  const auto& reference = row.reference;
+  if (row.family == "denormal") {  // hit or miss, but nothing that is not a number
+    CHECK_FALSE(std::isnan(hit.t));
+    return;
+  }
+  const bool expected =
+      reference["line_hit"].get<bool>() && reference.contains("t") && reference["t"].is_string();
+  REQUIRE(hits == expected);
+  if (!hits) return;
+  if (reference["cond_t"].is_null()) {
+    CHECK((std::isfinite(hit.t) && hit.t >= 0));
+    return;
+  }
+  CHECK(PassesConditionedRule(hit.t, TableNumber(reference["t"]), TableNumber(reference["cond_t"]),
+                              kHalfUlpDouble));
+}
+
+Quad Sqrt(Quad x) {
+  if (x == 0) return 0;
+  const Quad s = static_cast<Quad>(std::sqrt(static_cast<long double>(x)));
+  return (s + x / s) / 2;
+}
+
+Quad Dot(const Quad (&a)[3], const Quad (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// The textbook test in 113 bits: for doubles within 1e7 of each other more than exact enough.
+struct QuadHit {
+  bool hit = false;
+  double t = 0;
+  Quad normal[3] = {0, 0, 0};  // towards the ray
+};
+
+QuadHit TestInQuad(const Ray& ray, const TraceSphere& sphere) {
+  Quad m[3], d[3];
+  for (int i = 0; i < 3; ++i) {
+    m[i] = static_cast<Quad>(sphere.center[i]) - static_cast<Quad>(ray.origin[i]);
+    d[i] = ray.direction[i];
+  }
+  const Quad r = sphere.radius, dd = Dot(d, d), b = Dot(m, d);
+  const Quad discriminant = b * b - dd * (Dot(m, m) - r * r);
+  QuadHit result;
+  if (discriminant < 0) return result;
+  const Quad root = Sqrt(discriminant);
+  const bool inside = !(b - root > 0);
+  const Quad t = (inside ? b + root : b - root) / dd;
+  result.hit = t > 0;
+  result.t = static_cast<double>(t);
+  for (int i = 0; i < 3; ++i) {
+    result.normal[i] = (t * d[i] - m[i]) / r * static_cast<Quad>(inside ? -1 : 1);
+  }
+  return result;
+}
+
+double AngleTo(const Quad (&expected)[3], const Vec3d& normal) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double difference = static_cast<double>(expected[i] - static_cast<Quad>(normal[i]));
+    square += difference * difference;
+  }
+  return std::sqrt(square);  // chord and angle agree for small ones
+}
+
+// A ray from the origin past a sphere of radius 1 at this distance, missing its centre by offset.
+Ray RayPast(Random* random, const Vec3d& center, double offset) {
+  const Vec3d across = center.cross(random->Direction()).normalized();
+  const double distance = center.length();
+  // The foot of the perpendicular lies at `offset` from the centre.
+  const double sine = offset / distance;
+  const Vec3d foot = center * (1 - sine * sine) + across * (offset * std::sqrt(1 - sine * sine));
+  return {Vec3d(0), foot * random->Magnitude(0.5, 2) / distance};
+}
+
+TEST_CASE("the scalar ray-sphere test passes the table", "[table]") {
+  for (const TableRow& row : LoadRows()) {
+    const auto hit =
+        TestSphere(row.sphere.center - row.ray.origin, row.ray.direction, row.sphere.radius);
+    CheckRow(row, hit.hit ? Hit{0, hit.t} : Hit{});
+  }
+}
+
+TEST_CASE("the intersector passes the table, with the scalar test's bits", "[table]") {
+  const std::vector<TableRow> rows = LoadRows();
+  ForEachTarget([&](Target) {
+    for (const TableRow& row : rows) {
+      if (row.sphere.radius <= 0 || row.family == "denormal") continue;  // no scene has these
+      Scene scene;
+      scene.spheres.push_back(MakeSphere(row.sphere.center, row.sphere.radius));
+      const Hit hit = Trace(Intersector(scene, Vec3d(0)), {row.ray}).front();
+      CheckRow(row, hit);
+      CHECK(hit == BruteForce(MakeTraceGeometry(scene, Vec3d(0)), row.ray));
+    }
+  });
+}
+
+// The normal's error comes from a few roundings of radius^2 - |perpendicular|^2: 6 u radius^2,
+// whose square root, 2.6e-8, is what it can reach where the ray only just touches.
+TEST_CASE("hits are right at any distance, grazing ones too") {
+  constexpr double kMaxNormalError = 3e-8;
+  constexpr double kMaxDepthError = 1e-15 * 8;  // 64 roundings
+  Random random(1);
+  for (const double distance : {2.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
+    double worst_normal = 0, worst_depth = 0;
+    int wrong = 0;
+    for (int i = 0; i < 60000; ++i) {
+      const TraceSphere sphere{random.Direction() * distance, 1};
+      const bool grazing = i % 3 != 0;
+      const double side = i % 2 == 0 ? 1 : -1;
+      const double offset =
+          grazing ? 1 + side * random.Magnitude(1e-12, 1e-2) : random.Uniform(0, 1.2);
+      const Ray ray = RayPast(&random, sphere.center, offset);
+      const QuadHit expected = TestInQuad(ray, sphere);
+      const auto hit = TestSphere(sphere.center, ray.direction, sphere.radius);
+      wrong += hit.hit != expected.hit;
+      if (!hit.hit || !expected.hit) continue;
+      const Vec3d normal = CenterToHit(hit, ray.direction) / sphere.radius;
+      worst_normal = std::max(worst_normal, AngleTo(expected.normal, normal));
+      worst_depth = std::max(worst_depth, std::abs(hit.t - expected.t) / expected.t);
+    }
+    INFO("distance " << distance << " normal " << worst_normal << " depth " << worst_depth);
+    CHECK(wrong == 0);
+    CHECK(worst_normal <= kMaxNormalError);
+    // Where the chord is short its own error, relative to the radius, shows in the depth.
+    CHECK(worst_depth <= kMaxDepthError + kMaxNormalError / distance);
+  }
+}
+
+// A chord of 2 h seen from just above: the depth's error is that of |c|^2 - r^2, 2 u r / height.
+TEST_CASE("the ground sphere under the eye is right") {
+  Random random(2);
+  Scene scene;
+  scene.spheres.push_back(MakeSphere(Vec3d(0), 1e6));
+  for (const double height : {1.0, 2.5, 10.0}) {
+    const Vec3d eye(0, 1e6 + height, 0);
+    const Intersector intersector(scene, eye);
+    std::vector<Ray> rays(20000);
+    for (Ray& ray : rays) {
+      ray.direction = random.Direction() + Vec3d(0, random.Uniform(-0.5, 0.1), 0);
+    }
+    const std::vector<Hit> hits = Trace(intersector, rays);
+    double worst = 0;
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const QuadHit expected = TestInQuad(rays[i], {-eye, 1e6});
+      REQUIRE((hits[i].primitive == 0) == expected.hit);
+      if (expected.hit) worst = std::max(worst, std::abs(hits[i].t - expected.t) / expected.t);
+    }
+    INFO("height " << height << " worst " << worst);
+    CHECK(worst > 0);
+    CHECK(worst <= 1e-9);
+  }
+}
+
+TEST_CASE("refined hits are the scalar test's, on every target") {
+  Random random(3);
+  Scene scene = RandomSpheres(&random, 60);
+  scene.spheres.push_back(MakeSphere({0, 0, 0}, 30));  // around the camera
+  const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+  const std::vector<Ray> rays = CameraRays(&random, 3000);
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    const std::vector<Surface> surfaces = TraceSurfaces(intersector, rays);
+    REQUIRE(surfaces.size() == rays.size());
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const Surface& surface = surfaces[i];
+      const auto& [center, radius] = geometry.spheres[surface.primitive];
+      const Vec3d& direction = rays[i].direction;
+      const auto hit = TestSphere(center, direction, radius);
+      const Vec3d from_center = CenterToHit(hit, direction);
+      REQUIRE(hit.hit);
+      REQUIRE(surface.object == surface.primitive);
+      REQUIRE(surface.position == center + from_center);
+      REQUIRE(surface.normal == from_center * (hit.inside ? -1 / radius : 1 / radius));
+      REQUIRE(surface.normal.dot(direction) <= 0);
+      REQUIRE(std::abs(surface.normal.length() - 1) < 8 * kHalfUlpDouble);
+      REQUIRE((surface.to_view + direction.normalized()).length() < 8 * kHalfUlpDouble);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace nacre

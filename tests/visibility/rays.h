@@ -1,0 +1,210 @@
+// tests/visibility/rays.h: rays one by one in place of batches, and the brute-force oracle: the
+// scalar twins of the hit tests on every primitive.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "hit/batch.h"
+#include "visibility/geometry.h"
+#include "visibility/intersector.h"
+#include "visibility/sphere_test.h"
+#include "visibility/triangle_test.h"
+
+namespace nacre {
+
+struct Ray {
+  Vec3d origin{0, 0, 0};
+  Vec3d direction{0, 0, -1};
+};
+
+struct Hit {
+  uint32_t primitive = kNoPrimitive;
+  double t = std::numeric_limits<double>::infinity();
+  bool operator==(const Hit&) const = default;
+};
+
+struct Surface {
+  uint32_t primitive, object;
+  Vec3d position, normal, to_view;
+};
+
+struct ShadowRay {
+  Ray ray;
+  double t_max;
+  uint32_t primitive;
+};
+
+template <class Batch>
+void SetRay(const Ray& ray, size_t i, Batch* batch) {
+  batch->origin.x[i] = ray.origin.x;
+  batch->origin.y[i] = ray.origin.y;
+  batch->origin.z[i] = ray.origin.z;
+  batch->direction.x[i] = ray.direction.x;
+  batch->direction.y[i] = ray.direction.y;
+  batch->direction.z[i] = ray.direction.z;
+}
+
+inline Vec3d At(const Soa3<double>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
+
+// Calls body(first, size, batch) with the rays in batches of up to batch_size.
+template <class Body>
+void ForEachBatch(const std::vector<Ray>& rays, size_t batch_size, const Body& body) {
+  RayBatch batch;
+  for (size_t first = 0; first < rays.size(); first += batch_size) {
+    batch.count = std::min(batch_size, rays.size() - first);
+    for (size_t i = 0; i < batch.count; ++i) SetRay(rays[first + i], i, &batch);
+    body(first, batch);
+  }
+}
+
+inline std::vector<Hit> Trace(const Intersector& intersector, const std::vector<Ray>& rays,
+                              size_t batch_size = kBatchCapacity) {
+  std::vector<Hit> hits(rays.size());
+  ClosestHits closest;
+  ForEachBatch(rays, batch_size, [&](size_t first, const RayBatch& batch) {
+    intersector.Closest(batch, &closest);
+    for (size_t i = 0; i < batch.count; ++i) {
+      hits[first + i] = {closest.primitive[i], closest.t[i]};
+    }
+  });
+  return hits;
+}
+
+// The surfaces that the rays which hit anything hit, in order.
+inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
+                                          const std::vector<Ray>& rays) {
+  std::vector<Surface> surfaces;
+  ClosestHits closest;
+  HitBatch hits;
+  ForEachBatch(rays, kBatchCapacity, [&](size_t, const RayBatch& batch) {
+    intersector.Closest(batch, &closest);
+    std::vector<uint32_t> indices;
+    for (uint32_t i = 0; i < batch.count; ++i) {
+      if (closest.primitive[i] != kNoPrimitive) indices.push_back(i);
+    }
+    intersector.Refine(batch, closest, indices.data(), indices.size(), &hits);
+    for (size_t i = 0; i < hits.count; ++i) {
+      surfaces.push_back({hits.primitive[i], hits.object[i], At(hits.position, i),
+                          At(hits.normal, i), At(hits.to_view, i)});
+    }
+  });
+  return surfaces;
+}
+
+inline std::vector<bool> TraceShadows(const Intersector& intersector,
+                                      const std::vector<ShadowRay>& rays) {
+  std::vector<bool> occluded;
+  ShadowRayBatch batch;
+  for (size_t first = 0; first < rays.size(); first += kBatchCapacity) {
+    batch.count = std::min(kBatchCapacity, rays.size() - first);
+    for (size_t i = 0; i < batch.count; ++i) {
+      SetRay(rays[first + i].ray, i, &batch);
+      batch.t_max[i] = rays[first + i].t_max;
+      batch.primitive[i] = rays[first + i].primitive;
+    }
+    intersector.Occluded(&batch);
+    for (size_t i = 0; i < batch.count; ++i) occluded.push_back(batch.occluded[i] != 0);
+  }
+  return occluded;
+}
+
+inline TriangleHit<double> TestTriangle(const TraceGeometry& geometry, size_t triangle,
+                                        const Ray& ray) {
+  const auto& v = geometry.triangles[triangle];
+  return TestTriangle(geometry.positions[v[0]] - ray.origin, geometry.positions[v[1]] - ray.origin,
+                      geometry.positions[v[2]] - ray.origin, ray.direction,
+                      MakeShear(ray.direction));
+}
+
+inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
+  Hit best;
+  for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
+    const TraceSphere& sphere = geometry.spheres[i];
+    const auto hit = TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius);
+    if (hit.hit && hit.t < best.t) best = {i, hit.t};
+  }
+  for (size_t i = 0; i < geometry.triangles.size(); ++i) {
+    const auto hit = TestTriangle(geometry, i, ray);
+    if (hit.hit && hit.t < best.t) {
+      best = {geometry.SphereCount() + static_cast<uint32_t>(i), hit.t};
+    }
+  }
+  return best;
+}
+
+// Occlusion by spheres, and by triangles further off than `gap` (in t).
+inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& shadow,
+                               double gap = 0) {
+  const auto& [ray, t_max, start] = shadow;
+  for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
+    const TraceSphere& sphere = geometry.spheres[i];
+    const auto hit = TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius);
+    const bool own = start < geometry.SphereCount() &&
+                     geometry.spheres[start].center == sphere.center &&
+                     geometry.spheres[start].radius == sphere.radius;
+    const double t = own ? 2 * hit.closest : hit.t;
+    if ((own ? t > 0 : hit.hit) && t < t_max) return true;
+  }
+  for (size_t i = 0; i < geometry.triangles.size(); ++i) {
+    if (geometry.SphereCount() + i == start) continue;
+    const auto hit = TestTriangle(geometry, i, ray);
+    if (hit.hit && hit.t > gap && hit.t < t_max) return true;
+  }
+  return false;
+}
+
+// ---- Random things ------------------------------------------------------------------------------
+
+class Random {
+ public:
+  explicit Random(uint64_t seed) : engine_(seed) {}
+
+  double Uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  // Uniform in the logarithm.
+  double Magnitude(double low, double high) {
+    return std::exp(Uniform(std::log(low), std::log(high)));
+  }
+  Vec3d InBox(const Vec3d& low, const Vec3d& high) {
+    return {Uniform(low.x, high.x), Uniform(low.y, high.y), Uniform(low.z, high.z)};
+  }
+  Vec3d Direction() {
+    for (;;) {
+      const Vec3d v = InBox(Vec3d(-1), Vec3d(1));
+      if (v.length() > 0.1 && v.length() < 1) return v.normalized();
+    }
+  }
+  std::mt19937_64& engine() { return engine_; }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+inline Sphere MakeSphere(const Vec3d& center, double radius) { return {center, radius, {}}; }
+
+// `count` spheres about a centre before the camera, some of them around it.
+inline Scene RandomSpheres(Random* random, size_t count) {
+  Scene scene;
+  const double size = std::cbrt(1.0 / static_cast<double>(count));
+  for (size_t i = 0; i < count; ++i) {
+    scene.spheres.push_back(
+        MakeSphere(random->InBox({-2, -2, -7}, {2, 2, 0.5}), random->Magnitude(0.05, 2) * size));
+  }
+  return scene;
+}
+
+// Rays of a perspective camera at the origin, looking along -z.
+inline std::vector<Ray> CameraRays(Random* random, size_t count) {
+  std::vector<Ray> rays(count);
+  for (Ray& ray : rays) {
+    ray.direction = Vec3d(random->Uniform(-0.6, 0.6), random->Uniform(-0.6, 0.6), -1);
+  }
+  return rays;
+}
+
+}  // namespace nacre

@@ -1,0 +1,142 @@
+// tests/visibility/shadow_test.cc: occlusion against brute force, and where others fail.
+#include "catch.h"
+#include "targets.h"
+#include "visibility/rays.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Shadow rays from what camera rays hit, to a light, or in a direction where there is none.
+std::vector<ShadowRay> ShadowRays(const std::vector<Surface>& surfaces, const Vec3d* light,
+                                  const Vec3d& to_light) {
+  std::vector<ShadowRay> rays;
+  for (const Surface& surface : surfaces) {
+    const Vec3d direction = light != nullptr ? *light - surface.position : to_light;
+    rays.push_back(
+        {{surface.position, direction}, light != nullptr ? 1 : kInfinity, surface.primitive});
+  }
+  return rays;
+}
+
+void CheckOccluded(const Scene& scene, const std::vector<ShadowRay>& rays, double gap = 0) {
+  const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+  ForEachTarget([&](Target) {
+    const std::vector<bool> occluded = TraceShadows(Intersector(scene, Vec3d(0)), rays);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      INFO("ray " << i << " from " << rays[i].primitive);
+      REQUIRE(occluded[i] == BruteForceOccluded(geometry, rays[i], gap));
+    }
+  });
+}
+
+TEST_CASE("occlusion is brute force's") {
+  Random random(31);
+  for (const unsigned count : {1u, 5u, 25u, 300u, 2000u}) {
+    const Scene scene = RandomSpheres(&random, count);
+    const auto surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), CameraRays(&random, 1500));
+    const Vec3d light = random.InBox({-3, -3, -8}, {3, 3, 2});
+    const auto to_light = ShadowRays(surfaces, &light, {});
+    const auto along = ShadowRays(surfaces, nullptr, random.Direction() * 7);
+    CheckOccluded(scene, to_light);
+    CheckOccluded(scene, along);
+  }
+}
+
+TEST_CASE("a convex body does not shadow itself") {
+  Random random(32);
+  for (const double radius : {1e-6, 1.0, 1e7}) {
+    for (const double distance : {1.5, 10.0, 1e3, 1e6}) {
+      Scene scene;
+      scene.spheres.push_back(MakeSphere(random.Direction() * distance * radius, radius));
+      std::vector<Ray> rays(500);
+      for (Ray& ray : rays) {
+        ray.direction = scene.spheres[0].center + random.Direction() * radius * 0.99;
+      }
+      std::vector<ShadowRay> shadows;
+      for (const Surface& surface : TraceSurfaces(Intersector(scene, Vec3d(0)), rays)) {
+        Vec3d direction = random.Direction();
+        // The position's rounding may turn the tangent plane by so much.
+        if (surface.normal.dot(direction) < 4e-16 * distance) direction = -direction;
+        shadows.push_back({{surface.position, direction}, kInfinity, 0});
+      }
+      REQUIRE(shadows.size() > 400);
+      for (const bool occluded : TraceShadows(Intersector(scene, Vec3d(0)), shadows)) {
+        REQUIRE_FALSE(occluded);
+      }
+      for (ShadowRay& shadow : shadows) shadow.ray.direction *= -1;
+      for (const bool occluded : TraceShadows(Intersector(scene, Vec3d(0)), shadows)) {
+        REQUIRE(occluded);
+      }
+    }
+  }
+}
+
+TEST_CASE("from inside a sphere its far side is in the way of what lies beyond") {
+  Scene scene;
+  scene.spheres.push_back(MakeSphere({0, 0, 0}, 2));
+  const Vec3d on_surface(0, 0, -2);
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    const auto occluded = TraceShadows(intersector, {{{on_surface, {0, 0, 1}}, 3.9, 0},
+                                                     {{on_surface, {0, 0, 1}}, 4.1, 0},
+                                                     {{on_surface, {0, 0, -1}}, kInfinity, 0}});
+    CHECK(occluded == std::vector<bool>{false, true, false});
+  });
+}
+
+TEST_CASE("coincident spheres are one sphere to the rays that leave them") {
+  Scene scene;
+  scene.spheres = {MakeSphere({5, 5, 5}, 1), MakeSphere({0, 0, -5}, 1), MakeSphere({0, 0, -5}, 1),
+                   MakeSphere({0, 0, -5}, 1)};
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    for (const uint32_t start : {1u, 2u, 3u}) {
+      const Vec3d p(0, 0, -4);
+      CHECK_FALSE(TraceShadows(intersector, {{{p, {0.3, 0.1, 1}}, kInfinity, start}}).front());
+      CHECK(TraceShadows(intersector, {{{p, {0, 0.1, -1}}, kInfinity, start}}).front());
+    }
+  });
+}
+
+TEST_CASE("nested, touching and almost touching spheres") {
+  Random random(33);
+  Scene scene;
+  scene.spheres = {MakeSphere({0, 0, -5}, 1),        MakeSphere({0, 0, -5}, 1 + 4e-5),
+                   MakeSphere({2, 0, -5}, 1),        MakeSphere({0, 2 + 1e-9, -5}, 1),
+                   MakeSphere({-0.5, 0, -5}, 0.5),   MakeSphere({0, -1e6 - 1, -5}, 1e6),
+                   MakeSphere({0.1, 0.1, -5}, 1e-6), MakeSphere({0, 0, 0}, 100)};
+  std::vector<ShadowRay> rays;
+  const auto size = static_cast<uint32_t>(scene.spheres.size());
+  for (uint32_t i = 0; i < 20000; ++i) {
+    const Sphere& sphere = scene.spheres[i % size];
+    Vec3d out = random.Direction();
+    if (sphere.radius > 1e3) out = (out * 1e-6 + Vec3d(0, 1, 0)).normalized();
+    rays.push_back({{sphere.center + out * sphere.radius, random.Direction()},
+                    i % 2 == 0 ? kInfinity : random.Magnitude(1e-6, 10),
+                    i % size});
+  }
+  CheckOccluded(scene, rays);
+}
+
+TEST_CASE("between shells 4e-5 apart the outer one shadows the inner one") {
+  Random random(34);
+  Scene scene;
+  scene.spheres = {MakeSphere({0, 0, -5}, 1), MakeSphere({0, 0, -5}, 1 + 4e-5)};
+  std::vector<ShadowRay> beyond, between;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d out = random.Direction();
+    const Vec3d position = Vec3d(0, 0, -5) + out;
+    beyond.push_back({{position, out}, 4.0001e-5, 0});
+    between.push_back({{position, out}, 3.9999e-5, 0});
+  }
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    for (const bool occluded : TraceShadows(intersector, beyond)) REQUIRE(occluded);
+    for (const bool occluded : TraceShadows(intersector, between)) REQUIRE_FALSE(occluded);
+  });
+}
+
+}  // namespace
+}  // namespace nacre
