@@ -38,7 +38,7 @@ install_packages() {
 }
 
 # compile_jobs: all cores, but no more compilers at once than memory holds. The largest files
-# (SIMD kernels for every target, tests with JSON tables) take a compiler to about 1.5 GiB.
+# (SIMD kernels for every target, tests with JSON tables) take a compiler to 1.3 GiB.
 compile_jobs() {
   local kib_per_job=$((3 << 19)) cores jobs
   cores=$(nproc)

@@ -44,6 +44,8 @@ function(nacre_test folder)
     RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_link_libraries(nacre_${folder}_test PRIVATE nacre_test_main ${ARG_DEPENDS})
   target_include_directories(nacre_${folder}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+  # What is tested is compiled as ever; the tests themselves are compiled for build time.
+  target_compile_options(nacre_${folder}_test PRIVATE -O1)
   add_test(NAME ${folder} COMMAND nacre_${folder}_test ~[table])
   if(ARG_TABLES)
     add_test(NAME ${folder}_table COMMAND nacre_${folder}_test [table])

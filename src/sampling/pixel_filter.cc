@@ -131,7 +131,7 @@ double FirstRegionShare(const FilterSampler& sampler, FilterPart part) {
   return sampler.positive_mass * sampler.positive_mass / PartMass(sampler, part);
 }
 
-Vec2d SampleFilter(const FilterSampler& sampler, FilterPart part, Vec2d u) {
+Vec2d SampleFilter(const FilterSampler& sampler, FilterPart part, const Vec2d& u) {
   if (sampler.positive.empty()) return (u - Vec2d(0.5)) * sampler.filter.width;
   if (sampler.negative.empty()) {
     return {SampleDistance(sampler.positive, u.x), SampleDistance(sampler.positive, u.y)};

@@ -61,6 +61,6 @@ double FirstRegionShare(const FilterSampler& sampler, FilterPart part);
 
 // An offset from the pixel's centre, in pixels, with the density |f(x) f(y)| / PartMass, for a
 // uniform u in [0, 1)^2. The part must not be empty.
-Vec2d SampleFilter(const FilterSampler& sampler, FilterPart part, Vec2d u);
+Vec2d SampleFilter(const FilterSampler& sampler, FilterPart part, const Vec2d& u);
 
 }  // namespace nacre

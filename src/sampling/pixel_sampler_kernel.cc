@@ -173,7 +173,11 @@ HWY_INLINE void SampleAll(const PositiveFilter& positive, const NegativeFilter& 
 void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, int first, int count,
                    double* film_x, double* film_y, double* weight) {
   const FilterSampler& filter = sampler.filter;
-  const Output output{film_x, film_y, weight, pixels.pixel_count() * static_cast<size_t>(count)};
+  Output output;
+  output.film_x = film_x;
+  output.film_y = film_y;
+  output.weight = weight;
+  output.left = pixels.pixel_count() * static_cast<size_t>(count);
   const double* p = filter.positive.data();
   const double* n = filter.negative.data();
   const auto sample = [&](const auto& positive, const auto& negative) HWY_ATTR {

@@ -106,8 +106,7 @@ void AddPairLabels(const PairRow& row, const PairSide& side, const MaterialParam
     scene->labels.push_back({AxisLabel(*parameter, side.values, i), center + edge, align});
   }
   if (row.arrangement == PairRow::Arrangement::kStacked && !side.label.empty()) {
-    scene->labels.push_back(
-        {side.label, first - Vec3d(row.radius, 0, 0), Label::Side::kLeft});
+    scene->labels.push_back({side.label, first - Vec3d(row.radius, 0, 0), Label::Side::kLeft});
   }
 }
 
@@ -116,8 +115,8 @@ void AddPairLabels(const PairRow& row, const PairSide& side, const MaterialParam
 GridAxis LinearAxis(std::string parameter, const Rgb& from, const Rgb& to, int count) {
   GridAxis axis{count, std::move(parameter), {}};
   for (int i = 0; i < count; ++i) {
-    const double last = count > 1 ? count - 1 : 1;
-    axis.values.push_back((from * (last - i) + to * i) / last);  // exact at both ends
+    const double t = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
+    axis.values.push_back(from * (1 - t) + to * t);  // exact at both ends
   }
   return axis;
 }

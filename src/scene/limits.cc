@@ -1,13 +1,25 @@
 #include "scene/limits.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 namespace nacre {
+namespace {
+
+// Powers of ten with a dozen zeros are easier to read as such.
+std::string Text(double x) {
+  return std::abs(x) < 1e12 ? fmt::format("{}", x) : fmt::format("{:g}", x);
+}
+
+}  // namespace
 
 std::string Describe(const Range& range) {
-  if (!range.min_open && !range.max_open) return fmt::format("from {} to {}", range.min, range.max);
-  return fmt::format("{} {} and {} {}", range.min_open ? "greater than" : "at least", range.min,
-                     range.max_open ? "less than" : "at most", range.max);
+  if (!range.min_open && !range.max_open) {
+    return "from " + Text(range.min) + " to " + Text(range.max);
+  }
+  return fmt::format("{} {} and {} {}", range.min_open ? "greater than" : "at least",
+                     Text(range.min), range.max_open ? "less than" : "at most", Text(range.max));
 }
 
 }  // namespace nacre

@@ -68,6 +68,7 @@ std::string PartOf(const std::string& pointer) {
 void AddValidation(const Scene& scene, FaultList* faults) {
   std::set<std::string> faulty_parts;
   for (const Fault& fault : faults->kept()) faulty_parts.insert(PartOf(fault.where));
+  if (faulty_parts.contains("/materials")) faulty_parts.insert("/shapes");  // they name them
   for (const Fault& fault : Validate(scene)) {
     const bool is_remainder = fault.where.empty();  // "and 7 more": of which parts?
     if (is_remainder && !faulty_parts.empty()) continue;
@@ -87,7 +88,10 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   CheckVersion(root, file);
 
   Scene scene;
-  SceneContext context{folder, options.allow_paths, &scene, {}};
+  SceneContext context;
+  context.folder = folder;
+  context.allow_paths = options.allow_paths;
+  context.scene = &scene;
   ReadRoot(root, &faults, &context);
   AddValidation(scene, &faults);
   if (faults.count() > 0) {

@@ -46,7 +46,8 @@ TEST_CASE("Pixels have the colour of their largest error", "[compare]") {
   SampleAt(got, "B", 3, 1) = std::numeric_limits<float>::quiet_NaN();
   const HeatScale scale{1e-3, 1};
   const auto color = [](const HeatPicture& picture, int x, int y) {
-    const auto i = static_cast<size_t>(3 * (y * picture.width + x));
+    const size_t i =
+        3 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x));
     return Rgb8{picture.rgb8[i], picture.rgb8[i + 1], picture.rgb8[i + 2]};
   };
   const HeatPicture absolute = HeatMap(got, reference, "", HeatQuantity::kAbsolute, scale);
@@ -60,7 +61,7 @@ TEST_CASE("Pixels have the colour of their largest error", "[compare]") {
 
 TEST_CASE("The legend shows the whole map", "[compare]") {
   const HeatPicture legend = HeatLegend(256, 2);
-  REQUIRE(legend.rgb8.size() == 256 * 2 * 3);
+  REQUIRE(legend.rgb8.size() == size_t{256} * 2 * 3);
   CHECK(legend.rgb8[0] == HeatColor(0)[0]);
   CHECK(legend.rgb8[3 * 255 + 1] == HeatColor(1)[1]);
 }

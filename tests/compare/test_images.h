@@ -24,8 +24,9 @@ inline Image MakeImage(const Window& window, const std::vector<std::string>& cha
 inline float& SampleAt(Image& image, const std::string& channel, int x, int y) {
   for (Channel& candidate : image.channels) {
     if (candidate.name != channel) continue;
-    return candidate
-        .samples[static_cast<size_t>((y - image.data.y0) * image.data.width() + x - image.data.x0)];
+    const auto row = static_cast<size_t>(y - image.data.y0);
+    const auto column = static_cast<size_t>(x - image.data.x0);
+    return candidate.samples[row * static_cast<size_t>(image.data.width()) + column];
   }
   throw channel;
 }

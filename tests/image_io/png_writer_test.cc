@@ -18,7 +18,8 @@ std::vector<uint8_t> MakePixels(int width, int height, bool noise) {
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int c = 0; c < 3; ++c) {
-        pixels.push_back(static_cast<uint8_t>(noise ? random() : (x * (c + 1) + y) / 3));
+        pixels.push_back(
+            static_cast<uint8_t>(noise ? static_cast<int>(random() % 256) : (x * (c + 1) + y) / 3));
       }
     }
   }

@@ -74,6 +74,13 @@ Scene MakeScene() {
   return scene;
 }
 
+RenderSettings Settings(int threads, std::vector<std::string> layers = {}) {
+  RenderSettings settings;
+  settings.threads = threads;
+  settings.layers = std::move(layers);
+  return settings;
+}
+
 bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
@@ -89,26 +96,26 @@ bool SameBits(const Image& a, const Image& b) {
 TEST_CASE("threads and tiles change no bit") {
   const Scene scene = MakeScene();
   ForEachTarget([&](Target) {
-    const Image one = RenderImage(scene, {.threads = 1, .region = {}, .layers = {"all"}});
+    const Image one = RenderImage(scene, Settings(1, {"all"}));
     for (const int threads : {2, 7}) {
-      CHECK(
-          SameBits(one, RenderImage(scene, {.threads = threads, .region = {}, .layers = {"all"}})));
+      CHECK(SameBits(one, RenderImage(scene, Settings(threads, {"all"}))));
     }
     for (const int tile_size : {1, 7, 16, 64}) {
       CAPTURE(tile_size);
-      CHECK(SameBits(
-          one,
-          RenderImage(scene,
-                      {.threads = 1, .region = {}, .layers = {"all"}, .tile_size = tile_size})));
+      RenderSettings tiled = Settings(1, {"all"});
+      tiled.tile_size = tile_size;
+      CHECK(SameBits(one, RenderImage(scene, tiled)));
     }
   });
 }
 
 TEST_CASE("a crop holds the bits of the full frame") {
   const Scene scene = MakeScene();
-  const Image full = RenderImage(scene, {.threads = 1, .region = {}, .layers = {"all"}});
+  const Image full = RenderImage(scene, Settings(1, {"all"}));
   const Window crop{11, 9, 53, 40};
-  const Image part = RenderImage(scene, {.threads = 1, .region = crop, .layers = {"all"}});
+  RenderSettings cropped = Settings(1, {"all"});
+  cropped.region = crop;
+  const Image part = RenderImage(scene, cropped);
   REQUIRE(part.data == crop);
   REQUIRE(part.display == full.display);
   for (size_t c = 0; c < full.channels.size(); ++c) {
@@ -128,14 +135,16 @@ TEST_CASE("a crop holds the bits of the full frame") {
 
 TEST_CASE("a region without a pixel is refused") {
   const Scene scene = MakeScene();
-  CHECK_THROWS_AS(RenderImage(scene, {.threads = 1, .region = {100, 0, 120, 10}}), Error);
+  RenderSettings outside = Settings(1);
+  outside.region = {100, 0, 120, 10};
+  CHECK_THROWS_AS(RenderImage(scene, outside), Error);
 }
 
 TEST_CASE("layers do not change the beauty, and add up to it") {
   Scene scene = MakeScene();
   scene.image.filter = {};  // box: all weights are 1, so sums do not cancel
-  const Image alone = RenderImage(scene, {.threads = 1});
-  const Image layered = RenderImage(scene, {.threads = 1, .region = {}, .layers = {"all"}});
+  const Image alone = RenderImage(scene, Settings(1));
+  const Image layered = RenderImage(scene, Settings(1, {"all"}));
   for (const char* channel : {"R", "G", "B"}) {
     const std::vector<float>& beauty = layered.Find(channel)->samples;
     CHECK(SameBits(alone.Find(channel)->samples, beauty));
@@ -162,9 +171,8 @@ TEST_CASE("shadow rays skipped for a sphere alone leave every bit") {
   scene.meshes.clear();
   RenderStats skipped_stats;
   RenderStats general_stats;
-  const Image skipped = RenderImage(scene, {.threads = 1}, &skipped_stats);
-  RenderSettings general;
-  general.threads = 1;
+  const Image skipped = RenderImage(scene, Settings(1), &skipped_stats);
+  RenderSettings general = Settings(1);
   general.general_path = true;
   const Image traced = RenderImage(scene, general, &general_stats);
   CHECK(skipped_stats.shadow_rays == 0);
@@ -178,7 +186,7 @@ TEST_CASE("an empty scene is its background, without an intersector") {
   scene.image.height = 20;
   scene.background = {0.25, 0.5, 1};
   CHECK(MakePlan(scene, {}).intersector == nullptr);
-  const Image image = RenderImage(scene, {.threads = 1});
+  const Image image = RenderImage(scene, Settings(1));
   CHECK(image.Find("R")->samples[123] == 0.25f);
   CHECK(image.Find("B")->samples[399] == 1.0f);
   CHECK(image.Find("A")->samples[7] == 0.0f);
@@ -201,12 +209,12 @@ TEST_CASE("shadows: on, off by scene, off by light") {
   sun.kind = DirectionalLight{.direction_of_travel = {0, -1, 0}, .irradiance = {M_PI, M_PI, M_PI}};
   scene.lights = {sun};
   const size_t center = 10 * 21 + 10;
-  CHECK(RenderImage(scene, {.threads = 1}).Find("R")->samples[center] == 0);
+  CHECK(RenderImage(scene, Settings(1)).Find("R")->samples[center] == 0);
   scene.lights[0].shadows = false;
-  CHECK(RenderImage(scene, {.threads = 1}).Find("R")->samples[center] == Approx(1).epsilon(1e-3));
+  CHECK(RenderImage(scene, Settings(1)).Find("R")->samples[center] == Approx(1).epsilon(1e-3));
   scene.lights[0].shadows = true;
   scene.image.shadows = false;
-  CHECK(RenderImage(scene, {.threads = 1}).Find("R")->samples[center] == Approx(1).epsilon(1e-3));
+  CHECK(RenderImage(scene, Settings(1)).Find("R")->samples[center] == Approx(1).epsilon(1e-3));
 }
 
 TEST_CASE("a split shows each material on its side") {
@@ -220,7 +228,7 @@ TEST_CASE("a split shows each material on its side") {
   const MaterialId c = Add(&scene, Make(LambertMaterial{{0, 0, 0}}, {0, 0, 1}));
   const MaterialId split = Add(&scene, Make(SplitMaterial{{0.25, 0.5}, {a, b, c}}));
   scene.spheres = {{{0, 0, -100}, 100, split}};
-  const Image image = RenderImage(scene, {.threads = 1, .region = {}, .layers = {"id.material"}});
+  const Image image = RenderImage(scene, Settings(1, {"id.material"}));
   const std::vector<float>& id = image.Find("id.material")->samples;
   CHECK(id[5 * 40 + 9] == 1);
   CHECK(id[5 * 40 + 10] == 2);
@@ -237,8 +245,7 @@ TEST_CASE("geometry layers hold what is at the pixel's centre") {
   scene.camera.look_at = {1, 2, 0};
   const MaterialId white = Add(&scene, Make(LambertMaterial{{1, 1, 1}}));
   scene.spheres = {{{1, 2, 3}, 2, white}};
-  const Image image =
-      RenderImage(scene, {.threads = 1, .region = {}, .layers = {"N", "P", "Z", "id.object"}});
+  const Image image = RenderImage(scene, Settings(1, {"N", "P", "Z", "id.object"}));
   const size_t center = 15 * 31 + 15;
   CHECK(image.Find("Z")->samples[center] == 8);
   CHECK(image.Find("P.X")->samples[center] == Approx(1).margin(1e-6));
@@ -254,9 +261,9 @@ TEST_CASE("targets differ by no more than rounding") {
   // DESIGN's bound, on 99.9 % of this small picture's pixels: the rest lie on edges.
   const Scene scene = MakeScene();
   PinTarget(Target::kScalar);
-  const Image scalar = RenderImage(scene, {.threads = 1});
+  const Image scalar = RenderImage(scene, Settings(1));
   ForEachTarget([&](Target) {
-    const Image image = RenderImage(scene, {.threads = 1});
+    const Image image = RenderImage(scene, Settings(1));
     size_t off = 0;
     const std::vector<float>& a = scalar.Find("G")->samples;
     const std::vector<float>& b = image.Find("G")->samples;

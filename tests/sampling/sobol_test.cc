@@ -109,7 +109,8 @@ TEST_CASE("Samples are multiples of 2^-32 in [0, 1)", "[sampling]") {
 }
 
 TEST_CASE("Over seeds every sample is uniform", "[sampling]") {
-  constexpr int kBins = 16, kSeeds = 200'000;
+  constexpr size_t kBins = 16;
+  constexpr int kSeeds = 200'000;
   for (const auto& [index, pair] : {std::pair{0u, 0u}, {1u, 0u}, {13u, 0u}, {0u, 3u}, {5u, 9u}}) {
     std::vector<int> counts(kBins * kBins);
     for (int seed = 0; seed < kSeeds; ++seed) {
@@ -186,7 +187,7 @@ TEST_CASE("Pixel seeds depend on coordinates and seed", "[sampling]") {
       seeds.insert(PixelSeed(x, y, 1));
     }
   }
-  CHECK(seeds.size() == 2u * 308 * 308);
+  CHECK(seeds.size() == size_t{2} * 308 * 308);
   // Pinned: a change of the hash changes every picture.
   CHECK(PixelSeed(0, 0, 0) == 0x48218226ff3cd4bfu);
   CHECK(SobolSample2D(3, 0, PixelSeed(10, 20, 0)).x * 0x1p32 == 2619199486.0);

@@ -185,7 +185,7 @@ void CheckModel(const Model& model, const std::string& light_kind, double lobe_e
 TEST_CASE("kernels agree with the models in double on every target and under every light") {
   const FlushDenormals flush;
   ForEachTarget([](Target) {
-    for (const std::string& light : {"point", "polynomial", "directional", "spot"}) {
+    for (const char* light : {"point", "polynomial", "directional", "spot"}) {
       CheckModel(LambertMaterial{Rgb(0.9, 0.5, 0.1)}, light, 0);
       for (const PhongModel model :
            {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {

@@ -87,16 +87,22 @@ TEST_CASE("from inside a sphere its far side is in the way of what lies beyond")
 }
 
 TEST_CASE("coincident spheres are one sphere to the rays that leave them") {
+  Random random(35);
+  const Vec3d center(0.1, -0.2, -5.3);
   Scene scene;
-  scene.spheres = {MakeSphere({5, 5, 5}, 1), MakeSphere({0, 0, -5}, 1), MakeSphere({0, 0, -5}, 1),
-                   MakeSphere({0, 0, -5}, 1)};
+  scene.spheres = {MakeSphere({5, 5, 5}, 1), MakeSphere(center, 1.1), MakeSphere(center, 1.1),
+                   MakeSphere(center, 1.1)};
+  std::vector<ShadowRay> outward, inward;
+  for (uint32_t i = 0; i < 3000; ++i) {
+    const Vec3d out = random.Direction();
+    const Vec3d along = out + random.Direction() * 0.9;
+    outward.push_back({{center + out * 1.1, along}, 1, 1 + i % 3});
+    inward.push_back({{center + out * 1.1, -along}, kInfinity, 1 + i % 3});
+  }
   ForEachTarget([&](Target) {
     const Intersector intersector(scene, Vec3d(0));
-    for (const uint32_t start : {1u, 2u, 3u}) {
-      const Vec3d p(0, 0, -4);
-      CHECK_FALSE(TraceShadows(intersector, {{{p, {0.3, 0.1, 1}}, kInfinity, start}}).front());
-      CHECK(TraceShadows(intersector, {{{p, {0, 0.1, -1}}, kInfinity, start}}).front());
-    }
+    for (const bool occluded : TraceShadows(intersector, outward)) REQUIRE_FALSE(occluded);
+    for (const bool occluded : TraceShadows(intersector, inward)) REQUIRE(occluded);
   });
 }
 
