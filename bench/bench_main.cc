@@ -1,14 +1,18 @@
 // bench/bench_main.cc: main() of the benchmarks; says what the machine is.
+#include <string>
+#include <vector>
+
 #include <benchmark/benchmark.h>
+#include <fmt/ranges.h>
 
 #include "base/target.h"
 
 int main(int argc, char** argv) {
-  std::string targets;
+  std::vector<std::string> targets;
   for (const nacre::Target target : nacre::SupportedTargets()) {
-    targets += (targets.empty() ? "" : " ") + nacre::TargetName(target);
+    targets.push_back(nacre::TargetName(target));
   }
-  benchmark::AddCustomContext("simd_targets", targets);
+  benchmark::AddCustomContext("simd_targets", fmt::format("{}", fmt::join(targets, " ")));
   benchmark::AddCustomContext(
       "scalar_baseline",
       "plain per-hit float C++ in textbook form, x^5 by multiplication, -O3 "

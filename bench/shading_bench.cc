@@ -46,9 +46,9 @@ HitBatch MakeHits() {
 
 void ReportShades(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(kHits));
-  state.counters["ns_per_shade"] = benchmark::Counter(
-      static_cast<double>(kHits) * 1e-9 * static_cast<double>(state.iterations()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["time_per_shade"] =
+      benchmark::Counter(static_cast<double>(kHits), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
 }
 
 void BenchKernel(benchmark::State& state, const Material& material, Target target) {

@@ -6,7 +6,7 @@ Lies about the xy plane: |x|, |y| < 1.6, |z| < 0.7 (nacre computes the smooth no
 import math
 import pathlib
 
-ALONG, AROUND = 160, 14  # quads along the knot and around its tube
+ALONG, AROUND = 220, 20  # quads along the knot and around its tube
 TUBE_RADIUS = 0.2
 SCALE = 0.46  # of the curve, whose core circle has radius 2
 

@@ -1,5 +1,8 @@
 #include "base/parallel.h"
 
+#include <algorithm>
+
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
@@ -9,6 +12,15 @@
 #endif
 
 namespace nacre {
+namespace {
+
+// Left alone, TBB starts no more workers than the machine has cores, and prints a warning.
+tbb::global_control AllowThreads(int threads) {
+  const int count = std::max(ThreadCount(threads), tbb::info::default_concurrency());
+  return {tbb::global_control::max_allowed_parallelism, static_cast<size_t>(count)};
+}
+
+}  // namespace
 
 int ThreadCount(int threads) { return threads > 0 ? threads : tbb::info::default_concurrency(); }
 
@@ -18,6 +30,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     for (size_t i = 0; i < count; ++i) body(i);
     return;
   }
+  const tbb::global_control allow = AllowThreads(threads);
   tbb::task_arena arena(ThreadCount(threads));
   arena.execute([&] {
     tbb::parallel_for(
@@ -31,6 +44,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
 }
 
 void WithThreads(int threads, const std::function<void()>& body) {
+  const tbb::global_control allow = AllowThreads(threads);
   tbb::task_arena arena(ThreadCount(threads));
   arena.execute(body);
 }

@@ -1,8 +1,10 @@
 // cli/main.cc: the program: commands, and the one place where errors are printed.
+#include <algorithm>
 #include <new>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "base/version.h"
@@ -10,6 +12,18 @@
 #include "cli/progress.h"
 
 namespace {
+
+// CLI11 takes an unknown command for a missing one; this names it and the one likely meant.
+void CheckCommandName(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  const std::string nearest = nacre::NearestName(argv[1], names);
+  throw nacre::Error(nacre::ExitCode::kUsage, "", fmt::format("unknown command \"{}\"", argv[1]),
+                     nearest.empty() ? fmt::format("the commands are {}", fmt::join(names, ", "))
+                                     : fmt::format("did you mean \"{}\"?", nearest));
+}
 
 int Run(int argc, char** argv) {
   using nacre::ExitCode;
@@ -33,6 +47,7 @@ int Run(int argc, char** argv) {
   nacre::AddSchemaCommand(&app, &exit_code);
   try {
     nacre::CatchStopSignals();
+    CheckCommandName(app, argc, argv);
     app.parse(argc, argv);
     return exit_code;
   } catch (const CLI::ParseError& error) {
