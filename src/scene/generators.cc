@@ -45,9 +45,10 @@ void CheckSizes(double spacing_x, double spacing_y, double radius, const std::st
   }
 }
 
-// "0.1" or "0.9 0.6 0.2": short enough for a label.
+// "0.1", also of a grey, or "0.9 0.6 0.2": short enough for a label.
 std::string Text(const MaterialParameter& parameter, const Rgb& value) {
-  if (!parameter.is_color) return fmt::format("{:.4g}", value.x);
+  const bool grey = value.x == value.y && value.y == value.z;
+  if (!parameter.is_color || grey) return fmt::format("{:.4g}", value.x);
   return fmt::format("{:.4g} {:.4g} {:.4g}", value.x, value.y, value.z);
 }
 

@@ -16,7 +16,7 @@ constexpr int kLevels[] = {kFastDeflate, 6, 9};
 // Bytes with repetitions, or with none.
 std::vector<uint8_t> MakeBytes(size_t size, bool noise, unsigned seed) {
   std::mt19937 random(seed);
-  const unsigned period = 3 + random() % 90;
+  const size_t period = 3 + random() % 90;
   std::vector<uint8_t> bytes(size);
   for (size_t i = 0; i < size; ++i) {
     bytes[i] = static_cast<uint8_t>(noise ? random() : i % period / 3);
@@ -43,7 +43,7 @@ std::vector<uint8_t> Inflate(std::vector<uint8_t> deflated, size_t size, int win
 TEST_CASE("whole streams inflate to what they were") {
   for (const int level : kLevels) {
     for (const bool noise : {false, true}) {
-      for (const size_t size : {1, 2, 7, 64, 1000, 65535, 65536, 500000}) {
+      for (const size_t size : {1u, 2u, 7u, 64u, 1000u, 65535u, 65536u, 500000u}) {
         CAPTURE(level, noise, size);
         const std::vector<uint8_t> bytes = MakeBytes(size, noise, 1);
         CHECK(Inflate(Deflate(bytes, DeflateForm::kZlib, level), size, MAX_WBITS) == bytes);
