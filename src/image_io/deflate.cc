@@ -24,9 +24,8 @@ Scratch& ThreadScratch() {
 
 size_t FastDeflate(std::span<const uint8_t> bytes, DeflateForm form, Scratch* scratch) {
   isal_zstream stream;
-  // Not isal_deflate_stateless_init, which leaves what the first look at the tables depends on
-  // uninitialised: the bytes then depend on what was on the stack.
-  isal_deflate_init(&stream);
+  isal_deflate_stateless_init(&stream);
+  stream.hist_bits = 0;  // the widest window; left out by the line above, it would be at random
   stream.level = kFastDeflate;
   stream.level_buf = scratch->tables.data();
   stream.level_buf_size = static_cast<uint32_t>(scratch->tables.size());

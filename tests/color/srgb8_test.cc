@@ -54,7 +54,8 @@ std::vector<float> TestFloats() {
 TEST_CASE("All 255 transitions of the 8-bit code are exact on every target", "[color][table]") {
   std::vector<float> floats;
   std::vector<int> expected;
-  for (const auto& row : LoadTable("srgb8_thresholds").at("rows")) {
+  const auto rows = LoadTable("srgb8_thresholds").at("rows");
+  for (const auto& row : rows) {
     const float threshold = std::bit_cast<float>(
         static_cast<uint32_t>(std::stoul(row.at("bits").get<std::string>(), nullptr, 16)));
     const int code = row.at("code").get<int>();

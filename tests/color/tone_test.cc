@@ -28,7 +28,8 @@ bool Near(double got, double expected, double relative, double absolute = 0) {
 TEST_CASE("Reinhard and ACES agree with the table in double", "[color][table]") {
   // The tables' rule: 4 half-ulps, of double here, where coefficients as written are exact enough.
   constexpr double kTolerance = 4 * kHalfUlpDouble;
-  for (const auto& row : LoadTable("tonemap").at("scalar")) {
+  const auto rows = LoadTable("tonemap").at("scalar");
+  for (const auto& row : rows) {
     const double x = TableNumber(row.at("x"));
     CAPTURE(x);
     CHECK(Near(ToneReinhard(x), TableNumber(row.at("reinhard")), kTolerance));
@@ -39,7 +40,8 @@ TEST_CASE("Reinhard and ACES agree with the table in double", "[color][table]") 
 }
 
 TEST_CASE("Neutral agrees with the table in double", "[color][table]") {
-  for (const auto& row : LoadTable("tonemap").at("rgb")) {
+  const auto rows = LoadTable("tonemap").at("rgb");
+  for (const auto& row : rows) {
     const auto& in = row.at("rgb");
     const Color got =
         ToneNeutral(Color(TableNumber(in[0]), TableNumber(in[1]), TableNumber(in[2])));

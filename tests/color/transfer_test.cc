@@ -15,7 +15,8 @@ namespace {
 constexpr double kCurveTolerance = 16 * kHalfUlpDouble;
 
 TEST_CASE("sRGB encoding agrees with the table", "[color][table]") {
-  for (const auto& row : LoadTable("tonemap").at("scalar")) {
+  const auto rows = LoadTable("tonemap").at("scalar");
+  for (const auto& row : rows) {
     const double x = std::min(TableNumber(row.at("x")), 1.0);
     const double expected = TableNumber(row.at("srgb_oetf_clamped"));
     CAPTURE(x);
