@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -32,12 +33,22 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   }
   const tbb::global_control allow = AllowThreads(threads);
   tbb::task_arena arena(ThreadCount(threads));
+  // Workers take indices in order, one after the other: what is finished early is then needed
+  // early, and a consumer that wants them in order has little to keep.
+  std::atomic<size_t> next{0};
   arena.execute([&] {
     tbb::parallel_for(
-        tbb::blocked_range<size_t>(0, count, 1),
-        [&](const tbb::blocked_range<size_t>& range) {
+        0, ThreadCount(threads),
+        [&](int) {
           const FlushDenormals flush;
-          for (size_t i = range.begin(); i != range.end(); ++i) body(i);
+          for (size_t i = next++; i < count; i = next++) {
+            try {
+              body(i);
+            } catch (...) {
+              next = count;  // no worker begins another
+              throw;
+            }
+          }
         },
         tbb::simple_partitioner());
   });

@@ -7,7 +7,7 @@
 namespace nacre {
 
 // Calls body(i) for every i in [0, count), on up to `threads` threads (0: as many as the machine
-// has). Order and threads are unspecified. Each worker runs with denormals flushed to zero
+// has). Indices are begun in ascending order. Each worker runs with denormals flushed to zero
 // (FlushDenormals). An exception from a body stops the loop and is thrown to the caller.
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
 

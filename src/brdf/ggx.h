@@ -16,11 +16,11 @@ Real AlphaFromRoughness(Real roughness) {
   return roughness * roughness;
 }
 
-// True where the peak of D, 1 / (pi alpha^2), comes near the end of what float can hold:
-// roughness 0, and roughness below 9.4e-10.
+// True for lobes so narrow (1e-12 rad: roughness below 9.5e-7) that no picture resolves them. Their
+// peak, 1 / (pi alpha^2), times light and visibility would leave the range of float.
 template <typename Real>
 bool IsDeltaLobe(Real alpha) {
-  return alpha < static_cast<Real>(0x1p-60);
+  return alpha < static_cast<Real>(0x1p-40);
 }
 
 // Walter et al. 2007, eq. 33, isotropic: alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2), with cos and

@@ -29,6 +29,7 @@ struct Arguments {
 };
 
 std::string LayerName(const std::string& layer) { return layer.empty() ? "beauty" : layer; }
+std::string LayerOfName(const std::string& name) { return name == "beauty" ? "" : name; }
 
 void PrintTable(const Verdict& verdict) {
   fmt::print("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE", "relMSE",
@@ -71,15 +72,13 @@ nlohmann::ordered_json ToJson(const Verdict& verdict) {
 }
 
 int RunCompare(const Arguments& arguments) {
-  if (!arguments.heat_map.empty()) const OutputFile opens(arguments.heat_map);
+  if (!arguments.heat_map.empty()) CheckWritable(arguments.heat_map);
   const Image image = ReadImage(arguments.image);
   const Image reference = ReadImage(arguments.reference);
   CompareOptions options = arguments.options;
   options.got_name = arguments.image;
   options.reference_name = arguments.reference;
-  for (std::string& layer : options.layers) {
-    if (layer == "beauty") layer = "";
-  }
+  for (std::string& layer : options.layers) layer = LayerOfName(layer);
   const Verdict verdict = Judge(image, reference, arguments.tolerances, options);
   if (arguments.json) {
     fmt::print("{}\n", ToJson(verdict).dump(2));
@@ -89,10 +88,10 @@ int RunCompare(const Arguments& arguments) {
   if (!arguments.heat_map.empty()) {
     const HeatQuantity quantity =
         arguments.absolute ? HeatQuantity::kAbsolute : HeatQuantity::kRelative;
-    WriteHeatPicture(
-        arguments.heat_map,
-        HeatMap(image, reference, arguments.heat_layer, quantity, arguments.heat_scale), quantity,
-        arguments.heat_scale);
+    WriteHeatPicture(arguments.heat_map,
+                     HeatMap(image, reference, LayerOfName(arguments.heat_layer), quantity,
+                             arguments.heat_scale),
+                     quantity, arguments.heat_scale);
   }
   return static_cast<int>(verdict.match ? ExitCode::kOk : ExitCode::kDiffers);
 }

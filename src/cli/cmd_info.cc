@@ -1,12 +1,12 @@
 // cli/cmd_info.cc: nacre info: what an image file or scene file holds, and what this build is.
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/parallel.h"
+#include "base/path.h"
 #include "base/target.h"
 #include "base/version.h"
 #include "cli/commands.h"
@@ -36,8 +36,7 @@ std::string WindowText(const Window& w) {
 }
 
 void PrintImage(const std::string& path) {
-  const bool exr = std::filesystem::path(path).extension() == ".exr";
-  const Image image = exr ? ReadExrHeader(path) : ReadImage(path);
+  const Image image = HasExtension(path, ".exr") ? ReadExrHeader(path) : ReadImage(path);
   fmt::print("{}\n", path);
   fmt::print("  display window  {}\n", WindowText(image.display));
   fmt::print("  data window     {}\n", WindowText(image.data));
@@ -91,7 +90,7 @@ void AddInfoCommand(CLI::App* app, int*) {
   command->callback([arguments] {
     if (arguments->files.empty()) PrintBuild();
     for (const std::string& file : arguments->files) {
-      if (std::filesystem::path(file).extension() == ".json") {
+      if (HasExtension(file, ".json")) {
         PrintScene(file, arguments->allow_paths);
       } else {
         PrintImage(file);

@@ -38,14 +38,15 @@ const Channel& RequireChannel(const Image& image, const std::string& path,
 
 void RunTonemap(const Arguments& arguments) {
   // The size is known only after reading, but a path that cannot be written is told before.
-  { const OutputFile opens(arguments.output); }
+  CheckWritable(arguments.output);
   const Image image = ReadImage(arguments.input);
   const auto transfer = image.metadata.find("transfer");
   if (transfer != image.metadata.end() && transfer->second == "display") {
     throw Error(ExitCode::kBadInput, arguments.input, "the image is display-referred already",
                 "give a linear image: EXR or HDR");
   }
-  const std::string prefix = arguments.layer.empty() ? "" : arguments.layer + ".";
+  const bool beauty = arguments.layer.empty() || arguments.layer == "beauty";
+  const std::string prefix = beauty ? "" : arguments.layer + ".";
   const float* rgb[3] = {};
   for (size_t c = 0; c < 3; ++c) {
     rgb[c] = RequireChannel(image, arguments.input, prefix + "RGB"[c]).samples.data();

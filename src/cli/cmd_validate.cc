@@ -119,10 +119,21 @@ void AddValidateCommand(CLI::App* app, int* exit_code) {
     fmt::print("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE", "max rel",
                "99.9% rel", "exceed", "tolerance's reason, or what differs");
     bool all_match = true;
+    bool all_compared = true;
     for (const Reference& reference : references) {
-      all_match = ValidateOne(reference, a->threads) && all_match;
+      try {
+        all_match = ValidateOne(reference, a->threads) && all_match;
+      } catch (const Error& error) {
+        // A missing scene or image: told, and the others still get their turn.
+        if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
+        all_compared = false;
+        fmt::print("{:<24} ERROR  {}\n", reference.name, error.faults().front().what);
+        fmt::print(stderr, "{}\n", error.what());
+      }
     }
-    *exit_code = static_cast<int>(all_match ? ExitCode::kOk : ExitCode::kDiffers);
+    *exit_code = static_cast<int>(!all_compared ? ExitCode::kCannotCompare
+                                  : all_match   ? ExitCode::kOk
+                                                : ExitCode::kDiffers);
   });
 }
 

@@ -1,6 +1,8 @@
 // cli/main.cc: the program: commands, and the one place where errors are printed.
 #include <algorithm>
+#include <cstdio>
 #include <new>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -12,6 +14,12 @@
 #include "cli/progress.h"
 
 namespace {
+
+// Standard error may be full or closed: then there is nobody to tell, and the exit code tells.
+void PrintError(std::string_view message) {
+  std::fwrite(message.data(), 1, message.size(), stderr);
+  std::fputc('\n', stderr);
+}
 
 // CLI11 takes an unknown command for a missing one; this names it and the one likely meant.
 void CheckCommandName(const CLI::App& app, int argc, char** argv) {
@@ -52,16 +60,17 @@ int Run(int argc, char** argv) {
     return exit_code;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "error: {}\n  hint: see nacre --help, or nacre COMMAND --help\n",
-               error.what());
+    PrintError(
+        fmt::format("error: {}\n  hint: see nacre --help, or nacre COMMAND --help", error.what()));
     return static_cast<int>(ExitCode::kUsage);
   } catch (const nacre::Error& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    PrintError(error.what());
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: out of memory\n  hint: a smaller picture or scene needs less\n");
+    PrintError("error: out of memory\n  hint: a smaller picture or scene needs less");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: internal: {}\n", error.what());
+    PrintError("error: internal:");
+    PrintError(error.what());
   }
   return static_cast<int>(ExitCode::kInternal);
 }

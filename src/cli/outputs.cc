@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "cli/labels.h"
 #include "cli/metadata.h"
 #include "image_io/output_file.h"
@@ -11,8 +13,8 @@
 namespace nacre {
 namespace {
 
-bool IsExr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
-bool IsPng(const std::string& path) { return std::filesystem::path(path).extension() == ".png"; }
+bool IsExr(const std::string& path) { return HasExtension(path, ".exr"); }
+bool IsPng(const std::string& path) { return HasExtension(path, ".png"); }
 
 StripView ViewOf(const Strip& strip) {
   StripView view;
@@ -25,16 +27,23 @@ StripView ViewOf(const Strip& strip) {
 
 }  // namespace
 
-void CheckOutputPaths(const std::vector<std::string>& paths) {
+void CheckPicturePaths(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (!IsExr(path) && !IsPng(path)) {
       throw Error(ExitCode::kUsage, path, "unknown output extension",
                   "nacre writes .exr (linear, HDR) and .png (tone-mapped)");
     }
-    if (std::count(paths.begin(), paths.end(), path) > 1) {
+    CheckWritable(path);
+  }
+}
+
+void CheckPathsDiffer(const std::vector<std::string>& paths) {
+  std::set<std::filesystem::path> seen;
+  for (const std::string& path : paths) {
+    std::error_code error;  // a path that cannot be resolved is refused when it is opened
+    if (!seen.insert(std::filesystem::weakly_canonical(path, error)).second && !error) {
       throw Error(ExitCode::kUsage, path, "the same file is named twice", "name each output once");
     }
-    const OutputFile opens(path);
   }
 }
 

@@ -18,7 +18,10 @@ namespace nacre {
 
 // Throws Error for a path that cannot be written (kCannotWrite) or whose extension is neither
 // .exr nor .png (kUsage): before any work is done for it.
-void CheckOutputPaths(const std::vector<std::string>& paths);
+void CheckPicturePaths(const std::vector<std::string>& paths);
+
+// Throws Error (kUsage) if two of the paths are the same file.
+void CheckPathsDiffer(const std::vector<std::string>& paths);
 
 // Samples that the files do not hold as they were computed.
 struct OutputCounts {

@@ -80,6 +80,8 @@ void Progress::Print(double done, double elapsed_seconds) const {
 void CatchStopSignals() {
   std::signal(SIGINT, NoteStopSignal);
   std::signal(SIGTERM, NoteStopSignal);
+  // A file size limit then is an error of the write, with its message and exit code.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void ThrowIfStopped() {

@@ -68,8 +68,13 @@ void RunRenderJob(const RenderOptions& options,
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
   ApplyTarget(options.target);
-  CheckOutputPaths(options.outputs);
-  if (!options.stats.empty()) CheckTextOutput(options.stats);
+  CheckPicturePaths(options.outputs);
+  std::vector<std::string> paths = options.outputs;
+  if (!options.stats.empty()) {
+    CheckTextOutput(options.stats);
+    if (options.stats != "-") paths.push_back(options.stats);
+  }
+  CheckPathsDiffer(paths);
 
   const Scene scene = load(load_options);
   times.load_seconds = SecondsSince(start);

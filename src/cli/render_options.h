@@ -20,7 +20,6 @@ struct RenderOptions {
   std::optional<uint32_t> seed;
   int threads = 0;
   std::string target = "auto";
-  std::string intersector = "auto";
   std::string region;  // "x0,y0,x1,y1"; empty: all
   std::vector<std::string> layers;
   std::string depth = "half";

@@ -8,7 +8,7 @@
 namespace nacre {
 
 void CheckTextOutput(const std::string& path) {
-  if (path != "-") const OutputFile opens(path);
+  if (path != "-") CheckWritable(path);
 }
 
 void WriteText(const std::string& path, const std::string& text) {

@@ -14,7 +14,7 @@ enum class DeflateForm {
   kLastPart,  // raw deflate that ends the stream
 };
 
-// Level 1 is ISA-L's: seven times as fast as zlib's fastest, at 12 to 25 % more bytes.
+// Level 1 is ISA-L's: several times as fast as zlib's fastest, at 12 to 25 % more bytes.
 // 2 .. 9 are zlib's.
 inline constexpr int kFastDeflate = 1;
 

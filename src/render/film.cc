@@ -32,12 +32,12 @@ StripFilm MakeStripFilm(const RenderPlan& plan, const Window& window) {
     }
   }
   if (!film.ids.empty() || !film.nearest.empty()) {
-    film.nearest_distance.assign(pixels, std::numeric_limits<float>::infinity());
+    film.nearest_distance.assign(pixels, std::numeric_limits<double>::infinity());
   }
   return film;
 }
 
-void AddToChannel(const TileRound& round, const float* values, const Window& strip,
+void AddToChannel(const TileRound& round, const double* values, const Window& strip,
                   std::vector<double>* sums) {
   const double* weight = round.weights;
   for (int y = round.tile.y0; y < round.tile.y1; ++y) {
@@ -46,7 +46,7 @@ void AddToChannel(const TileRound& round, const float* values, const Window& str
                     static_cast<size_t>(round.tile.x0 - strip.x0);
     for (int x = round.tile.x0; x < round.tile.x1; ++x, ++pixel) {
       double sum = *pixel;
-      for (int s = 0; s < round.samples; ++s) sum += *weight++ * static_cast<double>(*values++);
+      for (int s = 0; s < round.samples; ++s) sum += *weight++ * *values++;
       *pixel = sum;
     }
   }

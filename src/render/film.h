@@ -10,13 +10,14 @@
 namespace nacre {
 
 // The strip's pixels, one plane per channel, row by row. Averaged channels are summed in double:
-// a layer then rounds once however many samples there are, and the layers add up to the beauty.
+// every layer rounds once, however many samples there are and however their weights cancel, and
+// so the layers add up to the beauty.
 struct StripFilm {
   Window window;
   std::vector<std::vector<double>> sums;    // averaged channels, in layer order
   std::vector<std::vector<float>> nearest;  // P and Z channels, in layer order
   std::vector<std::vector<uint32_t>> ids;   // id channels, in layer order
-  std::vector<float> nearest_distance;      // of the sample they come from, pixels squared
+  std::vector<double> nearest_distance;     // of the sample they come from, pixels squared
 };
 
 // A finished strip, channels in the order of StripChannels. Id channels hold uint32_t.
@@ -43,7 +44,7 @@ struct TileRound {
 };
 
 // Adds one value per ray to an averaged channel of the tile's pixels.
-void AddToChannel(const TileRound& round, const float* values, const Window& strip,
+void AddToChannel(const TileRound& round, const double* values, const Window& strip,
                   std::vector<double>* sums);
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #include "render/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include <fmt/format.h>
@@ -34,17 +35,47 @@ Window PlanWindow(const Window& frame, const Window& region) {
   return window;
 }
 
-// Why no shadow ray of any light can find anything, or "".
-std::string WhyNothingOccludes(const Scene& scene) {
-  if (!scene.image.shadows) return "the scene turns shadows off";
-  if (scene.meshes.empty() && scene.spheres.size() == 1) {
-    return "a sphere alone is convex and cannot shadow itself";
+// True if every camera ray surely starts outside the sphere. Distances of 1e-9 are left to the
+// general path.
+bool CameraIsOutside(const Camera& camera, const Sphere& sphere) {
+  const Vec3d offset = sphere.center - camera.position;
+  const double clear = sphere.radius * (1 + 1e-9);
+  if (camera.projection == Projection::kPerspective) return offset.length() > clear;
+  const Vec3d forward = (camera.look_at - camera.position).normalized();
+  return std::abs(offset ^ forward) > clear;  // wholly before or behind the image plane
+}
+
+// Whether shadow rays can find anything in this scene, and why not.
+struct ShadowNeed {
+  enum class Why { kNeeded, kNotAsked, kProvenEmpty } why = Why::kNeeded;
+  std::string reason;
+};
+
+ShadowNeed NeedOfShadows(const Scene& scene) {
+  if (!scene.image.shadows) return {ShadowNeed::Why::kNotAsked, "the scene turns shadows off"};
+  if (scene.meshes.empty() && scene.spheres.size() == 1 &&
+      CameraIsOutside(scene.camera, scene.spheres[0])) {
+    return {ShadowNeed::Why::kProvenEmpty, "a sphere alone, seen from outside, is convex"};
   }
-  return {};
+  return {ShadowNeed::Why::kNeeded, "something may lie between a surface and the light"};
+}
+
+// The number of the light's layer among the light layers, or -1.
+int LightLayer(const std::vector<Layer>& layers, size_t light) {
+  int number = 0;
+  for (const Layer& layer : layers) {
+    if (layer.kind != LayerKind::kLight) continue;
+    if (layer.light == light) return number;
+    ++number;
+  }
+  return -1;
 }
 
 void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
-  const std::string why_none = WhyNothingOccludes(scene);
+  const ShadowNeed scene_need = NeedOfShadows(scene);
+  for (const Layer& layer : plan->layers) {
+    if (layer.kind == LayerKind::kLight) ++plan->light_layer_count;
+  }
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
@@ -54,13 +85,12 @@ void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* 
       plan->items.push_back({name, false, "it is black"});
       continue;
     }
-    std::string why = why_none;
-    if (why.empty() && !light.shadows) why = "the light casts none";
-    const bool proven = why == why_none && scene.image.shadows;
-    const bool shadow_rays = why.empty() || (proven && settings.general_path);
-    plan->items.push_back({name + " shadow rays", shadow_rays,
-                           shadow_rays ? "something may lie between a surface and it" : why});
-    plan->lights.push_back({i, color, shadow_rays});
+    ShadowNeed need = scene_need;
+    if (!light.shadows) need = {ShadowNeed::Why::kNotAsked, "the light casts none"};
+    const bool shadow_rays = need.why == ShadowNeed::Why::kNeeded ||
+                             (need.why == ShadowNeed::Why::kProvenEmpty && settings.general_path);
+    plan->items.push_back({name + " shadow rays", shadow_rays, need.reason});
+    plan->lights.push_back({i, color, shadow_rays, LightLayer(plan->layers, i)});
   }
 }
 

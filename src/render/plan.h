@@ -29,6 +29,7 @@ struct PlannedLight {
   size_t index;  // into Scene::lights
   Rgb color;
   bool shadow_rays;
+  int layer;  // which of the light layers shows it alone, or -1
 };
 
 struct RenderPlan {
@@ -38,6 +39,7 @@ struct RenderPlan {
   CameraFrame camera;
   PixelSampler sampler;
   std::vector<Layer> layers;  // beauty, alpha, then those asked for
+  size_t light_layer_count = 0;
   std::vector<PlannedLight> lights;
   std::vector<MaterialConstants> materials;   // one per material of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins

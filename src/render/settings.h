@@ -13,7 +13,7 @@ struct RenderSettings {
   int threads = 0;                  // 0: as many as the machine has
   Window region;                    // pixels to render; empty: the whole frame
   std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
-  int tile_size = 16;  // width of the tiles a strip is worked through in, [1, 64]; changes no bits
+  int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bits
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;

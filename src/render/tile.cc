@@ -107,6 +107,8 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   const Scene& scene = *plan.scene;
   PrepareSurface(s->hits, &s->surface);
   ClearRadiance(s->hits.count, &s->total);
+  s->per_light.resize(plan.light_layer_count);
+  for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
   clock->Charge(Stage::kRefine);
   for (const PlannedLight& planned : plan.lights) {
     const Light& light = scene.lights[planned.index];
@@ -116,14 +118,14 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
       CastShadows(plan, light, s, stats);
       clock->Charge(Stage::kShadow);
     }
-    const bool apart = WantsLightLayer(plan, planned.index);
+    const bool apart = planned.layer >= 0;
     ReflectedRadiance* radiance = apart ? &s->single : &s->total;
     if (apart) ClearRadiance(s->hits.count, &s->single);
     for (const MaterialRun& run : s->runs) {
       ShadeRun(scene.materials[run.material.index], planned.color, s->surface, s->light, run.begin,
                run.end, radiance);
     }
-    if (apart) KeepLightLayer(plan, planned.index, s);
+    if (apart) KeepLightLayer(static_cast<size_t>(planned.layer), s);
     stats->shades += s->hits.count;
     clock->Charge(Stage::kShade);
   }

@@ -32,8 +32,9 @@ struct TileScratch {
   ReflectedRadiance total;             // of all lights
   ReflectedRadiance single;            // of one light, where a layer wants it
   std::vector<Soa3<float>> per_light;  // one for each light layer, per hit
-  Soa3<float> hit_values;              // a layer's values per hit
-  Soa3<float> ray_values;              // and per ray
+  // A round on its way to the film, per ray.
+  Soa3<double> ray_values;                            // of one layer
+  AlignedArray<uint32_t> hit_of_ray{kBatchCapacity};  // index into hits, or none
 };
 
 // Renders the pixels of `tile`, which lies within the film's strip, into the film.

@@ -5,11 +5,8 @@
 
 namespace nacre {
 
-// Whether a layer shows this light (index into Scene::lights) alone.
-bool WantsLightLayer(const RenderPlan& plan, size_t light);
-
-// Moves scratch->single, the reflection of one light, to its layer and adds it to the total.
-void KeepLightLayer(const RenderPlan& plan, size_t light, TileScratch* scratch);
+// Adds scratch->single, the reflection of one light, to the light's layer and to the total.
+void KeepLightLayer(size_t light_layer, TileScratch* scratch);
 
 // Adds a round's samples to every layer.
 void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scratch,

@@ -44,9 +44,9 @@ struct Camera {
 };
 
 struct ImageSettings {
-  int width = 1280;   // in [1, 65536]
-  int height = 720;   // in [1, 65536]
-  int spp = 16;       // samples per pixel, in [1, 65536]; 1 is the pixel's centre
+  int width = 1280;  // in [1, 65536]
+  int height = 720;  // in [1, 65536]
+  int spp = 16;      // samples per pixel, in [1, 65536]; 1 is the pixel's centre
   PixelFilter filter;
   uint32_t seed = 0;    // of the sample pattern
   bool shadows = true;  // false: no light casts any

@@ -133,12 +133,15 @@ void ShadeRun(const Material& material, const Rgb& light_color, const Surface& s
       material.model);
 }
 
+void ClearSoa(size_t count, Soa3<float>* soa) {
+  std::fill_n(soa->x.data(), count, 0.0f);
+  std::fill_n(soa->y.data(), count, 0.0f);
+  std::fill_n(soa->z.data(), count, 0.0f);
+}
+
 void ClearRadiance(size_t count, ReflectedRadiance* radiance) {
-  for (Soa3<float>* sum : {&radiance->diffuse, &radiance->specular}) {
-    std::fill_n(sum->x.data(), count, 0.0f);
-    std::fill_n(sum->y.data(), count, 0.0f);
-    std::fill_n(sum->z.data(), count, 0.0f);
-  }
+  ClearSoa(count, &radiance->diffuse);
+  ClearSoa(count, &radiance->specular);
 }
 
 MaterialConstants ComputeMaterialConstants(const Material& material, const Rgb& ambient_radiance) {

@@ -46,6 +46,7 @@ void ShadeRun(const Material& material, const Rgb& light_color, const Surface& s
               const LightBatch& light, size_t begin, size_t end, ReflectedRadiance* radiance);
 
 // Zeroes the first `count` entries.
+void ClearSoa(size_t count, Soa3<float>* soa);
 void ClearRadiance(size_t count, ReflectedRadiance* radiance);
 
 // What a material shows whatever the direction.

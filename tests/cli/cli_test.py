@@ -135,6 +135,9 @@ class CliTest(unittest.TestCase):
         self.assertTrue((self.out / 'heat.png').exists())
         self.assertEqual(run('compare', a, b, '--max-abs', '1000').returncode, 0)
         self.assertFalse(json.loads(run('compare', a, b, '--json').stdout)['match'])
+        self.assertEqual(run('compare', a, b, '--layers', 'beauty', '--max-abs', '1000',
+                             '--heat-map', self.out / 'h.png', '--heat-layer', 'beauty').returncode,
+                         0)
 
     def test_help_teaches(self):
         for command in ([], ['render'], ['grid'], ['compare']):
@@ -154,6 +157,8 @@ class CliTest(unittest.TestCase):
             ('SCENE', ['render', *out]),
             ('extension', ['render', scene, '-o', self.out / 'a.jpg']),
             ('twice', ['render', scene, *out, *out]),
+            ('twice', ['render', scene, *out, '-o', self.out / '.' / '..' / self.out.name / 'a.exr']),
+            ('twice', ['render', scene, *out, '--stats', self.out / 'a.exr']),
             ('--size', ['render', scene, *out, '--size', '0x10']),
             ('--size', ['render', scene, *out, '--size', '100000x10']),
             ('--size', ['render', scene, *out, '--size', '10']),
@@ -208,6 +213,28 @@ class CliTest(unittest.TestCase):
         self.check_fails(2, 'b.exr', 'compare', self.out / 'a.exr', self.out / 'b.exr')
         self.check_fails(2, 'missing.exr', 'compare', self.out / 'a.exr', self.out / 'missing.exr')
         self.check_fails(2, 'empty', 'validate', self.out / 'empty')
+
+    def test_validate_goes_on_after_a_reference_that_cannot_be_compared(self):
+        for name, scene in ('a', 'missing.json'), ('b', FIRST_SCENE):
+            (self.out / f'{name}.reference.json').write_text(json.dumps({
+                'scene': scene, 'image': 'missing.exr', 'tolerances': {}, 'reason': 'none'}))
+        result = run('validate', self.out)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(result.stdout.count('ERROR'), 2)
+
+    def test_a_full_standard_error_does_not_change_the_exit_code(self):
+        with open('/dev/full', 'w') as full:
+            result = subprocess.run([PROGRAM, 'render', 'missing.json', '-o',
+                                     str(self.out / 'a.exr')], stderr=full)
+        self.assertEqual(result.returncode, 65)
+
+    def test_the_main_path_does_not_load_openimageio(self):
+        environment = dict(os.environ, LD_DEBUG='files')
+        result = run('render', FIRST_SCENE, '-o', self.out / 'a.exr', '-o', self.out / 'a.png',
+                     *SMALL, env=environment)
+        self.assertEqual(result.returncode, 0)
+        self.assertIn('libembree', result.stderr)
+        self.assertNotIn('OpenImageIO', result.stderr)
 
     def test_an_old_file_survives_a_failed_render(self):
         self.render('-o', self.out / 'a.exr', *SMALL)

@@ -37,7 +37,7 @@ TEST_CASE("occlusion is brute force's") {
     const Scene scene = RandomSpheres(&random, count);
     const auto surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), CameraRays(&random, 1500));
     const Vec3d light = random.InBox({-3, -3, -8}, {3, 3, 2});
-    const auto to_light = ShadowRays(surfaces, &light, {});
+    const auto to_light = ShadowRays(surfaces, &light, Vec3d(0));
     const auto along = ShadowRays(surfaces, nullptr, random.Direction() * 7);
     CheckOccluded(scene, to_light);
     CheckOccluded(scene, along);
