@@ -6,48 +6,12 @@
 #define NACRE_BRDF_ANGLES_INL_H_
 #endif
 
-#include "hwy/highway.h"
+#include "base/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class V>
-struct Vec3V {
-  V x, y, z;
-};
-
-template <class D, class T = hn::TFromD<D>, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> Load3(D d, const T* x, const T* y, const T* z, size_t i) {
-  return {hn::LoadU(d, x + i), hn::LoadU(d, y + i), hn::LoadU(d, z + i)};
-}
-
-template <class V>
-HWY_INLINE V Dot(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
-          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Add3(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Sub3(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Scale3(const Vec3V<V>& a, V s) {
-  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
-}
 
 template <class V>
 struct AnglesV {
@@ -56,19 +20,19 @@ struct AnglesV {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, const Vec3V<V>& v) {
-  const Vec3V<V> l_minus_v = Sub3(l, v);
-  const Vec3V<V> sum = Add3(l, v);
-  const V along = hn::Mul(Dot(sum, l_minus_v), hn::Set(d, hn::TFromD<D>(0.25)));
+  const Vec3V<V> l_minus_v = Sub(l, v);
+  const Vec3V<V> sum = Add(l, v);
+  const V along = hn::Mul(FusedDot(sum, l_minus_v), hn::Set(d, hn::TFromD<D>(0.25)));
   const Vec3V<V> u{hn::NegMulAdd(l_minus_v.x, along, sum.x),
                    hn::NegMulAdd(l_minus_v.y, along, sum.y),
                    hn::NegMulAdd(l_minus_v.z, along, sum.z)};
-  const Vec3V<V> n_cross_u = Cross(n, u);
-  return {Dot(n, l),
-          Dot(n, v),
-          Dot(n, u),
-          Dot(u, u),
-          Dot(n_cross_u, n_cross_u),
-          Dot(l_minus_v, l_minus_v)};
+  const Vec3V<V> n_cross_u = FusedCross(n, u);
+  return {FusedDot(n, l),
+          FusedDot(n, v),
+          FusedDot(n, u),
+          FusedDot(u, u),
+          FusedDot(n_cross_u, n_cross_u),
+          FusedDot(l_minus_v, l_minus_v)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -28,11 +28,11 @@ HWY_INLINE V LobePower(D d, V x, V c, V n) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
                        const Vec3V<V>& to_view, V shininess) {
-  const V n_dot_l = Dot(normal, to_light);
-  const Vec3V<V> r = Sub3(Scale3(normal, hn::Add(n_dot_l, n_dot_l)), to_light);
-  const Vec3V<V> r_minus_v = Sub3(r, to_view);
-  const V x = hn::Mul(Dot(r_minus_v, r_minus_v), hn::Set(d, 0.5f));
-  return LobePower(d, x, Dot(r, to_view), shininess);
+  const V n_dot_l = FusedDot(normal, to_light);
+  const Vec3V<V> r = Sub(Scale(normal, hn::Add(n_dot_l, n_dot_l)), to_light);
+  const Vec3V<V> r_minus_v = Sub(r, to_view);
+  const V x = hn::Mul(FusedDot(r_minus_v, r_minus_v), hn::Set(d, 0.5f));
+  return LobePower(d, x, FusedDot(r, to_view), shininess);
 }
 
 template <class D, class V = hn::Vec<D>>

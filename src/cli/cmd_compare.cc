@@ -10,6 +10,9 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/heat_picture.h"
+#include "cli/outputs.h"
+#include "cli/print.h"
+#include "cli/render_options.h"
 #include "compare/verdict.h"
 #include "image_io/image_reader.h"
 #include "image_io/output_file.h"
@@ -32,18 +35,19 @@ std::string LayerName(const std::string& layer) { return layer.empty() ? "beauty
 std::string LayerOfName(const std::string& name) { return name == "beauty" ? "" : name; }
 
 void PrintTable(const Verdict& verdict) {
-  fmt::print("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE", "relMSE",
-             "PSNR dB", "max abs", "max rel", "99.9% rel");
+  PrintOut(fmt::format("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE",
+                       "relMSE", "PSNR dB", "max abs", "max rel", "99.9% rel"));
   for (const LayerMetrics& m : verdict.layers) {
-    fmt::print("{:<14} {:>11.4g} {:>11.4g} {:>8.2f} {:>11.4g} {:>11.4g} {:>11.4g}  {},{} {}\n",
-               LayerName(m.layer), m.rmse, m.rel_mse, m.psnr_db, m.max_abs, m.max_rel, m.p999_rel,
-               m.max_abs_at.x, m.max_abs_at.y, m.max_abs_at.channel);
+    PrintOut(
+        fmt::format("{:<14} {:>11.4g} {:>11.4g} {:>8.2f} {:>11.4g} {:>11.4g} {:>11.4g}  {},{} {}\n",
+                    LayerName(m.layer), m.rmse, m.rel_mse, m.psnr_db, m.max_abs, m.max_rel,
+                    m.p999_rel, m.max_abs_at.x, m.max_abs_at.y, m.max_abs_at.channel));
     if (m.nonfinite_mismatches > 0) {
-      fmt::print("{:<14} {} samples are not finite in one image only\n", "",
-                 m.nonfinite_mismatches);
+      PrintOut(fmt::format("{:<14} {} samples are not finite in one image only\n", "",
+                           m.nonfinite_mismatches));
     }
   }
-  fmt::print("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason);
+  PrintOut(fmt::format("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason));
 }
 
 nlohmann::ordered_json ToJson(const Verdict& verdict) {
@@ -72,7 +76,11 @@ nlohmann::ordered_json ToJson(const Verdict& verdict) {
 }
 
 int RunCompare(const Arguments& arguments) {
-  if (!arguments.heat_map.empty()) CheckWritable(arguments.heat_map);
+  if (!arguments.heat_map.empty()) {
+    CheckPngPath(arguments.heat_map);
+    CheckPathsDiffer({arguments.image, arguments.heat_map});
+    CheckPathsDiffer({arguments.reference, arguments.heat_map});
+  }
   const Image image = ReadImage(arguments.image);
   const Image reference = ReadImage(arguments.reference);
   CompareOptions options = arguments.options;
@@ -81,7 +89,7 @@ int RunCompare(const Arguments& arguments) {
   for (std::string& layer : options.layers) layer = LayerOfName(layer);
   const Verdict verdict = Judge(image, reference, arguments.tolerances, options);
   if (arguments.json) {
-    fmt::print("{}\n", ToJson(verdict).dump(2));
+    PrintOut(fmt::format("{}\n", ToJson(verdict).dump(2)));
   } else {
     PrintTable(verdict);
   }
@@ -110,7 +118,7 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
                    "then have the same")
       ->delimiter(',');
   const std::string tolerance = "Tolerances (without any, images must be equal)";
-  const CLI::Range not_negative(0.0, 1e30);
+  const auto not_negative = InRange(0, 1e30);
   command->add_option("--max-abs", a->tolerances.max_abs, "Allowed |difference| of a sample, plus")
       ->check(not_negative)
       ->group(tolerance);
@@ -120,7 +128,7 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
   command
       ->add_option("--fraction", a->tolerances.exceeding_fraction,
                    "Share of the pixels that may exceed both")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(InRange(0, 1))
       ->group(tolerance);
   command->add_option("--rmse", a->tolerances.rmse, "Allowed RMSE of a layer")
       ->check(not_negative)
@@ -131,11 +139,11 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
   command->add_option("--heat-layer", a->heat_layer, "Layer that it shows (the beauty)")
       ->group(map);
   command->add_option("--heat-low", a->heat_scale.low, "Error at the dark end of the scale")
-      ->check(CLI::PositiveNumber)
+      ->check(InRange(1e-30, 1e30))
       ->capture_default_str()
       ->group(map);
   command->add_option("--heat-high", a->heat_scale.high, "Error at its bright end")
-      ->check(CLI::PositiveNumber)
+      ->check(InRange(1e-30, 1e30))
       ->capture_default_str()
       ->group(map);
   command->add_flag("--absolute", a->absolute, "Absolute errors in place of relative ones")

@@ -77,7 +77,7 @@ void AddGridCommand(CLI::App* app, int*) {
       "  nacre grid --material phong --rows shininess=4:256:4 --columns ks=0:1:6 -o phong.png");
   command->callback([arguments] {
     const std::string scene = GridScene(*arguments);
-    RunRenderJob(arguments->options, [&](const LoadOptions& load) {
+    RunRenderJob(arguments->options, "", [&](const LoadOptions& load) {
       return LoadSceneText(scene, "nacre grid", ".", load);
     });
   });

@@ -11,6 +11,7 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/metadata.h"
+#include "cli/print.h"
 #include "image_io/exr_reader.h"
 #include "image_io/image_reader.h"
 #include "scene/hash.h"
@@ -37,41 +38,42 @@ std::string WindowText(const Window& w) {
 
 void PrintImage(const std::string& path) {
   const Image image = HasExtension(path, ".exr") ? ReadExrHeader(path) : ReadImage(path);
-  fmt::print("{}\n", path);
-  fmt::print("  display window  {}\n", WindowText(image.display));
-  fmt::print("  data window     {}\n", WindowText(image.data));
+  PrintOut(fmt::format("{}\n", path));
+  PrintOut(fmt::format("  display window  {}\n", WindowText(image.display)));
+  PrintOut(fmt::format("  data window     {}\n", WindowText(image.data)));
   std::vector<std::string> channels;
   for (const Channel& channel : image.channels) {
     channels.push_back(channel.name + ":" + TypeName(channel.type));
   }
-  fmt::print("  channels        {}\n", fmt::join(channels, " "));
-  for (const auto& [name, value] : image.metadata) fmt::print("  {:<15} {}\n", name, value);
+  PrintOut(fmt::format("  channels        {}\n", fmt::join(channels, " ")));
+  for (const auto& [name, value] : image.metadata)
+    PrintOut(fmt::format("  {:<15} {}\n", name, value));
 }
 
 void PrintScene(const std::string& path, bool allow_paths) {
   const Scene scene = LoadScene(path, {.overrides = {}, .allow_paths = allow_paths});
   size_t triangles = 0;
   for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
-  fmt::print("{}\n", path);
-  fmt::print("  image       {}x{}, {} samples a pixel\n", scene.image.width, scene.image.height,
-             scene.image.spp);
-  fmt::print("  spheres     {}\n", scene.spheres.size());
-  fmt::print("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles);
-  fmt::print("  materials   {}\n", scene.materials.size());
+  PrintOut(fmt::format("{}\n", path));
+  PrintOut(fmt::format("  image       {}x{}, {} samples a pixel\n", scene.image.width,
+                       scene.image.height, scene.image.spp));
+  PrintOut(fmt::format("  spheres     {}\n", scene.spheres.size()));
+  PrintOut(fmt::format("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles));
+  PrintOut(fmt::format("  materials   {}\n", scene.materials.size()));
   std::vector<std::string> lights;
   for (const Light& light : scene.lights) lights.push_back(light.name);
-  fmt::print("  lights      {}\n",
-             lights.empty() ? "none" : fmt::format("{}", fmt::join(lights, ", ")));
-  fmt::print("  shadowing   {}\n", ShadowingForms(scene));
-  fmt::print("  hash        {:016x}\n", HashScene(scene));
+  PrintOut(fmt::format("  lights      {}\n",
+                       lights.empty() ? "none" : fmt::format("{}", fmt::join(lights, ", "))));
+  PrintOut(fmt::format("  shadowing   {}\n", ShadowingForms(scene)));
+  PrintOut(fmt::format("  hash        {:016x}\n", HashScene(scene)));
 }
 
 void PrintBuild() {
   std::vector<std::string> targets;
   for (const Target target : SupportedTargets()) targets.push_back(TargetName(target));
-  fmt::print("nacre {} ({})\n", kVersion, kCommit);
-  fmt::print("  SIMD targets here  {}\n", fmt::join(targets, ", "));
-  fmt::print("  threads            {}\n", ThreadCount(0));
+  PrintOut(fmt::format("nacre {} ({})\n", kVersion, kCommit));
+  PrintOut(fmt::format("  SIMD targets here  {}\n", fmt::join(targets, ", ")));
+  PrintOut(fmt::format("  threads            {}\n", ThreadCount(0)));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ void AddPairCommand(CLI::App* app, int*) {
       "  nacre pair --a blinn_phong --b phong --layout side -o lobes.png --spp 64");
   command->callback([arguments] {
     const std::string scene = PairScene(*arguments);
-    RunRenderJob(arguments->options, [&](const LoadOptions& load) {
+    RunRenderJob(arguments->options, "", [&](const LoadOptions& load) {
       return LoadSceneText(scene, "nacre pair", ".", load);
     });
   });

@@ -21,7 +21,7 @@ void AddRenderCommand(CLI::App* app, int*) {
       "  nacre render scenes/phong_vs_pbr.json -o half.png --spp 64 --set /image/width=800\n"
       "  nacre render scene.json -o all.exr --layers all --depth float --explain");
   command->callback([arguments] {
-    RunRenderJob(arguments->options,
+    RunRenderJob(arguments->options, arguments->scene,
                  [&](const LoadOptions& load) { return LoadScene(arguments->scene, load); });
   });
 }

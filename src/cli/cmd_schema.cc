@@ -1,7 +1,6 @@
 // cli/cmd_schema.cc: nacre schema
-#include <cstdio>
-
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "scene_io/load_scene.h"
 
 namespace nacre {
@@ -9,10 +8,7 @@ namespace nacre {
 void AddSchemaCommand(CLI::App* app, int*) {
   CLI::App* command =
       app->add_subcommand("schema", "Print the JSON Schema of scene files, for editors and checks");
-  command->callback([] {
-    const std::string_view schema = SceneSchema();
-    std::fwrite(schema.data(), 1, schema.size(), stdout);
-  });
+  command->callback([] { PrintOut(SceneSchema()); });
 }
 
 }  // namespace nacre

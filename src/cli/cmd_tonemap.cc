@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
+#include "cli/outputs.h"
+#include "cli/print.h"
 #include "cli/render_options.h"
 #include "image_io/image_reader.h"
 #include "image_io/output_file.h"
@@ -38,7 +40,8 @@ const Channel& RequireChannel(const Image& image, const std::string& path,
 
 void RunTonemap(const Arguments& arguments) {
   // The size is known only after reading, but a path that cannot be written is told before.
-  CheckWritable(arguments.output);
+  CheckPngPath(arguments.output);
+  CheckPathsDiffer({arguments.input, arguments.output});
   const Image image = ReadImage(arguments.input);
   const auto transfer = image.metadata.find("transfer");
   if (transfer != image.metadata.end() && transfer->second == "display") {
@@ -73,8 +76,8 @@ void RunTonemap(const Arguments& arguments) {
   });
   png.Finish();
   if (nan_pixels > 0) {
-    fmt::print(stderr, "warning: {} pixels are not numbers and are drawn in magenta\n",
-               nan_pixels.load());
+    PrintError(fmt::format("warning: {} pixels are not numbers and are drawn in magenta\n",
+                           nan_pixels.load()));
   }
 }
 

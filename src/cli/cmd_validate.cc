@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "compare/verdict.h"
@@ -59,7 +60,7 @@ Reference ReadReference(const fs::path& path) {
   return reference;
 }
 
-std::vector<Reference> FindReferences(const std::string& folder) {
+std::vector<fs::path> FindReferences(const std::string& folder) {
   std::error_code error;
   std::vector<fs::path> paths;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
@@ -72,12 +73,11 @@ std::vector<Reference> FindReferences(const std::string& folder) {
                 "nacre validate DIR takes a folder of references, e.g. tests/references");
   }
   std::sort(paths.begin(), paths.end());
-  std::vector<Reference> references;
-  for (const fs::path& path : paths) references.push_back(ReadReference(path));
-  return references;
+  return paths;
 }
 
-bool ValidateOne(const Reference& reference, int threads) {
+bool ValidateOne(const fs::path& path, int threads) {
+  const Reference reference = ReadReference(path);
   const Scene scene = LoadScene(reference.scene, {});
   RenderSettings settings;
   settings.threads = threads;
@@ -90,9 +90,10 @@ bool ValidateOne(const Reference& reference, int threads) {
   options.reference_name = reference.image.string();
   const Verdict verdict = Judge(got, expected, reference.tolerances, options);
   const LayerMetrics& m = verdict.layers.front();
-  fmt::print("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", reference.name,
-             verdict.match ? "match" : "DIFFER", m.rmse, m.max_rel, m.p999_rel,
-             verdict.exceeding_pixels, verdict.match ? reference.reason : verdict.reason);
+  PrintOut(fmt::format("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", reference.name,
+                       verdict.match ? "match" : "DIFFER", m.rmse, m.max_rel, m.p999_rel,
+                       verdict.exceeding_pixels,
+                       verdict.match ? reference.reason : verdict.reason));
   return verdict.match;
 }
 
@@ -109,26 +110,28 @@ void AddValidateCommand(CLI::App* app, int* exit_code) {
   const auto a = std::make_shared<Arguments>();
   command->add_option("DIR", a->folder, "Folder with *.reference.json files")
       ->capture_default_str();
-  command->add_option("--threads", a->threads, "Threads to use; 0: as many as the machine has");
+  command->add_option("--threads", a->threads, "Threads to use; 0: as many as the machine has")
+      ->check(CLI::Range(0, 1024));
   command->add_option("--target", a->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
       ->capture_default_str();
   command->footer("Exit code: 0 all match, 1 one differs, 2 one cannot be compared.");
   command->callback([a, exit_code] {
     ApplyTarget(a->target);
-    const std::vector<Reference> references = FindReferences(a->folder);
-    fmt::print("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE", "max rel",
-               "99.9% rel", "exceed", "tolerance's reason, or what differs");
+    const std::vector<fs::path> references = FindReferences(a->folder);
+    PrintOut(fmt::format("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE",
+                         "max rel", "99.9% rel", "exceed", "tolerance's reason, or what differs"));
     bool all_match = true;
     bool all_compared = true;
-    for (const Reference& reference : references) {
+    for (const fs::path& reference : references) {
       try {
         all_match = ValidateOne(reference, a->threads) && all_match;
       } catch (const Error& error) {
         // A missing scene or image: told, and the others still get their turn.
         if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
         all_compared = false;
-        fmt::print("{:<24} ERROR  {}\n", reference.name, error.faults().front().what);
-        fmt::print(stderr, "{}\n", error.what());
+        PrintOut(fmt::format("{:<24} ERROR  {}\n", reference.stem().stem().string(),
+                             error.faults().front().what));
+        PrintError(fmt::format("{}\n", error.what()));
       }
     }
     *exit_code = static_cast<int>(!all_compared ? ExitCode::kCannotCompare

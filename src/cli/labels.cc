@@ -8,12 +8,37 @@
 
 namespace nacre {
 
+namespace {
+
+// Legible at half size where there is room for that; small enough that labels of neighbouring
+// columns do not touch.
+int LabelSize(const Scene& scene, const Imath::M44d& ndc_from_world) {
+  constexpr double kGlyphWidth = 0.62;  // of DejaVu Sans, mean over digits and letters, per size
+  double size = std::clamp(scene.image.height / 40.0, 10.0, 48.0);
+  const Label* left = nullptr;
+  for (const Label& label : scene.labels) {
+    if (label.side == Label::Side::kLeft) continue;
+    if (left != nullptr && left->side == label.side) {
+      Vec3d a, b;
+      ndc_from_world.multVecMatrix(left->anchor, a);
+      ndc_from_world.multVecMatrix(label.anchor, b);
+      const double spacing = std::abs(b.x - a.x) / 2 * scene.image.width;
+      const double glyphs = static_cast<double>(left->text.size() + label.text.size()) / 2 + 1;
+      size = std::min(size, spacing / (glyphs * kGlyphWidth));
+    }
+    left = &label;
+  }
+  constexpr double kSmallest = 5;
+  return static_cast<int>(std::max(size, kSmallest));
+}
+
+}  // namespace
+
 void DrawLabels(const Scene& scene, const Window& window, std::span<uint8_t> rgb8) {
   const ImageSettings& image = scene.image;
   const Imath::M44d ndc_from_world = WorldToNdc(scene.camera, image.width, image.height);
   const Vec3d forward = scene.camera.look_at - scene.camera.position;
-  // Legible at half size, and small enough for a grid of ten columns.
-  const int size_px = std::clamp(image.height / 40, 10, 48);
+  const int size_px = LabelSize(scene, ndc_from_world);
   const int gap = size_px / 2;
   std::vector<TextItem> items;
   for (const Label& label : scene.labels) {

@@ -1,8 +1,7 @@
 // cli/main.cc: the program: commands, and the one place where errors are printed.
 #include <algorithm>
-#include <cstdio>
+#include <iostream>
 #include <new>
-#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -11,15 +10,10 @@
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/commands.h"
+#include "cli/print.h"
 #include "cli/progress.h"
 
 namespace {
-
-// Standard error may be full or closed: then there is nobody to tell, and the exit code tells.
-void PrintError(std::string_view message) {
-  std::fwrite(message.data(), 1, message.size(), stderr);
-  std::fputc('\n', stderr);
-}
 
 // CLI11 takes an unknown command for a missing one; this names it and the one likely meant.
 void CheckCommandName(const CLI::App& app, int argc, char** argv) {
@@ -54,23 +48,28 @@ int Run(int argc, char** argv) {
   nacre::AddInfoCommand(&app, &exit_code);
   nacre::AddSchemaCommand(&app, &exit_code);
   try {
+    nacre::OpenStandardStreams();
     nacre::CatchStopSignals();
     CheckCommandName(app, argc, argv);
     app.parse(argc, argv);
+    nacre::FinishOutput();
     return exit_code;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    PrintError(
+    if (error.get_exit_code() == 0) {  // --help, --version
+      app.exit(error);
+      std::cout.flush();
+      return static_cast<int>(std::cout ? ExitCode::kOk : ExitCode::kCannotWrite);
+    }
+    nacre::PrintError(
         fmt::format("error: {}\n  hint: see nacre --help, or nacre COMMAND --help", error.what()));
     return static_cast<int>(ExitCode::kUsage);
   } catch (const nacre::Error& error) {
-    PrintError(error.what());
+    nacre::PrintError(std::string(error.what()) + "\n");
     return static_cast<int>(error.code());
   } catch (const std::bad_alloc&) {
-    PrintError("error: out of memory\n  hint: a smaller picture or scene needs less");
+    nacre::PrintError("error: out of memory\n  hint: a smaller picture or scene needs less\n");
   } catch (const std::exception& error) {
-    PrintError("error: internal:");
-    PrintError(error.what());
+    nacre::PrintError(fmt::format("error: internal: {}\n", error.what()));
   }
   return static_cast<int>(ExitCode::kInternal);
 }

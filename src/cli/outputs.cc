@@ -37,12 +37,20 @@ void CheckPicturePaths(const std::vector<std::string>& paths) {
   }
 }
 
+void CheckPngPath(const std::string& path) {
+  if (!IsPng(path)) {
+    throw Error(ExitCode::kUsage, path, "unknown output extension", "the output is a .png file");
+  }
+  CheckWritable(path);
+}
+
 void CheckPathsDiffer(const std::vector<std::string>& paths) {
   std::set<std::filesystem::path> seen;
   for (const std::string& path : paths) {
     std::error_code error;  // a path that cannot be resolved is refused when it is opened
     if (!seen.insert(std::filesystem::weakly_canonical(path, error)).second && !error) {
-      throw Error(ExitCode::kUsage, path, "the same file is named twice", "name each output once");
+      throw Error(ExitCode::kUsage, path, "the same file is named twice",
+                  "an output must not replace another file of the same command");
     }
   }
 }

@@ -20,7 +20,10 @@ namespace nacre {
 // .exr nor .png (kUsage): before any work is done for it.
 void CheckPicturePaths(const std::vector<std::string>& paths);
 
-// Throws Error (kUsage) if two of the paths are the same file.
+// The same for a single PNG.
+void CheckPngPath(const std::string& path);
+
+// Throws Error (kUsage) if two of the paths, inputs and outputs of a command, are the same file.
 void CheckPathsDiffer(const std::vector<std::string>& paths);
 
 // Samples that the files do not hold as they were computed.

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "cli/print.h"
 
 namespace nacre {
 namespace {
@@ -54,7 +55,8 @@ void Progress::Update(double done) {
   ThrowIfStopped();
   if (form_ == ProgressForm::kNone) return;
   const auto now = std::chrono::steady_clock::now();
-  if (now - last_printed_ < std::chrono::milliseconds(100)) return;
+  const bool last = done >= 1 && form_ == ProgressForm::kJson;
+  if (!last && now - last_printed_ < std::chrono::milliseconds(100)) return;
   last_printed_ = now;
   printed_ = true;
   Print(done, std::chrono::duration<double>(now - start_).count());
@@ -64,22 +66,25 @@ void Progress::Print(double done, double elapsed_seconds) const {
   const double rate = unit_count_ * done / elapsed_seconds;
   const double left = done > 0 ? elapsed_seconds * (1 - done) / done : 0;
   if (form_ == ProgressForm::kJson) {
-    fmt::print(stderr,
-               "{{\"progress\": {:.4f}, \"elapsed_s\": {:.3f}, \"left_s\": {:.3f}, "
-               "\"rate_per_s\": {:.6g}}}\n",
-               done, elapsed_seconds, left, rate);
+    PrintError(
+        fmt::format("{{\"progress\": {:.4f}, \"elapsed_s\": {:.3f}, \"left_s\": {:.3f}, "
+                    "\"rate_per_s\": {:.6g}}}\n",
+                    done, elapsed_seconds, left, rate));
   } else {
     constexpr int kBarWidth = 30;
     const int filled = static_cast<int>(done * kBarWidth);
-    fmt::print(stderr, "\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}  {} left\033[K", what_, "", filled, "",
-               kBarWidth - filled, 100 * done, FormatRate(rate, unit_), FormatSeconds(left));
+    PrintError(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}  {} left\033[K", what_, "", filled,
+                           "", kBarWidth - filled, 100 * done, FormatRate(rate, unit_),
+                           FormatSeconds(left)));
   }
   std::fflush(stderr);
 }
 
 void CatchStopSignals() {
-  std::signal(SIGINT, NoteStopSignal);
-  std::signal(SIGTERM, NoteStopSignal);
+  struct sigaction action = {};
+  action.sa_handler = NoteStopSignal;  // without SA_RESTART: waiting for a pipe ends, too
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
   // A file size limit then is an error of the write, with its message and exit code.
   std::signal(SIGXFSZ, SIG_IGN);
 }

@@ -18,8 +18,9 @@ class Progress {
   Progress(ProgressForm form, std::string what, double unit_count, std::string unit);
   ~Progress();
 
-  // `done` in [0, 1]. Prints at most ten times a second. Throws Error (kInterrupted, kTerminated)
-  // once a signal has come, so that whoever works stops and leaves nothing behind.
+  // `done` in [0, 1]. Prints at most ten times a second, and at the end for programs. Throws Error
+  // (kInterrupted, kTerminated) once a signal has come, so that whoever works stops and leaves
+  // nothing behind.
   void Update(double done);
 
  private:

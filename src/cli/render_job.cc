@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/outputs.h"
+#include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "cli/text_output.h"
@@ -29,18 +30,18 @@ ProgressForm ChooseProgressForm(const RenderOptions& options) {
 // What the user must know of samples that are not as computed.
 void WarnAboutSamples(const OutputCounts& counts) {
   if (counts.exr.clamped > 0) {
-    fmt::print(stderr,
-               "warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
-               counts.exr.clamped);
+    PrintError(
+        fmt::format("warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
+                    counts.exr.clamped));
   }
   if (counts.exr.infinite > 0) {
-    fmt::print(stderr, "warning: {} samples are infinite\n", counts.exr.infinite);
+    PrintError(fmt::format("warning: {} samples are infinite\n", counts.exr.infinite));
   }
   if (counts.exr.nan > 0)
-    fmt::print(stderr, "warning: {} samples are not numbers\n", counts.exr.nan);
+    PrintError(fmt::format("warning: {} samples are not numbers\n", counts.exr.nan));
   if (counts.nan_pixels > 0) {
-    fmt::print(stderr, "warning: {} pixels are not numbers and are drawn in magenta\n",
-               counts.nan_pixels);
+    PrintError(fmt::format("warning: {} pixels are not numbers and are drawn in magenta\n",
+                           counts.nan_pixels));
   }
 }
 
@@ -48,16 +49,16 @@ void Summarize(const RenderOptions& options, const RenderPlan& plan, const Rende
                const JobTimes& times) {
   std::string files;
   for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
-  fmt::print(
-      stderr, "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n",
+  PrintError(fmt::format(
+      "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n",
       files, plan.window.width(), plan.window.height(), plan.scene->image.spp,
       1e3 * times.total_seconds, 1e3 * stats.render_seconds,
-      1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds);
+      1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds));
 }
 
 }  // namespace
 
-void RunRenderJob(const RenderOptions& options,
+void RunRenderJob(const RenderOptions& options, const std::string& input,
                   const std::function<Scene(const LoadOptions&)>& load) {
   const Clock::time_point start = Clock::now();
   JobTimes times;
@@ -74,6 +75,7 @@ void RunRenderJob(const RenderOptions& options,
     CheckTextOutput(options.stats);
     if (options.stats != "-") paths.push_back(options.stats);
   }
+  if (!input.empty()) paths.push_back(input);
   CheckPathsDiffer(paths);
 
   const Scene scene = load(load_options);
@@ -99,8 +101,8 @@ void RunRenderJob(const RenderOptions& options,
   times.total_seconds = SecondsSince(start);
 
   WarnAboutSamples(counts);
-  if (!options.quiet) Summarize(options, plan, stats, times);
-  if (options.explain) fmt::print("{}", ExplainPlan(plan, &stats));
+  if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);
+  if (options.explain) PrintOut(ExplainPlan(plan, &stats));
   if (!options.stats.empty()) WriteText(options.stats, StatsJson(plan, stats, times, counts));
 }
 

@@ -7,9 +7,9 @@
 
 namespace nacre {
 
-// Checks the outputs, calls `load`, renders and writes. `load` gets what scene_io is to be told.
-// Throws Error.
-void RunRenderJob(const RenderOptions& options,
+// Checks the outputs (`input` is the scene's file, or empty), calls `load`, renders and writes.
+// `load` gets what scene_io is to be told. Throws Error.
+void RunRenderJob(const RenderOptions& options, const std::string& input,
                   const std::function<Scene(const LoadOptions&)>& load);
 
 }  // namespace nacre

@@ -1,6 +1,7 @@
 #include "cli/render_options.h"
 
 #include <charconv>
+#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -31,6 +32,15 @@ bool ParseIntegers(std::string_view text, char separator, size_t count, std::vec
 
 }  // namespace
 
+std::function<std::string(const std::string&)> InRange(double low, double high) {
+  return [=](const std::string& text) -> std::string {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end != text.c_str() && *end == '\0' && value >= low && value <= high) return {};
+    return fmt::format("{} is not a number from {} to {}", text, low, high);
+  };
+}
+
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure) {
   command
       ->add_option("--tonemap", *tonemap,
@@ -39,7 +49,7 @@ void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure
       ->check(CLI::IsMember(ToneOperatorNames()))
       ->capture_default_str();
   command->add_option("--exposure", *exposure, "Exposure of PNG files in stops: values times 2^EV")
-      ->check(CLI::Range(-60.0, 60.0))
+      ->check(InRange(-60, 60))
       ->capture_default_str();
 }
 

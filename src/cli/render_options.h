@@ -1,6 +1,7 @@
 // cli/render_options.h: the options that every command that renders shares.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -50,6 +51,9 @@ LoadOptions MakeLoadOptions(const RenderOptions& options);
 
 // "x0,y0,x1,y1" as a window; empty text gives an empty one. Throws Error (usage).
 Window ParseRegion(const std::string& text);
+
+// A check for numbers in [low, high]; CLI11's own lets NaN pass.
+std::function<std::string(const std::string&)> InRange(double low, double high);
 
 // "WxH". Throws Error (usage).
 void ParseSize(const std::string& text, int* width, int* height);

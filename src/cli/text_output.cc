@@ -1,8 +1,8 @@
 #include "cli/text_output.h"
 
-#include <cstdio>
 #include <span>
 
+#include "cli/print.h"
 #include "image_io/output_file.h"
 
 namespace nacre {
@@ -13,7 +13,7 @@ void CheckTextOutput(const std::string& path) {
 
 void WriteText(const std::string& path, const std::string& text) {
   if (path == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
+    PrintOut(text);
     return;
   }
   OutputFile file(path);

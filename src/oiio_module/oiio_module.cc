@@ -125,10 +125,24 @@ std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
   const Offset offset = AlignmentOffset(item);
   using OIIO::ImageBufAlgo::TextAlignX;
   using OIIO::ImageBufAlgo::TextAlignY;
-  const bool drawn = OIIO::ImageBufAlgo::render_text(
-      *picture, item.x - offset.x, item.y - offset.y, item.text, item.size_px, kFont, color,
-      TextAlignX::Left, TextAlignY::Baseline, outline_px);
-  return drawn ? std::string() : picture->geterror();
+  const int x = item.x - offset.x;
+  const int y = item.y - offset.y;
+  // render_text ends the process when text crosses the picture's edge: draw on a cut-out as large
+  // as the text, and put back what lies within the picture.
+  const int room = outline_px + 2;
+  OIIO::ROI bounds = OIIO::ImageBufAlgo::text_size(item.text, item.size_px, kFont);
+  bounds = OIIO::ROI(x + bounds.xbegin - room, x + bounds.xend + room, y + bounds.ybegin - room,
+                     y + bounds.yend + room, 0, 1, 0, 3);
+  const OIIO::ROI visible = OIIO::roi_intersection(bounds, picture->roi());
+  if (visible.width() <= 0 || visible.height() <= 0) return {};
+  OIIO::ImageBuf part = OIIO::ImageBufAlgo::crop(*picture, bounds);
+  const bool drawn =
+      OIIO::ImageBufAlgo::render_text(part, x, y, item.text, item.size_px, kFont, color,
+                                      TextAlignX::Left, TextAlignY::Baseline, outline_px);
+  if (!drawn) return part.geterror();
+  const bool pasted =
+      OIIO::ImageBufAlgo::paste(*picture, visible.xbegin, visible.ybegin, 0, 0, part, visible);
+  return pasted ? std::string() : picture->geterror();
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace HWY_NAMESPACE {
 void ShadeLambertT(const LambertUniforms& uniforms, const ShadeRange& range) {
   const FloatTag d;
   const RgbV diffuse = SetRgb(d, uniforms.diffuse);
-  ForEachPacket(d, range, [&](const Packet& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
-    const FloatV weight = hn::Mul(Dot(p.normal, p.to_light), p.irradiance);
+  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
+    const FloatV weight = hn::Mul(FusedDot(p.normal, p.to_light), p.irradiance);
     Accumulate(d, mask, ScaleRgb(diffuse, weight), i, &range.radiance->diffuse);
   });
 }

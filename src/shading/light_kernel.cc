@@ -54,7 +54,8 @@ void SubtractFrom(double light, const AlignedArray<double>& position, size_t cou
 HWY_INLINE FloatV FacingOnly(FloatTag d, const Surface& surface, const Vec3V<FloatV>& to_light,
                              size_t i, FloatV irradiance) {
   const Soa3<float>& n = surface.normal;
-  const FloatV n_dot_l = Dot(Load3(d, n.x.data(), n.y.data(), n.z.data(), i), to_light);
+  const FloatV n_dot_l =
+      FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i), to_light);
   return hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), irradiance);
 }
 
@@ -85,14 +86,14 @@ void EvaluatePositional(const LightUniforms& light, const HitBatch& hits, const 
   const Vec3V<FloatV> axis{hn::Set(d, light.axis[0]), hn::Set(d, light.axis[1]),
                            hn::Set(d, light.axis[2])};
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
-    const Vec3V<FloatV> offset = Load3(d, l.x.data(), l.y.data(), l.z.data(), i);
-    const FloatV distance = hn::Sqrt(Dot(offset, offset));
+    const Vec3V<FloatV> offset = LoadU3(d, l.x.data() + i, l.y.data() + i, l.z.data() + i);
+    const FloatV distance = hn::Sqrt(FusedDot(offset, offset));
     // A light exactly at the hit has no direction; its attenuation is 0 there.
     const FloatV scale = hn::Div(one, hn::IfThenElse(hn::Gt(distance, zero), distance, one));
-    const Vec3V<FloatV> to_light = Scale3(offset, scale);
+    const Vec3V<FloatV> to_light = Scale(offset, scale);
     FloatV irradiance = AttenuationFactor(d, light.attenuation, distance);
     if constexpr (kSpot) {
-      const FloatV cos_angle = hn::Neg(Dot(axis, to_light));
+      const FloatV cos_angle = hn::Neg(FusedDot(axis, to_light));
       irradiance = hn::Mul(irradiance, SpotFactor(d, light.cone, cos_angle));
     }
     hn::Store(to_light.x, d, l.x.data() + i);

@@ -37,7 +37,7 @@ void ShadeMetallicRoughnessForm(const MetallicRoughnessUniforms& uniforms,
   const RgbV f0 = SetRgb(d, uniforms.f0);
   const FloatV alpha = hn::Set(d, uniforms.alpha);
   const FloatV schlick_k = hn::Set(d, uniforms.schlick_k);
-  ForEachPacket(d, range, [&](const Packet& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
+  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
     const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, p.to_light, p.to_view);
     const FloatV weight = hn::Mul(angles.n_dot_l, p.irradiance);
     // Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.

@@ -18,8 +18,8 @@ void ShadePhongModel(const PhongUniforms& uniforms, const ShadeRange& range) {
   const RgbV diffuse = SetRgb(d, uniforms.diffuse);
   const RgbV specular = SetRgb(d, uniforms.specular);
   const FloatV shininess = hn::Set(d, uniforms.shininess);
-  ForEachPacket(d, range, [&](const Packet& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
-    const FloatV weight = hn::Mul(Dot(p.normal, p.to_light), p.irradiance);
+  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
+    const FloatV weight = hn::Mul(FusedDot(p.normal, p.to_light), p.irradiance);
     FloatV lobe;
     if constexpr (kModel == PhongModel::kBlinnPhong) {
       lobe = BlinnLobe(d, ComputeAngles(d, p.normal, p.to_light, p.to_view), shininess);

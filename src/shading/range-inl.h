@@ -19,7 +19,7 @@ using FloatTag = hn::ScalableTag<float>;
 using FloatV = hn::Vec<FloatTag>;
 
 // A packet of hits and the light on it.
-struct Packet {
+struct LitPacket {
   Vec3V<FloatV> normal, to_view, to_light;
   FloatV irradiance;
 };
@@ -58,10 +58,10 @@ HWY_INLINE void ForEachPacket(FloatTag d, const ShadeRange& range, const Shade& 
   const Soa3<float>& v = range.surface.to_view;
   const Soa3<float>& l = range.light.to_light;
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const Packet packet{Load3(d, n.x.data(), n.y.data(), n.z.data(), i),
-                        Load3(d, v.x.data(), v.y.data(), v.z.data(), i),
-                        Load3(d, l.x.data(), l.y.data(), l.z.data(), i),
-                        hn::LoadU(d, range.light.irradiance.data() + i)};
+    const LitPacket packet{LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
+                           LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i),
+                           LoadU3(d, l.x.data() + i, l.y.data() + i, l.z.data() + i),
+                           hn::LoadU(d, range.light.irradiance.data() + i)};
     shade(packet, i, hn::FirstN(d, range.end - i));
   }
 }

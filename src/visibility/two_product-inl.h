@@ -1,6 +1,6 @@
-// visibility/two_product-inl.h: products without rounding error, and vectors of three, on SIMD
-// vectors. Scalar twin: visibility/two_product.h. The results are exact, so every target gives
-// the same bits, with a fused multiply-add or without.
+// visibility/two_product-inl.h: products without rounding error on SIMD vectors. Scalar twin:
+// visibility/two_product.h. The results are exact, so every target gives the same bits, with a
+// fused multiply-add or without.
 #if defined(NACRE_VISIBILITY_TWO_PRODUCT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_TWO_PRODUCT_INL_H_
 #undef NACRE_VISIBILITY_TWO_PRODUCT_INL_H_
@@ -8,7 +8,7 @@
 #define NACRE_VISIBILITY_TWO_PRODUCT_INL_H_
 #endif
 
-#include "hwy/highway.h"
+#include "base/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -52,56 +52,6 @@ HWY_INLINE V DifferenceOfProducts(D d, V a, V b, V c, V e) {
   const auto ab = TwoProduct(d, a, b);
   const auto ce = TwoProduct(d, c, e);
   return hn::Add(hn::Sub(ab.product, ce.product), hn::Sub(ab.error, ce.error));
-}
-
-template <class V>
-struct Vec3V {
-  V x, y, z;
-};
-
-// Multiplies and adds stay apart: a fused one would give other bits on some targets.
-template <class V>
-HWY_INLINE V Dot(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Add(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Sub(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
-
-template <class V>
-HWY_INLINE Vec3V<V> Scale(const Vec3V<V>& a, V s) {
-  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
-}
-
-template <class V>
-HWY_INLINE V SumOfAbs(const Vec3V<V>& a) {
-  return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
-}
-
-template <class M, class V>
-HWY_INLINE Vec3V<V> Select(M mask, const Vec3V<V>& yes, const Vec3V<V>& no) {
-  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
-          hn::IfThenElse(mask, yes.z, no.z)};
-}
-
-template <class D, class T>
-HWY_INLINE Vec3V<hn::Vec<D>> Load3(D d, const T* x, const T* y, const T* z) {
-  return {hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
-}
-
-template <class D, class V>
-HWY_INLINE void Store3(const Vec3V<V>& v, D d, hn::TFromD<D>* x, hn::TFromD<D>* y,
-                       hn::TFromD<D>* z) {
-  hn::Store(v.x, d, x);
-  hn::Store(v.y, d, y);
-  hn::Store(v.z, d, z);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -84,8 +84,10 @@ class CliTest(unittest.TestCase):
                              '--spp', '64', scene=str(SOURCE / 'scenes/material_grid.json'))
         lines = [line for line in result.stderr.splitlines() if line.startswith('{')]
         self.assertTrue(lines)
+        self.assertEqual(lines, result.stderr.splitlines())
         for line in lines:
             self.assertIn('progress', json.loads(line))
+        self.assertEqual(json.loads(lines[-1])['progress'], 1)
 
     def test_set_changes_the_scene(self):
         self.render('-o', self.out / 'a.exr', '--set', '/image/width=33', '--spp', '1')
@@ -170,6 +172,8 @@ class CliTest(unittest.TestCase):
             ('did you mean "diffuse"', ['render', scene, *out, '--layers', 'difuse']),
             ('--tonemap', ['render', scene, *out, '--tonemap', 'filmic']),
             ('--exposure', ['render', scene, *out, '--exposure', '1000']),
+            ('--exposure', ['render', scene, *out, '--exposure', 'nan']),
+            ('--max-abs', ['compare', scene, scene, '--max-abs', 'nan']),
             ('--target', ['render', scene, *out, '--target', 'mmx']),
             ('--threads', ['render', scene, *out, '--threads', '-3']),
             ('--set', ['render', scene, *out, '--set', 'image.spp']),
@@ -227,6 +231,38 @@ class CliTest(unittest.TestCase):
             result = subprocess.run([PROGRAM, 'render', 'missing.json', '-o',
                                      str(self.out / 'a.exr')], stderr=full)
         self.assertEqual(result.returncode, 65)
+
+    def test_closed_and_full_streams_harm_no_file(self):
+        command = f"'{PROGRAM}' render '{FIRST_SCENE}' -o '{self.out}/a.exr' --progress=json " \
+                  '--size 320x180 --spp 64'
+        for redirection in '2>&-', '2>/dev/full', '>&- 2>&- <&-':
+            with self.subTest(redirection=redirection):
+                self.assertEqual(subprocess.run(['sh', '-c', f'{command} {redirection}']).returncode,
+                                 0)
+                self.assertEqual(run('info', self.out / 'a.exr').returncode, 0)
+        for what in 'schema', 'info', '--help':
+            with self.subTest(what=what), open('/dev/full', 'w') as full:
+                self.assertEqual(subprocess.run([PROGRAM, what], stdout=full).returncode, 74)
+
+    def test_labels_may_cross_the_edge(self):
+        for arguments in (['--size', '64x36'], ['--size', '32x18'],
+                          ['--size', '640x360', '--region', '90,10,300,100'],
+                          ['--rows', 'roughness=0.1:0.9:30', '--columns', 'metallic=0:1:30']):
+            with self.subTest(arguments=arguments):
+                result = run('grid', '-o', self.out / 'a.png', '--labels', '--spp', '1', *arguments)
+                self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_no_input_is_overwritten(self):
+        self.render('-o', self.out / 'a.exr', *SMALL)
+        scene = self.out / 'scene.json'
+        scene.write_text(pathlib.Path(FIRST_SCENE).read_text())
+        (self.out / 'b.png').symlink_to(self.out / 'a.exr')
+        a = self.out / 'a.exr'
+        self.check_fails(64, 'twice', 'render', scene, '-o', self.out / 'c.exr', '--stats', scene)
+        self.check_fails(64, 'twice', 'tonemap', a, '-o', self.out / 'b.png')
+        self.check_fails(64, 'twice', 'compare', a, a, '--heat-map', self.out / 'b.png')
+        self.check_fails(64, 'extension', 'tonemap', a, '-o', self.out / 'c.exr')
+        self.check_fails(64, 'extension', 'compare', a, a, '--heat-map', self.out / 'c.jpg')
 
     def test_the_main_path_does_not_load_openimageio(self):
         environment = dict(os.environ, LD_DEBUG='files')

@@ -1,0 +1,88 @@
+// base/vec3-inl.h: vectors of three on SIMD vectors: one per lane.
+#if defined(NACRE_BASE_VEC3_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_BASE_VEC3_INL_H_
+#undef NACRE_BASE_VEC3_INL_H_
+#else
+#define NACRE_BASE_VEC3_INL_H_
+#endif
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct Vec3V {
+  V x, y, z;
+};
+
+// Products and sums stay apart: every target gives the same bits. For geometry.
+template <class V>
+HWY_INLINE V Dot(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
+}
+
+// Fused where the target can: faster and more accurate, with other bits on targets that cannot. For
+// shading.
+template <class V>
+HWY_INLINE V FusedDot(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
+}
+
+template <class V>
+HWY_INLINE Vec3V<V> FusedCross(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {hn::MulSub(a.y, b.z, hn::Mul(a.z, b.y)), hn::MulSub(a.z, b.x, hn::Mul(a.x, b.z)),
+          hn::MulSub(a.x, b.y, hn::Mul(a.y, b.x))};
+}
+
+template <class V>
+HWY_INLINE Vec3V<V> Add(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+
+template <class V>
+HWY_INLINE Vec3V<V> Sub(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+
+template <class V>
+HWY_INLINE Vec3V<V> Scale(const Vec3V<V>& a, V s) {
+  return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
+}
+
+template <class V>
+HWY_INLINE V SumOfAbs(const Vec3V<V>& a) {
+  return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));
+}
+
+template <class M, class V>
+HWY_INLINE Vec3V<V> Select(M mask, const Vec3V<V>& yes, const Vec3V<V>& no) {
+  return {hn::IfThenElse(mask, yes.x, no.x), hn::IfThenElse(mask, yes.y, no.y),
+          hn::IfThenElse(mask, yes.z, no.z)};
+}
+
+template <class D, class T>
+HWY_INLINE Vec3V<hn::Vec<D>> Load3(D d, const T* x, const T* y, const T* z) {
+  return {hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)};
+}
+
+template <class D, class V>
+HWY_INLINE void Store3(const Vec3V<V>& v, D d, hn::TFromD<D>* x, hn::TFromD<D>* y,
+                       hn::TFromD<D>* z) {
+  hn::Store(v.x, d, x);
+  hn::Store(v.y, d, y);
+  hn::Store(v.z, d, z);
+}
+
+// Vectors that begin anywhere.
+template <class D, class T>
+HWY_INLINE Vec3V<hn::Vec<D>> LoadU3(D d, const T* x, const T* y, const T* z) {
+  return {hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
