@@ -13,7 +13,7 @@ namespace {
 // Legible at half size where there is room for that; small enough that labels of neighbouring
 // columns do not touch.
 int LabelSize(const Scene& scene, const Imath::M44d& ndc_from_world) {
-  constexpr double kGlyphWidth = 0.62;  // of DejaVu Sans, mean over digits and letters, per size
+  constexpr double kGlyphWidth = 0.52;  // of DejaVu Sans per size, mean over letters and digits
   double size = std::clamp(scene.image.height / 40.0, 10.0, 48.0);
   const Label* left = nullptr;
   for (const Label& label : scene.labels) {

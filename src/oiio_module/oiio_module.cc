@@ -140,9 +140,10 @@ std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
       OIIO::ImageBufAlgo::render_text(part, x, y, item.text, item.size_px, kFont, color,
                                       TextAlignX::Left, TextAlignY::Baseline, outline_px);
   if (!drawn) return part.geterror();
-  const bool pasted =
-      OIIO::ImageBufAlgo::paste(*picture, visible.xbegin, visible.ybegin, 0, 0, part, visible);
-  return pasted ? std::string() : picture->geterror();
+  std::vector<uint8_t> pixels(visible.npixels() * 3);
+  const bool copied = part.get_pixels(visible, OIIO::TypeDesc::UINT8, pixels.data()) &&
+                      picture->set_pixels(visible, OIIO::TypeDesc::UINT8, pixels.data());
+  return copied ? std::string() : part.geterror() + picture->geterror();
 }
 
 }  // namespace
