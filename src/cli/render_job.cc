@@ -50,9 +50,9 @@ void Summarize(const RenderOptions& options, const RenderPlan& plan, const Rende
   std::string files;
   for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
   PrintError(fmt::format(
-      "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n",
-      files, plan.window.width(), plan.window.height(), plan.scene->image.spp,
-      1e3 * times.total_seconds, 1e3 * stats.render_seconds,
+      "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
+      plan.window.width(), plan.window.height(), plan.scene->image.spp, 1e3 * times.total_seconds,
+      1e3 * stats.render_seconds,
       1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds));
 }
 
