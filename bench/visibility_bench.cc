@@ -1,6 +1,6 @@
 // bench/visibility_bench.cc: camera rays against spheres: the exact hits of a 1920x1080 frame,
 // one thread, by number of spheres.
-#include <cmath>
+#include <cstdlib>
 
 #include <benchmark/benchmark.h>
 
@@ -44,8 +44,9 @@ void BenchClosest(benchmark::State& state) {
     for (int first = 0; first < kPixels; first += static_cast<int>(kBatchCapacity)) {
       const int count = std::min(static_cast<int>(kBatchCapacity), kPixels - first);
       for (int i = 0; i < count; ++i) {
-        x[static_cast<size_t>(i)] = (first + i) % kWidth + 0.5;
-        y[static_cast<size_t>(i)] = (first + i) / kWidth + 0.5;
+        const std::div_t row_and_column = std::div(first + i, kWidth);
+        x[static_cast<size_t>(i)] = row_and_column.rem + 0.5;
+        y[static_cast<size_t>(i)] = row_and_column.quot + 0.5;
       }
       MakeCameraRays(camera, x.data(), y.data(), static_cast<size_t>(count), &rays);
       intersector.Closest(rays, &hits);

@@ -76,4 +76,10 @@ int Run(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return Run(argc, argv); }
+int main(int argc, char** argv) {
+  try {
+    return Run(argc, argv);
+  } catch (...) {  // not even the message of an error could be put together
+    return static_cast<int>(nacre::ExitCode::kInternal);
+  }
+}

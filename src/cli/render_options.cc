@@ -53,13 +53,9 @@ void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure
       ->capture_default_str();
 }
 
-void AddRenderOptions(CLI::App* command, RenderOptions* o) {
-  command
-      ->add_option("-o,--output", o->outputs,
-                   "File to write, .exr (linear, HDR) or .png (tone-mapped sRGB); repeatable")
-      ->required()
-      ->type_name("FILE")
-      ->allow_extra_args(false);
+namespace {
+
+void AddPictureOptions(CLI::App* command, RenderOptions* o) {
   const std::string picture = "Picture";
   command->add_option("--size", o->size, "Width and height in pixels")
       ->type_name("WxH")
@@ -81,9 +77,9 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false)
       ->group(picture);
-  AddDisplayOptions(command, &o->tonemap, &o->exposure);
-  command->add_flag("--labels", o->labels,
-                    "Write the scene's row and column labels into PNG files");
+}
+
+void AddExrOptions(CLI::App* command, RenderOptions* o) {
   const std::string exr = "EXR files";
   command
       ->add_option("--layers", o->layers,
@@ -105,6 +101,9 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
       ->add_flag("--reproducible", o->reproducible,
                  "Leave times out of the files: equal pictures make equal files")
       ->group(exr);
+}
+
+void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   const std::string machine = "Machine";
   command->add_option("--threads", o->threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024))
@@ -120,6 +119,9 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
       ->add_flag("--allow-paths", o->allow_paths,
                  "Let the scene refer to files outside its own folder")
       ->group(machine);
+}
+
+void AddTellingOptions(CLI::App* command, RenderOptions* o) {
   const std::string telling = "What it tells";
   command
       ->add_flag("--explain", o->explain,
@@ -133,6 +135,24 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
       ->capture_default_str()
       ->group(telling);
   command->add_flag("--quiet", o->quiet, "Print nothing but errors")->group(telling);
+}
+
+}  // namespace
+
+void AddRenderOptions(CLI::App* command, RenderOptions* o) {
+  command
+      ->add_option("-o,--output", o->outputs,
+                   "File to write, .exr (linear, HDR) or .png (tone-mapped sRGB); repeatable")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  AddDisplayOptions(command, &o->tonemap, &o->exposure);
+  command->add_flag("--labels", o->labels,
+                    "Write the scene's row and column labels into PNG files");
+  AddPictureOptions(command, o);
+  AddExrOptions(command, o);
+  AddMachineOptions(command, o);
+  AddTellingOptions(command, o);
 }
 
 LoadOptions MakeLoadOptions(const RenderOptions& options) {
