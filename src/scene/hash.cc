@@ -70,7 +70,9 @@ struct AddModel {
     hash->Word(static_cast<uint64_t>(m.shadowing));
   }
   void operator()(const SplitMaterial& m) const {
+    hash->Word(m.at.size());
     for (const double at : m.at) hash->Add(at);
+    hash->Word(m.materials.size());
     for (const MaterialId id : m.materials) hash->Add(id);
   }
 };
@@ -110,24 +112,30 @@ uint64_t HashScene(const Scene& scene) {
   Add(scene.camera, &hash);
   Add(scene.image, &hash);
   hash.Add(scene.background);
+  hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
   for (const Material& material : scene.materials) {
     hash.Word(material.model.index());
     hash.Add(material.emission);
     std::visit(AddModel{&hash}, material.model);
   }
+  hash.Word(scene.lights.size());
   for (const Light& light : scene.lights) {
     hash.Word(light.kind.index());
     hash.Add(std::string_view(light.name));
     hash.Word(light.shadows);
     std::visit(AddLightKind{&hash}, light.kind);
   }
+  hash.Word(scene.spheres.size());
   for (const Sphere& sphere : scene.spheres) {
     hash.Add(sphere.center);
     hash.Add(sphere.radius);
     hash.Add(sphere.material);
   }
+  hash.Word(scene.meshes.size());
   for (const Mesh& mesh : scene.meshes) {
     hash.Word(mesh.positions.size());
+    hash.Word(mesh.normals.size());
+    hash.Word(mesh.triangles.size());
     for (const Vec3d& position : mesh.positions) hash.Add(position);
     for (const Vec3d& normal : mesh.normals) hash.Add(normal);
     for (const uint32_t index : mesh.triangles) hash.Word(index);

@@ -1,0 +1,64 @@
+// tests/scene/hash_test.cc: a scene's fingerprint tells every value that shows from another.
+#include "scene/hash.h"
+
+#include "catch.h"
+#include "scene/material_parameters.h"
+
+namespace nacre {
+namespace {
+
+Scene MakeScene() {
+  Scene scene;
+  Material lambert, phong, ggx;
+  lambert.model = LambertMaterial{};
+  phong.model = PhongMaterial{};
+  ggx.model = MetallicRoughnessMaterial{};
+  scene.materials = {lambert, phong, ggx};
+  scene.spheres = {{{0, 0, 0}, 1, {0}}, {{1, 0, 0}, 1, {1}}};
+  Light key;
+  key.name = "key";
+  key.kind = PointLight{};
+  scene.lights = {key};
+  return scene;
+}
+
+TEST_CASE("equal scenes have equal hashes, names of materials aside") {
+  Scene scene = MakeScene();
+  const uint64_t hash = HashScene(scene);
+  CHECK(HashScene(MakeScene()) == hash);
+  scene.materials[0].name = "other";
+  CHECK(HashScene(scene) == hash);
+}
+
+TEST_CASE("every parameter of every material changes the hash") {
+  const uint64_t hash = HashScene(MakeScene());
+  for (size_t i = 0; i < MakeScene().materials.size(); ++i) {
+    for (const MaterialParameter& parameter : ModelOf(MakeScene().materials[i])->parameters) {
+      CAPTURE(parameter.name);
+      Scene scene = MakeScene();
+      parameter.set(scene.materials[i], Rgb(0.123, 0.123, 0.123));
+      CHECK(HashScene(scene) != hash);
+    }
+  }
+}
+
+TEST_CASE("what else shows changes the hash") {
+  const uint64_t hash = HashScene(MakeScene());
+  const auto differs = [&](auto change) {
+    Scene scene = MakeScene();
+    change(&scene);
+    return HashScene(scene) != hash;
+  };
+  CHECK(differs([](Scene* s) { s->camera.position.x += 1e-12; }));
+  CHECK(differs([](Scene* s) { s->image.spp = 17; }));
+  CHECK(differs([](Scene* s) { s->image.seed = 1; }));
+  CHECK(differs([](Scene* s) { s->image.shadows = false; }));
+  CHECK(differs([](Scene* s) { s->background.z = 1; }));
+  CHECK(differs([](Scene* s) { s->lights[0].shadows = false; }));
+  CHECK(differs([](Scene* s) { s->lights[0].kind = SpotLight{}; }));
+  CHECK(differs([](Scene* s) { std::swap(s->spheres[0], s->spheres[1]); }));
+  CHECK(differs([](Scene* s) { s->spheres.pop_back(); }));
+}
+
+}  // namespace
+}  // namespace nacre
