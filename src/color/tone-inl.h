@@ -57,9 +57,9 @@ struct ReinhardTone {
 };
 
 struct ReinhardExtendedTone {
-  explicit ReinhardExtendedTone(double white)
-      : white_(static_cast<float>(white)),
-        inverse_square_(static_cast<float>(1 / (white * white))) {}
+  explicit ReinhardExtendedTone(double white_point)
+      : white(static_cast<float>(white_point)),
+        inverse_square(static_cast<float>(1 / (white_point * white_point))) {}
 
   template <class D, class V>
   HWY_INLINE void operator()(D d, V& r, V& g, V& b) const {
@@ -71,13 +71,13 @@ struct ReinhardExtendedTone {
   template <class D, class V>
   HWY_INLINE V Curve(D d, V x) const {
     const V one = hn::Set(d, 1.0f);
-    const V below = hn::Min(x, hn::Set(d, white_));
-    const V numerator = hn::Mul(below, hn::MulAdd(below, hn::Set(d, inverse_square_), one));
+    const V below = hn::Min(x, hn::Set(d, white));
+    const V numerator = hn::Mul(below, hn::MulAdd(below, hn::Set(d, inverse_square), one));
     return hn::Min(hn::Div(numerator, hn::Add(one, below)), one);
   }
 
-  float white_;
-  float inverse_square_;
+  float white;
+  float inverse_square;
 };
 
 struct AcesTone {
