@@ -1,6 +1,8 @@
 #include "image_io/exr_container.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <utility>
 
@@ -55,7 +57,7 @@ exr_attr_box2i_t LibraryWindow(const Window& window) {
 exr_attr_m44f_t LibraryMatrix(const Imath::M44f& matrix) {
   exr_attr_m44f_t m44f;
   static_assert(sizeof(m44f) == sizeof(matrix));
-  std::memcpy(&m44f, &matrix, sizeof(m44f));
+  std::memcpy(&m44f, matrix.getValue(), sizeof(m44f));
   return m44f;
 }
 
@@ -144,12 +146,15 @@ void ExrContainer::WriteChunk(int y, std::span<const uint8_t> bytes) {
 
 void ExrContainer::UpdateAttribute(const std::string& name, const ExrAttribute& value) {
   static_assert(sizeof(int) == 4 && sizeof(float) == 4);
-  const std::string type = std::holds_alternative<int>(value) ? "int" : "float";
-  const size_t place = FindAttribute(name, type);
-  if (place == 0 || std::holds_alternative<std::string>(value)) {
+  const int* const integer = std::get_if<int>(&value);
+  const float* const real = std::get_if<float>(&value);
+  const size_t place = FindAttribute(name, integer != nullptr ? "int" : "float");
+  if (place == 0 || (integer == nullptr && real == nullptr)) {
     throw Error(ExitCode::kInternal, path_, "the header has no number called " + name);
   }
-  std::visit([&](const auto& v) { std::memcpy(&header_[place], &v, 4); }, value);
+  const auto bits = integer != nullptr ? std::bit_cast<uint32_t>(*integer)
+                                       : std::bit_cast<uint32_t>(*real);
+  std::memcpy(&header_[place], &bits, 4);
   file_.Write(place, std::span(header_).subspan(place, 4));
 }
 
@@ -157,7 +162,7 @@ size_t ExrContainer::FindAttribute(const std::string& name, const std::string& t
   // After the magic number and the version: name NUL type NUL size value, until an empty name.
   size_t place = 8;
   const auto take = [&] {
-    const std::string text(reinterpret_cast<const char*>(&header_[place]));
+    std::string text(reinterpret_cast<const char*>(&header_[place]));
     place += text.size() + 1;
     return text;
   };

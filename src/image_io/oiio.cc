@@ -110,6 +110,7 @@ void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<
     throw Error(ExitCode::kInternal, "labels", "the buffer is not of the picture's size");
   }
   std::vector<NacreOiioText> texts;
+  texts.reserve(items.size());
   for (const TextItem& item : items) {
     texts.push_back({item.text.c_str(),
                      item.x,

@@ -61,7 +61,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
   std::error_code error;
   const std::filesystem::path base = std::filesystem::weakly_canonical(
       folder.empty() ? std::filesystem::path(".") : folder, error);
-  const std::filesystem::path path =
+  std::filesystem::path path =
       error ? std::filesystem::path() : std::filesystem::weakly_canonical(base / name, error);
   if (error || name.empty()) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a path", name));
