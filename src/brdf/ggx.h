@@ -6,10 +6,18 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "brdf/angles.h"
 
 namespace nacre {
+
+// Masking-shadowing of the microfacet models. They differ by up to half at grazing angles.
+enum class Shadowing : uint8_t {
+  kHeightCorrelated,  // Smith, height-correlated (Heitz 2014, eq. 99)
+  kSeparable,         // Smith, product of two G1
+  kSchlickDirect,     // Schlick's G1 with k = (roughness + 1)^2 / 8 (Karis 2013), the lesson's
+};
 
 template <typename Real>
 Real AlphaFromRoughness(Real roughness) {

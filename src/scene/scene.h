@@ -15,6 +15,7 @@
 
 #include "base/image.h"
 #include "base/vec.h"
+#include "brdf/ggx.h"
 #include "sampling/pixel_filter.h"
 
 namespace nacre {
@@ -79,13 +80,6 @@ struct PhongMaterial {
   Rgb kd{0.7, 0.7, 0.7};
   Rgb ks{0.3, 0.3, 0.3};
   double shininess = 32;  // exponent n >= 0
-};
-
-// Masking-shadowing of the microfacet models. They differ by up to half at grazing angles.
-enum class Shadowing : uint8_t {
-  kHeightCorrelated,  // Smith, height-correlated (Heitz 2014, eq. 99)
-  kSeparable,         // Smith, product of two G1
-  kSchlickDirect,     // Schlick's G1 with k = (roughness + 1)^2 / 8 (Karis 2013), the lesson's
 };
 
 // Metallic-roughness as in glTF 2.0: GGX, Schlick Fresnel with F0 = mix(0.04, base_color,
