@@ -38,9 +38,9 @@ Angles<Real> ComputeAngles(const Imath::Vec3<Real>& n, const Imath::Vec3<Real>& 
   a.n_dot_l = n ^ l;
   a.n_dot_v = n ^ v;
   a.n_dot_u = n ^ u;
-  a.u_squared = u ^ u;
-  a.nxu_squared = n_cross_u ^ n_cross_u;
-  a.lv_squared = l_minus_v ^ l_minus_v;
+  a.u_squared = u.length2();
+  a.nxu_squared = n_cross_u.length2();
+  a.lv_squared = l_minus_v.length2();
   return a;
 }
 

@@ -26,7 +26,7 @@ Real PhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_ligh
                const Imath::Vec3<Real>& to_view, Real shininess) {
   const Imath::Vec3<Real> r = normal * (2 * (normal ^ to_light)) - to_light;
   const Imath::Vec3<Real> r_minus_v = r - to_view;
-  return LobePower((r_minus_v ^ r_minus_v) / 2, r ^ to_view, shininess);
+  return LobePower(r_minus_v.length2() / 2, r ^ to_view, shininess);
 }
 
 // Blinn 1977: max(n.h, 0)^n = (1 - sin^2)^(n/2), without the gate on n.l. 0 where h is undefined

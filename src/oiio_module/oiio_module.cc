@@ -1,5 +1,7 @@
 // oiio_module/oiio_module.cc: the functions of image_io/oiio_abi.h, on OpenImageIO.
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -10,23 +12,18 @@
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
 
-#include "image_io/oiio_abi.h"
-
 // Only these names are seen from outside.
 #pragma GCC visibility push(default)
-extern "C" {
-decltype(NacreOiioReadImage) NacreOiioReadImage;
-decltype(NacreOiioDrawText) NacreOiioDrawText;
-decltype(NacreOiioFreeImage) NacreOiioFreeImage;
-}
+#include "image_io/oiio_abi.h"
 #pragma GCC visibility pop
 
 namespace {
 
 const char* KeepMessage(const std::string& message) {
-  thread_local std::string kept;
-  kept = message.empty() ? "unknown reason" : message;
-  return kept.c_str();
+  thread_local std::array<char, 1024> kept;
+  std::snprintf(kept.data(), kept.size(), "%s",
+                message.empty() ? "unknown reason" : message.c_str());
+  return kept.data();
 }
 
 // A copy that C frees; `strings` may hold NULs.

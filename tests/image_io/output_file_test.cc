@@ -66,7 +66,7 @@ bool ForbidAnonymousFiles() {
       sock_filter BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, kAnonymous, 0, 1),
       sock_filter BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EOPNOTSUPP),
       sock_filter BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
-  const sock_fprog filter = {static_cast<unsigned short>(program.size()), program.data()};
+  const sock_fprog filter = {static_cast<uint16_t>(program.size()), program.data()};
   return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
          prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
 }

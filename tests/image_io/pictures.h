@@ -92,9 +92,9 @@ inline StripView ViewStrip(const Picture& picture, size_t index) {
   const size_t offset = static_cast<size_t>(row) * static_cast<size_t>(data.width());
   for (size_t c = 0; c < picture.floats.size(); ++c) {
     if (picture.ids[c].empty()) {
-      strip.channels.push_back(picture.floats[c].data() + offset);
+      strip.channels.emplace_back(picture.floats[c].data() + offset);
     } else {
-      strip.channels.push_back(picture.ids[c].data() + offset);
+      strip.channels.emplace_back(picture.ids[c].data() + offset);
     }
   }
   return strip;

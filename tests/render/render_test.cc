@@ -5,7 +5,10 @@
 #include <cmath>
 #include <cstring>
 
+#include <half.h>
+
 #include "base/error.h"
+#include "image_io/half.h"
 #include "targets.h"
 
 namespace nacre {
@@ -177,6 +180,35 @@ TEST_CASE("layers do not change the beauty, and add up to it") {
   CheckLayers({FilterKind::kGaussian, 3});
   CheckLayers({FilterKind::kBlackmanHarris, 3.3});
   CheckLayers({FilterKind::kMitchell, 4});
+}
+
+TEST_CASE("in half, too, layers add up to the beauty within half an ulp of each") {
+  Image image = RenderImage(MakeScene(), Settings(1, {"all"}));
+  for (Channel& channel : image.channels) {
+    std::vector<uint16_t> halves(channel.samples.size());
+    FloatToHalf(channel.samples.data(), halves.size(), halves.data());
+    for (size_t i = 0; i < halves.size(); ++i) {
+      const imath_half_bits_t bits = halves[i];
+      channel.samples[i] = imath_half_to_float(bits);
+    }
+  }
+  const auto half_ulp = [](double value) {
+    return std::ldexp(0.5, std::max(std::ilogb(std::max(std::abs(value), 1e-30)), -14) - 10);
+  };
+  for (const char* channel : {"R", "G", "B"}) {
+    const std::vector<float>& beauty = image.Find(channel)->samples;
+    for (size_t i = 0; i < beauty.size(); ++i) {
+      double error = -double{beauty[i]};
+      double bound = half_ulp(beauty[i]);
+      for (const std::string layer : {"diffuse", "specular", "ambient", "emission"}) {
+        const double value = image.Find(layer + "." + channel)->samples[i];
+        error += value;
+        bound += half_ulp(value);
+      }
+      // The floats that are rounded to half have errors of their own, 2^-13 of a half's ulp.
+      REQUIRE(std::abs(error) <= bound * 1.001);
+    }
+  }
 }
 
 TEST_CASE("a black light has a layer, and it is black") {
