@@ -74,9 +74,12 @@ TEST_CASE("Any count and alignment gives the same pixels and nothing beyond", "[
       const size_t offset = count % 5;
       std::vector<uint8_t> some(3 * count + 64, 0xa5);
       // The planes end with the pixels, for the address sanitizer to see a read beyond.
-      const std::vector<float> r(planes[0].begin(), planes[0].begin() + long(offset + count));
-      const std::vector<float> g(planes[1].begin(), planes[1].begin() + long(offset + count));
-      const std::vector<float> b(planes[2].begin(), planes[2].begin() + long(offset + count));
+      const std::vector<float> r(planes[0].begin(),
+                                 planes[0].begin() + std::ptrdiff_t(offset + count));
+      const std::vector<float> g(planes[1].begin(),
+                                 planes[1].begin() + std::ptrdiff_t(offset + count));
+      const std::vector<float> b(planes[2].begin(),
+                                 planes[2].begin() + std::ptrdiff_t(offset + count));
       EncodeDisplay({}, r.data() + offset, g.data() + offset, b.data() + offset, count,
                     some.data());
       CAPTURE(count);
