@@ -60,10 +60,14 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
   Surface surface;
   LightBatch light_batch;
   ReflectedRadiance radiance;
+  NarrowLobes scratch;
+  const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
   PrepareSurface(hits, &surface);
   for (auto _ : state) {
+    PrepareRun(prepared, 0, kHits, &surface);
     EvaluateLight(light, {0, 0, 0}, hits, surface, &light_batch);
-    ShadeRun(material, LightColor(light), surface, light_batch, 0, kHits, &radiance);
+    ShadeRun(prepared, LightColor(light), {hits, surface, light_batch}, 0, kHits, &scratch,
+             &radiance);
     benchmark::DoNotOptimize(radiance.diffuse.x.data());
     benchmark::ClobberMemory();
   }

@@ -13,20 +13,92 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// (1 - v.h)^5 of Schlick 1994, with 1 - v.h free of cancellation.
+// 1 - v.h free of cancellation.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V SchlickWeight(D d, const AnglesV<V>& a) {
+HWY_INLINE V OneMinusVDotH(D d, const AnglesV<V>& a) {
   using T = hn::TFromD<D>;
   const V denominator = hn::MulAdd(hn::Set(d, T(2)), hn::Sqrt(a.u_squared), hn::Set(d, T(4)));
-  const V one_minus_vh = hn::Div(a.lv_squared, denominator);
-  const V squared = hn::Mul(one_minus_vh, one_minus_vh);
-  return hn::Mul(hn::Mul(squared, squared), one_minus_vh);
+  return hn::Div(a.lv_squared, denominator);
+}
+
+// v.h.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V VDotH(D d, const AnglesV<V>& a) {
+  return hn::Mul(hn::Sqrt(a.u_squared), hn::Set(d, hn::TFromD<D>(0.5)));
+}
+
+template <class V>
+HWY_INLINE V Power5(V x) {
+  const V squared = hn::Mul(x, x);
+  return hn::Mul(hn::Mul(squared, squared), x);
+}
+
+// (1 - v.h)^5 of Schlick 1994.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V SchlickWeight(D d, const AnglesV<V>& a) {
+  return Power5(OneMinusVDotH(d, a));
 }
 
 // F0 + (1 - F0) weight.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FresnelSchlick(D d, V f0, V schlick_weight) {
   return hn::MulAdd(hn::Sub(hn::Set(d, hn::TFromD<D>(1)), f0), schlick_weight, f0);
+}
+
+// Fresnel's equations of a dielectric, eta = n_t / n_i.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FresnelDielectric(D d, V v_dot_h, V one_minus_vh, V eta) {
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  const V eta2 = hn::Mul(eta, eta);
+  const V contrast = hn::Mul(hn::Sub(eta, one), hn::Add(eta, one));
+  const V cos2 = hn::Mul(v_dot_h, v_dot_h);
+  const V g2 = hn::Add(contrast, cos2);
+  const auto partial = hn::Gt(g2, hn::Zero(d));
+  const V g = hn::Sqrt(hn::IfThenElse(partial, g2, one));
+  const V sin2 = hn::MulAdd(one_minus_vh, v_dot_h, one_minus_vh);
+  const V root_s = hn::Add(v_dot_h, g);
+  const V root_p = hn::MulAdd(eta2, v_dot_h, g);
+  const V s = hn::Div(contrast, hn::Mul(root_s, root_s));
+  const V p =
+      hn::Div(hn::Mul(contrast, hn::Sub(hn::Mul(eta2, cos2), sin2)), hn::Mul(root_p, root_p));
+  const V mean = hn::Mul(hn::MulAdd(s, s, hn::Mul(p, p)), hn::Set(d, hn::TFromD<D>(0.5)));
+  return hn::IfThenElse(partial, mean, one);
+}
+
+// Fresnel's equations of a conductor, eta + i k, from vacuum.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
+  using T = hn::TFromD<D>;
+  const V half = hn::Set(d, T(0.5));
+  const V sin2 = hn::MulAdd(one_minus_vh, v_dot_h, one_minus_vh);
+  const V ab = hn::Mul(eta, k);
+  const V difference = hn::Sub(hn::Mul(hn::Sub(eta, k), hn::Add(eta, k)), sin2);
+  const V two_ab = hn::Add(ab, ab);
+  const V sum = hn::Sqrt(hn::MulAdd(difference, difference, hn::Mul(two_ab, two_ab)));
+  const V larger = hn::Mul(hn::Add(sum, hn::Abs(difference)), half);
+  const auto some = hn::Gt(larger, hn::Zero(d));
+  const V smaller = hn::IfThenElseZero(
+      some, hn::Div(hn::Mul(ab, ab), hn::IfThenElse(some, larger, hn::Set(d, T(1)))));
+  const auto dielectric = hn::Gt(difference, hn::Zero(d));
+  const V a = hn::Sqrt(hn::IfThenElse(dielectric, larger, smaller));
+  const V b2 = hn::IfThenElse(dielectric, smaller, larger);
+  const V b2_cos2 = hn::Mul(b2, hn::Mul(v_dot_h, v_dot_h));
+  const V a_cos = hn::Mul(a, v_dot_h);
+  const auto squares = [](V x, V y2) { return hn::MulAdd(x, x, y2); };
+  const V s = hn::Div(squares(hn::Sub(a, v_dot_h), b2), squares(hn::Add(a, v_dot_h), b2));
+  const V p =
+      hn::Div(squares(hn::Sub(a_cos, sin2), b2_cos2), squares(hn::Add(a_cos, sin2), b2_cos2));
+  return hn::Mul(half, hn::MulAdd(s, p, s));
+}
+
+// Schlick's curve less slope c (1 - c)^6, within [0, 1]; the slope is F82Slope's.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V slope) {
+  const V one = hn::Set(d, hn::TFromD<D>(1));
+  const V weight = Power5(one_minus_vh);
+  const V dip = hn::Mul(hn::Mul(slope, v_dot_h), hn::Mul(one_minus_vh, weight));
+  const V value = hn::Sub(FresnelSchlick(d, f0, weight), dip);
+  return hn::Min(hn::Max(value, hn::Zero(d)), one);
 }
 
 }  // namespace HWY_NAMESPACE

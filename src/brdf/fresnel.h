@@ -1,19 +1,36 @@
 // brdf/fresnel.h: reflectance of a smooth interface. SIMD twin: fresnel-inl.h.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "brdf/angles.h"
 
 namespace nacre {
 
-// (1 - v.h)^5, the angular weight of Schlick's approximation. 1 - v.h is formed as
-// (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is looked at from the front.
+// 1 - v.h, formed as (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is looked
+// at from the front, and 1 minus it would be rounding.
+template <typename Real>
+Real OneMinusVDotH(const Angles<Real>& a) {
+  return a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
+}
+
+// v.h itself: |l + v| / 2.
+template <typename Real>
+Real VDotH(const Angles<Real>& a) {
+  return std::sqrt(a.u_squared) / 2;
+}
+
+template <typename Real>
+Real Power5(Real x) {
+  const Real squared = x * x;
+  return squared * squared * x;
+}
+
+// (1 - v.h)^5, the angular weight of Schlick's approximation.
 template <typename Real>
 Real SchlickWeight(const Angles<Real>& a) {
-  const Real one_minus_vh = a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
-  const Real squared = one_minus_vh * one_minus_vh;
-  return squared * squared * one_minus_vh;
+  return Power5(OneMinusVDotH(a));
 }
 
 // Schlick 1994, eq. 15: F0 + (1 - F0)(1 - v.h)^5.
@@ -24,5 +41,73 @@ Real FresnelSchlick(Real f0, Real schlick_weight) {
 
 // Reflectance at normal incidence of a dielectric with index of refraction 1.5.
 inline constexpr double kDielectricF0 = 0.04;
+
+// Reflectance at normal incidence: ((eta - 1)^2 + k^2) / ((eta + 1)^2 + k^2); k = 0: a dielectric.
+template <typename Real>
+Real FresnelF0(Real eta, Real k) {
+  return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
+}
+
+// Fresnel's equations, unpolarised, for a dielectric of relative index eta = n_t / n_i (Born and
+// Wolf, 1.5.2). The differences in their numerators cancel for eta near 1; with g = eta
+// cos(theta_t) they are c - g = (1 - eta^2) / (c + g) and eta^2 c - g = (eta^2 - 1)(eta^2 c^2 -
+// sin^2) / (eta^2 c + g). 1 where reflection is total.
+template <typename Real>
+Real FresnelDielectric(Real v_dot_h, Real one_minus_vh, Real eta) {
+  const Real eta2 = eta * eta;
+  const Real contrast = (eta - 1) * (eta + 1);
+  const Real cos2 = v_dot_h * v_dot_h;
+  const Real g2 = contrast + cos2;
+  if (!(g2 > 0)) return 1;
+  const Real g = std::sqrt(g2);
+  const Real sin2 = one_minus_vh * (1 + v_dot_h);
+  const Real s = 1 / ((v_dot_h + g) * (v_dot_h + g));
+  const Real p = (eta2 * cos2 - sin2) / ((eta2 * v_dot_h + g) * (eta2 * v_dot_h + g));
+  return contrast * contrast * (s * s + p * p) / 2;
+}
+
+// Fresnel's equations, unpolarised, for a conductor of index eta + i k seen from vacuum, with
+// (a + i b)^2 = (eta + i k)^2 - sin^2 (Born and Wolf, 14.2). Of a^2 and b^2 the smaller follows
+// from a b = eta k, and the numerators are sums of squares: nothing cancels.
+template <typename Real>
+Real FresnelConductor(Real v_dot_h, Real one_minus_vh, Real eta, Real k) {
+  const Real sin2 = one_minus_vh * (1 + v_dot_h);
+  const Real ab = eta * k;
+  const Real difference = (eta - k) * (eta + k) - sin2;  // a^2 - b^2
+  const Real sum = std::sqrt(difference * difference + 4 * ab * ab);
+  const Real larger = (sum + std::abs(difference)) / 2;
+  const Real smaller = larger > 0 ? ab * ab / larger : 0;
+  const Real a = std::sqrt(difference > 0 ? larger : smaller);
+  const Real b2 = difference > 0 ? smaller : larger;
+  const auto squares = [](Real x, Real y2) { return x * x + y2; };
+  const Real b2_cos2 = b2 * v_dot_h * v_dot_h;
+  const Real a_cos = a * v_dot_h;
+  const Real s = squares(a - v_dot_h, b2) / squares(a + v_dot_h, b2);
+  const Real p = squares(a_cos - sin2, b2_cos2) / squares(a_cos + sin2, b2_cos2);
+  return s * (1 + p) / 2;
+}
+
+// Schlick's curve pulled through a second value, at cos = 1/7, where metals dip (Kutz, Hasan and
+// Edmondson 2021, eq. 6; the "F82-tint" of OpenPBR): less b c (1 - c)^6.
+// b from the reflectance there:
+template <typename Real>
+Real F82Slope(Real f0, Real f82) {
+  const Real weight = Power5(Real(6) / 7);
+  return (FresnelSchlick(f0, weight) - f82) / (weight * 6 / 49);
+}
+
+// b from a tint, which multiplies Schlick's value there.
+template <typename Real>
+Real F82SlopeFromTint(Real f0, Real tint) {
+  return F82Slope(f0, tint * FresnelSchlick(f0, Power5(Real(6) / 7)));
+}
+
+// Kept within [0, 1], which a very dark or very bright tint leaves.
+template <typename Real>
+Real FresnelF82(Real v_dot_h, Real one_minus_vh, Real f0, Real slope) {
+  const Real weight = Power5(one_minus_vh);
+  const Real value = FresnelSchlick(f0, weight) - slope * v_dot_h * one_minus_vh * weight;
+  return std::min(std::max(value, Real(0)), Real(1));
+}
 
 }  // namespace nacre

@@ -25,28 +25,45 @@ HWY_INLINE V LobePower(D d, V x, V c, V n) {
   return hn::IfThenElse(hn::Eq(n, zero), one, power);
 }
 
+// A lobe's cosine c, and 1 - c free of cancellation.
+template <class V>
+struct LobeCosineV {
+  V one_minus_c, c;
+};
+
+// r.v, r the reflection of the light.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V PhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
-                       const Vec3V<V>& to_view, V shininess) {
+HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
+                                      const Vec3V<V>& to_view) {
   const V n_dot_l = FusedDot(normal, to_light);
   const Vec3V<V> r = Sub(Scale(normal, hn::Add(n_dot_l, n_dot_l)), to_light);
   const Vec3V<V> r_minus_v = Sub(r, to_view);
-  const V x = hn::Mul(FusedDot(r_minus_v, r_minus_v), hn::Set(d, 0.5f));
-  return LobePower(d, x, FusedDot(r, to_view), shininess);
+  return {hn::Mul(FusedDot(r_minus_v, r_minus_v), hn::Set(d, hn::TFromD<D>(0.5))),
+          FusedDot(r, to_view)};
 }
 
+// (n.h)^2, of which Blinn's lobe is the power n/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V BlinnLobe(D d, const AnglesV<V>& a, V shininess) {
+HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const AnglesV<V>& a) {
   const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0f);
+  const V one = hn::Set(d, hn::TFromD<D>(1));
   const V cos2 = hn::Mul(a.n_dot_u, a.n_dot_u);
   const V u_squared = hn::Add(cos2, a.nxu_squared);
   const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(u_squared, zero));
   const V scale = hn::Div(one, hn::IfThenElse(above, u_squared, one));
   // Lanes below the surface get cos^2 = 0, the lobe's zero.
-  const V c = hn::IfThenElseZero(above, hn::Mul(cos2, scale));
-  const V x = hn::Mul(a.nxu_squared, scale);
-  return LobePower(d, x, c, hn::Mul(shininess, hn::Set(d, 0.5f)));
+  return {hn::Mul(a.nxu_squared, scale), hn::IfThenElseZero(above, hn::Mul(cos2, scale))};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PhongLobe(D d, const LobeCosineV<V>& cosine, V shininess) {
+  return LobePower(d, cosine.one_minus_c, cosine.c, shininess);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V BlinnLobe(D d, const LobeCosineV<V>& squared_cosine, V shininess) {
+  return LobePower(d, squared_cosine.one_minus_c, squared_cosine.c,
+                   hn::Mul(shininess, hn::Set(d, 0.5f)));
 }
 
 }  // namespace HWY_NAMESPACE

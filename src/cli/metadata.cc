@@ -7,21 +7,10 @@
 #include "base/target.h"
 #include "base/version.h"
 #include "scene/hash.h"
+#include "scene/material_parameters.h"
 
 namespace nacre {
 namespace {
-
-std::string FormName(Shadowing shadowing) {
-  switch (shadowing) {
-    case Shadowing::kHeightCorrelated:
-      return "height_correlated";
-    case Shadowing::kSeparable:
-      return "separable";
-    case Shadowing::kSchlickDirect:
-      return "schlick_direct";
-  }
-  return {};
-}
 
 std::string FilterName(const PixelFilter& filter) {
   switch (filter.kind) {
@@ -40,15 +29,15 @@ std::string FilterName(const PixelFilter& filter) {
 }  // namespace
 
 std::string ShadowingForms(const Scene& scene) {
-  std::set<std::string> forms;
+  std::set<std::string_view> forms;
   for (const Material& material : scene.materials) {
-    if (const auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
-      forms.insert(FormName(m->shadowing));
+    const MaterialModel* const model = ModelOf(material);
+    if (model == nullptr) continue;
+    for (const MaterialChoice& choice : model->choices) {
+      if (choice.name == "shadowing") forms.insert(choice.options[choice.get(material)]);
     }
   }
-  std::string text;
-  for (const std::string& form : forms) text += (text.empty() ? "" : ", ") + form;
-  return text.empty() ? "none" : text;
+  return forms.empty() ? "none" : fmt::format("{}", fmt::join(forms, ", "));
 }
 
 ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible) {

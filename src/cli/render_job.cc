@@ -100,6 +100,9 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   times.finish_seconds = SecondsSince(finish_start);
   times.total_seconds = SecondsSince(start);
 
+  if (!options.quiet) {
+    for (const std::string& note : plan.notes) PrintError("note: " + note + "\n");
+  }
   WarnAboutSamples(counts);
   if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);
   if (options.explain) PrintOut(ExplainPlan(plan, &stats));

@@ -136,6 +136,36 @@ void PlanLayers(const Scene& scene, const RenderSettings& settings, RenderPlan* 
       {"layers", !names.empty(), names.empty() ? "only colour and coverage are asked for" : names});
 }
 
+// Which of the scene's materials are on a shape, splits resolved.
+std::vector<bool> FindUsedMaterials(const Scene& scene) {
+  std::vector<bool> used(scene.materials.size());
+  for (const Sphere& sphere : scene.spheres) used[sphere.material.index] = true;
+  for (const Mesh& mesh : scene.meshes) used[mesh.material.index] = true;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const auto* split = std::get_if<SplitMaterial>(&scene.materials[i].model);
+    if (split == nullptr || !used[i]) continue;
+    for (const MaterialId id : split->materials) used[id.index] = true;
+  }
+  return used;
+}
+
+// A perfect mirror shows only what has an extent, and no light here has one.
+void NoteMirrors(const Scene& scene, RenderPlan* plan) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  std::string first;
+  size_t count = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (!used[i] || !HasDeltaLobe(plan->materials[i])) continue;
+    if (count++ == 0) first = scene.materials[i].name;
+  }
+  if (count == 0) return;
+  const std::string others = count > 1 ? fmt::format(" and {} more", count - 1) : "";
+  plan->notes.push_back(fmt::format(
+      "material \"{}\"{}: roughness 0 is a perfect mirror, in which point, spot and directional "
+      "lights have no highlight; a roughness above 0 gives them one",
+      first, others));
+}
+
 }  // namespace
 
 RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
@@ -151,9 +181,11 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),
                         IsBlack(ambient) ? "the scene has none" : "a constant per material"});
+  plan.materials.reserve(scene.materials.size());
   for (const Material& material : scene.materials) {
-    plan.materials.push_back(ComputeMaterialConstants(material, ambient));
+    plan.materials.push_back(PrepareMaterial(material, ambient));
   }
+  NoteMirrors(scene, &plan);
   return plan;
 }
 

@@ -41,12 +41,13 @@ struct RenderPlan {
   std::vector<Layer> layers;  // beauty, alpha, then those asked for
   size_t light_layer_count = 0;
   std::vector<PlannedLight> lights;
-  std::vector<MaterialConstants> materials;   // one per material of the scene
+  std::vector<ShadingMaterial> materials;     // one per material of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
+  std::vector<std::string> notes;  // what the picture cannot show, and why
 };
 
 // Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a

@@ -66,33 +66,23 @@ size_t SortHits(const RenderPlan& plan, TileScratch* s) {
 }
 
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
-void CastShadows(const RenderPlan& plan, const Light& light, TileScratch* s, RenderStats* stats) {
+void CastShadows(const RenderPlan& plan, TileScratch* s, RenderStats* stats) {
   const HitBatch& hits = s->hits;
+  const LightBatch& light = s->light;
   ShadowRayBatch& rays = s->shadow_rays;
-  const auto* directional = std::get_if<DirectionalLight>(&light.kind);
-  Vec3d fixed(0, 0, 0);  // direction, or position relative to the camera
-  if (directional != nullptr) {
-    fixed = -directional->direction_of_travel.normalized();
-  } else if (const auto* point = std::get_if<PointLight>(&light.kind)) {
-    fixed = point->position - plan.scene->camera.position;
-  } else if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
-    fixed = spot->position - plan.scene->camera.position;
-  }
   rays.count = 0;
   for (size_t i = 0; i < hits.count; ++i) {
-    if (!(s->light.irradiance[i] > 0)) continue;
+    if (!(light.irradiance[i] > 0)) continue;
     const size_t ray = rays.count++;
     s->shadow_hits[ray] = static_cast<uint32_t>(i);
     rays.primitive[ray] = hits.primitive[i];
-    const Vec3d origin(hits.position.x[i], hits.position.y[i], hits.position.z[i]);
-    const Vec3d direction = directional != nullptr ? fixed : fixed - origin;
-    rays.origin.x[ray] = origin.x;
-    rays.origin.y[ray] = origin.y;
-    rays.origin.z[ray] = origin.z;
-    rays.direction.x[ray] = direction.x;
-    rays.direction.y[ray] = direction.y;
-    rays.direction.z[ray] = direction.z;
-    rays.t_max[ray] = directional != nullptr ? std::numeric_limits<double>::infinity() : 1.0;
+    rays.origin.x[ray] = hits.position.x[i];
+    rays.origin.y[ray] = hits.position.y[i];
+    rays.origin.z[ray] = hits.position.z[i];
+    rays.direction.x[ray] = light.offset.x[i];
+    rays.direction.y[ray] = light.offset.y[i];
+    rays.direction.z[ray] = light.offset.z[i];
+    rays.t_max[ray] = light.t_max;
   }
   stats->shadow_rays += rays.count;
   if (rays.count == 0) return;
@@ -106,6 +96,9 @@ void CastShadows(const RenderPlan& plan, const Light& light, TileScratch* s, Ren
 void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
   const Scene& scene = *plan.scene;
   PrepareSurface(s->hits, &s->surface);
+  for (const MaterialRun& run : s->runs) {
+    PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface);
+  }
   ClearRadiance(s->hits.count, &s->total);
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
@@ -115,15 +108,15 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
     EvaluateLight(light, scene.camera.position, s->hits, s->surface, &s->light);
     clock->Charge(Stage::kLight);
     if (planned.shadow_rays) {
-      CastShadows(plan, light, s, stats);
+      CastShadows(plan, s, stats);
       clock->Charge(Stage::kShadow);
     }
     const bool apart = planned.layer >= 0;
     ReflectedRadiance* radiance = apart ? &s->single : &s->total;
     if (apart) ClearRadiance(s->hits.count, &s->single);
     for (const MaterialRun& run : s->runs) {
-      ShadeRun(scene.materials[run.material.index], planned.color, s->surface, s->light, run.begin,
-               run.end, radiance);
+      ShadeRun(plan.materials[run.material.index], planned.color, {s->hits, s->surface, s->light},
+               run.begin, run.end, &s->narrow, radiance);
     }
     if (apart) KeepLightLayer(static_cast<size_t>(planned.layer), s);
     stats->shades += s->hits.count;

@@ -27,6 +27,7 @@ struct TileScratch {
   HitBatch hits;
   Surface surface;
   LightBatch light;
+  NarrowLobes narrow;
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
   ReflectedRadiance total;             // of all lights

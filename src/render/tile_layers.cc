@@ -35,7 +35,7 @@ Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
 // The value of an averaged layer at hit i of a run, in double: the beauty is the exact sum of the
 // other layers' floats, so after the film's average each is rounded once, whatever the filter's
 // weights cancel. It never depends on which layers are asked for.
-Rgb LayerValue(const Layer& layer, size_t light_layer, const MaterialConstants& constants,
+Rgb LayerValue(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                const TileScratch& s, size_t i) {
   switch (layer.kind) {
     case LayerKind::kBeauty:
@@ -139,7 +139,7 @@ void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scra
     FillRays(background, s.rays.count, &s.ray_values);
     if (s.hits.count > 0) {
       for (const MaterialRun& run : s.runs) {
-        const MaterialConstants& constants = plan.materials[run.material.index];
+        const ShadingMaterial& constants = plan.materials[run.material.index];
         for (size_t i = run.begin; i < run.end; ++i) {
           PutRay(LayerValue(layer, light_layer, constants, s, i), s.hits.ray[i], &s.ray_values);
         }

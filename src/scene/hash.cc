@@ -53,6 +53,12 @@ void Add(const ImageSettings& image, Hasher* hash) {
 
 struct AddModel {
   Hasher* hash;
+  template <class Microfacet>
+  void Lobe(const Microfacet& m) const {
+    hash->Add(m.roughness);
+    hash->Word(static_cast<uint64_t>(m.shadowing));
+    hash->Word(static_cast<uint64_t>(m.compensation));
+  }
   void operator()(const LambertMaterial& m) const { hash->Add(m.albedo); }
   void operator()(const PhongMaterial& m) const {
     hash->Word(static_cast<uint64_t>(m.model));
@@ -66,8 +72,22 @@ struct AddModel {
   void operator()(const MetallicRoughnessMaterial& m) const {
     hash->Add(m.base_color);
     hash->Add(m.metallic);
-    hash->Add(m.roughness);
-    hash->Word(static_cast<uint64_t>(m.shadowing));
+    hash->Add(m.f82_tint);
+    hash->Word(static_cast<uint64_t>(m.diffuse_coupling));
+    Lobe(m);
+  }
+  void operator()(const ConductorMaterial& m) const {
+    hash->Add(m.eta);
+    hash->Add(m.k);
+    hash->Word(static_cast<uint64_t>(m.fresnel));
+    Lobe(m);
+  }
+  void operator()(const DielectricMaterial& m) const {
+    hash->Add(m.base_color);
+    hash->Add(m.ior);
+    hash->Word(static_cast<uint64_t>(m.fresnel));
+    hash->Word(static_cast<uint64_t>(m.diffuse_coupling));
+    Lobe(m);
   }
   void operator()(const SplitMaterial& m) const {
     hash->Word(m.at.size());

@@ -33,6 +33,10 @@ inline constexpr Range kLength{1e-15, 1e15};
 // Radiance, irradiance, radiant intensity: finite in float with room for a sum of many lights.
 inline constexpr Range kRadiance{0, 1e30};
 inline constexpr Range kUnit{0, 1};
+// Indices of refraction: of metals eta may be far below 1, and k reaches 10 or more in the red.
+inline constexpr Range kIor{1, 10};
+inline constexpr Range kEta{0.001, 100};
+inline constexpr Range kExtinction{0, 100};
 
 inline constexpr Range kFovYDeg{0, 180, true, true};
 inline constexpr Range kImageSide{1, 65536};

@@ -4,6 +4,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "brdf/presets.h"
+
 namespace nacre {
 namespace {
 
@@ -40,7 +42,9 @@ constexpr MaterialParameter Color(std::string_view name, const Range& range) {
 // `options` in the order of the enumeration.
 template <auto kMember>
 constexpr MaterialChoice Choice(std::string_view name, std::span<const std::string_view> options) {
-  return {name, options, [](Material& material, size_t option) {
+  return {name, options,
+          [](const Material& material) { return static_cast<size_t>(FieldOf<kMember>(material)); },
+          [](Material& material, size_t option) {
             auto& field = FieldOf<kMember>(material);
             field = static_cast<std::remove_reference_t<decltype(field)>>(option);
           }};
@@ -66,16 +70,68 @@ constexpr std::array kMetallicRoughnessParameters = {
     Color<&MetallicRoughnessMaterial::base_color>("base_color", limits::kUnit),
     Number<&MetallicRoughnessMaterial::metallic>("metallic", limits::kUnit),
     Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit),
+    Color<&MetallicRoughnessMaterial::f82_tint>("f82_tint", limits::kUnit),
+    kEmission,
+};
+
+constexpr std::array kConductorParameters = {
+    Color<&ConductorMaterial::eta>("eta", limits::kEta),
+    Color<&ConductorMaterial::k>("k", limits::kExtinction),
+    Number<&ConductorMaterial::roughness>("roughness", limits::kUnit),
+    kEmission,
+};
+
+constexpr std::array kDielectricParameters = {
+    Color<&DielectricMaterial::base_color>("base_color", limits::kUnit),
+    Number<&DielectricMaterial::ior>("ior", limits::kIor),
+    Number<&DielectricMaterial::roughness>("roughness", limits::kUnit),
     kEmission,
 };
 
 constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
 constexpr std::array<std::string_view, 3> kShadowings = {"height_correlated", "separable",
                                                          "schlick_direct"};
+constexpr std::array<std::string_view, 3> kCompensations = {"turquin", "kulla_conty", "none"};
+constexpr std::array<std::string_view, 3> kCouplings = {"albedo_scaled", "one_minus_fresnel",
+                                                        "none"};
+constexpr std::array<std::string_view, 3> kConductorFresnels = {"exact", "f82_tint", "schlick"};
+constexpr std::array<std::string_view, 2> kDielectricFresnels = {"exact", "schlick"};
+
+constexpr std::array<std::string_view, 5> kConductorNames = {"gold", "silver", "copper", "iron",
+                                                             "aluminium"};
+constexpr std::array<std::string_view, 3> kDielectricNames = {"glass", "water", "diamond"};
+
+Rgb ToRgb(const std::array<double, 3>& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+
+// Measured indices of refraction by name (brdf/presets.h).
+constexpr MaterialChoice kConductorPreset = {
+    "preset", kConductorNames, nullptr, [](Material& material, size_t option) {
+      const IndexPreset& preset = *FindIndexPreset(kConductorNames[option]);
+      auto& conductor = std::get<ConductorMaterial>(material.model);
+      conductor.eta = ToRgb(preset.eta);
+      conductor.k = ToRgb(preset.k);
+    }};
+constexpr MaterialChoice kDielectricPreset = {
+    "preset", kDielectricNames, nullptr, [](Material& material, size_t option) {
+      const IndexPreset& preset = *FindIndexPreset(kDielectricNames[option]);
+      std::get<DielectricMaterial>(material.model).ior = preset.eta[0];
+    }};
+
 constexpr std::array kPhongChoices = {
     Choice<&PhongMaterial::convention>("convention", kConventions)};
 constexpr std::array kMetallicRoughnessChoices = {
-    Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings)};
+    Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings),
+    Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations),
+    Choice<&MetallicRoughnessMaterial::diffuse_coupling>("diffuse_coupling", kCouplings)};
+constexpr std::array kConductorChoices = {
+    kConductorPreset, Choice<&ConductorMaterial::shadowing>("shadowing", kShadowings),
+    Choice<&ConductorMaterial::compensation>("compensation", kCompensations),
+    Choice<&ConductorMaterial::fresnel>("fresnel", kConductorFresnels)};
+constexpr std::array kDielectricChoices = {
+    kDielectricPreset, Choice<&DielectricMaterial::shadowing>("shadowing", kShadowings),
+    Choice<&DielectricMaterial::compensation>("compensation", kCompensations),
+    Choice<&DielectricMaterial::diffuse_coupling>("diffuse_coupling", kCouplings),
+    Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels)};
 
 template <typename Model>
 Material Make() {
@@ -92,13 +148,15 @@ Material MakePhong() {
 }
 
 // The Phong family first and in the order of its enumeration: see ModelOf.
-constexpr std::array<MaterialModel, 5> kModels = {{
+constexpr std::array<MaterialModel, 7> kModels = {{
     {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices},
     {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices},
     {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices},
     {"lambert", Make<LambertMaterial>, kLambertParameters, {}},
     {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
      kMetallicRoughnessChoices},
+    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices},
+    {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices},
 }};
 
 }  // namespace
@@ -118,6 +176,8 @@ const MaterialModel* ModelOf(const Material& material) {
   }
   if (std::holds_alternative<LambertMaterial>(material.model)) return &kModels[3];
   if (std::holds_alternative<MetallicRoughnessMaterial>(material.model)) return &kModels[4];
+  if (std::holds_alternative<ConductorMaterial>(material.model)) return &kModels[5];
+  if (std::holds_alternative<DielectricMaterial>(material.model)) return &kModels[6];
   return nullptr;
 }
 

@@ -21,10 +21,12 @@ struct MaterialParameter {
   void (*set)(Material&, const Rgb&);
 };
 
-// One of several named options of a material, numbered from 0.
+// One of several named options of a material, numbered from 0. A "preset" sets parameters: choices
+// are made before parameters are set.
 struct MaterialChoice {
   std::string_view name;
   std::span<const std::string_view> options;
+  size_t (*get)(const Material&);  // null for a preset, which leaves no trace of its name
   void (*set)(Material&, size_t option);
 };
 

@@ -82,13 +82,66 @@ struct PhongMaterial {
   double shininess = 32;  // exponent n >= 0
 };
 
-// Metallic-roughness as in glTF 2.0: GGX, Schlick Fresnel with F0 = mix(0.04, base_color,
-// metallic), diffuse (1 - F)(1 - metallic) base_color / pi.
+// The light that bounces more than once between microfacets, which a single-scattering lobe
+// loses: 59 % of it at roughness 1.
+enum class Compensation : uint8_t {
+  kTurquin,     // scales the lobe to what the viewer lacks (Turquin 2019); not reciprocal
+  kKullaConty,  // adds a diffuse-like lobe (Kulla and Conty 2017); reciprocal
+  kNone,        // single scattering, energy lost
+};
+
+// How much light the diffuse base gets from under the specular lobe.
+enum class DiffuseCoupling : uint8_t {
+  kAlbedoScaled,     // what the lobe's albedo leaves: a white surface reflects exactly all
+  kOneMinusFresnel,  // 1 - F(v.h), the lesson's; a white surface may reflect 1.8 times the light
+  kNone,             // all of it
+};
+
+// The microfacet models have a GGX lobe each. Roughness is perceptual, in [0, 1]:
+// alpha = roughness^2; 0 is a perfect mirror.
+
+// Metallic-roughness as in glTF 2.0: GGX, Schlick's Fresnel with F0 = mix(0.04, base_color,
+// metallic), over a diffuse base (1 - metallic) base_color / pi.
 struct MetallicRoughnessMaterial {
   Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
   double metallic = 0;            // in [0, 1]
-  double roughness = 0.5;         // perceptual, in [0, 1]; alpha = roughness^2
+  // What Schlick's reflectance at cosine 1/7 (81.8 degrees) is multiplied by (Kutz et al. 2021):
+  // the dip of real metals just before grazing. 1: Schlick's curve itself.
+  Rgb f82_tint{1, 1, 1};  // each in [0, 1]
+  double roughness = 0.5;
   Shadowing shadowing = Shadowing::kHeightCorrelated;
+  Compensation compensation = Compensation::kTurquin;
+  DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
+};
+
+enum class ConductorFresnel : uint8_t {
+  kExact,    // unpolarised, of the complex index eta - i k
+  kF82Tint,  // through its values at normal incidence and at cosine 1/7
+  kSchlick,  // through its value at normal incidence
+};
+
+// A bare metal of complex index of refraction eta - i k, per channel.
+struct ConductorMaterial {
+  Rgb eta{0.2, 0.2, 0.2};  // > 0; the defaults are a grey like silver's
+  Rgb k{3, 3, 3};          // >= 0
+  double roughness = 0.5;
+  ConductorFresnel fresnel = ConductorFresnel::kExact;
+  Shadowing shadowing = Shadowing::kHeightCorrelated;
+  Compensation compensation = Compensation::kTurquin;
+};
+
+enum class DielectricFresnel : uint8_t { kExact, kSchlick };
+
+// A clear coat of index of refraction `ior` over a diffuse base; nothing is transmitted, so a
+// black base shows the reflection of glass alone.
+struct DielectricMaterial {
+  Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
+  double ior = 1.5;               // in [1, 10]
+  double roughness = 0.5;
+  DielectricFresnel fresnel = DielectricFresnel::kExact;
+  Shadowing shadowing = Shadowing::kHeightCorrelated;
+  Compensation compensation = Compensation::kTurquin;
+  DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
 };
 
 // Not a model of its own: chooses among other materials by where the sample lies on screen, in
@@ -102,7 +155,9 @@ struct SplitMaterial {
 struct Material {
   std::string name;
   Rgb emission{0, 0, 0};  // radiance, >= 0
-  std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, SplitMaterial> model;
+  std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
+               DielectricMaterial, SplitMaterial>
+      model;
 };
 
 // ---- Lights -------------------------------------------------------------------------------------

@@ -12,6 +12,11 @@ namespace {
 constexpr std::string_view kSplit = "split";
 
 void ReadParameters(const MaterialModel& model, JsonObject* object, Material* material) {
+  // First of all: a preset sets parameters that the object may set again.
+  for (const MaterialChoice& choice : model.choices) {
+    size_t option = 0;
+    if (object->Choice(choice.name, choice.options, &option)) choice.set(*material, option);
+  }
   for (const MaterialParameter& parameter : model.parameters) {
     Rgb value;
     double number = 0;
@@ -20,10 +25,6 @@ void ReadParameters(const MaterialModel& model, JsonObject* object, Material* ma
     } else if (object->Number(parameter.name, parameter.range, &number)) {
       parameter.set(*material, Rgb(number, number, number));
     }
-  }
-  for (const MaterialChoice& choice : model.choices) {
-    size_t option = 0;
-    if (object->Choice(choice.name, choice.options, &option)) choice.set(*material, option);
   }
 }
 

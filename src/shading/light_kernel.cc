@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "shading/light_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include <algorithm>
+
 #include "hwy/highway.h"
 
 #include "light/punctual-inl.h"
@@ -37,16 +39,17 @@ void PrepareSurfaceT(const HitBatch& hits, Surface* surface) {
   RoundToFloat3(hits.to_view, hits.count, &surface->to_view);
 }
 
-// to[i] = light - position[i]: the difference is formed in double and rounded once, so a light
-// close to a far-away or huge surface keeps its direction.
+// offset[i] = light - position[i], and the same rounded to float: the difference is formed in
+// double, so a light close to a far-away or huge surface keeps its direction.
 void SubtractFrom(double light, const AlignedArray<double>& position, size_t count,
-                  AlignedArray<float>* to) {
+                  AlignedArray<double>* offset, AlignedArray<float>* rounded) {
   const DoubleTag dd;
   const HalfFloatTag df;
   const DoubleV from = hn::Set(dd, light);
   for (size_t i = 0; i < count; i += hn::Lanes(dd)) {
     const DoubleV difference = hn::Sub(from, hn::LoadU(dd, position.data() + i));
-    hn::StoreU(hn::DemoteTo(df, difference), df, to->data() + i);
+    hn::StoreU(difference, dd, offset->data() + i);
+    hn::StoreU(hn::DemoteTo(df, difference), df, rounded->data() + i);
   }
 }
 
@@ -62,8 +65,12 @@ HWY_INLINE FloatV FacingOnly(FloatTag d, const Surface& surface, const Vec3V<Flo
 void EvaluateDirectional(const LightUniforms& light, const HitBatch& hits, const Surface& surface,
                          LightBatch* result) {
   const FloatTag d;
-  const Vec3V<FloatV> to_light{hn::Set(d, light.to_light[0]), hn::Set(d, light.to_light[1]),
-                               hn::Set(d, light.to_light[2])};
+  std::fill_n(result->offset.x.data(), hits.count, light.to_light[0]);
+  std::fill_n(result->offset.y.data(), hits.count, light.to_light[1]);
+  std::fill_n(result->offset.z.data(), hits.count, light.to_light[2]);
+  const auto rounded = [&](int c)
+                           HWY_ATTR { return hn::Set(d, static_cast<float>(light.to_light[c])); };
+  const Vec3V<FloatV> to_light{rounded(0), rounded(1), rounded(2)};
   const FloatV one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
     hn::Store(to_light.x, d, result->to_light.x.data() + i);
@@ -78,9 +85,9 @@ void EvaluatePositional(const LightUniforms& light, const HitBatch& hits, const 
                         LightBatch* result) {
   const FloatTag d;
   Soa3<float>& l = result->to_light;
-  SubtractFrom(light.position[0], hits.position.x, hits.count, &l.x);
-  SubtractFrom(light.position[1], hits.position.y, hits.count, &l.y);
-  SubtractFrom(light.position[2], hits.position.z, hits.count, &l.z);
+  SubtractFrom(light.position[0], hits.position.x, hits.count, &result->offset.x, &l.x);
+  SubtractFrom(light.position[1], hits.position.y, hits.count, &result->offset.y, &l.y);
+  SubtractFrom(light.position[2], hits.position.z, hits.count, &result->offset.z, &l.z);
   const FloatV one = hn::Set(d, 1.0f);
   const FloatV zero = hn::Zero(d);
   const Vec3V<FloatV> axis{hn::Set(d, light.axis[0]), hn::Set(d, light.axis[1]),

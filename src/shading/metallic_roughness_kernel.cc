@@ -1,79 +1,23 @@
-// shading/metallic_roughness_kernel.cc: the metallic-roughness model: GGX with Schlick's Fresnel
-// over a Lambertian base.
+// shading/metallic_roughness_kernel.cc: GGX with Schlick's Fresnel curve, or the same with
+// the dip of real metals before grazing (F82).
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/metallic_roughness_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
 
-#include "brdf/fresnel-inl.h"
-#include "brdf/ggx-inl.h"
-#include "shading/range-inl.h"
+#include "shading/microfacet_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-template <Shadowing kShadowing>
-HWY_INLINE FloatV VisibilityDenominator(FloatTag d, FloatV n_dot_l, FloatV n_dot_v, FloatV alpha,
-                                        FloatV schlick_k) {
-  if constexpr (kShadowing == Shadowing::kHeightCorrelated) {
-    return VisibilityDenominatorHeightCorrelated(d, n_dot_l, n_dot_v, alpha);
-  } else if constexpr (kShadowing == Shadowing::kSeparable) {
-    return VisibilityDenominatorSeparable(d, n_dot_l, n_dot_v, alpha);
-  } else {
-    return VisibilityDenominatorSchlick(d, n_dot_l, n_dot_v, schlick_k);
-  }
+void ShadeSchlickT(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kSchlick>(uniforms, range);
 }
 
-template <Shadowing kShadowing>
-void ShadeMetallicRoughnessForm(const MetallicRoughnessUniforms& uniforms,
-                                const ShadeRange& range) {
-  const FloatTag d;
-  const FloatV zero = hn::Zero(d);
-  const FloatV one = hn::Set(d, 1.0f);
-  const RgbV diffuse = SetRgb(d, uniforms.diffuse);
-  const RgbV specular = SetRgb(d, uniforms.specular);
-  const RgbV f0 = SetRgb(d, uniforms.f0);
-  const FloatV alpha = hn::Set(d, uniforms.alpha);
-  const FloatV schlick_k = hn::Set(d, uniforms.schlick_k);
-  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
-    const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, p.to_light, p.to_view);
-    const FloatV weight = hn::Mul(angles.n_dot_l, p.irradiance);
-    // Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
-    const FloatV n_dot_v = hn::Max(angles.n_dot_v, zero);
-    const FloatV denominator =
-        VisibilityDenominator<kShadowing>(d, angles.n_dot_l, n_dot_v, alpha, schlick_k);
-    // Unlit lanes have weight 0, and their denominator may be anything.
-    const auto lit = hn::Gt(weight, zero);
-    const FloatV visibility = hn::Div(weight, hn::IfThenElse(lit, denominator, one));
-    const FloatV lobe =
-        hn::IfThenElseZero(lit, hn::Mul(GgxDistribution(d, angles, alpha), visibility));
-    const FloatV schlick = SchlickWeight(d, angles);
-    const RgbV fresnel{FresnelSchlick(d, f0.r, schlick), FresnelSchlick(d, f0.g, schlick),
-                       FresnelSchlick(d, f0.b, schlick)};
-    const RgbV reflected{hn::Mul(hn::Mul(fresnel.r, specular.r), lobe),
-                         hn::Mul(hn::Mul(fresnel.g, specular.g), lobe),
-                         hn::Mul(hn::Mul(fresnel.b, specular.b), lobe)};
-    const RgbV transmitted{hn::Sub(one, fresnel.r), hn::Sub(one, fresnel.g),
-                           hn::Sub(one, fresnel.b)};
-    const RgbV scattered{hn::Mul(hn::Mul(transmitted.r, diffuse.r), weight),
-                         hn::Mul(hn::Mul(transmitted.g, diffuse.g), weight),
-                         hn::Mul(hn::Mul(transmitted.b, diffuse.b), weight)};
-    Accumulate(d, mask, scattered, i, &range.radiance->diffuse);
-    Accumulate(d, mask, reflected, i, &range.radiance->specular);
-  });
-}
-
-void ShadeMetallicRoughnessT(const MetallicRoughnessUniforms& uniforms, const ShadeRange& range) {
-  switch (uniforms.shadowing) {
-    case Shadowing::kHeightCorrelated:
-      return ShadeMetallicRoughnessForm<Shadowing::kHeightCorrelated>(uniforms, range);
-    case Shadowing::kSeparable:
-      return ShadeMetallicRoughnessForm<Shadowing::kSeparable>(uniforms, range);
-    case Shadowing::kSchlickDirect:
-      return ShadeMetallicRoughnessForm<Shadowing::kSchlickDirect>(uniforms, range);
-  }
+void ShadeF82T(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -82,9 +26,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(ShadeMetallicRoughnessT);
-void ShadeMetallicRoughness(const MetallicRoughnessUniforms& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadeMetallicRoughnessT)(uniforms, range);
+HWY_EXPORT(ShadeSchlickT);
+HWY_EXPORT(ShadeF82T);
+
+void ShadeSchlick(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeSchlickT)(uniforms, range);
+}
+
+void ShadeF82(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeF82T)(uniforms, range);
 }
 }  // namespace nacre
 #endif

@@ -18,14 +18,19 @@ void ShadePhongModel(const PhongUniforms& uniforms, const ShadeRange& range) {
   const RgbV diffuse = SetRgb(d, uniforms.diffuse);
   const RgbV specular = SetRgb(d, uniforms.specular);
   const FloatV shininess = hn::Set(d, uniforms.shininess);
+  const NarrowLobes* const narrow = uniforms.narrow;
   ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
     const FloatV weight = hn::Mul(FusedDot(p.normal, p.to_light), p.irradiance);
-    FloatV lobe;
-    if constexpr (kModel == PhongModel::kBlinnPhong) {
-      lobe = BlinnLobe(d, ComputeAngles(d, p.normal, p.to_light, p.to_view), shininess);
+    LobeCosineV<FloatV> cosine;
+    if (narrow != nullptr) {
+      cosine = {hn::LoadU(d, narrow->first.data() + i), hn::LoadU(d, narrow->second.data() + i)};
+    } else if constexpr (kModel == PhongModel::kBlinnPhong) {
+      cosine = BlinnSquaredCosine(d, ComputeAngles(d, p.normal, p.to_light, p.to_view));
     } else {
-      lobe = PhongLobe(d, p.normal, p.to_light, p.to_view, shininess);
+      cosine = PhongCosine(d, p.normal, p.to_light, p.to_view);
     }
+    const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
+                                                          : PhongLobe(d, cosine, shininess);
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? weight : p.irradiance;
     Accumulate(d, mask, ScaleRgb(diffuse, weight), i, &range.radiance->diffuse);

@@ -32,6 +32,16 @@ HWY_INLINE RgbV SetRgb(FloatTag d, const float (&rgb)[3]) {
   return {hn::Set(d, rgb[0]), hn::Set(d, rgb[1]), hn::Set(d, rgb[2])};
 }
 
+HWY_INLINE RgbV SetRgb(FloatTag d, const Rgb& rgb) {
+  return {hn::Set(d, static_cast<float>(rgb.x)), hn::Set(d, static_cast<float>(rgb.y)),
+          hn::Set(d, static_cast<float>(rgb.z))};
+}
+
+HWY_INLINE RgbV LoadRgb(FloatTag d, const Soa3<float>& soa, size_t i) {
+  return {hn::LoadU(d, soa.x.data() + i), hn::LoadU(d, soa.y.data() + i),
+          hn::LoadU(d, soa.z.data() + i)};
+}
+
 HWY_INLINE RgbV ScaleRgb(const RgbV& color, FloatV s) {
   return {hn::Mul(color.r, s), hn::Mul(color.g, s), hn::Mul(color.b, s)};
 }

@@ -2,23 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
-#include "brdf/fresnel.h"
-#include "brdf/ggx.h"
-#include "brdf/phong.h"
+#include "base/overloaded.h"
 #include "shading/kernels.h"
 
 namespace nacre {
 namespace {
-
-// Chooses by a variant's alternative.
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;
 
 void Assign(const Vec3d& from, float (&to)[3]) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
@@ -45,7 +36,8 @@ LightUniforms MakeUniforms(const Light& light, const Vec3d& camera_position) {
   std::visit(Overloaded{[&](const AmbientLight&) {},
                         [&](const DirectionalLight& directional) {
                           uniforms.kind = LightUniforms::Kind::kDirectional;
-                          Assign(-directional.direction_of_travel.normalized(), uniforms.to_light);
+                          const Vec3d to_light = -directional.direction_of_travel.normalized();
+                          for (int c = 0; c < 3; ++c) uniforms.to_light[c] = to_light[c];
                         },
                         [&](const PointLight& point) {
                           uniforms.kind = LightUniforms::Kind::kPoint;
@@ -63,43 +55,43 @@ LightUniforms MakeUniforms(const Light& light, const Vec3d& camera_position) {
   return uniforms;
 }
 
-LambertUniforms MakeUniforms(const LambertMaterial& material, const Rgb& light) {
+LambertUniforms MakeUniforms(const LambertModel& model, const Rgb& light) {
   LambertUniforms uniforms;
-  Assign(material.albedo * light * M_1_PI, uniforms.diffuse);
+  Assign(model.diffuse * light, uniforms.diffuse);
   return uniforms;
 }
 
-PhongUniforms MakeUniforms(const PhongMaterial& material, const Rgb& light) {
-  double diffuse_scale = 1;
-  double specular_scale = 1;
-  if (material.convention == PhongConvention::kRadiometric) {
-    diffuse_scale = M_1_PI;
-    specular_scale = material.model == PhongModel::kBlinnPhong
-                         ? BlinnNormalization(material.shininess)
-                         : PhongNormalization(material.shininess);
-  }
+PhongUniforms MakeUniforms(const PhongFamilyModel& model, const Rgb& light) {
   PhongUniforms uniforms;
-  uniforms.model = material.model;
-  Assign(material.kd * material.color * light * diffuse_scale, uniforms.diffuse);
-  Assign(material.ks * light * specular_scale, uniforms.specular);
-  uniforms.shininess = static_cast<float>(material.shininess);
+  uniforms.model = model.model;
+  Assign(model.diffuse * light, uniforms.diffuse);
+  Assign(model.specular * light, uniforms.specular);
+  uniforms.shininess = static_cast<float>(model.shininess);
+  uniforms.narrow = nullptr;
   return uniforms;
 }
 
-MetallicRoughnessUniforms MakeUniforms(const MetallicRoughnessMaterial& material,
-                                       const Rgb& light) {
-  const double alpha = AlphaFromRoughness(material.roughness);
-  const bool delta = IsDeltaLobe(alpha);
-  const double k = (material.roughness + 1) * (material.roughness + 1) / 8;
-  MetallicRoughnessUniforms uniforms;
-  uniforms.shadowing = material.shadowing;
-  Assign(material.base_color * light * ((1 - material.metallic) * M_1_PI), uniforms.diffuse);
-  Assign(delta ? Rgb(0, 0, 0) : light, uniforms.specular);
-  Assign(Rgb(kDielectricF0) * (1 - material.metallic) + material.base_color * material.metallic,
-         uniforms.f0);
-  uniforms.alpha = delta ? 1.0f : static_cast<float>(alpha);
-  uniforms.schlick_k = static_cast<float>(k);
+MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const Rgb& light) {
+  MicrofacetUniforms uniforms;
+  uniforms.model = &model;
+  Assign(model.diffuse * light, uniforms.diffuse);
+  Assign(model.delta ? Rgb(0, 0, 0) : light, uniforms.specular);
+  Assign(model.f_multiple * light * model.multiple, uniforms.multiple);
+  uniforms.narrow = nullptr;
   return uniforms;
+}
+
+void ShadeByCurve(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  switch (uniforms.model->fresnel) {
+    case FresnelForm::kSchlick:
+      return ShadeSchlick(uniforms, range);
+    case FresnelForm::kF82:
+      return ShadeF82(uniforms, range);
+    case FresnelForm::kDielectric:
+      return ShadeDielectric(uniforms, range);
+    case FresnelForm::kConductor:
+      return ShadeConductor(uniforms, range);
+  }
 }
 
 }  // namespace
@@ -114,23 +106,41 @@ Rgb LightColor(const Light& light) {
 
 void EvaluateLight(const Light& light, const Vec3d& camera_position, const HitBatch& hits,
                    const Surface& surface, LightBatch* result) {
+  const bool infinitely_far = std::holds_alternative<DirectionalLight>(light.kind);
+  result->t_max = infinitely_far ? std::numeric_limits<double>::infinity() : 1.0;
   EvaluateLightKernel(MakeUniforms(light, camera_position), hits, surface, result);
 }
 
-void ShadeRun(const Material& material, const Rgb& light_color, const Surface& surface,
-              const LightBatch& light, size_t begin, size_t end, ReflectedRadiance* radiance) {
-  const ShadeRange range{surface, light, begin, end, radiance};
-  std::visit(
-      Overloaded{
-          [&](const LambertMaterial& lambert) {
-            ShadeLambert(MakeUniforms(lambert, light_color), range);
-          },
-          [&](const PhongMaterial& phong) { ShadePhong(MakeUniforms(phong, light_color), range); },
-          [&](const MetallicRoughnessMaterial& metallic_roughness) {
-            ShadeMetallicRoughness(MakeUniforms(metallic_roughness, light_color), range);
-          },
-          [](const SplitMaterial&) {}},
-      material.model);
+void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface) {
+  if (const auto* microfacet = std::get_if<MicrofacetModel>(&material.model)) {
+    PrepareMicrofacet(*microfacet, begin, end, surface);
+  }
+}
+
+void ShadeRun(const ShadingMaterial& material, const Rgb& light_color, const LitHits& lit,
+              size_t begin, size_t end, NarrowLobes* scratch, ReflectedRadiance* radiance) {
+  const ShadeRange range{lit.surface, lit.light, begin, end, radiance};
+  std::visit(Overloaded{[](std::monostate) {},
+                        [&](const LambertModel& lambert) {
+                          ShadeLambert(MakeUniforms(lambert, light_color), range);
+                        },
+                        [&](const PhongFamilyModel& phong) {
+                          PhongUniforms uniforms = MakeUniforms(phong, light_color);
+                          if (phong.double_terms) {
+                            NarrowPhong(phong.model, lit, begin, end, scratch);
+                            uniforms.narrow = scratch;
+                          }
+                          ShadePhong(uniforms, range);
+                        },
+                        [&](const MicrofacetModel& microfacet) {
+                          MicrofacetUniforms uniforms = MakeUniforms(microfacet, light_color);
+                          if (microfacet.double_terms) {
+                            NarrowGgx(microfacet.alpha, lit, begin, end, scratch);
+                            uniforms.narrow = scratch->first.data();
+                          }
+                          ShadeByCurve(uniforms, range);
+                        }},
+             material.model);
 }
 
 void ClearSoa(size_t count, Soa3<float>* soa) {
@@ -142,28 +152,6 @@ void ClearSoa(size_t count, Soa3<float>* soa) {
 void ClearRadiance(size_t count, ReflectedRadiance* radiance) {
   ClearSoa(count, &radiance->diffuse);
   ClearSoa(count, &radiance->specular);
-}
-
-MaterialConstants ComputeMaterialConstants(const Material& material, const Rgb& ambient_radiance) {
-  MaterialConstants constants;
-  constants.emission = material.emission;
-  std::visit(Overloaded{[&](const LambertMaterial& lambert) {
-                          constants.albedo = lambert.albedo;
-                          constants.ambient = lambert.albedo * ambient_radiance;
-                        },
-                        [&](const PhongMaterial& phong) {
-                          constants.albedo = phong.color * phong.kd;
-                          constants.ambient = phong.color * phong.ka * ambient_radiance;
-                        },
-                        [&](const MetallicRoughnessMaterial& metallic_roughness) {
-                          // Light from everywhere: base_color is what both the diffuse base and
-                          // a metal reflect of it, the 4 % of a dielectric's gloss aside.
-                          constants.albedo = metallic_roughness.base_color;
-                          constants.ambient = metallic_roughness.base_color * ambient_radiance;
-                        },
-                        [](const SplitMaterial&) {}},
-             material.model);
-  return constants;
 }
 
 }  // namespace nacre

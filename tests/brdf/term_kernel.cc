@@ -52,8 +52,8 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
     const AnglesV<V> a = ComputeAngles(d, n, l, v);
     const V n_dot_v = hn::Max(a.n_dot_v, zero);
     const V values[] = {
-        PhongLobe(d, n, l, v, shininess),
-        BlinnLobe(d, a, shininess),
+        PhongLobe(d, PhongCosine(d, n, l, v), shininess),
+        BlinnLobe(d, BlinnSquaredCosine(d, a), shininess),
         GgxDistribution(d, a, alpha),
         hn::Div(one, VisibilityDenominatorHeightCorrelated(d, a.n_dot_l, n_dot_v, alpha)),
         hn::Div(one, VisibilityDenominatorSeparable(d, a.n_dot_l, n_dot_v, alpha)),

@@ -1,0 +1,55 @@
+#include "brdf/albedo.h"
+
+#include "brdf/albedo_integral.h"
+#include "brdf/albedo_table.h"
+
+namespace nacre {
+
+AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
+  AlbedoFit fit;
+  fit.shape = MakeAlbedoShape(shadowing, roughness);
+  // The cubic through the four nearest roughnesses of the table.
+  const double position = std::sqrt(roughness) * kAlbedoIntervals;
+  const int first = std::clamp(static_cast<int>(position) - 1, 0, kAlbedoIntervals - 3);
+  const double t = position - first;
+  const double weights[4] = {(1 - t) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2,
+                             t * (t - 1) * (3 - t) / 2, t * (t - 1) * (t - 2) / 6};
+  double average = 0;
+  for (int i = 0; i < 4; ++i) {
+    const AlbedoEntry& entry = kAlbedoTable[static_cast<int>(shadowing)][first + i];
+    const auto weight = static_cast<float>(weights[i]);
+    for (size_t j = 0; j < kAlbedoTerms; ++j) {
+      fit.one[j] += weight * entry.one[j];
+      fit.schlick[j] += weight * entry.schlick[j];
+    }
+    average += weights[i] * double{entry.average};
+  }
+  if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror has no width
+  fit.e_average = shadowing == Shadowing::kSchlickDirect
+                      ? average
+                      : 1 - average * AverageLossScale(AlphaFromRoughness(roughness));
+  return fit;
+}
+
+FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta) {
+  FresnelAlbedoFit fit;
+  fit.lobe = MakeAlbedoFit(shadowing, roughness);
+  fit.eta = static_cast<float>(eta);
+  if (!(fit.lobe.shape.offset > 0)) return fit;
+  const auto curve = [&](double v_dot_h, double one_minus_vh) {
+    return FresnelDielectric(v_dot_h, one_minus_vh, eta);
+  };
+  std::array<double, kAlbedoTerms> values{};
+  for (int i = 0; i < kAlbedoTerms; ++i) {
+    const double mu = AlbedoNodeCosine(fit.lobe.shape, i);
+    const double albedo = AlbedoOf(shadowing, roughness, mu, curve, kFastAlbedoQuadrature);
+    const double masking = fit.lobe.shape.k > 0 ? AlbedoMasking(fit.lobe.shape, mu) : 1;
+    values[static_cast<size_t>(i)] =
+        (albedo - curve(mu, 1 - mu) * AlbedoOne(fit.lobe, mu)) / masking;
+  }
+  const auto polynomial = InterpolateAlbedo(values);
+  for (size_t i = 0; i < kAlbedoTerms; ++i) fit.fresnel[i] = static_cast<float>(polynomial[i]);
+  return fit;
+}
+
+}  // namespace nacre

@@ -1,0 +1,83 @@
+// brdf/albedo.h: directional albedos of the GGX lobe at render time: how much a lobe reflects in
+// all, seen from n.v. SIMD twin: albedo-inl.h. The truth behind them: brdf/albedo_integral.h.
+//
+// A material's fit is a handful of coefficients, so that a vector of hits evaluates polynomials and
+// gathers nothing. Worst errors, over roughness in [0, 1] and n.v in [1e-4, 1], in float:
+// tests/brdf/albedo_test.cc.
+#pragma once
+
+#include "brdf/albedo_curve.h"
+#include "brdf/fresnel.h"
+
+namespace nacre {
+
+// The albedos of one roughness and shadowing form for F = 1 and for F = (1 - v.h)^5.
+struct AlbedoFit {
+  AlbedoShape shape;
+  AlbedoPolynomial one{};
+  AlbedoPolynomial schlick{};
+  double e_average = 1;  // 2 int E mu dmu
+};
+
+// roughness in [0, 1], and continuous in it.
+AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness);
+
+// The same with a third curve, for the exact Fresnel curve of a dielectric.
+struct FresnelAlbedoFit {
+  AlbedoFit lobe;
+  AlbedoPolynomial fresnel{};
+  float eta = 1;
+};
+
+// For eta > 1: a quadrature of half a millisecond. With total reflection (eta < 1) the curve has a
+// corner, which the fit rounds off.
+FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta);
+
+// 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. Of Smith's forms
+// to a relative precision: for smooth surfaces it is far below the rounding of E.
+template <typename Real>
+Real AlbedoLoss(const AlbedoFit& fit, Real n_dot_v) {
+  const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
+  const Real polynomial = EvaluateAlbedoPolynomial(fit.one, x.z);
+  const Real loss = fit.shape.k > 0 ? 1 - AlbedoMasking(fit.shape, x.n_dot_v) * polynomial
+                                    : (1 + x.n_dot_v * x.n_dot_v) * x.layer * x.layer * polynomial;
+  return std::max(loss, Real(0));
+}
+
+// E: the albedo for F = 1, in (0, 1].
+template <typename Real>
+Real AlbedoOne(const AlbedoFit& fit, Real n_dot_v) {
+  if (!(fit.shape.k > 0)) return 1 - AlbedoLoss(fit, n_dot_v);
+  const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
+  return std::min(AlbedoMasking(fit.shape, x.n_dot_v) * EvaluateAlbedoPolynomial(fit.one, x.z),
+                  Real(1));
+}
+
+// The albedo for a Fresnel curve, from its value at v.h = n.v, which a mirror would have, and a
+// polynomial for what the lobe's width changes.
+template <typename Real>
+Real AlbedoNearMirror(const AlbedoFit& fit, const AlbedoPolynomial& polynomial, Real mirror,
+                      Real n_dot_v) {
+  const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
+  const Real masking = fit.shape.k > 0 ? AlbedoMasking(fit.shape, x.n_dot_v) : Real(1);
+  const Real albedo =
+      mirror * AlbedoOne(fit, n_dot_v) + masking * EvaluateAlbedoPolynomial(polynomial, x.z);
+  return std::min(std::max(albedo, Real(0)), Real(1));
+}
+
+// B: the albedo for F = (1 - v.h)^5. Schlick's albedo is F0 E + (1 - F0) B.
+template <typename Real>
+Real AlbedoSchlick(const AlbedoFit& fit, Real n_dot_v) {
+  const Real mu = std::min(std::max(n_dot_v, Real(0)), Real(1));
+  return AlbedoNearMirror(fit, fit.schlick, Power5(1 - mu), mu);
+}
+
+// The albedo for the exact Fresnel curve of the fit's index.
+template <typename Real>
+Real AlbedoFresnel(const FresnelAlbedoFit& fit, Real n_dot_v) {
+  const Real mu = std::min(std::max(n_dot_v, static_cast<Real>(kLeastAlbedoCosine)), Real(1));
+  const Real mirror = FresnelDielectric(mu, 1 - mu, static_cast<Real>(fit.eta));
+  return AlbedoNearMirror(fit.lobe, fit.fresnel, mirror, n_dot_v);
+}
+
+}  // namespace nacre

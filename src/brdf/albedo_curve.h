@@ -1,0 +1,76 @@
+// brdf/albedo_curve.h: the form of the run-time albedos (brdf/albedo.h): which functions of n.v
+// they are polynomials in. SIMD twin: albedo-inl.h.
+//
+// An albedo of a lobe of width alpha has a boundary layer: it bends where n.v is about alpha, and
+// its slope has a logarithm at 0. The angle theta with tan(theta) = n.v / 6 alpha turns the layer
+// into an ordinary curve, its half-angle tangent does so without trigonometry, and the square root
+// of that tames the logarithm: in z a polynomial of degree 17 is right to 2e-5 at every alpha.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "brdf/ggx.h"
+
+namespace nacre {
+
+inline constexpr int kAlbedoTerms = 18;
+
+// Below this n.v, albedos are those at this n.v: its square must not underflow.
+inline constexpr double kLeastAlbedoCosine = 1e-15;
+
+// What the variable and the factors of a curve depend on beside n.v. `offset` is 0 for a mirror.
+struct AlbedoShape {
+  float offset = 0;     // 6 alpha
+  float scale = 2;      // of sqrt(tan(theta / 2)), so that z is 1 where n.v is
+  float k = 0;          // Schlick's k; 0 for Smith's forms
+  float softening = 0;  // kSchlickDirect: see AlbedoMasking
+};
+
+AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness);
+
+// A polynomial in z, lowest power first.
+using AlbedoPolynomial = std::array<float, kAlbedoTerms>;
+
+// The functions of n.v that curves are made of.
+template <typename Real>
+struct AlbedoVariables {
+  Real z;        // in [-1, 1]
+  Real n_dot_v;  // in (0, 1]
+  Real layer;  // sin-like: about 2 offset / n.v far above the layer, 1 at 0; squared, the shape of
+               // the loss 1 - E of Smith's forms, which falls as alpha^2 (1 + mu^2) / 2 mu^2
+};
+
+template <typename Real>
+AlbedoVariables<Real> ComputeAlbedoVariables(const AlbedoShape& shape, Real n_dot_v) {
+  const Real mu = std::min(std::max(n_dot_v, static_cast<Real>(kLeastAlbedoCosine)), Real(1));
+  const Real offset = shape.offset;
+  const Real inverse = 1 / (offset + std::sqrt(mu * mu + offset * offset));
+  return {shape.scale * std::sqrt(mu * inverse) - 1, mu, 2 * offset * inverse};
+}
+
+// kSchlickDirect: the lesson's masking at alpha = 0, (mu / (mu (1 - k) + k))^2, with the light's mu
+// softened by the lobe's width. As E is divided by, curves of this form are relative to it.
+template <typename Real>
+Real AlbedoMasking(const AlbedoShape& shape, Real n_dot_v) {
+  const Real k = shape.k;
+  const Real y2 = n_dot_v * n_dot_v + shape.softening;
+  const Real y = std::sqrt(y2);
+  return y2 / ((n_dot_v * (1 - k) + k) * (y * (1 - k) + k));
+}
+
+template <typename Real>
+Real EvaluateAlbedoPolynomial(const AlbedoPolynomial& polynomial, Real z) {
+  Real sum = polynomial[kAlbedoTerms - 1];
+  for (int i = kAlbedoTerms - 2; i >= 0; --i) sum = sum * z + polynomial[static_cast<size_t>(i)];
+  return sum;
+}
+
+// The n.v at which z is the i-th Chebyshev node.
+double AlbedoNodeCosine(const AlbedoShape& shape, int i);
+
+// The polynomial that takes the given values at the Chebyshev nodes.
+std::array<double, kAlbedoTerms> InterpolateAlbedo(const std::array<double, kAlbedoTerms>& values);
+
+}  // namespace nacre

@@ -1,0 +1,147 @@
+#include "brdf/albedo_integral.h"
+
+#include <algorithm>
+
+#include "brdf/fresnel.h"
+#include "brdf/quadrature.h"
+
+namespace nacre {
+namespace {
+
+double Square(double x) { return x * x; }
+
+constexpr double kPanelRatio = 4;  // of neighbouring panels' sizes, away from where they are finest
+
+// A stretch of light elevations, counted from the horizon or from the viewer's own elevation:
+// whichever it is near, so that neither is a difference of rounded angles.
+struct Panel {
+  bool from_viewer;
+  double begin, end;
+};
+
+// Panels on [begin, end] of one anchor whose sizes grow by kPanelRatio from `finest` at the anchor.
+void AppendPanels(bool from_viewer, double length, double finest, double sign,
+                  std::vector<Panel>* panels) {
+  double begin = 0;
+  for (double end = finest; begin < length; end *= kPanelRatio) {
+    if (!(end * 1.5 < length)) end = length;  // no sliver at the end
+    panels->push_back(
+        {from_viewer, std::min(sign * begin, sign * end), std::max(sign * begin, sign * end)});
+    begin = end;
+  }
+}
+
+// Fine to 2 alpha about the mirror direction; at the horizon, where the visibility has a pole at
+// -n.v and bends at alpha, fine to the lesser of the two.
+std::vector<Panel> MakePanels(double alpha, double view) {
+  std::vector<Panel> panels;
+  panels.reserve(64);
+  const double peak = 2 * alpha;
+  // Closer than 1e-10 there is no light to tell the difference.
+  const double horizon = view > 0 ? std::min(alpha, std::max(view, 1e-10)) : alpha;
+  AppendPanels(true, M_PI_2 - view, std::min(peak, 2 * horizon), 1, &panels);
+  if (view > 0) {
+    AppendPanels(true, view / 2, peak, -1, &panels);
+    AppendPanels(false, view / 2, horizon, 1, &panels);
+  }
+  return panels;
+}
+
+}  // namespace
+
+double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double roughness) {
+  const double alpha = AlphaFromRoughness(roughness);
+  switch (shadowing) {
+    case Shadowing::kHeightCorrelated:
+      return VisibilityHeightCorrelated(n_dot_l, n_dot_v, alpha);
+    case Shadowing::kSeparable:
+      return VisibilitySeparable(n_dot_l, n_dot_v, alpha);
+    case Shadowing::kSchlickDirect:
+      return VisibilitySchlickDirect(n_dot_l, n_dot_v, roughness);
+  }
+  return 0;
+}
+
+std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points) {
+  const QuadratureRule& rule = GaussLegendre(points);
+  const double view = std::asin(std::min(n_dot_v, 1.0));
+  std::vector<AlbedoNode> nodes;
+  const std::vector<Panel> panels = MakePanels(alpha, view);
+  nodes.reserve(panels.size() * rule.x.size());
+  for (const Panel& panel : panels) {
+    const double length = panel.end - panel.begin;
+    for (size_t i = 0; i < rule.x.size(); ++i) {
+      const double at = panel.begin + length * rule.x[i];
+      const double difference = (panel.from_viewer ? at : at - view) / 2;
+      const double elevation = panel.from_viewer ? view + at : at;
+      const double sum = (panel.from_viewer ? 2 * view + at : view + at) / 2;
+      AlbedoNode node;
+      node.n_dot_l = std::sin(elevation);
+      node.weight = rule.w[i] * length * node.n_dot_l * std::cos(elevation);
+      node.sin_sum2 = Square(std::sin(sum));
+      // Near the zenith the complement of the sum is small, and known to full precision.
+      node.cos_sum2 = Square(std::sin(M_PI_2 - view - (panel.from_viewer ? at : at - view) / 2));
+      node.sin_difference2 = Square(std::sin(difference));
+      node.cos_difference2 = 1 - node.sin_difference2;
+      node.p = node.sin_difference2 + alpha * alpha * node.cos_difference2;
+      node.q = node.cos_sum2 + alpha * alpha * node.sin_sum2;
+      nodes.push_back(node);
+    }
+  }
+  return nodes;
+}
+
+double AlbedoOfOne(Shadowing shadowing, double roughness, double n_dot_v, int points) {
+  const double alpha = AlphaFromRoughness(roughness);
+  if (IsDeltaLobe(alpha)) {  // all light of the mirror direction, where n.l = n.v
+    if (shadowing != Shadowing::kSchlickDirect) return 1;
+    return 4 * n_dot_v * n_dot_v * Visibility(shadowing, n_dot_v, n_dot_v, roughness);
+  }
+  double sum = 0;
+  for (const AlbedoNode& node : MakeAlbedoNodes(alpha, n_dot_v, points)) {
+    // int D dphi = 2 alpha^2 (1 + 2 K / s + K^2 A / s^3) with s^2 = 4 C^2 c^2 p q, K = 2 (1 -
+    // alpha^2) C^2 c^2 and A = C^2 p + c^2 q; C and c cancelled on paper.
+    const double pq_root = std::sqrt(node.p * node.q);
+    const double both = (1 - alpha * alpha) * std::sqrt(node.sin_sum2 * node.cos_difference2);
+    const double mixed = node.sin_sum2 * node.p + node.cos_difference2 * node.q;
+    const double azimuth = 1 + 2 * both / pq_root +
+                           (1 - alpha * alpha) * both * mixed / (2 * pq_root * pq_root * pq_root);
+    sum += node.weight * 2 * alpha * alpha * azimuth *
+           Visibility(shadowing, node.n_dot_l, n_dot_v, roughness);
+  }
+  return sum;
+}
+
+double AverageAlbedoOfOne(Shadowing shadowing, double roughness) {
+  // The albedo bends at n.v = alpha and has a logarithm in its slope at 0.
+  return IntegrateTowardsZero(
+      [&](double mu) { return 2 * mu * AlbedoOfOne(shadowing, roughness, mu); });
+}
+
+double AlbedoOfSchlick(Shadowing shadowing, double roughness, double n_dot_v) {
+  return AlbedoOf(shadowing, roughness, n_dot_v,
+                  [](double, double one_minus_vh) { return Power5(one_minus_vh); });
+}
+
+double DiffuseCoupling(double n_dot_v) {
+  // For n.l = sin(elevation) and every azimuth, which the integrand is smooth and periodic in.
+  constexpr int kAzimuths = 64;
+  const QuadratureRule& rule = GaussLegendre(32);
+  const double sin_v = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
+  double sum = 0;
+  for (size_t i = 0; i < rule.x.size(); ++i) {
+    // Two stretches, each fine where it meets the horizon: elevation = x^2 pi / 2.
+    const double elevation = rule.x[i] * rule.x[i] * M_PI_2;
+    const double weight =
+        rule.w[i] * 2 * rule.x[i] * M_PI_2 * std::sin(elevation) * std::cos(elevation);
+    for (int k = 0; k < kAzimuths; ++k) {
+      const double cos_phi = std::cos(M_PI * (k + 0.5) / kAzimuths);
+      const double l_dot_v = std::sin(elevation) * n_dot_v + std::cos(elevation) * sin_v * cos_phi;
+      const double v_dot_h = std::sqrt(std::max(0.0, (1 + l_dot_v) / 2));
+      sum += weight * (1 - Power5(1 - v_dot_h)) * 2 / kAzimuths;
+    }
+  }
+  return sum;
+}
+
+}  // namespace nacre

@@ -1,0 +1,100 @@
+// brdf/albedo_integral.h: directional albedos of the GGX lobe by quadrature, in double: the truth
+// that the run-time fits (brdf/albedo.h) are made from and tested against. No Monte Carlo.
+//
+// albedo(n.v) = int D V F n.l dl over the upper hemisphere, for any Fresnel curve F(v.h).
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "brdf/ggx.h"
+
+namespace nacre {
+
+// How finely to integrate. Measured against finer rules: the default's albedos are right to 1e-9,
+// the fast ones' to 1e-5 (n.v and roughness in [0, 1], smooth Fresnel curves).
+struct AlbedoQuadrature {
+  int points = 12;     // Gauss-Legendre points in each panel of the light's elevation
+  double step = 0.42;  // of the azimuth's warped variable
+  double tail = 1e-9;  // of the azimuth, left out
+};
+inline constexpr AlbedoQuadrature kFastAlbedoQuadrature{7, 0.5, 1e-6};
+
+// What the albedo is an integral over: the light's elevation, in panels that are fine where the
+// integrand is. Each node is one elevation, by the quantities that the azimuth depends on; angles
+// are halved sums and differences of the light's and the viewer's elevation.
+struct AlbedoNode {
+  double weight;  // of the quadrature, with the solid angle's and the projection's cosines
+  double n_dot_l;
+  double sin_sum2, cos_sum2;                // of the half sum; sin^2 is (v.h)^2 opposite the viewer
+  double sin_difference2, cos_difference2;  // cos^2 is (v.h)^2 on the viewer's side
+  double p, q;                              // sqrt(alpha^2 / (pi D)) at either
+};
+
+// The nodes of one n.v in [0, 1]. alpha must not be a delta lobe's.
+std::vector<AlbedoNode> MakeAlbedoNodes(double alpha, double n_dot_v, int points);
+
+// The visibility term of a shadowing form.
+double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double roughness);
+
+// F = 1: the azimuth integral of D has a closed form, one sum is left.
+double AlbedoOfOne(Shadowing shadowing, double roughness, double n_dot_v,
+                   int points = AlbedoQuadrature().points);
+
+// 2 int AlbedoOfOne mu dmu: the mean over the hemisphere of lights.
+double AverageAlbedoOfOne(Shadowing shadowing, double roughness);
+
+// int (1 - (1 - v.h)^5) n.l / pi dl: what is left of a white diffuse lobe that is scaled by one
+// minus Schlick's weight of the half vector, light by light.
+double DiffuseCoupling(double n_dot_v);
+
+// int_0^2pi D F dphi at one node.
+//
+// In t = tan(phi/2), phi measured from the plane opposite the viewer, D is (1/pi alpha^2 ...) times
+// ((1 + (p/q) T^2) / (1 + T^2))^2 with T = t / t1: all that happens does so between t1 and 1,
+// which may be decades apart. T = sinh(y) makes every decade equally smooth, and the trapezoidal
+// rule, whose error falls as exp(-pi^2 / step), then needs a few dozen points for any alpha.
+template <class Fresnel>
+double AzimuthIntegral(const AlbedoNode& node, double alpha, const AlbedoQuadrature& rule,
+                       const Fresnel& fresnel) {
+  const double p_over_q = node.p / node.q;
+  const double t1 = std::sqrt(node.sin_sum2 / node.cos_difference2 * p_over_q);
+  const double growth = std::exp(rule.step);
+  const double end = 1 / (rule.tail * t1);  // of T: dphi falls as 1 / t
+  double sum = 0;
+  for (double e = 1; e < 2 * end; e *= growth) {  // exp(y)
+    const double sinh = (e - 1 / e) / 2;
+    const double cosh = (e + 1 / e) / 2;
+    const double t = t1 * sinh;
+    const double scale = 1 / (1 + t * t);
+    const double vh2 = (node.sin_sum2 + node.cos_difference2 * t * t) * scale;
+    const double vh = std::sqrt(vh2);
+    const double one_minus_vh = (node.cos_sum2 + node.sin_difference2 * t * t) * scale / (1 + vh);
+    const double shape = (1 + p_over_q * sinh * sinh) / (cosh * cosh);
+    const double term = shape * shape * cosh * scale * fresnel(vh, one_minus_vh);
+    sum += e == 1 ? term / 2 : term;  // y = 0 is the middle of an even integrand
+  }
+  const double peak = alpha / node.p;
+  return 4 / M_PI * peak * peak * t1 * rule.step * sum;
+}
+
+// The albedo for F(v.h), called as fresnel(v.h, 1 - v.h).
+template <class Fresnel>
+double AlbedoOf(Shadowing shadowing, double roughness, double n_dot_v, const Fresnel& fresnel,
+                const AlbedoQuadrature& rule = {}) {
+  const double alpha = AlphaFromRoughness(roughness);
+  if (IsDeltaLobe(alpha)) {  // a mirror: v.h = n.v
+    return AlbedoOfOne(shadowing, roughness, n_dot_v) * fresnel(n_dot_v, 1 - n_dot_v);
+  }
+  double sum = 0;
+  for (const AlbedoNode& node : MakeAlbedoNodes(alpha, n_dot_v, rule.points)) {
+    sum += node.weight * Visibility(shadowing, node.n_dot_l, n_dot_v, roughness) *
+           AzimuthIntegral(node, alpha, rule, fresnel);
+  }
+  return sum;
+}
+
+// B, the albedo of Schlick's weight: int D V (1 - v.h)^5 n.l dl.
+double AlbedoOfSchlick(Shadowing shadowing, double roughness, double n_dot_v);
+
+}  // namespace nacre

@@ -1,0 +1,28 @@
+#include "brdf/fresnel_average.h"
+
+#include <algorithm>
+
+#include "brdf/fresnel.h"
+#include "brdf/quadrature.h"
+
+namespace nacre {
+
+double AverageDielectric(double eta) {
+  if (eta >= 1) {
+    return IntegrateTowardsZero([&](double c) { return 2 * c * FresnelDielectric(c, 1 - c, eta); });
+  }
+  // Total reflection up to the critical cosine; from there in g^2 = eta^2 - sin^2, g dg = c dc,
+  // in which the curve has no root left.
+  const double critical2 = (1 - eta) * (1 + eta);
+  return critical2 + eta * IntegrateTowardsZero([&](double x) {
+                       const double g = x * eta;
+                       const double c = std::min(1.0, std::sqrt(critical2 + g * g));
+                       return 2 * g * FresnelDielectric(c, 1 - c, eta);
+                     });
+}
+
+double AverageConductor(double eta, double k) {
+  return IntegrateTowardsZero([&](double c) { return 2 * c * FresnelConductor(c, 1 - c, eta, k); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,23 @@
+// brdf/fresnel_average.h: Fresnel curves averaged over the hemisphere, F_avg = 2 int F(c) c dc:
+// what light that bounced between microfacets has met at each bounce.
+#pragma once
+
+namespace nacre {
+
+// Schlick: F0 + (1 - F0) / 21, as 2 int (1 - c)^5 c dc = 1/21.
+template <typename Real>
+Real AverageSchlick(Real f0) {
+  return f0 + (1 - f0) / 21;
+}
+
+// F82: 2 int c^2 (1 - c)^6 dc = 1/126. Exact where the curve stays within [0, 1] by itself.
+template <typename Real>
+Real AverageF82(Real f0, Real slope) {
+  return AverageSchlick(f0) - slope / 126;
+}
+
+// By quadrature, to 1e-12.
+double AverageDielectric(double eta);
+double AverageConductor(double eta, double k);
+
+}  // namespace nacre

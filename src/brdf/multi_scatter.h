@@ -1,0 +1,35 @@
+// brdf/multi_scatter.h: what brings back the light that a single bounce on microfacets loses. SIMD
+// twin: multi_scatter-inl.h.
+//
+// E, the albedo for F = 1, comes from brdf/albedo.h, F_avg from brdf/fresnel_average.h.
+#pragma once
+
+#include <cmath>
+
+#include "brdf/albedo.h"
+
+namespace nacre {
+
+// Turquin 2019, "Practical multiple scattering compensation for microfacet models", eq. 16: the
+// factor 1 + F0 (1 / E(n.v) - 1) on the whole lobe. One look-up, but not reciprocal.
+template <typename Real>
+Real TurquinFactor(Real f0, Real albedo_one) {
+  return 1 + f0 * (1 / albedo_one - 1);
+}
+
+// Kulla and Conty 2017, "Revisiting physically based shading at Imageworks": a second, reciprocal
+// lobe (1 - E(n.v)) (1 - E(n.l)) / (pi (1 - E_avg)), from AlbedoLoss. This is 1 / (pi (1 - E_avg));
+// 0 for a mirror, which loses nothing.
+inline double KullaContyScale(double e_average) {
+  const double loss = 1 - e_average;
+  return loss > 0 ? 1 / (M_PI * loss) : 0;
+}
+
+// The colour of that lobe: light that bounced on, F_avg at each bounce,
+// F_avg^2 E_avg / (1 - F_avg (1 - E_avg)). 1 for a white metal.
+template <typename Real>
+Real KullaContyFresnel(Real f_average, Real e_average) {
+  return f_average * f_average * e_average / (1 - f_average * (1 - e_average));
+}
+
+}  // namespace nacre

@@ -1,0 +1,30 @@
+// shading/conductor_kernel.cc: GGX with the exact Fresnel equations of a conductor.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/conductor_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "shading/microfacet_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+void ShadeConductorT(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(ShadeConductorT);
+
+void ShadeConductor(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeConductorT)(uniforms, range);
+}
+}  // namespace nacre
+#endif

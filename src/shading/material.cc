@@ -1,0 +1,198 @@
+#include "shading/material.h"
+
+#include <cmath>
+
+#include "base/overloaded.h"
+#include "brdf/fresnel.h"
+#include "brdf/fresnel_average.h"
+#include "brdf/ggx.h"
+#include "brdf/multi_scatter.h"
+#include "brdf/phong.h"
+#include "brdf/quadrature.h"
+
+namespace nacre {
+namespace {
+
+// Calls of_channel(c) for each channel.
+template <class OfChannel>
+Rgb EachChannel(const OfChannel& of_channel) {
+  return {of_channel(0), of_channel(1), of_channel(2)};
+}
+
+LambertModel MakeModel(const LambertMaterial& material) { return {material.albedo * M_1_PI}; }
+
+PhongFamilyModel MakeModel(const PhongMaterial& material) {
+  double diffuse_scale = 1;
+  double specular_scale = 1;
+  if (material.convention == PhongConvention::kRadiometric) {
+    diffuse_scale = M_1_PI;
+    specular_scale = material.model == PhongModel::kBlinnPhong
+                         ? BlinnNormalization(material.shininess)
+                         : PhongNormalization(material.shininess);
+  }
+  return {.model = material.model,
+          .diffuse = material.kd * material.color * diffuse_scale,
+          .specular = material.ks * specular_scale,
+          .shininess = material.shininess,
+          .double_terms = material.shininess > kDoubleTermsShininess};
+}
+
+// What all microfacet materials have; the Fresnel curve and the base are the caller's.
+template <class Microfacet>
+MicrofacetModel MakeLobe(const Microfacet& material) {
+  MicrofacetModel model{};
+  model.shadowing = material.shadowing;
+  model.compensation = material.compensation;
+  model.coupling = DiffuseCoupling::kNone;
+  model.alpha = AlphaFromRoughness(material.roughness);
+  model.schlick_k = (material.roughness + 1) * (material.roughness + 1) / 8;
+  model.delta = IsDeltaLobe(model.alpha);
+  model.double_terms = !model.delta && material.roughness < kDoubleTermsRoughness;
+  model.albedo.lobe = MakeAlbedoFit(material.shadowing, material.roughness);
+  return model;
+}
+
+// Kulla and Conty 2017: the lobe of what bounced more than once, and, for a reciprocal base, the
+// mean albedo that its scale is divided by.
+void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
+  const double e_average = model->albedo.lobe.e_average;
+  model->f_multiple =
+      EachChannel([&](int c) { return KullaContyFresnel(f_average[c], e_average); });
+  model->multiple = KullaContyScale(e_average);
+  if (model->coupling != DiffuseCoupling::kAlbedoScaled) return;
+  for (int c = 0; c < 3; ++c) {
+    const double left = 1 - IntegrateTowardsZero([&](double cosine) {
+                          return 2 * cosine * LobeAlbedo(*model, cosine, c);
+                        });
+    model->diffuse[c] = left > 0 ? model->diffuse[c] / left : 0;
+  }
+}
+
+MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
+  MicrofacetModel model = MakeLobe(material);
+  model.coupling = material.diffuse_coupling;
+  model.diffuse = material.base_color * ((1 - material.metallic) * M_1_PI);
+  model.f0 = Rgb(kDielectricF0) * (1 - material.metallic) + material.base_color * material.metallic;
+  // The tint is the metal's.
+  model.f82_slope = EachChannel([&](int c) {
+    return material.metallic * F82SlopeFromTint(model.f0[c], material.f82_tint[c]);
+  });
+  model.fresnel = model.f82_slope == Rgb(0, 0, 0) ? FresnelForm::kSchlick : FresnelForm::kF82;
+  if (model.compensation == Compensation::kKullaConty) {
+    PrepareKullaConty(
+        EachChannel([&](int c) { return AverageF82(model.f0[c], model.f82_slope[c]); }), &model);
+  }
+  return model;
+}
+
+MicrofacetModel MakeModel(const ConductorMaterial& material) {
+  const double one_minus_seventh = 6.0 / 7;  // of the cosine that the F82 curve goes through
+  MicrofacetModel model = MakeLobe(material);
+  model.eta = material.eta;
+  model.k = material.k;
+  model.f0 = EachChannel([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
+  model.fresnel = FresnelForm::kConductor;
+  if (material.fresnel == ConductorFresnel::kF82Tint) {
+    model.fresnel = FresnelForm::kF82;
+    model.f82_slope = EachChannel([&](int c) {
+      return F82Slope(model.f0[c], FresnelConductor(1 - one_minus_seventh, one_minus_seventh,
+                                                    material.eta[c], material.k[c]));
+    });
+  } else if (material.fresnel == ConductorFresnel::kSchlick) {
+    model.fresnel = FresnelForm::kSchlick;
+  }
+  if (model.compensation == Compensation::kKullaConty) {
+    PrepareKullaConty(EachChannel([&](int c) {
+                        return model.fresnel == FresnelForm::kConductor
+                                   ? AverageConductor(material.eta[c], material.k[c])
+                                   : AverageF82(model.f0[c], model.f82_slope[c]);
+                      }),
+                      &model);
+  }
+  return model;
+}
+
+MicrofacetModel MakeModel(const DielectricMaterial& material) {
+  MicrofacetModel model = MakeLobe(material);
+  const bool exact = material.fresnel == DielectricFresnel::kExact;
+  model.coupling = material.diffuse_coupling;
+  model.diffuse = material.base_color * M_1_PI;
+  model.eta = Rgb(material.ior);
+  model.f0 = Rgb(FresnelF0(material.ior, 0.0));
+  model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
+  if (exact) {
+    model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, material.ior);
+  }
+  if (model.compensation == Compensation::kKullaConty) {
+    PrepareKullaConty(Rgb(exact ? AverageDielectric(material.ior) : AverageSchlick(model.f0.x)),
+                      &model);
+  }
+  return model;
+}
+
+}  // namespace
+
+ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
+  ShadingMaterial prepared{};
+  prepared.emission = material.emission;
+  Rgb of_ambient(0, 0, 0);  // what it reflects of light from everywhere
+  std::visit(Overloaded{[&](const LambertMaterial& lambert) {
+                          prepared.model = MakeModel(lambert);
+                          prepared.albedo = of_ambient = lambert.albedo;
+                        },
+                        [&](const PhongMaterial& phong) {
+                          prepared.model = MakeModel(phong);
+                          prepared.albedo = phong.color * phong.kd;
+                          of_ambient = phong.color * phong.ka;
+                        },
+                        [&](const MetallicRoughnessMaterial& metallic_roughness) {
+                          prepared.model = MakeModel(metallic_roughness);
+                          // base_color is what both the diffuse base and a metal reflect, the 4 %
+                          // of a dielectric's gloss aside.
+                          prepared.albedo = of_ambient = metallic_roughness.base_color;
+                        },
+                        [&](const ConductorMaterial& conductor) {
+                          const MicrofacetModel model = MakeModel(conductor);
+                          prepared.model = model;
+                          prepared.albedo = model.f0;
+                          of_ambient = EachChannel([&](int c) {
+                            return AverageConductor(conductor.eta[c], conductor.k[c]);
+                          });
+                        },
+                        [&](const DielectricMaterial& dielectric) {
+                          const double gloss = AverageDielectric(dielectric.ior);
+                          prepared.model = MakeModel(dielectric);
+                          prepared.albedo = dielectric.base_color;
+                          of_ambient = Rgb(gloss) + dielectric.base_color * (1 - gloss);
+                        },
+                        [](const SplitMaterial&) {}},
+             material.model);
+  prepared.ambient = of_ambient * ambient_radiance;
+  return prepared;
+}
+
+double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
+  const double f0 = model.f0[channel];
+  const double one = AlbedoOne(model.albedo.lobe, n_dot_v);
+  const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
+  const double schlick = AlbedoSchlick(model.albedo.lobe, n_dot_v);
+  const double single = model.fresnel == FresnelForm::kDielectric
+                            ? AlbedoFresnel(model.albedo, n_dot_v)
+                            : f0 * (one - schlick) + schlick;
+  switch (model.compensation) {
+    case Compensation::kTurquin:
+      return single * (1 + f0 * loss / one);
+    case Compensation::kKullaConty:
+      return single + model.f_multiple[channel] * loss;
+    case Compensation::kNone:
+      break;
+  }
+  return single;
+}
+
+bool HasDeltaLobe(const ShadingMaterial& material) {
+  const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
+  return microfacet != nullptr && microfacet->delta;
+}
+
+}  // namespace nacre

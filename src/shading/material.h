@@ -1,0 +1,68 @@
+// shading/material.h: materials as the kernels want them: numbers of the scene turned into the
+// constants of each reflection model, once per scene and in double.
+#pragma once
+
+#include <variant>
+
+#include "brdf/albedo.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+// Below this roughness, and beyond this exponent, the half vector's terms are formed in double:
+// a lobe of width alpha turns float's 6e-8 rad of direction into a relative error of about
+// 1e-7 / alpha, 1e-5 at these limits. The choice is the material's, so a hit's bits never depend
+// on what else is in its batch.
+inline constexpr double kDoubleTermsRoughness = 0.1;
+inline constexpr double kDoubleTermsShininess = 1e4;
+
+struct LambertModel {
+  Rgb diffuse;  // albedo / pi
+};
+
+struct PhongFamilyModel {
+  PhongModel model;
+  Rgb diffuse;   // kd color, over pi if radiometric
+  Rgb specular;  // ks, times the lobe's normalisation if radiometric
+  double shininess;
+  bool double_terms;
+};
+
+enum class FresnelForm : uint8_t { kSchlick, kF82, kDielectric, kConductor };
+
+// A GGX lobe over a diffuse base: metallic-roughness, conductor and dielectric.
+struct MicrofacetModel {
+  Shadowing shadowing;
+  FresnelForm fresnel;
+  Compensation compensation;
+  DiffuseCoupling coupling;
+  Rgb diffuse;       // of the base, over pi; with reciprocal scaling also over 1 - mean albedo
+  Rgb f0;            // reflectance at normal incidence
+  Rgb f82_slope;     // kF82
+  Rgb eta, k;        // kDielectric (eta), kConductor
+  Rgb f_multiple;    // kKullaConty: what light that bounced more than once has left, F_ms
+  double multiple;   // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
+  double alpha;      // of the lobe
+  double schlick_k;  // (roughness + 1)^2 / 8
+  bool delta;        // a perfect mirror, which punctual lights cannot show
+  bool double_terms;
+  FresnelAlbedoFit albedo;  // kDielectric: with the curve of its index
+};
+
+// A material prepared for shading; a split has no model of its own.
+struct ShadingMaterial {
+  Rgb ambient;  // radiance reflected of the scene's ambient light
+  Rgb emission;
+  Rgb albedo;  // for the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor
+  std::variant<std::monostate, LambertModel, PhongFamilyModel, MicrofacetModel> model;
+};
+
+ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);
+
+// The directional albedo of the whole lobe, compensation included, seen from n.v, of one channel.
+double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
+
+// True if the material has a perfect mirror's lobe.
+bool HasDeltaLobe(const ShadingMaterial& material);
+
+}  // namespace nacre

@@ -1,0 +1,56 @@
+// shading/microfacet_albedo-inl.h: what a microfacet lobe reflects in all, and so what is left for
+// its base and for light that bounces more than once. Scalar twin: LobeAlbedo (material.h).
+#if defined(NACRE_SHADING_MICROFACET_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_MICROFACET_ALBEDO_INL_H_
+#undef NACRE_SHADING_MICROFACET_ALBEDO_INL_H_
+#else
+#define NACRE_SHADING_MICROFACET_ALBEDO_INL_H_
+#endif
+
+#include "brdf/albedo-inl.h"
+#include "shading/range-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+// The albedo of single scattering, seen from one direction, is F0 scale + bias.
+struct AlbedoV {
+  FloatV one, loss;  // for F = 1, and 1 minus that
+  FloatV scale, bias;
+};
+
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV cosine) {
+  const AlbedoFit& fit = model.albedo.lobe;
+  const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
+  const FloatV one = AlbedoOne(d, fit, x);
+  const FloatV loss = AlbedoLoss(d, fit, x);
+  if (model.fresnel == FresnelForm::kDielectric) {
+    return {one, loss, hn::Zero(d), AlbedoFresnel(d, model.albedo, one, x)};
+  }
+  const FloatV schlick = AlbedoSchlick(d, fit, one, x);
+  return {one, loss, hn::Sub(one, schlick), schlick};
+}
+
+// 1 minus the albedo of the whole lobe, Kulla and Conty's part included: what reaches the base,
+// of light from that direction or on its way there. Rounding may leave it below 0 where nothing
+// is left.
+HWY_INLINE FloatV KullaContyBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV f_multiple) {
+  const FloatV one = hn::Set(d, 1.0f);
+  const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
+  const FloatV whole = hn::MulAdd(f_multiple, albedo.loss, single);
+  return hn::Max(hn::Sub(one, whole), hn::Zero(d));
+}
+
+// The same with Turquin's scale on the lobe, `multiple` = 1 / E - 1.
+HWY_INLINE FloatV TurquinBase(FloatTag d, const AlbedoV& albedo, FloatV f0, FloatV multiple) {
+  const FloatV one = hn::Set(d, 1.0f);
+  const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
+  const FloatV whole = hn::Mul(single, hn::MulAdd(f0, multiple, one));
+  return hn::Max(hn::Sub(one, whole), hn::Zero(d));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,91 @@
+// shading/narrow_kernel.cc: the half-vector terms of narrow lobes, in double: float directions
+// are 6e-8 rad coarse, and a highlight 1e-4 rad wide shows it.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/narrow_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "brdf/ggx-inl.h"
+#include "brdf/phong-inl.h"
+#include "shading/kernels.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DoubleTag = hn::ScalableTag<double>;
+using DoubleV = hn::Vec<DoubleTag>;
+using HalfFloatTag = hn::Rebind<float, DoubleTag>;  // as many floats as a vector has doubles
+
+struct Directions {
+  Vec3V<DoubleV> normal, to_light, to_view;
+};
+
+HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
+  const HalfFloatTag df;
+  hn::StoreU(hn::DemoteTo(df, value), df, to);
+}
+
+// Calls form(directions, i) for each packet of hits [begin, end). Arrays are padded, and what a
+// packet writes past the end of its run is scratch.
+template <class Form>
+HWY_INLINE void ForEachHit(const LitHits& lit, size_t begin, size_t end, const Form& form) {
+  const DoubleTag d;
+  const auto load = [&](const Soa3<double>& soa, size_t i) HWY_ATTR {
+    return LoadU3(d, soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
+  };
+  const DoubleV one = hn::Set(d, 1.0);
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const Vec3V<DoubleV> offset = load(lit.light.offset, i);
+    const DoubleV squared = FusedDot(offset, offset);
+    const DoubleV distance = hn::Sqrt(squared);
+    // A light exactly at the hit has no direction, and no irradiance.
+    const auto apart = hn::Gt(squared, hn::Zero(d));
+    const DoubleV scale = hn::Div(one, hn::IfThenElse(apart, distance, one));
+    form(Directions{load(lit.hits.normal, i), Scale(offset, scale), load(lit.hits.to_view, i)}, i);
+  }
+}
+
+void NarrowGgxT(double alpha, const LitHits& lit, size_t begin, size_t end, NarrowLobes* lobes) {
+  const DoubleTag d;
+  const DoubleV alpha_v = hn::Set(d, alpha);
+  ForEachHit(lit, begin, end, [&](const Directions& at, size_t i) HWY_ATTR {
+    const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
+    StoreRounded(d, GgxDistribution(d, angles, alpha_v), lobes->first.data() + i);
+  });
+}
+
+void NarrowPhongT(PhongModel model, const LitHits& lit, size_t begin, size_t end,
+                  NarrowLobes* lobes) {
+  const DoubleTag d;
+  ForEachHit(lit, begin, end, [&](const Directions& at, size_t i) HWY_ATTR {
+    const LobeCosineV<DoubleV> cosine =
+        model == PhongModel::kBlinnPhong
+            ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
+            : PhongCosine(d, at.normal, at.to_light, at.to_view);
+    StoreRounded(d, cosine.one_minus_c, lobes->first.data() + i);
+    StoreRounded(d, cosine.c, lobes->second.data() + i);
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(NarrowGgxT);
+HWY_EXPORT(NarrowPhongT);
+
+void NarrowGgx(double alpha, const LitHits& lit, size_t begin, size_t end, NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowGgxT)(alpha, lit, begin, end, lobes);
+}
+
+void NarrowPhong(PhongModel model, const LitHits& lit, size_t begin, size_t end,
+                 NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, lit, begin, end, lobes);
+}
+}  // namespace nacre
+#endif

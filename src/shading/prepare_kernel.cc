@@ -1,0 +1,71 @@
+// shading/prepare_kernel.cc: what microfacet materials need of a hit whatever the light: the
+// weight of multiple scattering and the base's share of the light, once per hit.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/prepare_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "shading/microfacet_albedo-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+// Stores the lanes of `mask`: a packet may reach into the next run.
+HWY_INLINE void StoreMasked(FloatTag d, hn::Mask<FloatTag> mask, FloatV value, float* to) {
+  hn::StoreU(hn::IfThenElse(mask, value, hn::LoadU(d, to)), d, to);
+}
+
+HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV& albedo) {
+  switch (compensation) {
+    case Compensation::kTurquin:
+      return hn::Div(albedo.loss, albedo.one);
+    case Compensation::kKullaConty:
+      return albedo.loss;
+    case Compensation::kNone:
+      break;
+  }
+  return hn::Zero(d);
+}
+
+void PrepareMicrofacetT(const MicrofacetModel& model, size_t begin, size_t end, Surface* surface) {
+  const FloatTag d;
+  const FloatV one = hn::Set(d, 1.0f);
+  const Soa3<float>& n = surface->normal;
+  const Soa3<float>& v = surface->to_view;
+  float* const base[3] = {surface->base.x.data(), surface->base.y.data(), surface->base.z.data()};
+  const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
+  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const auto mask = hn::FirstN(d, end - i);
+    const FloatV n_dot_v =
+        hn::Max(FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
+                         LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i)),
+                hn::Zero(d));
+    const AlbedoV albedo = EvaluateAlbedo(d, model, n_dot_v);
+    const FloatV multiple = Multiple(d, model.compensation, albedo);
+    StoreMasked(d, mask, multiple, surface->multiple.data() + i);
+    for (int c = 0; c < 3; ++c) {
+      const FloatV f0 = hn::Set(d, static_cast<float>(model.f0[c]));
+      const FloatV f_multiple = hn::Set(d, static_cast<float>(model.f_multiple[c]));
+      const FloatV left = !scaled       ? one
+                          : kulla_conty ? KullaContyBase(d, albedo, f0, f_multiple)
+                                        : TurquinBase(d, albedo, f0, multiple);
+      StoreMasked(d, mask, left, base[c] + i);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(PrepareMicrofacetT);
+void PrepareMicrofacet(const MicrofacetModel& model, size_t begin, size_t end, Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetT)(model, begin, end, surface);
+}
+}  // namespace nacre
+#endif

@@ -1,0 +1,32 @@
+// tests/brdf/energy_kernel.h: the SIMD Fresnel curves and albedos of src/brdf evaluated on arrays,
+// for tests against their scalar twins and the tables.
+#pragma once
+
+#include <vector>
+
+#include "brdf/albedo.h"
+
+namespace nacre {
+
+struct FresnelInput {
+  float v_dot_h, one_minus_vh;
+  float eta, k;     // k: of the conductor
+  float f0, slope;  // of Schlick and F82
+};
+
+struct FresnelOutput {
+  float dielectric, conductor, schlick, f82;
+};
+
+std::vector<FresnelOutput> EvaluateFresnel(const std::vector<FresnelInput>& inputs);
+
+struct AlbedoOutput {
+  float one, loss, schlick, fresnel;
+  float turquin;  // of F0 = 1
+};
+
+// For each n.v.
+std::vector<AlbedoOutput> EvaluateAlbedos(const FresnelAlbedoFit& fit,
+                                          const std::vector<float>& n_dot_v);
+
+}  // namespace nacre
