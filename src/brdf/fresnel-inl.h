@@ -52,10 +52,10 @@ HWY_INLINE V FresnelDielectric(D d, V v_dot_h, V one_minus_vh, V eta) {
   const V eta2 = hn::Mul(eta, eta);
   const V contrast = hn::Mul(hn::Sub(eta, one), hn::Add(eta, one));
   const V cos2 = hn::Mul(v_dot_h, v_dot_h);
-  const V g2 = hn::Add(contrast, cos2);
+  const V sin2 = hn::MulAdd(one_minus_vh, v_dot_h, one_minus_vh);
+  const V g2 = hn::IfThenElse(hn::Lt(eta, one), hn::Sub(eta2, sin2), hn::Add(contrast, cos2));
   const auto partial = hn::Gt(g2, hn::Zero(d));
   const V g = hn::Sqrt(hn::IfThenElse(partial, g2, one));
-  const V sin2 = hn::MulAdd(one_minus_vh, v_dot_h, one_minus_vh);
   const V root_s = hn::Add(v_dot_h, g);
   const V root_p = hn::MulAdd(eta2, v_dot_h, g);
   const V s = hn::Div(contrast, hn::Mul(root_s, root_s));
@@ -85,7 +85,10 @@ HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
   const V b2_cos2 = hn::Mul(b2, hn::Mul(v_dot_h, v_dot_h));
   const V a_cos = hn::Mul(a, v_dot_h);
   const auto squares = [](V x, V y2) { return hn::MulAdd(x, x, y2); };
-  const V s = hn::Div(squares(hn::Sub(a, v_dot_h), b2), squares(hn::Add(a, v_dot_h), b2));
+  const V s_below = squares(hn::Add(a, v_dot_h), b2);
+  const auto interface = hn::Gt(s_below, hn::Zero(d));
+  const V s = hn::Div(squares(hn::Sub(a, v_dot_h), b2),
+                      hn::IfThenElse(interface, s_below, hn::Set(d, T(1))));
   const V p =
       hn::Div(squares(hn::Sub(a_cos, sin2), b2_cos2), squares(hn::Add(a_cos, sin2), b2_cos2));
   return hn::Mul(half, hn::MulAdd(s, p, s));

@@ -57,10 +57,11 @@ Real FresnelDielectric(Real v_dot_h, Real one_minus_vh, Real eta) {
   const Real eta2 = eta * eta;
   const Real contrast = (eta - 1) * (eta + 1);
   const Real cos2 = v_dot_h * v_dot_h;
-  const Real g2 = contrast + cos2;
+  const Real sin2 = one_minus_vh * (1 + v_dot_h);
+  // g^2 = eta^2 - sin^2, in the form that cancels nothing but at the critical angle itself.
+  const Real g2 = eta < 1 ? eta2 - sin2 : contrast + cos2;
   if (!(g2 > 0)) return 1;
   const Real g = std::sqrt(g2);
-  const Real sin2 = one_minus_vh * (1 + v_dot_h);
   const Real s = 1 / ((v_dot_h + g) * (v_dot_h + g));
   const Real p = (eta2 * cos2 - sin2) / ((eta2 * v_dot_h + g) * (eta2 * v_dot_h + g));
   return contrast * contrast * (s * s + p * p) / 2;
@@ -82,7 +83,9 @@ Real FresnelConductor(Real v_dot_h, Real one_minus_vh, Real eta, Real k) {
   const auto squares = [](Real x, Real y2) { return x * x + y2; };
   const Real b2_cos2 = b2 * v_dot_h * v_dot_h;
   const Real a_cos = a * v_dot_h;
-  const Real s = squares(a - v_dot_h, b2) / squares(a + v_dot_h, b2);
+  const Real s_below = squares(a + v_dot_h, b2);
+  if (!(s_below > 0)) return 0;  // grazing along no interface at all: eta = 1, k = 0
+  const Real s = squares(a - v_dot_h, b2) / s_below;
   const Real p = squares(a_cos - sin2, b2_cos2) / squares(a_cos + sin2, b2_cos2);
   return s * (1 + p) / 2;
 }

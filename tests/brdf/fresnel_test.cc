@@ -158,7 +158,10 @@ TEST_CASE("Fresnel limits are exact, and nothing leaves [0, 1]") {
       }
     }
     const float top = 1 + 8 * 0x1p-23f;  // roundings of a value of 1
-    for (const FresnelOutput& out : EvaluateFresnel(inputs)) {
+    const std::vector<FresnelOutput> outputs = EvaluateFresnel(inputs);
+    for (size_t i = 0; i < inputs.size(); ++i) {
+      const FresnelOutput& out = outputs[i];
+      CAPTURE(inputs[i].v_dot_h, inputs[i].eta, inputs[i].k, out.dielectric, out.conductor);
       CHECK((out.dielectric >= 0 && out.dielectric <= top));
       CHECK((out.conductor >= 0 && out.conductor <= top));
       CHECK((out.f82 >= 0 && out.f82 <= 1));
