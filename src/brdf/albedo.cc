@@ -2,6 +2,7 @@
 
 #include "brdf/albedo_integral.h"
 #include "brdf/albedo_table.h"
+#include "brdf/quadrature.h"
 
 namespace nacre {
 
@@ -14,7 +15,8 @@ AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
   const double t = position - first;
   const double weights[4] = {(1 - t) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2,
                              t * (t - 1) * (3 - t) / 2, t * (t - 1) * (t - 2) / 6};
-  double average = 0;
+  double one_average = 0;
+  double schlick_average = 0;
   for (int i = 0; i < 4; ++i) {
     const AlbedoEntry& entry = kAlbedoTable[static_cast<int>(shadowing)][first + i];
     const auto weight = static_cast<float>(weights[i]);
@@ -22,12 +24,14 @@ AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
       fit.one[j] += weight * entry.one[j];
       fit.schlick[j] += weight * entry.schlick[j];
     }
-    average += weights[i] * double{entry.average};
+    one_average += weights[i] * double{entry.one_average};
+    schlick_average += weights[i] * double{entry.schlick_average};
   }
   if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror has no width
   fit.e_average = shadowing == Shadowing::kSchlickDirect
-                      ? average
-                      : 1 - average * AverageLossScale(AlphaFromRoughness(roughness));
+                      ? one_average
+                      : 1 - one_average * AverageLossScale(AlphaFromRoughness(roughness));
+  fit.schlick_average = schlick_average;
   return fit;
 }
 
@@ -35,12 +39,11 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, 
   FresnelAlbedoFit fit;
   fit.lobe = MakeAlbedoFit(shadowing, roughness);
   fit.eta = static_cast<float>(eta);
-  if (!(fit.lobe.shape.offset > 0)) return fit;
   const auto curve = [&](double v_dot_h, double one_minus_vh) {
     return FresnelDielectric(v_dot_h, one_minus_vh, eta);
   };
-  std::array<double, kAlbedoTerms> values{};
-  for (int i = 0; i < kAlbedoTerms; ++i) {
+  std::array<double, kAlbedoTerms> values{};  // 0 for a mirror
+  for (int i = 0; i < kAlbedoTerms && fit.lobe.shape.offset > 0; ++i) {
     const double mu = AlbedoNodeCosine(fit.lobe.shape, i);
     const double albedo = AlbedoOf(shadowing, roughness, mu, curve, kFastAlbedoQuadrature);
     const double masking = fit.lobe.shape.k > 0 ? AlbedoMasking(fit.lobe.shape, mu) : 1;
@@ -49,6 +52,7 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, 
   }
   const auto polynomial = InterpolateAlbedo(values);
   for (size_t i = 0; i < kAlbedoTerms; ++i) fit.fresnel[i] = static_cast<float>(polynomial[i]);
+  fit.average = IntegrateTowardsZero([&](double mu) { return 2 * mu * AlbedoFresnel(fit, mu); });
   return fit;
 }
 

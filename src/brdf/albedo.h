@@ -16,7 +16,8 @@ struct AlbedoFit {
   AlbedoShape shape;
   AlbedoPolynomial one{};
   AlbedoPolynomial schlick{};
-  double e_average = 1;  // 2 int E mu dmu
+  double e_average = 1;        // 2 int E mu dmu
+  double schlick_average = 0;  // 2 int B mu dmu
 };
 
 // roughness in [0, 1], and continuous in it.
@@ -27,6 +28,7 @@ struct FresnelAlbedoFit {
   AlbedoFit lobe;
   AlbedoPolynomial fresnel{};
   float eta = 1;
+  double average = 0;  // 2 int of the albedo mu dmu
 };
 
 // For eta > 1: a quadrature of half a millisecond. With total reflection (eta < 1) the curve has a

@@ -11,8 +11,8 @@
 
 namespace nacre {
 
-// How finely to integrate. Measured against finer rules: the default's albedos are right to 1e-9,
-// the fast ones' to 1e-5 (n.v and roughness in [0, 1], smooth Fresnel curves).
+// How finely to integrate. Measured against a finer rule, for a dielectric of index 1.5: the
+// default's albedos are right to 2e-7, the fast ones' to 4e-6.
 struct AlbedoQuadrature {
   int points = 12;     // Gauss-Legendre points in each panel of the light's elevation
   double step = 0.42;  // of the azimuth's warped variable

@@ -15,7 +15,8 @@ inline constexpr int kShadowingForms = 3;
 struct AlbedoEntry {
   float one[kAlbedoTerms];
   float schlick[kAlbedoTerms];
-  float average;  // (1 - E_avg) / AverageLossScale of Smith's forms, E_avg of kSchlickDirect
+  float one_average;  // (1 - E_avg) / AverageLossScale of Smith's forms, E_avg of kSchlickDirect
+  float schlick_average;
 };
 
 extern const AlbedoEntry kAlbedoTable[kShadowingForms][kAlbedoIntervals + 1];

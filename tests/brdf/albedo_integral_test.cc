@@ -84,10 +84,8 @@ double PhongIntegral(double shininess, double theta) {
     const double end = theta > 0 && std::abs(towards) < 1 ? std::acos(towards) : M_PI;
     double sum = 0;
     for (size_t i = 0; i < rule.x.size(); ++i) {
-      // From the arc's end, where the view is nearest the zenith's far side.
-      const double phi = end * rule.x[i];
-      const Vec3d v = r * std::cos(angle) -
-                      across * (std::sin(angle) * std::cos(M_PI - phi)) * -1.0 +
+      const double phi = end * rule.x[i];  // 0 where the ring is nearest the normal
+      const Vec3d v = r * std::cos(angle) - across * (std::sin(angle) * std::cos(phi)) +
                       Vec3d(0, 1, 0) * (std::sin(angle) * std::sin(phi));
       sum += rule.w[i] * end * 2 * PhongLobe(normal, to_light, v, shininess) * (normal ^ v);
     }

@@ -40,17 +40,32 @@ Curves SampleCurves(Shadowing shadowing, double roughness, const AlbedoShape& sh
   return {InterpolateAlbedo(values.one), InterpolateAlbedo(values.schlick)};
 }
 
-// 2 int of the fitted curve mu dmu: the average belongs to the fit, so that what is lost along one
-// direction and what is given back along all others agree.
-double Average(const AlbedoShape& shape, const std::array<double, kAlbedoTerms>& one) {
-  return IntegrateTowardsZero([&](double mu) {
-    const auto x = ComputeAlbedoVariables(shape, mu);
+struct Averages {
+  double one, schlick;
+};
+
+// 2 int of the fitted curves mu dmu: averages belong to the fit, so that what is lost along one
+// direction and what is given back along all others agree. `one` is of the loss for Smith's forms.
+Averages Average(const AlbedoShape& shape, const Curves& curves) {
+  const auto evaluate = [](const std::array<double, kAlbedoTerms>& polynomial, double z) {
     double sum = 0;
-    for (size_t i = kAlbedoTerms; i-- > 0;) sum = sum * x.z + one[i];
+    for (size_t i = kAlbedoTerms; i-- > 0;) sum = sum * z + polynomial[i];
+    return sum;
+  };
+  const auto one = [&](double mu) {
+    const auto x = ComputeAlbedoVariables(shape, mu);
     const double factor =
         shape.k > 0 ? AlbedoMasking(shape, mu) : (1 + mu * mu) * x.layer * x.layer;
-    return 2 * mu * factor * sum;
-  });
+    return factor * evaluate(curves.one, x.z);
+  };
+  const auto schlick = [&](double mu) {
+    const double e = shape.k > 0 ? one(mu) : 1 - one(mu);
+    const double masking = shape.k > 0 ? AlbedoMasking(shape, mu) : 1;
+    return Power5(1 - mu) * e +
+           masking * evaluate(curves.schlick, ComputeAlbedoVariables(shape, mu).z);
+  };
+  return {IntegrateTowardsZero([&](double mu) { return 2 * mu * one(mu); }),
+          IntegrateTowardsZero([&](double mu) { return 2 * mu * schlick(mu); })};
 }
 
 void PrintEntry(std::FILE* file, Shadowing shadowing, double roughness) {
@@ -64,9 +79,9 @@ void PrintEntry(std::FILE* file, Shadowing shadowing, double roughness) {
   std::fprintf(file, "     {");
   print(curves.one);
   print(curves.schlick);
-  const double average = Average(shape, curves.one);
-  const double scale = AverageLossScale(AlphaFromRoughness(roughness));
-  std::fprintf(file, "%.9eF},\n", shape.k > 0 ? average : average / scale);
+  const Averages average = Average(shape, curves);
+  const double scale = shape.k > 0 ? 1 : AverageLossScale(AlphaFromRoughness(roughness));
+  std::fprintf(file, "%.9eF, %.9eF},\n", average.one / scale, average.schlick);
 }
 
 // At roughness 0 stands the boundary layer's own limit. Smith's forms have reached it at the next
