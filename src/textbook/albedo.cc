@@ -37,10 +37,9 @@ constexpr int kAzimuthPoints = 200;
 double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f) {
   const double a2 = std::pow(roughness, 4);
   const Vec3d to_view = Direction(n_dot_v, 0);
-  return Midpoint(kRadialPoints, [&](double s) {
-    // Half vectors with the density D n.h (Walter et al. 2007, eq. 35). s = t^2 (3 - 2 t) has its
-    // points denser at both ends, where the integrand changes fastest.
-    const double t = s;
+  return Midpoint(kRadialPoints, [&](double t) {
+    // Half vectors with the density D n.h (Walter et al. 2007, eq. 35); u has its points denser at
+    // both ends, where the integrand changes fastest.
     const double u = t * t * (3 - 2 * t);
     const double du = 6 * t * (1 - t);
     const double cos2 = (1 - u) / (1 + (a2 - 1) * u);
@@ -71,7 +70,7 @@ double SmoothAlbedo(double n_dot_v, const TextbookBrdf& f) {
 }
 
 double AverageAlbedo(const std::function<double(double)>& albedo) {
-  constexpr int kPoints = 200;
+  constexpr int kPoints = 64;
   return Midpoint(kPoints, [&](double mu) { return 2 * mu * albedo(mu); });
 }
 

@@ -40,9 +40,7 @@ Counted SquareRoot(Counted a) {
 struct CountedVec {
   Counted x, y, z;
 };
-Counted Dot(const CountedVec& a, const CountedVec& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+Counted Dot(const CountedVec& a, const CountedVec& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 const CountedVec kNormal{{0}, {0}, {1}};
 const CountedVec kToLight{{0.6}, {0}, {0.8}};

@@ -13,7 +13,7 @@ namespace nacre {
 // lists them.
 struct TextbookFaults {
   // The reflection models.
-  bool schlick_geometry = true;     // E2: Schlick's G, k = (r + 1)^2 / 8; off: height-correlated Smith
+  bool schlick_geometry = true;  // E2: Schlick's G, k = (r + 1)^2 / 8; off: height-correlated Smith
   bool denominator_epsilon = true;  // E4: 4 n.l n.v + 0.0001
   bool distribution_floor = true;   // E5: D's denominator is at least 1e-10
   bool v_dot_h_floor = true;        // E5: v.h is at least 0.001
@@ -34,12 +34,12 @@ struct TextbookFaults {
   bool no_far_root = true;        // E28: from inside, a sphere is not hit
 
   // From radiance to the file.
-  bool encode_per_light = true;  // E8: tone map and gamma in the shading, for each light; off: once,
-                                 // for the sum of all lights
-  bool raw_left_half = true;     // E9: the Phong half and the background are neither tone-mapped nor
-                                 // encoded
-  bool gamma22 = true;           // E24: x^(1/2.2); off: the exact sRGB curve
-  bool png_truncation = true;    // A87: x * 255 truncated; off: rounded
+  bool encode_per_light = true;  // E8: tone map and gamma in the shading, for each light; off:
+                                 // once, for the sum of all lights
+  bool raw_left_half = true;   // E9: the Phong half and the background are neither tone-mapped nor
+                               // encoded
+  bool gamma22 = true;         // E24: x^(1/2.2); off: the exact sRGB curve
+  bool png_truncation = true;  // A87: x * 255 truncated; off: rounded
 
   // Where the lesson's words and its program disagree, the program is followed. On: the words.
   bool k_from_words = false;        // E1: k = (r^2 + 1)^2 / 8

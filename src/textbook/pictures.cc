@@ -99,12 +99,11 @@ Disc DiscAt(int row, int column, int width, int height) {
   Disc disc;
   disc.cx = (column + 0.5) / kColumns * width;
   disc.cy = (row + 0.5) / kRows * height;
-  disc.radius = std::min(static_cast<double>(width) / kColumns,
-                         static_cast<double>(height) / kRows) *
-                0.4;
+  disc.radius =
+      std::min(static_cast<double>(width) / kColumns, static_cast<double>(height) / kRows) * 0.4;
   const double per_pixel = kSphereRadius / disc.radius;
-  disc.center = kSphereCenter + Vec3d((disc.cx - width / 2.0) * per_pixel,
-                                      (height / 2.0 - disc.cy) * per_pixel, 0);
+  disc.center = kSphereCenter +
+                Vec3d((disc.cx - width / 2.0) * per_pixel, (height / 2.0 - disc.cy) * per_pixel, 0);
   return disc;
 }
 
@@ -138,8 +137,7 @@ TextbookPicture RenderTextbookComparison(const TextbookComparison& s) {
   const auto index = [&](int x, int y) {
     return static_cast<size_t>(y) * static_cast<size_t>(s.width) + static_cast<size_t>(x);
   };
-  const Rgb ambient =
-      s.faults.pbr_without_ambient ? Rgb(0, 0, 0) : s.pbr.albedo * s.phong.ka;
+  const Rgb ambient = s.faults.pbr_without_ambient ? Rgb(0, 0, 0) : s.pbr.albedo * s.phong.ka;
   ForEachComparisonPixel(
       s.width, s.height, s.faults,
       [&](int x, int y, const Vec3d& point, const Vec3d& normal) {
@@ -169,8 +167,8 @@ TextbookPicture RenderTextbookGrid(const TextbookGrid& s) {
       ForEachDiscPixel(disc, s, [&](int px, int py, const Vec3d& normal) {
         const size_t pixel =
             static_cast<size_t>(py) * static_cast<size_t>(s.width) + static_cast<size_t>(px);
-        const Vec3d point = s.faults.shared_grid_point ? SharedPoint(normal)
-                                                       : disc.center + normal * kSphereRadius;
+        const Vec3d point =
+            s.faults.shared_grid_point ? SharedPoint(normal) : disc.center + normal * kSphereRadius;
         TextbookPoint p = MakePoint(point, normal, light_position, kLightColor, s.faults);
         if (!s.faults.perspective_view) p.to_view = Vec3d(0, 0, 1);
         picture.sphere[pixel] = 1;

@@ -34,8 +34,8 @@ Rgb TextbookPhongShading(const TextbookPoint& p, const TextbookPhong& material,
     specular *= (material.shininess + 2) * 0.5 * M_1_PI;
   }
   const Rgb ambient = faults.ambient_from_words ? p.light : Rgb(1, 1, 1);
-  Rgb color =
-      material.color * ambient * material.ka + p.light * material.color * diffuse + p.light * specular;
+  Rgb color = material.color * ambient * material.ka + p.light * material.color * diffuse +
+              p.light * specular;
   if (faults.clip_in_shading) {
     for (int c = 0; c < 3; ++c) color[c] = std::clamp(color[c], 0.0, 1.0);
   }
@@ -80,7 +80,9 @@ double SchlickG1(double n_dot_x, double k) { return n_dot_x / (n_dot_x * (1 - k)
 
 // Height-correlated Smith (Heitz 2014, eq. 99).
 double SmithG(double n_dot_v, double n_dot_l, double alpha) {
-  const auto root = [alpha](double c) { return std::sqrt(alpha * alpha + (1 - alpha * alpha) * c * c); };
+  const auto root = [alpha](double c) {
+    return std::sqrt(alpha * alpha + (1 - alpha * alpha) * c * c);
+  };
   return 2 * n_dot_l * n_dot_v / (n_dot_l * root(n_dot_v) + n_dot_v * root(n_dot_l));
 }
 
