@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct Sheet {
   std::string file;
-  std::string title;
+  TextbookSheet layout;
   const CodedPicture& lesson;
   Scene (*scene)();
 };
@@ -49,7 +49,8 @@ void PrintFaults(const LessonPictures& lesson) {
       "Amounts are measured now: each fault is switched off alone in the lesson's two pictures,\n"
       "\"comparison\" (400x200) and \"grid\" (600x400), and 8-bit codes compared on their "
       "spheres;\n"
-      "or they come from quadrature, or from the formula.\n\n");
+      "or they come from quadrature, or from the formula. Some faults are other founding\n"
+      "documents': doc1 on interpolation, doc2 shading notes, doc3 slides on lighting.\n\n");
   for (const FaultEntry& entry : FaultEntries()) {
     ThrowIfStopped();
     PrintEntry(entry, lesson);
@@ -78,10 +79,17 @@ std::vector<std::string> PrepareFolder(const std::string& folder,
 void ExplainTextbook(const std::string& folder) {
   const LessonPictures lesson = RenderLesson({});
   const std::vector<Sheet> sheets = {
-      {"phong_vs_pbr.png", "Phong (left half) against PBR (right half)", lesson.comparison,
+      // All of it, and the sphere four times as large.
+      {"phong_vs_pbr.png",
+       {"Phong (left half) against PBR (right half)",
+        {{Window{0, 0, 400, 200}, 1}, {Window{150, 50, 250, 150}, 4}}},
+       lesson.comparison,
        TextbookComparisonScene},
-      {"material_grid.png", "Roughness 0.1 to 0.9 downwards, metallic 0 to 1 to the right",
-       lesson.grid, TextbookGridScene},
+      {"material_grid.png",
+       {"Roughness 0.1 to 0.9 downwards, metallic 0 to 1 to the right",
+        {{Window{0, 0, 600, 400}, 1}}},
+       lesson.grid,
+       TextbookGridScene},
   };
   std::vector<std::string> paths;
   if (!folder.empty()) paths = PrepareFolder(folder, sheets);
@@ -94,7 +102,7 @@ void ExplainTextbook(const std::string& folder) {
                          ChangeText(MeasureChange(sheet.lesson.codes, accurate.codes,
                                                   sheet.lesson.picture.sphere, accurate.sphere))));
     if (paths.empty()) continue;
-    WriteTextbookSheet(paths[i], sheet.title, sheet.lesson, accurate);
+    WriteTextbookSheet(paths[i], sheet.layout, sheet.lesson, accurate);
     PrintError(fmt::format("{}: the lesson, nacre, and the difference\n", paths[i]));
   }
 }

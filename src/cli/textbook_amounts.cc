@@ -116,7 +116,6 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
   const auto mirror = [&](double n_dot_v) {
     return 100 * (1 - TextbookSpecularAlbedo(n_dot_v, kMirror, 1, lesson));
   };
-  const auto average = [](const auto& albedo) { return AverageAlbedo(albedo); };
   const double lesson_white =
       TextbookSpecularAlbedo(0.18, 0.02, 0.04, lesson) + TextbookDiffuseAlbedo(0.18, 0.04, lesson);
   const double nacre_white = NacreSpecularAlbedo(0.18, 0.02, 0.04) + NacreDiffuseAlbedo(0.18, 0.04);
@@ -128,9 +127,10 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
       "not shown by these pictures (one light); of light from everywhere, 1 would be all:",
       fmt::format("perfect mirror, r -> 0: loses {:.1f} % at n.v = 0.2, {:.1f} % at n.v = 0.1",
                   mirror(0.2), mirror(0.1)),
-      fmt::format("white metal, r = 0.05, all directions: {:.4f} (nacre {:.4f})",
-                  average([&](double mu) { return TextbookSpecularAlbedo(mu, 0.05, 1, lesson); }),
-                  average([](double mu) { return NacreSpecularAlbedo(mu, 0.05, 1); })),
+      fmt::format(
+          "white metal, r = 0.05, all directions: {:.4f} (nacre {:.4f})",
+          AverageAlbedo([&](double mu) { return TextbookSpecularAlbedo(mu, 0.05, 1, lesson); }),
+          AverageAlbedo([](double mu) { return NacreSpecularAlbedo(mu, 0.05, 1); })),
       fmt::format("white metal, n.v = 1, {}; {}; {}", metal(0.5), metal(0.9), metal(1)),
       fmt::format("white dielectric, r = 0.02, n.v = 0.18: {:.3f} (nacre {:.3f})", lesson_white,
                   nacre_white),
@@ -187,7 +187,7 @@ AmountLines AmountOfClip(const LessonPictures&) {
 
 AmountLines AmountOfBlinnCost(const LessonPictures&) {
   const auto line = [](const char* name, const OperationCount& n) {
-    return fmt::format("{}: {} additions, {} multiplications, {} division, {} root", name,
+    return fmt::format("{}: additions {}, multiplications {}, divisions {}, roots {}", name,
                        n.additions, n.multiplications, n.divisions, n.roots);
   };
   return {std::string(kNotShown) + "counted, from unit N, L and V:",

@@ -4,8 +4,7 @@
 
 namespace nacre {
 
-// In the lesson's order of E1 to E29. "doc" names the other founding documents: doc1 on
-// interpolation, doc2 shading notes, doc3 lighting slides, doc4 material notes.
+// "doc1" and so on name the other founding documents, as the command's first lines do.
 std::span<const FaultEntry> FaultEntries() {
   using F = TextbookFaults;
   static constexpr FaultEntry kEntries[] = {
@@ -93,7 +92,7 @@ std::span<const FaultEntry> FaultEntries() {
       {"E28", "inside a sphere", "t < 0 is the background; the far root is not tried",
        "the first root in front", "the far root from inside", AmountOfInside},
       {"E29", "\"Gouraud: early GPUs\"", "a remark in a table", "-", "-", NothingToMeasure},
-      {"A87", "8 bits by truncation", "(x * 255) cut off", "rounded to the nearest code",
+      {"E30", "8 bits by truncation", "(x * 255) cut off", "rounded to the nearest code",
        "rounded, exact for every float", AmountOfSwitch<&F::png_truncation>},
   };
   return kEntries;

@@ -23,7 +23,7 @@ struct FaultEntry {
   FaultAmount amount;
 };
 
-// E1 to E29, and what of the lesson's program has no such number.
+// E1 to E30.
 std::span<const FaultEntry> FaultEntries();
 
 }  // namespace nacre

@@ -68,10 +68,11 @@ CodeChange MeasureChange(const CodedPicture& a, const CodedPicture& b) {
 std::string ChangeText(const CodeChange& change) {
   if (change.largest == 0 && change.largest_float < 1e-12) return "no change";
   if (change.largest == 0) {
-    return fmt::format("no code changes; floats by up to {:.2g}", change.largest_float);
+    return fmt::format("no code changes; the float image by up to {:.2g}", change.largest_float);
   }
-  return fmt::format("up to {} codes, mean {:.3g}; {:.1f} % of the sphere pixels change",
-                     change.largest, change.mean, 100 * change.share);
+  return fmt::format("up to {} {}, mean {:.3g}; {:.1f} % of the sphere pixels change",
+                     change.largest, change.largest == 1 ? "code" : "codes", change.mean,
+                     100 * change.share);
 }
 
 std::vector<std::string> ChangeLines(const LessonPictures& lesson, const TextbookFaults& faults) {
@@ -79,9 +80,8 @@ std::vector<std::string> ChangeLines(const LessonPictures& lesson, const Textboo
   const CodeChange comparison = MeasureChange(lesson.comparison, other.comparison);
   const CodeChange grid = MeasureChange(lesson.grid, other.grid);
   if (comparison.largest == 0 && grid.largest == 0) {
-    const double floats = std::max(comparison.largest_float, grid.largest_float);
-    return {fmt::format("not shown by these pictures: no code changes; floats by up to {:.2g}",
-                        floats)};
+    const CodeChange& larger = comparison.largest_float > grid.largest_float ? comparison : grid;
+    return {"not shown by these pictures: " + ChangeText(larger)};
   }
   return {"comparison: " + ChangeText(comparison), "grid: " + ChangeText(grid)};
 }

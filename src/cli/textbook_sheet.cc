@@ -31,18 +31,25 @@ struct Page {
   std::vector<TextItem> text;
 };
 
-Page MakePage(int panel_width, int panel_height) {
+// `rows` of three panels each, `height` pixels high in all.
+Page MakePage(int panel_width, int height, int rows) {
   constexpr uint8_t kGround = 30;
-  Page page{3 * panel_width + 4 * kMargin, kTop + panel_height + kBottom, {}, {}};
+  Page page{3 * panel_width + 4 * kMargin, kTop + height + (rows - 1) * kMargin + kBottom, {}, {}};
   page.rgb8.assign(3 * static_cast<size_t>(page.width) * static_cast<size_t>(page.height), kGround);
   return page;
 }
 
-void Blit(const std::vector<uint8_t>& rgb8, int width, int height, int left, int top, Page* page) {
-  for (int y = 0; y < height; ++y) {
-    std::copy_n(
-        rgb8.begin() + 3 * static_cast<std::ptrdiff_t>(y) * width, 3 * width,
-        page->rgb8.begin() + 3 * (static_cast<std::ptrdiff_t>(top + y) * page->width + left));
+// Copies `window` of a picture of `width` pixels to (left, top), each pixel `zoom` times as large.
+void Blit(const std::vector<uint8_t>& rgb8, int width, const SheetView& view, int left, int top,
+          Page* page) {
+  const Window& window = view.window;
+  for (int y = 0; y < window.height() * view.zoom; ++y) {
+    for (int x = 0; x < window.width() * view.zoom; ++x) {
+      const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(window.y0 + y / view.zoom) * width +
+                                  window.x0 + x / view.zoom;
+      const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(top + y) * page->width + left + x;
+      std::copy_n(rgb8.begin() + 3 * from, 3, page->rgb8.begin() + 3 * to);
+    }
   }
 }
 
@@ -71,7 +78,7 @@ std::vector<uint8_t> HeatOfCodes(const std::vector<uint8_t>& a, const std::vecto
 
 void AddLegend(int left, int top, int width, Page* page) {
   const HeatPicture bar = HeatLegend(width, kBarHeight);
-  Blit(bar.rgb8, width, kBarHeight, left, top, page);
+  Blit(bar.rgb8, width, {Window{0, 0, width, kBarHeight}, 1}, left, top, page);
   for (const int codes : {1, 3, 10, 30, 100, 255}) {
     const int x = left + static_cast<int>(kCodeScale.Position(codes) * width);
     const AlignX align = codes == 1     ? AlignX::kLeft
@@ -113,26 +120,33 @@ AccuratePicture RenderAccurate(const Scene& scene) {
   return picture;
 }
 
-void WriteTextbookSheet(const std::string& path, const std::string& title,
+void WriteTextbookSheet(const std::string& path, const TextbookSheet& sheet,
                         const CodedPicture& lesson, const AccuratePicture& accurate) {
-  const int width = lesson.picture.width;
-  const int height = lesson.picture.height;
-  const CodeChange change =
-      MeasureChange(lesson.codes, accurate.codes, lesson.picture.sphere, accurate.sphere);
-  Page page = MakePage(width, height);
+  const SheetView& first = sheet.views.front();
+  const int width = first.window.width() * first.zoom;
+  int height = 0;
+  for (const SheetView& view : sheet.views) height += view.window.height() * view.zoom;
+  Page page = MakePage(width, height, static_cast<int>(sheet.views.size()));
   const std::array<int, 3> left = {kMargin, 2 * kMargin + width, 3 * kMargin + 2 * width};
-  Blit(lesson.codes, width, height, left[0], kTop, &page);
-  Blit(accurate.codes, width, height, left[1], kTop, &page);
-  Blit(HeatOfCodes(lesson.codes, accurate.codes), width, height, left[2], kTop, &page);
-  Write(title, kMargin, 14, kTitlePx, &page);
+  const std::vector<uint8_t> heat = HeatOfCodes(lesson.codes, accurate.codes);
+  int top = kTop;
+  for (const SheetView& view : sheet.views) {
+    Blit(lesson.codes, lesson.picture.width, view, left[0], top, &page);
+    Blit(accurate.codes, lesson.picture.width, view, left[1], top, &page);
+    Blit(heat, lesson.picture.width, view, left[2], top, &page);
+    top += view.window.height() * view.zoom + kMargin;
+  }
+  Write(sheet.title, kMargin, 14, kTitlePx, &page);
   Write("the lesson", left[0], kTop - 22, kTextPx, &page);
   Write("nacre", left[1], kTop - 22, kTextPx, &page);
   Write("difference in 8-bit codes (black: none)", left[2], kTop - 22, kTextPx, &page);
-  const int below = kTop + height + 10;
+  const int below = top - kMargin + 10;
   Write("its program, faults and all", left[0], below, kTextPx, &page);
   Write(fmt::format("{} samples a pixel, Reinhard, sRGB", accurate.spp), left[1], below, kTextPx,
         &page);
   AddLegend(left[2], below, width, &page);
+  const CodeChange change =
+      MeasureChange(lesson.codes, accurate.codes, lesson.picture.sphere, accurate.sphere);
   Write(fmt::format("on the spheres: largest {}, mean {:.1f}", change.largest, change.mean),
         left[2], below + kBarHeight + 28, kTextPx, &page);
   WritePage(path, std::move(page));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/image.h"
 #include "cli/textbook_measure.h"
 #include "scene/scene.h"
 
@@ -19,8 +20,19 @@ struct AccuratePicture {
 };
 AccuratePicture RenderAccurate(const Scene& scene);
 
+// A part of the pictures, each pixel `zoom` times as large.
+struct SheetView {
+  Window window;
+  int zoom = 1;
+};
+
+struct TextbookSheet {
+  std::string title;
+  std::vector<SheetView> views;  // one below the other, all equally wide
+};
+
 // Writes lesson | nacre | heat map as one PNG. Both pictures have the lesson's size.
-void WriteTextbookSheet(const std::string& path, const std::string& title,
+void WriteTextbookSheet(const std::string& path, const TextbookSheet& sheet,
                         const CodedPicture& lesson, const AccuratePicture& accurate);
 
 }  // namespace nacre

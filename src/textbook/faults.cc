@@ -22,7 +22,7 @@ std::span<const FaultSwitch> FaultSwitches() {
       {"normalize_epsilon", "E16", &F::normalize_epsilon},
       {"gamma22", "E24", &F::gamma22},
       {"no_far_root", "E28", &F::no_far_root},
-      {"png_truncation", "A87", &F::png_truncation},
+      {"png_truncation", "E30", &F::png_truncation},
   };
   return kSwitches;
 }

@@ -39,7 +39,7 @@ struct TextbookFaults {
   bool raw_left_half = true;   // E9: the Phong half and the background are neither tone-mapped nor
                                // encoded
   bool gamma22 = true;         // E24: x^(1/2.2); off: the exact sRGB curve
-  bool png_truncation = true;  // A87: x * 255 truncated; off: rounded
+  bool png_truncation = true;  // E30: x * 255 truncated; off: rounded
 
   // Where the lesson's words and its program disagree, the program is followed. On: the words.
   bool k_from_words = false;        // E1: k = (r^2 + 1)^2 / 8
