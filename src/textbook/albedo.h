@@ -13,7 +13,7 @@ namespace nacre {
 using TextbookBrdf = std::function<double(const Vec3d& to_light, const Vec3d& to_view)>;
 
 // The integral of f n.l over all directions of light, for a lobe that is GGX-shaped with this
-// roughness > 0 (the substitution that flattens its peak), to about 1e-5.
+// roughness > 0 (the substitution that flattens its peak), to 3e-5.
 double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f);
 
 // The same for an f without a peak.
