@@ -27,10 +27,23 @@ struct Sheet {
   Scene (*scene)();
 };
 
+// Breaks the words at the 100th column; the lines that follow are indented.
+std::string Wrap(std::string_view words, size_t indent) {
+  constexpr size_t kColumns = 100;
+  std::string text;
+  while (words.size() > kColumns - indent) {
+    const size_t space = words.rfind(' ', kColumns - indent);
+    if (space == std::string_view::npos) break;
+    text += fmt::format("{}\n{:{}}", words.substr(0, space), "", indent);
+    words.remove_prefix(space + 1);
+  }
+  return text.append(words);
+}
+
 void PrintEntry(const FaultEntry& entry, const LessonPictures& lesson) {
   std::string text = fmt::format("{:<4} {}\n", entry.id, entry.title);
   const auto line = [&](std::string_view name, std::string_view words) {
-    text += fmt::format("     {:<7} {}\n", name, words);
+    text += fmt::format("     {:<7} {}\n", name, Wrap(words, 13));
   };
   line("lesson", entry.lesson);
   line("right", entry.right);
@@ -71,6 +84,7 @@ std::vector<std::string> PrepareFolder(const std::string& folder,
                 "--output-dir names the folder that the pictures go to");
   }
   std::vector<std::string> paths;
+  paths.reserve(sheets.size());
   for (const Sheet& sheet : sheets) paths.push_back((fs::path(folder) / sheet.file).string());
   for (const std::string& path : paths) CheckPngPath(path);
   return paths;

@@ -131,7 +131,7 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
           "white metal, r = 0.05, all directions: {:.4f} (nacre {:.4f})",
           AverageAlbedo([&](double mu) { return TextbookSpecularAlbedo(mu, 0.05, 1, lesson); }),
           AverageAlbedo([](double mu) { return NacreSpecularAlbedo(mu, 0.05, 1); })),
-      fmt::format("white metal, n.v = 1, {}; {}; {}", metal(0.5), metal(0.9), metal(1)),
+      fmt::format("white metal, n.v = 1, {}; {}", metal(0.5), metal(1)),
       fmt::format("white dielectric, r = 0.02, n.v = 0.18: {:.3f} (nacre {:.3f})", lesson_white,
                   nacre_white),
   };

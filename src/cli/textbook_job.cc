@@ -64,14 +64,25 @@ bool IsGrid(const Scene& scene) {
          columns.size() * rows.size() == scene.spheres.size();
 }
 
+// The lesson's size unless `size` says another. Unlike the renderer, the lesson holds all of its
+// picture at once.
+void ChooseSize(const std::string& size, int* width, int* height) {
+  if (size.empty()) return;
+  ParseSize(size, width, height);
+  constexpr int64_t kMaxPixels = int64_t{8192} * 8192;
+  if (int64_t{*width} * *height <= kMaxPixels) return;
+  throw Error(ExitCode::kUsage, "--size", "\"" + size + "\" is too large for --preset textbook",
+              "it holds the whole picture in memory: at most 8192x8192 pixels");
+}
+
 TextbookPicture RenderSubject(TextbookSubject subject, const std::string& size) {
   if (subject == TextbookSubject::kComparison) {
     TextbookComparison comparison;
-    if (!size.empty()) ParseSize(size, &comparison.width, &comparison.height);
+    ChooseSize(size, &comparison.width, &comparison.height);
     return RenderTextbookComparison(comparison);
   }
   TextbookGrid grid;
-  if (!size.empty()) ParseSize(size, &grid.width, &grid.height);
+  ChooseSize(size, &grid.width, &grid.height);
   return RenderTextbookGrid(grid);
 }
 

@@ -30,7 +30,7 @@ TextbookPoint MakePoint(const Vec3d& point, const Vec3d& normal, const Vec3d& li
   if (!faults.no_falloff) {
     const Vec3d to_center = light_position - kSphereCenter;
     const Vec3d to_point = light_position - point;
-    color *= (to_center ^ to_center) / (to_point ^ to_point);
+    color *= to_center.length2() / to_point.length2();
   }
   p.light = Rgb(color, color, color);
   return p;

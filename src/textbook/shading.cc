@@ -6,7 +6,7 @@
 namespace nacre {
 
 Vec3d TextbookNormalize(const Vec3d& v, const TextbookFaults& faults) {
-  const double length = std::sqrt(v ^ v);
+  const double length = std::sqrt(v.length2());
   const double shortest = faults.normalize_epsilon ? 1e-10 : 0;
   return length > shortest ? v / length : v;
 }
@@ -52,7 +52,7 @@ TextbookAngles TextbookAnglesAt(const TextbookPoint& p, const TextbookFaults& fa
   a.n_dot_v = std::max(p.normal ^ p.to_view, 0.0);
   a.n_dot_h = std::max(p.normal ^ half, 0.0);
   a.v_dot_h = std::max(p.to_view ^ half, faults.v_dot_h_floor ? 0.001 : 0.0);
-  a.sin2_h = cross ^ cross;
+  a.sin2_h = cross.length2();
   return a;
 }
 
@@ -141,9 +141,9 @@ double TextbookAttenuation(double distance) { return 1 / (distance * distance + 
 double TextbookIntersectSphere(const Vec3d& origin, const Vec3d& direction, const Vec3d& center,
                                double radius, const TextbookFaults& faults) {
   const Vec3d oc = origin - center;
-  const double a = direction ^ direction;
+  const double a = direction.length2();
   const double b = 2 * (oc ^ direction);
-  const double c = (oc ^ oc) - radius * radius;
+  const double c = oc.length2() - radius * radius;
   const double discriminant = b * b - 4 * a * c;
   if (discriminant < 0) return -1;
   const double near = (-b - std::sqrt(discriminant)) / (2 * a);

@@ -203,6 +203,7 @@ class CliTest(unittest.TestCase):
                 self.assertIn('has no picture of this scene', result.stderr)
                 self.assertIn('hint: ', result.stderr)
         self.check_fails(64, '--preset', 'render', scene, '-o', self.out / 'a.exr', '--preset', 'x')
+        self.check_fails(64, '--size', 'render', scene, *start, '--size', '65536x65536')
         self.check_fails(64, 'twice', 'render', scene, *start, '-o', self.out / 'a.exr')
         self.check_fails(74, 'nowhere', 'render', scene, '--preset', 'textbook', '-o',
                          self.out / 'a.exr', '-o', self.out / 'nowhere/a.png')
@@ -222,7 +223,8 @@ class CliTest(unittest.TestCase):
         for value in ('332 pixels clipped', 'loses 55.6 % at n.v = 0.2, 77.9 % at n.v = 0.1',
                       'all directions: 0.8345', 'n.v = 0.18: 1.100', '10.6 % of each disc',
                       '0.225 degrees an axis, 0.318 in all', '0.0335 (8.5 codes)'):
-            self.assertIn(value, text)
+            self.assertIn(value, ' '.join(text.split()))
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
 
     def test_explain_textbook_draws_both_pictures(self):
         folder = self.out / 'new/folder'

@@ -12,6 +12,7 @@
 #include "catch.h"
 #include "render/render.h"
 #include "scene_io/load_scene.h"
+#include "targets.h"
 #include "textbook/pictures.h"
 
 namespace nacre {
@@ -176,19 +177,20 @@ TEST_CASE("faults that the pictures do not show are at work elsewhere") {
     CHECK(from_inside(lesson) < 0);
     CHECK(from_inside(Without(&F::no_far_root)) == Approx(0.25));
   }
-  SECTION("highlights on the unlit side") {
-    TextbookComparison rim;
-    rim.light_position = Vec3d(2, 1, -6);
-    rim.phong.shininess = 8;
-    TextbookComparison gated = rim;
-    gated.faults = Without(&F::ungated_specular);
-    const Changes changes = Compare(RenderTextbookComparison(rim), RenderTextbookComparison(gated));
-    CHECK(changes.left.film > 0.1);
-    CHECK(changes.right.film == 0);
-    CHECK(MeasureLeak(rim.light_position, 8, false).share == Approx(0.105).margin(0.001));
-    CHECK(MeasureLeak(rim.light_position, 8, true).share == Approx(0.086).margin(0.001));
-    CHECK(MeasureLeak(TextbookComparison{}.light_position, 64, false).share == 0);
-  }
+}
+
+TEST_CASE("highlights show on the unlit side where a light is behind") {
+  TextbookComparison rim;
+  rim.light_position = Vec3d(2, 1, -6);
+  rim.phong.shininess = 8;
+  TextbookComparison gated = rim;
+  gated.faults = Without(&F::ungated_specular);
+  const Changes changes = Compare(RenderTextbookComparison(rim), RenderTextbookComparison(gated));
+  CHECK(changes.left.film > 0.1);
+  CHECK(changes.right.film == 0);
+  CHECK(MeasureLeak(rim.light_position, 8, false).share == Approx(0.105).margin(0.001));
+  CHECK(MeasureLeak(rim.light_position, 8, true).share == Approx(0.086).margin(0.001));
+  CHECK(MeasureLeak(TextbookComparison{}.light_position, 64, false).share == 0);
 }
 
 TEST_CASE("a tenth of each disc of the grid is seen from behind") {
@@ -222,28 +224,37 @@ void CheckAgainstRenderer(const TextbookPicture& picture, const std::string& nam
   const Image image = RenderScene(name);
   const std::vector<float>& alpha = image.Find("A")->samples;
   REQUIRE(alpha.size() == picture.pixel_count());
-  // nacre shades in float: 1e-7 / alpha at a highlight, here 1e-5 for roughness 0.1, and n.v as
-  // small as 1e-2 at the silhouettes. Coverage is decided in double on both sides.
-  constexpr double kFloatShading = 3e-4;
+  // nacre shades in float: angles of 6e-8, relative to alpha = 0.01 6e-6; D falls with the fourth
+  // power of the angle, and light and view each bring their share. 3.6e-5 measured over all
+  // targets. Coverage is decided in double on both sides.
+  constexpr double kFloatShading = 1e-4;
   double worst = 0;
+  int other_coverage = 0;
+  int not_finite = 0;
   for (int c = 0; c < 3; ++c) {
     const char channel[] = {"RGB"[c], '\0'};
     const std::vector<float>& samples = image.Find(channel)->samples;
     for (size_t i = 0; i < samples.size(); ++i) {
-      REQUIRE((alpha[i] > 0) == (picture.sphere[i] != 0));
+      other_coverage += (alpha[i] > 0) != (picture.sphere[i] != 0);
+      not_finite += !std::isfinite(picture.film[i][c]);
       if (picture.sphere[i] == 0) continue;
-      REQUIRE(std::isfinite(picture.film[i][c]));
-      worst = std::max(worst, std::abs(static_cast<double>(samples[i]) - picture.film[i][c]) /
-                                  (1e-3 + picture.film[i][c]));
+      const double error = std::abs(static_cast<double>(samples[i]) - picture.film[i][c]);
+      worst = std::max(worst, error / (1e-3 + picture.film[i][c]));
     }
   }
   CAPTURE(name, worst);
+  CHECK(other_coverage == 0);
+  CHECK(not_finite == 0);
   CHECK(worst < kFloatShading);
 }
 
 TEST_CASE("without its faults the lesson's program renders as nacre does") {
-  CheckAgainstRenderer(Comparison(NoFaults()), "phong_vs_pbr");
-  CheckAgainstRenderer(Grid(NoFaults()), "material_grid");
+  const TextbookPicture comparison = Comparison(NoFaults());
+  const TextbookPicture grid = Grid(NoFaults());
+  ForEachTarget([&](Target) {
+    CheckAgainstRenderer(comparison, "phong_vs_pbr");
+    CheckAgainstRenderer(grid, "material_grid");
+  });
 }
 
 }  // namespace
