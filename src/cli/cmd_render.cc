@@ -1,8 +1,11 @@
 // cli/cmd_render.cc: nacre render SCENE -o FILE...
 #include <memory>
 
+#include <CLI/CLI.hpp>
+
 #include "cli/commands.h"
 #include "cli/render_job.h"
+#include "cli/textbook_job.h"
 
 namespace nacre {
 
@@ -10,17 +13,32 @@ void AddRenderCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("render", "Render a scene file to EXR and PNG");
   struct Arguments {
     std::string scene;
+    std::string preset;
     RenderOptions options;
   };
   const auto arguments = std::make_shared<Arguments>();
   command->add_option("SCENE", arguments->scene, "Scene file (.json)")->required();
+  command
+      ->add_option("--preset", arguments->preset,
+                   "textbook: the picture of the founding lesson that SCENE resembles, made by the "
+                   "lesson's own program, faults and all. SCENE only chooses between its two "
+                   "pictures: numbers, camera and lights are the lesson's, and so is the size "
+                   "(400x200, 600x400) unless --size is given. EXR holds its float image, "
+                   "display-referred, in float; PNG its codes, x * 255 truncated. See nacre "
+                   "explain textbook")
+      ->check(CLI::IsMember({"textbook"}));
   AddRenderOptions(command, &arguments->options);
   command->footer(
       "Examples:\n"
       "  nacre render scenes/material_grid.json -o grid.exr -o grid.png --labels\n"
       "  nacre render scenes/phong_vs_pbr.json -o half.png --spp 64 --set /image/width=800\n"
-      "  nacre render scene.json -o all.exr --layers all --depth float --explain");
-  command->callback([arguments] {
+      "  nacre render scene.json -o all.exr --layers all --depth float --explain\n"
+      "  nacre render scenes/phong_vs_pbr.json --preset textbook -o lesson.exr -o lesson.png");
+  command->callback([arguments, command] {
+    if (!arguments->preset.empty()) {
+      RunTextbookJob(arguments->options, arguments->scene, *command);
+      return;
+    }
     RunRenderJob(arguments->options, arguments->scene,
                  [&](const LoadOptions& load) { return LoadScene(arguments->scene, load); });
   });

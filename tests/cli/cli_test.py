@@ -142,10 +142,104 @@ class CliTest(unittest.TestCase):
                          0)
 
     def test_help_teaches(self):
-        for command in ([], ['render'], ['grid'], ['compare']):
+        for command in ([], ['render'], ['grid'], ['compare'], ['explain']):
             result = run(*command, '--help')
             self.assertEqual(result.returncode, 0)
             self.assertIn('xample' if command else 'Exit codes', result.stdout)
+
+    # ---- The founding lesson ----
+
+    def test_textbook_preset_makes_the_lessons_files(self):
+        references = SOURCE / 'tests/references/textbook'
+        for name, size in ('phong_vs_pbr', '400x200'), ('material_grid', '600x400'):
+            with self.subTest(name=name):
+                exr, png = self.out / f'{name}.exr', self.out / f'{name}.png'
+                scene = str(SOURCE / f'scenes/{name}.json')
+                result = self.render('--preset', 'textbook', '-o', exr, '-o', png, scene=scene)
+                self.assertEqual(result.stdout, '')
+                # Float, though --depth's default is half, and its own size, not the scene's.
+                text = run('info', exr).stdout
+                self.assertIn(f'display window  {size}', text)
+                self.assertIn('B:float G:float R:float', text)
+                self.assertRegex(text, 'nacre:preset +textbook')
+                self.assertRegex(run('info', png).stdout, 'nacre:preset +textbook')
+                # Double rounded to float: half an ulp below 1 is 3e-8.
+                self.assertEqual(run('compare', exr, references / exr.name, '--max-abs',
+                                     '1e-7').returncode, 0)
+                # One code, should another C library's pow round otherwise.
+                self.assertEqual(run('compare', png, references / png.name, '--max-abs',
+                                     str(1.01 / 255)).returncode, 0)
+
+    def test_textbook_preset_takes_the_options_that_apply(self):
+        scene = str(SOURCE / 'scenes/material_grid.json')
+        for name in 'a.exr', 'b.exr', 'a.png', 'b.png':
+            result = self.render('--preset', 'textbook', '-o', self.out / name, '--size', '90x60',
+                                 '--depth', 'half', '--compression', 'zips', '--small',
+                                 '--reproducible', '--quiet', scene=scene)
+            self.assertEqual(result.stderr, '')
+        text = run('info', self.out / 'a.exr').stdout
+        self.assertIn('display window  90x60', text)
+        self.assertIn('R:half', text)
+        for kind in '.exr', '.png':
+            self.assertEqual((self.out / ('a' + kind)).read_bytes(),
+                             (self.out / ('b' + kind)).read_bytes())
+
+    def test_textbook_preset_refuses_what_cannot_apply(self):
+        scene = str(SOURCE / 'scenes/phong_vs_pbr.json')
+        start = ['--preset', 'textbook', '-o', self.out / 'a.exr']
+        for option in (['--tonemap', 'aces'], ['--exposure', '1'], ['--labels'],
+                       ['--layers', 'diffuse'], ['--spp', '4'], ['--seed', '1'],
+                       ['--region', '0,0,9,9'], ['--set', '/image/spp=1'], ['--threads', '1'],
+                       ['--target', 'scalar'], ['--tile-size', '8'], ['--explain'],
+                       ['--stats', self.out / 's.json'], ['--progress', 'none']):
+            with self.subTest(option=option):
+                result = self.check_fails(64, option[0], 'render', scene, *start, *option)
+                self.assertIn('--preset textbook', result.stderr)
+                self.assertIn('hint: ', result.stderr)
+        for name in 'first_scene', 'phong_vs_pbr_pair', 'mesh_and_spheres':
+            with self.subTest(name=name):
+                other = SOURCE / f'scenes/{name}.json'
+                result = self.check_fails(64, str(other), 'render', other, *start)
+                self.assertIn('has no picture of this scene', result.stderr)
+                self.assertIn('hint: ', result.stderr)
+        self.check_fails(64, '--preset', 'render', scene, '-o', self.out / 'a.exr', '--preset', 'x')
+        self.check_fails(64, '--size', 'render', scene, *start, '--size', '65536x65536')
+        self.check_fails(64, 'twice', 'render', scene, *start, '-o', self.out / 'a.exr')
+        self.check_fails(74, 'nowhere', 'render', scene, '--preset', 'textbook', '-o',
+                         self.out / 'a.exr', '-o', self.out / 'nowhere/a.png')
+        # The other commands that render have no scene to choose by.
+        self.check_fails(64, '--preset', 'grid', *start)
+
+    def test_explain_textbook_tells_every_fault_with_measured_amounts(self):
+        result = run('explain', 'textbook')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, '')
+        text = result.stdout
+        for number in range(1, 31):
+            self.assertRegex(text, rf'(?m)^E{number} +\S')
+        self.assertEqual(text.count('     lesson '), 30)
+        self.assertEqual(text.count('     amount '), 30)
+        # Known values, of pictures, quadrature and formulas.
+        for value in ('332 pixels clipped', 'loses 55.6 % at n.v = 0.2, 77.9 % at n.v = 0.1',
+                      'all directions: 0.8345', 'n.v = 0.18: 1.100', '10.6 % of each disc',
+                      '0.225 degrees an axis, 0.318 in all', '0.0335 (8.5 codes)'):
+            self.assertIn(value, ' '.join(text.split()))
+        self.assertLessEqual(max(map(len, text.splitlines())), 100)
+
+    def test_explain_textbook_draws_both_pictures(self):
+        folder = self.out / 'new/folder'
+        result = run('explain', 'textbook', '-o', folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(path.name for path in folder.iterdir()),
+                         ['material_grid.png', 'phong_vs_pbr.png'])
+        self.assertIn('1880x548', run('info', folder / 'material_grid.png').stdout)
+
+    def test_explain_refuses_other_topics(self):
+        self.check_fails(64, 'unknown topic "shading"', 'explain', 'shading')
+        self.check_fails(64, 'did you mean "textbook"', 'explain', 'textbok')
+        self.check_fails(64, 'TOPIC', 'explain')
+        (self.out / 'file').write_text('')
+        self.check_fails(74, str(self.out / 'file'), 'explain', 'textbook', '-o', self.out / 'file')
 
     # ---- What it refuses ----
 

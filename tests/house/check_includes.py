@@ -29,6 +29,7 @@ BRANCHES = {
     "scene_io": {"base", "scene", "image_io"},
     "compare": {"base", "color"},
     "report": {"base", "compare"},
+    "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
 }
 # Depends on whatever it likes; nothing depends on it.
 TOP = "cli"

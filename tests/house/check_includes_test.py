@@ -17,9 +17,10 @@ nacre_library(render DEPENDS nacre_visibility  # a comment
   nacre_shading)
 nacre_library(image_io DEPENDS nacre_base nacre_color)
 nacre_library(scene_io DEPENDS nacre_scene nacre_image_io)
+nacre_library(textbook DEPENDS nacre_base)
 add_executable(nacre main.cc)
 target_link_libraries(nacre PRIVATE nacre_render
-  nacre_scene_io CLI11::CLI11)
+  nacre_scene_io nacre_textbook CLI11::CLI11)
 add_dependencies(nacre nacre_oiio)
 add_subdirectory(oiio_module)
 """
@@ -39,7 +40,9 @@ SOUND_TREE = {
     "render/render.cc": '#include "base/vec.h"\n#include "visibility/trace.h"\n',
     "image_io/exr.cc": "#include <OpenEXR/openexr.h>\n#include <zlib.h>\n",
     "scene_io/json.cc": '#include <nlohmann/json.hpp>\n#include "color/tone.h"\n',
+    "textbook/shading.h": '#include "base/vec.h"\n',
     "cli/main.cc": '#include <CLI/CLI.hpp>\n#include "render/render.h"\n',
+    "cli/textbook.cc": '#include "textbook/shading.h"\n',
     "oiio_module/CMakeLists.txt": "add_library(nacre_oiio MODULE read.cc)\n",
     "oiio_module/read.cc": '#include <OpenImageIO/imageio.h>\n#include "image_io/exr.h"\n',
 }
@@ -91,6 +94,12 @@ class CheckIncludes(unittest.TestCase):
             ("render/a.cc", "<tiny_obj_loader.h>"),
             ("scene_io/a.cc", "<CLI/CLI.hpp>"),
             ("color/deeper/a.cc", '"scene/scene.h"'),
+            ("render/a.cc", '"textbook/shading.h"'),  # the lesson's program stays apart
+            ("shading/a.cc", '"textbook/shading.h"'),
+            ("image_io/a.cc", '"textbook/shading.h"'),
+            ("textbook/a.cc", '"color/tone.h"'),
+            ("textbook/a.cc", '"scene/scene.h"'),
+            ("textbook/a.cc", '"shading/shade.h"'),
         ):
             with self.subTest(file=file, include=include):
                 faults = faults_of({file: f"// A fault\n  # include {include}\n"})
@@ -102,6 +111,10 @@ class CheckIncludes(unittest.TestCase):
             ("color DEPENDS nacre_base", "color DEPENDS nacre_scene", "color depends on scene"),
             ("nacre_hit nacre_scene)", "nacre_hit nacre_scene nacre_visibility)",
              "shading depends on visibility"),
+            ("nacre_hit nacre_scene)", "nacre_hit nacre_scene nacre_textbook)",
+             "shading depends on textbook"),
+            ("textbook DEPENDS nacre_base", "textbook DEPENDS nacre_base nacre_color",
+             "textbook depends on color"),
             ("image_io DEPENDS nacre_base", "image_io DEPENDS nacre_scene",
              "image_io depends on scene"),
             ("nacre_library(hit DEPENDS nacre_base)", "", "src/hit is there, but"),

@@ -1,0 +1,29 @@
+// cli/textbook_faults.h: the faults of the founding documents, one by one: in words here, in
+// numbers that are computed when they are asked for.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/textbook_measure.h"
+
+namespace nacre {
+
+// Lines of text: the amount of a fault, measured on the lesson's pictures or from its formula.
+using FaultAmount = std::vector<std::string> (*)(const LessonPictures& lesson);
+
+struct FaultEntry {
+  std::string_view id;      // "E4"
+  std::string_view title;   // "+ 0.0001 in the specular denominator"
+  std::string_view lesson;  // what the lesson, or another founding document, does
+  std::string_view right;
+  std::string_view nacre;  // what nacre does
+  FaultAmount amount;
+};
+
+// E1 to E30.
+std::span<const FaultEntry> FaultEntries();
+
+}  // namespace nacre

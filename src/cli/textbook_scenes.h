@@ -1,0 +1,12 @@
+// cli/textbook_scenes.h: scenes/textbook/*.json in the program: the lesson's two set-ups for
+// nacre's own renderer, with real spheres and light that falls off.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace nacre {
+
+Scene TextbookComparisonScene();
+Scene TextbookGridScene();
+
+}  // namespace nacre

@@ -1,0 +1,38 @@
+// cli/textbook_sheet.h: a picture of the lesson beside nacre's own and the difference of the two.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/image.h"
+#include "cli/textbook_measure.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+// A scene by nacre's own renderer: its codes (Reinhard, which is the lesson's tone operator, and
+// exact sRGB) and where spheres are.
+struct AccuratePicture {
+  int spp = 0;
+  std::vector<uint8_t> codes;
+  std::vector<uint8_t> sphere;  // 1 where a sphere covers part of the pixel
+};
+AccuratePicture RenderAccurate(const Scene& scene);
+
+// A part of the pictures, each pixel `zoom` times as large.
+struct SheetView {
+  Window window;
+  int zoom = 1;
+};
+
+struct TextbookSheet {
+  std::string title;
+  std::vector<SheetView> views;  // one below the other, all equally wide
+};
+
+// Writes lesson | nacre | heat map as one PNG. Both pictures have the lesson's size.
+void WriteTextbookSheet(const std::string& path, const TextbookSheet& sheet,
+                        const CodedPicture& lesson, const AccuratePicture& accurate);
+
+}  // namespace nacre
