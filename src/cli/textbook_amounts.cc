@@ -8,6 +8,8 @@
 
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
+#include "brdf/multi_scatter.h"
+#include "shading/material.h"
 #include "textbook/albedo.h"
 #include "textbook/conventions.h"
 
@@ -36,21 +38,30 @@ CodeChange ComparisonChange(const LessonPictures& lesson, const TextbookFaults& 
   return MeasureChange(lesson.comparison, RenderComparison(settings));
 }
 
-// The model with which nacre renders: GGX and height-correlated Smith, F0 = f0.
-double NacreSpecularAlbedo(double n_dot_v, double roughness, double f0) {
-  const double alpha = AlphaFromRoughness(roughness);
-  return LobeAlbedo(n_dot_v, roughness, [=](const Vec3d& to_light, const Vec3d& to_view) {
-    const Angles<double> a = ComputeAngles(Vec3d(0, 0, 1), to_light, to_view);
-    return GgxDistribution(a, alpha) * FresnelSchlick(f0, SchlickWeight(a)) *
-           VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, alpha);
-  });
+// The model with which nacre renders white surfaces: dielectric (metallic 0) or metal (1).
+MicrofacetModel NacreModel(double roughness, double metallic) {
+  MetallicRoughnessMaterial material;
+  material.base_color = Rgb(1, 1, 1);
+  material.roughness = roughness;
+  material.metallic = metallic;
+  Material any;
+  any.model = material;
+  return std::get<MicrofacetModel>(PrepareMaterial(any, Rgb(0, 0, 0)).model);
 }
 
-double NacreDiffuseAlbedo(double n_dot_v, double f0) {
-  return SmoothAlbedo(n_dot_v, [=](const Vec3d& to_light, const Vec3d& to_view) {
-    const Angles<double> a = ComputeAngles(Vec3d(0, 0, 1), to_light, to_view);
-    return (1 - FresnelSchlick(f0, SchlickWeight(a))) * M_1_PI;
-  });
+// All that it reflects: the lobe by quadrature of its terms, as compensated as it is rendered, and
+// the base.
+double NacreAlbedo(double n_dot_v, double roughness, double metallic) {
+  const MicrofacetModel model = NacreModel(roughness, metallic);
+  const double f0 = model.f0.x;
+  const double single =
+      LobeAlbedo(n_dot_v, roughness, [&](const Vec3d& to_light, const Vec3d& to_view) {
+        const Angles<double> a = ComputeAngles(Vec3d(0, 0, 1), to_light, to_view);
+        return GgxDistribution(a, model.alpha) * FresnelSchlick(f0, SchlickWeight(a)) *
+               VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, model.alpha);
+      });
+  const double base = M_PI * model.diffuse.x * (1 - LobeAlbedo(model, n_dot_v, 0));
+  return single * TurquinFactor(f0, AlbedoOne(model.albedo.lobe, n_dot_v)) + base;
 }
 
 // The lesson's model without what E4 and E5 do to it.
@@ -118,10 +129,10 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
   };
   const double lesson_white =
       TextbookSpecularAlbedo(0.18, 0.02, 0.04, lesson) + TextbookDiffuseAlbedo(0.18, 0.04, lesson);
-  const double nacre_white = NacreSpecularAlbedo(0.18, 0.02, 0.04) + NacreDiffuseAlbedo(0.18, 0.04);
+  const double nacre_white = NacreAlbedo(0.18, 0.02, 0);
   const auto metal = [&](double r) {
     return fmt::format("r = {}: {:.3f} (nacre {:.3f})", r, TextbookSpecularAlbedo(1, r, 1, lesson),
-                       NacreSpecularAlbedo(1, r, 1));
+                       NacreAlbedo(1, r, 1));
   };
   return {
       "not shown by these pictures (one light); of light from everywhere, 1 would be all:",
@@ -130,7 +141,7 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
       fmt::format(
           "white metal, r = 0.05, all directions: {:.4f} (nacre {:.4f})",
           AverageAlbedo([&](double mu) { return TextbookSpecularAlbedo(mu, 0.05, 1, lesson); }),
-          AverageAlbedo([](double mu) { return NacreSpecularAlbedo(mu, 0.05, 1); })),
+          AverageAlbedo([](double mu) { return NacreAlbedo(mu, 0.05, 1); })),
       fmt::format("white metal, n.v = 1, {}; {}", metal(0.5), metal(1)),
       fmt::format("white dielectric, r = 0.02, n.v = 0.18: {:.3f} (nacre {:.3f})", lesson_white,
                   nacre_white),

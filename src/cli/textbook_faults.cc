@@ -31,7 +31,7 @@ constexpr FaultEntry kEntries[] = {
     {"E7", "\"energy conserving: yes\"",
      "kd = 1 - F(v.h), single scattering, and G from k; called conserving",
      "1 for a white furnace: multiple scattering, and a base under both passes of the gloss",
-     "Smith's G; the rest of it is the same single-scattering model, see the numbers",
+     "Smith's G, Turquin's compensation, and a base that gets what the gloss leaves",
      AmountOfEnergy},
     {"E8", "tone map and gamma in the BRDF", "Reinhard and x^(1/2.2) for each light",
      "light adds up linearly; one display transform at the end",
