@@ -2,8 +2,9 @@
 // all, seen from n.v. SIMD twin: albedo-inl.h. The truth behind them: brdf/albedo_integral.h.
 //
 // A material's fit is a handful of coefficients, so that a vector of hits evaluates polynomials and
-// gathers nothing. Worst errors, over roughness in [0, 1] and n.v in [1e-4, 1], in float:
-// tests/brdf/albedo_test.cc.
+// gathers nothing. Worst errors found in float, over roughness in [0, 1] and n.v in [1e-4, 1]:
+// E 4e-5 (1e-4 of itself), B and a dielectric's albedo 2e-5. Below n.v = 1e-4 the same holds, but
+// that kSchlickDirect's E, there next to 0, is off by up to 0.7 % of itself.
 #pragma once
 
 #include "brdf/albedo_curve.h"
@@ -31,8 +32,8 @@ struct FresnelAlbedoFit {
   double average = 0;  // 2 int of the albedo mu dmu
 };
 
-// For eta > 1: a quadrature of half a millisecond. With total reflection (eta < 1) the curve has a
-// corner, which the fit rounds off.
+// eta >= 1: light from the thinner side. (From the denser side, total reflection sets in at a
+// corner that a polynomial cannot follow.) A quadrature: about half a millisecond.
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta);
 
 // 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. Of Smith's forms

@@ -38,8 +38,8 @@ template <typename Real>
 struct AlbedoVariables {
   Real z;        // in [-1, 1]
   Real n_dot_v;  // in (0, 1]
-  Real layer;  // sin-like: about 2 offset / n.v far above the layer, 1 at 0; squared, the shape of
-               // the loss 1 - E of Smith's forms, which falls as alpha^2 (1 + mu^2) / 2 mu^2
+  Real layer;    // about 2 offset / n.v far above the layer, 1 at 0; squared, the shape of
+                 // the loss 1 - E of Smith's forms, which falls as alpha^2 (1 + mu^2) / 2 mu^2
 };
 
 template <typename Real>

@@ -86,9 +86,9 @@ HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
   const V a_cos = hn::Mul(a, v_dot_h);
   const auto squares = [](V x, V y2) { return hn::MulAdd(x, x, y2); };
   const V s_below = squares(hn::Add(a, v_dot_h), b2);
-  const auto interface = hn::Gt(s_below, hn::Zero(d));
-  const V s = hn::Div(squares(hn::Sub(a, v_dot_h), b2),
-                      hn::IfThenElse(interface, s_below, hn::Set(d, T(1))));
+  const auto present = hn::Gt(s_below, hn::Zero(d));
+  const V s =
+      hn::Div(squares(hn::Sub(a, v_dot_h), b2), hn::IfThenElse(present, s_below, hn::Set(d, T(1))));
   const V p =
       hn::Div(squares(hn::Sub(a_cos, sin2), b2_cos2), squares(hn::Add(a_cos, sin2), b2_cos2));
   return hn::Mul(half, hn::MulAdd(s, p, s));

@@ -8,7 +8,6 @@
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
-#include "brdf/quadrature.h"
 
 namespace nacre {
 namespace {
@@ -60,10 +59,13 @@ void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
       EachChannel([&](int c) { return KullaContyFresnel(f_average[c], e_average); });
   model->multiple = KullaContyScale(e_average);
   if (model->coupling != DiffuseCoupling::kAlbedoScaled) return;
+  const AlbedoFit& lobe = model->albedo.lobe;
   for (int c = 0; c < 3; ++c) {
-    const double left = 1 - IntegrateTowardsZero([&](double cosine) {
-                          return 2 * cosine * LobeAlbedo(*model, cosine, c);
-                        });
+    const double f0 = model->f0[c];
+    const double single = model->fresnel == FresnelForm::kDielectric
+                              ? model->albedo.average
+                              : f0 * (e_average - lobe.schlick_average) + lobe.schlick_average;
+    const double left = 1 - single - model->f_multiple[c] * (1 - e_average);
     model->diffuse[c] = left > 0 ? model->diffuse[c] / left : 0;
   }
 }

@@ -37,10 +37,11 @@ TEST_CASE("albedo fits are within their tolerances at and between the table's ro
   for (int i = 0; i < 16; ++i) cosines.push_back(static_cast<float>(std::pow(10, -4 + i / 4.0)));
   for (const float mu : {0.25f, 0.4f, 0.7f, 0.9f, 1.0f}) cosines.push_back(mu);
   std::vector<double> roughnesses = {0, 1e-4, 1e-3, 0.01, 0.02, 0.05};
-  // (i / 40)^2 are the table's; 1 / 3 between them, where interpolation is worst at the end.
-  for (int i = 2; i < 40; i += 2)
-    roughnesses.push_back(std::pow((i + (i % 4 == 0 ? 0 : 1.4)) / 41, 2));
-  roughnesses.push_back(0.982);
+  // The table's own stand at (i / 40)^2; every other one here is midway between two of them.
+  for (int i = 2; i < 40; i += 2) {
+    roughnesses.push_back(std::pow((i + (i % 4 == 0 ? 0 : 0.5)) / 40, 2));
+  }
+  roughnesses.push_back(0.982);  // where the interpolation is worst
   roughnesses.push_back(1);
   for (const Shadowing form : kForms) {
     for (const double roughness : roughnesses) {
