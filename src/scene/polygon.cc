@@ -7,16 +7,6 @@
 namespace nacre {
 namespace {
 
-// Newell's normal (Sutherland, Sproull and Schumacker 1974): twice the area, right for any simple
-// polygon. Relative to one corner, so that it does not cancel far from the origin.
-Vec3d NewellNormal(std::span<const Vec3d> corners) {
-  Vec3d sum(0, 0, 0);
-  for (size_t i = 2; i < corners.size(); ++i) {
-    sum += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
-  }
-  return sum;
-}
-
 // The corners seen along the normal's largest component, counter-clockwise.
 std::vector<Vec2d> Flatten(std::span<const Vec3d> corners) {
   const Vec3d normal = NewellNormal(corners);
@@ -52,6 +42,15 @@ bool IsEar(const std::vector<Vec2d>& flat, const std::vector<uint32_t>& remainin
 }
 
 }  // namespace
+
+// Relative to one corner, so that it does not cancel far from the origin.
+Vec3d NewellNormal(std::span<const Vec3d> corners) {
+  Vec3d sum(0, 0, 0);
+  for (size_t i = 2; i < corners.size(); ++i) {
+    sum += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+  }
+  return sum;
+}
 
 void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangles) {
   const std::vector<Vec2d> flat = Flatten(corners);

@@ -9,6 +9,11 @@
 
 namespace nacre {
 
+// Newell's normal (Sutherland, Sproull and Schumacker 1974): twice the polygon's area long, by the
+// right-hand rule; 0 exactly where there is no area. Right for any simple polygon of any size, also
+// far from the origin.
+Vec3d NewellNormal(std::span<const Vec3d> corners);
+
 // Cuts a simple polygon of n >= 3 corners, convex or not, into n - 2 triangles of the same
 // orientation by clipping ears, and appends their corners' indices to `triangles`. A polygon that
 // crosses itself or has no area still gives n - 2 triangles, none of them outside its corners.

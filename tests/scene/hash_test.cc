@@ -9,11 +9,13 @@ namespace {
 
 Scene MakeScene() {
   Scene scene;
-  Material lambert, phong, ggx;
+  Material lambert, phong, ggx, conductor, dielectric;
+  conductor.model = ConductorMaterial{};
+  dielectric.model = DielectricMaterial{};
   lambert.model = LambertMaterial{};
   phong.model = PhongMaterial{};
   ggx.model = MetallicRoughnessMaterial{};
-  scene.materials = {lambert, phong, ggx};
+  scene.materials = {lambert, phong, ggx, conductor, dielectric};
   scene.spheres = {{{0, 0, 0}, 1, {0}}, {{1, 0, 0}, 1, {1}}};
   Light key;
   key.name = "key";
@@ -37,6 +39,13 @@ TEST_CASE("every parameter of every material changes the hash") {
       CAPTURE(parameter.name);
       Scene scene = MakeScene();
       parameter.set(scene.materials[i], Rgb(0.123, 0.123, 0.123));
+      CHECK(HashScene(scene) != hash);
+    }
+    for (const MaterialChoice& choice : ModelOf(MakeScene().materials[i])->choices) {
+      if (choice.get == nullptr) continue;
+      CAPTURE(choice.name);
+      Scene scene = MakeScene();
+      choice.set(scene.materials[i], (choice.get(scene.materials[i]) + 1) % choice.options.size());
       CHECK(HashScene(scene) != hash);
     }
   }

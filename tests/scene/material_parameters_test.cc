@@ -79,8 +79,33 @@ TEST_CASE("options are in the order of the enumerations") {
   material = FindModel("phong")->make();
   const MaterialChoice& convention = ModelOf(material)->choices[0];
   CHECK(convention.options[0] == "classic");
+  CHECK(convention.get(material) == 1);
   convention.set(material, 0);
   CHECK(std::get<PhongMaterial>(material.model).convention == PhongConvention::kClassic);
+}
+
+TEST_CASE("what is chosen is got, presets set parameters") {
+  for (const MaterialModel& model : MaterialModels()) {
+    for (const MaterialChoice& choice : model.choices) {
+      INFO(model.name << " " << choice.name);
+      for (size_t option = 0; option < choice.options.size(); ++option) {
+        Material material = model.make();
+        choice.set(material, option);
+        if (choice.get != nullptr) CHECK(choice.get(material) == option);
+        CHECK(ModelOf(material) == &model);
+      }
+    }
+  }
+  Material gold = FindModel("conductor")->make();
+  const MaterialChoice& preset = FindModel("conductor")->choices[0];
+  REQUIRE(preset.options[0] == "gold");
+  preset.set(gold, 0);
+  CHECK(std::get<ConductorMaterial>(gold.model).eta == Rgb(0.143, 0.375, 1.442));
+  CHECK(std::get<ConductorMaterial>(gold.model).k == Rgb(3.983, 2.386, 1.603));
+  Material diamond = FindModel("dielectric")->make();
+  REQUIRE(FindModel("dielectric")->choices[0].options[2] == "diamond");
+  FindModel("dielectric")->choices[0].set(diamond, 2);
+  CHECK(std::get<DielectricMaterial>(diamond.model).ior == 2.417);
 }
 
 TEST_CASE("ranges contain their ends unless they are open, and never NaN") {
