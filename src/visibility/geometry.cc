@@ -2,8 +2,6 @@
 #include "visibility/geometry.h"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
 
 #include "base/error.h"
 #include "hit/batch.h"
@@ -22,25 +20,6 @@ void CheckPrimitiveCount(const Scene& scene) {
     throw Error(ExitCode::kBadInput, "/shapes", "more than 2^32 - 2 primitives or vertices",
                 "split the scene");
   }
-}
-
-std::vector<uint32_t> FirstCoincident(const std::vector<TraceSphere>& spheres) {
-  const auto key = [&](uint32_t i) {
-    const TraceSphere& s = spheres[i];
-    return std::tuple(s.center.x, s.center.y, s.center.z, s.radius);
-  };
-  std::vector<uint32_t> order(spheres.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](uint32_t a, uint32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-  std::vector<uint32_t> first(spheres.size());
-  bool any = false;
-  for (size_t i = 0; i < order.size(); ++i) {
-    const bool coincides = i > 0 && key(order[i - 1]) == key(order[i]);
-    first[order[i]] = coincides ? first[order[i - 1]] : order[i];
-    any = any || coincides;
-  }
-  return any ? first : std::vector<uint32_t>{};
 }
 
 void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normals,
@@ -77,7 +56,6 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     const double reach = geometry.spheres.back().center.length() + sphere.radius;
     geometry.extent = std::max(geometry.extent, reach);
   }
-  geometry.first_coincident = FirstCoincident(geometry.spheres);
   const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(),
                                         [](const Mesh& mesh) { return !mesh.normals.empty(); });
   for (const Mesh& mesh : scene.meshes) AppendMesh(mesh, camera_position, with_normals, &geometry);

@@ -19,10 +19,6 @@ struct TraceSphere {
 struct TraceGeometry {
   std::vector<TraceSphere> spheres;  // in scene order
 
-  // For each sphere the first one with the same centre and radius, so that a ray leaving one of
-  // several coincident spheres leaves them all. Empty when no two coincide.
-  std::vector<uint32_t> first_coincident;
-
   // The vertices of all meshes, one after the other, and their triangles, indexing them.
   std::vector<Vec3d> positions;
   std::vector<Vec3d>
@@ -34,9 +30,6 @@ struct TraceGeometry {
   double extent = 0;
 
   uint32_t SphereCount() const { return static_cast<uint32_t>(spheres.size()); }
-  uint32_t FirstCoincident(uint32_t sphere) const {
-    return first_coincident.empty() ? sphere : first_coincident[sphere];
-  }
   // The mesh that a triangle belongs to.
   uint32_t MeshOf(uint32_t triangle) const;
 };

@@ -47,7 +47,10 @@ struct Packet {
 
   // Occlusion queries.
   const double* t_max = nullptr;
-  alignas(64) uint32_t start[kMaxPacketWidth];      // primitive that the ray starts on
+  alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
+  // If that is a sphere, its centre and radius, by which the ray also leaves the spheres that
+  // coincide with it; else NaN.
+  alignas(64) double start_sphere[4][kMaxPacketWidth];
   alignas(64) double start_reach[kMaxPacketWidth];  // bounds that primitive's coordinates
   uint32_t occluded = 0;                            // one bit a lane
 

@@ -87,6 +87,16 @@ void IntersectSphere(const RTCIntersectFunctionNArguments* args) {
   ReturnDepths(packet, args->valid, args->rayhit, args->N);
 }
 
+// The lanes whose ray starts on this sphere, or on one that coincides with it.
+template <class D>
+HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
+  const auto same = [&](int i, double value) HWY_ATTR {
+    return hn::Eq(hn::Load(d, packet.start_sphere[i] + lane), hn::Set(d, value));
+  };
+  return hn::And(hn::And(same(0, sphere.center.x), same(1, sphere.center.y)),
+                 hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
+}
+
 void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
   Packet& packet = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
@@ -94,7 +104,6 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
   uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N);
   lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), packet, sphere);
   if (lanes == 0) return;
-  const uint32_t starting = StartingLanes(packet, geometry.FirstCoincident(args->primID));
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   uint32_t occluded = 0;
@@ -104,7 +113,7 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
     const auto hit = TestLanes(d, packet, lane, sphere);
     // From the sphere itself one root is 0, and the other twice the way to the closest approach:
     // negative for a ray that leaves outward, whatever the rounding of its origin.
-    const auto own = MaskOfBits(d, starting, lane);
+    const auto own = StartsOn(d, packet, lane, sphere);
     const auto t = hn::IfThenElse(own, hn::Add(hit.closest, hit.closest), hit.t);
     const auto met = hn::Or(hn::And(own, hn::Gt(t, hn::Zero(d))), hn::AndNot(own, hit.hit));
     const auto within = hn::Lt(t, hn::Load(d, packet.t_max + lane));

@@ -145,13 +145,21 @@ HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
   return reach;
 }
 
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
 HWY_INLINE void FillStarts(const ShadowRayBatch& rays, size_t first, Packet* packet) {
   const TraceGeometry& geometry = *packet->geometry;
   for (int lane = 0; lane < packet->width; ++lane) {
     const bool holds_ray = packet->valid[lane] != 0;
     const uint32_t start =
         holds_ray ? rays.primitive[first + static_cast<size_t>(lane)] : kNoPrimitive;
-    packet->start[lane] = start < geometry.SphereCount() ? geometry.FirstCoincident(start) : start;
+    packet->start[lane] = start;
+    const bool on_sphere = start < geometry.SphereCount();
+    const TraceSphere sphere = on_sphere ? geometry.spheres[start] : TraceSphere{Vec3d(kNan), kNan};
+    packet->start_sphere[0][lane] = sphere.center.x;
+    packet->start_sphere[1][lane] = sphere.center.y;
+    packet->start_sphere[2][lane] = sphere.center.z;
+    packet->start_sphere[3][lane] = sphere.radius;
     packet->start_reach[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
   }
 }
