@@ -18,7 +18,8 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SchlickWeight(D d, const AnglesV<V>& a) {
   using T = hn::TFromD<D>;
   const V denominator = hn::MulAdd(hn::Set(d, T(2)), hn::Sqrt(a.u_squared), hn::Set(d, T(4)));
-  const V one_minus_vh = hn::Div(a.lv_squared, denominator);
+  const V ratio = hn::Div(a.lv_squared, denominator);
+  const V one_minus_vh = hn::Min(ratio, hn::Set(d, T(1)));
   const V squared = hn::Mul(one_minus_vh, one_minus_vh);
   return hn::Mul(hn::Mul(squared, squared), one_minus_vh);
 }

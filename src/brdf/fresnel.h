@@ -9,9 +9,12 @@ namespace nacre {
 
 // (1 - v.h)^5, the angular weight of Schlick's approximation. 1 - v.h is formed as
 // (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is looked at from the front.
+// Where light and viewer are opposed it rounds to either side of 1; above 1 it would make 1 - F,
+// and so the diffuse light, negative.
 template <typename Real>
 Real SchlickWeight(const Angles<Real>& a) {
-  const Real one_minus_vh = a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
+  const Real ratio = a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
+  const Real one_minus_vh = ratio < 1 ? ratio : 1;
   const Real squared = one_minus_vh * one_minus_vh;
   return squared * squared * one_minus_vh;
 }

@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "shading/metallic_roughness_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include <limits>
+
 #include "hwy/highway.h"
 
 #include "brdf/fresnel-inl.h"
@@ -32,6 +34,7 @@ void ShadeMetallicRoughnessForm(const MetallicRoughnessUniforms& uniforms,
   const FloatTag d;
   const FloatV zero = hn::Zero(d);
   const FloatV one = hn::Set(d, 1.0f);
+  const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
   const RgbV diffuse = SetRgb(d, uniforms.diffuse);
   const RgbV specular = SetRgb(d, uniforms.specular);
   const RgbV f0 = SetRgb(d, uniforms.f0);
@@ -46,9 +49,11 @@ void ShadeMetallicRoughnessForm(const MetallicRoughnessUniforms& uniforms,
         VisibilityDenominator<kShadowing>(d, angles.n_dot_l, n_dot_v, alpha, schlick_k);
     // Unlit lanes have weight 0, and their denominator may be anything.
     const auto lit = hn::Gt(weight, zero);
-    const FloatV visibility = hn::Div(weight, hn::IfThenElse(lit, denominator, one));
-    const FloatV lobe =
-        hn::IfThenElseZero(lit, hn::Mul(GgxDistribution(d, angles, alpha), visibility));
+    // Held within float's range: infinity times a lobe, or a colour, of 0 would be NaN.
+    const FloatV visibility =
+        hn::Min(hn::Div(weight, hn::IfThenElse(lit, denominator, one)), largest);
+    const FloatV product = hn::Mul(GgxDistribution(d, angles, alpha), visibility);
+    const FloatV lobe = hn::IfThenElseZero(lit, hn::Min(product, largest));
     const FloatV schlick = SchlickWeight(d, angles);
     const RgbV fresnel{FresnelSchlick(d, f0.r, schlick), FresnelSchlick(d, f0.g, schlick),
                        FresnelSchlick(d, f0.b, schlick)};
