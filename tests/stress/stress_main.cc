@@ -17,13 +17,16 @@
 #include "render/render.h"
 #include "stress/fuzz.h"
 #include "stress/gallery.h"
+#include "stress/random_scene.h"
+#include "stress/truth_reflect.h"
 
 namespace nacre {
 namespace {
 
 struct Options {
-  std::string folder;               // for pictures; empty: none
-  int width = 0;                    // of pictures; 0: as the scenes say
+  std::string folder;  // for pictures; empty: none
+  int width = 0;       // of pictures; 0: as the scenes say
+  uint64_t random_scenes = 0;
   uint64_t draws = 0;               // of the fuzz; 0: none
   std::vector<std::string> scenes;  // of the gallery; empty: all
   bool gallery = true;
@@ -112,6 +115,39 @@ bool RunGallery(const Options& options) {
   return holds;
 }
 
+// Renders `count` random scenes beside the truth. Tells the worst, and each that fails by its seed.
+bool RunRandomScenes(uint64_t count) {
+  uint64_t failed = 0, pixels = 0, doubtful = 0;
+  double normal = 0, of_bound = 0;
+  for (uint64_t seed = 0; seed < count; ++seed) {
+    Scene scene = MakeRandomScene(seed);
+    UsePlainForms(&scene);
+    RenderSettings settings;
+    settings.layers = {"N", "Z", "id.object"};
+    settings.threads = 1;
+    const Comparison c = Compare(scene, RenderImage(scene, settings), RenderTruth(scene));
+    pixels += c.pixels;
+    doubtful += c.doubtful;
+    normal = std::max(normal, c.normal_error);
+    of_bound = std::max(of_bound, c.of_bound);
+    if (!c.GeometryHolds() || !c.RadianceHolds()) {
+      ++failed;
+      fmt::print(
+          "random scene {}: {} false hits, {} misses, {} wrong ids, {} not finite, normal "
+          "{:.1e}, {:.2f} of its bound ({})\n",
+          seed, c.false_hits, c.false_misses, c.wrong_objects, c.not_finite, c.normal_error,
+          c.of_bound, c.worst_material);
+    }
+    if (seed % 256 == 0) fmt::print(stderr, "\rrandom scenes {} of {}", seed, count);
+  }
+  fmt::print(stderr, "\r{:<40}\r", "");
+  fmt::print(
+      "random scenes: {} of {} fail; {} pixels, {} doubtful, normal {:.1e} rad, {:.2f} of the "
+      "radiance's bound\n",
+      failed, count, pixels, doubtful, normal, of_bound);
+  return failed == 0;
+}
+
 bool RunFuzz(uint64_t draws) {
   bool holds = true;
   for (const Target target : SupportedTargets()) {
@@ -148,6 +184,8 @@ Options ParseOptions(int count, char** arguments) {
       options.folder = value;
     } else if (name == "--width") {
       options.width = std::atoi(value.c_str());
+    } else if (name == "--random") {
+      options.random_scenes = static_cast<uint64_t>(std::atof(value.c_str()));
     } else if (name == "--draws") {
       options.draws = static_cast<uint64_t>(std::atof(value.c_str()));
     } else {
@@ -160,6 +198,7 @@ Options ParseOptions(int count, char** arguments) {
 int Run(const Options& options) {
   bool holds = true;
   if (options.gallery) holds = RunGallery(options);
+  if (options.random_scenes > 0) holds = RunRandomScenes(options.random_scenes) && holds;
   if (options.draws > 0) holds = RunFuzz(options.draws) && holds;
   fmt::print("{}\n", holds ? "every bound holds" : "a bound is exceeded");
   return holds ? 0 : 1;
