@@ -125,12 +125,12 @@ bool RunRandomScenes(uint64_t count) {
     RenderSettings settings;
     settings.layers = {"N", "Z", "id.object"};
     settings.threads = 1;
-    const Comparison c = Compare(scene, RenderImage(scene, settings), RenderTruth(scene));
+    const Comparison c = Compare(scene, RenderImage(scene, settings), RenderTruth(scene, 1));
     pixels += c.pixels;
     doubtful += c.doubtful;
     normal = std::max(normal, c.normal_error);
     of_bound = std::max(of_bound, c.of_bound);
-    if (!c.GeometryHolds() || !c.RadianceHolds()) {
+    if (!c.GeometryHolds() || c.of_bound > kRandomSceneSlack) {
       ++failed;
       fmt::print(
           "random scene {}: {} false hits, {} misses, {} wrong ids, {} not finite, normal "

@@ -280,13 +280,13 @@ TruthPixel RenderPixel(const Scene& scene, const View& view, int x, int y) {
 
 }  // namespace
 
-TruthPicture RenderTruth(const Scene& scene) {
+TruthPicture RenderTruth(const Scene& scene, int threads) {
   if (!scene.meshes.empty()) throw std::invalid_argument("the truth knows spheres only");
   const View view = MakeView(scene);
   TruthPicture picture{scene.image.width, scene.image.height, {}};
   const auto width = static_cast<size_t>(picture.width);
   picture.pixels.resize(width * static_cast<size_t>(picture.height));
-  ParallelFor(static_cast<size_t>(picture.height), 0, [&](size_t y) {
+  ParallelFor(static_cast<size_t>(picture.height), threads, [&](size_t y) {
     for (size_t x = 0; x < width; ++x) {
       picture.pixels[y * width + x] =
           RenderPixel(scene, view, static_cast<int>(x), static_cast<int>(y));

@@ -45,7 +45,7 @@ struct TruthPicture {
 };
 
 // spp and filter are not looked at. Throws std::invalid_argument for meshes and for models that
-// truth_reflect.h does not have.
-TruthPicture RenderTruth(const Scene& scene);
+// truth_reflect.h does not have. `threads`: as in base/parallel.h.
+TruthPicture RenderTruth(const Scene& scene, int threads = 0);
 
 }  // namespace nacre
