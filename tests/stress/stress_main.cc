@@ -166,6 +166,27 @@ bool RunFuzz(uint64_t draws) {
   return holds;
 }
 
+double ParseNumber(const std::string& name, const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(value >= 0 && value <= 1e15)) {
+    throw Error(ExitCode::kUsage, name, "wants a number, not \"" + text + "\"");
+  }
+  return value;
+}
+
+// A name that no scene has would leave nothing to judge, and that would pass.
+void CheckSceneNames(const std::vector<std::string>& names) {
+  std::vector<std::string> known;
+  for (const GalleryScene& entry : GalleryScenes()) known.emplace_back(entry.name);
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const std::string nearest = NearestName(name, known);
+    throw Error(ExitCode::kUsage, name, "no scene of scenes/stability",
+                nearest.empty() ? "" : "did you mean \"" + nearest + "\"?");
+  }
+}
+
 Options ParseOptions(int count, char** arguments) {
   Options options;
   for (int i = 1; i < count; ++i) {
@@ -183,15 +204,16 @@ Options ParseOptions(int count, char** arguments) {
     if (name == "--out") {
       options.folder = value;
     } else if (name == "--width") {
-      options.width = std::atoi(value.c_str());
+      options.width = static_cast<int>(ParseNumber(name, value));
     } else if (name == "--random") {
-      options.random_scenes = static_cast<uint64_t>(std::atof(value.c_str()));
+      options.random_scenes = static_cast<uint64_t>(ParseNumber(name, value));
     } else if (name == "--draws") {
-      options.draws = static_cast<uint64_t>(std::atof(value.c_str()));
+      options.draws = static_cast<uint64_t>(ParseNumber(name, value));
     } else {
       throw Error(ExitCode::kUsage, name, "unknown option", "see scripts/stress --help");
     }
   }
+  CheckSceneNames(options.scenes);
   return options;
 }
 
