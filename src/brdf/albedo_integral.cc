@@ -123,7 +123,7 @@ double AlbedoOfSchlick(Shadowing shadowing, double roughness, double n_dot_v) {
                   [](double, double one_minus_vh) { return Power5(one_minus_vh); });
 }
 
-double DiffuseCoupling(double n_dot_v) {
+double CoupledDiffuseAlbedo(double n_dot_v) {
   // For n.l = sin(elevation) and every azimuth, which the integrand is smooth and periodic in.
   constexpr int kAzimuths = 64;
   const QuadratureRule& rule = GaussLegendre(32);

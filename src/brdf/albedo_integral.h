@@ -46,7 +46,7 @@ double AverageAlbedoOfOne(Shadowing shadowing, double roughness);
 
 // int (1 - (1 - v.h)^5) n.l / pi dl: what is left of a white diffuse lobe that is scaled by one
 // minus Schlick's weight of the half vector, light by light.
-double DiffuseCoupling(double n_dot_v);
+double CoupledDiffuseAlbedo(double n_dot_v);
 
 // int_0^2pi D F dphi at one node.
 //

@@ -13,12 +13,12 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 1 - v.h free of cancellation.
+// 1 - v.h free of cancellation, at most 1.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V OneMinusVDotH(D d, const AnglesV<V>& a) {
   using T = hn::TFromD<D>;
   const V denominator = hn::MulAdd(hn::Set(d, T(2)), hn::Sqrt(a.u_squared), hn::Set(d, T(4)));
-  return hn::Div(a.lv_squared, denominator);
+  return hn::Min(hn::Div(a.lv_squared, denominator), hn::Set(d, T(1)));
 }
 
 // v.h.

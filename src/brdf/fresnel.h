@@ -9,10 +9,12 @@
 namespace nacre {
 
 // 1 - v.h, formed as (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is looked
-// at from the front, and 1 minus it would be rounding.
+// at from the front, and 1 minus it would be rounding. Where light and viewer are opposed it rounds
+// to either side of 1; above 1 it would make 1 - F, and so the diffuse light, negative.
 template <typename Real>
 Real OneMinusVDotH(const Angles<Real>& a) {
-  return a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
+  const Real ratio = a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
+  return ratio < 1 ? ratio : 1;
 }
 
 // v.h itself: |l + v| / 2.

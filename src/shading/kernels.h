@@ -34,7 +34,7 @@ struct MicrofacetUniforms {
   const MicrofacetModel* model;
   float diffuse[3];     // MicrofacetModel::diffuse * light
   float specular[3];    // light; 0 for a delta lobe, which these lights cannot show
-  float multiple[3];    // kKullaConty: F_ms / (pi (1 - E_avg)) * light
+  float multiple[3];    // kKullaConty: F_ms * light
   const float* narrow;  // the distribution of each hit, formed in double, or null
 };
 

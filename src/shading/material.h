@@ -14,7 +14,7 @@ namespace nacre {
 // 1e-7 / alpha, 1e-5 at these limits. The choice is the material's, so a hit's bits never depend
 // on what else is in its batch.
 inline constexpr double kDoubleTermsRoughness = 0.1;
-inline constexpr double kDoubleTermsShininess = 1e4;
+inline constexpr double kDoubleTermsShininess = 500;
 
 struct LambertModel {
   Rgb diffuse;  // albedo / pi

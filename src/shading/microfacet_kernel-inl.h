@@ -8,6 +8,8 @@
 #define NACRE_SHADING_MICROFACET_KERNEL_INL_H_
 #endif
 
+#include <limits>
+
 #include "brdf/fresnel-inl.h"
 #include "brdf/ggx-inl.h"
 #include "shading/microfacet_albedo-inl.h"
@@ -77,6 +79,8 @@ void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& r
   const MicrofacetModel& model = *uniforms.model;
   const FloatV zero = hn::Zero(d);
   const FloatV one = hn::Set(d, 1.0f);
+  const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
+  const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
   const RgbV diffuse = SetRgb(d, uniforms.diffuse);
   const RgbV specular = SetRgb(d, uniforms.specular);
   const CurveV curve{SetRgb(d, model.f0), SetRgb(d, model.f82_slope), SetRgb(d, model.eta),
@@ -94,20 +98,22 @@ void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& r
     const FloatV n_dot_v = hn::Max(angles.n_dot_v, zero);
     const FloatV denominator =
         VisibilityDenominator<kShadowing>(d, angles.n_dot_l, n_dot_v, alpha, schlick_k);
-    // Unlit lanes have weight 0, and their denominator may be anything.
     const auto lit = hn::Gt(weight, zero);
-    const FloatV visibility = hn::Div(weight, hn::IfThenElse(lit, denominator, one));
+    // Not less than the smallest normal number, for unlit lanes and for cosines below that; nor
+    // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
+    const FloatV visibility = hn::Min(hn::Div(weight, hn::Max(denominator, smallest)), largest);
     const FloatV distribution = uniforms.narrow != nullptr ? hn::LoadU(d, uniforms.narrow + i)
                                                            : GgxDistribution(d, angles, alpha);
-    const FloatV lobe = hn::IfThenElseZero(lit, hn::Mul(distribution, visibility));
+    const FloatV product = hn::Mul(distribution, visibility);
+    const FloatV lobe = hn::IfThenElseZero(lit, hn::Min(product, largest));
     const RgbV fresnel = Fresnel<kFresnel>(d, angles, curve);
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     RgbV reflected = ScaleRgb(MulRgb(fresnel, specular), lobe);
     RgbV base = LoadRgb(d, surface.base, i);
     if (kulla_conty) {
       const AlbedoV from_light = EvaluateAlbedo(d, model, hn::Max(angles.n_dot_l, zero));
-      const RgbV added = ScaleRgb(SetRgb(d, uniforms.multiple),
-                                  hn::Mul(hn::Mul(multiple, from_light.loss), weight));
+      const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), weight);
+      const RgbV added = ScaleRgb(SetRgb(d, uniforms.multiple), hn::Min(amount, largest));
       reflected = {hn::Add(reflected.r, added.r), hn::Add(reflected.g, added.g),
                    hn::Add(reflected.b, added.b)};
       if (reciprocal) {
@@ -120,7 +126,9 @@ void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& r
       reflected = MulRgb(reflected, TurquinScale(d, curve.f0, multiple));
     }
     if (one_minus_fresnel) {
-      base = {hn::Sub(one, fresnel.r), hn::Sub(one, fresnel.g), hn::Sub(one, fresnel.b)};
+      // The exact curves may round to just above 1 at grazing angles.
+      const auto rest = [&](FloatV f) HWY_ATTR { return hn::Max(hn::Sub(one, f), zero); };
+      base = {rest(fresnel.r), rest(fresnel.g), rest(fresnel.b)};
     }
     Accumulate(d, mask, ScaleRgb(MulRgb(base, diffuse), weight), i, &range.radiance->diffuse);
     Accumulate(d, mask, reflected, i, &range.radiance->specular);

@@ -17,12 +17,14 @@ HWY_INLINE void StoreMasked(FloatTag d, hn::Mask<FloatTag> mask, FloatV value, f
   hn::StoreU(hn::IfThenElse(mask, value, hn::LoadU(d, to)), d, to);
 }
 
-HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV& albedo) {
-  switch (compensation) {
+// Kulla and Conty's weight carries the scale of their lobe: 1 / (pi (1 - E_avg)) of a smooth
+// surface times a light would leave float's range before the small losses bring it back.
+HWY_INLINE FloatV Multiple(FloatTag d, const MicrofacetModel& model, const AlbedoV& albedo) {
+  switch (model.compensation) {
     case Compensation::kTurquin:
       return hn::Div(albedo.loss, albedo.one);
     case Compensation::kKullaConty:
-      return albedo.loss;
+      return hn::Mul(albedo.loss, hn::Set(d, static_cast<float>(model.multiple)));
     case Compensation::kNone:
       break;
   }
@@ -44,7 +46,7 @@ void PrepareMicrofacetT(const MicrofacetModel& model, size_t begin, size_t end, 
                          LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i)),
                 hn::Zero(d));
     const AlbedoV albedo = EvaluateAlbedo(d, model, n_dot_v);
-    const FloatV multiple = Multiple(d, model.compensation, albedo);
+    const FloatV multiple = Multiple(d, model, albedo);
     StoreMasked(d, mask, multiple, surface->multiple.data() + i);
     for (int c = 0; c < 3; ++c) {
       const FloatV f0 = hn::Set(d, static_cast<float>(model.f0[c]));

@@ -76,7 +76,7 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const Rgb& light) 
   uniforms.model = &model;
   Assign(model.diffuse * light, uniforms.diffuse);
   Assign(model.delta ? Rgb(0, 0, 0) : light, uniforms.specular);
-  Assign(model.f_multiple * light * model.multiple, uniforms.multiple);
+  Assign(model.f_multiple * light, uniforms.multiple);
   uniforms.narrow = nullptr;
   return uniforms;
 }

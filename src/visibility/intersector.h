@@ -25,8 +25,8 @@ struct IntersectorSettings {
 //
 // Rays start no further from the camera than some point of the scene does: at the camera, on its
 // orthographic image plane, or on a surface. (Farther origins can lose hits: they are beyond the
-// error that the bounds in Embree's tree allow for.) Scene coordinates and radii, relative to the
-// camera, are within 1e-12 and 1e12.
+// error that the bounds in Embree's tree allow for.) Coordinates and radii are within the ranges of
+// scene/limits.h: no square of theirs, relative to the camera, leaves the range of float.
 class Intersector {
  public:
   // Takes what it needs of `scene`. Throws Error (kInternal) where Embree fails: out of memory, or

@@ -67,7 +67,7 @@ TEST_CASE("averages and Schlick albedos are the table's", "[table]") {
     check(AlbedoOfSchlick(Shadowing::kHeightCorrelated, roughness, mu), "B");
     check(AlbedoOfOne(Shadowing::kSchlickDirect, roughness, mu), "E_lessonG");
     check(AlbedoOfSchlick(Shadowing::kSchlickDirect, roughness, mu), "B_lessonG");
-    check(DiffuseCoupling(mu), "diffuse_coupling");
+    check(CoupledDiffuseAlbedo(mu), "diffuse_coupling");
   }
 }
 

@@ -349,6 +349,7 @@ TEST_CASE("geometry layers hold what is at the pixel's centre") {
 TEST_CASE("targets differ by no more than rounding") {
   // DESIGN's bound, on 99.9 % of this small picture's pixels: the rest lie on edges.
   const Scene scene = MakeScene();
+  const TargetGuard guard;
   PinTarget(Target::kScalar);
   const Image scalar = RenderImage(scene, Settings(1));
   ForEachTarget([&](Target) {

@@ -411,6 +411,8 @@ TEST_CASE("highlights of smooth surfaces keep their precision") {
          {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
       CAPTURE(static_cast<int>(model));
       CHECK(phong(model, 100, false) <= 2e-5);
+      CHECK(phong(model, 500, false) <= 2e-5);
+      CHECK(phong(model, 1e4, true) <= 2e-5);
       CHECK(phong(model, 1e6, true) <= 2e-5);
       CHECK(phong(model, 1e9, true) <= 2e-5);
     }

@@ -15,7 +15,12 @@ namespace {
 void CheckClosest(const Scene& scene, const Vec3d& eye, const std::vector<Ray>& rays) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   std::vector<Hit> expected;
-  for (const Ray& ray : rays) expected.push_back(BruteForce(geometry, ray));
+  bool any = false;
+  for (const Ray& ray : rays) {
+    expected.push_back(BruteForce(geometry, ray));
+    any = any || expected.back().primitive != kNoPrimitive;
+  }
+  CHECK(any);
   ForEachTarget([&](Target) {
     const std::vector<Hit> hits = Trace(Intersector(scene, eye), rays);
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -73,6 +78,60 @@ TEST_CASE("far spheres, and tiny and huge ones in one scene") {
   scene.spheres.push_back(MakeSphere({0, -1e-5, -1e-5}, 1e-6));
   rays.push_back({Vec3d(0), Vec3d(1e-7, -1, -1)});
   CheckClosest(scene, Vec3d(0), rays);
+}
+
+// scene/limits.h: lengths from 1e-15 to 1e15, coordinates up to 1e15 on either side of the
+// camera's.
+TEST_CASE("the ends of the range of lengths") {
+  Random random(23);
+  for (const double size : {1e-15, 1e-8, 1e7, 1e15}) {
+    for (const Vec3d& eye : {Vec3d(0), Vec3d(-size)}) {
+      CAPTURE(size, eye.x);
+      Scene scene;
+      for (int i = 0; i < 100; ++i) {
+        const Vec3d center = random.InBox(Vec3d(-size), Vec3d(size));
+        scene.spheres.push_back(MakeSphere(center, std::max(1e-15, size * random.Uniform(0, 0.2))));
+      }
+      std::vector<Ray> rays = RaysAllAround(&random, 1000);
+      for (const Sphere& sphere : scene.spheres) {
+        const Vec3d offset = random.Direction() * (sphere.radius * random.Uniform(0.9, 1.1));
+        rays.push_back({Vec3d(0), sphere.center - eye + offset});
+      }
+      CheckClosest(scene, eye, rays);
+    }
+  }
+}
+
+TEST_CASE("all lengths in one scene") {
+  Random random(24);
+  Scene scene;
+  for (int i = 0; i < 300; ++i) {
+    const double distance = random.Magnitude(1e-15, 1e15);
+    scene.spheres.push_back(MakeSphere(random.Direction() * distance,
+                                       std::max(1e-15, distance * random.Magnitude(1e-7, 0.5))));
+  }
+  scene.spheres.push_back(MakeSphere({0, -1e15, 0}, 1e15 * (1 - 1e-15)));
+  std::vector<Ray> rays = RaysAllAround(&random, 1000);
+  for (const Sphere& sphere : scene.spheres) {
+    rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.7});
+    rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 1.01});
+  }
+  CheckClosest(scene, Vec3d(0), rays);
+}
+
+TEST_CASE("triangles at the ends of the range of lengths") {
+  Random random(25);
+  for (const double size : {1e-15, 1e15}) {
+    CAPTURE(size);
+    Scene scene;
+    Mesh& mesh = scene.meshes.emplace_back();
+    for (uint32_t i = 0; i < 300; ++i) {
+      mesh.positions.push_back(random.InBox(Vec3d(-size), Vec3d(size)));
+      mesh.triangles.push_back(i);
+    }
+    CheckClosest(scene, Vec3d(0), RaysAllAround(&random, 1000));
+    CheckClosest(scene, Vec3d(size), RaysAllAround(&random, 1000));
+  }
 }
 
 TEST_CASE("the camera in, on and between spheres") {

@@ -126,6 +126,26 @@ TEST_CASE("nested, touching and almost touching spheres") {
   CheckOccluded(scene, rays);
 }
 
+TEST_CASE("shadows at the ends of the range of lengths") {
+  Random random(36);
+  for (const double size : {1e-15, 1e15}) {
+    CAPTURE(size);
+    Scene scene;
+    for (int i = 0; i < 100; ++i) {
+      scene.spheres.push_back(MakeSphere(random.InBox(Vec3d(-size), Vec3d(size)),
+                                         std::max(1e-15, size * random.Uniform(0, 0.2))));
+    }
+    std::vector<ShadowRay> rays;
+    for (uint32_t i = 0; i < 5000; ++i) {
+      const Sphere& sphere = scene.spheres[i % 100];
+      const Vec3d origin = sphere.center + random.Direction() * sphere.radius;
+      const Vec3d light = random.InBox(Vec3d(-size), Vec3d(size));
+      rays.push_back({{origin, light - origin}, i % 2 == 0 ? 1 : kInfinity, i % 100});
+    }
+    CheckOccluded(scene, rays);
+  }
+}
+
 TEST_CASE("between shells 4e-5 apart the outer one shadows the inner one") {
   Random random(34);
   Scene scene;
