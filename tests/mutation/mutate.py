@@ -23,7 +23,7 @@ import fault_list
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-MOST_SECONDS = 900  # of a build or a test; what takes longer hangs
+MOST_SECONDS = 120  # of a test; what takes longer hangs
 
 
 class NoRun(Exception):
@@ -81,12 +81,12 @@ class Workshop:
         if not self.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", *options])[0]:
             raise NoRun(f"cmake failed, see {self.log}")
 
-    def run(self, command):
+    def run(self, command, seconds=None):
         """Whether it succeeded, and what it printed."""
         try:
             result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
                                     stderr=subprocess.STDOUT, text=True, errors="replace",
-                                    cwd=self.tree, timeout=MOST_SECONDS, check=False)
+                                    cwd=self.tree, timeout=seconds, check=False)
         except subprocess.TimeoutExpired:
             return False, "took too long"
         with self.log.open("a") as log:
@@ -117,7 +117,7 @@ class Workshop:
         """The first test that fails, with its case, or None."""
         for test in tests:
             for command in self.commands(test):
-                passes, output = self.run(command)
+                passes, output = self.run(command, MOST_SECONDS)
                 if not passes:
                     return f"{test}: {failing_case(output)}"
         return None
