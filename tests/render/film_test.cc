@@ -84,6 +84,24 @@ TEST_CASE("depth is measured along the view") {
   for (const float depth : image.Find("Z")->samples) REQUIRE(depth == Approx(5).epsilon(1e-6));
 }
 
+TEST_CASE("positions are those of the sample nearest to the pixel's centre") {
+  constexpr int kSide = 9;
+  Scene scene = MakeScene(kSide, 64);
+  scene.meshes = {MakeSquare(-9, 9, 9, AddLambert({1, 1, 1}, &scene))};
+  const Image image = RenderImage(scene, OneThread({"P"}));
+  const double pixel = 2 * 5 * std::tan(scene.camera.fov_y_deg * M_PI / 360) / kSide;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const auto at = [&](const char* channel) {
+        return image.Find(channel)->samples[static_cast<size_t>(y * kSide + x)] / pixel;
+      };
+      // One of 64 well-distributed samples is within a quarter of a pixel.
+      CHECK(at("P.X") == Approx(x - kSide / 2).margin(0.25));
+      CHECK(at("P.Y") == Approx(kSide / 2 - y).margin(0.25));
+    }
+  }
+}
+
 TEST_CASE("meshes have materials and ids of their own, behind those of the spheres") {
   Scene scene = MakeScene(20, 1);
   const MaterialId red = AddLambert({0.5, 0, 0}, &scene);
