@@ -140,7 +140,7 @@ TEST_CASE("lights and hits meet in the camera's space") {
 TEST_CASE("a light beside a far hit keeps its direction") {
   // Floats are 0.06 apart out there.
   HitBatch hits = MakeHit({0, 1, 0});
-  const Vec3d position(1e6 + 0.03, -2e6 + 0.01, 3e5), offset(0.25, 0.5, -0.125);
+  const Vec3d position(1e6 + 0.03, -2e6 + 0.01, 3e5), offset(0.27, 0.53, -0.11);
   hits.position.x[0] = position.x;
   hits.position.y[0] = position.y;
   hits.position.z[0] = position.z;
