@@ -113,13 +113,12 @@ class Workshop:
                 command.append("--failfast")
         return commands[::-1]
 
-    def failing_test(self, tests):
-        """The first test that fails, with its case, or None."""
-        for test in tests:
-            for command in self.commands(test):
-                passes, output = self.run(command, MOST_SECONDS)
-                if not passes:
-                    return f"{test}: {failing_case(output)}"
+    def failing_case(self, test):
+        """The first case of a test that fails, or None."""
+        for command in self.commands(test):
+            passes, output = self.run(command, MOST_SECONDS)
+            if not passes:
+                return first_failure(output)
         return None
 
     def put(self, contents):
@@ -127,7 +126,7 @@ class Workshop:
             (self.tree / name).write_text(content, encoding="utf-8")
 
 
-def failing_case(output):
+def first_failure(output):
     """The first case that a test's output tells to have failed."""
     for pattern in (r"^-{70,}\n(\S.*)\n", r"^(?:FAIL|ERROR): (\S+)", r"^(\S+) +(?:FAIL|ERROR)\b",
                     r"(took too long)"):
@@ -143,10 +142,13 @@ def try_fault(workshop, fault):
     originals = {name: (ROOT / name).read_text(encoding="utf-8") for name in contents}
     try:
         workshop.put(contents)
-        if not workshop.compile(fault.tests):
-            return "did not compile", ""
-        killer = workshop.failing_test(fault.tests)
-        return ("killed", killer) if killer else ("SURVIVED", "")
+        for test in fault.tests:  # each is built only if those before it pass
+            if not workshop.compile([test]):
+                return "did not compile", ""
+            case = workshop.failing_case(test)
+            if case:
+                return "killed", f"{test}: {case}"
+        return "SURVIVED", ""
     finally:
         workshop.put(originals)
 
@@ -158,9 +160,10 @@ def run_all(workshop, chosen):
     workshop.prepare()
     if not workshop.compile(tests):
         raise NoRun(f"the tree does not compile without a fault, see {workshop.log}")
-    broken = workshop.failing_test(tests)
-    if broken:
-        raise NoRun(f"a test fails without a fault: {broken}")
+    for test in tests:
+        case = workshop.failing_case(test)
+        if case:
+            raise NoRun(f"a test fails without a fault: {test}: {case}")
     counts = collections.Counter()
     begin = time.monotonic()
     for number, fault in enumerate(chosen, 1):
