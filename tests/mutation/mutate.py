@@ -128,7 +128,7 @@ class Workshop:
 
 def first_failure(output):
     """The first case that a test's output tells to have failed."""
-    for pattern in (r"^-{70,}\n(\S.*)\n", r"^(?:FAIL|ERROR): (\S+)", r"^(\S+) +(?:FAIL|ERROR)\b",
+    for pattern in (r"^(?:FAIL|ERROR): (\S+)", r"^-{70,}\n(\S.*)\n", r"^(\S+) +(?:FAIL|ERROR)\b",
                     r"(took too long)"):
         found = re.search(pattern, output, re.MULTILINE)
         if found:
