@@ -1,6 +1,9 @@
 // tests/base/base_test.cc: errors, arrays, parallel loops, SIMD targets.
 #include <atomic>
+#include <chrono>
+#include <limits>
 #include <numeric>
+#include <thread>
 
 #include "base/aligned.h"
 #include "base/error.h"
@@ -10,6 +13,8 @@
 
 namespace nacre {
 namespace {
+
+void Sleep() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
 
 TEST_CASE("an error's message has a line for each fault and its hint") {
   const Error error(ExitCode::kBadInput, {{"a.json: /x", "is wrong", "mend it"}, {"b", "too", ""}});
@@ -46,6 +51,30 @@ TEST_CASE("a parallel loop visits every index once and passes exceptions on") {
   }
 }
 
+TEST_CASE("a parallel loop begins its indices in ascending order") {
+  std::vector<size_t> order;
+  ParallelFor(50, 1, [&](size_t i) { order.push_back(i); });
+  std::vector<size_t> ascending(50);
+  std::iota(ascending.begin(), ascending.end(), size_t{0});
+  CHECK(order == ascending);
+}
+
+TEST_CASE("a parallel loop stops at an exception") {
+  constexpr int kCount = 200;
+  std::atomic<int> begun{0};
+  const auto body = [&](size_t i) {
+    ++begun;
+    if (i == 0) {
+      // Until another worker is in its loop, which is what must be stopped. There may be none.
+      for (int wait = 0; begun < 2 && wait < 200; ++wait) Sleep();
+      throw Error(ExitCode::kInternal, "", "stop");
+    }
+    Sleep();
+  };
+  CHECK_THROWS_AS(ParallelFor(kCount, 2, body), Error);
+  CHECK(begun < kCount);
+}
+
 TEST_CASE("denormals are flushed in workers and only there") {
   volatile double tiny = 1e-300;
   std::atomic<int> flushed{0};
@@ -55,11 +84,20 @@ TEST_CASE("denormals are flushed in workers and only there") {
   });
   CHECK(flushed == 64);
   CHECK(tiny * 1e-10 != 0);
+  // Operands count as 0 too.
+  volatile double denormal = std::numeric_limits<double>::denorm_min();
+  std::atomic<int> read_as_zero{0};
+  ParallelFor(64, 2, [&](size_t) {
+    if (denormal * 1e300 == 0) ++read_as_zero;
+  });
+  CHECK(read_as_zero == 64);
+  CHECK(denormal * 1e300 != 0);
 }
 
 TEST_CASE("targets pin and report") {
   const std::vector<Target> targets = SupportedTargets();
   REQUIRE(targets.front() == Target::kScalar);
+  CHECK(ActiveTarget() == targets.back());  // nothing is pinned yet
   for (const Target target : targets) {
     PinTarget(target);
     CHECK(ActiveTarget() == target);

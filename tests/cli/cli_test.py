@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The program from outside: exit codes, what is written and what is not, and what it prints.
 
-Usage: cli_test.py PROGRAM SOURCE_FOLDER
+Usage: cli_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
 """
 import json
 import os
@@ -388,4 +388,4 @@ class CliTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main(argv=sys.argv[:1], verbosity=1)
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)

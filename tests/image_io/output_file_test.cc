@@ -2,6 +2,8 @@
 #include "image_io/output_file.h"
 
 #include <array>
+#include <cerrno>
+#include <climits>
 #include <csignal>
 #include <cstddef>
 
@@ -9,6 +11,7 @@
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
+#include <sys/inotify.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -118,6 +121,20 @@ TEST_CASE("without a commit nothing remains and the old file stays") {
   WriteFile(path);
   CHECK(ReadBytes(path) == kNew);
   CHECK(folder.file_count() == 1);
+}
+
+TEST_CASE("a file is replaced without being gone in between") {
+  const TestFolder folder;
+  const std::string path = folder / "image.exr";
+  WriteFile(path);
+  // The system reports what loses its name in the folder.
+  const int watch = inotify_init1(IN_NONBLOCK);
+  REQUIRE(inotify_add_watch(watch, folder.path().c_str(), IN_DELETE) >= 0);
+  for (const bool sync : {false, true}) WriteFile(path, sync);
+  std::array<char, sizeof(inotify_event) + NAME_MAX + 1> event;
+  CHECK(read(watch, event.data(), event.size()) == -1);
+  CHECK(errno == EAGAIN);  // nothing was deleted
+  close(watch);
 }
 
 TEST_CASE("a killed process leaves nothing") {

@@ -62,6 +62,12 @@ TEST_CASE("The Gaussian's deviation is a sixth of its width", "[sampling]") {
   CHECK(FilterValue(filter, 0.5) / FilterValue(filter, 0) == Approx(std::exp(-0.5)).epsilon(1e-14));
 }
 
+TEST_CASE("Harris' window ends at 6e-5 of its peak", "[sampling]") {
+  const PixelFilter filter{FilterKind::kBlackmanHarris, 3.3};
+  const double end = FilterValue(filter, filter.width / 2) / FilterValue(filter, 0);
+  CHECK(end == Approx(6e-5).epsilon(1e-9));  // a0 - a1 + a2 - a3; the terms add up to 1
+}
+
 TEST_CASE("Tabulated quantiles meet their shares", "[sampling]") {
   for (const PixelFilter& filter : kFilters) {
     const FilterSampler sampler = MakeFilterSampler(filter);

@@ -85,6 +85,32 @@ TEST_CASE("The unscrambled sequence has the published points", "[sampling]") {
   for (uint32_t k = 0; k < 10; ++k) CHECK(UnitFromBits(SobolBits(2, k)) == second[k]);
 }
 
+TEST_CASE("Every dimension begins with Joe and Kuo's direction numbers", "[sampling]") {
+  // new-joe-kuo-6.21201, dimensions 2 to 16: m_1, m_2, ... Point 2^k is m_k+1 / 2^(k+1).
+  const std::vector<std::vector<uint32_t>> published = {{1},
+                                                        {1, 3},
+                                                        {1, 3, 1},
+                                                        {1, 1, 1},
+                                                        {1, 1, 3, 3},
+                                                        {1, 3, 5, 13},
+                                                        {1, 1, 5, 5, 17},
+                                                        {1, 1, 5, 5, 5},
+                                                        {1, 1, 7, 11, 19},
+                                                        {1, 1, 5, 1, 1},
+                                                        {1, 1, 1, 3, 11},
+                                                        {1, 3, 5, 5, 31},
+                                                        {1, 3, 3, 9, 7, 49},
+                                                        {1, 1, 1, 15, 21, 21},
+                                                        {1, 3, 1, 13, 27, 49}};
+  REQUIRE(published.size() == kSobolDimensions - 1);
+  for (uint32_t i = 0; i < published.size(); ++i) {
+    for (uint32_t k = 0; k < published[i].size(); ++k) {
+      CAPTURE(i + 2, k);
+      CHECK(SobolBits(1u << k, i + 1) == published[i][k] << (31 - k));
+    }
+  }
+}
+
 TEST_CASE("Owen's scrambling lets a bit depend on higher bits only", "[sampling]") {
   std::mt19937 engine(1);
   std::uniform_int_distribution<uint32_t> any;

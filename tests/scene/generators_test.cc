@@ -1,6 +1,7 @@
 // Grids, pairs and clouds: where the spheres are, what they are made of, what the labels say.
 #include "scene/generators.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -197,6 +198,17 @@ Cloud SomeCloud(uint64_t count) {
   cloud.radius_max = 0.75;
   cloud.materials = {MaterialId{2}, MaterialId{0}, MaterialId{2}};
   return cloud;
+}
+
+TEST_CASE("no two spheres of a large cloud are alike") {
+  Cloud cloud = SomeCloud(200000);  // more than what one task makes
+  Scene scene;
+  AddCloud(cloud, &scene);
+  std::vector<double> x;
+  x.reserve(scene.spheres.size());
+  for (const Sphere& sphere : scene.spheres) x.push_back(sphere.center.x);
+  std::sort(x.begin(), x.end());
+  CHECK(std::adjacent_find(x.begin(), x.end()) == x.end());
 }
 
 TEST_CASE("a cloud is the same everywhere") {

@@ -219,6 +219,19 @@ TEST_CASE("meshes are placed by their transforms") {
   CHECK((moved.positions[0] - Vec3d(10 - 2 * p.y, 2 * p.x, 2 * p.z)).length() < 1e-14);
 }
 
+TEST_CASE("a flat mesh has no normals, even if its file does") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "mesh.obj")
+      << "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n";
+  for (const bool smooth : {true, false}) {
+    std::ofstream(folder.path / "scene.json")
+        << R"({"nacre": 1, "shapes": [{"type": "mesh", "file": "mesh.obj", "smooth": )"
+        << (smooth ? "true" : "false") << R"(, "material": {"model": "lambert"}}]})";
+    const Scene scene = LoadScene(folder.path / "scene.json");
+    CHECK(scene.meshes.at(0).normals.size() == (smooth ? 3 : 0));
+  }
+}
+
 TEST_CASE("--set changes values, adds them, and makes what is missing on the way") {
   const LoadOptions options{.overrides = {{"/image/spp", "64"},
                                           {"/camera/fov_y_deg", "20"},
