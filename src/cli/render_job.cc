@@ -68,6 +68,8 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   settings.region = ParseRegion(options.region);
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
+  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
+  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
   ApplyTarget(options.target);
   CheckPicturePaths(options.outputs);
   std::vector<std::string> paths = options.outputs;

@@ -112,6 +112,12 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
       ->check(CLI::IsMember({"auto", "avx3", "avx2", "sse4", "scalar"}))
       ->capture_default_str()
       ->group(machine);
+  command
+      ->add_option("--intersector", o->intersector,
+                   "How camera rays find spheres: auto, embree or tiles; changes no bits")
+      ->check(CLI::IsMember({"auto", "embree", "tiles"}))
+      ->capture_default_str()
+      ->group(machine);
   command->add_option("--tile-size", o->tile_size, "Width of the tiles in pixels; changes no bits")
       ->check(CLI::Range(0, 64))
       ->group(machine);

@@ -36,6 +36,7 @@ struct RenderOptions {
   bool reproducible = false;
   bool quiet = false;
   std::string progress = "auto";
+  std::string intersector = "auto";
   int tile_size = 0;  // 0: chosen by the plan
 };
 

@@ -2,19 +2,10 @@
 #pragma once
 
 #include "hit/batch.h"
+#include "hit/camera_frame.h"
 #include "scene/scene.h"
 
 namespace nacre {
-
-// A camera with its basis worked out. Film position (x, y) in pixels, from the top left corner of
-// the full frame: origin + dx * x + dy * y + direction.
-struct CameraFrame {
-  Projection projection;
-  Vec3d forward;  // unit viewing direction
-  Vec3d corner;   // perspective: direction through film (0, 0); orthographic: origin there
-  Vec3d step_x;   // change of that per pixel
-  Vec3d step_y;
-};
 
 // `width` and `height`: the full frame in pixels. Pixels are square.
 CameraFrame MakeCameraFrame(const Camera& camera, int width, int height);

@@ -100,16 +100,43 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
     plan->mesh_first_triangle.push_back(static_cast<uint32_t>(triangles));
     triangles += mesh.triangles.size() / 3;
   }
-  const bool anything = !scene.spheres.empty() || triangles > 0;
-  if (anything) {
+  if (scene.spheres.empty() && triangles == 0) {
+    plan->items.push_back(
+        {"intersector", false, "the scene has no shapes: every pixel is background"});
+    return;
+  }
+  const std::string shapes =
+      fmt::format("{} spheres, {} triangles; exact hits in double on {}", scene.spheres.size(),
+                  triangles, TargetName(ActiveTarget()));
+  const bool shadow_rays = std::any_of(plan->lights.begin(), plan->lights.end(),
+                                       [](const PlannedLight& light) { return light.shadow_rays; });
+  const IntersectorChoice choice = settings.intersector;
+  if (choice == IntersectorChoice::kTiles && triangles > 0) {
+    throw Error(ExitCode::kUsage, "--intersector",
+                "tiles hold spheres only, and the scene has triangles",
+                "leave the choice to nacre");
+  }
+  const bool want_tiles = choice != IntersectorChoice::kEmbree && triangles == 0;
+  plan->intersector = std::make_unique<Intersector>(
+      scene, scene.camera.position,
+      IntersectorSettings{.threads = settings.threads, .embree = shadow_rays || !want_tiles});
+  if (want_tiles) {
+    const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
+    plan->tiles = plan->intersector->BinForCamera(plan->camera, plan->window, reach);
+  }
+  if (want_tiles && !plan->tiles) {
     plan->intersector = std::make_unique<Intersector>(
         scene, scene.camera.position, IntersectorSettings{.threads = settings.threads});
   }
-  plan->items.push_back(
-      {"intersector embree", anything,
-       anything ? fmt::format("{} spheres, {} triangles; exact hits in double on target {}",
-                              scene.spheres.size(), triangles, TargetName(ActiveTarget()))
-                : "the scene has no shapes: every pixel is background"});
+  plan->items.push_back({"intersector tiles, for camera rays", plan->tiles,
+                         plan->tiles     ? "spheres binned to 16x16 pixels need no tree: " + shapes
+                         : triangles > 0 ? "there are triangles"
+                         : want_tiles    ? "the bins would not fit 256 MiB"
+                                         : "--intersector embree"});
+  plan->items.push_back({"intersector embree", !plan->tiles || shadow_rays,
+                         !plan->tiles  ? "for all rays: " + shapes
+                         : shadow_rays ? "for shadow rays"
+                                       : "nothing is left for it: no tree is built"});
 }
 
 void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
@@ -176,8 +203,8 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
-  PlanGeometry(scene, settings, &plan);
   PlanLights(scene, settings, &plan);
+  PlanGeometry(scene, settings, &plan);
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),
                         IsBlack(ambient) ? "the scene has none" : "a constant per material"});

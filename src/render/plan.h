@@ -44,6 +44,7 @@ struct RenderPlan {
   std::vector<ShadingMaterial> materials;     // one per material of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
+  bool tiles = false;                         // camera rays: binned spheres, not Embree
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;

@@ -1,6 +1,7 @@
 // render/settings.h: what a render is asked for beyond its scene.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,11 +10,15 @@
 
 namespace nacre {
 
+// How camera rays find spheres. All find the same hits, to the bit.
+enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles };
+
 struct RenderSettings {
   int threads = 0;                  // 0: as many as the machine has
   Window region;                    // pixels to render; empty: the whole frame
   std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bits
+  IntersectorChoice intersector = IntersectorChoice::kAuto;
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;

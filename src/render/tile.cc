@@ -131,14 +131,26 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
   TileScratch& s = *scratch;
   StageClock clock(stats);
   const int spp = plan.scene->image.spp;
+  const bool anything = plan.intersector != nullptr &&
+                        (!plan.tiles || plan.intersector->EnterTile(tile, &s.candidates));
+  clock.Charge(Stage::kIntersect);
+  if (!anything && HasUnitWeights(plan.sampler)) {
+    AddBackground(plan, tile, film);
+    clock.Charge(Stage::kFilm);
+    return;
+  }
   for (int first = 0; first < spp; first += plan.samples_per_round) {
     const int count = std::min(plan.samples_per_round, spp - first);
     MakeRays(plan, tile, first, count, &s);
     stats->camera_rays += s.rays.count;
     clock.Charge(Stage::kSample);
     s.hits.count = 0;
-    if (plan.intersector != nullptr) {
-      plan.intersector->Closest(s.rays, &s.closest);
+    if (anything) {
+      if (plan.tiles) {
+        plan.intersector->ClosestInTile(s.candidates, count, s.rays, &s.closest);
+      } else {
+        plan.intersector->Closest(s.rays, &s.closest);
+      }
       clock.Charge(Stage::kIntersect);
       const size_t hit_count = SortHits(plan, &s);
       if (hit_count > 0) {

@@ -18,6 +18,7 @@ struct TileScratch {
   // Samples of a round, per ray.
   AlignedArray<double> film_x{kBatchCapacity}, film_y{kBatchCapacity}, weight{kBatchCapacity};
   RayBatch rays;
+  TileCandidates candidates;
   ClosestHits closest;
   // Hits sorted into runs.
   AlignedArray<uint32_t> hit_rays{kBatchCapacity};

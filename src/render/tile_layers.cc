@@ -60,6 +60,12 @@ Rgb LayerValue(const Layer& layer, size_t light_layer, const ShadingMaterial& co
   }
 }
 
+// What a layer shows where nothing is hit.
+Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
+  const bool shows = layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
+  return shows ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
+}
+
 // What P, Z and ids of a pixel are taken from.
 struct NearestHit {
   size_t hit = std::numeric_limits<size_t>::max();
@@ -133,10 +139,7 @@ void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scra
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    const bool shows_background =
-        layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
-    const Rgb background = shows_background ? RoundToFloat(plan.scene->background) : Rgb(0, 0, 0);
-    FillRays(background, s.rays.count, &s.ray_values);
+    FillRays(BackgroundOf(layer, *plan.scene), s.rays.count, &s.ray_values);
     if (s.hits.count > 0) {
       for (const MaterialRun& run : s.runs) {
         const ShadingMaterial& constants = plan.materials[run.material.index];
@@ -152,6 +155,24 @@ void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scra
     AddToChannel(round, s.ray_values.z.data(), film->window, &*sums++);
   }
   if (!film->nearest_distance.empty()) AddNearest(plan, round, scratch, film);
+}
+
+void AddBackground(const RenderPlan& plan, const Window& tile, StripFilm* film) {
+  auto sums = film->sums.begin();
+  for (const Layer& layer : plan.layers) {
+    if (!IsAveraged(layer.kind)) continue;
+    const Rgb sum = BackgroundOf(layer, *plan.scene) * double(plan.scene->image.spp);
+    const int channels = layer.kind == LayerKind::kAlpha ? 1 : 3;
+    for (int c = 0; c < channels; ++c, ++sums) {
+      if (sum[c] == 0) continue;
+      for (int y = tile.y0; y < tile.y1; ++y) {
+        const auto row =
+            static_cast<size_t>(y - film->window.y0) * static_cast<size_t>(film->window.width());
+        const auto column = static_cast<size_t>(tile.x0 - film->window.x0);
+        std::fill_n(sums->data() + row + column, tile.width(), sum[c]);
+      }
+    }
+  }
 }
 
 }  // namespace nacre

@@ -55,6 +55,10 @@ PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, 
   return sampler;
 }
 
+bool HasUnitWeights(const PixelSampler& sampler) {
+  return sampler.positive_count == sampler.samples_per_pixel && sampler.positive_weight == 1;
+}
+
 PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index) {
   if (sampler.samples_per_pixel == 1) return {0, 0, 1};
   const uint64_t shift = PixelSeed(x, y, sampler.seed);

@@ -28,6 +28,9 @@ struct PixelSampler {
 // samples_per_pixel in [1, 65536].
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
 
+// True if every sample weighs 1: for filters without negative lobes.
+bool HasUnitWeights(const PixelSampler& sampler);
+
 struct PixelSample {
   double dx, dy;  // from the pixel's centre, in pixels
   double weight;

@@ -159,6 +159,8 @@ void Attach(RTCDevice device, RTCScene scene, TraceGeometry* geometry, size_t co
 // Embree holds pointers to the geometry and the errors; the scene goes before the device.
 struct Intersector::State {
   TraceGeometry geometry;
+  CameraFrame camera;
+  SphereBins bins;
   ErrorRecord errors;
   DevicePointer device;
   ScenePointer scene;
@@ -172,6 +174,7 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.geometry = MakeTraceGeometry(scene, camera_position);
+  if (!settings.embree) return;
   s.device = MakeDevice(ActiveTarget());
   s.packet_width = EmbreeTargetFor(ActiveTarget()).packet_width;
   rtcSetDeviceErrorFunction(s.device.get(), &ErrorRecord::Report, &s.errors);
@@ -192,6 +195,22 @@ Intersector& Intersector::operator=(Intersector&&) noexcept = default;
 
 void Intersector::Closest(const RayBatch& rays, ClosestHits* hits) const {
   TraceClosest(state_->Traced(), rays, hits);
+}
+
+bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, double reach) {
+  // 256 MiB; beyond that a tree is better.
+  constexpr size_t kMaxEntries = size_t{1} << 26;
+  state_->camera = frame;
+  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, &state_->bins);
+}
+
+bool Intersector::EnterTile(const Window& tile, TileCandidates* candidates) const {
+  return GatherTile(state_->geometry, state_->bins, state_->camera, tile, candidates);
+}
+
+void Intersector::ClosestInTile(const TileCandidates& candidates, int samples, const RayBatch& rays,
+                                ClosestHits* hits) const {
+  TraceTile(state_->geometry, state_->bins, candidates, samples, rays, hits);
 }
 
 void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,

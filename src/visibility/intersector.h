@@ -13,11 +13,13 @@
 #include "base/vec.h"
 #include "hit/batch.h"
 #include "scene/scene.h"
+#include "visibility/tile_kernel.h"
 
 namespace nacre {
 
 struct IntersectorSettings {
-  int threads = 0;  // that building uses; 0: as many as the machine has
+  int threads = 0;     // that building uses; 0: as many as the machine has
+  bool embree = true;  // false: no tree is built, and Closest and Occluded must not be called
 };
 
 // Owns the Embree device and scene, for the SIMD target that is active when it is made. Const
@@ -40,6 +42,18 @@ class Intersector {
   // The first hit with t > 0 of each ray; kNoPrimitive and t = infinity where there is none.
   // Inside a sphere that is its far side. Fills whole vectors past rays.count with misses.
   void Closest(const RayBatch& rays, ClosestHits* hits) const;
+
+  // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most `reach`
+  // pixels outside them. False, and no bins, if that would take too much room. Triangles are not
+  // binned: with any in the scene this must not be called.
+  bool BinForCamera(const CameraFrame& frame, const Window& window, double reach);
+
+  // Then, instead of Closest, for a tile that lies within one row of cells (sphere_bins.h): the
+  // spheres that its rays may hit, false if none; and the first hits of the rays through `samples`
+  // samples of each of its pixels, row by row. The same bits as Closest's.
+  bool EnterTile(const Window& tile, TileCandidates* candidates) const;
+  void ClosestInTile(const TileCandidates& candidates, int samples, const RayBatch& rays,
+                     ClosestHits* hits) const;
 
   // Fills `hits` from the rays ray_indices[0..count), in that order, all of which hit something;
   // `closest` is what Closest found for `rays`. Entries from count to the next multiple of

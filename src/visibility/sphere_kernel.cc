@@ -6,8 +6,7 @@
 #define HWY_TARGET_INCLUDE "visibility/sphere_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "visibility/packet-inl.h"
-#include "visibility/sphere_test-inl.h"
+#include "visibility/sphere_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -15,75 +14,12 @@ namespace HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The lanes, as bits, whose float rays come within `error` of the sphere at a depth between 0 and
-// their limit. They include all lanes that hit it truly.
-//
-// Let u = 2^-24 and S = |c|_1 + |o|_1 + r, which bounds every length below. Rounding the centre,
-// the origin and their difference moves to_center by at most 2 u (|c| + |o|); the direction is
-// off by u, the point of closest approach by another 12 u S along the ray, and the products that
-// cancel in `perpendicular` by u S each: altogether |perpendicular| is off by at most 18 u S.
-// With error = 32 u S the slack, 28 u S r in the discriminant, covers its own rounding of
-// 22 u (r + error)^2. The depths need the same error once for the closest approach and, for the
-// rounding of the sum, 3 u S: twice `error` is enough. The direction's length is at least 1
-// (FillPacket), so depths err no more than lengths do.
-template <class D>
-HWY_INLINE uint32_t ProposedLanes(D d, Packet& packet, const TraceSphere& sphere) {
-  using V = hn::Vec<D>;
-  const Vec3V<V> center{hn::Set(d, static_cast<float>(sphere.center.x)),
-                        hn::Set(d, static_cast<float>(sphere.center.y)),
-                        hn::Set(d, static_cast<float>(sphere.center.z))};
-  const V radius = hn::Set(d, static_cast<float>(sphere.radius));
-  const V sphere_error =
-      hn::Mul(hn::Add(SumOfAbs(center), radius), hn::Set(d, static_cast<float>(32 * kFloatUnit)));
-  RTCRayN* rays = packet.ray_n();
-  const unsigned width = packet.Width();
-  uint32_t lanes = 0;
-  for (unsigned i = 0; i < width; i += static_cast<unsigned>(hn::Lanes(d))) {
-    const Vec3V<V> origin = Load3(d, &RTCRayN_org_x(rays, width, i), &RTCRayN_org_y(rays, width, i),
-                                  &RTCRayN_org_z(rays, width, i));
-    const Vec3V<V> direction =
-        Load3(d, &RTCRayN_dir_x(rays, width, i), &RTCRayN_dir_y(rays, width, i),
-              &RTCRayN_dir_z(rays, width, i));
-    const V error = hn::Add(sphere_error, hn::Load(d, packet.origin_error + i));
-    const Vec3V<V> to_center = Sub(center, origin);
-    const V closest = hn::Mul(Dot(to_center, direction), hn::Load(d, packet.ray_inverse_dd + i));
-    const Vec3V<V> perpendicular = Sub(to_center, Scale(direction, closest));
-    const V reach = hn::Add(radius, error);
-    const V discriminant = hn::Sub(hn::Mul(reach, reach), Dot(perpendicular, perpendicular));
-    const V half_chord = hn::Mul(hn::Sqrt(hn::Max(discriminant, hn::Zero(d))),
-                                 hn::Load(d, packet.ray_inverse_length + i));
-    const V margin = hn::Add(half_chord, hn::Add(error, error));
-    const auto near_enough = hn::Le(hn::Sub(closest, margin), hn::Load(d, packet.tfar() + i));
-    const auto ahead = hn::Gt(hn::Add(closest, margin), hn::Zero(d));
-    const auto proposed = hn::And(hn::Ge(discriminant, hn::Zero(d)), hn::And(near_enough, ahead));
-    lanes |= BitsOfMask(d, proposed) << i;
-  }
-  return lanes;
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE SphereHitV<D> TestLanes(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
-  const Vec3V<V> center{hn::Set(d, sphere.center.x), hn::Set(d, sphere.center.y),
-                        hn::Set(d, sphere.center.z)};
-  return TestSphere(d, Sub(center, Origin(d, packet, lane)), Direction(d, packet, lane),
-                    hn::Load(d, packet.inverse_dd + lane), hn::Set(d, sphere.radius));
-}
-
 void IntersectSphere(const RTCIntersectFunctionNArguments* args) {
   Packet& packet = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const TraceSphere& sphere = geometry.spheres[args->primID];
-  uint32_t lanes = ActiveLanes(packet, args->valid, args->rayhit, args->N);
-  lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), packet, sphere);
-  if (lanes == 0) return;
-  const hn::ScalableTag<double> d;
-  const int step = static_cast<int>(hn::Lanes(d));
-  for (int lane = 0; lane < packet.width; lane += step) {
-    const auto proposed = MaskOfBits(d, lanes, lane);
-    if (hn::AllFalse(d, proposed)) continue;
-    const auto hit = TestLanes(d, packet, lane, sphere);
-    RecordClosest(d, &packet, lane, hn::And(proposed, hit.hit), hit.t, args->primID);
-  }
+  const uint32_t lanes = ActiveLanes(packet, args->valid, args->rayhit, args->N);
+  IntersectLanes(sphere, args->primID, lanes, &packet);
   ReturnDepths(packet, args->valid, args->rayhit, args->N);
 }
 

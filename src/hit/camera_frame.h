@@ -1,0 +1,22 @@
+// hit/camera_frame.h: a camera as rays are made from it and spheres are projected by it. Data only,
+// made by render/camera.h.
+#pragma once
+
+#include "base/vec.h"
+#include "scene/scene.h"
+
+namespace nacre {
+
+// A camera with its basis worked out, relative to its position. The ray through film position
+// (x, y), in pixels from the top left corner of the full frame, has the direction
+// corner + x step_x + y step_y from the origin (perspective), or that origin and the direction
+// `forward` (orthographic).
+struct CameraFrame {
+  Projection projection;
+  Vec3d forward;  // unit viewing direction
+  Vec3d corner;   // perspective: direction through film (0, 0); orthographic: origin there
+  Vec3d step_x;   // change of that per pixel, perpendicular to `forward` and step_y
+  Vec3d step_y;
+};
+
+}  // namespace nacre

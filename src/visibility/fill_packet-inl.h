@@ -1,0 +1,100 @@
+// visibility/fill_packet-inl.h: rounds a packet of a batch's rays to float, and keeps with them
+// what their proposals and the exact tests need.
+#if defined(NACRE_VISIBILITY_FILL_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_VISIBILITY_FILL_PACKET_INL_H_
+#undef NACRE_VISIBILITY_FILL_PACKET_INL_H_
+#else
+#define NACRE_VISIBILITY_FILL_PACKET_INL_H_
+#endif
+
+#include <limits>
+
+#include "visibility/packet-inl.h"
+#include "visibility/triangle_test-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct PowerOfTwoV {
+  V power, inverse;
+};
+
+// The power of two 2^e in v > 0, for which v / 2^e is in [1, 2), and 2^-e.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
+  const hn::Rebind<uint64_t, D> du;
+  const auto exponent = hn::And(hn::BitCast(du, v), hn::Set(du, 0x7ff0000000000000u));
+  const auto negated = hn::Sub(hn::Set(du, 0x7fe0000000000000u), exponent);
+  return {hn::BitCast(d, exponent), hn::BitCast(d, negated)};
+}
+
+// Rounds the rays to float. Their directions are first divided by a power of two, so that the
+// largest component is in [1, 2] and no product leaves float's range.
+template <class D>
+HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
+  using V = hn::Vec<D>;
+  const hn::Rebind<float, D> df;
+  const auto store = [&](V v, float* to) { hn::StoreU(hn::DemoteTo(df, v), df, to + lane); };
+  RTCRayN* rays = packet->ray_n();
+  const unsigned width = packet->Width();
+
+  const Vec3V<V> origin = Origin(d, *packet, lane);
+  const Vec3V<V> direction = Direction(d, *packet, lane);
+  const V inverse_dd = hn::Div(hn::Set(d, 1.0), Dot(direction, direction));
+  const V largest =
+      hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z));
+  const auto scale = PowerOfTwo(d, largest);
+  const Vec3V<V> scaled = Scale(direction, scale.inverse);
+  const auto scaled_inverse_dd =
+      hn::DemoteTo(df, hn::Mul(hn::Mul(inverse_dd, scale.power), scale.power));
+  hn::Store(inverse_dd, d, packet->inverse_dd + lane);
+  hn::Store(scale.power, d, packet->t_scale + lane);
+  store(origin.x, &RTCRayN_org_x(rays, width, 0));
+  store(origin.y, &RTCRayN_org_y(rays, width, 0));
+  store(origin.z, &RTCRayN_org_z(rays, width, 0));
+  store(scaled.x, &RTCRayN_dir_x(rays, width, 0));
+  store(scaled.y, &RTCRayN_dir_y(rays, width, 0));
+  store(scaled.z, &RTCRayN_dir_z(rays, width, 0));
+  hn::StoreU(UpperDepth(d, t_max, scale.power), df, packet->tfar() + lane);
+  hn::StoreU(scaled_inverse_dd, df, packet->ray_inverse_dd + lane);
+  hn::StoreU(hn::Mul(hn::Sqrt(scaled_inverse_dd), hn::Set(df, 1 + 0x1p-22f)), df,
+             packet->ray_inverse_length + lane);
+  store(hn::Mul(SumOfAbs(origin), hn::Set(d, 32 * kFloatUnit)), packet->origin_error);
+  if (!packet->geometry->triangles.empty()) {
+    const RayShearV<V> shear = MakeShear(d, direction);
+    Store3(shear.x_axis, d, packet->shear[0] + lane, packet->shear[1] + lane,
+           packet->shear[2] + lane);
+    Store3(shear.y_axis, d, packet->shear[3] + lane, packet->shear[4] + lane,
+           packet->shear[5] + lane);
+  }
+}
+
+// The packet of a batch's rays from `first` on; lanes past `count` hold none.
+template <class Batch>
+HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
+  packet->origin_x = batch.origin.x.data() + first;
+  packet->origin_y = batch.origin.y.data() + first;
+  packet->origin_z = batch.origin.z.data() + first;
+  packet->direction_x = batch.direction.x.data() + first;
+  packet->direction_y = batch.direction.y.data() + first;
+  packet->direction_z = batch.direction.z.data() + first;
+  const hn::ScalableTag<double> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  for (int lane = 0; lane < packet->width; lane += step) {
+    const auto t_max = packet->t_max != nullptr
+                           ? hn::Load(d, packet->t_max + lane)
+                           : hn::Set(d, std::numeric_limits<double>::infinity());
+    FillLanes(d, t_max, lane, packet);
+  }
+  for (int lane = 0; lane < packet->width; ++lane) {
+    packet->valid[lane] = first + static_cast<size_t>(lane) < batch.count ? -1 : 0;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
