@@ -1,0 +1,142 @@
+// tests/render/intersectors_test.cc: however camera rays find spheres, the picture's bits are the
+// same: random scenes that are hard to bin, and every scene that ships.
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include "base/error.h"
+#include "render/render.h"
+#include "scene_io/load_scene.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool SameBits(const Image& a, const Image& b) {
+  if (a.channels.size() != b.channels.size()) return false;
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    const std::vector<float>& x = a.channels[i].samples;
+    const std::vector<float>& y = b.channels[i].samples;
+    if (x.size() != y.size() || std::memcmp(x.data(), y.data(), 4 * x.size()) != 0) return false;
+  }
+  return true;
+}
+
+void CheckSame(const Scene& scene, RenderSettings settings) {
+  settings.layers = {"N", "P", "Z", "id.object"};
+  settings.intersector = IntersectorChoice::kEmbree;
+  const Image embree = RenderImage(scene, settings);
+  settings.intersector = IntersectorChoice::kTiles;
+  const Image tiles = RenderImage(scene, settings);
+  CHECK(SameBits(embree, tiles));
+}
+
+// Spheres of all sizes around the camera: before, beside, behind and around it.
+Scene RandomScene(uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Scene scene;
+  scene.materials.emplace_back().model = LambertMaterial{};
+  Light sun;
+  sun.name = "sun";
+  sun.shadows = seed % 2 == 0;
+  sun.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {1, 1, 1}};
+  scene.lights = {sun};
+  scene.background = Rgb(0.1, 0.2, 0.3);
+  scene.camera.position = Vec3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+  scene.camera.look_at = Vec3d(uniform(-5, 5), uniform(-5, 5), -10);
+  scene.camera.fov_y_deg = seed % 3 == 0 ? 150 : 40;
+  if (seed % 4 == 1) {
+    scene.camera.projection = Projection::kOrthographic;
+    scene.camera.height = 6;
+  }
+  for (int i = 0; i < 60; ++i) {
+    const double radius = std::pow(10.0, uniform(-3, i % 20 == 0 ? 2 : 0));
+    const Vec3d center(uniform(-8, 8), uniform(-8, 8), uniform(-25, 5));
+    scene.spheres.push_back({center, radius, {0}});
+    if (i % 10 == 0) scene.spheres.push_back({center, radius, {0}});  // the lower id is hit
+  }
+  const FilterKind kinds[] = {FilterKind::kBox, FilterKind::kGaussian, FilterKind::kMitchell};
+  scene.image.filter = {kinds[seed % 3], seed % 3 == 0 ? 1.0 : 4.0};
+  scene.image.spp = seed % 2 == 0 ? 1 : 5;
+  scene.image.width = 101;
+  scene.image.height = 67;
+  return scene;
+}
+
+TEST_CASE("tiles and Embree give the same bits, whatever the scene") {
+  ForEachTarget([](Target) {
+    for (uint32_t seed = 0; seed < 24; ++seed) {
+      CAPTURE(seed);
+      RenderSettings settings;
+      const int tile_sizes[] = {0, 7, 16, 40};
+      settings.tile_size = tile_sizes[seed % 4];
+      if (seed % 5 == 2) settings.region = {21, 19, 90, 60};
+      CheckSame(RandomScene(seed), settings);
+    }
+  });
+}
+
+TEST_CASE("the eye on a sphere, in one, and behind all of them") {
+  Scene scene = RandomScene(2);
+  for (const Sphere& sphere :
+       {Sphere{{0, 0, -1}, 1, {0}}, Sphere{{0, 0, 0}, 3, {0}}, Sphere{{0, 0, 5}, 1, {0}},
+        Sphere{{0, -1e6, 0}, 1e6 - 1e-3, {0}}, Sphere{{2, 0, 0}, 1.9, {0}}}) {
+    scene.spheres = {sphere};
+    scene.camera.position = Vec3d(0);
+    scene.camera.look_at = Vec3d(0, 0, -1);
+    CheckSame(scene, {});
+  }
+}
+
+TEST_CASE("every scene that ships has the same bits with Embree alone") {
+  for (const fs::directory_entry& entry :
+       fs::recursive_directory_iterator(fs::path(NACRE_SOURCE_DIR) / "scenes")) {
+    const fs::path& path = entry.path();
+    if (path.extension() != ".json" || path.filename() == "nacre.schema.json") continue;
+    CAPTURE(path.string());
+    LoadOptions options;
+    options.overrides = {{"/image/width", "96"}, {"/image/height", "54"}, {"/image/spp", "1"}};
+    if (path.filename() == "million_spheres.json") {
+      options.overrides.emplace_back("/shapes/1/count", "3000");
+    }
+    const Scene scene = LoadScene(path.string(), options);
+    RenderSettings settings;
+    settings.intersector = IntersectorChoice::kEmbree;
+    CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, settings)));
+  }
+}
+
+TEST_CASE("Embree is there where it is needed, and only there") {
+  const auto uses = [](const Scene& scene, const RenderSettings& settings) {
+    const RenderPlan plan = MakePlan(scene, settings);
+    bool embree = false;
+    for (const PlanItem& item : plan.items) {
+      if (item.what == "intersector embree") embree = item.used;
+    }
+    return std::pair(plan.tiles, embree);
+  };
+  Scene scene = RandomScene(0);
+  CHECK(uses(scene, {}) == std::pair(true, true));  // for shadows
+  scene.image.shadows = false;
+  CHECK(uses(scene, {}) == std::pair(true, false));
+  RenderSettings forced;
+  forced.intersector = IntersectorChoice::kEmbree;
+  CHECK(uses(scene, forced) == std::pair(false, true));
+  Mesh triangle;
+  triangle.positions = {{0, 0, -3}, {1, 0, -3}, {0, 1, -3}};
+  triangle.triangles = {0, 1, 2};
+  triangle.material = {0};
+  scene.meshes = {triangle};
+  CHECK(uses(scene, {}) == std::pair(false, true));
+  forced.intersector = IntersectorChoice::kTiles;
+  CHECK_THROWS_AS(MakePlan(scene, forced), Error);
+}
+
+}  // namespace
+}  // namespace nacre
