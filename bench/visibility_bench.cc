@@ -56,7 +56,47 @@ void BenchClosest(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * kPixels);
 }
 BENCHMARK(BenchClosest)
-    ->Name("visibility/closest/spheres_per_side")
+    ->Name("visibility/embree/spheres_per_side")
+    ->Arg(5)
+    ->Arg(32)
+    ->Arg(100)
+    ->Arg(316)
+    ->Unit(benchmark::kMillisecond);
+
+// The same frame by tiles, with the binning of every frame; Embree's tree above is built before.
+void BenchTiles(benchmark::State& state) {
+  const FlushDenormals flush;
+  const Scene scene = MakeGrid(static_cast<int>(state.range(0)));
+  Intersector intersector(scene, scene.camera.position, {.embree = false});
+  const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
+  const Window frame{0, 0, kWidth, kHeight};
+  RayBatch rays;
+  ClosestHits hits;
+  TileCandidates candidates;
+  AlignedArray<double> x(kBatchCapacity), y(kBatchCapacity);
+  constexpr int kTileWidth = static_cast<int>(kBatchCapacity) / kCellSize;
+  for (auto _ : state) {
+    intersector.BinForCamera(camera, frame, 0);
+    for (int y0 = 0; y0 < kHeight; y0 += kCellSize) {
+      for (int x0 = 0; x0 < kWidth; x0 += kTileWidth) {
+        const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
+                          std::min(y0 + kCellSize, kHeight)};
+        if (!intersector.EnterTile(tile, &candidates)) continue;
+        for (size_t i = 0; i < tile.pixel_count(); ++i) {
+          const std::div_t row_and_column = std::div(static_cast<int>(i), tile.width());
+          x[i] = x0 + row_and_column.rem + 0.5;
+          y[i] = y0 + row_and_column.quot + 0.5;
+        }
+        MakeCameraRays(camera, x.data(), y.data(), tile.pixel_count(), &rays);
+        intersector.ClosestInTile(candidates, 1, rays, &hits);
+        benchmark::DoNotOptimize(hits.primitive.data());
+      }
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
+}
+BENCHMARK(BenchTiles)
+    ->Name("visibility/tiles/spheres_per_side")
     ->Arg(5)
     ->Arg(32)
     ->Arg(100)
