@@ -10,7 +10,7 @@ namespace {
 TEST_CASE("no model gives NaN, negative light or a bit that depends on its place") {
   ForEachTarget([](Target) {
     FuzzSettings settings;
-    settings.draws = 2'200'000;
+    settings.draws = 2'600'000;
     const FuzzResult result = FuzzModels(settings);
     INFO(Describe(result));
     CHECK(result.draws >= settings.draws);
