@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/target.h"
+#include "render/shadow_cull.h"
 
 namespace nacre {
 namespace {
@@ -35,29 +36,31 @@ Window PlanWindow(const Window& frame, const Window& region) {
   return window;
 }
 
-// True if every camera ray surely starts outside the sphere. Distances of 1e-9 are left to the
-// general path.
-bool CameraIsOutside(const Camera& camera, const Sphere& sphere) {
-  const Vec3d offset = sphere.center - camera.position;
-  const double clear = sphere.radius * (1 + 1e-9);
-  if (camera.projection == Projection::kPerspective) return offset.length() > clear;
-  const Vec3d forward = (camera.look_at - camera.position).normalized();
-  return std::abs(offset ^ forward) > clear;  // wholly before or behind the image plane
-}
-
-// Whether shadow rays can find anything in this scene, and why not.
+// Whether a light's shadow rays can find anything, and why not.
 struct ShadowNeed {
-  enum class Why { kNeeded, kNotAsked, kProvenEmpty } why = Why::kNeeded;
+  bool rays = true;
+  std::vector<uint8_t> shadowed;  // PlannedLight's
   std::string reason;
 };
 
-ShadowNeed NeedOfShadows(const Scene& scene) {
-  if (!scene.image.shadows) return {ShadowNeed::Why::kNotAsked, "the scene turns shadows off"};
-  if (scene.meshes.empty() && scene.spheres.size() == 1 &&
-      CameraIsOutside(scene.camera, scene.spheres[0])) {
-    return {ShadowNeed::Why::kProvenEmpty, "a sphere alone, seen from outside, is convex"};
+ShadowNeed NeedOfShadows(const Scene& scene, const Light& light, const RenderSettings& settings) {
+  if (!scene.image.shadows) return {false, {}, "the scene turns shadows off"};
+  if (!light.shadows) return {false, {}, "the light casts none"};
+  if (settings.general_path) return {true, {}, "the general path is asked for"};
+  std::vector<uint8_t> shadowed = FindShadowed(scene, light);
+  if (shadowed.empty()) {
+    return {true, {}, "something may lie between a surface and the light"};
   }
-  return {ShadowNeed::Why::kNeeded, "something may lie between a surface and the light"};
+  const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
+  if (count == 0) {
+    return {false,
+            {},
+            scene.spheres.size() == 1 ? "a sphere alone, seen from outside, is convex"
+                                      : "no sphere is between another and the light"};
+  }
+  return {true, std::move(shadowed),
+          fmt::format("only {} of {} spheres can lie in another's shadow", count,
+                      scene.spheres.size())};
 }
 
 // The number of the light's layer among the light layers, or -1.
@@ -72,7 +75,6 @@ int LightLayer(const std::vector<Layer>& layers, size_t light) {
 }
 
 void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
-  const ShadowNeed scene_need = NeedOfShadows(scene);
   for (const Layer& layer : plan->layers) {
     if (layer.kind == LayerKind::kLight) ++plan->light_layer_count;
   }
@@ -85,12 +87,10 @@ void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* 
       plan->items.push_back({name, false, "it is black"});
       continue;
     }
-    ShadowNeed need = scene_need;
-    if (!light.shadows) need = {ShadowNeed::Why::kNotAsked, "the light casts none"};
-    const bool shadow_rays = need.why == ShadowNeed::Why::kNeeded ||
-                             (need.why == ShadowNeed::Why::kProvenEmpty && settings.general_path);
-    plan->items.push_back({name + " shadow rays", shadow_rays, need.reason});
-    plan->lights.push_back({i, color, shadow_rays, LightLayer(plan->layers, i)});
+    ShadowNeed need = NeedOfShadows(scene, light, settings);
+    plan->items.push_back({name + " shadow rays", need.rays, need.reason});
+    plan->lights.push_back(
+        {i, color, need.rays, LightLayer(plan->layers, i), std::move(need.shadowed)});
   }
 }
 

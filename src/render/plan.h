@@ -29,7 +29,8 @@ struct PlannedLight {
   size_t index;  // into Scene::lights
   Rgb color;
   bool shadow_rays;
-  int layer;  // which of the light layers shows it alone, or -1
+  int layer;                      // which of the light layers shows it alone, or -1
+  std::vector<uint8_t> shadowed;  // per sphere: whether to trace its shadow rays; empty: all
 };
 
 struct RenderPlan {

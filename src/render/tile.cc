@@ -66,13 +66,15 @@ size_t SortHits(const RenderPlan& plan, TileScratch* s) {
 }
 
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
-void CastShadows(const RenderPlan& plan, TileScratch* s, RenderStats* stats) {
+void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
+                 RenderStats* stats) {
   const HitBatch& hits = s->hits;
   const LightBatch& light = s->light;
   ShadowRayBatch& rays = s->shadow_rays;
   rays.count = 0;
   for (size_t i = 0; i < hits.count; ++i) {
     if (!(light.irradiance[i] > 0)) continue;
+    if (!planned.shadowed.empty() && planned.shadowed[hits.object[i]] == 0) continue;
     const size_t ray = rays.count++;
     s->shadow_hits[ray] = static_cast<uint32_t>(i);
     rays.primitive[ray] = hits.primitive[i];
@@ -108,7 +110,7 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
     EvaluateLight(light, scene.camera.position, s->hits, s->surface, &s->light);
     clock->Charge(Stage::kLight);
     if (planned.shadow_rays) {
-      CastShadows(plan, s, stats);
+      CastShadows(plan, planned, s, stats);
       clock->Charge(Stage::kShadow);
     }
     const bool apart = planned.layer >= 0;

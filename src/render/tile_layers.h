@@ -12,8 +12,8 @@ void KeepLightLayer(size_t light_layer, TileScratch* scratch);
 void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scratch,
                StripFilm* film);
 
-// What AddToFilm adds in all rounds for a tile that nothing is hit in, under samples of weight 1: to
-// the bit, because the background is a float and sums of it are exact.
+// What AddToFilm adds in all rounds for a tile that nothing is hit in, under samples of weight 1:
+// to the bit, because the background is a float and sums of it are exact.
 void AddBackground(const RenderPlan& plan, const Window& tile, StripFilm* film);
 
 }  // namespace nacre

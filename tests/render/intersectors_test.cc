@@ -82,6 +82,50 @@ TEST_CASE("tiles and Embree give the same bits, whatever the scene") {
   });
 }
 
+// Small spheres in a wide space, so that the camera is outside all, and few hide others.
+TEST_CASE("spheres that nothing can shadow need no shadow rays") {
+  int some = 0;
+  int none = 0;
+  for (uint32_t seed = 0; seed < 60; ++seed) {
+    CAPTURE(seed);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Scene scene = RandomScene(4);
+    scene.spheres.clear();
+    const int count = 2 + static_cast<int>(seed % 7);
+    for (int i = 0; i < count; ++i) {
+      const Vec3d center(3 * uniform(random), 3 * uniform(random), -12 + 4 * uniform(random));
+      scene.spheres.push_back({center, std::pow(10.0, uniform(random) - 0.5), {0}});
+    }
+    // Touching, nested and equal ones; then lights close by, in and between them.
+    const Sphere& first = scene.spheres[0];
+    if (seed % 5 == 0) scene.spheres[1] = {first.center, first.radius * 0.5, {0}};
+    if (seed % 5 == 1) scene.spheres[1] = first;
+    const Vec3d side = Vec3d(uniform(random), uniform(random), uniform(random)).normalized();
+    if (seed % 5 == 2)
+      scene.spheres[1] = {first.center + side * (2 * first.radius), first.radius, {0}};
+    scene.camera = Camera{};
+    scene.camera.position = Vec3d(0);
+    scene.camera.look_at = Vec3d(0, 0, -1);
+    Light point;
+    point.name = "point";
+    const double distance = std::pow(10.0, 3 * uniform(random));
+    point.kind = PointLight{.position = first.center + side * (first.radius * (1 + distance)),
+                            .intensity = {9, 9, 9},
+                            .attenuation = Attenuation::None()};
+    scene.lights.push_back(point);
+    RenderSettings general;
+    general.general_path = true;
+    CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, general)));
+    for (const PlannedLight& light : MakePlan(scene, {}).lights) {
+      some += light.shadow_rays && !light.shadowed.empty();
+      none += !light.shadow_rays;
+    }
+  }
+  CHECK(some > 20);
+  CHECK(none > 5);
+}
+
 TEST_CASE("the eye on a sphere, in one, and behind all of them") {
   Scene scene = RandomScene(2);
   for (const Sphere& sphere :
