@@ -66,6 +66,14 @@ class CliTest(unittest.TestCase):
             self.assertEqual((self.out / ('a' + kind)).read_bytes(),
                              (self.out / ('b' + kind)).read_bytes())
 
+    def test_the_seed_chooses_the_samples(self):
+        for name, seed in ('a.png', '1'), ('b.png', '1'), ('c.png', '2'):
+            self.render('-o', self.out / name, '--size', '64x36', '--spp', '2', '--seed', seed,
+                        '--reproducible')
+        pictures = [(self.out / name).read_bytes() for name in ('a.png', 'b.png', 'c.png')]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0], pictures[2])
+
     def test_stats_are_json(self):
         self.render('-o', self.out / 'a.exr', '--stats', self.out / 's.json', *SMALL)
         stats = json.loads((self.out / 's.json').read_text())
