@@ -66,6 +66,11 @@ class CliTest(unittest.TestCase):
             self.assertEqual((self.out / ('a' + kind)).read_bytes(),
                              (self.out / ('b' + kind)).read_bytes())
 
+    def test_every_compression_is_what_its_name_says(self):
+        for name in 'none', 'zip', 'zips', 'piz', 'dwaa':
+            self.render('-o', self.out / 'a.exr', '--compression', name, *SMALL)
+            self.assertRegex(run('info', self.out / 'a.exr').stdout, rf'compression +{name}\n')
+
     def test_the_seed_chooses_the_samples(self):
         for name, seed in ('a.png', '1'), ('b.png', '1'), ('c.png', '2'):
             self.render('-o', self.out / name, '--size', '64x36', '--spp', '2', '--seed', seed,
