@@ -71,6 +71,20 @@ class CliTest(unittest.TestCase):
             self.render('-o', self.out / 'a.exr', '--compression', name, *SMALL)
             self.assertRegex(run('info', self.out / 'a.exr').stdout, rf'compression +{name}\n')
 
+    def test_what_half_cannot_hold_is_told(self):
+        bright = ['-o', self.out / 'a.exr', '--set', '/lights/key/intensity=1e9', *SMALL]
+        self.assertIn('samples beyond +-65504 were clamped', self.render(*bright).stderr)
+        self.assertNotIn('clamped', self.render(*bright, '--depth', 'float').stderr)
+
+    def test_the_target_and_the_threads_are_those_asked_for(self):
+        for target in 'scalar', 'sse4':
+            self.render('-o', self.out / 'a.exr', '--target', target, *SMALL)
+            self.assertRegex(run('info', self.out / 'a.exr').stdout, rf'nacre:target +{target}\n')
+        for threads in 1, 2:
+            stats = self.render('-o', self.out / 'a.exr', '--stats', '-', '--threads', threads,
+                                *SMALL).stdout
+            self.assertEqual(json.loads(stats)['threads'], threads)
+
     def test_the_seed_chooses_the_samples(self):
         for name, seed in ('a.png', '1'), ('b.png', '1'), ('c.png', '2'):
             self.render('-o', self.out / name, '--size', '64x36', '--spp', '2', '--seed', seed,
