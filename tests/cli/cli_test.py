@@ -347,6 +347,32 @@ class CliTest(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertEqual(result.stdout.count('ERROR'), 2)
 
+    def test_validate_differs_when_any_reference_does(self):
+        small = json.loads(pathlib.Path(FIRST_SCENE).read_text())
+        small['image'] = {'width': 64, 'height': 36, 'spp': 1}
+        scene = self.out / 'scene.json'
+        scene.write_text(json.dumps(small))
+        for name, brightness in ('a', '70'), ('b', '140'):
+            self.render('-o', self.out / f'{name}.exr', '--depth', 'float', '--set',
+                        f'/lights/key/intensity={brightness}', scene=scene)
+            (self.out / f'{name}.reference.json').write_text(json.dumps({
+                'scene': 'scene.json', 'image': f'{name}.exr', 'layers': [''], 'tolerances': {},
+                'reason': 'the same program'}))
+        result = run('validate', self.out)
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertEqual(result.stdout.count(' match '), 1)
+        (self.out / 'a.reference.json').unlink()
+        self.assertEqual(run('validate', self.out).returncode, 0)
+
+    def test_tonemap_shows_the_layer_that_is_asked_for(self):
+        self.render('-o', self.out / 'a.exr', '--layers', 'diffuse,specular', *SMALL)
+        pictures = set()
+        for layer in [], ['--layer', 'diffuse'], ['--layer', 'specular']:
+            self.assertEqual(run('tonemap', self.out / 'a.exr', '-o', self.out / 'a.png',
+                                 *layer).returncode, 0)
+            pictures.add((self.out / 'a.png').read_bytes())
+        self.assertEqual(len(pictures), 3)
+
     def test_a_full_standard_error_does_not_change_the_exit_code(self):
         with open('/dev/full', 'w') as full:
             result = subprocess.run([PROGRAM, 'render', 'missing.json', '-o',
