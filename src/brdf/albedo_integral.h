@@ -62,7 +62,8 @@ double AzimuthIntegral(const AlbedoNode& node, double alpha, const AlbedoQuadrat
   const double growth = std::exp(rule.step);
   const double end = 1 / (rule.tail * t1);  // of T: dphi falls as 1 / t
   double sum = 0;
-  for (double e = 1; e < 2 * end; e *= growth) {  // exp(y)
+  double e = 1;  // exp(y)
+  while (e < 2 * end) {
     const double sinh = (e - 1 / e) / 2;
     const double cosh = (e + 1 / e) / 2;
     const double t = t1 * sinh;
@@ -73,6 +74,7 @@ double AzimuthIntegral(const AlbedoNode& node, double alpha, const AlbedoQuadrat
     const double shape = (1 + p_over_q * sinh * sinh) / (cosh * cosh);
     const double term = shape * shape * cosh * scale * fresnel(vh, one_minus_vh);
     sum += e == 1 ? term / 2 : term;  // y = 0 is the middle of an even integrand
+    e *= growth;
   }
   const double peak = alpha / node.p;
   return 4 / M_PI * peak * peak * t1 * rule.step * sum;

@@ -14,7 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
 
 // What stays the same for all packets of a batch.
 HWY_INLINE void InitPacket(const TraceScene& scene, Packet* packet) {
