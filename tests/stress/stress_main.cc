@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/target.h"
@@ -22,6 +23,11 @@
 
 namespace nacre {
 namespace {
+
+// One line that is written over, on a terminal; nothing in a pipe.
+void ShowProgress(const std::string& text) {
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r{:<40}\r{}", "", text);
+}
 
 struct Options {
   std::string folder;  // for pictures; empty: none
@@ -138,9 +144,9 @@ bool RunRandomScenes(uint64_t count) {
           seed, c.false_hits, c.false_misses, c.wrong_objects, c.not_finite, c.normal_error,
           c.of_bound, c.worst_material);
     }
-    if (seed % 256 == 0) fmt::print(stderr, "\rrandom scenes {} of {}", seed, count);
+    if (seed % 256 == 0) ShowProgress(fmt::format("random scenes {} of {}", seed, count));
   }
-  fmt::print(stderr, "\r{:<40}\r", "");
+  ShowProgress("");
   fmt::print(
       "random scenes: {} of {} fail; {} pixels, {} doubtful, normal {:.1e} rad, {:.2f} of the "
       "radiance's bound\n",
@@ -155,10 +161,10 @@ bool RunFuzz(uint64_t draws) {
     FuzzSettings settings;
     settings.draws = draws / SupportedTargets().size();
     settings.on_progress = [&](double done) {
-      fmt::print(stderr, "\rfuzz {:<6} {:5.1f} %", TargetName(target), 100 * done);
+      ShowProgress(fmt::format("fuzz {:<6} {:5.1f} %", TargetName(target), 100 * done));
     };
     const FuzzResult result = FuzzModels(settings);
-    fmt::print(stderr, "\r{:<30}\r", "");
+    ShowProgress("");
     fmt::print("fuzz {:<6} {} draws: {}\n", TargetName(target), result.draws, Describe(result));
     std::fflush(stdout);
     holds = holds && result.Holds();
