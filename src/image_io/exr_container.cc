@@ -152,8 +152,8 @@ void ExrContainer::UpdateAttribute(const std::string& name, const ExrAttribute& 
   if (place == 0 || (integer == nullptr && real == nullptr)) {
     throw Error(ExitCode::kInternal, path_, "the header has no number called " + name);
   }
-  const auto bits = integer != nullptr ? std::bit_cast<uint32_t>(*integer)
-                                       : std::bit_cast<uint32_t>(*real);
+  const auto bits =
+      integer != nullptr ? std::bit_cast<uint32_t>(*integer) : std::bit_cast<uint32_t>(*real);
   std::memcpy(&header_[place], &bits, 4);
   file_.Write(place, std::span(header_).subspan(place, 4));
 }
