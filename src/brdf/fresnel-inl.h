@@ -84,7 +84,7 @@ HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
   const V b2 = hn::IfThenElse(dielectric, smaller, larger);
   const V b2_cos2 = hn::Mul(b2, hn::Mul(v_dot_h, v_dot_h));
   const V a_cos = hn::Mul(a, v_dot_h);
-  const auto squares = [](V x, V y2) { return hn::MulAdd(x, x, y2); };
+  const auto squares = [](V x, V y2) HWY_ATTR { return hn::MulAdd(x, x, y2); };
   const V s_below = squares(hn::Add(a, v_dot_h), b2);
   const auto present = hn::Gt(s_below, hn::Zero(d));
   const V s =
