@@ -36,24 +36,25 @@ struct MicrofacetModel {
   FresnelForm fresnel;
   Compensation compensation;
   DiffuseCoupling coupling;
-  Rgb diffuse;       // of the base, over pi; with reciprocal scaling also over 1 - mean albedo
-  Rgb f0;            // reflectance at normal incidence
-  Rgb f82_slope;     // kF82
-  Rgb eta, k;        // kDielectric (eta), kConductor
-  Rgb f_multiple;    // kKullaConty: what light that bounced more than once has left, F_ms
-  double multiple;   // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
-  double alpha;      // of the lobe
-  double schlick_k;  // (roughness + 1)^2 / 8
-  bool delta;        // a perfect mirror, which punctual lights cannot show
+  Rgb diffuse{0, 0, 0};  // of the base, over pi; with reciprocal scaling also over 1 - mean albedo
+  Rgb f0{0, 0, 0};       // reflectance at normal incidence
+  Rgb f82_slope{0, 0, 0};        // kF82
+  Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta), kConductor
+  Rgb f_multiple{0, 0, 0};  // kKullaConty: what light that bounced more than once has left, F_ms
+  double multiple;          // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
+  double alpha;             // of the lobe
+  double schlick_k;         // (roughness + 1)^2 / 8
+  bool delta;               // a perfect mirror, which punctual lights cannot show
   bool double_terms;
   FresnelAlbedoFit albedo;  // kDielectric: with the curve of its index
 };
 
 // A material prepared for shading; a split has no model of its own.
 struct ShadingMaterial {
-  Rgb ambient;  // radiance reflected of the scene's ambient light
-  Rgb emission;
-  Rgb albedo;  // for the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor
+  Rgb ambient{0, 0, 0};  // radiance reflected of the scene's ambient light
+  Rgb emission{0, 0, 0};
+  Rgb albedo{0, 0,
+             0};  // for the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor
   std::variant<std::monostate, LambertModel, PhongFamilyModel, MicrofacetModel> model;
 };
 
