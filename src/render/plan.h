@@ -29,8 +29,9 @@ struct PlannedLight {
   size_t index;  // into Scene::lights
   Rgb color;
   bool shadow_rays;
-  int layer;                      // which of the light layers shows it alone, or -1
-  std::vector<uint8_t> shadowed;  // per sphere: whether to trace its shadow rays; empty: all
+  int layer;                       // which of the light layers shows it alone, or -1
+  std::vector<uint8_t> shadowed;   // per sphere: whether to trace its shadow rays; empty: all
+  uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
 struct RenderPlan {
@@ -46,6 +47,7 @@ struct RenderPlan {
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool tiles = false;                         // camera rays: binned spheres, not Embree
+  bool eye_outside = false;                   // no camera ray starts in a sphere
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
