@@ -134,6 +134,8 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   const LightBatch& light = s->light;
   ShadowRayBatch& rays = s->shadow_rays;
   rays.count = 0;
+  rays.light = planned.occluders;
+  rays.outward = plan.eye_outside;
   for (size_t i = 0; i < hits.count; ++i) {
     if (!(light.irradiance[i] > 0)) continue;
     if (!planned.shadowed.empty() && planned.shadowed[hits.primitive[i]] == 0) continue;

@@ -32,6 +32,9 @@ void CheckSame(const Scene& scene, RenderSettings settings) {
   settings.intersector = IntersectorChoice::kTiles;
   const Image tiles = RenderImage(scene, settings);
   CHECK(SameBits(embree, tiles));
+  settings.intersector = IntersectorChoice::kEmbree;
+  settings.general_path = true;
+  CHECK(SameBits(RenderImage(scene, settings), tiles));
 }
 
 // Spheres of all sizes around the camera: before, beside, behind and around it.
@@ -46,7 +49,13 @@ Scene RandomScene(uint32_t seed) {
   sun.name = "sun";
   sun.shadows = seed % 2 == 0;
   sun.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {1, 1, 1}};
-  scene.lights = {sun};
+  // Over the camera's shoulder; in, on or between the spheres.
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.kind = PointLight{.position = {uniform(-4, 4), uniform(-4, 4), uniform(-20, 5)},
+                         .intensity = {9, 9, 9},
+                         .attenuation = {1, 0, 0.01}};
+  scene.lights = {sun, lamp};
   scene.background = Rgb(0.1, 0.2, 0.3);
   scene.camera.position = Vec3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
   scene.camera.look_at = Vec3d(uniform(-5, 5), uniform(-5, 5), -10);
@@ -166,9 +175,12 @@ TEST_CASE("Embree is there where it is needed, and only there") {
     return std::pair(plan.tiles, embree);
   };
   Scene scene = RandomScene(0);
-  CHECK(uses(scene, {}) == std::pair(true, true));  // for shadows
-  scene.image.shadows = false;
   CHECK(uses(scene, {}) == std::pair(true, false));
+  RenderSettings general;
+  general.general_path = true;
+  CHECK(uses(scene, general) == std::pair(true, true));  // for shadows
+  scene.image.shadows = false;
+  CHECK(uses(scene, general) == std::pair(true, false));
   RenderSettings forced;
   forced.intersector = IntersectorChoice::kEmbree;
   CHECK(uses(scene, forced) == std::pair(false, true));
