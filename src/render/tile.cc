@@ -133,12 +133,16 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   const HitBatch& hits = s->hits;
   const LightBatch& light = s->light;
   ShadowRayBatch& rays = s->shadow_rays;
+  const auto never_shadowed = [&](size_t hit) {
+    return !planned.shadowed.empty() && planned.shadowed[hits.primitive[hit]] == 0;
+  };
+  if (hits.one_primitive && never_shadowed(0)) return;
   rays.count = 0;
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
   for (size_t i = 0; i < hits.count; ++i) {
     if (!(light.irradiance[i] > 0)) continue;
-    if (!planned.shadowed.empty() && planned.shadowed[hits.primitive[i]] == 0) continue;
+    if (never_shadowed(i)) continue;
     const size_t ray = rays.count++;
     s->shadow_hits[ray] = static_cast<uint32_t>(i);
     rays.primitive[ray] = hits.primitive[i];
