@@ -81,16 +81,16 @@ void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* 
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
-    const Rgb color = LightColor(light);
+    const ShadingLight prepared = PrepareLight(light, scene.camera.position);
     const std::string name = fmt::format("light \"{}\"", light.name);
-    if (IsBlack(color)) {
+    if (IsBlack(prepared.color)) {
       plan->items.push_back({name, false, "it is black"});
       continue;
     }
     ShadowNeed need = NeedOfShadows(scene, light, settings);
     plan->items.push_back({name + " shadow rays", need.rays, need.reason});
     plan->lights.push_back(
-        {i, color, need.rays, LightLayer(plan->layers, i), std::move(need.shadowed)});
+        {prepared, need.rays, LightLayer(plan->layers, i), std::move(need.shadowed)});
   }
 }
 

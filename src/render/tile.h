@@ -29,6 +29,7 @@ struct TileScratch {
   Surface surface;
   LightBatch light;
   NarrowLobes narrow;
+  std::vector<LightOnBatch> together;  // lights shaded by in one go
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
   ReflectedRadiance total;             // of all lights
