@@ -54,9 +54,9 @@ void PlanLights(const Scene& scene, RenderPlan* plan) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
-    const Rgb color = LightColor(light);
+    const ShadingLight prepared = PrepareLight(light, scene.camera.position);
     const std::string name = fmt::format("light \"{}\"", light.name);
-    if (IsBlack(color)) {
+    if (IsBlack(prepared.color)) {
       plan->items.push_back({name, false, "it is black"});
       continue;
     }
@@ -66,7 +66,7 @@ void PlanLights(const Scene& scene, RenderPlan* plan) {
           {name + " shadow rays", false,
            light.shadows ? "the scene turns shadows off" : "the light casts none"});
     }
-    plan->lights.push_back({i, color, shadow_rays, LightLayer(plan->layers, i), {}});
+    plan->lights.push_back({i, prepared, shadow_rays, LightLayer(plan->layers, i), {}});
   }
 }
 

@@ -27,7 +27,7 @@ struct PlanItem {
 // A light that hits are shaded by: not ambient, not black.
 struct PlannedLight {
   size_t index;  // into Scene::lights
-  Rgb color;
+  ShadingLight light;
   bool shadow_rays;
   int layer;                       // which of the light layers shows it alone, or -1
   std::vector<uint8_t> shadowed;   // per sphere: whether to trace its shadow rays; empty: all
