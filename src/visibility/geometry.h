@@ -16,6 +16,10 @@ struct TraceSphere {
   double radius = 0;
 };
 
+inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
+  return a.center == b.center && a.radius == b.radius;
+}
+
 struct TraceGeometry {
   std::vector<TraceSphere> spheres;  // in scene order
 

@@ -9,10 +9,6 @@ namespace {
 // A surface counts as lit by float directions: where the true n.l is above this, in any case.
 constexpr double kGrazing = -2e-6;
 
-bool Coincide(const TraceSphere& a, const TraceSphere& b) {
-  return a.center == b.center && a.radius == b.radius;
-}
-
 // A sphere as it is seen against the light. Radii are margins larger than they are.
 struct Seen {
   double radius;
