@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
+
 namespace nacre {
 namespace {
 
@@ -65,10 +67,19 @@ std::string DescribeBins(const LightBins& bins) {
 
 }  // namespace
 
-bool EyeIsOutside(const Scene& scene) {
+bool EyeIsOutside(const Scene& scene, int threads) {
   const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
-  return std::all_of(scene.spheres.begin(), scene.spheres.end(),
-                     [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
+  constexpr size_t kBlock = size_t{1} << 14;
+  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
+  std::vector<uint8_t> outside(blocks);
+  ParallelFor(blocks, threads, [&](size_t block) {
+    const Sphere* const spheres = scene.spheres.data();
+    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
+    outside[block] =
+        std::all_of(spheres + block * kBlock, spheres + end,
+                    [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
+  });
+  return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
 }
 
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {

@@ -17,6 +17,14 @@ namespace nacre {
 // few that the counts stay small.
 inline size_t CellListPieces(size_t items) { return items < (size_t{1} << 14) ? 1 : 8; }
 
+struct CellListRange {
+  size_t begin, end;
+};
+inline CellListRange CellListPiece(size_t items, size_t piece) {
+  const size_t pieces = CellListPieces(items);
+  return {items * piece / pieces, items * (piece + 1) / pieces};
+}
+
 // for_cells(item, emit) calls emit(cell) for each cell of the item, each time in the same way; it
 // is called twice. Then end[cell] is where the cell's list ends, allocate(entries) is called once,
 // and place(item, position) for each entry, from several threads. Returns false, with nothing
@@ -28,11 +36,11 @@ bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
   const size_t pieces = CellListPieces(items);
   std::vector<std::vector<uint32_t>> next(pieces);  // first counts, then where the next one goes
   std::atomic<size_t> entries{0};
-  const auto begin_of = [&](size_t piece) { return items * piece / pieces; };
   ParallelFor(pieces, threads, [&](size_t piece) {
     std::vector<uint32_t> count(cells);
     size_t sum = 0;
-    for (size_t item = begin_of(piece); item < begin_of(piece + 1) && sum <= max_entries; ++item) {
+    const auto [begin, end_of_piece] = CellListPiece(items, piece);
+    for (size_t item = begin; item < end_of_piece && sum <= max_entries; ++item) {
       for_cells(item, [&](size_t cell) {
         ++count[cell];
         ++sum;
@@ -50,7 +58,8 @@ bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
   }
   allocate(entries.load());
   ParallelFor(pieces, threads, [&](size_t piece) {
-    for (size_t item = begin_of(piece); item < begin_of(piece + 1); ++item) {
+    const auto [begin, end_of_piece] = CellListPiece(items, piece);
+    for (size_t item = begin; item < end_of_piece; ++item) {
       for_cells(item, [&](size_t cell) { place(item, next[piece][cell]++); });
     }
   });

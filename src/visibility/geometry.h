@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/vec.h"
 #include "scene/scene.h"
 
@@ -21,7 +22,7 @@ inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
 }
 
 struct TraceGeometry {
-  std::vector<TraceSphere> spheres;  // in scene order
+  HugeArray<TraceSphere> spheres;  // in scene order
 
   // The vertices of all meshes, one after the other, and their triangles, indexing them.
   std::vector<Vec3d> positions;
@@ -39,6 +40,6 @@ struct TraceGeometry {
 };
 
 // Throws Error (kBadInput) when there are more primitives than ids.
-TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position);
+TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads = 0);
 
 }  // namespace nacre

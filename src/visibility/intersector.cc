@@ -178,7 +178,7 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
   State& s = *state_;
   s.settings = settings;
   s.camera_position = camera_position;
-  s.geometry = MakeTraceGeometry(scene, camera_position);
+  s.geometry = MakeTraceGeometry(scene, camera_position, settings.threads);
   if (settings.embree) BuildTree();
 }
 
@@ -211,7 +211,8 @@ bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, d
   // 256 MiB; beyond that a tree is better.
   constexpr size_t kMaxEntries = size_t{1} << 26;
   state_->camera = frame;
-  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, &state_->bins);
+  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, state_->settings.threads,
+                    &state_->bins);
 }
 
 bool Intersector::EnterTile(const Window& tile, TileCandidates* candidates) const {

@@ -29,12 +29,6 @@ struct Bounds {
   double x0, x1, y0, y1;
 };
 
-// A sphere relative to the bins' centre, in their axes, its radius with all margins.
-struct Placed {
-  Vec3d center;
-  double radius;
-};
-
 class Binner {
  public:
   Binner(const TraceGeometry& geometry, const ShadowLight& light, int threads)
@@ -47,21 +41,9 @@ class Binner {
   }
 
   LightBins Bin() {
-    FindLarge();
-    SortIntoCells(
-        spheres_.size(), cell_count_, std::numeric_limits<uint32_t>::max(), threads_,
-        [&](size_t i, const auto& emit) { ForCells(i, emit); }, &bins_.end,
-        [&](size_t entries) {
-          // Not zeroed: pages are then first touched by the threads that fill them.
-          bins_.binned.reset(new BinnedSphere[entries + kBatchPadding]);
-          bins_.spheres.reset(new uint32_t[entries + kBatchPadding]);
-          std::fill_n(bins_.binned.get() + entries, kBatchPadding, BinnedSphere{0, 0, 0, 0});
-          std::fill_n(bins_.spheres.get() + entries, kBatchPadding, 0u);
-        },
-        [&](size_t i, uint32_t position) {
-          bins_.binned[position] = Binned(i);
-          bins_.spheres[position] = static_cast<uint32_t>(i);
-        });
+    SortIntoBlocks();
+    TakeLarge();
+    SortBlocks();
     CountMeeting();
     return std::move(bins_);
   }
@@ -96,7 +78,8 @@ class Binner {
     bins_.axes[2] = z;
   }
 
-  Placed Place(size_t i) const {
+  // The sphere as it is stored: everything below is computed from that.
+  BinnedSphere Place(size_t i) const {
     const auto& [center, radius] = spheres_[i];
     const Vec3d offset = center - bins_.center;
     const Vec3d placed = bins_.positional
@@ -104,16 +87,20 @@ class Binner {
                              : Vec3d(offset.dot(bins_.axes[0]), offset.dot(bins_.axes[1]),
                                      offset.dot(bins_.axes[2]));
     const double size = std::abs(placed.x) + std::abs(placed.y) + std::abs(placed.z) + radius;
-    return {placed, radius + margin_ + kFloatShare * size};
+    const double bound = radius + margin_ + kFloatShare * size;
+    const double z = placed.z + (bins_.positional ? 0 : bound);
+    return {static_cast<float>(placed.x), static_cast<float>(placed.y), static_cast<float>(z),
+            static_cast<float>(bound)};
   }
 
-  // Where a face sees the sphere; false if it does not. The light is never outside `seen`.
-  bool See(const Placed& sphere, int face, Bounds* seen) const {
-    const auto& [center, radius] = sphere;
+  // Where a face sees the sphere; false if it does not.
+  bool See(const BinnedSphere& sphere, int face, Bounds* seen) const {
+    const double radius = sphere.radius;
     if (!bins_.positional) {
-      *seen = {center.x - radius, center.x + radius, center.y - radius, center.y + radius};
+      *seen = {sphere.x - radius, sphere.x + radius, sphere.y - radius, sphere.y + radius};
       return true;
     }
+    const double center[3] = {sphere.x, sphere.y, sphere.z};
     const int axis = face / 2;
     const double z = face % 2 == 0 ? center[axis] : -center[axis];
     if (z + radius <= 0) return false;
@@ -138,7 +125,7 @@ class Binner {
       width.push_back(std::min(std::min(b.x1 - b.x0, b.y1 - b.y0), kFar));
     }
     LightGrid& grid = bins_.grids[face];
-    grid.first_cell = cell_count_;
+    grid.first_block = block_count_;
     if (x.empty()) {
       x = y = {0};  // of those not in the sample some may be here
       width = {2};
@@ -159,14 +146,14 @@ class Binner {
     }
     // With n spheres of this width over the area, (cell + width)^2 n / area of them meet in one.
     const double area = across[0] * across[1];
-    const double cell = std::max({std::sqrt(kMeeting * area / count) - size, 0.75 * size,
+    const double cell = std::max({std::sqrt(kMeeting * area / count) - size, 1.5 * size,
                                   std::max(across[0], across[1]) / 8192, kTiny});
     grid.x0 = low[0];
     grid.y0 = low[1];
     grid.inverse_cell = 1 / cell;
     grid.columns = static_cast<int>(across[0] / cell) + 1;
     grid.rows = static_cast<int>(across[1] / cell) + 1;
-    cell_count_ += static_cast<size_t>(grid.columns) * static_cast<size_t>(grid.rows);
+    block_count_ += grid.BlockColumns() * grid.BlockRows();
   }
 
   static double Quantile(std::vector<double>* values, double share) {
@@ -184,64 +171,120 @@ class Binner {
     return {grid.Column(b.x0), grid.Column(b.x1), grid.Row(b.y0), grid.Row(b.y1)};
   }
 
-  // The boxes of cells on the faces that see the sphere; returns their number, or -1 if it touches
-  // too many.
-  int BoxesOf(size_t i, CellBox (&boxes)[6], int (&faces)[6]) const {
-    if (ReachOf(spheres_[i]) > bins_.max_reach) return -1;
-    const Placed placed = Place(i);
+  // The boxes of cells on the faces that see a sphere.
+  struct Boxes {
     int count = 0;
+    int faces[6];
+    CellBox boxes[6];
+    bool large = false;  // it touches too many cells
+  };
+
+  Boxes BoxesOf(const BinnedSphere& sphere) const {
+    Boxes found;
     int cells = 0;
     for (int face = 0; face < (bins_.positional ? 6 : 1); ++face) {
       Bounds b{};
-      if (!See(placed, face, &b)) continue;
+      if (!See(sphere, face, &b)) continue;
       const CellBox box = CellsOf(bins_.grids[face], b);
-      if (box.x1 - box.x0 >= kMaxCellsEach || box.y1 - box.y0 >= kMaxCellsEach) return -1;
-      cells += (box.x1 - box.x0 + 1) * (box.y1 - box.y0 + 1);
-      if (cells > kMaxCellsEach) return -1;
-      faces[count] = face;
-      boxes[count++] = box;
+      const int across = box.x1 - box.x0 + 1;
+      const int along = box.y1 - box.y0 + 1;
+      found.large = found.large || across > kMaxCellsEach || along > kMaxCellsEach;
+      cells += found.large ? 0 : across * along;
+      found.faces[found.count] = face;
+      found.boxes[found.count++] = box;
     }
-    return count;
+    found.large = found.large || cells > kMaxCellsEach;
+    return found;
   }
 
+  // Calls emit(block) for each block of cells that the sphere touches; or, if it is large, for one
+  // more that there is not.
   template <class Emit>
-  void ForCells(size_t i, const Emit& emit) const {
-    CellBox boxes[6];
-    int faces[6];
-    const int count = BoxesOf(i, boxes, faces);
-    for (int k = 0; k < count; ++k) {
-      const LightGrid& grid = bins_.grids[faces[k]];
-      for (int row = boxes[k].y0; row <= boxes[k].y1; ++row) {
-        for (int column = boxes[k].x0; column <= boxes[k].x1; ++column) {
-          emit(grid.first_cell + static_cast<size_t>(row) * static_cast<size_t>(grid.columns) +
-               static_cast<size_t>(column));
+  void ForBlocks(size_t i, const Emit& emit) const {
+    const Boxes found = BoxesOf(Place(i));
+    const double reach = bins_.max_reach - spheres_[i].radius;
+    const bool beyond = reach < 0 || spheres_[i].center.length2() > reach * reach;
+    if (found.large || beyond) return emit(block_count_);
+    for (int k = 0; k < found.count; ++k) {
+      const LightGrid& grid = bins_.grids[found.faces[k]];
+      const CellBox& box = found.boxes[k];
+      for (int row = box.y0 / kBlockSize; row <= box.y1 / kBlockSize; ++row) {
+        for (int column = box.x0 / kBlockSize; column <= box.x1 / kBlockSize; ++column) {
+          emit(grid.Block(column * kBlockSize, row * kBlockSize));
         }
       }
     }
   }
 
-  BinnedSphere Binned(size_t i) const {
-    const Placed placed = Place(i);
-    const double z = placed.center.z + (bins_.positional ? 0 : placed.radius);
-    // The radius has room for these roundings.
-    return {static_cast<float>(placed.center.x), static_cast<float>(placed.center.y),
-            static_cast<float>(z), static_cast<float>(placed.radius)};
+  void SortIntoBlocks() {
+    SortIntoCells(
+        spheres_.size(), block_count_ + 1, std::numeric_limits<uint32_t>::max(), threads_,
+        [&](size_t i, const auto& emit) { ForBlocks(i, emit); }, &block_end_,
+        [&](size_t entries) {
+          block_spheres_ = HugeArray<BinnedSphere>(entries);
+          block_numbers_ = HugeArray<uint32_t>(entries);
+        },
+        [&](size_t i, uint32_t position) {
+          block_spheres_[position] = Place(i);
+          block_numbers_[position] = static_cast<uint32_t>(i);
+        });
   }
 
-  void FindLarge() {
-    const size_t pieces = CellListPieces(spheres_.size());
-    std::vector<std::vector<uint32_t>> found(pieces);
-    ParallelFor(pieces, threads_, [&](size_t piece) {
-      const size_t end = spheres_.size() * (piece + 1) / pieces;
-      for (size_t i = spheres_.size() * piece / pieces; i < end; ++i) {
-        CellBox boxes[6];
-        int faces[6];
-        if (BoxesOf(i, boxes, faces) < 0) found[piece].push_back(static_cast<uint32_t>(i));
+  // Calls emit(cell within the block, sphere's place in the block's list).
+  template <class Emit>
+  void ForCells(int face, size_t block, const Emit& emit) const {
+    const LightGrid& grid = bins_.grids[face];
+    const size_t number = block - grid.first_block;
+    const int column = static_cast<int>(number % grid.BlockColumns()) * kBlockSize;
+    const int row = static_cast<int>(number / grid.BlockColumns()) * kBlockSize;
+    for (uint32_t i = block == 0 ? 0 : block_end_[block - 1]; i < block_end_[block]; ++i) {
+      Bounds b{};
+      if (!See(block_spheres_[i], face, &b)) continue;
+      const CellBox box = CellsOf(grid, b);
+      const int x1 = std::min(box.x1, column + kBlockSize - 1);
+      const int y1 = std::min(box.y1, row + kBlockSize - 1);
+      for (int y = std::max(box.y0, row); y <= y1; ++y) {
+        for (int x = std::max(box.x0, column); x <= x1; ++x) emit(LightGrid::InBlock(x, y), i);
       }
-    });
-    for (const std::vector<uint32_t>& part : found) {
-      bins_.large.insert(bins_.large.end(), part.begin(), part.end());
     }
+  }
+
+  int FaceOf(size_t block) const {
+    int face = 0;
+    while (bins_.positional && face < 5 && bins_.grids[face + 1].first_block <= block) ++face;
+    return face;
+  }
+
+  // From the blocks' lists to the cells'.
+  void SortBlocks() {
+    bins_.end.assign(block_count_ * kBlockCells, 0);
+    ParallelFor(block_count_, threads_, [&](size_t block) {
+      uint32_t* const count = bins_.end.data() + block * kBlockCells;
+      ForCells(FaceOf(block), block, [&](size_t cell, uint32_t) { ++count[cell]; });
+    });
+    // Counts become beginnings, and these, as spheres are put in, ends.
+    uint32_t sum = 0;
+    for (uint32_t& count : bins_.end) sum += std::exchange(count, sum);
+    bins_.binned = HugeArray<BinnedSphere>(sum + kBatchPadding);
+    bins_.spheres = HugeArray<uint32_t>(sum + kBatchPadding);
+    std::fill_n(bins_.binned.data() + sum, kBatchPadding, BinnedSphere{0, 0, 0, 0});
+    std::fill_n(bins_.spheres.data() + sum, kBatchPadding, 0u);
+    ParallelFor(block_count_, threads_, [&](size_t block) {
+      uint32_t* const next = bins_.end.data() + block * kBlockCells;
+      ForCells(FaceOf(block), block, [&](size_t cell, uint32_t i) {
+        const uint32_t position = next[cell]++;
+        bins_.binned[position] = block_spheres_[i];
+        bins_.spheres[position] = block_numbers_[i];
+      });
+    });
+    block_spheres_ = {};
+    block_numbers_ = {};
+  }
+
+  // Takes the last list, and the room for it, from the blocks'.
+  void TakeLarge() {
+    const uint32_t begin = block_count_ == 0 ? 0 : block_end_[block_count_ - 1];
+    bins_.large.assign(block_numbers_.data() + begin, block_numbers_.data() + block_end_.back());
     FindTwins();
   }
 
@@ -264,18 +307,21 @@ class Binner {
 
   void CountMeeting() {
     double sum = 0;
-    for (size_t cell = 0; cell < cell_count_; ++cell) {
+    for (size_t cell = 0; cell < bins_.end.size(); ++cell) {
       const double count = bins_.end[cell] - bins_.Begin(cell);
       sum += count * count;
     }
     bins_.meeting = sum / std::max<double>(1, static_cast<double>(bins_.entries()));
   }
 
-  const std::vector<TraceSphere>& spheres_;
+  const HugeArray<TraceSphere>& spheres_;
   int threads_;
   std::vector<size_t> sample_;
   double margin_ = 0;
-  size_t cell_count_ = 0;
+  size_t block_count_ = 0;
+  std::vector<uint32_t> block_end_;  // of each block's spheres in these:
+  HugeArray<BinnedSphere> block_spheres_;
+  HugeArray<uint32_t> block_numbers_;
   LightBins bins_;
 };
 

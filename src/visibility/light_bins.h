@@ -6,14 +6,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "hit/batch.h"
 #include "visibility/geometry.h"
 #include "visibility/shadow_light.h"
 
 namespace nacre {
+
+// Cells are numbered block by block, blocks and the cells in one row by row: neighbours are close
+// in memory, and a block's spheres are sorted within the cache.
+inline constexpr int kBlockSize = 16;  // cells across
+inline constexpr size_t kBlockCells = size_t{kBlockSize} * kBlockSize;
 
 // Square cells on a plane before the light. Those at the border reach to infinity: all places have
 // a cell.
@@ -21,13 +26,24 @@ struct LightGrid {
   double x0 = 0, y0 = 0;
   double inverse_cell = 0;
   int columns = 1, rows = 1;
-  size_t first_cell = 0;
+  size_t first_block = 0;
+
+  size_t BlockColumns() const { return static_cast<size_t>((columns - 1) / kBlockSize + 1); }
+  size_t BlockRows() const { return static_cast<size_t>((rows - 1) / kBlockSize + 1); }
+  size_t Block(int column, int row) const {
+    return first_block + static_cast<size_t>(row / kBlockSize) * BlockColumns() +
+           static_cast<size_t>(column / kBlockSize);
+  }
+  static size_t InBlock(int column, int row) {
+    return static_cast<size_t>(row % kBlockSize * kBlockSize + column % kBlockSize);
+  }
 
   int Column(double x) const { return Clamped((x - x0) * inverse_cell, columns); }
   int Row(double y) const { return Clamped((y - y0) * inverse_cell, rows); }
   size_t Cell(double x, double y) const {
-    return first_cell + static_cast<size_t>(Row(y)) * static_cast<size_t>(columns) +
-           static_cast<size_t>(Column(x));
+    const int column = Column(x);
+    const int row = Row(y);
+    return Block(column, row) * kBlockCells + InBlock(column, row);
   }
 
  private:
@@ -53,11 +69,11 @@ struct LightBins {
   // hold no longer.
   double max_reach = 0;
 
-  std::vector<uint32_t> end;               // of each cell's list
-  std::unique_ptr<BinnedSphere[]> binned;  // cell by cell; a vector more may be read
-  std::unique_ptr<uint32_t[]> spheres;     // their numbers
-  std::vector<uint32_t> large;             // spheres that any ray may meet, in ascending order
-  std::vector<uint32_t> large_twin;        // of each, the first of them that coincides with it
+  std::vector<uint32_t> end;         // of each cell's list
+  HugeArray<BinnedSphere> binned;    // cell by cell; a vector more may be read
+  HugeArray<uint32_t> spheres;       // their numbers
+  std::vector<uint32_t> large;       // spheres that any ray may meet, in ascending order
+  std::vector<uint32_t> large_twin;  // of each, the first of them that coincides with it
 
   size_t entries() const { return end.empty() ? 0 : end.back(); }
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }

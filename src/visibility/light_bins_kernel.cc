@@ -100,7 +100,7 @@ HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& b
   const uint32_t end = bins.end[cell];
   for (uint32_t i = bins.Begin(cell); i < end; i += static_cast<uint32_t>(hn::Lanes(d))) {
     // The last vector goes on into the next cell: its spheres are as good as any.
-    uint32_t bits = MayMeet(d, bins.binned.get() + i, placed, bins.positional);
+    uint32_t bits = MayMeet(d, bins.binned.data() + i, placed, bins.positional);
     for (; bits != 0; bits &= bits - 1) {
       const uint32_t number = bins.spheres[i + static_cast<uint32_t>(__builtin_ctz(bits))];
       if (IsInTheWay(geometry, number, ray)) return true;
@@ -174,7 +174,7 @@ void OccludedByBinsT(const TraceGeometry& geometry, const LightBins& bins, Shado
   constexpr size_t kAhead = 4;
   for (size_t i = 0; i < rays->count; ++i) {
     if (i + kAhead < rays->count && cells[i + kAhead] != kNoCell) {
-      const BinnedSphere* next = bins.binned.get() + bins.Begin(cells[i + kAhead]);
+      const BinnedSphere* next = bins.binned.data() + bins.Begin(cells[i + kAhead]);
       __builtin_prefetch(next);
       __builtin_prefetch(next + 4);
       __builtin_prefetch(next + 8);

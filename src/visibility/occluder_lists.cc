@@ -71,7 +71,7 @@ bool MayBlockFrom(const Seen& blocker, const Seen& sphere) {
 }  // namespace
 
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward) {
-  const std::vector<TraceSphere>& spheres = geometry.spheres;
+  const HugeArray<TraceSphere>& spheres = geometry.spheres;
   std::vector<Seen> seen;
   seen.reserve(spheres.size());
   for (const TraceSphere& sphere : spheres) {
