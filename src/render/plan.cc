@@ -91,7 +91,7 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
                 "leave the choice to nacre");
   }
   const bool want_tiles = choice != IntersectorChoice::kEmbree && triangles == 0;
-  plan->eye_outside = EyeIsOutside(scene);
+  plan->eye_outside = EyeIsOutside(scene, settings.threads);
   plan->intersector = std::make_unique<Intersector>(
       scene, scene.camera.position,
       IntersectorSettings{.threads = settings.threads, .embree = false});

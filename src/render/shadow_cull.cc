@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/parallel.h"
+
 namespace nacre {
 namespace {
 
@@ -45,43 +47,77 @@ void SkipUnshadowed(const OccluderLists& lists, PlannedLight* light, PlanItem* i
   light->shadowed = std::move(shadowed);
 }
 
+// Why a tree is better than the bins, or nothing.
+std::string WhyNotBins(const LightBins& bins) {
+  constexpr double kCrowd = 2000;
+  constexpr size_t kLarge = 200;
+  if (bins.meeting > kCrowd) {
+    return fmt::format("{:.0f} spheres meet in a light's cell", bins.meeting);
+  }
+  if (bins.large.size() > kLarge) {
+    return fmt::format("{} spheres cover many of a light's cells", bins.large.size());
+  }
+  return {};
+}
+
+std::string DescribeBins(const LightBins& bins) {
+  return fmt::format("{} cells, {} entries, {:.1f} meet in one, {} are in every ray's way",
+                     bins.end.size(), bins.entries(), bins.meeting, bins.large.size());
+}
+
 }  // namespace
 
-bool EyeIsOutside(const Scene& scene) {
+bool EyeIsOutside(const Scene& scene, int threads) {
   const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
-  return std::all_of(scene.spheres.begin(), scene.spheres.end(),
-                     [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
+  constexpr size_t kBlock = size_t{1} << 14;
+  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
+  std::vector<uint8_t> outside(blocks);
+  ParallelFor(blocks, threads, [&](size_t block) {
+    const Sphere* const spheres = scene.spheres.data();
+    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
+    outside[block] =
+        std::all_of(spheres + block * kBlock, spheres + end,
+                    [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
+  });
+  return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
 }
 
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const IntersectorChoice choice = settings.intersector;
   const bool find = scene.meshes.empty() && !settings.general_path;
-  const bool embree = settings.intersector == IntersectorChoice::kEmbree;
-  size_t listed = 0, left = 0;
+  size_t listed = 0, binned = 0, left = 0;
+  std::string crowded, crowd;  // why bins are not used, or what they are like
   for (PlannedLight& light : plan->lights) {
     if (!light.shadow_rays) continue;
     PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name), true,
                   settings.general_path ? "the general path is asked for"
                                         : "something may lie between a surface and the light"};
-    if (find) {
+    const bool few = scene.spheres.size() <= kMaxListedSpheres;
+    if (find && (few || choice != IntersectorChoice::kEmbree)) {
       light.occluders =
           plan->intersector->FindOccluders(scene.lights[light.index], plan->eye_outside);
+      const LightOccluders& found = plan->intersector->Occluders(light.occluders);
+      if (few) SkipUnshadowed(found.lists, &light, &item);
+      if (!few && choice == IntersectorChoice::kAuto) {
+        crowded = WhyNotBins(*found.bins);
+        if (!crowded.empty()) light.occluders = kAnyLight;
+      }
+      if (!few && light.occluders != kAnyLight) crowd = DescribeBins(*found.bins);
+      if (choice == IntersectorChoice::kEmbree) light.occluders = kAnyLight;
     }
-    if (light.occluders != kAnyLight) {
-      SkipUnshadowed(plan->intersector->Occluders(light.occluders), &light, &item);
-    }
-    if (embree) light.occluders = kAnyLight;
-    if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : listed);
+    if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : few ? listed : binned);
     plan->items.push_back(std::move(item));
   }
+  const std::string why_not = left == 0                              ? "nothing is left for them"
+                              : choice == IntersectorChoice::kEmbree ? "--intersector embree"
+                              : settings.general_path ? "the general path is asked for"
+                              : !scene.meshes.empty() ? "there are triangles"
+                                                      : crowded;
+  plan->items.push_back({"intersector lists, for shadow rays", listed > 0,
+                         listed > 0 ? "each sphere's possible occluders need no tree" : why_not});
   plan->items.push_back(
-      {"intersector lists, for shadow rays", listed > 0,
-       listed > 0              ? fmt::format("{} spheres have few occluders each: no tree is asked",
-                                             scene.spheres.size())
-       : left == 0             ? "nothing is left for them"
-       : embree                ? "--intersector embree"
-       : settings.general_path ? "the general path is asked for"
-       : !scene.meshes.empty() ? "there are triangles"
-                               : fmt::format("more than {} spheres", kMaxListedSpheres)});
+      {"intersector bins, for shadow rays", binned > 0,
+       binned > 0 ? "spheres binned as the light sees them need no tree: " + crowd : why_not});
   return left > 0;
 }
 

@@ -7,7 +7,7 @@ namespace nacre {
 
 // True if every camera ray surely starts outside every sphere: what is seen of one is then its
 // outside, and light that it faces cannot be behind itself.
-bool EyeIsOutside(const Scene& scene);
+bool EyeIsOutside(const Scene& scene, int threads);
 
 // Decides for each of the plan's lights that has shadow rays whether any can find something, for
 // which spheres, and by what means; the plan has its intersector. Returns whether any are left for

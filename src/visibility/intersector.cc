@@ -161,7 +161,7 @@ struct Intersector::State {
   IntersectorSettings settings;
   Vec3d camera_position{0, 0, 0};
   TraceGeometry geometry;
-  std::vector<OccluderLists> occluders;  // of lights, by number
+  std::vector<LightOccluders> occluders;  // by number of the light
   CameraFrame camera;
   SphereBins bins;
   ErrorRecord errors;
@@ -178,7 +178,7 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
   State& s = *state_;
   s.settings = settings;
   s.camera_position = camera_position;
-  s.geometry = MakeTraceGeometry(scene, camera_position);
+  s.geometry = MakeTraceGeometry(scene, camera_position, settings.threads);
   if (settings.embree) BuildTree();
 }
 
@@ -211,7 +211,8 @@ bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, d
   // 256 MiB; beyond that a tree is better.
   constexpr size_t kMaxEntries = size_t{1} << 26;
   state_->camera = frame;
-  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, &state_->bins);
+  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, state_->settings.threads,
+                    &state_->bins);
 }
 
 bool Intersector::EnterTile(const Window& tile, TileCandidates* candidates) const {
@@ -230,19 +231,25 @@ void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
 
 uint32_t Intersector::FindOccluders(const Light& light, bool outward) {
   State& s = *state_;
-  if (s.geometry.spheres.size() > kMaxListedSpheres) return kAnyLight;
-  s.occluders.push_back(
-      ListOccluders(s.geometry, MakeShadowLight(light, s.camera_position), outward));
+  const ShadowLight target = MakeShadowLight(light, s.camera_position);
+  LightOccluders& occluders = s.occluders.emplace_back();
+  if (s.geometry.spheres.size() <= kMaxListedSpheres) {
+    occluders.lists = ListOccluders(s.geometry, target, outward);
+  } else {
+    occluders.bins = BinForLight(s.geometry, target, s.settings.threads);
+  }
   return static_cast<uint32_t>(s.occluders.size() - 1);
 }
 
-const OccluderLists& Intersector::Occluders(uint32_t light) const {
+const LightOccluders& Intersector::Occluders(uint32_t light) const {
   return state_->occluders[light];
 }
 
 void Intersector::Occluded(ShadowRayBatch* rays) const {
   if (rays->light == kAnyLight) return TraceOccluded(state_->Traced(), rays);
-  OccludedByLists(state_->geometry, state_->occluders[rays->light], rays);
+  const LightOccluders& occluders = state_->occluders[rays->light];
+  if (occluders.bins) return OccludedByBins(state_->geometry, *occluders.bins, rays);
+  OccludedByLists(state_->geometry, occluders.lists, rays);
 }
 
 }  // namespace nacre

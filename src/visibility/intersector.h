@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/vec.h"
 #include "hit/batch.h"
 #include "scene/scene.h"
+#include "visibility/light_bins.h"
 #include "visibility/occluder_lists.h"
 #include "visibility/tile_kernel.h"
 
@@ -21,6 +23,12 @@ namespace nacre {
 struct IntersectorSettings {
   int threads = 0;     // that building uses; 0: as many as the machine has
   bool embree = true;  // false: no tree is built until BuildTree is called
+};
+
+// What can come between the spheres and a light: bins, or else lists.
+struct LightOccluders {
+  std::optional<LightBins> bins;
+  OccluderLists lists;
 };
 
 // Owns the Embree device and scene, for the SIMD target that is active when it is made. Const
@@ -71,7 +79,7 @@ class Intersector {
   uint32_t FindOccluders(const Light& light, bool outward);
 
   // What was found for a light. The reference holds until the next FindOccluders.
-  const OccluderLists& Occluders(uint32_t light) const;
+  const LightOccluders& Occluders(uint32_t light) const;
 
   // Sets rays->occluded: whether a surface lies at 0 < t < t_max. The surface that a ray starts on
   // is in its way only where a sphere's ray leaves inward.

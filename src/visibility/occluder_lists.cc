@@ -9,10 +9,6 @@ namespace {
 // A surface counts as lit by float directions: where the true n.l is above this, in any case.
 constexpr double kGrazing = -2e-6;
 
-bool Coincide(const TraceSphere& a, const TraceSphere& b) {
-  return a.center == b.center && a.radius == b.radius;
-}
-
 // A sphere as it is seen against the light. Radii are margins larger than they are.
 struct Seen {
   double radius;
@@ -75,7 +71,7 @@ bool MayBlockFrom(const Seen& blocker, const Seen& sphere) {
 }  // namespace
 
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward) {
-  const std::vector<TraceSphere>& spheres = geometry.spheres;
+  const HugeArray<TraceSphere>& spheres = geometry.spheres;
   std::vector<Seen> seen;
   seen.reserve(spheres.size());
   for (const TraceSphere& sphere : spheres) {

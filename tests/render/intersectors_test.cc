@@ -91,6 +91,37 @@ TEST_CASE("tiles and Embree give the same bits, whatever the scene") {
   });
 }
 
+// More spheres than lists are made for, some of them large, and lights among them.
+TEST_CASE("bins for shadow rays give the same bits as Embree") {
+  ForEachTarget([](Target) {
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+      CAPTURE(seed);
+      Scene scene = RandomScene(seed);
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3d center(8 * uniform(random), 8 * uniform(random), 15 * uniform(random) - 10);
+        scene.spheres.push_back({center, 0.2 * std::pow(10, uniform(random) - 1), {0}});
+      }
+      if (seed % 2 == 1) scene.spheres.push_back({{0, -1e6 - 9, 0}, 1e6, {0}});
+      Light spot;
+      spot.name = "spot";
+      SpotLight cone;
+      cone.position = {2, 3, -4};
+      cone.direction_of_travel = {-0.2, -1, -0.5};
+      spot.kind = cone;
+      scene.lights.push_back(spot);
+      for (Light& light : scene.lights) light.shadows = true;
+      RenderSettings settings;
+      settings.threads = static_cast<int>(seed % 3);
+      CheckSame(scene, settings);
+      for (const PlannedLight& light : MakePlan(scene, {}).lights) {
+        CHECK(light.occluders != kAnyLight);
+      }
+    }
+  });
+}
+
 // Small spheres in a wide space, so that the camera is outside all, and few hide others.
 TEST_CASE("spheres that nothing can shadow need no shadow rays") {
   int some = 0;

@@ -87,7 +87,7 @@ size_t CheckLights(const Scene& scene, const Vec3d& eye, Random* random,
 TEST_CASE("occluders are brute force's") {
   Random random(41);
   size_t seen = 0;
-  for (const unsigned count : {1u, 2u, 7u, 25u, 100u, 256u}) {
+  for (const unsigned count : {1u, 2u, 7u, 25u, 100u, 256u, 257u, 1000u}) {
     CAPTURE(count);
     Scene scene = RandomSpheres(&random, count);
     for (int i = 0; i < 2; ++i) {
@@ -102,11 +102,12 @@ TEST_CASE("occluders are brute force's") {
 
 TEST_CASE("occluders of all sizes and distances") {
   Random random(42);
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 12; ++round) {
     CAPTURE(round);
     Scene scene;
     std::vector<Ray> rays;
-    for (int i = 0; i < 60; ++i) {
+    const int count = round < 6 ? 60 : 400;  // lists, and bins
+    for (int i = 0; i < count; ++i) {
       const double distance = random.Magnitude(1e-2, 1e4);
       scene.spheres.push_back(
           MakeSphere(random.Direction() * distance, distance * random.Magnitude(1e-5, 0.5)));
@@ -119,7 +120,7 @@ TEST_CASE("occluders of all sizes and distances") {
     }
     if (round % 2 == 0) scene.spheres.push_back(MakeSphere({0, -1e6 - 1, 0}, 1e6));
     for (const Sphere& sphere : scene.spheres) {
-      for (int i = 0; i < 5; ++i) {
+      for (int i = 0; i < (round < 6 ? 5 : 1); ++i) {
         rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.9});
       }
     }
@@ -134,15 +135,61 @@ TEST_CASE("occluders far from the eye") {
     Scene scene;
     const Vec3d eye = random.Direction() * distance;
     std::vector<Ray> rays;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 300; ++i) {
       scene.spheres.push_back(
           MakeSphere(random.InBox(Vec3d(-1), Vec3d(1)), random.Magnitude(1e-3, 0.5)));
-      for (int k = 0; k < 10; ++k) {
+      for (int k = 0; k < 2; ++k) {
         const Sphere& sphere = scene.spheres.back();
         rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius - eye});
       }
     }
     CHECK(CheckLights(scene, eye, &random, rays) > 100);
+  }
+}
+
+// What the bins' choice of frame and cells must not fall over.
+TEST_CASE("occluders of crowds that are hard to bin") {
+  Random random(44);
+  std::vector<Scene> scenes(6);
+  for (int i = 0; i < 600; ++i) {
+    const Vec3d inside = random.InBox(Vec3d(-1, -1, -6), Vec3d(1, 1, -4));
+    // A crowd in a wide space; all on one spot, or nearly; a plane; a line; all in one.
+    scenes[0].spheres.push_back(MakeSphere(i % 100 == 0 ? inside * 1e6 : inside, 0.03));
+    scenes[1].spheres.push_back(MakeSphere({0.5, 0.5, -5}, 1));
+    scenes[2].spheres.push_back(MakeSphere({inside.x, -1, inside.z}, 0.1));
+    scenes[3].spheres.push_back(MakeSphere({inside.x * 5, 0, -5}, 0.05));
+    scenes[4].spheres.push_back(MakeSphere(inside * 1e-3, 1e-3 * random.Magnitude(1, 100)));
+    scenes[5].spheres.push_back(MakeSphere(inside, i % 8 == 0 ? 1.5 : 1e-3));
+  }
+  scenes[0].spheres[7] = scenes[0].spheres[8] = MakeSphere({0, -1e9 - 3, 0}, 1e9);
+  for (const Scene& scene : scenes) {
+    std::vector<Ray> rays;
+    for (const Sphere& sphere : scene.spheres) {
+      rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.9});
+    }
+    CHECK(CheckLights(scene, Vec3d(0), &random, rays) > 100);
+  }
+}
+
+TEST_CASE("bins do not depend on the threads that make them") {
+  Random random(45);
+  Scene scene;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = i % 5000 == 0 ? 3 : random.Magnitude(0.01, 0.1);
+    scene.spheres.push_back(MakeSphere(random.InBox({-5, -5, -15}, {5, 5, -5}), radius));
+  }
+  const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+  for (const Light& light : {SunAlong({1, -2, 0.5}), PointAt({0.3, 1, -9})}) {
+    const ShadowLight target = MakeShadowLight(light, Vec3d(0));
+    const LightBins one = BinForLight(geometry, target, 1);
+    const LightBins two = BinForLight(geometry, target, 2);
+    REQUIRE(one.entries() > scene.spheres.size());
+    CHECK(one.end == two.end);
+    CHECK(one.large == two.large);
+    CHECK(one.large.size() >= 8);
+    CHECK(std::equal(one.spheres.begin(), one.spheres.end(), two.spheres.begin()));
+    // What they are for.
+    CHECK(one.meeting < 500);
   }
 }
 
