@@ -60,6 +60,9 @@ ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible) {
       fmt::format("size={}x{} spp={} filter={} filter_width={} seed={} shadows={}", image.width,
                   image.height, image.spp, FilterName(image.filter), image.filter.width, image.seed,
                   image.shadows ? "on" : "off");
+  if (plan.adaptive.max_error > 0) {
+    attributes["nacre:maxError"] = static_cast<float>(plan.adaptive.max_error);
+  }
   if (!reproducible) attributes[kRenderTimeAttribute] = 0.0f;
   return header;
 }

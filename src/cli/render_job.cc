@@ -49,9 +49,15 @@ void Summarize(const RenderOptions& options, const RenderPlan& plan, const Rende
                const JobTimes& times) {
   std::string files;
   for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
+  // Tiles that hold nothing are not sampled, and then count nothing.
+  const auto pixels = static_cast<double>(plan.window.pixel_count());
+  const std::string samples =
+      plan.adaptive.max_error > 0
+          ? fmt::format("{:.1f}", static_cast<double>(stats.camera_rays) / pixels)
+          : fmt::format("{}", plan.scene->image.spp);
   PrintError(fmt::format(
       "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
-      plan.window.width(), plan.window.height(), plan.scene->image.spp, 1e3 * times.total_seconds,
+      plan.window.width(), plan.window.height(), samples, 1e3 * times.total_seconds,
       1e3 * stats.render_seconds,
       1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds));
 }
@@ -68,6 +74,8 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   settings.region = ParseRegion(options.region);
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
+  settings.max_error = options.max_error;
+  if (options.spp) settings.max_samples = *options.spp;
   if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
   if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
   ApplyTarget(options.target);

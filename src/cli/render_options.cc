@@ -64,6 +64,14 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->check(CLI::Range(1, 65536))
       ->group(picture);
   command
+      ->add_option("--max-error", o->max_error,
+                   "Sample until each pixel's error is below this part of its value (of at least "
+                   "0.05) with 95 % confidence, e.g. 0.01; --spp is then the most samples a pixel "
+                   "takes (4096 if not given)")
+      ->check(InRange(1e-6, 1))
+      ->type_name("E")
+      ->group(picture);
+  command
       ->add_option("--region", o->region,
                    "Render these pixels only, from the top left, x1 and y1 not included; the same "
                    "bits as in the full frame")

@@ -18,6 +18,7 @@ struct RenderOptions {
   std::vector<std::string> outputs;
   std::string size;  // "WxH"; empty: the scene's
   std::optional<int> spp;
+  double max_error = 0;  // 0: not adaptive
   std::optional<uint32_t> seed;
   int threads = 0;
   std::string target = "auto";

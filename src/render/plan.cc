@@ -70,6 +70,13 @@ void PlanLights(const Scene& scene, RenderPlan* plan) {
   }
 }
 
+// The cells of adaptive sampling lie on a grid of the frame and are evaluated whole.
+Window WholeCells(const Window& window) {
+  const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
+  const auto up = [&](int pixel) { return down(pixel + kCellSize - 1); };
+  return {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
+}
+
 void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   size_t triangles = 0;
   for (const Mesh& mesh : scene.meshes) {
@@ -97,7 +104,8 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
       IntersectorSettings{.threads = settings.threads, .embree = false});
   if (want_tiles) {
     const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
-    plan->tiles = plan->intersector->BinForCamera(plan->camera, plan->window, reach);
+    const Window binned = settings.max_error > 0 ? WholeCells(plan->window) : plan->window;
+    plan->tiles = plan->intersector->BinForCamera(plan->camera, binned, reach);
   }
   plan->items.push_back({"intersector tiles, for camera rays", plan->tiles,
                          plan->tiles     ? "spheres binned to 16x16 pixels need no tree: " + shapes
@@ -121,6 +129,12 @@ void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan
                                             : (spp == 1 ? kWideTile : kStripRows);
   plan->samples_per_round =
       std::clamp(static_cast<int>(kBatchCapacity) / (plan->tile_width * kStripRows), 1, spp);
+  if (settings.max_error > 0) {
+    plan->items.push_back(
+        {"sample pattern", true,
+         fmt::format("{} independent Owen-scrambled Sobol patterns a pixel", kReplicates)});
+    return;
+  }
   plan->items.push_back({"sample pattern", spp > 1,
                          spp > 1 ? fmt::format("{} Owen-scrambled Sobol samples a pixel", spp)
                                  : "one sample a pixel goes through its centre"});
@@ -194,6 +208,17 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
     plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
+  if (settings.max_error > 0) {
+    plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
+    plan.substitutions.push_back(
+        {"adaptive sampling", true,
+         fmt::format("blocks of 4x4 pixels stop where 95 % of what their samples leave possible is "
+                     "within {} of max(|L|, 0.05); {}",
+                     settings.max_error,
+                     plan.adaptive.footprints && plan.tiles
+                         ? "those on one smooth hit, at the pixels' centres"
+                         : "no footprint is known to be smooth")});
+  }
   NoteMirrors(scene, &plan);
   return plan;
 }
@@ -235,6 +260,11 @@ std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats) {
   for (const PlanItem& item : plan.items) {
     text +=
         fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", item.what, item.reason);
+  }
+  if (!plan.substitutions.empty())
+    text += "in place of the general way, within the stated error:\n";
+  for (const PlanItem& item : plan.substitutions) {
+    text += fmt::format("  {}: {}\n", item.what, item.reason);
   }
   if (stats == nullptr) return text;
   double total = 0;

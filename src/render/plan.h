@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/adaptive_plan.h"
 #include "render/camera.h"
 #include "render/layers.h"
 #include "render/settings.h"
@@ -34,12 +35,18 @@ struct PlannedLight {
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
+// Whether no hit on the primitive can lie in the light's shadow.
+inline bool NeverShadowed(const PlannedLight& planned, uint32_t primitive) {
+  return !planned.shadow_rays || (!planned.shadowed.empty() && planned.shadowed[primitive] == 0);
+}
+
 struct RenderPlan {
   const Scene* scene = nullptr;
   Window frame;   // all pixels: 0, 0, width, height
   Window window;  // those to render
   CameraFrame camera;
   PixelSampler sampler;
+  AdaptivePlan adaptive;
   std::vector<Layer> layers;          // beauty, alpha, then those asked for
   std::vector<ChannelKind> channels;  // of the layers, in their order
   size_t light_layer_count = 0;
@@ -54,7 +61,8 @@ struct RenderPlan {
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
-  std::vector<std::string> notes;  // what the picture cannot show, and why
+  std::vector<PlanItem> substitutions;  // what agrees with the general way within a stated error
+  std::vector<std::string> notes;       // what the picture cannot show, and why
 };
 
 // Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "base/parallel.h"
+#include "render/adaptive.h"
 #include "render/tile.h"
 
 namespace nacre {
@@ -18,6 +19,7 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
 // What a worker needs, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
 struct Worker {
   TileScratch scratch;
+  std::unique_ptr<CellScratch> cell;  // of adaptive sampling
   Strip strip;
 };
 
@@ -41,8 +43,22 @@ class WorkerPool {
   std::vector<std::unique_ptr<Worker>> free_;
 };
 
+// The cells of adaptive sampling lie on a grid of the frame.
+void RenderCells(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
+  if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
+  const auto first = [](int pixel) { return pixel / kCellSide * kCellSide; };
+  for (int y = first(window.y0); y < window.y1; y += kCellSide) {
+    for (int x = first(window.x0); x < window.x1; x += kCellSide) {
+      const Window cell{x, y, x + kCellSide, y + kCellSide};
+      RenderCell(plan, cell, Intersect(cell, window), &worker->scratch, worker->cell.get(),
+                 &worker->strip, stats);
+    }
+  }
+}
+
 void RenderStrip(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
   StartStrip(plan, window, &worker->strip);
+  if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, stats);
   for (int x = window.x0; x < window.x1; x += plan.tile_width) {
     const Window tile{x, window.y0, std::min(x + plan.tile_width, window.x1), window.y1};
     RenderTile(plan, tile, &worker->scratch, &worker->strip, stats);

@@ -19,6 +19,10 @@ struct RenderSettings {
   std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bits
   IntersectorChoice intersector = IntersectorChoice::kAuto;
+  // Adaptive sampling: the wanted error of a pixel relative to max(|L|, 0.05), above 0, and about
+  // how many samples a pixel takes at most. 0: every pixel takes the scene's samples.
+  double max_error = 0;
+  int max_samples = 4096;
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;

@@ -30,7 +30,8 @@ struct RenderStats {
   uint64_t camera_rays = 0;
   uint64_t hits = 0;
   uint64_t shadow_rays = 0;
-  uint64_t shades = 0;                              // hits times lights that were evaluated
+  uint64_t unsettled_pixels = 0;  // of adaptive sampling: their error is not known to be small
+  uint64_t shades = 0;            // hits times lights that were evaluated
   std::array<double, kStageCount> stage_seconds{};  // thread seconds
   double plan_seconds = 0;                          // wall: planning and building the intersector
   double render_seconds = 0;                        // wall: the rest
@@ -45,6 +46,7 @@ struct RenderStats {
     hits += part.hits;
     shadow_rays += part.shadow_rays;
     shades += part.shades;
+    unsettled_pixels += part.unsettled_pixels;
     for (size_t i = 0; i < kStageCount; ++i) stage_seconds[i] += part.stage_seconds[i];
   }
 };

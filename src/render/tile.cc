@@ -1,7 +1,6 @@
 #include "render/tile.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <span>
 #include <utility>
@@ -10,21 +9,6 @@
 
 namespace nacre {
 namespace {
-
-// Charges the time since the last call to a stage.
-class StageClock {
- public:
-  explicit StageClock(RenderStats* stats) : stats_(stats) {}
-  void Charge(Stage stage) {
-    const auto now = std::chrono::steady_clock::now();
-    stats_->seconds(stage) += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  RenderStats* stats_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // Samples [first, first + count) of each pixel of the tile.
 void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
@@ -128,10 +112,6 @@ void SortHits(const RenderPlan& plan, TileScratch* s) {
   if (s->runs.size() > 1) PermuteHits(plan.exact_directions, s);
 }
 
-bool NeverShadowed(const PlannedLight& planned, uint32_t primitive) {
-  return !planned.shadow_rays || (!planned.shadowed.empty() && planned.shadowed[primitive] == 0);
-}
-
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
 void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                  RenderStats* stats) {
@@ -223,6 +203,19 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
 
 }  // namespace
 
+void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,
+                   RenderStats* stats) {
+  TileScratch& s = *scratch;
+  stats->camera_rays += s.samples.count;
+  clock->Charge(Stage::kSample);
+  FindHits(plan, &s);
+  clock->Charge(Stage::kIntersect);
+  if (s.hits.count == 0) return;
+  stats->hits += s.hits.count;
+  SortHits(plan, &s);
+  ShadeHits(plan, &s, clock, stats);
+}
+
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
                 RenderStats* stats) {
   TileScratch& s = *scratch;
@@ -241,18 +234,8 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
   ShiftPixels(plan.sampler, tile, &s.shifts);
   for (int first = 0; first < spp; first += plan.samples_per_round) {
     MakeSamples(plan, tile, first, std::min(plan.samples_per_round, spp - first), &s);
-    stats->camera_rays += s.samples.count;
-    clock.Charge(Stage::kSample);
     s.hits.count = 0;
-    if (anything) {
-      FindHits(plan, &s);
-      clock.Charge(Stage::kIntersect);
-    }
-    if (s.hits.count > 0) {
-      stats->hits += s.hits.count;
-      SortHits(plan, &s);
-      ShadeHits(plan, &s, &clock, stats);
-    }
+    if (anything) TraceAndShade(plan, &s, &clock, stats);
     AddToFilm(plan, &s);
     clock.Charge(Stage::kFilm);
   }

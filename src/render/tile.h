@@ -3,7 +3,7 @@
 
 #include "render/film.h"
 #include "render/plan.h"
-#include "render/stats.h"
+#include "render/stage_clock.h"
 
 namespace nacre {
 
@@ -45,6 +45,10 @@ struct TileScratch {
   AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // of each pixel, in this round
   Soa3<double> hit_values, ray_values;
 };
+
+// From scratch->samples to its hits and what they reflect.
+void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,
+                   RenderStats* stats);
 
 // Renders the pixels of `tile`, which lies within the strip and has at most kBatchCapacity of them.
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,

@@ -71,10 +71,6 @@ void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* val
   }
 }
 
-AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
-  return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
-}
-
 // What a layer shows where nothing is hit.
 Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
   const bool shows = layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
@@ -92,6 +88,16 @@ void SpreadHits(const Rgb& background, int channels, TileScratch* s) {
     for (size_t i = 0; i < hits; ++i) to[ray[i]] = from[i];
   }
 }
+
+// The pixel that a ray of a tile's round belongs to.
+FilmPixel RowPixel(const Window& tile, uint32_t ray) {
+  const auto pixel = ray % static_cast<uint32_t>(tile.pixel_count());
+  const auto width = static_cast<uint32_t>(tile.width());
+  return {pixel, tile.x0 + static_cast<int>(pixel % width),
+          tile.y0 + static_cast<int>(pixel / width)};
+}
+
+}  // namespace
 
 // Takes P, Z and ids of a pixel from a hit.
 void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* scratch) {
@@ -115,34 +121,6 @@ void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* s
   }
 }
 
-// Takes P, Z and ids from the hit nearest to its pixel's centre; of several as near, from that of
-// the first sample, whatever run it is in.
-void AddNearest(const RenderPlan& plan, TileScratch* scratch) {
-  TileScratch& s = *scratch;
-  const Window& tile = s.film.window;
-  const size_t pixels = tile.pixel_count();
-  const auto width = static_cast<size_t>(tile.width());
-  // Hits are in the order of their rays within a run, and runs of one pixel are few: the ray that
-  // a pixel's values are from decides between equals.
-  std::fill_n(s.nearest_ray.data(), pixels, std::numeric_limits<uint32_t>::max());
-  for (size_t i = 0; i < s.hits.count; ++i) {
-    const uint32_t ray = s.hits.ray[i];
-    const size_t pixel = ray % pixels;
-    const double dx = s.samples.x[ray] - (tile.x0 + static_cast<double>(pixel % width) + 0.5);
-    const double dy = s.samples.y[ray] - (tile.y0 + static_cast<double>(pixel / width) + 0.5);
-    const double distance = dx * dx + dy * dy;
-    double& nearest = s.film.nearest_distance[pixel];
-    const bool earlier = distance == nearest && ray < s.nearest_ray[pixel] &&
-                         s.nearest_ray[pixel] != std::numeric_limits<uint32_t>::max();
-    if (!(distance < nearest || earlier)) continue;
-    nearest = distance;
-    s.nearest_ray[pixel] = ray;
-    PutNearest(plan, i, pixel, &s);
-  }
-}
-
-}  // namespace
-
 void KeepLightLayer(size_t light_layer, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const size_t count = s.hits.count;
@@ -152,32 +130,39 @@ void KeepLightLayer(size_t light_layer, TileScratch* scratch) {
   AddSoa(s.single.specular, count, &s.total.specular);
 }
 
+Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
+                          TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  const int channels = FloatChannels(layer.kind);
+  if (s.hits.count > 0) {
+    for (const MaterialRun& run : s.runs) {
+      const LayerTerms terms = TermsOf(layer, light_layer, plan.materials[run.material.index], s);
+      for (int c = 0; c < channels; ++c) FillRun(terms, c, run, ChannelOf(s.hit_values, c).data());
+    }
+  }
+  // Where every ray hits the same material, hits are in the order of rays.
+  if (s.hits.count == s.samples.count && s.runs.size() == 1) return s.hit_values;
+  SpreadHits(BackgroundOf(layer, *plan.scene), channels, &s);
+  return s.ray_values;
+}
+
 void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
-  // Where every ray hits the same material, hits are in the order of rays.
-  const bool all = s.hits.count == s.samples.count && s.runs.size() == 1;
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    const int channels = FloatChannels(layer.kind);
-    if (s.hits.count > 0) {
-      for (const MaterialRun& run : s.runs) {
-        const LayerTerms terms = TermsOf(layer, light_layer, plan.materials[run.material.index], s);
-        for (int c = 0; c < channels; ++c) {
-          FillRun(terms, c, run, ChannelOf(s.hit_values, c).data());
-        }
-      }
-    }
-    if (!all) SpreadHits(BackgroundOf(layer, *plan.scene), channels, &s);
-    for (int c = 0; c < channels; ++c) {
-      AddSamples(ChannelOf(all ? s.hit_values : s.ray_values, c).data(), s.weights.data(),
-                 static_cast<int>(s.weights.size()), s.film.window.pixel_count(), s.film.empty,
-                 s.film.sums[sum++].data());
+    Soa3<double>& values = GatherLayer(plan, layer, light_layer, &s);
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      AddSamples(ChannelOf(values, c).data(), s.weights.data(), static_cast<int>(s.weights.size()),
+                 s.film.window.pixel_count(), s.film.empty, s.film.sums[sum++].data());
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
-  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) AddNearest(plan, &s);
+  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
+    AddNearest(
+        plan, [&](uint32_t ray) { return RowPixel(s.film.window, ray); }, &s);
+  }
   s.film.empty = false;
 }
 

@@ -1,12 +1,54 @@
 // render/tile_layers.h: from the radiance of a batch of hits to the film's layers.
 #pragma once
 
+#include <algorithm>
+
 #include "render/tile.h"
 
 namespace nacre {
 
 // Adds scratch->single, the reflection of one light, to the light's layer and to the total.
 void KeepLightLayer(size_t light_layer, TileScratch* scratch);
+
+inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
+  return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
+}
+
+// An averaged layer's values at the rays of scratch->samples, in buffers of the scratch.
+Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
+                          TileScratch* scratch);
+
+// Takes P, Z and ids of the film's entry `pixel` from a hit.
+void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* scratch);
+
+// A pixel: its entry in the film, and its place in the frame.
+struct FilmPixel {
+  size_t index;
+  int x, y;
+};
+
+// Takes P, Z and ids from the hit nearest to its pixel's centre, and of several as near, which may
+// be in different runs, from that of the first ray of a round. pixel_of(ray) is a FilmPixel.
+template <class PixelOf>
+void AddNearest(const RenderPlan& plan, const PixelOf& pixel_of, TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  constexpr uint32_t kNone = 0xffffffffu;
+  std::fill_n(s.nearest_ray.data(), kBatchCapacity, kNone);
+  for (size_t i = 0; i < s.hits.count; ++i) {
+    const uint32_t ray = s.hits.ray[i];
+    const FilmPixel pixel = pixel_of(ray);
+    const double dx = s.samples.x[ray] - (pixel.x + 0.5);
+    const double dy = s.samples.y[ray] - (pixel.y + 0.5);
+    const double distance = dx * dx + dy * dy;
+    double& nearest = s.film.nearest_distance[pixel.index];
+    uint32_t& nearest_ray = s.nearest_ray[pixel.index];
+    const bool earlier = distance == nearest && nearest_ray != kNone && ray < nearest_ray;
+    if (!(distance < nearest || earlier)) continue;
+    nearest = distance;
+    nearest_ray = ray;
+    PutNearest(plan, i, pixel.index, &s);
+  }
+}
 
 // Adds a round's samples to every layer of the tile's film.
 void AddToFilm(const RenderPlan& plan, TileScratch* scratch);

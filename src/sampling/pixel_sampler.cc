@@ -21,14 +21,21 @@ void AppendPoints(int count, uint32_t pair, PixelSampler* sampler) {
 }  // namespace
 
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed) {
+  if (samples_per_pixel > 1) return MakeReplicateSampler(filter, samples_per_pixel, seed);
+  PixelSampler sampler;
+  sampler.filter = MakeFilterSampler(filter);
+  sampler.seed = seed;
+  sampler.centered = true;
+  sampler.points_x = sampler.points_y = {0};
+  return sampler;
+}
+
+PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel,
+                                  uint32_t seed) {
   PixelSampler sampler;
   sampler.filter = MakeFilterSampler(filter);
   sampler.seed = seed;
   sampler.samples_per_pixel = samples_per_pixel;
-  if (samples_per_pixel == 1) {
-    sampler.points_x = sampler.points_y = {0};
-    return sampler;
-  }
   const double positive = PartMass(sampler.filter, FilterPart::kPositive);
   const double negative = PartMass(sampler.filter, FilterPart::kNegative);
   int negative_count = 0;
@@ -51,7 +58,7 @@ bool HasUnitWeights(const PixelSampler& sampler) {
 }
 
 PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index) {
-  if (sampler.samples_per_pixel == 1) return {0, 0, 1};
+  if (sampler.centered) return {0, 0, 1};
   const uint64_t shift = PixelSeed(x, y, sampler.seed);
   const auto i = static_cast<size_t>(index);
   const Vec2d u(UnitFromBits(sampler.points_x[i] ^ static_cast<uint32_t>(shift)),
@@ -69,7 +76,7 @@ double SampleWeight(const PixelSampler& sampler, int index) {
 }
 
 void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts) {
-  if (sampler.samples_per_pixel == 1) return;  // its one sample is the centre
+  if (sampler.centered) return;
   size_t i = 0;
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     for (int x = pixels.x0; x < pixels.x1; ++x, ++i) {

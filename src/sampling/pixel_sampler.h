@@ -17,6 +17,7 @@ struct PixelSampler {
   FilterSampler filter;
   uint32_t seed = 0;
   int samples_per_pixel = 1;
+  bool centered = false;  // the only sample is the pixel's centre
   // Samples [0, positive_count) are of the filter's positive part, the others of the negative
   // one: fixed counts with fixed weights, so that a constant image is reproduced exactly.
   int positive_count = 1;
@@ -26,8 +27,12 @@ struct PixelSampler {
   std::vector<uint32_t> points_x, points_y;
 };
 
-// samples_per_pixel in [1, 65536].
+// samples_per_pixel in [1, 65536]. One alone is the pixel's centre.
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
+
+// Like it, but one sample alone is random, too, as needed where the results of several samplers of
+// different seeds are compared and averaged. A filter with both signs needs two samples at least.
+PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
 
 // True if every sample weighs 1: for filters without negative lobes.
 bool HasUnitWeights(const PixelSampler& sampler);
@@ -39,7 +44,7 @@ struct PixelSample {
 
 // Sample `index` of the pixel in column x and row y of the full image. The mean over a pixel's
 // samples of weight x value estimates the filtered image without bias; the weights have the mean
-// 1. The only sample of one per pixel is the centre.
+// 1.
 PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
 
 // The weight of sample `index` of every pixel.

@@ -144,7 +144,7 @@ void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const Pixe
   const auto sample = [&](const auto& positive, const auto& negative) HWY_ATTR {
     SampleAll(positive, negative, sampler, pixels, shifts, first, first + count, film_x, film_y);
   };
-  if (sampler.samples_per_pixel == 1) {
+  if (sampler.centered) {
     sample(Center(), Center());
   } else if (filter.positive.empty()) {
     sample(Box{filter.filter.width}, Center());

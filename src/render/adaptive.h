@@ -1,0 +1,42 @@
+// render/adaptive.h: adaptive sampling: every block of 4x4 pixels takes samples until its error is
+// small enough.
+//
+// Blocks lie on a grid of the whole frame and are evaluated whole, so that a block's pixels never
+// depend on crops, strips or threads. A block stops where, in each of its pixels and channels, the
+// half-width of the 95 % confidence interval from the spread of four independent scramblings
+// (Student's t with three degrees of freedom) is below the wanted error times max(|L|, 0.05); or,
+// after the pixels' centres alone, where its footprint lies in one smooth hit (footprint.h).
+#pragma once
+
+#include "render/tile.h"
+
+namespace nacre {
+
+inline constexpr int kBlockSide = 4;
+inline constexpr size_t kBlockPixels = size_t{kBlockSide} * kBlockSide;
+// Blocks are taken together by cells of the intersector's bins.
+inline constexpr int kCellSide = 16;
+inline constexpr size_t kCellBlocks = 16;
+inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
+
+// Below this value an error is absolute: what a display shows as near black.
+inline constexpr double kDarkest = 0.05;
+
+// Pixels are numbered block by block, row by row within a block.
+struct CellScratch {
+  std::vector<uint32_t> active;   // blocks that need more samples
+  uint32_t samples[kCellBlocks];  // of each pixel of a block, in each replicate; 0: its centre
+  // Sums of the beauty's samples in each replicate.
+  double replicate[kReplicates][3][kCellPixels];
+  PixelShifts shifts{kBlockPixels + kBatchPadding};
+  FilmBatch corners;
+};
+
+// The window of a cell's block.
+Window BlockWindow(const Window& cell, size_t block);
+
+// Renders the pixels of `part` of a cell of the frame into the strip.
+void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
+                TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, RenderStats* stats);
+
+}  // namespace nacre

@@ -1,0 +1,79 @@
+#include "render/adaptive_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "base/overloaded.h"
+#include "sampling/hash.h"
+
+namespace nacre {
+namespace {
+
+// About where a lobe has fallen to half its height.
+double LobeWidth(const ShadingMaterial& material) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  return std::visit(Overloaded{[&](const PhongFamilyModel& phong) {
+                                 const bool matte = phong.specular.length2() == 0;
+                                 return matte ? infinity : std::sqrt(2 / (phong.shininess + 2));
+                               },
+                               [&](const MicrofacetModel& microfacet) {
+                                 return microfacet.delta ? infinity : microfacet.alpha;
+                               },
+                               [&](const auto&) { return infinity; }},
+                    material.model);
+}
+
+// The second moment of |filter| along one axis, pixels squared: what the curvature of a picture
+// adds to the mean over a pixel is half of it.
+double SecondMoment(const PixelFilter& filter) {
+  constexpr int kSteps = 4096;
+  double sum = 0, moment = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = (i + 0.5) / kSteps * filter.width / 2;
+    const double value = std::abs(FilterValue(filter, x));
+    sum += value;
+    moment += value * x * x;
+  }
+  return moment / sum;
+}
+
+// A cone whose edge falls within few pixels is no smooth light.
+bool HasHardCone(const Scene& scene) {
+  return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    const auto* spot = std::get_if<SpotLight>(&light.kind);
+    return spot != nullptr && spot->cutoff_deg - spot->inner_deg < 1;
+  });
+}
+
+}  // namespace
+
+AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                          double max_error, int max_samples) {
+  AdaptivePlan plan;
+  plan.max_error = max_error;
+  const PixelFilter& filter = scene.image.filter;
+  const bool both_signs = !MakeFilterSampler(filter).negative.empty();
+  // Few samples cannot hold a negative lobe's share.
+  int samples = both_signs ? 4 : 1;
+  for (int total = 0; kReplicates * total < max_samples; total += samples) {
+    if (plan.levels.size() > 1) samples *= 2;
+    std::array<PixelSampler, kReplicates> level;
+    for (size_t r = 0; r < kReplicates; ++r) {
+      const uint64_t key = Combine(plan.levels.size() * kReplicates + r + 1, scene.image.seed);
+      level[r] = MakeReplicateSampler(filter, samples, static_cast<uint32_t>(key));
+    }
+    plan.levels.push_back(std::move(level));
+  }
+  plan.footprints = !both_signs && !HasHardCone(scene);
+  plan.center = MakePixelSampler(filter, 1, scene.image.seed);
+  plan.reach = std::max(filter.width / 2, 0.5);
+  // Half the second moment where the picture is smooth; where a line of a pixel bends it, at the
+  // edge of a light's hemisphere, up to three times that (of a box: 1/8 of the bend, not 1/24).
+  plan.center_error = 1.5 * SecondMoment(filter);
+  for (const ShadingMaterial& material : materials) plan.widths.push_back(LobeWidth(material));
+  return plan;
+}
+
+}  // namespace nacre

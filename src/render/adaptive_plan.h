@@ -1,0 +1,32 @@
+// render/adaptive_plan.h: how a picture with a wanted error is sampled, decided once.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sampling/pixel_sampler.h"
+#include "scene/scene.h"
+#include "shading/material.h"
+
+namespace nacre {
+
+// Independent scramblings of the same sample pattern, whose spread tells the error of their mean.
+inline constexpr int kReplicates = 4;
+
+struct AdaptivePlan {
+  double max_error = 0;  // 0: every pixel takes the same samples
+  // Samples are added level by level: as many again as there are, in each replicate.
+  std::vector<std::array<PixelSampler, kReplicates>> levels;
+  // Where the footprint test may stop a block at the pixels' centres:
+  bool footprints = false;
+  PixelSampler center;
+  double reach = 0.5;          // of the pixel filter, from the centre
+  double center_error = 0;     // of a centre's value, in units of its second differences
+  std::vector<double> widths;  // of each material's narrowest lobe, in radians
+};
+
+// `max_samples`: of a pixel, at least. Materials are those of the scene.
+AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                          double max_error, int max_samples);
+
+}  // namespace nacre

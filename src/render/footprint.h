@@ -1,0 +1,20 @@
+// render/footprint.h: where one sample a pixel is enough.
+#pragma once
+
+#include "render/adaptive.h"
+
+namespace nacre {
+
+// Marks, as bits, the blocks of `blocks` (bits) that lie wholly on one sphere or wholly beside all
+// of them, by the filter's reach around them: those that may be smooth. `scratch->candidates` are
+// the cell's.
+uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
+                         TileScratch* scratch, CellScratch* cell_scratch);
+
+// Whether the values at the centres of a plain block's pixels are within the wanted error of the
+// pixels' means: its second differences are small, and no lobe is too narrow for its normals to
+// tell. `first_ray`: of the block's rays in scratch->samples, whose beauty is in `values`.
+bool IsSmooth(const RenderPlan& plan, size_t first_ray, const Soa3<double>& values,
+              const TileScratch& scratch);
+
+}  // namespace nacre
