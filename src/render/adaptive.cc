@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/film_kernel.h"
 #include "render/footprint.h"
@@ -15,47 +16,62 @@ constexpr double kStudent = 3.182446305;
 
 // Samples of a pixel that are added up before they are added to its sum: fixed, so that the order
 // of the additions is.
-constexpr int kPiece = 4;
+constexpr int kPiece = 16;
 
-// Samples [first, first + count) of one replicate of one block.
-struct Unit {
-  size_t block;
-  size_t replicate;
-};
+// Levels that all pixels of a block take, or none: features between a pixel's few samples show in
+// its neighbours.
+constexpr size_t kCommonLevels = 2;
 
-// The units' samples, one after the other. `samplers`: of each replicate.
+// A peak narrower than a pixel may fall between its samples, but its neighbours' see the flanks: a
+// pixel goes on while their intervals are wider than this many times what it wants itself.
+constexpr double kNeighbourSlack = 8;
+
+using Unit = CellScratch::Unit;
+
+FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
+  const Window block = BlockWindow(cell, pixel / kBlockPixels);
+  const auto in_block = static_cast<int>(pixel % kBlockPixels);
+  return {pixel, block.x0 + in_block % kBlockSide, block.y0 + in_block / kBlockSide};
+}
+
+// The units' samples [first, first + count), one unit after the other. `samplers`: of each
+// replicate.
 void MakeUnitSamples(const PixelSampler* samplers, const Window& cell,
-                     const std::vector<Unit>& units, int first, int count, TileScratch* s,
-                     CellScratch* c) {
-  const size_t size = kBlockPixels * static_cast<size_t>(count);
-  for (size_t u = 0; u < units.size(); ++u) {
-    const Window block = BlockWindow(cell, units[u].block);
-    const PixelSampler& sampler = samplers[units[u].replicate];
+                     const std::vector<Unit>& units, int first, int count, TileScratch* s) {
+  size_t ray = 0;
+  for (const Unit& unit : units) {
+    const FilmPixel pixel = PixelOf(cell, unit.pixel);
+    SampleOnePixel(samplers[unit.replicate], pixel.x, pixel.y, first, count,
+                   s->samples.x.data() + ray, s->samples.y.data() + ray);
+    ray += static_cast<size_t>(count);
+  }
+  s->samples.count = ray;
+}
+
+// The same where units take one sample and come by whole blocks.
+void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
+                      const std::vector<Unit>& units, TileScratch* s, CellScratch* c) {
+  for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
+    const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
+    const PixelSampler& sampler = samplers[units[ray].replicate];
     ShiftPixels(sampler, block, &c->shifts);
-    SamplePixels(sampler, block, c->shifts, first, count, s->samples.x.data() + u * size,
-                 s->samples.y.data() + u * size);
+    SamplePixels(sampler, block, c->shifts, 0, 1, s->samples.x.data() + ray,
+                 s->samples.y.data() + ray);
   }
-  s->samples.count = units.size() * size;
-  s->weights.resize(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    s->weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
-  }
+  s->samples.count = units.size();
 }
 
-FilmPixel UnitPixel(const Window& cell, const std::vector<Unit>& units, size_t unit_size,
-                    uint32_t ray) {
-  const size_t block = units[ray / unit_size].block;
-  const size_t pixel = ray % kBlockPixels;
-  const Window window = BlockWindow(cell, block);
-  return {block * kBlockPixels + pixel, window.x0 + static_cast<int>(pixel % kBlockSide),
-          window.y0 + static_cast<int>(pixel / kBlockSide)};
+double SumOfPiece(const double* values, const double* weights, size_t count) {
+  if (count == 1) return weights[0] * values[0];
+  double sums[4] = {};
+  for (size_t i = 0; i < count; ++i) sums[i % 4] += weights[i] * values[i];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit>& units, int count,
+void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit>& units,
               TileScratch* scratch, CellScratch* c) {
   TileScratch& s = *scratch;
-  const size_t unit_size = kBlockPixels * static_cast<size_t>(count);
-  alignas(kVectorBytes) double piece[kBlockPixels];
+  const size_t count = s.weights.size();
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
@@ -64,87 +80,147 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       for (const Unit& unit : units) {
-        AddSamples(value, s.weights.data(), count, kBlockPixels, true, piece);
-        value += unit_size;
-        const size_t first = unit.block * kBlockPixels;
-        double* const total = s.film.sums[sum].data() + first;
-        for (size_t i = 0; i < kBlockPixels; ++i) total[i] += piece[i];
+        const double piece = SumOfPiece(value, s.weights.data(), count);
+        value += count;
+        s.film.sums[sum][unit.pixel] += piece;
         if (layer.kind != LayerKind::kBeauty) continue;
-        double* const replicate = c->replicate[unit.replicate][channel] + first;
-        for (size_t i = 0; i < kBlockPixels; ++i) replicate[i] += piece[i];
+        c->replicate[unit.replicate][channel][unit.pixel] += piece;
       }
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
   if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
     AddNearest(
-        plan, [&](uint32_t ray) { return UnitPixel(cell, units, unit_size, ray); }, &s);
+        plan, [&](uint32_t ray) { return PixelOf(cell, units[ray / count].pixel); }, &s);
   }
 }
 
-// The active blocks' samples of a level, in batches.
+// The active pixels' samples of a level, in batches.
 void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScratch* s,
               CellScratch* c, StageClock* clock, RenderStats* stats) {
   const auto& samplers = plan.adaptive.levels[level];
   const int samples = samplers[0].samples_per_pixel;
   const int count = std::min(samples, kPiece);
-  const size_t most = kBatchCapacity / (kBlockPixels * static_cast<size_t>(count));
-  std::vector<Unit> units;
+  const bool by_blocks = level < kCommonLevels && samples == 1;
+  const size_t most = kBatchCapacity / static_cast<size_t>(count);
+  std::vector<Unit>& units = c->units;
+  units.clear();
   for (int first = 0; first < samples; first += count) {
+    s->weights.resize(static_cast<size_t>(count));
+    for (int i = 0; i < count; ++i) {
+      s->weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
+    }
     const auto flush = [&] {
       if (units.empty()) return;
-      MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
+      if (by_blocks) {
+        MakeBlockSamples(samplers.data(), cell, units, s, c);
+      } else {
+        MakeUnitSamples(samplers.data(), cell, units, first, count, s);
+      }
       TraceAndShade(plan, s, clock, stats);
-      AddUnits(plan, cell, units, count, s, c);
+      AddUnits(plan, cell, units, s, c);
       clock->Charge(Stage::kFilm);
       units.clear();
     };
-    for (size_t replicate = 0; replicate < kReplicates; ++replicate) {
-      for (const uint32_t block : c->active) {
-        units.push_back({block, replicate});
+    // Groups of 16 pixels, whole blocks in the common levels, or single ones, by replicates.
+    const size_t group = by_blocks ? kBlockPixels : 1;
+    for (size_t i = 0; i < c->active.size(); i += group) {
+      for (uint32_t replicate = 0; replicate < kReplicates; ++replicate) {
+        for (size_t k = i; k < i + group; ++k) units.push_back({c->active[k], replicate});
         if (units.size() == most) flush();
       }
     }
     flush();
   }
-  for (const uint32_t block : c->active) c->samples[block] += static_cast<uint32_t>(samples);
+  for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(samples);
 }
 
-// Whether every pixel's interval is narrow enough.
-bool HasConverged(const RenderPlan& plan, size_t block, const CellScratch& c) {
-  const double scale = 1.0 / c.samples[block];
-  const size_t first = block * kBlockPixels;
-  bool converged = true;
+// The pixel's interval and what is wanted of it. NaN never converges: it is counted where the
+// picture is written.
+void MeasurePixel(const RenderPlan& plan, uint32_t pixel, CellScratch* c) {
+  const double scale = 1.0 / c->samples[pixel];
+  PixelInterval& interval = c->intervals[pixel];
+  interval = {true, 0, std::numeric_limits<double>::infinity()};
   for (size_t channel = 0; channel < 3; ++channel) {
-    for (size_t i = first; i < first + kBlockPixels; ++i) {
-      double mean = 0;
-      for (const auto& replicate : c.replicate) mean += replicate[channel][i];
-      mean *= scale / kReplicates;
-      double squares = 0;
-      for (const auto& replicate : c.replicate) {
-        const double difference = replicate[channel][i] * scale - mean;
-        squares += difference * difference;
-      }
-      const double half_width = kStudent * std::sqrt(squares / ((kReplicates - 1) * kReplicates));
-      // NaN never converges; it is counted where the picture is written.
-      converged =
-          converged && half_width <= plan.adaptive.max_error * std::max(std::abs(mean), kDarkest);
+    double mean = 0;
+    for (const auto& replicate : c->replicate) mean += replicate[channel][pixel];
+    mean *= scale / kReplicates;
+    double squares = 0;
+    for (const auto& replicate : c->replicate) {
+      const double difference = replicate[channel][pixel] * scale - mean;
+      squares += difference * difference;
+    }
+    const double half_width = kStudent * std::sqrt(squares / ((kReplicates - 1) * kReplicates));
+    const double wanted = plan.adaptive.max_error * std::max(std::abs(mean), kDarkest);
+    interval.narrow = interval.narrow && half_width <= wanted;
+    interval.half_width = std::max(interval.half_width, half_width);
+    interval.wanted = std::min(interval.wanted, wanted);
+  }
+}
+
+// The widest interval of the pixels around one, in its block.
+double WidestAround(const CellScratch& c, uint32_t pixel) {
+  const uint32_t first = pixel - pixel % uint32_t{kBlockPixels};
+  const int x = static_cast<int>(pixel % kBlockSide);
+  const int y = static_cast<int>(pixel % kBlockPixels) / kBlockSide;
+  double widest = 0;
+  for (int row = std::max(y - 1, 0); row <= std::min(y + 1, kBlockSide - 1); ++row) {
+    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
+      const auto i = first + static_cast<uint32_t>(row * kBlockSide + column);
+      widest = std::max(widest, c.intervals[i].half_width);
     }
   }
-  return converged;
+  return widest;
 }
 
-// The pixels' centres of the blocks in `blocks` (bits), and which of them that settles.
+// Takes the pixels that have converged from the active ones: whole blocks in the common levels, and
+// then the pixels whose neighbours, too, are not far from what they want.
+void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
+  for (const uint32_t pixel : c->active) MeasurePixel(plan, pixel, c);
+  if (level >= kCommonLevels) {
+    std::erase_if(c->active, [&](uint32_t pixel) {
+      const PixelInterval& interval = c->intervals[pixel];
+      return interval.narrow && WidestAround(*c, pixel) <= kNeighbourSlack * interval.wanted;
+    });
+    return;
+  }
+  // Whole blocks, one after the other, are active.
+  auto kept = c->active.begin();
+  for (auto block = c->active.begin(); block != c->active.end(); block += kBlockPixels) {
+    const bool converged = std::all_of(block, block + kBlockPixels,
+                                       [&](uint32_t pixel) { return c->intervals[pixel].narrow; });
+    if (!converged) kept = std::copy(block, block + kBlockPixels, kept);
+  }
+  c->active.erase(kept, c->active.end());
+}
+
+// The pixels of the blocks in `blocks` (bits).
+void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
+  pixels->clear();
+  for (; blocks != 0; blocks &= blocks - 1) {
+    const auto first = static_cast<uint32_t>(__builtin_ctz(blocks)) * uint32_t{kBlockPixels};
+    for (uint32_t i = 0; i < kBlockPixels; ++i) pixels->push_back(first + i);
+  }
+}
+
+// The centres of the pixels of the blocks in `blocks` (bits), and which of these blocks that
+// settles.
 uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks, uint32_t plain,
                     TileScratch* scratch, CellScratch* c, StageClock* clock, RenderStats* stats) {
+  if (blocks == 0) return 0;
   TileScratch& s = *scratch;
-  std::vector<Unit> units;
-  for (; blocks != 0; blocks &= blocks - 1) {
-    units.push_back({static_cast<size_t>(__builtin_ctz(blocks)), 0});
+  ListPixels(blocks, &c->active);
+  const std::vector<uint32_t>& pixels = c->active;
+  for (size_t i = 0; i < pixels.size(); ++i) {
+    const FilmPixel pixel = PixelOf(cell, pixels[i]);
+    s.samples.x[i] = pixel.x + 0.5;
+    s.samples.y[i] = pixel.y + 0.5;
   }
-  if (units.empty()) return 0;
-  MakeUnitSamples(&plan.adaptive.center, cell, units, 0, 1, &s, c);
+  s.samples.count = pixels.size();
   TraceAndShade(plan, &s, clock, stats);
+  uint32_t hit_of_ray[kCellPixels];
+  std::fill_n(hit_of_ray, kCellPixels, kNoHit);
+  for (size_t i = 0; i < s.hits.count; ++i) hit_of_ray[s.hits.ray[i]] = static_cast<uint32_t>(i);
   uint32_t smooth = 0;
   size_t sum = 0;
   size_t light_layer = 0;
@@ -152,65 +228,65 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
     if (!IsAveraged(layer.kind)) continue;
     Soa3<double>& values = GatherLayer(plan, layer, light_layer, &s);
     if (layer.kind == LayerKind::kBeauty) {
-      for (size_t u = 0; u < units.size(); ++u) {
-        const uint32_t bit = 1u << units[u].block;
-        if ((plain & bit) != 0 && IsSmooth(plan, u * kBlockPixels, values, s)) smooth |= bit;
+      for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
+        const uint32_t bit = 1u << pixels[i] / kBlockPixels;
+        if ((plain & bit) != 0 && IsSmooth(plan, i, values, hit_of_ray, s)) smooth |= bit;
       }
     }
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
-      const double* value = ChannelOf(values, channel).data();
-      for (const Unit& unit : units) {
-        if ((smooth >> unit.block & 1) != 0) {
-          std::copy_n(value, kBlockPixels, s.film.sums[sum].data() + unit.block * kBlockPixels);
-        }
-        value += kBlockPixels;
+      const double* const value = ChannelOf(values, channel).data();
+      for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
+        if ((smooth >> pixels[i] / kBlockPixels & 1) == 0) continue;
+        std::copy_n(value + i, kBlockPixels, s.film.sums[sum].data() + pixels[i]);
       }
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
   if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
     AddNearest(
-        plan, [&](uint32_t ray) { return UnitPixel(cell, units, kBlockPixels, ray); }, &s);
+        plan, [&](uint32_t ray) { return PixelOf(cell, pixels[ray]); }, &s);
   }
   clock->Charge(Stage::kFilm);
   return smooth;
 }
 
-// Rows of blocks into rows of the strip, as far as they lie in `part`.
-template <typename T, typename U, typename Convert>
-void PutBlock(const Window& block, const Window& part, const Strip& strip, const T* from,
-              std::vector<U>* to, const Convert& convert) {
-  const Window shown = Intersect(block, part);
-  for (int y = shown.y0; y < shown.y1; ++y) {
-    const T* const row = from + (y - block.y0) * kBlockSide - block.x0;
-    U* const out =
-        to->data() +
-        static_cast<size_t>(y - strip.window.y0) * static_cast<size_t>(strip.window.width()) -
-        strip.window.x0;
-    for (int x = shown.x0; x < shown.x1; ++x) out[x] = convert(row[x]);
+// Rows of blocks into rows of the strip, as far as they lie in `part`: convert(i) is the cell's
+// pixel i.
+template <typename T, typename Convert>
+void PutCell(const Window& cell, const Window& part, const Strip& strip, std::vector<T>* to,
+             const Convert& convert) {
+  for (size_t b = 0; b < kCellBlocks; ++b) {
+    const Window block = BlockWindow(cell, b);
+    const Window shown = Intersect(block, part);
+    for (int y = shown.y0; y < shown.y1; ++y) {
+      const size_t row = b * kBlockPixels + static_cast<size_t>(y - block.y0) * kBlockSide;
+      T* const out = to->data() + static_cast<size_t>(y - strip.window.y0) *
+                                      static_cast<size_t>(strip.window.width());
+      for (int x = shown.x0; x < shown.x1; ++x) {
+        out[x - strip.window.x0] = convert(row + static_cast<size_t>(x - block.x0));
+      }
+    }
   }
 }
 
 void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& c, Strip* strip) {
-  for (size_t b = 0; b < kCellBlocks; ++b) {
-    const Window block = BlockWindow(cell, b);
-    if (Intersect(block, part).empty()) continue;
-    const double scale = c.samples[b] == 0 ? 1.0 : 1.0 / (double{kReplicates} * c.samples[b]);
-    const size_t first = b * kBlockPixels;
-    size_t sum = 0, nearest = 0, id = 0, color = 0;
-    for (const ChannelKind kind : plan.channels) {
-      if (kind == ChannelKind::kAveraged) {
-        PutBlock(block, part, *strip, film.sums[sum++].data() + first, &strip->colors[color++],
-                 [&](double v) { return static_cast<float>(v * scale); });
-      } else if (kind == ChannelKind::kNearest) {
-        PutBlock(block, part, *strip, film.nearest[nearest++].data() + first,
-                 &strip->colors[color++], [](float v) { return v; });
-      } else {
-        PutBlock(block, part, *strip, film.ids[id].data() + first, &strip->ids[id],
-                 [](uint32_t v) { return v; });
-        ++id;
-      }
+  double scale[kCellPixels];
+  for (size_t i = 0; i < kCellPixels; ++i) {
+    scale[i] = c.samples[i] == 0 ? 1 : 1 / (double{kReplicates} * c.samples[i]);
+  }
+  size_t sum = 0, nearest = 0, id = 0, color = 0;
+  for (const ChannelKind kind : plan.channels) {
+    if (kind == ChannelKind::kAveraged) {
+      const double* const sums = film.sums[sum++].data();
+      PutCell(cell, part, *strip, &strip->colors[color++],
+              [&](size_t i) { return static_cast<float>(sums[i] * scale[i]); });
+    } else if (kind == ChannelKind::kNearest) {
+      const float* const values = film.nearest[nearest++].data();
+      PutCell(cell, part, *strip, &strip->colors[color++], [&](size_t i) { return values[i]; });
+    } else {
+      const uint32_t* const values = film.ids[id].data();
+      PutCell(cell, part, *strip, &strip->ids[id++], [&](size_t i) { return values[i]; });
     }
   }
 }
@@ -249,7 +325,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   StartTile(plan, cell, &s.film);
   for (AlignedArray<double>& sums : s.film.sums) std::fill_n(sums.data(), kCellPixels, 0.0);
   std::fill_n(&c.replicate[0][0][0], sizeof(c.replicate) / sizeof(double), 0.0);
-  std::fill_n(c.samples, kCellBlocks, 0u);
+  std::fill_n(c.samples, kCellPixels, 0u);
   clock.Charge(Stage::kFilm);
   const uint32_t blocks = BlocksOf(cell, part);
   const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
@@ -257,16 +333,13 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   const bool all_centers = s.film.nearest_distance.size() > 0;
   const uint32_t smooth =
       AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
-  c.active.clear();
-  for (uint32_t left = blocks & ~smooth; left != 0; left &= left - 1) {
-    c.active.push_back(static_cast<uint32_t>(__builtin_ctz(left)));
-  }
+  ListPixels(blocks & ~smooth, &c.active);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, &clock, stats);
-    std::erase_if(c.active, [&](uint32_t block) { return HasConverged(plan, block, c); });
+    DropConverged(plan, level, &c);
     clock.Charge(Stage::kFilm);
   }
-  stats->unsettled_pixels += c.active.size() * kBlockPixels;
+  stats->unsettled_pixels += c.active.size();
   ResolveCell(plan, cell, part, s.film, c, strip);
   clock.Charge(Stage::kFilm);
 }

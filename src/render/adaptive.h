@@ -22,12 +22,27 @@ inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
 // Below this value an error is absolute: what a display shows as near black.
 inline constexpr double kDarkest = 0.05;
 
+// What is known of a pixel's error.
+struct PixelInterval {
+  bool narrow = false;    // its interval is as narrow as wanted, in every channel
+  double half_width = 0;  // of its widest channel
+  double wanted = 0;      // of its strictest
+};
+
 // Pixels are numbered block by block, row by row within a block.
 struct CellScratch {
-  std::vector<uint32_t> active;   // blocks that need more samples
-  uint32_t samples[kCellBlocks];  // of each pixel of a block, in each replicate; 0: its centre
+  // Samples of one replicate of one pixel.
+  struct Unit {
+    uint32_t pixel;
+    uint32_t replicate;
+  };
+
+  std::vector<uint32_t> active;   // pixels that need more samples
+  uint32_t samples[kCellPixels];  // of each pixel in each replicate; 0: its centre
   // Sums of the beauty's samples in each replicate.
   double replicate[kReplicates][3][kCellPixels];
+  PixelInterval intervals[kCellPixels];
+  std::vector<Unit> units;  // of a batch
   PixelShifts shifts{kBlockPixels + kBatchPadding};
   FilmBatch corners;
 };

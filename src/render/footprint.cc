@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace nacre {
 namespace {
@@ -16,21 +17,65 @@ Footprint FootprintOf(const Window& block, double reach) {
           block.y1 - 0.5 + reach};
 }
 
-// The only sphere that the cell's rays can hit, or null.
-const TileCandidate* OnlyCandidate(const TileCandidates& candidates) {
-  const TileCandidate* only = nullptr;
+// More candidates than this are not looked through.
+constexpr size_t kMostCandidates = 8;
+
+// A sphere's picture, inside bounds on the film and, seen in perspective, inside a cone.
+struct Picture {
+  const TileCandidate* candidate;
+  FilmBounds bounds;
+  Vec3d axis;  // unit, towards the centre
+  double half_angle;
+};
+
+std::vector<Picture> PicturesOf(const RenderPlan& plan, const TileCandidates& candidates) {
+  std::vector<Picture> pictures;
+  const Projector projector(plan.camera);
   for (const auto& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
-      if (only != nullptr) return nullptr;
-      only = &candidate;
+      const TraceSphere& sphere = candidate.sphere;
+      const double distance = sphere.center.length();
+      const double sine = std::min(sphere.radius / distance, 1.0);
+      pictures.push_back(
+          {&candidate, projector.Project(sphere), sphere.center / distance, std::asin(sine)});
     }
   }
-  return only;
+  return pictures;
 }
 
-// The blocks whose footprint's corners all hit: a sphere's picture is convex, so it covers them.
-uint32_t FindCovered(const RenderPlan& plan, const Window& cell, uint32_t blocks,
-                     TileScratch* scratch, CellScratch* cell_scratch) {
+// The cone around a footprint: the film is flat, so the farthest ray goes through a corner.
+struct FootprintCone {
+  Vec3d axis;
+  double half_angle;
+};
+
+FootprintCone ConeOf(const CameraFrame& frame, const Footprint& f) {
+  const auto direction = [&](double x, double y) {
+    return (frame.corner + frame.step_x * x + frame.step_y * y).normalized();
+  };
+  FootprintCone cone{direction((f.x0 + f.x1) / 2, (f.y0 + f.y1) / 2), 0};
+  double cosine = 1;
+  for (const double x : {f.x0, f.x1}) {
+    for (const double y : {f.y0, f.y1}) cosine = std::min(cosine, cone.axis.dot(direction(x, y)));
+  }
+  // The cosine's rounding, at small angles, is that of its square root.
+  cone.half_angle = std::acos(cosine) + 1e-7;
+  return cone;
+}
+
+bool IsBeside(const RenderPlan& plan, const Footprint& f, const FootprintCone& cone,
+              const Picture& picture) {
+  const FilmBounds& b = picture.bounds;
+  if (!b.visible || f.x1 < b.x0 || b.x1 < f.x0 || f.y1 < b.y0 || b.y1 < f.y0) return true;
+  if (plan.camera.projection != Projection::kPerspective) return false;
+  const double cosine = std::clamp(cone.axis.dot(picture.axis), -1.0, 1.0);
+  return std::acos(cosine) > picture.half_angle + cone.half_angle + 1e-7;
+}
+
+// How many of the footprints' corners hit, block by block: a sphere's picture is convex, so where
+// it has all four it covers the block.
+void CountCorners(const RenderPlan& plan, const Window& cell, TileScratch* scratch,
+                  CellScratch* cell_scratch, int (&counts)[kCellBlocks]) {
   FilmBatch& corners = cell_scratch->corners;
   for (size_t block = 0; block < kCellBlocks; ++block) {
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.reach);
@@ -43,26 +88,7 @@ uint32_t FindCovered(const RenderPlan& plan, const Window& cell, uint32_t blocks
   HitBatch& hits = scratch->unsorted_hits;
   plan.intersector->HitsInTile(scratch->candidates, corners,
                                {&hits, &scratch->unsorted_directions, false});
-  int corners_hit[kCellBlocks] = {};
-  for (size_t i = 0; i < hits.count; ++i) ++corners_hit[hits.ray[i] / 4];
-  uint32_t covered = 0;
-  for (size_t block = 0; block < kCellBlocks; ++block) {
-    if (corners_hit[block] == 4) covered |= 1u << block;
-  }
-  return covered & blocks;
-}
-
-uint32_t FindBeside(const RenderPlan& plan, const Window& cell, uint32_t blocks,
-                    const TileCandidate& candidate) {
-  const FilmBounds bounds = Projector(plan.camera).Project(candidate.sphere);
-  uint32_t beside = 0;
-  for (size_t block = 0; block < kCellBlocks; ++block) {
-    const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.reach);
-    const bool apart = !bounds.visible || f.x1 < bounds.x0 || bounds.x1 < f.x0 ||
-                       f.y1 < bounds.y0 || bounds.y1 < f.y0;
-    if (apart) beside |= 1u << block;
-  }
-  return beside & blocks;
+  for (size_t i = 0; i < hits.count; ++i) ++counts[hits.ray[i] / 4];
 }
 
 // Whether no light's shadow can fall on the sphere.
@@ -94,18 +120,17 @@ bool IsFlat(const AdaptivePlan& plan, const double* values) {
 }
 
 // Whether the normals of the block's hits turn by a small part of the lobe from pixel to pixel.
-bool ResolvesLobe(const Soa3<float>& normals, size_t first_hit, double width) {
-  const auto turn2 = [&](size_t a, size_t b) {
-    const double x = normals.x[a] - normals.x[b];
-    const double y = normals.y[a] - normals.y[b];
-    const double z = normals.z[a] - normals.z[b];
+bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width) {
+  const auto turn2 = [&](size_t i, size_t k) {
+    const double x = normals.x[hits[i]] - normals.x[hits[k]];
+    const double y = normals.y[hits[i]] - normals.y[hits[k]];
+    const double z = normals.z[hits[i]] - normals.z[hits[k]];
     return x * x + y * y + z * z;
   };
   double most = 0;
   for (size_t i = 0; i < kBlockPixels; ++i) {
-    const size_t hit = first_hit + i;
-    if (i % kBlockSide != 0) most = std::max(most, turn2(hit, hit - 1));
-    if (i >= kBlockSide) most = std::max(most, turn2(hit, hit - kBlockSide));
+    if (i % kBlockSide != 0) most = std::max(most, turn2(i, i - 1));
+    if (i >= kBlockSide) most = std::max(most, turn2(i, i - kBlockSide));
   }
   return 16 * most <= width * width;
 }
@@ -115,27 +140,39 @@ bool ResolvesLobe(const Soa3<float>& normals, size_t first_hit, double width) {
 uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
                          TileScratch* scratch, CellScratch* cell_scratch) {
   if (!plan.adaptive.footprints || !plan.tiles || plan.splits) return 0;
-  const TileCandidate* const only = OnlyCandidate(scratch->candidates);
-  if (only == nullptr || only->around_camera) return 0;
-  const uint32_t beside = FindBeside(plan, cell, blocks, *only);
-  if (beside == blocks || !IsNeverShadowed(plan, only->primitive)) return beside;
-  return beside | FindCovered(plan, cell, blocks & ~beside, scratch, cell_scratch);
+  const std::vector<Picture> pictures = PicturesOf(plan, scratch->candidates);
+  if (pictures.size() > kMostCandidates) return 0;
+  int corners[kCellBlocks] = {};
+  CountCorners(plan, cell, scratch, cell_scratch, corners);
+  uint32_t plain = 0;
+  for (uint32_t left = blocks; left != 0; left &= left - 1) {
+    const auto block = static_cast<size_t>(__builtin_ctz(left));
+    if (corners[block] != 0 && corners[block] != 4) continue;
+    const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.reach);
+    const FootprintCone cone = ConeOf(plan.camera, f);
+    const TileCandidate* only = nullptr;
+    int met = 0;
+    for (const Picture& picture : pictures) {
+      if (IsBeside(plan, f, cone, picture)) continue;
+      only = picture.candidate;
+      ++met;
+    }
+    const bool covered = met == 1 && corners[block] == 4 && !only->around_camera &&
+                         IsNeverShadowed(plan, only->primitive);
+    if (met == 0 || covered) plain |= 1u << block;
+  }
+  return plain;
 }
 
 bool IsSmooth(const RenderPlan& plan, size_t first_ray, const Soa3<double>& values,
-              const TileScratch& s) {
-  // Hits are in the order of rays (there is one material), all of the block's or none.
-  const uint32_t* const begin = s.hits.ray.data();
-  const uint32_t* const found =
-      std::lower_bound(begin, begin + s.hits.count, static_cast<uint32_t>(first_ray));
-  const auto first_hit = static_cast<size_t>(found - begin);
-  const bool hit = first_hit < s.hits.count && *found == first_ray;
-  if (!hit) return true;
-  const double width = plan.adaptive.widths[s.runs.front().material.index];
+              const uint32_t* hit_of_ray, const TileScratch& s) {
+  const uint32_t* const hits = hit_of_ray + first_ray;
+  if (hits[0] == kNoHit) return true;  // beside all spheres
+  const MaterialId material = MaterialAt(plan, s.hits.primitive[hits[0]], 0);
   return IsFlat(plan.adaptive, values.x.data() + first_ray) &&
          IsFlat(plan.adaptive, values.y.data() + first_ray) &&
          IsFlat(plan.adaptive, values.z.data() + first_ray) &&
-         ResolvesLobe(s.surface.normal, first_hit, width);
+         ResolvesLobe(s.surface.normal, hits, plan.adaptive.widths[material.index]);
 }
 
 }  // namespace nacre

@@ -13,8 +13,10 @@ uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t bl
 
 // Whether the values at the centres of a plain block's pixels are within the wanted error of the
 // pixels' means: its second differences are small, and no lobe is too narrow for its normals to
-// tell. `first_ray`: of the block's rays in scratch->samples, whose beauty is in `values`.
+// tell. `first_ray`: of the block's rays in scratch->samples, whose beauty is in `values`, and
+// whose hits are hit_of_ray.
+inline constexpr uint32_t kNoHit = 0xffffffffu;
 bool IsSmooth(const RenderPlan& plan, size_t first_ray, const Soa3<double>& values,
-              const TileScratch& scratch);
+              const uint32_t* hit_of_ray, const TileScratch& scratch);
 
 }  // namespace nacre

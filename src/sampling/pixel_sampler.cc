@@ -26,12 +26,12 @@ PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, 
   sampler.filter = MakeFilterSampler(filter);
   sampler.seed = seed;
   sampler.centered = true;
-  sampler.points_x = sampler.points_y = {0};
+  sampler.points_x.resize(kBatchPadding);
+  sampler.points_y.resize(kBatchPadding);
   return sampler;
 }
 
-PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel,
-                                  uint32_t seed) {
+PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed) {
   PixelSampler sampler;
   sampler.filter = MakeFilterSampler(filter);
   sampler.seed = seed;
@@ -50,6 +50,8 @@ PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pix
   sampler.positive_weight = positive * samples_per_pixel / sampler.positive_count;
   AppendPoints(sampler.positive_count, 0, &sampler);
   AppendPoints(negative_count, kSobolPairs, &sampler);
+  sampler.points_x.resize(sampler.points_x.size() + kBatchPadding);
+  sampler.points_y.resize(sampler.points_y.size() + kBatchPadding);
   return sampler;
 }
 

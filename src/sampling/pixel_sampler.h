@@ -23,7 +23,7 @@ struct PixelSampler {
   int positive_count = 1;
   double positive_weight = 1;
   double negative_weight = 0;
-  // The point of each sample, as 32 bits after the point.
+  // The point of each sample, as 32 bits after the point; padded for whole vectors.
   std::vector<uint32_t> points_x, points_y;
 };
 
@@ -65,5 +65,9 @@ void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts*
 // (AlignedArray) may be overwritten.
 void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
                   int first, int count, double* film_x, double* film_y);
+
+// Samples [first, first + count) of the pixel in column x and row y, likewise.
+void SampleOnePixel(const PixelSampler& sampler, int x, int y, int first, int count, double* film_x,
+                    double* film_y);
 
 }  // namespace nacre

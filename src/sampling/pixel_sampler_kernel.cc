@@ -4,8 +4,11 @@
 #define HWY_TARGET_INCLUDE "sampling/pixel_sampler_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include <algorithm>
+
 #include "hwy/highway.h"
 
+#include "sampling/hash.h"
 #include "sampling/pixel_sampler.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -136,14 +139,12 @@ HWY_INLINE void SampleAll(const PositiveFilter& positive, const NegativeFilter& 
   }
 }
 
-void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
-                   int first, int count, double* film_x, double* film_y) {
+// Calls sample(positive, negative) with the filter's two ways to sample.
+template <class Sample>
+HWY_INLINE void WithFilters(const PixelSampler& sampler, const Sample& sample) {
   const FilterSampler& filter = sampler.filter;
   const double* p = filter.positive.data();
   const double* n = filter.negative.data();
-  const auto sample = [&](const auto& positive, const auto& negative) HWY_ATTR {
-    SampleAll(positive, negative, sampler, pixels, shifts, first, first + count, film_x, film_y);
-  };
   if (sampler.centered) {
     sample(Center(), Center());
   } else if (filter.positive.empty()) {
@@ -156,6 +157,44 @@ void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const Pixe
   }
 }
 
+void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
+                   int first, int count, double* film_x, double* film_y) {
+  WithFilters(sampler, [&](const auto& positive, const auto& negative) HWY_ATTR {
+    SampleAll(positive, negative, sampler, pixels, shifts, first, first + count, film_x, film_y);
+  });
+}
+
+// Samples of one pixel and one part of the filter.
+template <class Filter>
+HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int x, int y,
+                          size_t first, size_t end, double* film_x, double* film_y) {
+  const D d;
+  const DU32 du32;
+  const uint64_t shift = PixelSeed(x, y, sampler.seed);
+  const VU32 shift_x = hn::Set(du32, static_cast<uint32_t>(shift));
+  const VU32 shift_y = hn::Set(du32, static_cast<uint32_t>(shift >> 32));
+  for (size_t i = first; i < end; i += hn::Lanes(d)) {
+    V dx, dy;
+    filter(CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_x.data() + i), shift_x)),
+           CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_y.data() + i), shift_y)), &dx,
+           &dy);
+    hn::StoreU(hn::Add(hn::Set(d, x + 0.5), dx), d, film_x + (i - first));
+    hn::StoreU(hn::Add(hn::Set(d, y + 0.5), dy), d, film_y + (i - first));
+  }
+}
+
+void SampleOnePixelT(const PixelSampler& sampler, int x, int y, int first, int count,
+                     double* film_x, double* film_y) {
+  const auto begin = static_cast<size_t>(first);
+  const auto end = static_cast<size_t>(first + count);
+  const size_t split = std::clamp(static_cast<size_t>(sampler.positive_count), begin, end);
+  WithFilters(sampler, [&](const auto& positive, const auto& negative) HWY_ATTR {
+    SampleRun(positive, sampler, x, y, begin, split, film_x, film_y);
+    SampleRun(negative, sampler, x, y, split, end, film_x + (split - begin),
+              film_y + (split - begin));
+  });
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -163,9 +202,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(SamplePixelsT);
+HWY_EXPORT(SampleOnePixelT);
 void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
                   int first, int count, double* film_x, double* film_y) {
   HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, shifts, first, count, film_x, film_y);
+}
+
+void SampleOnePixel(const PixelSampler& sampler, int x, int y, int first, int count, double* film_x,
+                    double* film_y) {
+  HWY_DYNAMIC_DISPATCH(SampleOnePixelT)(sampler, x, y, first, count, film_x, film_y);
 }
 }  // namespace nacre
 #endif
