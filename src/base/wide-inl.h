@@ -125,7 +125,6 @@ HWY_INLINE Wide<V> ShiftRight(const Wide<V>& v) {
 NACRE_WIDE_UNARY(Neg)
 NACRE_WIDE_UNARY(Abs)
 NACRE_WIDE_UNARY(Sqrt)
-NACRE_WIDE_UNARY(Round)
 NACRE_WIDE_UNARY(ApproximateReciprocal)
 NACRE_WIDE_UNARY(ApproximateReciprocalSqrt)
 NACRE_WIDE_BINARY(Add)
