@@ -21,14 +21,14 @@ constexpr size_t RoundUp(size_t value, size_t multiple) {
 }
 
 // A fixed-size array of trivial T on a kVectorBytes boundary, zero-initialised. Its allocation is
-// rounded up to whole vectors and one more, so a kernel may load and store a vector that begins
-// at any entry below size().
+// rounded up to whole vectors and four more, so a kernel may load and store as many entries as
+// two vectors have floats, from any entry below size().
 template <typename T>
 class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(size_t size) : size_(size) {
-    const size_t bytes = RoundUp(size * sizeof(T), kVectorBytes) + kVectorBytes;
+    const size_t bytes = RoundUp(size * sizeof(T), kVectorBytes) + 8 * kVectorBytes;
     data_.reset(static_cast<T*>(std::aligned_alloc(kVectorBytes, bytes)));
     if (!data_) throw std::bad_alloc();
     std::memset(static_cast<void*>(data_.get()), 0, bytes);

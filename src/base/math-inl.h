@@ -10,7 +10,7 @@
 #define NACRE_BASE_MATH_INL_H_
 #endif
 
-#include "hwy/highway.h"
+#include "base/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -65,14 +65,16 @@ HWY_INLINE V Exp2(D d, V y) {
   constexpr float kCoefficients[] = {1.0f,           0.693147182f,  0.240226507f,   0.0555032715f,
                                      0.00961805694f, 0.0013400428f, 0.000154614449f};
   const hn::RebindToSigned<D> di;
-  const V lowest = hn::Set(d, -126.0f);
-  const V clamped = hn::Max(y, lowest);
-  const V whole = hn::Round(clamped);
-  const V f = hn::Sub(clamped, whole);
+  // Below the lowest, and for NaN: -127, whose power of 2 has all bits 0.
+  const V clamped = hn::IfThenElse(hn::Gt(y, hn::Set(d, -126.0f)), y, hn::Set(d, -127.0f));
+  // Adding 1.5 2^23 rounds to the nearest whole number, which is then in the sum's last bits.
+  const V shifter = hn::Set(d, 0x1.8p23f);
+  const V shifted = hn::Add(clamped, shifter);
+  const V f = hn::Sub(clamped, hn::Sub(shifted, shifter));
   V p = hn::Set(d, kCoefficients[6]);
   for (int i = 5; i >= 0; --i) p = hn::MulAdd(p, f, hn::Set(d, kCoefficients[i]));
-  const auto bits = hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(hn::ConvertTo(di, whole)));
-  return hn::IfThenElseZero(hn::Gt(y, lowest), hn::BitCast(d, bits));
+  const auto bits = hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(hn::BitCast(di, shifted)));
+  return hn::BitCast(d, bits);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -11,12 +11,21 @@
 #define NACRE_BASE_TARGET_OPS_INL_H_
 #endif
 
-#include "hwy/highway.h"
+#include "base/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
+
+// What shading works in: two vectors side by side where there are registers for them.
+#if HWY_TARGET <= HWY_AVX3
+template <typename T>
+using ShadeTag = hn::WideTag<hn::ScalableTag<T>>;
+#else
+template <typename T>
+using ShadeTag = hn::ScalableTag<T>;
+#endif
 
 // 1 / x for normal x of either sign, within 1 ulp; 0 for infinity.
 template <class D, class V = hn::Vec<D>>
@@ -62,17 +71,27 @@ HWY_INLINE V SquareRoot(D d, V x) {
   return hn::Sqrt(x);
 }
 
-// Doubles rounded to float, a whole vector of floats from two of doubles.
-HWY_INLINE hn::Vec<hn::ScalableTag<float>> RoundPair(hn::ScalableTag<float> d,
-                                                     hn::Vec<hn::ScalableTag<double>> low,
-                                                     hn::Vec<hn::ScalableTag<double>> high) {
+// (minus - from[0...]), a vector of floats that are each rounded from doubles once.
+HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<float> d,
+                                                            double minuend,
+                                                            const double* HWY_RESTRICT from) {
+  const hn::ScalableTag<double> dd;
+  const auto m = hn::Set(dd, minuend);
+  const auto low = hn::Sub(m, hn::LoadU(dd, from));
 #if HWY_TARGET == HWY_SCALAR
-  (void)high;
   return hn::DemoteTo(d, low);
 #else
   const hn::Half<hn::ScalableTag<float>> dh;
+  const auto high = hn::Sub(m, hn::LoadU(dd, from + hn::Lanes(dd)));
   return hn::Combine(d, hn::DemoteTo(dh, high), hn::DemoteTo(dh, low));
 #endif
+}
+
+template <class D>
+HWY_INLINE hn::Wide<hn::Vec<D>> SubtractAndRound(hn::WideTag<D>, double minuend,
+                                                 const double* HWY_RESTRICT from) {
+  return {SubtractAndRound(D(), minuend, from),
+          SubtractAndRound(D(), minuend, from + hn::Lanes(D()))};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,7 +6,7 @@
 #define NACRE_BASE_VEC3_INL_H_
 #endif
 
-#include "hwy/highway.h"
+#include "base/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {

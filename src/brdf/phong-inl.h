@@ -6,6 +6,8 @@
 #define NACRE_BRDF_PHONG_INL_H_
 #endif
 
+#include <limits>
+
 #include "base/math-inl.h"
 #include "brdf/angles-inl.h"
 
@@ -17,12 +19,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 // c^n for c = 1 - x; 0 where c <= 0, but 1 everywhere for n = 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobePower(D d, V x, V c, V n) {
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0f);
-  const auto inside = hn::Gt(c, zero);
-  const V log2 = Log2OneMinus(d, x, hn::IfThenElse(inside, c, one));
-  const V power = hn::IfThenElseZero(inside, Exp2(d, hn::Mul(n, log2)));
-  return hn::IfThenElse(hn::Eq(n, zero), one, power);
+  // The logarithm of 0 as the lowest float: times any n > 0 it is far below what has a power of 2,
+  // and times 0 it is 0. What Log2OneMinus makes of c <= 0 is finite.
+  const V lowest = hn::Set(d, std::numeric_limits<float>::lowest());
+  const V log2 = hn::IfThenElse(hn::Gt(c, hn::Zero(d)), Log2OneMinus(d, x, c), lowest);
+  return Exp2(d, hn::Mul(n, log2));
 }
 
 // A lobe's cosine c, and 1 - c free of cancellation.

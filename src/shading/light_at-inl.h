@@ -18,7 +18,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using FloatTag = hn::ScalableTag<float>;
+using FloatTag = ShadeTag<float>;
 using FloatV = hn::Vec<FloatTag>;
 
 // Direction and irradiance perpendicular to it, whichever way the surface faces. A light at the
@@ -33,10 +33,7 @@ struct LightV {
 // surface keeps its direction.
 HWY_INLINE FloatV OffsetFrom(FloatTag d, const double* HWY_RESTRICT position, size_t i,
                              double light) {
-  const hn::ScalableTag<double> dd;
-  const auto from = hn::Set(dd, light);
-  return RoundPair(d, hn::Sub(from, hn::LoadU(dd, position + i)),
-                   hn::Sub(from, hn::LoadU(dd, position + i + hn::Lanes(dd))));
+  return SubtractAndRound(d, light, position + i);
 }
 
 HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {

@@ -15,12 +15,10 @@ namespace HWY_NAMESPACE {
 
 // to[i] = from[i] for the batch's padded length.
 void RoundToFloat(const AlignedArray<double>& from, size_t count, AlignedArray<float>* to) {
-  const FloatTag d;
   const hn::ScalableTag<double> dd;
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const double* const at = from.data() + i;
-    const FloatV rounded = RoundPair(d, hn::LoadU(dd, at), hn::LoadU(dd, at + hn::Lanes(dd)));
-    hn::StoreU(rounded, d, to->data() + i);
+  const hn::Rebind<float, decltype(dd)> df;
+  for (size_t i = 0; i < count; i += hn::Lanes(dd)) {
+    hn::StoreU(hn::DemoteTo(df, hn::LoadU(dd, from.data() + i)), df, to->data() + i);
   }
 }
 
@@ -48,8 +46,10 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
         FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i), light.to_light);
     // Nothing here reflects light from below, and no shadow ray need be traced to it.
     const FloatV irradiance = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), light.irradiance);
-    Store3(light.to_light, d, l.x.data() + i, l.y.data() + i, l.z.data() + i);
-    hn::Store(irradiance, d, result->irradiance.data() + i);
+    hn::StoreU(light.to_light.x, d, l.x.data() + i);
+    hn::StoreU(light.to_light.y, d, l.y.data() + i);
+    hn::StoreU(light.to_light.z, d, l.z.data() + i);
+    hn::StoreU(irradiance, d, result->irradiance.data() + i);
   }
 }
 

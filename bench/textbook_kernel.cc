@@ -1,0 +1,98 @@
+// bench/textbook_kernel.cc: the kernels behind textbook_kernel.h.
+#include "textbook_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "textbook_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "brdf/fresnel-inl.h"
+#include "brdf/ggx-inl.h"
+#include "shading/range-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+struct TextbookGgx {
+  static constexpr bool kHasSpecular = true;
+  struct View {
+    FloatV n_dot_v;
+  };
+  const TextbookGgxUniforms& uniforms;
+
+  HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
+    return {hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d))};
+  }
+  HWY_INLINE void Add(FloatTag d, const View& view, const PacketV& p, const IncidentV& in, size_t,
+                      RadianceV* sum) const {
+    const FloatV one = hn::Set(d, 1.0f);
+    const FloatV smallest = hn::Set(d, 1e-30f);
+    const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
+                          hn::Add(in.to_light.z, p.to_view.z)};
+    const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), smallest));
+    const Vec3V<FloatV> h = Scale(u, scale);
+    const FloatV n_dot_h = FusedDot(p.normal, h);
+    const FloatV alpha2 = hn::Set(d, uniforms.alpha2);
+    const FloatV q = hn::MulAdd(hn::Mul(n_dot_h, n_dot_h), hn::Sub(alpha2, one), one);
+    const FloatV masking =
+        VisibilityDenominatorSchlick(d, in.n_dot_l, view.n_dot_v, hn::Set(d, uniforms.k));
+    const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
+    const FloatV numerator = hn::Mul(in.weight, hn::Set(d, uniforms.alpha2 * 0.318309886f));
+    const FloatV lobe = hn::IfThenElseZero(in.lit, hn::Mul(numerator, Reciprocal(d, denominator)));
+    const FloatV weight = Power5(hn::Sub(one, FusedDot(p.to_view, h)));
+    const TextbookGgxLight& light = *uniforms.light;
+    const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
+    const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
+    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, light.diffuse), left));
+    sum->specular = AddRgb(sum->specular, ScaleRgb(fresnel, lobe));
+  }
+};
+
+struct NaivePhong {
+  static constexpr bool kHasSpecular = true;
+  struct View {};
+  const PhongUniforms& uniforms;
+
+  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
+  HWY_INLINE void Add(FloatTag d, const View&, const PacketV& p, const IncidentV& in, size_t k,
+                      RadianceV* sum) const {
+    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+    const FloatV l_dot_v = FusedDot(in.to_light, p.to_view);
+    const FloatV cosine = hn::MulSub(hn::Add(in.n_dot_l, in.n_dot_l), n_dot_v, l_dot_v);
+    const FloatV log2 = Log2(d, hn::Max(cosine, hn::Set(d, 1e-30f)));
+    const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
+    const PhongLight& by = uniforms.lights[k];
+    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, by.diffuse), in.weight));
+    sum->specular =
+        AddRgb(sum->specular, ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance)));
+  }
+};
+
+void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
+  ShadePackets(FloatTag(), TextbookGgx{uniforms}, range);
+}
+
+void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+  ShadePackets(FloatTag(), NaivePhong{uniforms}, range);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(ShadeTextbookGgxT);
+HWY_EXPORT(ShadeNaivePhongT);
+
+void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeTextbookGgxT)(uniforms, range);
+}
+
+void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeNaivePhongT)(uniforms, range);
+}
+}  // namespace nacre
+#endif

@@ -1,0 +1,22 @@
+// bench/textbook_kernel.h: the textbook's forms of two models as SIMD kernels, with nacre's light
+// and loop around them: what the stable forms cost. Not for use in the renderer.
+#pragma once
+
+#include "shading/kernels.h"
+
+namespace nacre {
+
+struct TextbookGgxLight {
+  float f0[3], rest[3], diffuse[3];  // F0, 1 - F0 and (1 - F0) diffuse / pi, times light
+};
+struct TextbookGgxUniforms {
+  const TextbookGgxLight* light;
+  float alpha2, k;
+};
+
+// (n.h)^2 (alpha^2 - 1) + 1 of a normalised h; shadowing as kSchlickDirect.
+void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range);
+// (r.v)^n as 2^(n log2(r.v)).
+void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range);
+
+}  // namespace nacre
