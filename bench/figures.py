@@ -1,0 +1,176 @@
+"""The diagrams: what is on which axis."""
+import estimates
+import plots
+import report
+from processes import say
+
+_TARGETS = ("scalar_baseline", "scalar", "sse4", "avx2", "avx3")
+_SPHERES = {"grid": 25, "1e3": 1024, "1e4": 10000, "1e5": 99856}
+
+
+def kernels(results, path):
+    """Nanoseconds per hit and light: a row a kernel, a mark a target."""
+    rows = [row for row in report.kernel_rows(results["benchmarks"]) if row[1] == "cached"]
+    best = results["best_target"]
+    speed = {row[0]: row[3] for row in rows if row[2] == best}
+    models = sorted(speed, key=speed.get, reverse=True)
+    place = {model: i for i, model in enumerate(models)}
+    commands = f"set yrange [-0.7:{len(models) - 0.3}]\nset logscale x\n"
+    commands += "set xlabel 'ns per hit and light (one thread)'\nset grid ytics\n"
+    commands += "set key outside top center horizontal maxrows 1 samplen 0.5 width -3\n"
+    commands += "set xtics (0.5, 1, 2, 5, 10, 20, 50, 100, 200)\n"
+    commands += "set ytics (" + ", ".join(
+        f"{plots.quote(m.replace('_', ' '))} {i}" for m, i in place.items()) + ")\n"
+    drawn = []
+    for i, target in enumerate(_TARGETS):
+        points = [(row[3], place[row[0]]) for row in rows if row[2] == target and row[0] in place]
+        if not points:
+            continue
+        commands += plots.block(f"t{i}", points)
+        label = {"scalar_baseline": "plain C++", "scalar": "nacre: scalar"}.get(target, target)
+        drawn.append(f"$t{i} using 1:2 with points {plots.style(i, 2, 1.7)} "
+                     f"title {plots.quote(label)}")
+    plots.draw(path, commands + "plot " + ", ".join(drawn) + "\n", 1280,
+               max(560, 170 + 44 * len(models)))
+
+
+def visibility(results, path):
+    """A frame's camera rays against spheres: nacre, Embree with its own test, bare Embree."""
+    series = []
+    for key, label in (("embree_sphere_point", "Embree's spheres, bare trace in float"),
+                       ("embree_user", "nacre on Embree's tree, exact"),
+                       ("tiles", "nacre's tiles, exact, binning included")):
+        points = [(count, 1e-6 * estimates.median(results["benchmarks"][name]["ns"]))
+                  for scene, count in _SPHERES.items()
+                  if (name := f"visibility/{key}/{scene}") in results["benchmarks"]]
+        series.append((label, points))
+    options = ("set logscale xy\nset format x '10^{%T}'\nset xrange [18:200000]\n"
+               "set xlabel 'spheres'\nset ylabel 'ms per frame of 1920x1080 camera rays'\n"
+               "set key bottom right\n")
+    plots.draw(path, plots.curves(series, options), 1280, 760)
+
+
+def frame_stages(results, path):
+    """Where the time of a frame goes, on the best target, one thread."""
+    best, benchmarks = results["best_target"], results["benchmarks"]
+    scenes = ("material_grid", "material_grid_plain", "material_grid_shadows", "phong_vs_pbr",
+              "mesh_and_spheres")
+    found = [(scene, report.stages_of(benchmarks[name])) for scene in scenes
+             if (name := f"frame/{scene}/1920x1080/1spp/{best}") in benchmarks]
+    if not found:
+        return
+    stages = [s for s in found[0][1] if any(values.get(s, 0) > 0.05 for _, values in found)]
+    place = {scene: len(found) - 1 - i for i, (scene, _) in enumerate(found)}
+    commands = "set style fill solid 1 border rgb 'white'\nset grid noytics xtics\n"
+    commands += "set key outside top center horizontal maxrows 1 samplen 0.8 width -2\n"
+    commands += f"set yrange [-0.6:{len(found) - 0.4}]\nset xrange [0:*]\n"
+    commands += f"set xlabel 'ms per frame of 1920x1080, one sample a pixel (one thread, {best})'\n"
+    commands += "set ytics (" + ", ".join(
+        f"{plots.quote(scene.replace('_', ' '))} {y}" for scene, y in place.items()) + ")\n"
+    drawn, ends = [], {scene: 0.0 for scene in place}
+    for i, stage in enumerate(stages):
+        rows = []
+        for scene, values in found:
+            begin, ends[scene] = ends[scene], ends[scene] + values.get(stage, 0)
+            rows.append((ends[scene], place[scene], begin, ends[scene], place[scene] - 0.33,
+                         place[scene] + 0.33))
+        commands += plots.block(f"s{i}", rows)
+        drawn.append(f"$s{i} using 1:2:3:4:5:6 with boxxyerror lc rgb "
+                     f"{plots.quote(plots.FILLS[i % len(plots.FILLS)])} title {plots.quote(stage)}")
+    plots.draw(path, commands + "plot " + ", ".join(drawn) + "\n", 1280, 140 + 90 * len(found))
+
+
+def scaling(results, path):
+    """Time above, memory below: spheres and triangles, lights, pixels."""
+    groups = (("spheres or triangles", ("spheres", "triangles")),
+              ("lights", ("point lights", "spot lights")), ("pixels", ("pixels",)))
+    commands = "set multiplot layout 2,3 margins 0.07,0.98,0.1,0.98 spacing 0.075,0.15\n"
+    commands += "set logscale xy\nset format x '10^{%T}'\nset key top left Left reverse\n"
+    for field, factor, unit in (("frame_s", 1e3, "frame, ms"), ("mib", 1, "peak memory, MiB")):
+        for number, (axis, names) in enumerate(groups):
+            series = []
+            for name in names:
+                curve = results["scaling"][name]
+                growth = round(curve["fits"][field]["exponent"], 2) + 0.0  # no -0.00
+                points = [(p["size"], factor * p[field]) for p in curve["points"]]
+                series.append((f"{name}: n^{{{growth:.2f}}}", points))
+            options = f"set xlabel '{axis}'\nset ylabel '{unit if number == 0 else ''}'\n"
+            commands += plots.curves(series, options, f"{field}{number}_")
+    plots.draw(path, commands + "unset multiplot\n", 1700, 1060)
+
+
+def math_error(results, path):
+    """Time per hit against the highlight's worst error, by formula; a mark a width of the lobe."""
+    benchmarks = results["benchmarks"]
+    hits = 512
+    commands = "set multiplot layout 1,2 margins 0.08,0.99,0.13,0.93 spacing 0.07,0.1\n"
+    commands += "set logscale xy\nset format x '10^{%T}'\nset yrange [0.5:100]\n"
+    commands += "set xlabel 'worst relative error of the highlight'\n"
+    for number, (lobe, title) in enumerate((("ggx", "GGX, roughness 0.5 to 0.01"),
+                                            ("phong", "Phong, exponent 10 to 10^6"))):
+        series = []
+        for form, label in (("textbook_scalar", "textbook, plain C++ float"),
+                            ("textbook", f"textbook, float, {results['best_target']}"),
+                            ("stable_float", f"stable, float, {results['best_target']}"),
+                            ("double_terms", f"stable, double terms, {results['best_target']}")):
+            points = _math_points(benchmarks, lobe, form, results["best_target"], hits)
+            if points:
+                series.append((label, points))
+        key = 'off' if number else 'bottom left Left reverse'
+        options = f"set title '{title}' offset 0,-0.5\nset key {key}\n"
+        options += f"set ylabel '{'ns per hit and light' if number == 0 else ''}'\n"
+        commands += plots.curves(series, options, f"m{number}_")
+    plots.draw(path, commands + "unset multiplot\n", 1700, 760)
+
+
+def _math_points(benchmarks, lobe, form, best, hits):
+    """[(error, ns a hit)...]. The textbook's formula on SIMD has the scalar one's error and the
+    time of its kernel in shading_bench.cc, which has one width only."""
+    points = []
+    for name, result in benchmarks.items():
+        parts = name.split("/")
+        wanted = "textbook_scalar" if form == "textbook" else form
+        if parts[0] != "math" or parts[1] != lobe or parts[3] != wanted:
+            continue
+        error = result["counters"].get("max_rel_error")
+        ns = estimates.median(result["ns"]) / hits
+        if form == "textbook":
+            kernel = {"ggx": "textbook_ggx", "phong": "naive_phong"}[lobe]
+            found = benchmarks.get(f"shade/{kernel}/{best}")
+            if found is None:
+                return []
+            ns = estimates.median(found["ns"]) / hits
+        if error:
+            points.append((error, ns))
+    return points
+
+
+def _precision(series, ylabel, path):
+    lines = [(label, [(p["rel_mse"] ** 0.5, 1e3 * p["seconds"]) for p in points
+                      if p["rel_mse"] > 0]) for label, points in series.items()]
+    options = ("set logscale xy\nset xlabel 'relative error (root of relMSE)'\n"
+               "set key bottom left Left reverse\nset format x '10^{%T}'\n"
+               f"set ylabel '{ylabel}'\n")
+    plots.draw(path, plots.curves(lines, options), 1280, 800)
+
+
+def frame_error(results, path):
+    _precision(results["precision"]["frame"], "ms per frame of 480x270, one thread", path)
+
+
+def process_error(results, path):
+    _precision(results["precision"]["process"], "ms per process, all threads", path)
+
+
+ALL = {"bench_kernels": kernels, "bench_visibility": visibility, "bench_frame": frame_stages,
+       "bench_scaling": scaling, "bench_error_math": math_error,
+       "bench_error_frame": frame_error, "bench_error_process": process_error}
+
+
+def draw_all(results, folder):
+    """Every diagram whose numbers are there, as folder/bench_*.svg and .png."""
+    for name, figure in ALL.items():
+        try:
+            figure(results, folder / name)
+        except KeyError as missing:
+            say(f"no {name}: {missing} was not measured")
