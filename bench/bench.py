@@ -65,7 +65,8 @@ def measure(build, sizes, summary_only):
         results["processes"] = measure_processes(runner, folder, sizes)
         if not summary_only:
             say("scaling, one thread")
-            results["scaling"] = scaling.measure(runner, ROOT / "scenes", folder, sizes)
+            results["scaling"] = scaling.measure(
+                runner, ROOT / "scenes", folder, sizes, results["machine"]["cores"])
             say("run time against error")
             results["precision"] = precision.measure(runner, ROOT / "scenes", folder, sizes,
                                                      results["benchmarks"], targets)

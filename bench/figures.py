@@ -81,21 +81,28 @@ def frame_stages(results, path):
 
 
 def scaling(results, path):
-    """Time above, memory below: spheres and triangles, lights, pixels."""
-    groups = (("spheres or triangles", ("spheres", "triangles")),
-              ("lights", ("point lights", "spot lights")), ("pixels", ("pixels",)))
-    commands = "set multiplot layout 2,3 margins 0.07,0.98,0.1,0.98 spacing 0.075,0.15\n"
+    """Time above, memory below: spheres and triangles, lights, pixels; time by threads."""
+    shapes = ("spheres or triangles", ("spheres", "triangles"))
+    lights = ("lights", ("point lights", "spot lights"))
+    pixels, threads = ("pixels", ("pixels",)), ("threads", ("threads",))
+    time, memory = ("frame_s", 1e3, "frame, ms"), ("mib", 1, "peak memory, MiB")
+    panels = ((shapes, time), (lights, time), (pixels, time),
+              (shapes, memory), (pixels, memory), (threads, time))
+    commands = "set multiplot layout 2,3 margins 0.08,0.985,0.1,0.98 spacing 0.09,0.15\n"
     commands += "set logscale xy\nset format x '10^{%T}'\nset key top left Left reverse\n"
-    for field, factor, unit in (("frame_s", 1e3, "frame, ms"), ("mib", 1, "peak memory, MiB")):
-        for number, (axis, names) in enumerate(groups):
-            series = []
-            for name in names:
-                curve = results["scaling"][name]
-                growth = round(curve["fits"][field]["exponent"], 2) + 0.0  # no -0.00
-                points = [(p["size"], factor * p[field]) for p in curve["points"]]
-                series.append((f"{name}: n^{{{growth:.2f}}}", points))
-            options = f"set xlabel '{axis}'\nset ylabel '{unit if number == 0 else ''}'\n"
-            commands += plots.curves(series, options, f"{field}{number}_")
+    for number, ((axis, names), (field, factor, unit)) in enumerate(panels):
+        series = []
+        for name in names:
+            curve = results["scaling"].get(name)
+            if curve is None:  # one core has no curve of threads
+                continue
+            growth = round(curve["fits"][field]["exponent"], 2) + 0.0  # no -0.00
+            points = [(p["size"], factor * p[field]) for p in curve["points"]]
+            series.append((f"{name}: n^{{{growth:.2f}}}", points))
+        options = f"set xlabel '{axis}'\nset ylabel '{unit}' offset 0.8\n"
+        if axis == "threads":
+            options += "set format x '%g'\nset xrange [0.9:*]\nset key bottom left\n"
+        commands += plots.curves(series, options, f"p{number}_") if series else ""
     plots.draw(path, commands + "unset multiplot\n", 1700, 1060)
 
 

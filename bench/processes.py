@@ -57,15 +57,15 @@ class Runner:
                         values.append(found[key])
         return results
 
-    def frame(self, scene, folder, arguments):
-        """Renders a scene file on one thread: what `run` returns, and "frame", seconds of the frame
-        in memory: planning and rendering without packing and files. (On more threads the stages'
-        times do not add up to the wall's.)"""
+    def frame(self, scene, folder, arguments, threads=1):
+        """Renders a scene file: what `run` returns, and "frame", seconds of the frame in memory:
+        planning and rendering without packing and files, whose share is taken to be that of the
+        stages' times (on one thread it is exactly theirs)."""
         stats = folder / "stats.json"
         found = self.run([self.nacre, "render", scene, "-o", folder / "frame.exr", "--quiet",
-                          "--threads", "1", "--stats", stats, *arguments])
+                          "--threads", threads, "--stats", stats, *arguments])
         times = json.loads(stats.read_text())["time_ms"]
-        output = times["stages_all_threads"]["output"]
+        output = times["stages_all_threads"]["output"] / threads
         return {**found, "frame": 1e-3 * (times["plan"] + times["render"] - output)}
 
 

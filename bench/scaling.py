@@ -17,16 +17,27 @@ def fits(points):
     return found
 
 
-def measure(runner, scenes, folder, settings):
-    """{curve: {"points": [...], "fits": {...}}}, on one thread, one sample a pixel."""
+def _run_often(run, settings):
+    """Small sizes are soon repeated: up to five times as often, within half a second."""
+    runs = [run()]
+    enough = min(5 * settings.scaling_rounds,
+                 max(settings.scaling_rounds, int(0.5 / runs[0]["seconds"])))
+    while len(runs) < enough:
+        runs.append(run())
+    return {"frame_s": estimates.median([found["frame"] for found in runs]),
+            "process_s": estimates.median([found["seconds"] for found in runs]),
+            "mib": estimates.median([found["mib"] for found in runs])}
+
+
+def measure(runner, scenes, folder, settings, cores):
+    """{curve: {"points": [...], "fits": {...}}}, one sample a pixel on one thread; "threads": 16
+    samples on 1, 2, 4... threads."""
     curves = {}
 
-    def add(curve, size, scene, frame):
-        arguments = ["--compression", "none", "--size", frame, "--spp", "1"]
-        runs = [runner.frame(scene, folder, arguments) for _ in range(settings.scaling_rounds)]
-        point = {"size": size, "frame_s": estimates.median([run["frame"] for run in runs]),
-                 "process_s": estimates.median([run["seconds"] for run in runs]),
-                 "mib": estimates.median([run["mib"] for run in runs])}
+    def add(curve, size, scene, frame, spp=1, threads=1):
+        arguments = ["--compression", "none", "--size", frame, "--spp", spp]
+        point = {"size": size, **_run_often(
+            lambda: runner.frame(scene, folder, arguments, threads), settings)}
         curves.setdefault(curve, []).append(point)
         say(f"  {size} {curve}: frame {1e3 * point['frame_s']:.1f} ms, process "
             f"{1e3 * point['process_s']:.0f} ms, {point['mib']:.0f} MiB")
@@ -42,6 +53,10 @@ def measure(runner, scenes, folder, settings):
         for count in settings.lights:
             add(f"{kind} lights", count, scene_files.write_lights(scene, count, kind),
                 settings.size)
+    grid = scenes / "material_grid.json"
     for side in settings.sides:
-        add("pixels", side * side, scenes / "material_grid.json", f"{side}x{side}")
+        add("pixels", side * side, grid, f"{side}x{side}")
+    if cores > 1:
+        for threads in sorted({*(2 ** i for i in range(cores.bit_length())), cores}):
+            add("threads", threads, grid, settings.size, spp=16, threads=threads)
     return {name: {"points": points, "fits": fits(points)} for name, points in curves.items()}
