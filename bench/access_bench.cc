@@ -17,7 +17,7 @@
 
 #include "base/parallel.h"
 #include "base/target.h"
-#include "shading/shade.h"
+#include "batch_shader.h"
 
 namespace nacre {
 namespace {
@@ -62,34 +62,19 @@ void BenchAccess(benchmark::State& state, const Material& material, const Access
   const FlushDenormals flush;
   // What is read of a batch: positions in double, normals and view directions in float.
   constexpr size_t kBatchBytes = (3 * sizeof(double) + 6 * sizeof(float)) * kHits;
-  struct Batch {
-    HitBatch hits;
-    Surface surface;
-  };
-  std::vector<Batch> batches(std::max(access.bytes / kBatchBytes, size_t{1}));
+  std::vector<PreparedHits> batches(std::max(access.bytes / kBatchBytes, size_t{1}));
   for (size_t i = 0; i < batches.size(); ++i) {
     FillHits(static_cast<unsigned>(i), &batches[i].hits);
     PrepareSurface(batches[i].hits, &batches[i].surface);
   }
-  const std::vector<ShadingMaterial> materials(kHits / access.run,
-                                               PrepareMaterial(material, {0, 0, 0}));
-  Light light;
-  light.kind = PointLight{.position = {3, 4, 2}, .intensity = {60, 60, 60}, .attenuation = {}};
-  LightBatch lit;
+  BatchShader shader(
+      std::vector<ShadingMaterial>(kHits / access.run, PrepareMaterial(material, {0, 0, 0})),
+      access.run, {.position = {3, 4, 2}, .intensity = {60, 60, 60}, .attenuation = {}});
   ReflectedRadiance radiance;
-  NarrowLobes scratch;
   size_t next = 0;
   for (auto _ : state) {
-    auto& [hits, surface] = batches[next];
+    shader.Shade(&batches[next], &radiance);
     next = next + 1 == batches.size() ? 0 : next + 1;
-    for (size_t i = 0; i < materials.size(); ++i) {
-      PrepareRun(materials[i], i * access.run, (i + 1) * access.run, &surface);
-    }
-    EvaluateLight(light, {0, 0, 0}, hits, surface, &lit);
-    for (size_t i = 0; i < materials.size(); ++i) {
-      ShadeRun(materials[i], LightColor(light), {hits, surface, lit}, i * access.run,
-               (i + 1) * access.run, &scratch, &radiance);
-    }
     benchmark::DoNotOptimize(radiance.diffuse.x.data());
     benchmark::ClobberMemory();
   }

@@ -15,10 +15,10 @@
 
 #include "base/parallel.h"
 #include "base/target.h"
+#include "batch_shader.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "scalar_baseline.h"
-#include "shading/shade.h"
 
 namespace nacre {
 namespace {
@@ -82,26 +82,18 @@ void SetDoubleTerms(bool value, ShadingMaterial* material) {
 
 void BenchStable(benchmark::State& state, const Lobe& lobe, bool double_terms) {
   const FlushDenormals flush;
-  HitBatch hits;
-  FillHits(lobe.width, &hits);
-  Light light;
-  light.kind = PointLight{.position = kLight, .intensity = Rgb(1), .attenuation = {}};
+  PreparedHits batch;
+  FillHits(lobe.width, &batch.hits);
+  PrepareSurface(batch.hits, &batch.surface);
   ShadingMaterial material = PrepareMaterial(lobe.material, Rgb(0));
   SetDoubleTerms(double_terms, &material);
-  Surface surface;
-  LightBatch lit;
-  NarrowLobes scratch;
+  BatchShader shader({material}, kHits,
+                     {.position = kLight, .intensity = Rgb(1), .attenuation = {}});
   ReflectedRadiance radiance;
-  const auto shade = [&] {
-    PrepareSurface(hits, &surface);
-    PrepareRun(material, 0, kHits, &surface);
-    EvaluateLight(light, Vec3d(0), hits, surface, &lit);
-    ShadeRun(material, LightColor(light), {hits, surface, lit}, 0, kHits, &scratch, &radiance);
-  };
-  shade();
-  const double error = MaxRelError(hits, lobe, radiance.specular.x.data());
+  shader.Shade(&batch, &radiance);
+  const double error = MaxRelError(batch.hits, lobe, radiance.specular.x.data());
   for (auto _ : state) {
-    shade();
+    shader.Shade(&batch, &radiance);
     benchmark::ClobberMemory();
   }
   Report(state, error);

@@ -41,17 +41,18 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
   state.SetItemsProcessed(state.iterations() * kPixels);
 }
 
-// The same frame by tiles, with the binning of every frame; Embree's tree above is built before.
+// The same frame by tiles, with the binning of every frame and the hits' points and normals;
+// Embree's tree above is built before.
 void BenchTiles(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
   Intersector intersector(scene, scene.camera.position, {.embree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   const Window frame{0, 0, kWidth, kHeight};
-  RayBatch rays;
-  ClosestHits hits;
   TileCandidates candidates;
-  AlignedArray<double> x(kBatchCapacity), y(kBatchCapacity);
+  FilmBatch film;
+  HitBatch hits;
+  HitDirections directions;
   constexpr int kTileWidth = static_cast<int>(kBatchCapacity) / kCellSize;
   for (auto _ : state) {
     intersector.BinForCamera(camera, frame, 0);
@@ -60,14 +61,14 @@ void BenchTiles(benchmark::State& state, const SphereScene& which) {
         const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
                           std::min(y0 + kCellSize, kHeight)};
         if (!intersector.EnterTile(tile, &candidates)) continue;
-        for (size_t i = 0; i < tile.pixel_count(); ++i) {
+        film.count = tile.pixel_count();
+        for (size_t i = 0; i < film.count; ++i) {
           const std::div_t row_and_column = std::div(static_cast<int>(i), tile.width());
-          x[i] = x0 + row_and_column.rem + 0.5;
-          y[i] = y0 + row_and_column.quot + 0.5;
+          film.x[i] = x0 + row_and_column.rem + 0.5;
+          film.y[i] = y0 + row_and_column.quot + 0.5;
         }
-        MakeCameraRays(camera, x.data(), y.data(), tile.pixel_count(), &rays);
-        intersector.ClosestInTile(candidates, 1, rays, &hits);
-        benchmark::DoNotOptimize(hits.primitive.data());
+        intersector.HitsInTile(candidates, film, {&hits, &directions, false});
+        benchmark::DoNotOptimize(hits.count);
       }
     }
   }

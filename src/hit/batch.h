@@ -27,6 +27,13 @@ struct Soa3 {
   AlignedArray<T> x{kBatchCapacity}, y{kBatchCapacity}, z{kBatchCapacity};
 };
 
+// The film positions of a round of samples of a tile, in pixels from the top left corner of the
+// full frame: sample by sample, each of all the tile's pixels row by row.
+struct FilmBatch {
+  size_t count = 0;
+  AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
+};
+
 // Camera rays: points origin + t direction, t > 0. Directions are not normalised.
 struct RayBatch {
   size_t count = 0;
@@ -40,15 +47,28 @@ struct ClosestHits {
   AlignedArray<double> t{kBatchCapacity};            // in units of the ray's direction
 };
 
+// The unit directions of each hit, as shading reads them: rounded to float from double.
+struct HitDirections {
+  Soa3<float> normal;   // shading normal on the side that the ray came from
+  Soa3<float> to_view;  // towards the ray's origin
+};
+
 // Hits to shade, compacted, in the order of their ray indices within each run of one material.
 struct HitBatch {
   size_t count = 0;
-  AlignedArray<uint32_t> ray{kBatchCapacity};        // index into the RayBatch
+  bool one_primitive = false;                        // all hits are known to be on the same one
+  AlignedArray<uint32_t> ray{kBatchCapacity};        // index into the FilmBatch
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
-  AlignedArray<uint32_t> object{kBatchCapacity};     // sphere index, or sphere count + mesh index
   Soa3<double> position;                             // on the surface
-  Soa3<double> normal;   // unit shading normal on the side that the ray came from
-  Soa3<double> to_view;  // unit, towards the ray's origin
+  // HitDirections in double, for the lobes that are too narrow for float; filled where asked for.
+  Soa3<double> normal, to_view;
+};
+
+// Where hits are written to.
+struct HitsTo {
+  HitBatch* hits;
+  HitDirections* directions;
+  bool exact;  // HitBatch::normal and to_view, too
 };
 
 // Shadow rays origin + t direction, 0 < t < t_max.

@@ -1,8 +1,32 @@
 #include "render/film.h"
 
+#include <algorithm>
 #include <limits>
 
+#include "render/film_kernel.h"
+
 namespace nacre {
+namespace {
+
+// Calls copy(row of the tile, row of the strip) for each row of a channel.
+template <typename From, typename To, typename Copy>
+void ForEachRow(const Window& tile, const Window& strip, const From* from, To* to,
+                const Copy& copy) {
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const auto tile_row = static_cast<size_t>(y - tile.y0) * static_cast<size_t>(tile.width());
+    const auto strip_row = static_cast<size_t>(y - strip.y0) * static_cast<size_t>(strip.width());
+    copy(from + tile_row, to + strip_row + static_cast<size_t>(tile.x0 - strip.x0));
+  }
+}
+
+template <typename T>
+void CopyTile(const Window& tile, const Window& strip, const AlignedArray<T>& from,
+              std::vector<T>* to) {
+  ForEachRow(tile, strip, from.data(), to->data(),
+             [&](const T* row, T* out) { std::copy_n(row, tile.width(), out); });
+}
+
+}  // namespace
 
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type) {
   std::vector<ChannelSpec> channels;
@@ -16,62 +40,56 @@ std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelTy
   return channels;
 }
 
-StripFilm MakeStripFilm(const RenderPlan& plan, const Window& window) {
-  StripFilm film;
-  film.window = window;
-  const size_t pixels = window.pixel_count();
-  for (const Layer& layer : plan.layers) {
-    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
-      if (IsAveraged(layer.kind)) {
-        film.sums.emplace_back(pixels, 0.0);
-      } else if (channel.type == PixelType::kUint) {
-        film.ids.emplace_back(pixels, 0u);
-      } else {
-        film.nearest.emplace_back(pixels, 0.0f);
-      }
-    }
-  }
-  if (!film.ids.empty() || !film.nearest.empty()) {
-    film.nearest_distance.assign(pixels, std::numeric_limits<double>::infinity());
-  }
-  return film;
+void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip) {
+  size_t ids = 0;
+  for (const ChannelKind kind : plan.channels) ids += kind == ChannelKind::kId ? 1 : 0;
+  strip->window = window;
+  strip->colors.resize(plan.channels.size() - ids);
+  strip->ids.resize(ids);
+  for (std::vector<float>& channel : strip->colors) channel.resize(window.pixel_count());
+  for (std::vector<uint32_t>& channel : strip->ids) channel.resize(window.pixel_count());
 }
 
-void AddToChannel(const TileRound& round, const double* values, const Window& strip,
-                  std::vector<double>* sums) {
-  const double* weight = round.weights;
-  for (int y = round.tile.y0; y < round.tile.y1; ++y) {
-    double* pixel = sums->data() +
-                    static_cast<size_t>(y - strip.y0) * static_cast<size_t>(strip.width()) +
-                    static_cast<size_t>(round.tile.x0 - strip.x0);
-    for (int x = round.tile.x0; x < round.tile.x1; ++x, ++pixel) {
-      double sum = *pixel;
-      for (int s = 0; s < round.samples; ++s) sum += *weight++ * *values++;
-      *pixel = sum;
+void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
+  const bool first = film->sums.empty();
+  film->window = tile;
+  const size_t pixels = tile.pixel_count();
+  size_t sum = 0, nearest = 0, id = 0;
+  // New arrays hold zeros.
+  const auto clear = [&](auto* arrays, size_t i) {
+    if (first) {
+      arrays->emplace_back(kBatchCapacity);
+    } else {
+      std::fill_n((*arrays)[i].data(), pixels, 0);
     }
+  };
+  for (const ChannelKind kind : plan.channels) {
+    if (kind == ChannelKind::kAveraged) clear(&film->sums, sum++);
+    if (kind == ChannelKind::kNearest) clear(&film->nearest, nearest++);
+    if (kind == ChannelKind::kId) clear(&film->ids, id++);
   }
+  if (film->nearest.empty() && film->ids.empty()) return;
+  if (first) film->nearest_distance = AlignedArray<double>(kBatchCapacity);
+  std::fill_n(film->nearest_distance.data(), pixels, std::numeric_limits<double>::infinity());
 }
 
-Strip ResolveFilm(const RenderPlan& plan, const StripFilm& film) {
-  Strip strip;
-  strip.window = film.window;
+void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
+  const Window& tile = film.window;
   const double scale = 1.0 / plan.scene->image.spp;
-  auto sums = film.sums.begin();
-  auto nearest = film.nearest.begin();
-  for (const Layer& layer : plan.layers) {
-    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
-      if (channel.type == PixelType::kUint) continue;
-      if (!IsAveraged(layer.kind)) {
-        strip.colors.push_back(*nearest++);
-        continue;
-      }
-      std::vector<float>& out = strip.colors.emplace_back(sums->size());
-      for (size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>((*sums)[i] * scale);
-      ++sums;
+  size_t sum = 0, nearest = 0, id = 0, color = 0;
+  for (const ChannelKind kind : plan.channels) {
+    if (kind == ChannelKind::kAveraged) {
+      ForEachRow(tile, strip->window, film.sums[sum++].data(), strip->colors[color++].data(),
+                 [&](const double* row, float* out) {
+                   RoundSums(row, scale, static_cast<size_t>(tile.width()), out);
+                 });
+    } else if (kind == ChannelKind::kNearest) {
+      CopyTile(tile, strip->window, film.nearest[nearest++], &strip->colors[color++]);
+    } else {
+      CopyTile(tile, strip->window, film.ids[id], &strip->ids[id]);
+      ++id;
     }
   }
-  strip.ids = film.ids;
-  return strip;
 }
 
 }  // namespace nacre

@@ -58,6 +58,19 @@ std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scen
 
 bool IsAveraged(LayerKind kind) { return kind <= LayerKind::kNormal; }
 
+int FloatChannels(LayerKind kind) {
+  switch (kind) {
+    case LayerKind::kObjectId:
+    case LayerKind::kMaterialId:
+      return 0;
+    case LayerKind::kAlpha:
+    case LayerKind::kDepth:
+      return 1;
+    default:
+      return 3;
+  }
+}
+
 std::vector<ChannelSpec> LayerChannels(const Layer& layer, PixelType color_type) {
   const auto rgb = [&](const std::string& prefix) -> std::vector<ChannelSpec> {
     return {{prefix + "R", color_type}, {prefix + "G", color_type}, {prefix + "B", color_type}};

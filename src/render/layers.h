@@ -40,6 +40,16 @@ std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scen
 // Whether the layer is averaged over a pixel's samples, or taken from one of them.
 bool IsAveraged(LayerKind kind);
 
+// How many channels of floats the layer has.
+int FloatChannels(LayerKind kind);
+
+// What a channel of a layer is made of.
+enum class ChannelKind : uint8_t {
+  kAveraged,  // floats, averaged over the samples
+  kNearest,   // floats of one sample
+  kId,        // integers of one sample
+};
+
 // A layer's channels in the order its values are computed in. Colours and normals are stored as
 // `color_type` (half or float), Z, P and ids always in full.
 struct ChannelSpec {

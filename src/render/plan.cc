@@ -155,6 +155,13 @@ void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan
 
 void PlanLayers(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   plan->layers = ParseLayers(settings.layers, scene);
+  for (const Layer& layer : plan->layers) {
+    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
+      plan->channels.push_back(IsAveraged(layer.kind)             ? ChannelKind::kAveraged
+                               : channel.type == PixelType::kUint ? ChannelKind::kId
+                                                                  : ChannelKind::kNearest);
+    }
+  }
   std::string names;
   for (size_t i = 2; i < plan->layers.size(); ++i) {
     names += (names.empty() ? "" : ", ") + plan->layers[i].name;
@@ -211,28 +218,43 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   plan.materials.reserve(scene.materials.size());
   for (const Material& material : scene.materials) {
     plan.materials.push_back(PrepareMaterial(material, ambient));
+    plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
+    plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
   NoteMirrors(scene, &plan);
   return plan;
 }
 
+namespace {
+
+// The mesh that a triangle, numbered through all meshes, belongs to.
+size_t MeshOf(const RenderPlan& plan, uint32_t triangle) {
+  const auto& first = plan.mesh_first_triangle;
+  const auto after = std::upper_bound(first.begin(), first.end(), triangle);
+  return static_cast<size_t>(after - first.begin()) - 1;
+}
+
+}  // namespace
+
+uint32_t ObjectOf(const RenderPlan& plan, uint32_t primitive) {
+  const auto spheres = static_cast<uint32_t>(plan.scene->spheres.size());
+  if (primitive < spheres) return primitive;
+  return spheres + static_cast<uint32_t>(MeshOf(plan, primitive - spheres));
+}
+
 MaterialId MaterialAt(const RenderPlan& plan, uint32_t primitive, double film_x) {
   const Scene& scene = *plan.scene;
-  MaterialId id;
-  if (primitive < scene.spheres.size()) {
-    id = scene.spheres[primitive].material;
-  } else {
-    const uint32_t triangle = primitive - static_cast<uint32_t>(scene.spheres.size());
-    const auto& first = plan.mesh_first_triangle;
-    const auto after = std::upper_bound(first.begin(), first.end(), triangle);
-    id = scene.meshes[static_cast<size_t>(after - first.begin()) - 1].material;
-  }
-  if (const auto* split = std::get_if<SplitMaterial>(&scene.materials[id.index].model)) {
-    const double fraction = film_x / plan.frame.width();
-    const auto band = std::upper_bound(split->at.begin(), split->at.end(), fraction);
-    id = split->materials[static_cast<size_t>(band - split->at.begin())];
-  }
-  return id;
+  const size_t spheres = scene.spheres.size();
+  const MaterialId id =
+      primitive < spheres
+          ? scene.spheres[primitive].material
+          : scene.meshes[MeshOf(plan, primitive - static_cast<uint32_t>(spheres))].material;
+  if (!plan.splits) return id;
+  const auto* split = std::get_if<SplitMaterial>(&scene.materials[id.index].model);
+  if (split == nullptr) return id;
+  const double fraction = film_x / plan.frame.width();
+  const auto band = std::upper_bound(split->at.begin(), split->at.end(), fraction);
+  return split->materials[static_cast<size_t>(band - split->at.begin())];
 }
 
 std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats) {

@@ -39,13 +39,16 @@ struct RenderPlan {
   Window window;  // those to render
   CameraFrame camera;
   PixelSampler sampler;
-  std::vector<Layer> layers;  // beauty, alpha, then those asked for
+  std::vector<Layer> layers;          // beauty, alpha, then those asked for
+  std::vector<ChannelKind> channels;  // of the layers, in their order
   size_t light_layer_count = 0;
   std::vector<PlannedLight> lights;
   std::vector<ShadingMaterial> materials;     // one per material of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool tiles = false;                         // camera rays: binned spheres, not Embree
+  bool splits = false;                        // some material depends on the film position
+  bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
@@ -62,6 +65,10 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings);
 
 // The plan as text: each item, used or skipped, and why; with `stats`, each stage's share.
 std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats);
+
+// The number of the object that a primitive belongs to: that of the sphere, or the number of
+// spheres and that of the mesh.
+uint32_t ObjectOf(const RenderPlan& plan, uint32_t primitive);
 
 // The material of a primitive where the sample lies at film_x pixels from the frame's left edge:
 // splits resolved.

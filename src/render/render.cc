@@ -15,34 +15,38 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Hands scratch buffers to workers and takes them back.
-class ScratchPool {
+// What a worker needs, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
+struct Worker {
+  TileScratch scratch;
+  Strip strip;
+};
+
+// Hands workers out and takes them back.
+class WorkerPool {
  public:
-  std::unique_ptr<TileScratch> Take() {
+  std::unique_ptr<Worker> Take() {
     const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<TileScratch>();
-    std::unique_ptr<TileScratch> scratch = std::move(free_.back());
+    if (free_.empty()) return std::make_unique<Worker>();
+    std::unique_ptr<Worker> worker = std::move(free_.back());
     free_.pop_back();
-    return scratch;
+    return worker;
   }
-  void Give(std::unique_ptr<TileScratch> scratch) {
+  void Give(std::unique_ptr<Worker> worker) {
     const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(scratch));
+    free_.push_back(std::move(worker));
   }
 
  private:
   std::mutex mutex_;
-  std::vector<std::unique_ptr<TileScratch>> free_;
+  std::vector<std::unique_ptr<Worker>> free_;
 };
 
-Strip RenderStrip(const RenderPlan& plan, const Window& window, TileScratch* scratch,
-                  RenderStats* stats) {
-  StripFilm film = MakeStripFilm(plan, window);
+void RenderStrip(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
+  StartStrip(plan, window, &worker->strip);
   for (int x = window.x0; x < window.x1; x += plan.tile_width) {
     const Window tile{x, window.y0, std::min(x + plan.tile_width, window.x1), window.y1};
-    RenderTile(plan, tile, scratch, &film, stats);
+    RenderTile(plan, tile, &worker->scratch, &worker->strip, stats);
   }
-  return ResolveFilm(plan, film);
 }
 
 }  // namespace
@@ -53,18 +57,18 @@ RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const
   const int strip_count = (window.height() + kStripRows - 1) / kStripRows;
   RenderStats total;
   total.threads = ThreadCount(settings.threads);
-  ScratchPool pool;
+  WorkerPool pool;
   std::mutex mutex;
   int done = 0;
   ParallelFor(static_cast<size_t>(strip_count), settings.threads, [&](size_t i) {
     const int y0 = window.y0 + static_cast<int>(i) * kStripRows;
     const Window rows{window.x0, y0, window.x1, std::min(y0 + kStripRows, window.y1)};
     RenderStats stats;
-    std::unique_ptr<TileScratch> scratch = pool.Take();
-    const Strip strip = RenderStrip(plan, rows, scratch.get(), &stats);
-    pool.Give(std::move(scratch));
+    std::unique_ptr<Worker> worker = pool.Take();
+    RenderStrip(plan, rows, worker.get(), &stats);
     const auto output_start = std::chrono::steady_clock::now();
-    sink(strip);
+    sink(worker->strip);
+    pool.Give(std::move(worker));
     stats.seconds(Stage::kOutput) = SecondsSince(output_start);
     const std::lock_guard lock(mutex);
     total.Add(stats);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "render/tile_layers.h"
 
@@ -25,44 +25,106 @@ class StageClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// Samples [first, first + count) of each pixel of the tile, and the camera rays through them.
-void MakeRays(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
-  SamplePixels(plan.sampler, tile, first, count, s->film_x.data(), s->film_y.data(),
-               s->weight.data());
-  const size_t ray_count = tile.pixel_count() * static_cast<size_t>(count);
-  MakeCameraRays(plan.camera, s->film_x.data(), s->film_y.data(), ray_count, &s->rays);
+// Samples [first, first + count) of each pixel of the tile.
+void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
+  SamplePixels(plan.sampler, tile, s->shifts, first, count, s->samples.x.data(),
+               s->samples.y.data());
+  s->samples.count = tile.pixel_count() * static_cast<size_t>(count);
+  s->weights.resize(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    s->weights[static_cast<size_t>(i)] = SampleWeight(plan.sampler, first + i);
+  }
 }
 
-// Sorts the rays that hit something by material: hit_rays lists them run by run, in the order of
-// their index within a run, so that what a hit's lane computes never depends on its neighbours.
-size_t SortHits(const RenderPlan& plan, TileScratch* s) {
-  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-  for (const MaterialRun& run : s->runs) s->run_of_material[run.material.index] = kNone;
-  s->runs.clear();
-  s->run_of_material.resize(plan.scene->materials.size(), kNone);
+// The hits of the camera rays through the samples, in the order of the rays.
+void FindHits(const RenderPlan& plan, TileScratch* s) {
+  const HitsTo to{&s->hits, &s->surface, plan.exact_directions};
+  if (plan.tiles) return plan.intersector->HitsInTile(s->candidates, s->samples, to);
+  MakeCameraRays(plan.camera, s->samples.x.data(), s->samples.y.data(), s->samples.count, &s->rays);
+  plan.intersector->Closest(s->rays, &s->closest);
+  size_t count = 0;
   for (size_t ray = 0; ray < s->rays.count; ++ray) {
-    const uint32_t primitive = s->closest.primitive[ray];
-    if (primitive == kNoPrimitive) continue;
-    const MaterialId material = MaterialAt(plan, primitive, s->film_x[ray]);
+    if (s->closest.primitive[ray] == kNoPrimitive) continue;
+    s->hit_rays[count++] = static_cast<uint32_t>(ray);
+  }
+  s->hits.count = 0;
+  if (count > 0) plan.intersector->Refine(s->rays, s->closest, s->hit_rays.data(), count, to);
+}
+
+MaterialId MaterialOfHit(const RenderPlan& plan, const TileScratch& s, size_t hit) {
+  return MaterialAt(plan, s.hits.primitive[hit], s.samples.x[s.hits.ray[hit]]);
+}
+
+template <typename T>
+void Permute(const AlignedArray<uint32_t>& order, size_t count, const AlignedArray<T>& from,
+             AlignedArray<T>* to) {
+  for (size_t i = 0; i < count; ++i) (*to)[i] = from[order[i]];
+}
+
+template <typename T>
+void Permute(const AlignedArray<uint32_t>& order, size_t count, const Soa3<T>& from, Soa3<T>* to) {
+  Permute(order, count, from.x, &to->x);
+  Permute(order, count, from.y, &to->y);
+  Permute(order, count, from.z, &to->z);
+}
+
+// Makes hit i the one that was order[i]; the padding repeats the last one.
+void PermuteHits(bool exact, TileScratch* s) {
+  std::swap(s->hits, s->unsorted_hits);
+  std::swap(static_cast<HitDirections&>(s->surface), s->unsorted_directions);
+  const HitBatch& from = s->unsorted_hits;
+  HitBatch& to = s->hits;
+  to.count = from.count;
+  to.one_primitive = from.one_primitive;
+  const size_t count = RoundUp(from.count, kBatchPadding);
+  for (size_t i = from.count; i < count; ++i) s->order[i] = s->order[from.count - 1];
+  Permute(s->order, count, from.ray, &to.ray);
+  Permute(s->order, count, from.primitive, &to.primitive);
+  Permute(s->order, count, from.position, &to.position);
+  Permute(s->order, count, s->unsorted_directions.normal, &s->surface.normal);
+  Permute(s->order, count, s->unsorted_directions.to_view, &s->surface.to_view);
+  if (!exact) return;
+  Permute(s->order, count, from.normal, &to.normal);
+  Permute(s->order, count, from.to_view, &to.to_view);
+}
+
+constexpr uint32_t kNoRun = std::numeric_limits<uint32_t>::max();
+
+// Finds each hit's run, and with it how many hits a run has.
+void CountRuns(const RenderPlan& plan, TileScratch* s) {
+  for (size_t i = 0; i < s->hits.count; ++i) {
+    const MaterialId material = MaterialOfHit(plan, *s, i);
     uint32_t& run = s->run_of_material[material.index];
-    if (run == kNone) {
+    if (run == kNoRun) {
       run = static_cast<uint32_t>(s->runs.size());
       s->runs.push_back({material, 0, 0});
     }
-    s->run_of_ray[ray] = run;
-    ++s->runs[run].end;  // counts the run's hits for now
+    s->run_of_hit[i] = run;
+    ++s->runs[run].end;
   }
+}
+
+// Sorts the hits by material, within a run in the order of their rays, so that what a hit's lane
+// computes never depends on its neighbours.
+void SortHits(const RenderPlan& plan, TileScratch* s) {
+  s->run_of_material.resize(plan.scene->materials.size(), kNoRun);
+  for (const MaterialRun& run : s->runs) s->run_of_material[run.material.index] = kNoRun;
+  s->runs.clear();
+  if (s->hits.one_primitive && !plan.splits) {
+    s->runs.push_back({MaterialOfHit(plan, *s, 0), 0, s->hits.count});
+    return;
+  }
+  CountRuns(plan, s);
   size_t begin = 0;
   for (MaterialRun& run : s->runs) {
     const size_t count = run.end;
     run.begin = run.end = begin;
     begin += count;
   }
-  for (size_t ray = 0; ray < s->rays.count; ++ray) {
-    if (s->closest.primitive[ray] == kNoPrimitive) continue;
-    s->hit_rays[s->runs[s->run_of_ray[ray]].end++] = static_cast<uint32_t>(ray);
+  for (size_t i = 0; i < s->hits.count; ++i) {
+    s->order[s->runs[s->run_of_hit[i]].end++] = static_cast<uint32_t>(i);
   }
-  return begin;
+  if (s->runs.size() > 1) PermuteHits(plan.exact_directions, s);
 }
 
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
@@ -74,7 +136,7 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   rays.count = 0;
   for (size_t i = 0; i < hits.count; ++i) {
     if (!(light.irradiance[i] > 0)) continue;
-    if (!planned.shadowed.empty() && planned.shadowed[hits.object[i]] == 0) continue;
+    if (!planned.shadowed.empty() && planned.shadowed[hits.primitive[i]] == 0) continue;
     const size_t ray = rays.count++;
     s->shadow_hits[ray] = static_cast<uint32_t>(i);
     rays.primitive[ray] = hits.primitive[i];
@@ -97,7 +159,6 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
 // Adds up what the batch's hits reflect of every light.
 void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
   const Scene& scene = *plan.scene;
-  PrepareSurface(s->hits, &s->surface);
   for (const MaterialRun& run : s->runs) {
     PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface);
   }
@@ -128,7 +189,7 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
 
 }  // namespace
 
-void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, StripFilm* film,
+void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
                 RenderStats* stats) {
   TileScratch& s = *scratch;
   StageClock clock(stats);
@@ -137,33 +198,32 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
                         (!plan.tiles || plan.intersector->EnterTile(tile, &s.candidates));
   clock.Charge(Stage::kIntersect);
   if (!anything && HasUnitWeights(plan.sampler)) {
-    AddBackground(plan, tile, film);
+    FillBackground(plan, tile, strip);
     clock.Charge(Stage::kFilm);
     return;
   }
+  StartTile(plan, tile, &s.film);
+  clock.Charge(Stage::kFilm);
+  ShiftPixels(plan.sampler, tile, &s.shifts);
   for (int first = 0; first < spp; first += plan.samples_per_round) {
-    const int count = std::min(plan.samples_per_round, spp - first);
-    MakeRays(plan, tile, first, count, &s);
-    stats->camera_rays += s.rays.count;
+    MakeSamples(plan, tile, first, std::min(plan.samples_per_round, spp - first), &s);
+    stats->camera_rays += s.samples.count;
     clock.Charge(Stage::kSample);
     s.hits.count = 0;
     if (anything) {
-      if (plan.tiles) {
-        plan.intersector->ClosestInTile(s.candidates, count, s.rays, &s.closest);
-      } else {
-        plan.intersector->Closest(s.rays, &s.closest);
-      }
+      FindHits(plan, &s);
       clock.Charge(Stage::kIntersect);
-      const size_t hit_count = SortHits(plan, &s);
-      if (hit_count > 0) {
-        plan.intersector->Refine(s.rays, s.closest, s.hit_rays.data(), hit_count, &s.hits);
-        stats->hits += hit_count;
-        ShadeHits(plan, &s, &clock, stats);
-      }
     }
-    AddToFilm(plan, {tile, count, s.weight.data()}, &s, film);
+    if (s.hits.count > 0) {
+      stats->hits += s.hits.count;
+      SortHits(plan, &s);
+      ShadeHits(plan, &s, &clock, stats);
+    }
+    AddToFilm(plan, &s);
     clock.Charge(Stage::kFilm);
   }
+  ResolveTile(plan, s.film, strip);
+  clock.Charge(Stage::kFilm);
 }
 
 }  // namespace nacre

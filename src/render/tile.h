@@ -15,18 +15,24 @@ struct MaterialRun {
 
 // Buffers of one worker, reused from tile to tile.
 struct TileScratch {
-  // Samples of a round, per ray.
-  AlignedArray<double> film_x{kBatchCapacity}, film_y{kBatchCapacity}, weight{kBatchCapacity};
-  RayBatch rays;
+  TileFilm film;
+  // Samples of a round.
+  PixelShifts shifts{kBatchCapacity};
+  FilmBatch samples;
+  std::vector<double> weights;
+  // Camera rays: by bins, or by Embree.
   TileCandidates candidates;
+  RayBatch rays;
   ClosestHits closest;
-  // Hits sorted into runs.
   AlignedArray<uint32_t> hit_rays{kBatchCapacity};
+  // Hits, and room to sort them by material.
+  HitBatch hits, unsorted_hits;
+  Surface surface;
+  HitDirections unsorted_directions;
   std::vector<MaterialRun> runs;
   std::vector<uint32_t> run_of_material;  // index into runs, or none, per material of the scene
-  AlignedArray<uint32_t> run_of_ray{kBatchCapacity};
-  HitBatch hits;
-  Surface surface;
+  AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
+  AlignedArray<uint32_t> order{kBatchCapacity};
   LightBatch light;
   NarrowLobes narrow;
   ShadowRayBatch shadow_rays;
@@ -34,13 +40,13 @@ struct TileScratch {
   ReflectedRadiance total;             // of all lights
   ReflectedRadiance single;            // of one light, where a layer wants it
   std::vector<Soa3<float>> per_light;  // one for each light layer, per hit
-  // A round on its way to the film, per ray.
-  Soa3<double> ray_values;                            // of one layer
-  AlignedArray<uint32_t> hit_of_ray{kBatchCapacity};  // index into hits, or none
+  // Layers on their way to the film.
+  AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // of each pixel, in this round
+  Soa3<double> hit_values, ray_values;
 };
 
-// Renders the pixels of `tile`, which lies within the film's strip, into the film.
-void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, StripFilm* film,
+// Renders the pixels of `tile`, which lies within the strip and has at most kBatchCapacity of them.
+void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
                 RenderStats* stats);
 
 }  // namespace nacre

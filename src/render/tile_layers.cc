@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "render/film_kernel.h"
+
 namespace nacre {
 namespace {
 
@@ -14,50 +16,63 @@ void AddSoa(const Soa3<float>& a, size_t count, Soa3<float>* sum) {
   }
 }
 
-// Gives rays [begin, end) the same value.
-void FillRays(const Rgb& value, size_t count, Soa3<double>* rays) {
-  std::fill_n(rays->x.data(), count, value.x);
-  std::fill_n(rays->y.data(), count, value.y);
-  std::fill_n(rays->z.data(), count, value.z);
-}
-
-void PutRay(const Rgb& value, size_t ray, Soa3<double>* rays) {
-  rays->x[ray] = value.x;
-  rays->y[ray] = value.y;
-  rays->z[ray] = value.z;
-}
-
-Rgb At(const Soa3<float>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
-
 // Layers hold floats; what they add up to is computed from the same floats.
 Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
 
-// The value of an averaged layer at hit i of a run, in double: the beauty is the exact sum of the
-// other layers' floats, so after the film's average each is rounded once, whatever the filter's
-// weights cancel. It never depends on which layers are asked for.
-Rgb LayerValue(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
-               const TileScratch& s, size_t i) {
+// Where a layer's values come from: the sum of two arrays of floats and two constants, in double.
+// The beauty is the exact sum of the other layers' floats, so after the film's average each is
+// rounded once, whatever the filter's weights cancel. It never depends on which layers are asked
+// for.
+struct LayerTerms {
+  const Soa3<float>* first = nullptr;  // null: zeros
+  const Soa3<float>* second = nullptr;
+  Rgb constant{0, 0, 0}, further{0, 0, 0};
+};
+
+LayerTerms TermsOf(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
+                   const TileScratch& s) {
+  const Rgb ambient = RoundToFloat(constants.ambient);
+  const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
     case LayerKind::kBeauty:
-      return At(s.total.diffuse, i) + At(s.total.specular, i) + RoundToFloat(constants.ambient) +
-             RoundToFloat(constants.emission);
+      return {&s.total.diffuse, &s.total.specular, ambient, emission};
     case LayerKind::kAlpha:
-      return {1, 0, 0};
+      return {.constant = {1, 0, 0}};
     case LayerKind::kDiffuse:
-      return At(s.total.diffuse, i);
+      return {.first = &s.total.diffuse};
     case LayerKind::kSpecular:
-      return At(s.total.specular, i);
+      return {.first = &s.total.specular};
     case LayerKind::kAmbient:
-      return RoundToFloat(constants.ambient);
+      return {.constant = ambient};
     case LayerKind::kEmission:
-      return RoundToFloat(constants.emission);
+      return {.constant = emission};
     case LayerKind::kAlbedo:
-      return RoundToFloat(constants.albedo);
+      return {.constant = RoundToFloat(constants.albedo)};
     case LayerKind::kLight:
-      return At(s.per_light[light_layer], i);
+      return {.first = &s.per_light[light_layer]};
     default:
-      return At(s.surface.normal, i);
+      return {.first = &s.surface.normal};
   }
+}
+
+// Channel c of a layer at the hits of a run.
+void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* values) {
+  const auto channel = [c](const Soa3<float>& soa) {
+    return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
+  };
+  if (terms.first == nullptr) {
+    std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
+  } else if (terms.second == nullptr) {
+    std::copy(channel(*terms.first) + run.begin, channel(*terms.first) + run.end,
+              values + run.begin);
+  } else {
+    AddFloats(channel(*terms.first), channel(*terms.second), terms.constant[c], terms.further[c],
+              run.begin, run.end, values);
+  }
+}
+
+AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
+  return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
 }
 
 // What a layer shows where nothing is hit.
@@ -66,58 +81,51 @@ Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
   return shows ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
 }
 
-// What P, Z and ids of a pixel are taken from.
-struct NearestHit {
-  size_t hit = std::numeric_limits<size_t>::max();
-  MaterialId material;
-};
-
-void PutNearest(const RenderPlan& plan, const TileScratch& s, const NearestHit& nearest,
-                size_t pixel, StripFilm* film) {
-  const size_t i = nearest.hit;
-  const Vec3d relative(s.hits.position.x[i], s.hits.position.y[i], s.hits.position.z[i]);
+// Takes P, Z and ids of a pixel from a hit.
+void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  const Vec3d relative(s.hits.position.x[hit], s.hits.position.y[hit], s.hits.position.z[hit]);
   const Vec3d world = relative + plan.scene->camera.position;
+  const uint32_t primitive = s.hits.primitive[hit];
+  const MaterialId material = MaterialAt(plan, primitive, s.samples.x[s.hits.ray[hit]]);
   size_t plane = 0;
   size_t id = 0;
   for (const Layer& layer : plan.layers) {
     if (layer.kind == LayerKind::kPosition) {
-      for (int c = 0; c < 3; ++c) film->nearest[plane++][pixel] = static_cast<float>(world[c]);
+      for (int c = 0; c < 3; ++c) s.film.nearest[plane++][pixel] = static_cast<float>(world[c]);
     } else if (layer.kind == LayerKind::kDepth) {
-      film->nearest[plane++][pixel] = static_cast<float>(relative ^ plan.camera.forward);
+      s.film.nearest[plane++][pixel] = static_cast<float>(relative ^ plan.camera.forward);
     } else if (layer.kind == LayerKind::kObjectId) {
-      film->ids[id++][pixel] = s.hits.object[i] + 1;
+      s.film.ids[id++][pixel] = ObjectOf(plan, primitive) + 1;
     } else if (layer.kind == LayerKind::kMaterialId) {
-      film->ids[id++][pixel] = nearest.material.index + 1;
+      s.film.ids[id++][pixel] = material.index + 1;
     }
   }
 }
 
-// Takes P, Z and ids from the hit nearest to its pixel's centre. Rays are walked in the order of
-// their samples, so ties go to the first one, whatever the tile.
-void AddNearest(const RenderPlan& plan, const TileRound& round, TileScratch* scratch,
-                StripFilm* film) {
+// Takes P, Z and ids from the hit nearest to its pixel's centre; of several as near, from that of
+// the first sample, whatever run it is in.
+void AddNearest(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
-  constexpr uint32_t kMiss = std::numeric_limits<uint32_t>::max();
-  std::fill_n(s.hit_of_ray.data(), s.rays.count, kMiss);
-  for (size_t i = 0; i < s.hits.count; ++i) s.hit_of_ray[s.hits.ray[i]] = static_cast<uint32_t>(i);
-  size_t ray = 0;
-  for (int y = round.tile.y0; y < round.tile.y1; ++y) {
-    for (int x = round.tile.x0; x < round.tile.x1; ++x) {
-      const size_t pixel =
-          static_cast<size_t>(y - film->window.y0) * static_cast<size_t>(film->window.width()) +
-          static_cast<size_t>(x - film->window.x0);
-      NearestHit nearest;
-      for (int sample = 0; sample < round.samples; ++sample, ++ray) {
-        if (s.hit_of_ray[ray] == kMiss) continue;
-        const double dx = s.film_x[ray] - (x + 0.5);
-        const double dy = s.film_y[ray] - (y + 0.5);
-        const double distance = dx * dx + dy * dy;
-        if (!(distance < film->nearest_distance[pixel])) continue;
-        film->nearest_distance[pixel] = distance;
-        nearest = {s.hit_of_ray[ray], s.runs[s.run_of_ray[ray]].material};
-      }
-      if (nearest.material.valid()) PutNearest(plan, s, nearest, pixel, film);
-    }
+  const Window& tile = s.film.window;
+  const size_t pixels = tile.pixel_count();
+  const auto width = static_cast<size_t>(tile.width());
+  // Hits are in the order of their rays within a run, and runs of one pixel are few: the ray that
+  // a pixel's values are from decides between equals.
+  std::fill_n(s.nearest_ray.data(), pixels, std::numeric_limits<uint32_t>::max());
+  for (size_t i = 0; i < s.hits.count; ++i) {
+    const uint32_t ray = s.hits.ray[i];
+    const size_t pixel = ray % pixels;
+    const double dx = s.samples.x[ray] - (tile.x0 + static_cast<double>(pixel % width) + 0.5);
+    const double dy = s.samples.y[ray] - (tile.y0 + static_cast<double>(pixel / width) + 0.5);
+    const double distance = dx * dx + dy * dy;
+    double& nearest = s.film.nearest_distance[pixel];
+    const bool earlier = distance == nearest && ray < s.nearest_ray[pixel] &&
+                         s.nearest_ray[pixel] != std::numeric_limits<uint32_t>::max();
+    if (!(distance < nearest || earlier)) continue;
+    nearest = distance;
+    s.nearest_ray[pixel] = ray;
+    PutNearest(plan, i, pixel, &s);
   }
 }
 
@@ -132,47 +140,57 @@ void KeepLightLayer(size_t light_layer, TileScratch* scratch) {
   AddSoa(s.single.specular, count, &s.total.specular);
 }
 
-void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scratch,
-               StripFilm* film) {
+void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
-  auto sums = film->sums.begin();
+  const size_t pixels = s.film.window.pixel_count();
+  // Where every ray hits the same material, hits are in the order of rays.
+  const bool all = s.hits.count == s.samples.count && s.runs.size() == 1;
+  size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    FillRays(BackgroundOf(layer, *plan.scene), s.rays.count, &s.ray_values);
-    if (s.hits.count > 0) {
-      for (const MaterialRun& run : s.runs) {
-        const ShadingMaterial& constants = plan.materials[run.material.index];
-        for (size_t i = run.begin; i < run.end; ++i) {
-          PutRay(LayerValue(layer, light_layer, constants, s, i), s.hits.ray[i], &s.ray_values);
+    const Rgb background = BackgroundOf(layer, *plan.scene);
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      AlignedArray<double>& at_hits = ChannelOf(s.hit_values, c);
+      AlignedArray<double>& at_rays = ChannelOf(s.ray_values, c);
+      if (s.hits.count > 0) {
+        for (const MaterialRun& run : s.runs) {
+          FillRun(TermsOf(layer, light_layer, plan.materials[run.material.index], s), c, run,
+                  at_hits.data());
         }
       }
+      if (!all) {
+        std::fill_n(at_rays.data(), s.samples.count, background[c]);
+        for (size_t i = 0; i < s.hits.count; ++i) at_rays[s.hits.ray[i]] = at_hits[i];
+      }
+      AddSamples((all ? at_hits : at_rays).data(), s.weights.data(),
+                 static_cast<int>(s.weights.size()), pixels, s.film.sums[sum++].data());
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
-    AddToChannel(round, s.ray_values.x.data(), film->window, &*sums++);
-    if (layer.kind == LayerKind::kAlpha) continue;
-    AddToChannel(round, s.ray_values.y.data(), film->window, &*sums++);
-    AddToChannel(round, s.ray_values.z.data(), film->window, &*sums++);
   }
-  if (!film->nearest_distance.empty()) AddNearest(plan, round, scratch, film);
+  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) AddNearest(plan, &s);
 }
 
-void AddBackground(const RenderPlan& plan, const Window& tile, StripFilm* film) {
-  auto sums = film->sums.begin();
+void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {
+  const double spp = plan.scene->image.spp;
+  const auto fill = [&](auto value, auto* channel) {
+    for (int y = tile.y0; y < tile.y1; ++y) {
+      const auto row =
+          static_cast<size_t>(y - strip->window.y0) * static_cast<size_t>(strip->window.width());
+      std::fill_n(channel->data() + row + static_cast<size_t>(tile.x0 - strip->window.x0),
+                  tile.width(), value);
+    }
+  };
+  size_t color = 0;
   for (const Layer& layer : plan.layers) {
-    if (!IsAveraged(layer.kind)) continue;
-    const Rgb sum = BackgroundOf(layer, *plan.scene) * double(plan.scene->image.spp);
-    const int channels = layer.kind == LayerKind::kAlpha ? 1 : 3;
-    for (int c = 0; c < channels; ++c, ++sums) {
-      if (sum[c] == 0) continue;
-      for (int y = tile.y0; y < tile.y1; ++y) {
-        const auto row =
-            static_cast<size_t>(y - film->window.y0) * static_cast<size_t>(film->window.width());
-        const auto column = static_cast<size_t>(tile.x0 - film->window.x0);
-        std::fill_n(sums->data() + row + column, tile.width(), sum[c]);
-      }
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, *plan.scene) : Rgb(0, 0, 0);
+    // As the film averages it: the sum of spp floats, at most 2^16, is exact.
+    const Rgb mean = background * spp * (1.0 / spp);
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      fill(static_cast<float>(mean[c]), &strip->colors[color++]);
     }
   }
+  for (std::vector<uint32_t>& channel : strip->ids) fill(uint32_t{0}, &channel);
 }
 
 }  // namespace nacre

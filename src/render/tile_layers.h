@@ -8,12 +8,11 @@ namespace nacre {
 // Adds scratch->single, the reflection of one light, to the light's layer and to the total.
 void KeepLightLayer(size_t light_layer, TileScratch* scratch);
 
-// Adds a round's samples to every layer.
-void AddToFilm(const RenderPlan& plan, const TileRound& round, TileScratch* scratch,
-               StripFilm* film);
+// Adds a round's samples to every layer of the tile's film.
+void AddToFilm(const RenderPlan& plan, TileScratch* scratch);
 
-// What AddToFilm adds in all rounds for a tile that nothing is hit in, under samples of weight 1:
-// to the bit, because the background is a float and sums of it are exact.
-void AddBackground(const RenderPlan& plan, const Window& tile, StripFilm* film);
+// Fills a tile that nothing is hit in, under samples of weight 1, with what its film would resolve
+// to: to the bit, because the background is a float and sums of it are exact.
+void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip);
 
 }  // namespace nacre

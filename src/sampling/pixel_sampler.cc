@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/aligned.h"
 #include "sampling/hash.h"
 #include "sampling/sobol.h"
 
@@ -19,13 +18,6 @@ void AppendPoints(int count, uint32_t pair, PixelSampler* sampler) {
   }
 }
 
-// Vectors are loaded from any sample on.
-void PadPoints(PixelSampler* sampler) {
-  const size_t padded = static_cast<size_t>(sampler->samples_per_pixel) + kBatchPadding;
-  sampler->points_x.resize(padded);
-  sampler->points_y.resize(padded);
-}
-
 }  // namespace
 
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed) {
@@ -34,7 +26,7 @@ PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, 
   sampler.seed = seed;
   sampler.samples_per_pixel = samples_per_pixel;
   if (samples_per_pixel == 1) {
-    PadPoints(&sampler);
+    sampler.points_x = sampler.points_y = {0};
     return sampler;
   }
   const double positive = PartMass(sampler.filter, FilterPart::kPositive);
@@ -51,7 +43,6 @@ PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, 
   sampler.positive_weight = positive * samples_per_pixel / sampler.positive_count;
   AppendPoints(sampler.positive_count, 0, &sampler);
   AppendPoints(negative_count, kSobolPairs, &sampler);
-  PadPoints(&sampler);
   return sampler;
 }
 
@@ -71,6 +62,22 @@ PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index) {
   }
   const Vec2d offset = SampleFilter(sampler.filter, FilterPart::kNegative, u);
   return {offset.x, offset.y, sampler.negative_weight};
+}
+
+double SampleWeight(const PixelSampler& sampler, int index) {
+  return index < sampler.positive_count ? sampler.positive_weight : sampler.negative_weight;
+}
+
+void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts) {
+  if (sampler.samples_per_pixel == 1) return;  // its one sample is the centre
+  size_t i = 0;
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    for (int x = pixels.x0; x < pixels.x1; ++x, ++i) {
+      const uint64_t shift = PixelSeed(x, y, sampler.seed);
+      shifts->x[i] = static_cast<uint32_t>(shift);
+      shifts->y[i] = static_cast<uint32_t>(shift >> 32);
+    }
+  }
 }
 
 }  // namespace nacre

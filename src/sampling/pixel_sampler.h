@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/aligned.h"
 #include "base/image.h"
 #include "sampling/pixel_filter.h"
 
@@ -21,7 +22,7 @@ struct PixelSampler {
   int positive_count = 1;
   double positive_weight = 1;
   double negative_weight = 0;
-  // The point of each sample, as 32 bits after the point; padded for whole vectors.
+  // The point of each sample, as 32 bits after the point.
   std::vector<uint32_t> points_x, points_y;
 };
 
@@ -41,10 +42,23 @@ struct PixelSample {
 // 1. The only sample of one per pixel is the centre.
 PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
 
-// Samples [first, first + count) of each of `pixels`, row by row, all of a pixel together:
-// film positions x + 0.5 + dx and y + 0.5 + dy, and weights, to the bit those of SamplePixel. The
-// arrays take pixels.pixel_count() * count entries.
-void SamplePixels(const PixelSampler& sampler, const Window& pixels, int first, int count,
-                  double* film_x, double* film_y, double* weight);
+// The weight of sample `index` of every pixel.
+double SampleWeight(const PixelSampler& sampler, int index);
+
+// What the pixels of a tile shift the point set by, row by row.
+struct PixelShifts {
+  explicit PixelShifts(size_t capacity) : x(capacity), y(capacity) {}
+  AlignedArray<uint32_t> x, y;
+};
+
+// For the pixels of a tile, at most as many as there is room for.
+void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts);
+
+// Samples [first, first + count) of each of `pixels`, sample by sample, each row by row: film
+// positions x + 0.5 + dx and y + 0.5 + dy, to the bit those of SamplePixel. `shifts` are theirs.
+// The arrays take pixels.pixel_count() * count entries, and a vector's worth after them
+// (AlignedArray) may be overwritten.
+void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
+                  int first, int count, double* film_x, double* film_y);
 
 }  // namespace nacre

@@ -4,12 +4,8 @@
 #define HWY_TARGET_INCLUDE "sampling/pixel_sampler_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include <algorithm>
-
 #include "hwy/highway.h"
 
-#include "base/aligned.h"
-#include "sampling/hash.h"
 #include "sampling/pixel_sampler.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -97,91 +93,56 @@ struct Signed {
   }
 };
 
-// Samples [first, end) of one pixel, all of one part of the filter.
-struct Run {
-  int first, end;
-  double weight;
-};
-
-// Where the next samples go: `left` more entries fit.
-struct Output {
-  double* film_x;
-  double* film_y;
-  double* weight;
-  size_t left;
-
-  // Stores the first n lanes. Whole vectors as long as they fit: later samples overwrite the rest.
-  HWY_INLINE void Append(V x, V y, V w, size_t n) {
-    const D d;
-    if (hn::Lanes(d) <= left) {
-      hn::StoreU(x, d, film_x);
-      hn::StoreU(y, d, film_y);
-      hn::StoreU(w, d, weight);
-    } else {
-      StoreSome(x, n, film_x);
-      StoreSome(y, n, film_y);
-      StoreSome(w, n, weight);
-    }
-    film_x += n;
-    film_y += n;
-    weight += n;
-    left -= n;
-  }
-
-  static void StoreSome(V v, size_t n, double* to) {
-    alignas(HWY_MAX_BYTES) double lanes[HWY_MAX_BYTES / sizeof(double)];
-    hn::Store(v, D(), lanes);
-    std::copy_n(lanes, n, to);
-  }
-};
-
+// One sample of each pixel. Whole vectors are stored: what lies past a row is overwritten by the
+// next one, or is the caller's padding.
 template <class Filter>
-HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int x, int y, Run run,
-                          Output* output) {
+HWY_INLINE void SamplePlane(const Filter& filter, const PixelSampler& sampler, int index,
+                            const Window& pixels, const PixelShifts& shifts, double* film_x,
+                            double* film_y) {
   const D d;
   const DU32 du32;
-  const uint64_t shift = PixelSeed(x, y, sampler.seed);
-  const VU32 shift_x = hn::Set(du32, static_cast<uint32_t>(shift));
-  const VU32 shift_y = hn::Set(du32, static_cast<uint32_t>(shift >> 32));
-  const V center_x = hn::Set(d, x + 0.5);
-  const V center_y = hn::Set(d, y + 0.5);
-  const auto end = static_cast<size_t>(run.end);
-  for (auto i = static_cast<size_t>(run.first); i < end; i += hn::Lanes(d)) {
-    V dx, dy;
-    filter(CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_x.data() + i), shift_x)),
-           CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_y.data() + i), shift_y)), &dx,
-           &dy);
-    output->Append(hn::Add(center_x, dx), hn::Add(center_y, dy), hn::Set(d, run.weight),
-                   std::min(hn::Lanes(d), end - i));
+  const VU32 point_x = hn::Set(du32, sampler.points_x[static_cast<size_t>(index)]);
+  const VU32 point_y = hn::Set(du32, sampler.points_y[static_cast<size_t>(index)]);
+  const auto step = static_cast<int>(hn::Lanes(d));
+  size_t row = 0;
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const V center_y = hn::Set(d, y + 0.5);
+    size_t i = row;
+    for (int x = pixels.x0; x < pixels.x1; x += step, i += hn::Lanes(d)) {
+      V dx, dy;
+      filter(CenteredFromBits(hn::Xor(point_x, hn::LoadU(du32, shifts.x.data() + i))),
+             CenteredFromBits(hn::Xor(point_y, hn::LoadU(du32, shifts.y.data() + i))), &dx, &dy);
+      hn::StoreU(hn::Add(hn::Iota(d, x + 0.5), dx), d, film_x + i);
+      hn::StoreU(hn::Add(center_y, dy), d, film_y + i);
+    }
+    row += static_cast<size_t>(pixels.width());
   }
 }
 
-// Positive and negative samples by their own filters; either run may be empty.
+// Positive and negative samples by their own filters.
 template <class PositiveFilter, class NegativeFilter>
 HWY_INLINE void SampleAll(const PositiveFilter& positive, const NegativeFilter& negative,
-                          const PixelSampler& sampler, const Window& pixels, int first, int end,
-                          Output output) {
-  const int split = std::clamp(sampler.positive_count, first, end);
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    for (int x = pixels.x0; x < pixels.x1; ++x) {
-      SampleRun(positive, sampler, x, y, {first, split, sampler.positive_weight}, &output);
-      SampleRun(negative, sampler, x, y, {split, end, sampler.negative_weight}, &output);
+                          const PixelSampler& sampler, const Window& pixels,
+                          const PixelShifts& shifts, int first, int end, double* film_x,
+                          double* film_y) {
+  for (int i = first; i < end; ++i) {
+    if (i < sampler.positive_count) {
+      SamplePlane(positive, sampler, i, pixels, shifts, film_x, film_y);
+    } else {
+      SamplePlane(negative, sampler, i, pixels, shifts, film_x, film_y);
     }
+    film_x += pixels.pixel_count();
+    film_y += pixels.pixel_count();
   }
 }
 
-void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, int first, int count,
-                   double* film_x, double* film_y, double* weight) {
+void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
+                   int first, int count, double* film_x, double* film_y) {
   const FilterSampler& filter = sampler.filter;
-  Output output;
-  output.film_x = film_x;
-  output.film_y = film_y;
-  output.weight = weight;
-  output.left = pixels.pixel_count() * static_cast<size_t>(count);
   const double* p = filter.positive.data();
   const double* n = filter.negative.data();
   const auto sample = [&](const auto& positive, const auto& negative) HWY_ATTR {
-    SampleAll(positive, negative, sampler, pixels, first, first + count, output);
+    SampleAll(positive, negative, sampler, pixels, shifts, first, first + count, film_x, film_y);
   };
   if (sampler.samples_per_pixel == 1) {
     sample(Center(), Center());
@@ -202,9 +163,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(SamplePixelsT);
-void SamplePixels(const PixelSampler& sampler, const Window& pixels, int first, int count,
-                  double* film_x, double* film_y, double* weight) {
-  HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, first, count, film_x, film_y, weight);
+void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
+                  int first, int count, double* film_x, double* film_y) {
+  HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, shifts, first, count, film_x, film_y);
 }
 }  // namespace nacre
 #endif

@@ -192,6 +192,14 @@ double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
   return single;
 }
 
+bool HasDoubleTerms(const ShadingMaterial& material) {
+  return std::visit(
+      Overloaded{[](const PhongFamilyModel& phong) { return phong.double_terms; },
+                 [](const MicrofacetModel& microfacet) { return microfacet.double_terms; },
+                 [](const auto&) { return false; }},
+      material.model);
+}
+
 bool HasDeltaLobe(const ShadingMaterial& material) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
   return microfacet != nullptr && microfacet->delta;

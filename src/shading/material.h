@@ -63,6 +63,9 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
 // The directional albedo of the whole lobe, compensation included, seen from n.v, of one channel.
 double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
 
+// True if the material has a lobe whose terms are formed in double.
+bool HasDoubleTerms(const ShadingMaterial& material);
+
 // True if the material has a perfect mirror's lobe.
 bool HasDeltaLobe(const ShadingMaterial& material);
 

@@ -1,6 +1,5 @@
 // shading/shade.h: from a batch of hits and the scene's lights to radiance towards the viewer.
 //
-//   PrepareSurface   once per batch: the hits' directions in float
 //   PrepareRun       once per run of hits that share a material: what depends on the view alone
 //   EvaluateLight    per light: direction and irradiance at every hit (unshadowed)
 //   ShadeRun         per light and run: adds the reflected radiance
@@ -15,8 +14,7 @@
 namespace nacre {
 
 // The hits of a batch as seen by their viewer.
-struct Surface {
-  Soa3<float> normal, to_view;  // rounded to float
+struct Surface : HitDirections {
   // Of hits on microfacet materials, by PrepareRun:
   AlignedArray<float> multiple{kBatchCapacity};  // the weight of multiple scattering
   Soa3<float> base;                              // the share of light that the diffuse base gets
@@ -51,6 +49,7 @@ struct LitHits {
   const LightBatch& light;
 };
 
+// Rounds hits whose directions were given in double.
 void PrepareSurface(const HitBatch& hits, Surface* surface);
 
 // Hits [begin, end) are all of `material`.

@@ -37,15 +37,9 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
     geometry->triangles.push_back(
         {base + mesh.triangles[i], base + mesh.triangles[i + 1], base + mesh.triangles[i + 2]});
   }
-  geometry->mesh_end.push_back(static_cast<uint32_t>(geometry->triangles.size()));
 }
 
 }  // namespace
-
-uint32_t TraceGeometry::MeshOf(uint32_t triangle) const {
-  const auto mesh = std::upper_bound(mesh_end.begin(), mesh_end.end(), triangle);
-  return static_cast<uint32_t>(mesh - mesh_end.begin());
-}
 
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position) {
   CheckPrimitiveCount(scene);

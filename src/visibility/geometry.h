@@ -24,14 +24,11 @@ struct TraceGeometry {
   std::vector<Vec3d>
       normals;  // one per position, 0 where a mesh has none; empty if no mesh has any
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<uint32_t> mesh_end;  // for each mesh one past its last triangle
 
   // No point of any primitive is further than this from the camera.
   double extent = 0;
 
   uint32_t SphereCount() const { return static_cast<uint32_t>(spheres.size()); }
-  // The mesh that a triangle belongs to.
-  uint32_t MeshOf(uint32_t triangle) const;
 };
 
 // Throws Error (kBadInput) when there are more primitives than ids.

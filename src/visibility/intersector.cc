@@ -208,14 +208,14 @@ bool Intersector::EnterTile(const Window& tile, TileCandidates* candidates) cons
   return GatherTile(state_->geometry, state_->bins, state_->camera, tile, candidates);
 }
 
-void Intersector::ClosestInTile(const TileCandidates& candidates, int samples, const RayBatch& rays,
-                                ClosestHits* hits) const {
-  TraceTile(state_->geometry, state_->bins, candidates, samples, rays, hits);
+void Intersector::HitsInTile(const TileCandidates& candidates, const FilmBatch& film,
+                             const HitsTo& to) const {
+  TraceTile(state_->camera, state_->bins, candidates, film, to);
 }
 
 void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
-                         const uint32_t* ray_indices, size_t count, HitBatch* hits) const {
-  RefineHits({state_->geometry, rays, closest, ray_indices, count}, hits);
+                         const uint32_t* ray_indices, size_t count, const HitsTo& to) const {
+  RefineHits({state_->geometry, rays, closest, ray_indices, count}, to);
 }
 
 void Intersector::Occluded(ShadowRayBatch* rays) const { TraceOccluded(state_->Traced(), rays); }

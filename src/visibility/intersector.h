@@ -48,18 +48,17 @@ class Intersector {
   // binned: with any in the scene this must not be called.
   bool BinForCamera(const CameraFrame& frame, const Window& window, double reach);
 
-  // Then, instead of Closest, for a tile that lies within one row of cells (sphere_bins.h): the
-  // spheres that its rays may hit, false if none; and the first hits of the rays through `samples`
-  // samples of each of its pixels, row by row. The same bits as Closest's.
+  // Then, instead of Closest and Refine, for a tile that lies within one row of cells
+  // (sphere_bins.h): the spheres that its rays may hit, false if none; and the hits of the rays
+  // through `film`, in their order. The same bits as Closest's and Refine's.
   bool EnterTile(const Window& tile, TileCandidates* candidates) const;
-  void ClosestInTile(const TileCandidates& candidates, int samples, const RayBatch& rays,
-                     ClosestHits* hits) const;
+  void HitsInTile(const TileCandidates& candidates, const FilmBatch& film, const HitsTo& to) const;
 
-  // Fills `hits` from the rays ray_indices[0..count), in that order, all of which hit something;
+  // Fills `to` from the rays ray_indices[0..count), in that order, all of which hit something;
   // `closest` is what Closest found for `rays`. Entries from count to the next multiple of
   // kBatchPadding are copies of the last hit.
   void Refine(const RayBatch& rays, const ClosestHits& closest, const uint32_t* ray_indices,
-              size_t count, HitBatch* hits) const;
+              size_t count, const HitsTo& to) const;
 
   // Sets rays->occluded: whether a surface lies at 0 < t < t_max. The surface that a ray starts on
   // is in its way only where a sphere's ray leaves inward.

@@ -10,6 +10,7 @@
 #include "hwy/foreach_target.h"
 
 #include "visibility/sphere_test-inl.h"
+#include "visibility/surface-inl.h"
 #include "visibility/triangle_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,21 +48,15 @@ struct Gathered {
   bool any_sphere = false, any_triangle = false;
 };
 
-struct SurfaceV {
-  Vec3V<V> position;
-  Vec3V<V> normal;
-};
-
-HWY_INLINE SurfaceV RefineSphere(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                 const Vec3V<V>& direction, V inverse_dd) {
+HWY_INLINE SurfaceV<D> RefineSphere(const Gathered& in, size_t i, const Vec3V<V>& origin,
+                                    const Vec3V<V>& direction, V inverse_dd) {
   const D d;
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
   const auto hit = TestSphere(d, Sub(center, origin), direction, inverse_dd, radius);
-  const Vec3V<V> from_center = CenterToHit(d, hit, direction);
-  const V inverse_radius = hn::Div(hn::Set(d, 1.0), radius);
-  const V inward = hn::IfThenElse(hit.inside, hn::Neg(inverse_radius), inverse_radius);
-  return {Add(center, from_center), Scale(from_center, inward)};
+  const V along = hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord));
+  return SphereSurface(d, direction, along, hit.perpendicular, center,
+                       hn::Div(hn::Set(d, 1.0), radius));
 }
 
 HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
@@ -83,8 +78,8 @@ HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
   return Scale(scaled, hn::Div(hn::Set(d, 1.0), hn::Sqrt(Dot(scaled, scaled))));
 }
 
-HWY_INLINE SurfaceV RefineTriangle(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                   const Vec3V<V>& direction, V inverse_dd) {
+HWY_INLINE SurfaceV<D> RefineTriangle(const Gathered& in, size_t i, const Vec3V<V>& origin,
+                                      const Vec3V<V>& direction, V inverse_dd) {
   const D d;
   const V zero = hn::Zero(d);
   const Vec3V<V> a = in.corner[0].Load(i), b = in.corner[1].Load(i), c = in.corner[2].Load(i);
@@ -137,51 +132,59 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
     hits->primitive[first + i] = primitive;
     if (primitive < sphere_count) {
       GatherSphere(geometry.spheres[primitive], i, to);
-      hits->object[first + i] = primitive;
     } else {
       GatherTriangle(geometry, primitive - sphere_count, i, to);
-      hits->object[first + i] = sphere_count + geometry.MeshOf(primitive - sphere_count);
     }
   }
 }
 
-HWY_INLINE void StoreSurface(const SurfaceV& surface, size_t first, HitBatch* hits) {
-  Store3(surface.position, D(), hits->position.x.data() + first, hits->position.y.data() + first,
-         hits->position.z.data() + first);
-  Store3(surface.normal, D(), hits->normal.x.data() + first, hits->normal.y.data() + first,
-         hits->normal.z.data() + first);
+HWY_INLINE void StoreHits(const SurfaceV<D>& surface, const Vec3V<V>& to_view, size_t first,
+                          const HitsTo& to) {
+  const D d;
+  const hn::Rebind<float, D> df;
+  HitBatch& hits = *to.hits;
+  HitDirections& rounded = *to.directions;
+  const auto store = [&](const auto& tag, const auto& v, auto& soa) HWY_ATTR {
+    Store3(v, tag, soa.x.data() + first, soa.y.data() + first, soa.z.data() + first);
+  };
+  store(d, surface.position, hits.position);
+  store(df, Demote3(d, surface.normal), rounded.normal);
+  store(df, Demote3(d, to_view), rounded.to_view);
+  if (!to.exact) return;
+  store(d, surface.normal, hits.normal);
+  store(d, to_view, hits.to_view);
 }
 
-// The vector of hits gathered at i, to be stored at hits[to].
-HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t to, HitBatch* hits) {
+// The vector of hits gathered at i, to be stored at hits[first].
+HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const HitsTo& to) {
   const D d;
   const Vec3V<V> origin = in.origin.Load(i), direction = in.direction.Load(i);
-  const V inverse_dd = hn::Div(hn::Set(d, 1.0), Dot(direction, direction));
-  const Vec3V<V> to_view = Scale(direction, hn::Neg(hn::Sqrt(inverse_dd)));
-  Store3(to_view, d, hits->to_view.x.data() + to, hits->to_view.y.data() + to,
-         hits->to_view.z.data() + to);
+  const V dd = Dot(direction, direction);
+  const V inverse_dd = hn::Div(hn::Set(d, 1.0), dd);
+  const Vec3V<V> to_view = ToView(d, direction, dd);
   if (!in.any_triangle) {
-    StoreSurface(RefineSphere(in, i, origin, direction, inverse_dd), to, hits);
+    StoreHits(RefineSphere(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else if (!in.any_sphere) {
-    StoreSurface(RefineTriangle(in, i, origin, direction, inverse_dd), to, hits);
+    StoreHits(RefineTriangle(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else {
-    const SurfaceV sphere = RefineSphere(in, i, origin, direction, inverse_dd);
-    const SurfaceV triangle = RefineTriangle(in, i, origin, direction, inverse_dd);
+    const SurfaceV<D> sphere = RefineSphere(in, i, origin, direction, inverse_dd);
+    const SurfaceV<D> triangle = RefineTriangle(in, i, origin, direction, inverse_dd);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
-    StoreSurface({Select(is_triangle, triangle.position, sphere.position),
-                  Select(is_triangle, triangle.normal, sphere.normal)},
-                 to, hits);
+    StoreHits({Select(is_triangle, triangle.position, sphere.position),
+               Select(is_triangle, triangle.normal, sphere.normal)},
+              to_view, first, to);
   }
 }
 
-void Refine(const RefineRequest& request, HitBatch* hits) {
+void Refine(const RefineRequest& request, const HitsTo& to) {
   Gathered in;
-  hits->count = request.count;
+  to.hits->count = request.count;
+  to.hits->one_primitive = false;
   const size_t padded = RoundUp(request.count, kBatchPadding);
   for (size_t first = 0; first < padded; first += kBlock) {
     const size_t size = std::min(kBlock, padded - first);
-    Gather(request, first, size, &in, hits);
-    for (size_t i = 0; i < size; i += hn::Lanes(D())) RefineVector(in, i, first + i, hits);
+    Gather(request, first, size, &in, to.hits);
+    for (size_t i = 0; i < size; i += hn::Lanes(D())) RefineVector(in, i, first + i, to);
   }
 }
 
@@ -194,8 +197,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(Refine);
 
-void RefineHits(const RefineRequest& request, HitBatch* hits) {
-  HWY_DYNAMIC_DISPATCH(Refine)(request, hits);
+void RefineHits(const RefineRequest& request, const HitsTo& to) {
+  HWY_DYNAMIC_DISPATCH(Refine)(request, to);
 }
 }  // namespace nacre
 #endif

@@ -15,6 +15,6 @@ struct RefineRequest {
   size_t count;
 };
 
-void RefineHits(const RefineRequest& request, HitBatch* hits);
+void RefineHits(const RefineRequest& request, const HitsTo& to);
 
 }  // namespace nacre

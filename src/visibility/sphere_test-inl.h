@@ -24,10 +24,11 @@ struct SphereHitV {
   Vec3V<V> perpendicular;
 };
 
-// inverse_dd is 1 / |direction|^2.
+// What the ray's whole line does: `hit` is whether it meets the sphere; `inside` and `t` are not
+// set. inverse_dd is 1 / |direction|^2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
-                                    V inverse_dd, V radius) {
+HWY_INLINE SphereHitV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
+                                  V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
   SphereHitV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
   const V first_closest = hn::Mul(Dot(to_center, direction), inverse_dd);
@@ -41,15 +42,23 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   result.perpendicular.x = hn::Sub(rough.x, hn::Mul(direction.x, correction));
   result.perpendicular.y = hn::Sub(rough.y, hn::Mul(direction.y, correction));
   result.perpendicular.z = hn::Sub(rough.z, hn::Mul(direction.z, correction));
-  const V closest = hn::Add(first_closest, correction);
-  result.closest = closest;
-
-  const V radius2 = hn::Mul(radius, radius);
-  const V discriminant = hn::Sub(radius2, Dot(result.perpendicular, result.perpendicular));
-  const auto line_hit = hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero));
+  result.closest = hn::Add(first_closest, correction);
+  const V discriminant =
+      hn::Sub(hn::Mul(radius, radius), Dot(result.perpendicular, result.perpendicular));
+  result.hit = hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero));
   result.half_chord = hn::Sqrt(hn::Mul(hn::Max(discriminant, zero), inverse_dd));
+  return result;
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
+                                    V inverse_dd, V radius) {
+  const V zero = hn::Zero(d);
+  SphereHitV<D> result = TestLine(d, to_center, direction, inverse_dd, radius);
+  const V closest = result.closest;
   const V larger = hn::Add(closest, hn::CopySign(result.half_chord, closest));
-  const V product = hn::Mul(hn::Sub(Dot(to_center, to_center), radius2), inverse_dd);
+  const V product =
+      hn::Mul(hn::Sub(Dot(to_center, to_center), hn::Mul(radius, radius)), inverse_dd);
   const V smaller = hn::Div(product, larger);
   const auto ahead = hn::Gt(closest, zero);
   const V near = hn::IfThenElse(ahead, smaller, larger);
@@ -57,15 +66,8 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   const auto outside = hn::Gt(near, zero);
   result.inside = hn::Not(outside);
   result.t = hn::IfThenElse(outside, near, far);
-  result.hit = hn::And(line_hit, hn::Gt(result.t, zero));
+  result.hit = hn::And(result.hit, hn::Gt(result.t, zero));
   return result;
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> CenterToHit(D /*d*/, const SphereHitV<D>& hit, const Vec3V<V>& direction) {
-  const Vec3V<V> along =
-      Scale(direction, hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)));
-  return Sub(along, hit.perpendicular);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,4 +1,4 @@
-// visibility/tile_kernel.cc: packets of camera rays against the candidates of their cell.
+// visibility/tile_kernel.cc: traces a tile packet by packet and writes its hits.
 #include "visibility/tile_kernel.h"
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #define HWY_TARGET_INCLUDE "visibility/tile_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "visibility/fill_packet-inl.h"
-#include "visibility/sphere_packet-inl.h"
+#include "visibility/camera_packet-inl.h"
+#include "visibility/surface-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -17,68 +17,238 @@ namespace HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The distance from the camera beyond which no lane of the packet looks: t |direction| of the best
-// hits, rounded up; infinite while any lane has none.
-HWY_INLINE double Reach(const Packet& packet, uint32_t lanes) {
-  double reach2 = 0;
-  for (; lanes != 0; lanes &= lanes - 1) {
-    const int lane = __builtin_ctz(lanes);
-    reach2 = std::max(reach2, packet.best_t[lane] * packet.best_t[lane] / packet.inverse_dd[lane]);
+HWY_INLINE float LargestDepth(const CameraPacket& packet) {
+  const CameraFloat d;
+  auto largest = hn::Load(d, packet.depth);
+  for (size_t i = hn::Lanes(d); i < kCameraPacket; i += hn::Lanes(d)) {
+    largest = hn::Max(largest, hn::Load(d, packet.depth + i));
   }
-  return std::sqrt(reach2) * (1 + 1e-6);
+  return hn::GetLane(hn::MaxOfLanes(d, largest));
 }
 
-HWY_INLINE void TraceCell(const std::vector<TileCandidate>& candidates, uint32_t lanes,
-                          Packet* packet) {
-  double reach = std::numeric_limits<double>::infinity();
-  uint32_t since_reach = 0;
+HWY_INLINE float SmallestLength(const CameraPacket& packet) {
+  const CameraFloat d;
+  auto smallest = hn::Load(d, packet.dd);
+  for (size_t i = hn::Lanes(d); i < kCameraPacket; i += hn::Lanes(d)) {
+    smallest = hn::Min(smallest, hn::Load(d, packet.dd + i));
+  }
+  return std::sqrt(hn::GetLane(hn::MinOfLanes(d, smallest))) * (1 - 0x1p-20f);
+}
+
+// Candidates come nearest first: those beyond every lane's hit end it. t |direction| of a hit is
+// its distance from the camera, and t |direction|^2 its depth.
+template <bool kPerspective>
+HWY_INLINE void TraceCell(const CameraFrame& frame, const std::vector<TileCandidate>& candidates,
+                          CameraPacket* packet) {
+  const float length = SmallestLength(*packet);
+  float depth = LargestDepth(*packet);
   for (const TileCandidate& candidate : candidates) {
-    if (candidate.near > reach) return;
-    IntersectLanes(candidate.sphere, candidate.primitive, lanes, packet);
-    // Now and then: it costs as much as a proposal.
-    if ((++since_reach & 3) == 0) reach = Reach(*packet, lanes);
+    if (candidate.near * length > depth) return;
+    if (TestOneOfMany<kPerspective>(frame, candidate, packet)) depth = LargestDepth(*packet);
   }
 }
 
-void TraceTileT(const TraceGeometry& geometry, const SphereBins& bins,
-                const TileCandidates& candidates, int samples, const RayBatch& rays,
-                ClosestHits* hits) {
-  Packet packet;
-  packet.width = kMaxPacketWidth;
-  packet.geometry = &geometry;
-  const Window& tile = candidates.tile;
-  const size_t width = packet.Width();
-  const auto pixels_across = static_cast<size_t>(tile.width());
-  const auto samples_each = static_cast<size_t>(samples);
-  for (size_t first = 0; first < rays.count; first += width) {
-    packet.best_t = hits->t.data() + first;
-    packet.best_primitive = hits->primitive.data() + first;
-    std::fill_n(packet.best_t, width, std::numeric_limits<double>::infinity());
-    std::fill_n(packet.best_primitive, width, kNoPrimitive);
-    // The packet's cells: those of its pixels, or, where it goes on in the next row, the tile's.
-    const size_t count = std::min(width, rays.count - first);
-    const size_t first_pixel = first / samples_each;
-    const size_t last_pixel = (first + count - 1) / samples_each;
-    size_t begin = 0;
-    size_t end = candidates.cells.size();
-    if (first_pixel / pixels_across == last_pixel / pixels_across) {
-      const auto cell = [&](size_t pixel) {
-        const int x = tile.x0 + static_cast<int>(pixel % pixels_across) - bins.window.x0;
-        return static_cast<size_t>(x / kCellSize - candidates.first_column);
-      };
-      begin = cell(first_pixel);
-      end = cell(last_pixel) + 1;
-    }
-    const bool none = std::all_of(candidates.cells.begin() + static_cast<std::ptrdiff_t>(begin),
-                                  candidates.cells.begin() + static_cast<std::ptrdiff_t>(end),
-                                  [](const auto& cell) { return cell.empty(); });
-    if (none) continue;
-    FillPacket(rays, first, &packet);
-    const uint32_t lanes = (1u << count) - 1;
-    for (size_t cell = begin; cell < end; ++cell) {
-      TraceCell(candidates.cells[cell], lanes, &packet);
+// Traces the packet's rays against the cells that its pixels lie in.
+template <bool kPerspective>
+HWY_INLINE void TracePacket(const CameraFrame& frame, const std::vector<TileCandidate>* begin,
+                            const std::vector<TileCandidate>* end, CameraPacket* packet) {
+  FillFloatRays<kPerspective>(frame, packet);
+  const CameraFloat d;
+  const float infinity = std::numeric_limits<float>::infinity();
+  packet->hit = 0;
+  packet->exact = 0;
+  packet->alone = nullptr;
+  for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
+    const auto used = MaskOfBits(d, packet->lanes, static_cast<int>(i));
+    hn::Store(hn::IfThenElse(used, hn::Set(d, infinity), hn::Set(d, -infinity)), d,
+              packet->depth + i);
+  }
+  if (end - begin == 1 && begin->size() == 1 && kPerspective && !begin->front().around_camera) {
+    packet->alone = &begin->front();
+    return TestAlone<kPerspective>(frame, packet);
+  }
+  std::fill_n(packet->t, kCameraPacket, std::numeric_limits<double>::infinity());
+  for (; begin != end; ++begin) TraceCell<kPerspective>(frame, *begin, packet);
+}
+
+// The one sphere that the lanes hit, or null.
+HWY_INLINE const TileCandidate* OnlySphere(const CameraPacket& packet, int lane, uint32_t bits) {
+  const TileCandidate* const first = packet.best[lane + __builtin_ctz(bits)];
+  for (; bits != 0; bits &= bits - 1) {
+    if (packet.best[lane + __builtin_ctz(bits)] != first) return nullptr;
+  }
+  return first;
+}
+
+// The spheres that a group of lanes hit.
+struct HitSpheres {
+  Vec3V<hn::Vec<CameraDouble>> center;
+  hn::Vec<CameraDouble> inverse_radius;
+};
+
+HWY_INLINE HitSpheres GatherSpheres(const CameraPacket& packet, int lane, uint32_t bits) {
+  const CameraDouble d;
+  alignas(kVectorBytes) double gathered[4][kCameraPacket] = {};
+  for (; bits != 0; bits &= bits - 1) {
+    const int i = __builtin_ctz(bits);
+    const TileCandidate& candidate = *packet.best[lane + i];
+    gathered[0][i] = candidate.sphere.center.x;
+    gathered[1][i] = candidate.sphere.center.y;
+    gathered[2][i] = candidate.sphere.center.z;
+    gathered[3][i] = candidate.inverse_radius;
+  }
+  return {Load3(d, gathered[0], gathered[1], gathered[2]), hn::Load(d, gathered[3])};
+}
+
+// Appends the lanes of a group that hit something to arrays that are `count` long.
+class Appender {
+ public:
+  Appender(size_t count, uint32_t bits) : count_(count) {
+    bytes_[0] = static_cast<uint8_t>(bits);
+    bytes_[1] = static_cast<uint8_t>(bits >> 8);
+    all_ = bits == (1u << hn::Lanes(CameraDouble())) - 1;
+  }
+
+  template <class D, class T>
+  HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
+    if (all_) {
+      hn::StoreU(value, d, to->data() + count_);
+    } else {
+      hn::CompressBitsStore(value, bytes_, d, to->data() + count_);
     }
   }
+
+  template <class D, class T>
+  HWY_INLINE void Append3(D d, const Vec3V<hn::Vec<D>>& value, Soa3<T>* to) const {
+    (*this)(d, value.x, &to->x);
+    (*this)(d, value.y, &to->y);
+    (*this)(d, value.z, &to->z);
+  }
+
+ private:
+  size_t count_;
+  uint8_t bytes_[8] = {};
+  bool all_;
+};
+
+// Appends the primitives, and with them counts the hits.
+HWY_INLINE void AppendPrimitives(const CameraPacket& packet, int lane, uint32_t bits,
+                                 const TileCandidate* only, const Appender& append,
+                                 HitBatch* hits) {
+  const hn::Rebind<uint32_t, CameraDouble> du;
+  if (only != nullptr) {
+    append(du, hn::Set(du, only->primitive), &hits->primitive);
+    if (hits->primitive[0] != only->primitive) hits->one_primitive = false;
+    hits->count += static_cast<size_t>(__builtin_popcount(bits));
+    return;
+  }
+  hits->one_primitive = false;
+  for (; bits != 0; bits &= bits - 1) {
+    hits->primitive[hits->count++] = packet.best[lane + __builtin_ctz(bits)]->primitive;
+  }
+}
+
+template <bool kPerspective>
+HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet, size_t first_ray,
+                           const HitsTo& to) {
+  const CameraDouble d;
+  const hn::Rebind<float, CameraDouble> df;
+  const hn::Rebind<uint32_t, CameraDouble> du;
+  const int step = static_cast<int>(hn::Lanes(d));
+  HitBatch& hits = *to.hits;
+  for (int lane = 0; lane < kCameraPacket; lane += step) {
+    const uint32_t bits = (packet.hit >> lane) & ((1u << step) - 1);
+    if (bits == 0) continue;
+    const auto direction = ExactDirection<kPerspective>(frame, lane, packet);
+    const Vec3V<hn::Vec<CameraDouble>> perpendicular =
+        Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
+              packet.perpendicular[2] + lane);
+    const TileCandidate* const only =
+        packet.alone != nullptr ? packet.alone : OnlySphere(packet, lane, bits);
+    const HitSpheres spheres = only != nullptr ? HitSpheres{SetVec3(d, only->sphere.center),
+                                                            hn::Set(d, only->inverse_radius)}
+                                               : GatherSpheres(packet, lane, bits);
+    const SurfaceV<CameraDouble> surface =
+        SphereSurface(d, direction, hn::Load(d, packet.along + lane), perpendicular, spheres.center,
+                      spheres.inverse_radius);
+    const auto to_view = ToView(d, direction, hn::Load(d, packet.exact_dd + lane));
+    const Appender append(hits.count, bits);
+    append.Append3(d, surface.position, &hits.position);
+    append.Append3(df, Demote3(d, surface.normal), &to.directions->normal);
+    append.Append3(df, Demote3(d, to_view), &to.directions->to_view);
+    if (to.exact) {
+      append.Append3(d, surface.normal, &hits.normal);
+      append.Append3(d, to_view, &hits.to_view);
+    }
+    append(du, hn::Iota(du, static_cast<uint32_t>(first_ray) + static_cast<uint32_t>(lane)),
+           &hits.ray);
+    AppendPrimitives(packet, lane, bits, only, append, &hits);
+  }
+}
+
+// The entries past the last hit, up to a whole vector, become copies of it.
+template <class T>
+void PadArray(size_t count, AlignedArray<T>* array) {
+  std::fill(array->begin() + count, array->begin() + RoundUp(count, kBatchPadding),
+            (*array)[count - 1]);
+}
+
+template <class T>
+void PadSoa(size_t count, Soa3<T>* soa) {
+  PadArray(count, &soa->x);
+  PadArray(count, &soa->y);
+  PadArray(count, &soa->z);
+}
+
+void PadHits(const HitsTo& to) {
+  const size_t count = to.hits->count;
+  if (count == 0) return;
+  PadSoa(count, &to.hits->position);
+  PadSoa(count, &to.directions->normal);
+  PadSoa(count, &to.directions->to_view);
+  if (!to.exact) return;
+  PadSoa(count, &to.hits->normal);
+  PadSoa(count, &to.hits->to_view);
+}
+
+template <bool kPerspective>
+HWY_INLINE void TraceRows(const CameraFrame& frame, const SphereBins& bins,
+                          const TileCandidates& candidates, const FilmBatch& film,
+                          const HitsTo& to) {
+  CameraPacket packet;
+  const Window& tile = candidates.tile;
+  const int left = tile.x0 - bins.window.x0;
+  size_t row = 0;
+  for (; row < film.count; row += static_cast<size_t>(tile.width())) {
+    for (int x = 0; x < tile.width(); x += kCameraPacket) {
+      const int width = std::min(kCameraPacket, tile.width() - x);
+      const auto cell = [&](int column) {
+        return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
+      };
+      const std::vector<TileCandidate>* begin = cell(x);
+      const std::vector<TileCandidate>* const end = cell(x + width - 1) + 1;
+      while (begin != end && begin->empty()) ++begin;
+      if (begin == end) continue;
+      const size_t first = row + static_cast<size_t>(x);
+      packet.lanes = (1u << width) - 1;
+      packet.film_x = film.x.data() + first;
+      packet.film_y = film.y.data() + first;
+      TracePacket<kPerspective>(frame, begin, end, &packet);
+      if (packet.hit != 0) AppendHits<kPerspective>(frame, packet, first, to);
+    }
+  }
+}
+
+void TraceTileT(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
+                const FilmBatch& film, const HitsTo& to) {
+  to.hits->count = 0;
+  to.hits->one_primitive = true;
+  if (frame.projection == Projection::kPerspective) {
+    TraceRows<true>(frame, bins, candidates, film, to);
+  } else {
+    TraceRows<false>(frame, bins, candidates, film, to);
+  }
+  PadHits(to);
 }
 
 }  // namespace
@@ -90,6 +260,9 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 namespace {
 
+// A float not below v >= 0.
+float RoundUp(double v) { return static_cast<float>(v) * (1 + 0x1p-22f); }
+
 // A float not above the sphere's nearest distance: along the view where all rays go that way.
 float NearBound(const TraceSphere& sphere, const CameraFrame& frame) {
   const double distance = frame.projection == Projection::kPerspective
@@ -97,6 +270,40 @@ float NearBound(const TraceSphere& sphere, const CameraFrame& frame) {
                               : sphere.center.dot(frame.forward);
   const double near = distance - sphere.radius - 1e-6 * (std::abs(distance) + sphere.radius);
   return static_cast<float>(std::max(near, 0.0)) * (1 - 0x1p-22f);
+}
+
+double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// Bounds the coordinates of the rays' own vectors, and every sum on the way to them. Film positions
+// lie within the window but for the pixel filter's reach, far less than 64 pixels.
+double OwnBound(const CameraFrame& frame, const Window& window) {
+  return SumOfAbs(frame.corner) + SumOfAbs(frame.step_x) * (window.x1 + 64) +
+         SumOfAbs(frame.step_y) * (window.y1 + 64);
+}
+
+// The float rays' own vectors err by 8 u `own` at most: two roundings of the factors and two of the
+// sums. |direction| is at least 1, so the cross product with the centre, over that length, errs by
+// (8 u own + 8 u) |center|, and the dot product no more. An orthographic ray's origin errs by
+// 8 u own itself, and its difference from the centre and the cross product by 16 u of both.
+float Reach(const TraceSphere& sphere, const CameraFrame& frame, double own) {
+  const double center = SumOfAbs(sphere.center);
+  const double error = frame.projection == Projection::kPerspective ? center * (8 * own + 16)
+                                                                    : 8 * own + 16 * (center + own);
+  return RoundUp(sphere.radius + kFloatUnit * error);
+}
+
+TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, const CameraFrame& frame,
+                            double own) {
+  TileCandidate candidate;
+  candidate.sphere = sphere;
+  candidate.inverse_radius = 1 / sphere.radius;
+  candidate.primitive = primitive;
+  // The sign of the product of TestSphere's roots.
+  candidate.around_camera = !(sphere.center.dot(sphere.center) - sphere.radius * sphere.radius > 0);
+  candidate.near = NearBound(sphere, frame);
+  for (int c = 0; c < 3; ++c) candidate.center[c] = static_cast<float>(sphere.center[c]);
+  candidate.reach = Reach(sphere, frame, own);
+  return candidate;
 }
 
 }  // namespace
@@ -108,6 +315,7 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   const int row = (tile.y0 - bins.window.y0) / kCellSize;
   const int first = (tile.x0 - bins.window.x0) / kCellSize;
   const int last = (tile.x1 - 1 - bins.window.x0) / kCellSize;
+  const double own = OwnBound(frame, bins.window);
   candidates->tile = tile;
   candidates->first_column = first;
   candidates->cells.resize(static_cast<size_t>(last - first + 1));
@@ -118,8 +326,7 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
     const size_t number = bins.Cell(column, row);
     for (uint32_t i = bins.Begin(number); i < bins.end[number]; ++i) {
       const uint32_t sphere = bins.spheres[i];
-      const TraceSphere& traced = geometry.spheres[sphere];
-      cell.push_back({traced, sphere, NearBound(traced, frame)});
+      cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, frame, own));
     }
     std::sort(cell.begin(), cell.end(),
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
@@ -128,10 +335,9 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   return any;
 }
 
-void TraceTile(const TraceGeometry& geometry, const SphereBins& bins,
-               const TileCandidates& candidates, int samples, const RayBatch& rays,
-               ClosestHits* hits) {
-  HWY_DYNAMIC_DISPATCH(TraceTileT)(geometry, bins, candidates, samples, rays, hits);
+void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
+               const FilmBatch& film, const HitsTo& to) {
+  HWY_DYNAMIC_DISPATCH(TraceTileT)(frame, bins, candidates, film, to);
 }
 }  // namespace nacre
 #endif

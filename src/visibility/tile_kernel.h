@@ -1,4 +1,5 @@
-// visibility/tile_kernel.h: camera rays of a tile against the spheres binned to its cells.
+// visibility/tile_kernel.h: camera rays of a tile against the spheres binned to its cells: from
+// film positions to hits ready for shading, without a stop on the way.
 #pragma once
 
 #include <vector>
@@ -11,8 +12,14 @@ namespace nacre {
 // A sphere that a tile's rays may hit.
 struct TileCandidate {
   TraceSphere sphere;
+  double inverse_radius;
   uint32_t primitive;
-  float near;  // no ray meets the sphere nearer to the camera than this
+  bool around_camera;  // the camera is inside
+  // For proposals, in float: no ray meets the sphere nearer to the camera than `near`, and rays
+  // that hit it come within `reach` of `center`: radius and rounding errors.
+  float near;
+  float center[3];
+  float reach;
 };
 
 // The candidates of each of a tile's cells, from left to right, nearest first. One for each worker,
@@ -27,9 +34,9 @@ struct TileCandidates {
 bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const CameraFrame& frame,
                 const Window& tile, TileCandidates* candidates);
 
-// The closest hits of the rays through `samples` samples of each of the tile's pixels, row by row.
-void TraceTile(const TraceGeometry& geometry, const SphereBins& bins,
-               const TileCandidates& candidates, int samples, const RayBatch& rays,
-               ClosestHits* hits);
+// The first hits of the camera rays through `film`, whole samples of the tile's pixels, in the
+// order of the rays.
+void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
+               const FilmBatch& film, const HitsTo& to);
 
 }  // namespace nacre

@@ -124,19 +124,21 @@ TEST_CASE("SamplePixels is SamplePixel to the bit on every target", "[sampling]"
   for (const PixelFilter& filter : kFilters) {
     for (const int spp : {1, 2, 3, 16, 61}) {
       const PixelSampler sampler = MakePixelSampler(filter, spp, 9);
+      PixelShifts shifts(pixels.pixel_count());
+      ShiftPixels(sampler, pixels, &shifts);
       ForEachTarget([&](Target) {
         for (const auto& [first, count] : {std::pair{0, spp}, {spp / 2, spp - spp / 2}, {0, 1}}) {
           const size_t size = pixels.pixel_count() * static_cast<size_t>(count);
           // Exactly as large as promised, for the address sanitizer.
-          std::vector<double> x(size), y(size), weight(size);
-          SamplePixels(sampler, pixels, first, count, x.data(), y.data(), weight.data());
+          AlignedArray<double> x(size), y(size);
+          SamplePixels(sampler, pixels, shifts, first, count, x.data(), y.data());
           size_t wrong = 0, ray = 0;
-          for (int row = pixels.y0; row < pixels.y1; ++row) {
-            for (int column = pixels.x0; column < pixels.x1; ++column) {
-              for (int i = first; i < first + count; ++i, ++ray) {
+          for (int i = first; i < first + count; ++i) {
+            for (int row = pixels.y0; row < pixels.y1; ++row) {
+              for (int column = pixels.x0; column < pixels.x1; ++column, ++ray) {
                 const PixelSample s = SamplePixel(sampler, column, row, i);
                 wrong += x[ray] != column + 0.5 + s.dx || y[ray] != row + 0.5 + s.dy ||
-                         weight[ray] != s.weight;
+                         SampleWeight(sampler, i) != s.weight;
               }
             }
           }

@@ -270,6 +270,8 @@ TEST_CASE("padding repeats the last hit") {
   RayBatch rays;
   ClosestHits closest;
   HitBatch hits;
+  HitDirections rounded;
+  const HitsTo to{&hits, &rounded, true};
   rays.count = 20;
   for (size_t i = 0; i < rays.count; ++i) {
     SetRay({Vec3d(0), Vec3d(random.Uniform(-0.1, 0.1), 0, -1)}, i, &rays);
@@ -277,7 +279,7 @@ TEST_CASE("padding repeats the last hit") {
   intersector.Closest(rays, &closest);
   for (const unsigned count : {1u, 5u, 16u, 17u}) {
     const std::vector<uint32_t> indices{19, 3, 3, 7, 1, 0, 2, 4, 5, 6, 8, 9, 10, 11, 12, 13, 14};
-    intersector.Refine(rays, closest, indices.data(), count, &hits);
+    intersector.Refine(rays, closest, indices.data(), count, to);
     REQUIRE(hits.count == count);
     for (size_t i = 0; i < count; ++i) CHECK(hits.ray[i] == indices[i]);
     for (size_t i = count; i < RoundUp(count, kBatchPadding); ++i) {
@@ -286,9 +288,11 @@ TEST_CASE("padding repeats the last hit") {
       CHECK(At(hits.position, i) == At(hits.position, count - 1));
       CHECK(At(hits.normal, i) == At(hits.normal, count - 1));
       CHECK(At(hits.to_view, i) == At(hits.to_view, count - 1));
+      CHECK(rounded.normal.x[i] == rounded.normal.x[count - 1]);
+      CHECK(rounded.to_view.x[i] == rounded.to_view.x[count - 1]);
     }
   }
-  intersector.Refine(rays, closest, nullptr, 0, &hits);
+  intersector.Refine(rays, closest, nullptr, 0, to);
   CHECK(hits.count == 0);
 }
 

@@ -28,7 +28,7 @@ struct Hit {
 };
 
 struct Surface {
-  uint32_t primitive, object;
+  uint32_t primitive;
   Vec3d position, normal, to_view;
 };
 
@@ -80,16 +80,17 @@ inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
   std::vector<Surface> surfaces;
   ClosestHits closest;
   HitBatch hits;
+  HitDirections rounded;
   ForEachBatch(rays, kBatchCapacity, [&](size_t, const RayBatch& batch) {
     intersector.Closest(batch, &closest);
     std::vector<uint32_t> indices;
     for (uint32_t i = 0; i < batch.count; ++i) {
       if (closest.primitive[i] != kNoPrimitive) indices.push_back(i);
     }
-    intersector.Refine(batch, closest, indices.data(), indices.size(), &hits);
+    intersector.Refine(batch, closest, indices.data(), indices.size(), {&hits, &rounded, true});
     for (size_t i = 0; i < hits.count; ++i) {
-      surfaces.push_back({hits.primitive[i], hits.object[i], At(hits.position, i),
-                          At(hits.normal, i), At(hits.to_view, i)});
+      surfaces.push_back(
+          {hits.primitive[i], At(hits.position, i), At(hits.normal, i), At(hits.to_view, i)});
     }
   });
   return surfaces;
