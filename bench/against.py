@@ -165,5 +165,9 @@ def main(root, arguments, _sizes):
             rows, more = compare_instructions(old, new, root, folder)
             if rows:
                 print(report.table(("callgrind", "new/old", "old", "new", ""), rows))
+    unsure = [name for name, (_, low, high) in ratios.items() if high / low > LIMIT ** 2]
+    if unsure:
+        print(f"{len(unsure)} intervals are wider than +-{100 * (LIMIT - 1):.0f} %: "
+              "let the machine be quiet, or more rounds run (bench/against.py)")
     print(f"{len(slower)} of {len(ratios)} slower by more than {100 * (LIMIT - 1):.0f} %")
     return 1 if slower or more else 0

@@ -55,9 +55,9 @@ def povray(runner, folder, settings, errors):
         return [program, f"+I{scene}", f"+O{output}", "+FE", f"+W{width}", f"+H{height}", "-D",
                 "-GA", "-J", "+AM1", "+A0.0", f"+R{depth}"]
     image, truth = folder / "pov.exr", folder / "pov_truth.exr"
-    return _series(runner, "POV-Ray 3.7", {f"{d}x{d}": command(d, image) for d in settings.povray_depths},
-                   command(settings.povray_truth_depth, truth), image, truth,
-                   min(settings.precision_rounds, 3), errors)
+    commands = {f"{depth}x{depth}": command(depth, image) for depth in settings.povray_depths}
+    return _series(runner, "POV-Ray 3.7", commands, command(settings.povray_truth_depth, truth),
+                   image, truth, min(settings.precision_rounds, 3), errors)
 
 
 _BLENDER_SCRIPT = """

@@ -31,8 +31,7 @@ def quote(text):
 
 def block(name, rows):
     """A data block; None becomes a missing value."""
-    lines = [" ".join("NaN" if value is None else value if isinstance(value, str) else f"{value:.9g}"
-                      for value in row) for row in rows]
+    lines = [" ".join("NaN" if value is None else f"{value:.9g}" for value in row) for row in rows]
     return f"${name} << EOD\n" + "\n".join(lines) + "\nEOD\n"
 
 

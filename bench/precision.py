@@ -1,10 +1,9 @@
 """Run time against error: pictures of fewer samples beside one of very many."""
 import json
-import subprocess
 
 import estimates
 import others
-from processes import output_of, say
+from processes import Failed, output_of, say
 
 SCENE = "material_grid"
 
@@ -12,7 +11,8 @@ SCENE = "material_grid"
 def errors(nacre, image, truth):
     """RMSE and relative MSE of the beauty. The first is mostly that of the few pixels with
     highlights a hundred times brighter than the rest; diagrams show the root of the second."""
-    text = output_of([nacre, "compare", image, truth, "--layers", "beauty", "--json"], (0, 1))  # 1: they differ
+    command = [nacre, "compare", image, truth, "--layers", "beauty", "--json"]
+    text = output_of(command, accepted=(0, 1))  # 1: they differ
     layer = json.loads(text)["layers"][0]
     return {"rmse": layer["rmse"], "rel_mse": layer["rel_mse"]}
 
@@ -26,7 +26,7 @@ def _render(nacre, scenes, settings, image, *arguments):
             settings.precision_size, "--quiet", *arguments]
 
 
-def _samplers(help_text):
+def samplers(help_text):
     """The names that --sampler takes, if there is one."""
     for line in help_text.splitlines():
         if "--sampler" in line and "{" in line:
@@ -41,7 +41,7 @@ def _nacre_series(runner, scenes, folder, settings, truth):
     image = folder / "image.exr"
     runs = {"nacre, uniform samples":
             [("--spp", spp) for spp in settings.precision_spp]}
-    for sampler in _samplers(help_text):
+    for sampler in samplers(help_text):
         runs[f"nacre, {sampler}"] = [("--sampler", sampler, "--spp", spp)
                                      for spp in settings.precision_spp]
     if "--max-error" in help_text:
@@ -63,25 +63,26 @@ def _target_errors(runner, scenes, folder, settings, truth, targets):
     found = {}
     for target in targets:
         for spp in settings.precision_spp:
-            runner.run(_render(runner.nacre, scenes, settings, image, "--spp", spp, "--target", target))
+            runner.run(_render(runner.nacre, scenes, settings, image, "--spp", spp, "--target",
+                               target))
             found.setdefault(target, {})[spp] = errors(runner.nacre, image, truth)
     return found
 
 
-def frame_series(benchmarks, target_errors, best):
+def frame_series(benchmarks, target_errors, size):
     """Time of the frame in memory on one thread against error, by target, intersector and skips.
     The intersector and what is skipped change no bits, so their error is that of the target."""
     series = {}
     for name, result in benchmarks.items():
         parts = name.split("/")
-        if parts[:3] != ["frame", SCENE, "480x270"]:
+        if parts[:3] != ["frame", SCENE, size]:
             continue
         spp = int(parts[3].removesuffix("spp"))
         target, variant = parts[4], parts[5] if len(parts) > 5 else ""
         if spp not in target_errors.get(target, {}):
             continue
-        label = {"": target, "embree": f"{best}, --intersector embree",
-                 "general_path": f"{best}, nothing skipped"}.get(variant)
+        label = {"": target, "embree": f"{target}, --intersector embree",
+                 "general_path": f"{target}, nothing skipped"}.get(variant)
         if label:
             series.setdefault(label, []).append(
                 {"spp": spp, "seconds": 1e-9 * estimates.median(result["ns"]),
@@ -93,12 +94,14 @@ def measure(runner, scenes, folder, settings, benchmarks, targets):
     """{"frame": series, "process": series}, a series being {label: [point...]}."""
     truth = folder / "truth.exr"
     say(f"  truth: {settings.truth_spp} samples a pixel")
-    runner.run(_render(runner.nacre, scenes, settings, truth, "--spp", settings.truth_spp, "--seed", 77))
+    runner.run(_render(runner.nacre, scenes, settings, truth, "--spp", settings.truth_spp,
+                       "--seed", 77))
     by_target = _target_errors(runner, scenes, folder, settings, truth, targets)
     process = _nacre_series(runner, scenes, folder, settings, truth)
     for renderer in (others.povray, others.blender):
         try:
             process |= renderer(runner, folder, settings, errors)
-        except (OSError, subprocess.SubprocessError, others.Absent) as reason:
+        except (others.Absent, Failed) as reason:
             say(f"  {reason}")
-    return {"frame": frame_series(benchmarks, by_target, targets[-1]), "process": process}
+    return {"frame": frame_series(benchmarks, by_target, settings.precision_size),
+            "process": process}

@@ -31,7 +31,8 @@ def markdown(results):
         by_model.setdefault(model, {})[target] = (ns, rate, ratio)
     lines = [f"Measured by `scripts/bench`: {machine.line(results['machine'])}.", "",
              f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}.", "",
-             f"| kernel | {best}, ns | million/s | times plain | avx2, ns |", "|---|---|---|---|---|"]
+             f"| kernel | {best}, ns | million/s | times plain | avx2, ns |",
+             "|---|---|---|---|---|"]
     for model, found in by_model.items():
         if best not in found:
             continue

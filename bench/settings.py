@@ -18,7 +18,7 @@ class Settings:
     sides: tuple = (256, 512, 1024, 2048, 4096, 8192)
     size: str = "1920x1080"  # of the frames that spheres, triangles and lights are counted in
     # Run time against error: sample counts, the truth's, and the tolerances of adaptive sampling.
-    precision_size: str = "480x270"
+    precision_size: str = "480x270"  # as in frame_bench.cc
     precision_spp: tuple = (1, 2, 4, 8, 16, 32, 64, 128, 256)
     precision_rounds: int = 7
     truth_spp: int = 16384

@@ -11,6 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 import estimates
 import google
 import plots
+import precision
 import readme
 import report
 import scaling
@@ -165,6 +166,23 @@ class Headlines(unittest.TestCase):
 
     def test_lines(self):
         self.assertEqual(summary.lines({"a": 1.23456, "b": 123456.7}), ["a: 1.235", "b: 123457"])
+
+
+class Precision(unittest.TestCase):
+    def test_samplers_are_read_from_the_help(self):
+        text = "  --spp INT\n  --sampler TEXT:{sobol,random} [sobol]\n"
+        self.assertEqual(precision.samplers(text), ["sobol", "random"])
+        self.assertEqual(precision.samplers("  --spp INT\n"), [])
+
+    def test_variants_have_the_error_of_their_target(self):
+        name = "frame/material_grid/480x270/4spp/avx3"
+        found = precision.frame_series(
+            {name: {"ns": [2e6]}, name + "/general_path": {"ns": [3e6]},
+             "frame/material_grid/480x270/8spp/avx3": {"ns": [9e6]}, "shade/x/avx3": {"ns": [1]}},
+            {"avx3": {4: {"rmse": 0.5, "rel_mse": 0.01}}}, "480x270")
+        self.assertEqual(found, {
+            "avx3": [{"spp": 4, "seconds": 0.002, "rmse": 0.5, "rel_mse": 0.01}],
+            "avx3, nothing skipped": [{"spp": 4, "seconds": 0.003, "rmse": 0.5, "rel_mse": 0.01}]})
 
 
 class Tables(unittest.TestCase):
