@@ -10,14 +10,21 @@ _SPHERES = {"grid": 25, "1e3": 1024, "1e4": 10000, "1e5": 99856}
 
 def kernels(results, path):
     """Nanoseconds per hit and light: a row a kernel, a mark a target."""
-    rows = [row for row in report.kernel_rows(results["benchmarks"]) if row[1] == "cached"]
+    # One material in the cache is what the bare names are measured with.
+    rows = [(model if mode == "cached" else f"{model}, {mode}", mode, target, ns)
+            for model, mode, target, ns, *_ in report.kernel_rows(results["benchmarks"])
+            if mode != "one material"]
     best = results["best_target"]
     speed = {row[0]: row[3] for row in rows if row[2] == best}
-    models = sorted(speed, key=speed.get, reverse=True)
+    fastest = {}
+    for label, ns in speed.items():
+        model = label.split(",")[0]
+        fastest[model] = min(ns, fastest.get(model, ns))
+    models = sorted(speed, key=lambda label: (fastest[label.split(",")[0]], label), reverse=True)
     place = {model: i for i, model in enumerate(models)}
     commands = f"set yrange [-0.7:{len(models) - 0.3}]\nset logscale x\n"
     commands += "set xlabel 'ns per hit and light (one thread)'\nset grid ytics\n"
-    commands += "set key outside top center horizontal maxrows 1 samplen 0.5 width -3\n"
+    commands += "set key outside top right horizontal samplen 0.5 width -1\n"
     commands += "set xtics (0.5, 1, 2, 5, 10, 20, 50, 100, 200)\n"
     commands += "set ytics (" + ", ".join(
         f"{plots.quote(m.replace('_', ' '))} {i}" for m, i in place.items()) + ")\n"
@@ -27,11 +34,11 @@ def kernels(results, path):
         if not points:
             continue
         commands += plots.block(f"t{i}", points)
-        label = {"scalar_baseline": "plain C++", "scalar": "nacre: scalar"}.get(target, target)
+        label = "plain C++" if target == "scalar_baseline" else target
         drawn.append(f"$t{i} using 1:2 with points {plots.style(i, 2, 1.7)} "
                      f"title {plots.quote(label)}")
     plots.draw(path, commands + "plot " + ", ".join(drawn) + "\n", 1280,
-               max(560, 170 + 44 * len(models)))
+               max(560, 170 + 40 * len(models)))
 
 
 def visibility(results, path):
@@ -80,6 +87,27 @@ def frame_stages(results, path):
     plots.draw(path, commands + "plot " + ", ".join(drawn) + "\n", 1280, 140 + 90 * len(found))
 
 
+def processes(results, path):
+    """Wall time from spawn to exit, with the interval of the median, and peak memory."""
+    names = list(results["processes"])[::-1]
+    rows, labels = [], ""
+    for y, name in enumerate(names):
+        found = results["processes"][name]
+        low, high = estimates.median_interval(found["seconds"])
+        middle = estimates.median(found["seconds"])
+        rows.append((1e3 * middle, y, 1e3 * low, 1e3 * high))
+        shown = f"{1e3 * middle:.3g} ms" if middle < 1 else f"{middle:.3g} s"
+        text = f"{shown}, {estimates.median(found['mib']):.0f} MiB"
+        labels += f"set label {plots.quote(text)} at {1e3 * middle:.9g}, {y + 0.32} center\n"
+    commands = plots.block("p", rows) + labels
+    commands += f"set yrange [-0.6:{len(names) - 0.2}]\nset logscale x\nset grid ytics\n"
+    commands += "set ytics (" + ", ".join(
+        f"{plots.quote(name.replace('_', ' '))} {y}" for y, name in enumerate(names)) + ")\n"
+    commands += "set xlabel 'ms per process, all threads (95 % interval of the median)'\n"
+    commands += f"plot $p using 1:2:3:4 with xerrorbars {plots.style(0)} notitle\n"
+    plots.draw(path, commands, 1280, 160 + 76 * len(names))
+
+
 def scaling(results, path):
     """Time above, memory below: spheres and triangles, lights, pixels; time by threads."""
     shapes = ("spheres or triangles", ("spheres", "triangles"))
@@ -101,7 +129,8 @@ def scaling(results, path):
             series.append((f"{name}: n^{{{growth:.2f}}}", points))
         options = f"set xlabel '{axis}'\nset ylabel '{unit}' offset 0.8\n"
         if axis == "threads":
-            options += "set format x '%g'\nset xrange [0.9:*]\nset key bottom left\n"
+            options += "set logscale x 2\nset format x '%g'\nset xtics 2\nunset mxtics\n"
+            options += "set xrange [0.9:]\nset key bottom left\n"
         commands += plots.curves(series, options, f"p{number}_") if series else ""
     plots.draw(path, commands + "unset multiplot\n", 1700, 1060)
 
@@ -170,7 +199,7 @@ def process_error(results, path):
 
 
 ALL = {"bench_kernels": kernels, "bench_visibility": visibility, "bench_frame": frame_stages,
-       "bench_scaling": scaling, "bench_error_math": math_error,
+       "bench_process": processes, "bench_scaling": scaling, "bench_error_math": math_error,
        "bench_error_frame": frame_error, "bench_error_process": process_error}
 
 

@@ -40,7 +40,9 @@ def markdown(results):
         avx2 = f"{found['avx2'][0]:.2f}" if "avx2" in found else ""
         lines.append(f"| {model.replace('_', ' ')} | {ns:.2f} | {rate / 1e6:.0f} | "
                      f"{f'{ratio:.1f}' if ratio else ''} | {avx2} |")
-    lines += ["", "| headline | value |", "|---|---|"]
+    lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is; in memory "
+              "unless it says process. Embree's spheres are traced bare, in float, their tree "
+              "built before.", "", "| headline | value |", "|---|---|"]
     lines += [f"| `{name}` | {_number(value)} |" for name, value in results["summary"].items()
               if not name.startswith(("growth", "steepest"))]
     return "\n".join(lines)
