@@ -133,6 +133,7 @@ class Headlines(unittest.TestCase):
             visibility__embree_sphere_point__1e3=160e6))
         self.assertAlmostEqual(values["ggx_over_scalar"], 22)  # the plain form, where there is one
         self.assertAlmostEqual(values["avx2_share_of_avx3_ggx"], 10 / 16)
+        self.assertAlmostEqual(values["avx2_share_of_avx3"], 10 / 16)  # the smallest of all
         self.assertAlmostEqual(values["stable_over_textbook_time"], 10 / 9)
         self.assertAlmostEqual(values["visibility_1e3_over_embree_spheres"], 80)
         self.assertIn("phong_over_scalar", missing)
