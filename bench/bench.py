@@ -54,8 +54,12 @@ def measure(build, sizes, summary_only):
     results = {"machine": machine.describe(ROOT, build), "settings": dataclasses.asdict(sizes)}
     say(machine.line(results["machine"]))
     say("in one process, by Google Benchmark")
-    context, results["benchmarks"] = google.run(
-        build / "bench" / "nacre_bench", sizes.filter, sizes.repetitions, sizes.min_time)
+    results["benchmarks"] = {}
+    for pattern in sizes.groups:
+        say(f"  {pattern}")
+        context, found = google.run(build / "bench" / "nacre_bench", pattern, sizes.repetitions,
+                                    sizes.min_time)
+        results["benchmarks"] |= found
     targets = context["simd_targets"].split()
     results["targets"], results["best_target"] = targets, targets[-1]
     results["scalar_baseline"] = context["scalar_baseline"]
@@ -80,7 +84,7 @@ def main():
     if arguments.against:
         return against.main(ROOT, arguments, sizes)
     if arguments.summary:
-        sizes = dataclasses.replace(sizes, filter=settings.SUMMARY_FILTER)
+        sizes = dataclasses.replace(sizes, groups=settings.SUMMARY_GROUPS)
     arguments.out.mkdir(parents=True, exist_ok=True)
     file = arguments.out / "bench.json"
     if arguments.redraw:

@@ -3,6 +3,7 @@ import estimates
 import machine
 
 _ORDER = ("scalar_baseline", "scalar", "sse4", "avx2", "avx3")
+_CLIFF = 1.3  # the exponent of a step that is no longer near linear growth
 _STAGES = ("sample", "intersect", "refine", "light", "shadow", "shade", "film", "output")
 
 
@@ -117,6 +118,7 @@ def _scaling(curves):
         growth = "; ".join(
             f"{label} ~ n^{fit[key]['exponent']:.2f}, steepest step n^{fit[key]['steepest']:.2f} "
             f"from {fit[key]['from']:,} to {fit[key]['to']:,}"
+            f"{', a CLIFF' if fit[key]['steepest'] > _CLIFF else ''}"
             for label, key in (("frame", "frame_s"), ("memory", "mib")))
         parts.append(table((name, "frame ms", "process ms", "MiB"), rows) + "\n  " + growth)
     return "\n\n".join(parts)

@@ -28,8 +28,10 @@ class Settings:
     povray_truth_depth: int = 9
     blender_spp: tuple = (1, 4, 16, 64)
     blender_truth_spp: int = 1024
-    # Which benchmarks: a regular expression of Google Benchmark.
-    filter: str = "."
+    # Which benchmarks, as regular expressions of Google Benchmark; what one of them names is run in
+    # random order.
+    groups: tuple = ("^shade/", "^access/", "^math/", "^visibility/", "^frame/.*/1920x1080/",
+                     "^frame/.*/480x270/")
 
 
 FULL = Settings()
@@ -51,11 +53,11 @@ QUICK = Settings(
     povray_truth_depth=7,
     blender_spp=(1, 4),
     blender_truth_spp=256,
-    filter="^(shade|math|visibility)/|^access/.*/avx[23]$"
-           "|^frame/[a-z_]+/1920x1080/1spp/(avx2|avx3.*)$"
-           "|^frame/material_grid(_plain)?/1920x1080/16spp/"
-           "|^frame/material_grid/480x270/(1|4|16)spp/",
+    groups=("^shade/", "^access/.*/avx[23]$", "^math/", "^visibility/",
+            "^frame/[a-z_]+/1920x1080/1spp/(avx2|avx3.*)$"
+            "|^frame/material_grid(_plain)?/1920x1080/16spp/",
+            "^frame/material_grid/480x270/(1|4|16)spp/"),
 )
 # What the headline numbers are made of, and no more.
-SUMMARY_FILTER = ("^shade/|^visibility/|^frame/material_grid[a-z_]*/1920x1080/.*"
-                  "|^math/ggx/0.3/")
+SUMMARY_GROUPS = ("^shade/", "^math/ggx/0.3/", "^visibility/",
+                  "^frame/material_grid[a-z_]*/1920x1080/")
