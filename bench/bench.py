@@ -74,7 +74,6 @@ def measure(build, sizes, summary_only):
             say("run time against error")
             results["precision"] = precision.measure(runner, ROOT / "scenes", folder, sizes,
                                                      results["benchmarks"], targets)
-    results["summary"], results["not_measured"] = summary.headlines(results)
     return results
 
 
@@ -91,7 +90,8 @@ def main():
         results = json.loads(file.read_text())
     else:
         results = measure(arguments.build, sizes, arguments.summary)
-        file.write_text(json.dumps(results, indent=1))
+    results["summary"], results["not_measured"] = summary.headlines(results)
+    file.write_text(json.dumps(results, indent=1))
     if not arguments.summary:
         print(report.text(results))
         figures.draw_all(results, arguments.out)

@@ -117,7 +117,7 @@ def scaling(results, path):
     panels = ((shapes, time), (lights, time), (pixels, time),
               (shapes, memory), (pixels, memory), (threads, time))
     commands = "set multiplot layout 2,3 margins 0.08,0.985,0.1,0.98 spacing 0.09,0.15\n"
-    commands += "set logscale xy\nset format x '10^{%T}'\nset key top left Left reverse\n"
+    commands += "set logscale xy\nset format xy '10^{%T}'\nset key top left Left reverse\n"
     for number, ((axis, names), (field, factor, unit)) in enumerate(panels):
         series = []
         for name in names:
@@ -181,21 +181,25 @@ def _math_points(benchmarks, lobe, form, best, hits):
     return points
 
 
-def _precision(series, ylabel, path):
-    lines = [(label, [(p["rel_mse"] ** 0.5, 1e3 * p["seconds"]) for p in points
+def _precision(series, scale, ylabel, key, path):
+    lines = [(label, [(p["rel_mse"] ** 0.5, scale * p["seconds"]) for p in points
                       if p["rel_mse"] > 0]) for label, points in series.items()]
     options = ("set logscale xy\nset xlabel 'relative error (root of relMSE)'\n"
-               "set key bottom left Left reverse\nset format x '10^{%T}'\n"
+               f"set format x '10^{{%T}}'\nset key {key} Left reverse\n"
                f"set ylabel '{ylabel}'\n")
     plots.draw(path, plots.curves(lines, options), 1280, 800)
 
 
 def frame_error(results, path):
-    _precision(results["precision"]["frame"], "ms per frame of 480x270, one thread", path)
+    _precision(results["precision"]["frame"], 1e3,
+               f"ms per frame of {results['settings']['precision_size']}, one thread",
+               "bottom left", path)
 
 
 def process_error(results, path):
-    _precision(results["precision"]["process"], "ms per process, all threads", path)
+    _precision(results["precision"]["process"], 1,
+               f"seconds per process, {results['settings']['precision_size']}, all threads",
+               "top left", path)
 
 
 ALL = {"bench_kernels": kernels, "bench_visibility": visibility, "bench_frame": frame_stages,
