@@ -58,16 +58,15 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
   Light light;
   light.kind = PointLight{.position = {3, 4, 2}, .intensity = {60, 60, 60}, .attenuation = {}};
   Surface surface;
-  LightBatch light_batch;
   ReflectedRadiance radiance;
   NarrowLobes scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
   PrepareSurface(hits, &surface);
+  const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+  const LightOnBatch on_batch{&prepared_light, nullptr};
   for (auto _ : state) {
     PrepareRun(prepared, 0, kHits, &surface);
-    EvaluateLight(light, {0, 0, 0}, hits, surface, &light_batch);
-    ShadeRun(prepared, LightColor(light), {hits, surface, light_batch}, 0, kHits, &scratch,
-             &radiance);
+    ShadeRun(prepared, {hits, surface, {&on_batch, 1}}, 0, kHits, &scratch, &radiance);
     benchmark::DoNotOptimize(radiance.diffuse.x.data());
     benchmark::ClobberMemory();
   }
@@ -130,6 +129,13 @@ std::vector<ModelBench> MakeModels() {
         .model = MetallicRoughnessMaterial{
             .base_color = color, .metallic = 0.5, .roughness = kRoughness, .shadowing = shadowing}};
   };
+  const auto plain_ggx = [&](Shadowing shadowing) {
+    Material material = ggx(shadowing);
+    auto& model = std::get<MetallicRoughnessMaterial>(material.model);
+    model.compensation = Compensation::kNone;
+    model.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+    return material;
+  };
   const baseline::MetallicRoughness scalar_ggx{
       {0.9f, 0.6f, 0.2f}, 0.5f, static_cast<float>(kRoughness)};
   const float shininess = static_cast<float>(kShininess);
@@ -148,15 +154,16 @@ std::vector<ModelBench> MakeModels() {
        [=](const auto& hits, const auto& light) {
          baseline::ShadeBlinnPhong(hits, kHits, light, kColor, 0.5f, shininess);
        }},
-      {"ggx_schlick_direct", ggx(Shadowing::kSchlickDirect),
+      {"ggx_plain_schlick_direct", plain_ggx(Shadowing::kSchlickDirect),
        [=](const auto& hits, const auto& light) {
          baseline::ShadeGgxSchlickDirect(hits, kHits, light, scalar_ggx);
        }},
-      {"ggx_height_correlated", ggx(Shadowing::kHeightCorrelated),
+      {"ggx_plain_height_correlated", plain_ggx(Shadowing::kHeightCorrelated),
        [=](const auto& hits, const auto& light) {
          baseline::ShadeGgxHeightCorrelated(hits, kHits, light, scalar_ggx);
        }},
-      {"ggx_separable", ggx(Shadowing::kSeparable), nullptr},
+      {"ggx_default", ggx(Shadowing::kHeightCorrelated), nullptr},
+      {"ggx_plain_separable", plain_ggx(Shadowing::kSeparable), nullptr},
   };
 }
 

@@ -13,6 +13,8 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// |n x u|^2 is formed as |u - n (n.u)|^2: one fused step each way, and what |n| and n.u are off by
+// points along n, where it counts in the second order only. |u|^2 is then Pythagoras' sum.
 template <class V>
 struct AnglesV {
   V n_dot_l, n_dot_v, n_dot_u, u_squared, nxu_squared, lv_squared;
@@ -26,13 +28,13 @@ HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, c
   const Vec3V<V> u{hn::NegMulAdd(l_minus_v.x, along, sum.x),
                    hn::NegMulAdd(l_minus_v.y, along, sum.y),
                    hn::NegMulAdd(l_minus_v.z, along, sum.z)};
-  const Vec3V<V> n_cross_u = FusedCross(n, u);
-  return {FusedDot(n, l),
-          FusedDot(n, v),
-          FusedDot(n, u),
-          FusedDot(u, u),
-          FusedDot(n_cross_u, n_cross_u),
-          FusedDot(l_minus_v, l_minus_v)};
+  const V n_dot_u = FusedDot(n, u);
+  const Vec3V<V> across{hn::NegMulAdd(n.x, n_dot_u, u.x), hn::NegMulAdd(n.y, n_dot_u, u.y),
+                        hn::NegMulAdd(n.z, n_dot_u, u.z)};
+  const V across_squared = FusedDot(across, across);
+  return {FusedDot(n, l), FusedDot(n, v),
+          n_dot_u,        hn::MulAdd(n_dot_u, n_dot_u, across_squared),
+          across_squared, FusedDot(l_minus_v, l_minus_v)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -6,6 +6,7 @@
 #define NACRE_BRDF_FRESNEL_INL_H_
 #endif
 
+#include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,16 +16,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // 1 - v.h free of cancellation, at most 1.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V OneMinusVDotH(D d, const AnglesV<V>& a) {
+HWY_INLINE V OneMinusVDotH(D d, V lv_squared, V u_length) {
   using T = hn::TFromD<D>;
-  const V denominator = hn::MulAdd(hn::Set(d, T(2)), hn::Sqrt(a.u_squared), hn::Set(d, T(4)));
-  return hn::Min(hn::Div(a.lv_squared, denominator), hn::Set(d, T(1)));
+  const V denominator = hn::MulAdd(hn::Set(d, T(2)), u_length, hn::Set(d, T(4)));
+  return hn::Min(hn::Mul(lv_squared, Reciprocal(d, denominator)), hn::Set(d, T(1)));
 }
 
 // v.h.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V VDotH(D d, const AnglesV<V>& a) {
-  return hn::Mul(hn::Sqrt(a.u_squared), hn::Set(d, hn::TFromD<D>(0.5)));
+HWY_INLINE V VDotH(D d, V u_length) {
+  return hn::Mul(u_length, hn::Set(d, hn::TFromD<D>(0.5)));
 }
 
 template <class V>
@@ -36,7 +37,7 @@ HWY_INLINE V Power5(V x) {
 // (1 - v.h)^5 of Schlick 1994.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SchlickWeight(D d, const AnglesV<V>& a) {
-  return Power5(OneMinusVDotH(d, a));
+  return Power5(OneMinusVDotH(d, a.lv_squared, hn::Sqrt(a.u_squared)));
 }
 
 // F0 + (1 - F0) weight.

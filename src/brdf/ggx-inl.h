@@ -6,6 +6,7 @@
 #define NACRE_BRDF_GGX_INL_H_
 #endif
 
+#include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,11 +27,20 @@ HWY_INLINE V GgxDistribution(D d, const AnglesV<V>& a, V alpha) {
   return hn::IfThenElseZero(above, squared);
 }
 
+// The same as alpha^2 / (pi q^2), q = sin^2 + alpha^2 cos^2 of the half vector's angle, for a
+// kernel that has 1 / |u|^2 at hand and merges its divisions: q >= alpha^2, so nothing under- or
+// overflows. Says nothing of h below the surface.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V GgxRootDenominator(D, const AnglesV<V>& a, V u_squared_inverse, V alpha) {
+  const V scaled = hn::Mul(a.n_dot_u, alpha);
+  return hn::Mul(hn::MulAdd(scaled, scaled, a.nxu_squared), u_squared_inverse);
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SmithRoot(D d, V n_dot_x, V alpha) {
   const V alpha2 = hn::Mul(alpha, alpha);
   const V one = hn::Set(d, hn::TFromD<D>(1));
-  return hn::Sqrt(hn::MulAdd(hn::Mul(n_dot_x, n_dot_x), hn::Sub(one, alpha2), alpha2));
+  return SquareRoot(d, hn::MulAdd(hn::Mul(n_dot_x, n_dot_x), hn::Sub(one, alpha2), alpha2));
 }
 
 // The denominators of the visibility terms, so that a kernel can merge its divisions.

@@ -72,8 +72,15 @@ struct HitsTo {
 };
 
 // Shadow rays origin + t direction, 0 < t < t_max.
+inline constexpr uint32_t kAnyLight = 0xffffffffu;
 struct ShadowRayBatch {
   size_t count = 0;
+  // The light that all of them go to, as the intersector numbers those whose occluders it has
+  // found (Intersector::FindOccluders); kAnyLight: not one of these.
+  uint32_t light = kAnyLight;
+  // They surely leave the spheres that they start on outward, because these were seen from outside
+  // and face the light: such a sphere is then never in the way, whatever the last digit says.
+  bool outward = false;
   Soa3<double> origin;                         // HitBatch::position
   Soa3<double> direction;                      // towards the light, not normalised
   AlignedArray<double> t_max{kBatchCapacity};  // 1: a light at origin + direction; or infinity

@@ -51,26 +51,26 @@ void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip) {
 }
 
 void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
-  const bool first = film->sums.empty();
   film->window = tile;
-  const size_t pixels = tile.pixel_count();
-  size_t sum = 0, nearest = 0, id = 0;
-  // New arrays hold zeros.
-  const auto clear = [&](auto* arrays, size_t i) {
-    if (first) {
-      arrays->emplace_back(kBatchCapacity);
-    } else {
-      std::fill_n((*arrays)[i].data(), pixels, 0);
-    }
+  film->empty = true;
+  const auto count = [&](ChannelKind kind) {
+    return static_cast<size_t>(std::count(plan.channels.begin(), plan.channels.end(), kind));
   };
-  for (const ChannelKind kind : plan.channels) {
-    if (kind == ChannelKind::kAveraged) clear(&film->sums, sum++);
-    if (kind == ChannelKind::kNearest) clear(&film->nearest, nearest++);
-    if (kind == ChannelKind::kId) clear(&film->ids, id++);
+  while (film->sums.size() < count(ChannelKind::kAveraged)) {
+    film->sums.emplace_back(kBatchCapacity);
   }
+  while (film->nearest.size() < count(ChannelKind::kNearest)) {
+    film->nearest.emplace_back(kBatchCapacity);
+  }
+  while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(kBatchCapacity);
   if (film->nearest.empty() && film->ids.empty()) return;
-  if (first) film->nearest_distance = AlignedArray<double>(kBatchCapacity);
+  const size_t pixels = tile.pixel_count();
+  if (film->nearest_distance.size() == 0) {
+    film->nearest_distance = AlignedArray<double>(kBatchCapacity);
+  }
   std::fill_n(film->nearest_distance.data(), pixels, std::numeric_limits<double>::infinity());
+  for (AlignedArray<float>& channel : film->nearest) std::fill_n(channel.data(), pixels, 0.0f);
+  for (AlignedArray<uint32_t>& channel : film->ids) std::fill_n(channel.data(), pixels, 0u);
 }
 
 void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {

@@ -15,6 +15,7 @@ namespace nacre {
 // so the layers add up to the beauty.
 struct TileFilm {
   Window window;
+  bool empty = true;                         // no samples yet: the sums are 0, whatever they hold
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order
   std::vector<AlignedArray<uint32_t>> ids;   // id channels, in layer order

@@ -17,10 +17,10 @@ using V = hn::Vec<D>;
 using F = hn::Rebind<float, D>;
 
 void AddSamplesT(const double* values, const double* weights, int samples, size_t pixels,
-                 double* sums) {
+                 bool first, double* sums) {
   const D d;
   for (size_t p = 0; p < pixels; p += hn::Lanes(d)) {
-    V sum = hn::Load(d, sums + p);
+    V sum = first ? hn::Zero(d) : hn::Load(d, sums + p);
     const double* value = values + p;
     for (int s = 0; s < samples; ++s, value += pixels) {
       sum = hn::Add(sum, hn::Mul(hn::Set(d, weights[s]), hn::LoadU(d, value)));
@@ -61,9 +61,9 @@ HWY_EXPORT(AddSamplesT);
 HWY_EXPORT(RoundSumsT);
 HWY_EXPORT(AddFloatsT);
 
-void AddSamples(const double* values, const double* weights, int samples, size_t pixels,
+void AddSamples(const double* values, const double* weights, int samples, size_t pixels, bool first,
                 double* sums) {
-  HWY_DYNAMIC_DISPATCH(AddSamplesT)(values, weights, samples, pixels, sums);
+  HWY_DYNAMIC_DISPATCH(AddSamplesT)(values, weights, samples, pixels, first, sums);
 }
 
 void RoundSums(const double* sums, double scale, size_t count, float* out) {

@@ -6,9 +6,10 @@
 
 namespace nacre {
 
-// Adds the samples of one channel to the sums of its pixels: values[s * pixels + p] is sample s of
-// pixel p, of the weight weights[s]. All arrays are aligned and padded to whole vectors.
-void AddSamples(const double* values, const double* weights, int samples, size_t pixels,
+// Adds the samples of one channel to the sums of its pixels, or, with `first`, to 0:
+// values[s * pixels + p] is sample s of pixel p, of the weight weights[s]. All arrays are aligned
+// and padded to whole vectors.
+void AddSamples(const double* values, const double* weights, int samples, size_t pixels, bool first,
                 double* sums);
 
 // out[i] = float(sums[i] * scale).

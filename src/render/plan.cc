@@ -36,33 +36,6 @@ Window PlanWindow(const Window& frame, const Window& region) {
   return window;
 }
 
-// Whether a light's shadow rays can find anything, and why not.
-struct ShadowNeed {
-  bool rays = true;
-  std::vector<uint8_t> shadowed;  // PlannedLight's
-  std::string reason;
-};
-
-ShadowNeed NeedOfShadows(const Scene& scene, const Light& light, const RenderSettings& settings) {
-  if (!scene.image.shadows) return {false, {}, "the scene turns shadows off"};
-  if (!light.shadows) return {false, {}, "the light casts none"};
-  if (settings.general_path) return {true, {}, "the general path is asked for"};
-  std::vector<uint8_t> shadowed = FindShadowed(scene, light);
-  if (shadowed.empty()) {
-    return {true, {}, "something may lie between a surface and the light"};
-  }
-  const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
-  if (count == 0) {
-    return {false,
-            {},
-            scene.spheres.size() == 1 ? "a sphere alone, seen from outside, is convex"
-                                      : "no sphere is between another and the light"};
-  }
-  return {true, std::move(shadowed),
-          fmt::format("only {} of {} spheres can lie in another's shadow", count,
-                      scene.spheres.size())};
-}
-
 // The number of the light's layer among the light layers, or -1.
 int LightLayer(const std::vector<Layer>& layers, size_t light) {
   int number = 0;
@@ -74,23 +47,26 @@ int LightLayer(const std::vector<Layer>& layers, size_t light) {
   return -1;
 }
 
-void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+void PlanLights(const Scene& scene, RenderPlan* plan) {
   for (const Layer& layer : plan->layers) {
     if (layer.kind == LayerKind::kLight) ++plan->light_layer_count;
   }
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (std::holds_alternative<AmbientLight>(light.kind)) continue;
-    const Rgb color = LightColor(light);
+    const ShadingLight prepared = PrepareLight(light, scene.camera.position);
     const std::string name = fmt::format("light \"{}\"", light.name);
-    if (IsBlack(color)) {
+    if (IsBlack(prepared.color)) {
       plan->items.push_back({name, false, "it is black"});
       continue;
     }
-    ShadowNeed need = NeedOfShadows(scene, light, settings);
-    plan->items.push_back({name + " shadow rays", need.rays, need.reason});
-    plan->lights.push_back(
-        {i, color, need.rays, LightLayer(plan->layers, i), std::move(need.shadowed)});
+    const bool shadow_rays = scene.image.shadows && light.shadows;
+    if (!shadow_rays) {
+      plan->items.push_back(
+          {name + " shadow rays", false,
+           light.shadows ? "the scene turns shadows off" : "the light casts none"});
+    }
+    plan->lights.push_back({i, prepared, shadow_rays, LightLayer(plan->layers, i), {}});
   }
 }
 
@@ -108,8 +84,6 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   const std::string shapes =
       fmt::format("{} spheres, {} triangles; exact hits in double on {}", scene.spheres.size(),
                   triangles, TargetName(ActiveTarget()));
-  const bool shadow_rays = std::any_of(plan->lights.begin(), plan->lights.end(),
-                                       [](const PlannedLight& light) { return light.shadow_rays; });
   const IntersectorChoice choice = settings.intersector;
   if (choice == IntersectorChoice::kTiles && triangles > 0) {
     throw Error(ExitCode::kUsage, "--intersector",
@@ -117,26 +91,25 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
                 "leave the choice to nacre");
   }
   const bool want_tiles = choice != IntersectorChoice::kEmbree && triangles == 0;
+  plan->eye_outside = EyeIsOutside(scene, settings.threads);
   plan->intersector = std::make_unique<Intersector>(
       scene, scene.camera.position,
-      IntersectorSettings{.threads = settings.threads, .embree = shadow_rays || !want_tiles});
+      IntersectorSettings{.threads = settings.threads, .embree = false});
   if (want_tiles) {
     const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
     plan->tiles = plan->intersector->BinForCamera(plan->camera, plan->window, reach);
-  }
-  if (want_tiles && !plan->tiles) {
-    plan->intersector = std::make_unique<Intersector>(
-        scene, scene.camera.position, IntersectorSettings{.threads = settings.threads});
   }
   plan->items.push_back({"intersector tiles, for camera rays", plan->tiles,
                          plan->tiles     ? "spheres binned to 16x16 pixels need no tree: " + shapes
                          : triangles > 0 ? "there are triangles"
                          : want_tiles    ? "the bins would not fit 256 MiB"
                                          : "--intersector embree"});
-  plan->items.push_back({"intersector embree", !plan->tiles || shadow_rays,
-                         !plan->tiles  ? "for all rays: " + shapes
-                         : shadow_rays ? "for shadow rays"
-                                       : "nothing is left for it: no tree is built"});
+  const bool tree_for_shadows = PlanShadows(scene, settings, plan);
+  if (!plan->tiles || tree_for_shadows) plan->intersector->BuildTree();
+  plan->items.push_back({"intersector embree", !plan->tiles || tree_for_shadows,
+                         !plan->tiles       ? "for all rays: " + shapes
+                         : tree_for_shadows ? "for shadow rays"
+                                            : "nothing is left for it: no tree is built"});
 }
 
 void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
@@ -210,7 +183,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
-  PlanLights(scene, settings, &plan);
+  PlanLights(scene, &plan);
   PlanGeometry(scene, settings, &plan);
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),

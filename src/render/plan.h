@@ -27,10 +27,11 @@ struct PlanItem {
 // A light that hits are shaded by: not ambient, not black.
 struct PlannedLight {
   size_t index;  // into Scene::lights
-  Rgb color;
+  ShadingLight light;
   bool shadow_rays;
-  int layer;                      // which of the light layers shows it alone, or -1
-  std::vector<uint8_t> shadowed;  // per sphere: whether to trace its shadow rays; empty: all
+  int layer;                       // which of the light layers shows it alone, or -1
+  std::vector<uint8_t> shadowed;   // per sphere: whether to trace its shadow rays; empty: all
+  uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
 struct RenderPlan {
@@ -49,6 +50,7 @@ struct RenderPlan {
   bool tiles = false;                         // camera rays: binned spheres, not Embree
   bool splits = false;                        // some material depends on the film position
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
+  bool eye_outside = false;                   // no camera ray starts in a sphere
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;

@@ -2,86 +2,123 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
 
 namespace nacre {
 namespace {
 
-// Nothing is certain within this of a tangent: far more than the roundings of the tests.
-constexpr double kMargin = 1e-9;
-
-// True if every camera ray surely starts outside the sphere.
-bool CameraIsOutside(const Camera& camera, const Sphere& sphere) {
-  const Vec3d offset = sphere.center - camera.position;
-  const double clear = sphere.radius * (1 + kMargin);
-  if (camera.projection == Projection::kPerspective) return offset.length() > clear;
-  const Vec3d forward = (camera.look_at - camera.position).normalized();
-  return std::abs(offset ^ forward) > clear;  // wholly before or behind the image plane
+// True if every camera ray surely starts outside the sphere. The margins are far more than what
+// the roundings of the tests can amount to.
+bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
+  const Vec3d offset = sphere.center - scene.camera.position;
+  const double clear = sphere.radius * (1 + 1e-9);
+  if (scene.camera.projection == Projection::kPerspective) return offset.length2() > clear * clear;
+  // Wholly before or behind the image plane.
+  const double pixel = scene.camera.height / scene.image.height;
+  const double plane = pixel * (scene.image.height + scene.image.width);
+  return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
 }
 
-// Whether `blocker` may come between `light`, a direction towards it, and the lit half of `sphere`:
-// what lies over the plane through its centre, within the cylinder about it.
-bool MayBlock(const Sphere& blocker, const Sphere& sphere, const Vec3d& to_light) {
-  const Vec3d offset = blocker.center - sphere.center;
-  const double along = offset ^ to_light;
-  const Vec3d across = offset - to_light * along;
-  const double margin = kMargin * (offset.length() + blocker.radius + sphere.radius);
-  return along + blocker.radius > -margin &&
-         across.length() < blocker.radius + sphere.radius + margin;
+// For each sphere 1 if anything can come between it and the light.
+std::vector<uint8_t> FindShadowed(const OccluderLists& lists) {
+  std::vector<uint8_t> shadowed(lists.end.size());
+  for (size_t i = 0; i < shadowed.size(); ++i) shadowed[i] = lists.Begin(i) < lists.end[i] ? 1 : 0;
+  return shadowed;
 }
 
-// The same for a light at a point: within the cone about the sphere, and nearer than its tangents,
-// up to where its surface is lit. Rays end at the light.
-bool MayBlock(const Sphere& blocker, const Sphere& sphere, const Vec3d& light,
-              double light_margin) {
-  const Vec3d to_sphere = sphere.center - light;
-  const Vec3d to_blocker = blocker.center - light;
-  const double sphere_distance = to_sphere.length();
-  const double blocker_distance = to_blocker.length();
-  if (sphere_distance <= sphere.radius + light_margin) return true;
-  if (blocker_distance <= blocker.radius + light_margin) return true;
-  const double tangent =
-      std::sqrt((sphere_distance - sphere.radius) * (sphere_distance + sphere.radius));
-  const double margin = kMargin * (sphere_distance + blocker_distance);
-  if (blocker_distance - blocker.radius > tangent + margin) return false;
-  const double angle = std::atan2(to_sphere.cross(to_blocker).length(), to_sphere.dot(to_blocker));
-  const double sizes =
-      std::asin(sphere.radius / sphere_distance) + std::asin(blocker.radius / blocker_distance);
-  // asin is steep where a sphere is touched: the square root of a rounding there.
-  return angle < sizes + 1e-6;
+// Takes from the light the shadow rays that nothing can be in the way of; says why in `item`.
+void SkipUnshadowed(const OccluderLists& lists, PlannedLight* light, PlanItem* item) {
+  std::vector<uint8_t> shadowed = FindShadowed(lists);
+  const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
+  const size_t spheres = shadowed.size();
+  if (count == 0) {
+    light->shadow_rays = item->used = false;
+    item->reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
+                                : "no sphere is between another and the light";
+    return;
+  }
+  item->reason = fmt::format("{} of {} spheres can lie in another's shadow", count, spheres);
+  if (static_cast<size_t>(count) == spheres) return;
+  item->reason = "only " + item->reason;
+  light->shadowed = std::move(shadowed);
 }
 
-std::optional<Vec3d> PositionOf(const Light& light) {
-  if (const auto* point = std::get_if<PointLight>(&light.kind)) return point->position;
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->position;
-  return std::nullopt;
+// Why a tree is better than the bins, or nothing.
+std::string WhyNotBins(const LightBins& bins) {
+  constexpr double kCrowd = 2000;
+  constexpr size_t kLarge = 200;
+  if (bins.meeting > kCrowd) {
+    return fmt::format("{:.0f} spheres meet in a light's cell", bins.meeting);
+  }
+  if (bins.large.size() > kLarge) {
+    return fmt::format("{} spheres cover many of a light's cells", bins.large.size());
+  }
+  return {};
+}
+
+std::string DescribeBins(const LightBins& bins) {
+  return fmt::format("{} cells, {} entries, {:.1f} meet in one, {} are in every ray's way",
+                     bins.end.size(), bins.entries(), bins.meeting, bins.large.size());
 }
 
 }  // namespace
 
-std::vector<uint8_t> FindShadowed(const Scene& scene, const Light& light) {
-  const std::vector<Sphere>& spheres = scene.spheres;
-  if (!scene.meshes.empty() || spheres.size() > kMaxCulledSpheres) return {};
-  const bool outside = std::all_of(spheres.begin(), spheres.end(), [&](const Sphere& sphere) {
-    return CameraIsOutside(scene.camera, sphere);
+bool EyeIsOutside(const Scene& scene, int threads) {
+  const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
+  constexpr size_t kBlock = size_t{1} << 14;
+  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
+  std::vector<uint8_t> outside(blocks);
+  ParallelFor(blocks, threads, [&](size_t block) {
+    const Sphere* const spheres = scene.spheres.data();
+    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
+    outside[block] =
+        std::all_of(spheres + block * kBlock, spheres + end,
+                    [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
   });
-  if (!outside) return {};
-  const std::optional<Vec3d> position = PositionOf(light);
-  Vec3d to_light(0, 0, 0);
-  if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
-    to_light = -sun->direction_of_travel.normalized();
-  }
-  std::vector<uint8_t> shadowed(spheres.size(), 0);
-  for (size_t i = 0; i < spheres.size(); ++i) {
-    for (size_t j = 0; j < spheres.size() && shadowed[i] == 0; ++j) {
-      if (i == j) continue;
-      const bool may =
-          position ? MayBlock(spheres[j], spheres[i], *position, kMargin * (position->length() + 1))
-                   : MayBlock(spheres[j], spheres[i], to_light);
-      shadowed[i] = may ? 1 : 0;
+  return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
+}
+
+bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const IntersectorChoice choice = settings.intersector;
+  const bool find = scene.meshes.empty() && !settings.general_path;
+  size_t listed = 0, binned = 0, left = 0;
+  std::string crowded, crowd;  // why bins are not used, or what they are like
+  for (PlannedLight& light : plan->lights) {
+    if (!light.shadow_rays) continue;
+    PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name), true,
+                  settings.general_path ? "the general path is asked for"
+                                        : "something may lie between a surface and the light"};
+    const bool few = scene.spheres.size() <= kMaxListedSpheres;
+    if (find && (few || choice != IntersectorChoice::kEmbree)) {
+      light.occluders =
+          plan->intersector->FindOccluders(scene.lights[light.index], plan->eye_outside);
+      const LightOccluders& found = plan->intersector->Occluders(light.occluders);
+      if (few) SkipUnshadowed(found.lists, &light, &item);
+      if (!few && choice == IntersectorChoice::kAuto) {
+        crowded = WhyNotBins(*found.bins);
+        if (!crowded.empty()) light.occluders = kAnyLight;
+      }
+      if (!few && light.occluders != kAnyLight) crowd = DescribeBins(*found.bins);
+      if (choice == IntersectorChoice::kEmbree) light.occluders = kAnyLight;
     }
+    if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : few ? listed : binned);
+    plan->items.push_back(std::move(item));
   }
-  return shadowed;
+  const std::string why_not = left == 0                              ? "nothing is left for them"
+                              : choice == IntersectorChoice::kEmbree ? "--intersector embree"
+                              : settings.general_path ? "the general path is asked for"
+                              : !scene.meshes.empty() ? "there are triangles"
+                                                      : crowded;
+  plan->items.push_back({"intersector lists, for shadow rays", listed > 0,
+                         listed > 0 ? "each sphere's possible occluders need no tree" : why_not});
+  plan->items.push_back(
+      {"intersector bins, for shadow rays", binned > 0,
+       binned > 0 ? "spheres binned as the light sees them need no tree: " + crowd : why_not});
+  return left > 0;
 }
 
 }  // namespace nacre

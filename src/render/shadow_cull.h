@@ -1,19 +1,17 @@
-// render/shadow_cull.h: which spheres of a small scene can lie in shadow at all, so that the others
-// need no shadow rays, and a light that none can hide from needs none whatsoever.
+// render/shadow_cull.h: which shadow rays of a scene of spheres need asking, and whom.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "scene/scene.h"
+#include "render/plan.h"
 
 namespace nacre {
 
-// For each sphere 1 if another may come between it and the light, or if it may hide the light from
-// itself; 0 only where that is certain not to be. Empty, which means all of them, where nothing is
-// known: in scenes with meshes, with more than kMaxCulledSpheres spheres (pairs are tested), or
-// with the camera in a sphere.
-inline constexpr size_t kMaxCulledSpheres = 256;
-std::vector<uint8_t> FindShadowed(const Scene& scene, const Light& light);
+// True if every camera ray surely starts outside every sphere: what is seen of one is then its
+// outside, and light that it faces cannot be behind itself.
+bool EyeIsOutside(const Scene& scene, int threads);
+
+// Decides for each of the plan's lights that has shadow rays whether any can find something, for
+// which spheres, and by what means; the plan has its intersector. Returns whether any are left for
+// a tree, which must then be built.
+bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan* plan);
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "render/tile_layers.h"
@@ -127,26 +128,35 @@ void SortHits(const RenderPlan& plan, TileScratch* s) {
   if (s->runs.size() > 1) PermuteHits(plan.exact_directions, s);
 }
 
+bool NeverShadowed(const PlannedLight& planned, uint32_t primitive) {
+  return !planned.shadow_rays || (!planned.shadowed.empty() && planned.shadowed[primitive] == 0);
+}
+
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
 void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                  RenderStats* stats) {
   const HitBatch& hits = s->hits;
   const LightBatch& light = s->light;
+  const double t_max = planned.light.TMax();
   ShadowRayBatch& rays = s->shadow_rays;
   rays.count = 0;
+  rays.light = planned.occluders;
+  rays.outward = plan.eye_outside;
   for (size_t i = 0; i < hits.count; ++i) {
     if (!(light.irradiance[i] > 0)) continue;
-    if (!planned.shadowed.empty() && planned.shadowed[hits.primitive[i]] == 0) continue;
+    if (NeverShadowed(planned, hits.primitive[i])) continue;
     const size_t ray = rays.count++;
     s->shadow_hits[ray] = static_cast<uint32_t>(i);
     rays.primitive[ray] = hits.primitive[i];
     rays.origin.x[ray] = hits.position.x[i];
     rays.origin.y[ray] = hits.position.y[i];
     rays.origin.z[ray] = hits.position.z[i];
-    rays.direction.x[ray] = light.offset.x[i];
-    rays.direction.y[ray] = light.offset.y[i];
-    rays.direction.z[ray] = light.offset.z[i];
-    rays.t_max[ray] = light.t_max;
+    const Vec3d offset =
+        planned.light.OffsetFrom(Vec3d(hits.position.x[i], hits.position.y[i], hits.position.z[i]));
+    rays.direction.x[ray] = offset.x;
+    rays.direction.y[ray] = offset.y;
+    rays.direction.z[ray] = offset.z;
+    rays.t_max[ray] = t_max;
   }
   stats->shadow_rays += rays.count;
   if (rays.count == 0) return;
@@ -156,9 +166,34 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   }
 }
 
-// Adds up what the batch's hits reflect of every light.
+void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, TileScratch* s,
+               ReflectedRadiance* radiance) {
+  for (const MaterialRun& run : s->runs) {
+    ShadeRun(plan.materials[run.material.index], {s->hits, s->surface, lights}, run.begin, run.end,
+             &s->narrow, radiance);
+  }
+}
+
+// A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
+// of its own.
+void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
+                StageClock* clock, RenderStats* stats) {
+  EvaluateLight(planned.light, s->hits, s->surface, &s->light);
+  clock->Charge(Stage::kLight);
+  if (planned.shadow_rays) {
+    CastShadows(plan, planned, s, stats);
+    clock->Charge(Stage::kShadow);
+  }
+  const LightOnBatch light{&planned.light, &s->light};
+  const bool apart = planned.layer >= 0;
+  if (apart) ClearRadiance(s->hits.count, &s->single);
+  ShadeRuns(plan, {&light, 1}, s, apart ? &s->single : &s->total);
+  if (apart) KeepLightLayer(static_cast<size_t>(planned.layer), s);
+}
+
+// Adds up what the batch's hits reflect of every light, in the order of the lights. Those that
+// need nothing but their sum are taken together while they follow one another.
 void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
-  const Scene& scene = *plan.scene;
   for (const MaterialRun& run : s->runs) {
     PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface);
   }
@@ -166,25 +201,24 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
   clock->Charge(Stage::kRefine);
+  s->together.clear();
+  const auto shade_together = [&] {
+    if (!s->together.empty()) ShadeRuns(plan, s->together, s, &s->total);
+    s->together.clear();
+  };
   for (const PlannedLight& planned : plan.lights) {
-    const Light& light = scene.lights[planned.index];
-    EvaluateLight(light, scene.camera.position, s->hits, s->surface, &s->light);
-    clock->Charge(Stage::kLight);
-    if (planned.shadow_rays) {
-      CastShadows(plan, planned, s, stats);
-      clock->Charge(Stage::kShadow);
+    const bool shadowed =
+        s->hits.one_primitive ? !NeverShadowed(planned, s->hits.primitive[0]) : planned.shadow_rays;
+    if (!shadowed && planned.layer < 0 && EvaluatedInPlace(planned.light)) {
+      s->together.push_back({&planned.light, nullptr});
+    } else {
+      shade_together();
+      ShadeByOne(plan, planned, s, clock, stats);
     }
-    const bool apart = planned.layer >= 0;
-    ReflectedRadiance* radiance = apart ? &s->single : &s->total;
-    if (apart) ClearRadiance(s->hits.count, &s->single);
-    for (const MaterialRun& run : s->runs) {
-      ShadeRun(plan.materials[run.material.index], planned.color, {s->hits, s->surface, s->light},
-               run.begin, run.end, &s->narrow, radiance);
-    }
-    if (apart) KeepLightLayer(static_cast<size_t>(planned.layer), s);
     stats->shades += s->hits.count;
-    clock->Charge(Stage::kShade);
   }
+  shade_together();
+  clock->Charge(Stage::kShade);
 }
 
 }  // namespace

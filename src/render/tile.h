@@ -35,6 +35,7 @@ struct TileScratch {
   AlignedArray<uint32_t> order{kBatchCapacity};
   LightBatch light;
   NarrowLobes narrow;
+  std::vector<LightOnBatch> together;  // lights shaded by in one go
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
   ReflectedRadiance total;             // of all lights

@@ -81,6 +81,18 @@ Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
   return shows ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
 }
 
+// Makes values by ray of those by hit.
+void SpreadHits(const Rgb& background, int channels, TileScratch* s) {
+  const size_t hits = s->hits.count;
+  const uint32_t* const ray = s->hits.ray.data();
+  for (int c = 0; c < channels; ++c) {
+    const double* const from = ChannelOf(s->hit_values, c).data();
+    double* const to = ChannelOf(s->ray_values, c).data();
+    std::fill_n(to, s->samples.count, background[c]);
+    for (size_t i = 0; i < hits; ++i) to[ray[i]] = from[i];
+  }
+}
+
 // Takes P, Z and ids of a pixel from a hit.
 void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* scratch) {
   TileScratch& s = *scratch;
@@ -142,33 +154,31 @@ void KeepLightLayer(size_t light_layer, TileScratch* scratch) {
 
 void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
-  const size_t pixels = s.film.window.pixel_count();
   // Where every ray hits the same material, hits are in the order of rays.
   const bool all = s.hits.count == s.samples.count && s.runs.size() == 1;
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    const Rgb background = BackgroundOf(layer, *plan.scene);
-    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      AlignedArray<double>& at_hits = ChannelOf(s.hit_values, c);
-      AlignedArray<double>& at_rays = ChannelOf(s.ray_values, c);
-      if (s.hits.count > 0) {
-        for (const MaterialRun& run : s.runs) {
-          FillRun(TermsOf(layer, light_layer, plan.materials[run.material.index], s), c, run,
-                  at_hits.data());
+    const int channels = FloatChannels(layer.kind);
+    if (s.hits.count > 0) {
+      for (const MaterialRun& run : s.runs) {
+        const LayerTerms terms = TermsOf(layer, light_layer, plan.materials[run.material.index], s);
+        for (int c = 0; c < channels; ++c) {
+          FillRun(terms, c, run, ChannelOf(s.hit_values, c).data());
         }
       }
-      if (!all) {
-        std::fill_n(at_rays.data(), s.samples.count, background[c]);
-        for (size_t i = 0; i < s.hits.count; ++i) at_rays[s.hits.ray[i]] = at_hits[i];
-      }
-      AddSamples((all ? at_hits : at_rays).data(), s.weights.data(),
-                 static_cast<int>(s.weights.size()), pixels, s.film.sums[sum++].data());
+    }
+    if (!all) SpreadHits(BackgroundOf(layer, *plan.scene), channels, &s);
+    for (int c = 0; c < channels; ++c) {
+      AddSamples(ChannelOf(all ? s.hit_values : s.ray_values, c).data(), s.weights.data(),
+                 static_cast<int>(s.weights.size()), s.film.window.pixel_count(), s.film.empty,
+                 s.film.sums[sum++].data());
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
   if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) AddNearest(plan, &s);
+  s.film.empty = false;
 }
 
 void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "scene/generators.h"
 #include "scene/limits.h"
@@ -70,6 +71,8 @@ void AddCloud(const Cloud& cloud, Scene* scene) {
   CheckCloud(cloud);
   constexpr uint64_t kBlock = 1 << 16;
   const size_t first = scene->spheres.size();
+  scene->spheres.reserve(first + cloud.count);
+  AdviseHugePages(scene->spheres.data() + first, cloud.count * sizeof(Sphere));
   scene->spheres.resize(first + cloud.count);
   Sphere* const spheres = scene->spheres.data() + first;
   ParallelFor((cloud.count + kBlock - 1) / kBlock, 0, [&](size_t block) {

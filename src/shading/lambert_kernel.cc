@@ -11,13 +11,20 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-void ShadeLambertT(const LambertUniforms& uniforms, const ShadeRange& range) {
-  const FloatTag d;
-  const RgbV diffuse = SetRgb(d, uniforms.diffuse);
-  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
-    const FloatV weight = hn::Mul(FusedDot(p.normal, p.to_light), p.irradiance);
-    Accumulate(d, mask, ScaleRgb(diffuse, weight), i, &range.radiance->diffuse);
-  });
+struct Lambert {
+  static constexpr bool kHasSpecular = false;
+  struct View {};
+  const LambertLight* HWY_RESTRICT lights;
+
+  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
+  HWY_INLINE void Add(FloatTag d, const View&, const PacketV&, const IncidentV& in, size_t k,
+                      RadianceV* sum) const {
+    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, lights[k].diffuse), in.weight));
+  }
+};
+
+void ShadeLambertT(const LambertLight* lights, const ShadeRange& range) {
+  ShadePackets(FloatTag(), Lambert{lights}, range);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -27,8 +34,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShadeLambertT);
-void ShadeLambert(const LambertUniforms& uniforms, const ShadeRange& range) {
-  HWY_DYNAMIC_DISPATCH(ShadeLambertT)(uniforms, range);
+void ShadeLambert(const LambertLight* lights, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeLambertT)(lights, range);
 }
 }  // namespace nacre
 #endif

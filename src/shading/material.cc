@@ -170,6 +170,10 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
                         [](const SplitMaterial&) {}},
              material.model);
   prepared.ambient = of_ambient * ambient_radiance;
+  if (auto* microfacet = std::get_if<MicrofacetModel>(&prepared.model)) {
+    microfacet->prepared = microfacet->compensation != Compensation::kNone ||
+                           microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
+  }
   return prepared;
 }
 

@@ -46,6 +46,7 @@ struct MicrofacetModel {
   double schlick_k;         // (roughness + 1)^2 / 8
   bool delta;               // a perfect mirror, which punctual lights cannot show
   bool double_terms;
+  bool prepared;            // shading needs what PrepareRun computes
   FresnelAlbedoFit albedo;  // kDielectric: with the curve of its index
 };
 
@@ -53,8 +54,8 @@ struct MicrofacetModel {
 struct ShadingMaterial {
   Rgb ambient{0, 0, 0};  // radiance reflected of the scene's ambient light
   Rgb emission{0, 0, 0};
-  Rgb albedo{0, 0,
-             0};  // for the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor
+  // For the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor.
+  Rgb albedo{0, 0, 0};
   std::variant<std::monostate, LambertModel, PhongFamilyModel, MicrofacetModel> model;
 };
 

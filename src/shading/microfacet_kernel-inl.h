@@ -30,109 +30,154 @@ HWY_INLINE FloatV VisibilityDenominator(FloatTag d, FloatV n_dot_l, FloatV n_dot
   }
 }
 
-// The constants of a Fresnel curve, in registers.
+// What a Fresnel curve makes of the light on a packet: the part that the lobe reflects, and the
+// part that is left for a base under it (DiffuseCoupling::kOneMinusFresnel), of the light times
+// the base's colour.
 struct CurveV {
-  RgbV f0, slope, eta, k;
+  RgbV reflected, left;
+};
+
+// Angles and lengths of the half vector that the curves are functions of.
+struct HalfV {
+  FloatV lv_squared, u_length;
 };
 
 template <FresnelForm kFresnel>
-HWY_INLINE RgbV Fresnel(FloatTag d, const AnglesV<FloatV>& angles, const CurveV& curve) {
-  const FloatV one_minus_vh = OneMinusVDotH(d, angles);
-  const auto each = [&](const auto& of_channel) HWY_ATTR {
-    return RgbV{of_channel(curve.f0.r, curve.slope.r, curve.eta.r, curve.k.r),
-                of_channel(curve.f0.g, curve.slope.g, curve.eta.g, curve.k.g),
-                of_channel(curve.f0.b, curve.slope.b, curve.eta.b, curve.k.b)};
-  };
+HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, const MicrofacetUniforms& uniforms,
+                                const MicrofacetLight& light) {
+  const FloatV one = hn::Set(d, 1.0f);
+  const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, half.u_length);
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const FloatV weight = Power5(one_minus_vh);
-    return each([&](FloatV f0, FloatV, FloatV, FloatV)
-                    HWY_ATTR { return FresnelSchlick(d, f0, weight); });
+    return {MulAddRgb(SetRgb(d, light.specular_rest), weight, SetRgb(d, light.specular_f0)),
+            ScaleRgb(SetRgb(d, light.diffuse_rest), hn::Sub(one, weight))};
   } else {
-    const FloatV v_dot_h = VDotH(d, angles);
+    const FloatV v_dot_h = VDotH(d, half.u_length);
+    RgbV fresnel;
     if constexpr (kFresnel == FresnelForm::kF82) {
-      return each([&](FloatV f0, FloatV slope, FloatV, FloatV)
-                      HWY_ATTR { return FresnelF82(d, v_dot_h, one_minus_vh, f0, slope); });
+      const RgbV f0 = SetRgb(d, uniforms.f0), slope = SetRgb(d, uniforms.f82_slope);
+      fresnel = {FresnelF82(d, v_dot_h, one_minus_vh, f0.r, slope.r),
+                 FresnelF82(d, v_dot_h, one_minus_vh, f0.g, slope.g),
+                 FresnelF82(d, v_dot_h, one_minus_vh, f0.b, slope.b)};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
-      const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, curve.eta.r);
-      return {grey, grey, grey};
+      const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
+      fresnel = {grey, grey, grey};
     } else {
-      return each([&](FloatV, FloatV, FloatV eta, FloatV k)
-                      HWY_ATTR { return FresnelConductor(d, v_dot_h, one_minus_vh, eta, k); });
+      const RgbV eta = SetRgb(d, uniforms.eta), k = SetRgb(d, uniforms.k);
+      fresnel = {FresnelConductor(d, v_dot_h, one_minus_vh, eta.r, k.r),
+                 FresnelConductor(d, v_dot_h, one_minus_vh, eta.g, k.g),
+                 FresnelConductor(d, v_dot_h, one_minus_vh, eta.b, k.b)};
     }
+    // The exact curves may round to just above 1 at grazing angles.
+    const auto left = [&](FloatV f) HWY_ATTR { return hn::Max(hn::Sub(one, f), hn::Zero(d)); };
+    return {MulRgb(fresnel, SetRgb(d, light.specular)),
+            MulRgb({left(fresnel.r), left(fresnel.g), left(fresnel.b)}, SetRgb(d, light.diffuse))};
   }
-}
-
-HWY_INLINE RgbV MulRgb(const RgbV& a, const RgbV& b) {
-  return {hn::Mul(a.r, b.r), hn::Mul(a.g, b.g), hn::Mul(a.b, b.b)};
 }
 
 // Turquin 2019: 1 + F0 (1 / E(v) - 1); `multiple` is the bracket.
 HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
   const FloatV one = hn::Set(d, 1.0f);
-  return {hn::MulAdd(f0.r, multiple, one), hn::MulAdd(f0.g, multiple, one),
-          hn::MulAdd(f0.b, multiple, one)};
+  return MulAddRgb(f0, multiple, {one, one, one});
 }
+
+// kPrepared: with what PrepareMicrofacet has left of every hit: multiple scattering, or a base
+// that gets what the lobe's albedo leaves.
+template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared>
+struct Microfacet {
+  static constexpr bool kHasSpecular = true;
+  const MicrofacetUniforms& uniforms;
+  const MicrofacetModel& model;
+
+  struct View {
+    FloatV n_dot_v, multiple;
+    RgbV turquin, base;
+  };
+
+  HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface& surface) const {
+    // Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
+    const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
+    View view;
+    view.n_dot_v = n_dot_v;
+    if constexpr (kPrepared) {
+      view.multiple = hn::LoadU(d, surface.multiple.data() + p.i);
+      view.turquin = TurquinScale(d, SetRgb(d, uniforms.f0), view.multiple);
+      view.base = LoadRgb(d, surface.base, p.i);
+    }
+    return view;
+  }
+
+  // Distribution, visibility, cosine and irradiance.
+  HWY_INLINE FloatV Lobe(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                         const AnglesV<FloatV>& angles, FloatV u_inverse) const {
+    // Not less than the smallest normal number, for unlit lanes and for cosines below that; nor
+    // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
+    const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
+    const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+    // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
+    const auto above = hn::Gt(angles.n_dot_u, hn::Set(d, 0x1p-63f));
+    const FloatV alpha = hn::Set(d, uniforms.alpha);
+    const FloatV masking = VisibilityDenominator<kShadowing>(d, in.n_dot_l, view.n_dot_v, alpha,
+                                                             hn::Set(d, uniforms.schlick_k));
+    if (uniforms.narrow != nullptr) {
+      const FloatV visibility = hn::Min(hn::Div(in.weight, hn::Max(masking, smallest)), largest);
+      const FloatV product = hn::Mul(hn::LoadU(d, uniforms.narrow + p.i), visibility);
+      return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
+    }
+    const FloatV q = GgxRootDenominator(d, angles, hn::Mul(u_inverse, u_inverse), alpha);
+    const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
+    const FloatV numerator = hn::Mul(in.weight, hn::Set(d, uniforms.alpha2_over_pi));
+    return hn::IfThenElseZero(hn::And(in.lit, above),
+                              hn::Min(hn::Mul(numerator, Reciprocal(d, denominator)), largest));
+  }
+
+  HWY_INLINE void Add(FloatTag d, const View& view, const PacketV& p, const IncidentV& in, size_t k,
+                      RadianceV* sum) const {
+    const MicrofacetLight& light = uniforms.lights[k];
+    const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, in.to_light, p.to_view);
+    const FloatV u_squared =
+        hn::Max(angles.u_squared, hn::Set(d, std::numeric_limits<float>::min()));
+    const FloatV u_inverse = ReciprocalSqrt(d, u_squared);
+    const HalfV half{angles.lv_squared, hn::Mul(u_squared, u_inverse)};
+    const CurveV curve = EvaluateCurve<kFresnel>(d, half, uniforms, light);
+    RgbV reflected = ScaleRgb(curve.reflected, Lobe(d, view, p, in, angles, u_inverse));
+    RgbV base = curve.left;
+    if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = SetRgb(d, light.diffuse);
+    if constexpr (kPrepared) Complete(d, view, in, light, &reflected, &base);
+    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(base, in.weight));
+    sum->specular = AddRgb(sum->specular, reflected);
+  }
+
+  // Adds what bounces more than once, and takes from the base what the lobe's albedo does.
+  HWY_INLINE void Complete(FloatTag d, const View& view, const IncidentV& in,
+                           const MicrofacetLight& light, RgbV* reflected, RgbV* base) const {
+    const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
+    if (scaled) *base = MulRgb(*base, view.base);
+    if (model.compensation == Compensation::kTurquin) {
+      *reflected = MulRgb(*reflected, view.turquin);
+    }
+    if (model.compensation != Compensation::kKullaConty) return;
+    const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+    const AlbedoV from_light = EvaluateAlbedo(d, model, hn::Max(in.n_dot_l, hn::Zero(d)));
+    const FloatV amount = hn::Mul(hn::Mul(view.multiple, from_light.loss), in.weight);
+    *reflected = AddRgb(*reflected, ScaleRgb(SetRgb(d, light.multiple), hn::Min(amount, largest)));
+    if (scaled) {
+      const RgbV f0 = SetRgb(d, uniforms.f0), f_multiple = SetRgb(d, uniforms.f_multiple);
+      *base = MulRgb(*base, {KullaContyBase(d, from_light, f0.r, f_multiple.r),
+                             KullaContyBase(d, from_light, f0.g, f_multiple.g),
+                             KullaContyBase(d, from_light, f0.b, f_multiple.b)});
+    }
+  }
+};
 
 template <FresnelForm kFresnel, Shadowing kShadowing>
 void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
-  const FloatTag d;
   const MicrofacetModel& model = *uniforms.model;
-  const FloatV zero = hn::Zero(d);
-  const FloatV one = hn::Set(d, 1.0f);
-  const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
-  const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
-  const RgbV diffuse = SetRgb(d, uniforms.diffuse);
-  const RgbV specular = SetRgb(d, uniforms.specular);
-  const CurveV curve{SetRgb(d, model.f0), SetRgb(d, model.f82_slope), SetRgb(d, model.eta),
-                     SetRgb(d, model.k)};
-  const FloatV alpha = hn::Set(d, model.delta ? 1.0f : static_cast<float>(model.alpha));
-  const FloatV schlick_k = hn::Set(d, static_cast<float>(model.schlick_k));
-  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  const bool one_minus_fresnel = model.coupling == DiffuseCoupling::kOneMinusFresnel;
-  const bool reciprocal = kulla_conty && model.coupling == DiffuseCoupling::kAlbedoScaled;
-  const Surface& surface = range.surface;
-  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
-    const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, p.to_light, p.to_view);
-    const FloatV weight = hn::Mul(angles.n_dot_l, p.irradiance);
-    // Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
-    const FloatV n_dot_v = hn::Max(angles.n_dot_v, zero);
-    const FloatV denominator =
-        VisibilityDenominator<kShadowing>(d, angles.n_dot_l, n_dot_v, alpha, schlick_k);
-    const auto lit = hn::Gt(weight, zero);
-    // Not less than the smallest normal number, for unlit lanes and for cosines below that; nor
-    // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
-    const FloatV visibility = hn::Min(hn::Div(weight, hn::Max(denominator, smallest)), largest);
-    const FloatV distribution = uniforms.narrow != nullptr ? hn::LoadU(d, uniforms.narrow + i)
-                                                           : GgxDistribution(d, angles, alpha);
-    const FloatV product = hn::Mul(distribution, visibility);
-    const FloatV lobe = hn::IfThenElseZero(lit, hn::Min(product, largest));
-    const RgbV fresnel = Fresnel<kFresnel>(d, angles, curve);
-    const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
-    RgbV reflected = ScaleRgb(MulRgb(fresnel, specular), lobe);
-    RgbV base = LoadRgb(d, surface.base, i);
-    if (kulla_conty) {
-      const AlbedoV from_light = EvaluateAlbedo(d, model, hn::Max(angles.n_dot_l, zero));
-      const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), weight);
-      const RgbV added = ScaleRgb(SetRgb(d, uniforms.multiple), hn::Min(amount, largest));
-      reflected = {hn::Add(reflected.r, added.r), hn::Add(reflected.g, added.g),
-                   hn::Add(reflected.b, added.b)};
-      if (reciprocal) {
-        const RgbV f_multiple = SetRgb(d, model.f_multiple);
-        base = MulRgb(base, {KullaContyBase(d, from_light, curve.f0.r, f_multiple.r),
-                             KullaContyBase(d, from_light, curve.f0.g, f_multiple.g),
-                             KullaContyBase(d, from_light, curve.f0.b, f_multiple.b)});
-      }
-    } else {
-      reflected = MulRgb(reflected, TurquinScale(d, curve.f0, multiple));
-    }
-    if (one_minus_fresnel) {
-      // The exact curves may round to just above 1 at grazing angles.
-      const auto rest = [&](FloatV f) HWY_ATTR { return hn::Max(hn::Sub(one, f), zero); };
-      base = {rest(fresnel.r), rest(fresnel.g), rest(fresnel.b)};
-    }
-    Accumulate(d, mask, ScaleRgb(MulRgb(base, diffuse), weight), i, &range.radiance->diffuse);
-    Accumulate(d, mask, reflected, i, &range.radiance->specular);
-  });
+  if (model.prepared) {
+    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, true>{uniforms, model}, range);
+  } else {
+    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, false>{uniforms, model}, range);
+  }
 }
 
 template <FresnelForm kFresnel>

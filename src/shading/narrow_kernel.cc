@@ -28,39 +28,43 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
   hn::StoreU(hn::DemoteTo(df, value), df, to);
 }
 
-// Calls form(directions, i) for each packet of hits [begin, end). Arrays are padded, and what a
-// packet writes past the end of its run is scratch.
+// Calls form(directions, i) for each packet of the range. Arrays are padded, and what a packet
+// writes past the end of its run is scratch.
 template <class Form>
-HWY_INLINE void ForEachHit(const LitHits& lit, size_t begin, size_t end, const Form& form) {
+HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const DoubleTag d;
   const auto load = [&](const Soa3<double>& soa, size_t i) HWY_ATTR {
     return LoadU3(d, soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
   };
+  const ShadingLight& light = *range.lights[0].light;
+  const bool far = light.form == LightForm::kDirectional;
+  const Vec3d& from = far ? light.to_light : light.position;
+  const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
   const DoubleV one = hn::Set(d, 1.0);
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const Vec3V<DoubleV> offset = load(lit.light.offset, i);
+  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
+    const Vec3V<DoubleV> offset = far ? origin : Sub(origin, load(range.hits.position, i));
     const DoubleV squared = FusedDot(offset, offset);
     const DoubleV distance = hn::Sqrt(squared);
     // A light exactly at the hit has no direction, and no irradiance.
     const auto apart = hn::Gt(squared, hn::Zero(d));
     const DoubleV scale = hn::Div(one, hn::IfThenElse(apart, distance, one));
-    form(Directions{load(lit.hits.normal, i), Scale(offset, scale), load(lit.hits.to_view, i)}, i);
+    form(Directions{load(range.hits.normal, i), Scale(offset, scale), load(range.hits.to_view, i)},
+         i);
   }
 }
 
-void NarrowGgxT(double alpha, const LitHits& lit, size_t begin, size_t end, NarrowLobes* lobes) {
+void NarrowGgxT(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
   const DoubleTag d;
   const DoubleV alpha_v = hn::Set(d, alpha);
-  ForEachHit(lit, begin, end, [&](const Directions& at, size_t i) HWY_ATTR {
+  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
     const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
     StoreRounded(d, GgxDistribution(d, angles, alpha_v), lobes->first.data() + i);
   });
 }
 
-void NarrowPhongT(PhongModel model, const LitHits& lit, size_t begin, size_t end,
-                  NarrowLobes* lobes) {
+void NarrowPhongT(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
   const DoubleTag d;
-  ForEachHit(lit, begin, end, [&](const Directions& at, size_t i) HWY_ATTR {
+  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
     const LobeCosineV<DoubleV> cosine =
         model == PhongModel::kBlinnPhong
             ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
@@ -79,13 +83,12 @@ namespace nacre {
 HWY_EXPORT(NarrowGgxT);
 HWY_EXPORT(NarrowPhongT);
 
-void NarrowGgx(double alpha, const LitHits& lit, size_t begin, size_t end, NarrowLobes* lobes) {
-  HWY_DYNAMIC_DISPATCH(NarrowGgxT)(alpha, lit, begin, end, lobes);
+void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowGgxT)(alpha, range, lobes);
 }
 
-void NarrowPhong(PhongModel model, const LitHits& lit, size_t begin, size_t end,
-                 NarrowLobes* lobes) {
-  HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, lit, begin, end, lobes);
+void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, range, lobes);
 }
 }  // namespace nacre
 #endif

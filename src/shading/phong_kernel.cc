@@ -13,39 +13,47 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 template <PhongModel kModel>
-void ShadePhongModel(const PhongUniforms& uniforms, const ShadeRange& range) {
-  const FloatTag d;
-  const RgbV diffuse = SetRgb(d, uniforms.diffuse);
-  const RgbV specular = SetRgb(d, uniforms.specular);
-  const FloatV shininess = hn::Set(d, uniforms.shininess);
-  const NarrowLobes* const narrow = uniforms.narrow;
-  ForEachPacket(d, range, [&](const LitPacket& p, size_t i, hn::Mask<FloatTag> mask) HWY_ATTR {
-    const FloatV weight = hn::Mul(FusedDot(p.normal, p.to_light), p.irradiance);
-    LobeCosineV<FloatV> cosine;
+struct PhongFamily {
+  static constexpr bool kHasSpecular = true;
+  struct View {};
+  const PhongUniforms& uniforms;
+
+  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
+
+  HWY_INLINE LobeCosineV<FloatV> Cosine(FloatTag d, const PacketV& p, const IncidentV& in) const {
+    const NarrowLobes* const narrow = uniforms.narrow;
     if (narrow != nullptr) {
-      cosine = {hn::LoadU(d, narrow->first.data() + i), hn::LoadU(d, narrow->second.data() + i)};
-    } else if constexpr (kModel == PhongModel::kBlinnPhong) {
-      cosine = BlinnSquaredCosine(d, ComputeAngles(d, p.normal, p.to_light, p.to_view));
-    } else {
-      cosine = PhongCosine(d, p.normal, p.to_light, p.to_view);
+      return {hn::LoadU(d, narrow->first.data() + p.i), hn::LoadU(d, narrow->second.data() + p.i)};
     }
+    if constexpr (kModel == PhongModel::kBlinnPhong) {
+      return BlinnSquaredCosine(d, ComputeAngles(d, p.normal, in.to_light, p.to_view));
+    } else {
+      return PhongCosine(d, p.normal, in.to_light, p.to_view);
+    }
+  }
+
+  HWY_INLINE void Add(FloatTag d, const View&, const PacketV& p, const IncidentV& in, size_t k,
+                      RadianceV* sum) const {
+    const LobeCosineV<FloatV> cosine = Cosine(d, p, in);
+    const FloatV shininess = hn::Set(d, uniforms.shininess);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
                                                           : PhongLobe(d, cosine, shininess);
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
-    const FloatV light = kModel == PhongModel::kModifiedPhong ? weight : p.irradiance;
-    Accumulate(d, mask, ScaleRgb(diffuse, weight), i, &range.radiance->diffuse);
-    Accumulate(d, mask, ScaleRgb(specular, hn::Mul(lobe, light)), i, &range.radiance->specular);
-  });
-}
+    const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
+    const PhongLight& by = uniforms.lights[k];
+    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, by.diffuse), in.weight));
+    sum->specular = AddRgb(sum->specular, ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, light)));
+  }
+};
 
 void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
   switch (uniforms.model) {
     case PhongModel::kPhong:
-      return ShadePhongModel<PhongModel::kPhong>(uniforms, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kPhong>{uniforms}, range);
     case PhongModel::kModifiedPhong:
-      return ShadePhongModel<PhongModel::kModifiedPhong>(uniforms, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kModifiedPhong>{uniforms}, range);
     case PhongModel::kBlinnPhong:
-      return ShadePhongModel<PhongModel::kBlinnPhong>(uniforms, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kBlinnPhong>{uniforms}, range);
   }
 }
 

@@ -1,8 +1,8 @@
 #include "shading/shade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "base/overloaded.h"
@@ -11,72 +11,53 @@
 namespace nacre {
 namespace {
 
-void Assign(const Vec3d& from, float (&to)[3]) {
+// Lights that one call of a kernel shades by. More make several calls, with the same bits: sums
+// between calls are kept in the floats that they are formed in.
+constexpr size_t kLightsAtOnce = 16;
+
+void Assign(const Rgb& from, float (&to)[3]) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
 }
 
-AttenuationTerms<float> ToTerms(const Attenuation& a) {
-  return {static_cast<float>(a.constant), static_cast<float>(a.linear),
-          static_cast<float>(a.quadratic)};
+LambertLight MakeLight(const LambertModel& model, const Rgb& color) {
+  LambertLight light;
+  Assign(model.diffuse * color, light.diffuse);
+  return light;
 }
 
-ConeTerms<float> ToTerms(const SpotLight& spot) {
-  const auto cosine = [](double degrees) {
-    return static_cast<float>(std::cos(degrees * M_PI / 180));
-  };
-  return {cosine(spot.cutoff_deg), cosine(spot.inner_deg), static_cast<float>(spot.exponent)};
+PhongLight MakeLight(const PhongFamilyModel& model, const Rgb& color) {
+  PhongLight light;
+  Assign(model.diffuse * color, light.diffuse);
+  Assign(model.specular * color, light.specular);
+  return light;
 }
 
-LightUniforms MakeUniforms(const Light& light, const Vec3d& camera_position) {
-  LightUniforms uniforms;
-  const auto place = [&](const Vec3d& position) {
-    const Vec3d relative = position - camera_position;
-    for (int c = 0; c < 3; ++c) uniforms.position[c] = relative[c];
-  };
-  std::visit(Overloaded{[&](const AmbientLight&) {},
-                        [&](const DirectionalLight& directional) {
-                          uniforms.kind = LightUniforms::Kind::kDirectional;
-                          const Vec3d to_light = -directional.direction_of_travel.normalized();
-                          for (int c = 0; c < 3; ++c) uniforms.to_light[c] = to_light[c];
-                        },
-                        [&](const PointLight& point) {
-                          uniforms.kind = LightUniforms::Kind::kPoint;
-                          place(point.position);
-                          uniforms.attenuation = ToTerms(point.attenuation);
-                        },
-                        [&](const SpotLight& spot) {
-                          uniforms.kind = LightUniforms::Kind::kSpot;
-                          place(spot.position);
-                          Assign(spot.direction_of_travel.normalized(), uniforms.axis);
-                          uniforms.attenuation = ToTerms(spot.attenuation);
-                          uniforms.cone = ToTerms(spot);
-                        }},
-             light.kind);
-  return uniforms;
+MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
+  MicrofacetLight light;
+  const Rgb specular = model.delta ? Rgb(0, 0, 0) : color;
+  const Rgb rest = Rgb(1) - model.f0;
+  Assign(model.diffuse * color, light.diffuse);
+  Assign(specular, light.specular);
+  Assign(model.f0 * specular, light.specular_f0);
+  Assign(rest * specular, light.specular_rest);
+  Assign(rest * model.diffuse * color, light.diffuse_rest);
+  Assign(model.f_multiple * color, light.multiple);
+  return light;
 }
 
-LambertUniforms MakeUniforms(const LambertModel& model, const Rgb& light) {
-  LambertUniforms uniforms;
-  Assign(model.diffuse * light, uniforms.diffuse);
-  return uniforms;
-}
-
-PhongUniforms MakeUniforms(const PhongFamilyModel& model, const Rgb& light) {
-  PhongUniforms uniforms;
-  uniforms.model = model.model;
-  Assign(model.diffuse * light, uniforms.diffuse);
-  Assign(model.specular * light, uniforms.specular);
-  uniforms.shininess = static_cast<float>(model.shininess);
-  uniforms.narrow = nullptr;
-  return uniforms;
-}
-
-MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const Rgb& light) {
+MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLight* lights) {
+  const double alpha = model.delta ? 1 : model.alpha;
   MicrofacetUniforms uniforms;
   uniforms.model = &model;
-  Assign(model.diffuse * light, uniforms.diffuse);
-  Assign(model.delta ? Rgb(0, 0, 0) : light, uniforms.specular);
-  Assign(model.f_multiple * light, uniforms.multiple);
+  uniforms.lights = lights;
+  uniforms.alpha = static_cast<float>(alpha);
+  uniforms.alpha2_over_pi = static_cast<float>(alpha * alpha * M_1_PI);
+  uniforms.schlick_k = static_cast<float>(model.schlick_k);
+  Assign(model.f0, uniforms.f0);
+  Assign(model.f82_slope, uniforms.f82_slope);
+  Assign(model.eta, uniforms.eta);
+  Assign(model.k, uniforms.k);
+  Assign(model.f_multiple, uniforms.f_multiple);
   uniforms.narrow = nullptr;
   return uniforms;
 }
@@ -94,53 +75,69 @@ void ShadeByCurve(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   }
 }
 
-}  // namespace
-
-Rgb LightColor(const Light& light) {
-  return std::visit(
-      Overloaded{[](const AmbientLight& ambient) { return ambient.radiance; },
-                 [](const DirectionalLight& directional) { return directional.irradiance; },
-                 [](const auto& positional) { return positional.intensity; }},
-      light.kind);
+// Calls shade(lights, range) for groups of at most `at_once` lights of the range, with the
+// constants of model and light.
+template <class Model, class Shade>
+void ForEachGroup(const Model& model, const ShadeRange& range, size_t at_once, const Shade& shade) {
+  std::array<decltype(MakeLight(model, Rgb())), kLightsAtOnce> lights;
+  for (size_t first = 0; first < range.lights.size(); first += at_once) {
+    const size_t count = std::min(at_once, range.lights.size() - first);
+    for (size_t k = 0; k < count; ++k) {
+      lights[k] = MakeLight(model, range.lights[first + k].light->color);
+    }
+    shade(lights.data(), ShadeRange{range.hits, range.surface, range.lights.subspan(first, count),
+                                    range.begin, range.end, range.radiance});
+  }
 }
 
-void EvaluateLight(const Light& light, const Vec3d& camera_position, const HitBatch& hits,
-                   const Surface& surface, LightBatch* result) {
-  const bool infinitely_far = std::holds_alternative<DirectionalLight>(light.kind);
-  result->t_max = infinitely_far ? std::numeric_limits<double>::infinity() : 1.0;
-  EvaluateLightKernel(MakeUniforms(light, camera_position), hits, surface, result);
+void Shade(const LambertModel& lambert, const ShadeRange& range) {
+  ForEachGroup(lambert, range, kLightsAtOnce, ShadeLambert);
+}
+
+void Shade(const PhongFamilyModel& phong, const ShadeRange& range, NarrowLobes* scratch) {
+  const size_t at_once = phong.double_terms ? 1 : kLightsAtOnce;
+  ForEachGroup(phong, range, at_once, [&](const PhongLight* lights, const ShadeRange& group) {
+    PhongUniforms uniforms{phong.model, static_cast<float>(phong.shininess), lights, nullptr};
+    if (phong.double_terms) {
+      NarrowPhong(phong.model, group, scratch);
+      uniforms.narrow = scratch;
+    }
+    ShadePhong(uniforms, group);
+  });
+}
+
+void Shade(const MicrofacetModel& model, const ShadeRange& range, NarrowLobes* scratch) {
+  const size_t at_once = model.double_terms ? 1 : kLightsAtOnce;
+  ForEachGroup(model, range, at_once, [&](const MicrofacetLight* lights, const ShadeRange& group) {
+    MicrofacetUniforms uniforms = MakeUniforms(model, lights);
+    if (model.double_terms) {
+      NarrowGgx(model.alpha, group, scratch);
+      uniforms.narrow = scratch->first.data();
+    }
+    ShadeByCurve(uniforms, group);
+  });
+}
+
+}  // namespace
+
+bool EvaluatedInPlace(const ShadingLight& light) {
+  return light.form == LightForm::kDirectional || light.form == LightForm::kInverseSquare;
 }
 
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface) {
-  if (const auto* microfacet = std::get_if<MicrofacetModel>(&material.model)) {
+  const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
+  if (microfacet != nullptr && microfacet->prepared) {
     PrepareMicrofacet(*microfacet, begin, end, surface);
   }
 }
 
-void ShadeRun(const ShadingMaterial& material, const Rgb& light_color, const LitHits& lit,
-              size_t begin, size_t end, NarrowLobes* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.surface, lit.light, begin, end, radiance};
-  std::visit(Overloaded{[](std::monostate) {},
-                        [&](const LambertModel& lambert) {
-                          ShadeLambert(MakeUniforms(lambert, light_color), range);
-                        },
-                        [&](const PhongFamilyModel& phong) {
-                          PhongUniforms uniforms = MakeUniforms(phong, light_color);
-                          if (phong.double_terms) {
-                            NarrowPhong(phong.model, lit, begin, end, scratch);
-                            uniforms.narrow = scratch;
-                          }
-                          ShadePhong(uniforms, range);
-                        },
-                        [&](const MicrofacetModel& microfacet) {
-                          MicrofacetUniforms uniforms = MakeUniforms(microfacet, light_color);
-                          if (microfacet.double_terms) {
-                            NarrowGgx(microfacet.alpha, lit, begin, end, scratch);
-                            uniforms.narrow = scratch->first.data();
-                          }
-                          ShadeByCurve(uniforms, range);
-                        }},
-             material.model);
+void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
+              NarrowLobes* scratch, ReflectedRadiance* radiance) {
+  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance};
+  std::visit(
+      Overloaded{[](std::monostate) {}, [&](const LambertModel& lambert) { Shade(lambert, range); },
+                 [&](const auto& model) { Shade(model, range, scratch); }},
+      material.model);
 }
 
 void ClearSoa(size_t count, Soa3<float>* soa) {

@@ -1,14 +1,19 @@
 // shading/shade.h: from a batch of hits and the scene's lights to radiance towards the viewer.
 //
 //   PrepareRun       once per run of hits that share a material: what depends on the view alone
-//   EvaluateLight    per light: direction and irradiance at every hit (unshadowed)
-//   ShadeRun         per light and run: adds the reflected radiance
-// Between the last two the renderer removes the light from the hits that lie in shadow.
+//   EvaluateLight    direction and irradiance of a light at every hit (unshadowed)
+//   ShadeRun         per run: adds the radiance that one or several lights leave
+// Between the last two the renderer removes the light from the hits that lie in shadow. A light
+// without shadow rays, of the forms that EvaluatedInPlace names, needs no EvaluateLight: ShadeRun
+// does the same arithmetic on the way, with the same bits.
 // Each is one call of a Highway kernel (2.4 ns of dispatch), so batches, never packets.
 #pragma once
 
+#include <span>
+
 #include "hit/batch.h"
 #include "scene/scene.h"
+#include "shading/light.h"
 #include "shading/material.h"
 
 namespace nacre {
@@ -22,14 +27,16 @@ struct Surface : HitDirections {
 
 // One light as the hits of a batch see it.
 struct LightBatch {
-  // From the hit to the light, in world units and not normalised; the unit direction to a light
-  // that is infinitely far.
-  Soa3<double> offset;
-  double t_max = 1;      // a shadow ray along `offset` ends here: 1, or infinity
   Soa3<float> to_light;  // unit
   // Irradiance perpendicular to the light per unit of its colour: fall-off, cone and visibility.
   // 0 where the surface faces away (n.l <= 0): no model here reflects such light.
   AlignedArray<float> irradiance{kBatchCapacity};
+};
+
+// A light to shade by.
+struct LightOnBatch {
+  const ShadingLight* light;
+  const LightBatch* evaluated;  // null: ShadeRun is to evaluate it in place
 };
 
 // What a batch reflects so far, per hit.
@@ -42,11 +49,11 @@ struct NarrowLobes {
   AlignedArray<float> first{kBatchCapacity}, second{kBatchCapacity};
 };
 
-// A batch under one light.
+// A batch under lights, whose reflections are added in this order.
 struct LitHits {
   const HitBatch& hits;
   const Surface& surface;
-  const LightBatch& light;
+  std::span<const LightOnBatch> lights;
 };
 
 // Rounds hits whose directions were given in double.
@@ -55,16 +62,15 @@ void PrepareSurface(const HitBatch& hits, Surface* surface);
 // Hits [begin, end) are all of `material`.
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface);
 
-// `light` is not ambient. `camera_position` is what the hits' positions are relative to.
-void EvaluateLight(const Light& light, const Vec3d& camera_position, const HitBatch& hits,
-                   const Surface& surface, LightBatch* result);
+// True for directional lights and point lights that fall off with the square of the distance.
+bool EvaluatedInPlace(const ShadingLight& light);
 
-// The light's colour: irradiance of a directional light, intensity of the others.
-Rgb LightColor(const Light& light);
+void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
+                   LightBatch* result);
 
-// Adds to `radiance` what hits [begin, end), all of `material`, reflect of the light.
-void ShadeRun(const ShadingMaterial& material, const Rgb& light_color, const LitHits& lit,
-              size_t begin, size_t end, NarrowLobes* scratch, ReflectedRadiance* radiance);
+// Adds to `radiance` what hits [begin, end), all of `material`, reflect of the lights.
+void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
+              NarrowLobes* scratch, ReflectedRadiance* radiance);
 
 // Zeroes the first `count` entries.
 void ClearSoa(size_t count, Soa3<float>* soa);

@@ -82,12 +82,13 @@ HWY_INLINE void FillFloatRays(const CameraFrame& frame, CameraPacket* packet) {
   }
 }
 
-// The lanes whose float rays come within the candidate's reach of its centre, in front of the
-// camera and before their depth. They include all that hit it truly: GatherTile makes the reach.
+// The lanes whose float rays pass within the candidate's reach of its centre and, unless the
+// candidate is the only one, do so in front of the camera and before their depth. They include all
+// that hit it truly: GatherTile makes the reach.
 //
 // The distance of the centre from the line is |to_center x direction| / |direction|, so nothing is
 // divided; along the line both other conditions leave a slack of the reach, too.
-template <bool kPerspective>
+template <bool kPerspective, bool kAlone>
 HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate& candidate,
                                   const CameraPacket& packet) {
   const CameraFloat d;
@@ -95,7 +96,6 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
   const Vec3V<V> center{hn::Set(d, candidate.center[0]), hn::Set(d, candidate.center[1]),
                         hn::Set(d, candidate.center[2])};
   const V reach2 = hn::Set(d, candidate.reach * candidate.reach);
-  const V zero = hn::Zero(d);
   uint32_t lanes = 0;
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
     const Vec3V<V> own = Load3(d, packet.own[0] + i, packet.own[1] + i, packet.own[2] + i);
@@ -103,12 +103,16 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
     const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
     const Vec3V<V> cross = FusedCross(to_center, direction);
     const V limit = hn::Mul(reach2, hn::Load(d, packet.dd + i));
-    const V along = FusedDot(to_center, direction);
-    const V beyond = hn::Sub(along, hn::Load(d, packet.depth + i));
-    const auto near_line = hn::Le(FusedDot(cross, cross), limit);
-    const auto ahead = hn::Or(hn::Gt(along, zero), hn::Le(hn::Mul(along, along), limit));
-    const auto near_enough = hn::Or(hn::Le(beyond, zero), hn::Le(hn::Mul(beyond, beyond), limit));
-    lanes |= BitsOfMask(d, hn::And(near_line, hn::And(ahead, near_enough))) << i;
+    auto proposed = hn::Le(FusedDot(cross, cross), limit);
+    if constexpr (!kAlone) {
+      const V along = FusedDot(to_center, direction);
+      const V beyond = hn::Sub(along, hn::Load(d, packet.depth + i));
+      const V zero = hn::Zero(d);
+      const auto ahead = hn::Or(hn::Gt(along, zero), hn::Le(hn::Mul(along, along), limit));
+      const auto near_enough = hn::Or(hn::Le(beyond, zero), hn::Le(hn::Mul(beyond, beyond), limit));
+      proposed = hn::And(proposed, hn::And(ahead, near_enough));
+    }
+    lanes |= BitsOfMask(d, proposed) << i;
   }
   return lanes & packet.lanes;
 }
@@ -175,7 +179,7 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
 template <bool kPerspective>
 HWY_INLINE void TestAlone(const CameraFrame& frame, CameraPacket* packet) {
   const TileCandidate& candidate = *packet->alone;
-  const uint32_t lanes = ProposedLanes<kPerspective>(frame, candidate, *packet);
+  const uint32_t lanes = ProposedLanes<kPerspective, true>(frame, candidate, *packet);
   if (lanes == 0) return;
   const CameraDouble d;
   const auto center = SetVec3(d, candidate.sphere.center);
@@ -199,7 +203,7 @@ HWY_INLINE void TestAlone(const CameraFrame& frame, CameraPacket* packet) {
 template <bool kPerspective>
 HWY_INLINE bool TestOneOfMany(const CameraFrame& frame, const TileCandidate& candidate,
                               CameraPacket* packet) {
-  const uint32_t lanes = ProposedLanes<kPerspective>(frame, candidate, *packet);
+  const uint32_t lanes = ProposedLanes<kPerspective, false>(frame, candidate, *packet);
   if (lanes == 0) return false;
   const CameraDouble d;
   const auto center = SetVec3(d, candidate.sphere.center);

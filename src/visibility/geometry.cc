@@ -2,8 +2,10 @@
 #include "visibility/geometry.h"
 
 #include <algorithm>
+#include <memory>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "hit/batch.h"
 
 namespace nacre {
@@ -41,15 +43,25 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
 
 }  // namespace
 
-TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position) {
+TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads) {
   CheckPrimitiveCount(scene);
   TraceGeometry geometry;
-  geometry.spheres.reserve(scene.spheres.size());
-  for (const Sphere& sphere : scene.spheres) {
-    geometry.spheres.push_back({sphere.center - camera_position, sphere.radius});
-    const double reach = geometry.spheres.back().center.length() + sphere.radius;
-    geometry.extent = std::max(geometry.extent, reach);
-  }
+  geometry.spheres = HugeArray<TraceSphere>(scene.spheres.size());
+  constexpr size_t kBlock = size_t{1} << 14;
+  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
+  std::vector<double> extents(blocks);
+  ParallelFor(blocks, threads, [&](size_t block) {
+    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
+    double extent = 0;
+    for (size_t i = block * kBlock; i < end; ++i) {
+      const Sphere& sphere = scene.spheres[i];
+      const TraceSphere traced{sphere.center - camera_position, sphere.radius};
+      std::construct_at(geometry.spheres.data() + i, traced);
+      extent = std::max(extent, traced.center.length() + traced.radius);
+    }
+    extents[block] = extent;
+  });
+  for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
   const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(),
                                         [](const Mesh& mesh) { return !mesh.normals.empty(); });
   for (const Mesh& mesh : scene.meshes) AppendMesh(mesh, camera_position, with_normals, &geometry);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/vec.h"
 #include "scene/scene.h"
 
@@ -16,8 +17,12 @@ struct TraceSphere {
   double radius = 0;
 };
 
+inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
+  return a.center == b.center && a.radius == b.radius;
+}
+
 struct TraceGeometry {
-  std::vector<TraceSphere> spheres;  // in scene order
+  HugeArray<TraceSphere> spheres;  // in scene order
 
   // The vertices of all meshes, one after the other, and their triangles, indexing them.
   std::vector<Vec3d> positions;
@@ -32,6 +37,6 @@ struct TraceGeometry {
 };
 
 // Throws Error (kBadInput) when there are more primitives than ids.
-TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position);
+TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads = 0);
 
 }  // namespace nacre

@@ -158,7 +158,10 @@ void Attach(RTCDevice device, RTCScene scene, TraceGeometry* geometry, size_t co
 
 // Embree holds pointers to the geometry and the errors; the scene goes before the device.
 struct Intersector::State {
+  IntersectorSettings settings;
+  Vec3d camera_position{0, 0, 0};
   TraceGeometry geometry;
+  std::vector<LightOccluders> occluders;  // by number of the light
   CameraFrame camera;
   SphereBins bins;
   ErrorRecord errors;
@@ -173,8 +176,15 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
                          const IntersectorSettings& settings)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
-  s.geometry = MakeTraceGeometry(scene, camera_position);
-  if (!settings.embree) return;
+  s.settings = settings;
+  s.camera_position = camera_position;
+  s.geometry = MakeTraceGeometry(scene, camera_position, settings.threads);
+  if (settings.embree) BuildTree();
+}
+
+void Intersector::BuildTree() {
+  State& s = *state_;
+  if (s.scene) return;
   s.device = MakeDevice(ActiveTarget());
   s.packet_width = EmbreeTargetFor(ActiveTarget()).packet_width;
   rtcSetDeviceErrorFunction(s.device.get(), &ErrorRecord::Report, &s.errors);
@@ -185,7 +195,7 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
          SphereCallbacks());
   Attach(s.device.get(), s.scene.get(), &s.geometry, s.geometry.triangles.size(), &TriangleBounds,
          TriangleCallbacks());
-  WithThreads(settings.threads, [&] { rtcJoinCommitScene(s.scene.get()); });
+  WithThreads(s.settings.threads, [&] { rtcJoinCommitScene(s.scene.get()); });
   s.errors.ThrowIfAny();
 }
 
@@ -201,7 +211,8 @@ bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, d
   // 256 MiB; beyond that a tree is better.
   constexpr size_t kMaxEntries = size_t{1} << 26;
   state_->camera = frame;
-  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, &state_->bins);
+  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, state_->settings.threads,
+                    &state_->bins);
 }
 
 bool Intersector::EnterTile(const Window& tile, TileCandidates* candidates) const {
@@ -218,6 +229,27 @@ void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
   RefineHits({state_->geometry, rays, closest, ray_indices, count}, to);
 }
 
-void Intersector::Occluded(ShadowRayBatch* rays) const { TraceOccluded(state_->Traced(), rays); }
+uint32_t Intersector::FindOccluders(const Light& light, bool outward) {
+  State& s = *state_;
+  const ShadowLight target = MakeShadowLight(light, s.camera_position);
+  LightOccluders& occluders = s.occluders.emplace_back();
+  if (s.geometry.spheres.size() <= kMaxListedSpheres) {
+    occluders.lists = ListOccluders(s.geometry, target, outward);
+  } else {
+    occluders.bins = BinForLight(s.geometry, target, s.settings.threads);
+  }
+  return static_cast<uint32_t>(s.occluders.size() - 1);
+}
+
+const LightOccluders& Intersector::Occluders(uint32_t light) const {
+  return state_->occluders[light];
+}
+
+void Intersector::Occluded(ShadowRayBatch* rays) const {
+  if (rays->light == kAnyLight) return TraceOccluded(state_->Traced(), rays);
+  const LightOccluders& occluders = state_->occluders[rays->light];
+  if (occluders.bins) return OccludedByBins(state_->geometry, *occluders.bins, rays);
+  OccludedByLists(state_->geometry, occluders.lists, rays);
+}
 
 }  // namespace nacre

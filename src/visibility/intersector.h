@@ -9,17 +9,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "base/vec.h"
 #include "hit/batch.h"
 #include "scene/scene.h"
+#include "visibility/light_bins.h"
+#include "visibility/occluder_lists.h"
 #include "visibility/tile_kernel.h"
 
 namespace nacre {
 
 struct IntersectorSettings {
   int threads = 0;     // that building uses; 0: as many as the machine has
-  bool embree = true;  // false: no tree is built, and Closest and Occluded must not be called
+  bool embree = true;  // false: no tree is built until BuildTree is called
+};
+
+// What can come between the spheres and a light: bins, or else lists.
+struct LightOccluders {
+  std::optional<LightBins> bins;
+  OccluderLists lists;
 };
 
 // Owns the Embree device and scene, for the SIMD target that is active when it is made. Const
@@ -38,6 +47,9 @@ class Intersector {
   ~Intersector();
   Intersector(Intersector&&) noexcept;
   Intersector& operator=(Intersector&&) noexcept;
+
+  // Makes what Closest and Occluded need, if it is not there.
+  void BuildTree();
 
   // The first hit with t > 0 of each ray; kNoPrimitive and t = infinity where there is none.
   // Inside a sphere that is its far side. Fills whole vectors past rays.count with misses.
@@ -59,6 +71,15 @@ class Intersector {
   // kBatchPadding are copies of the last hit.
   void Refine(const RayBatch& rays, const ClosestHits& closest, const uint32_t* ray_indices,
               size_t count, const HitsTo& to) const;
+
+  // Finds what can come between the spheres and the light, so that shadow rays to it need no tree;
+  // returns the light's number for ShadowRayBatch::light, or kAnyLight where this would cost more
+  // than it saves. Triangles are not seen: with any in the scene this must not be called.
+  // `outward`: ShadowRayBatch's, which those rays must have.
+  uint32_t FindOccluders(const Light& light, bool outward);
+
+  // What was found for a light. The reference holds until the next FindOccluders.
+  const LightOccluders& Occluders(uint32_t light) const;
 
   // Sets rays->occluded: whether a surface lies at 0 < t < t_max. The surface that a ray starts on
   // is in its way only where a sphere's ray leaves inward.

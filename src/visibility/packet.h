@@ -47,6 +47,7 @@ struct Packet {
 
   // Occlusion queries.
   const double* t_max = nullptr;
+  bool outward = false;                         // ShadowRayBatch's
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
   // If that is a sphere, its centre and radius, by which the ray also leaves the spheres that
   // coincide with it; else NaN.

@@ -2,121 +2,99 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <utility>
+
+#include "base/parallel.h"
+#include "visibility/cell_lists.h"
+#include "visibility/slopes.h"
 
 namespace nacre {
 namespace {
 
-struct Interval {
-  double low, high;
+// Cells, at most 4096, of a row or column that the pixels [low, high] lie in: first to last, none
+// if first > last.
+struct CellRange {
+  int16_t first, last;
 };
 
-// The slopes x / z under which a disc of this radius about (x, z), z > -radius, is seen from the
-// origin in front of it, z > 0: between the tangents, x z -+ r sqrt(x^2 + z^2 - r^2) over
-// z^2 - r^2. A disc that reaches behind the origin has one tangent or none in front.
-Interval Slopes(double x, double z, double radius) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  const double product = (z - radius) * (z + radius);
-  if (z > radius * (1 + 1e-6) && product > 0) {
-    const double root = radius * std::sqrt(x * x + product);
-    return {(x * z - root) / product, (x * z + root) / product};
-  }
-  return {x > radius ? (x - radius) / (z + radius) : -infinity,
-          x < -radius ? (x + radius) / (z + radius) : infinity};
-}
-
-// Cells of a row or column that the pixels [low, high] lie in: first to last, none if first > last.
-struct CellRange {
-  int first, last;
+struct CellBox {
+  CellRange x, y;
 };
 
 CellRange CellsOf(double low, double high, int window_begin, int count) {
   const auto cell = [&](double pixel) {
     return std::clamp(std::floor((pixel - window_begin) / kCellSize), -1.0, double(count));
   };
-  return {std::max(static_cast<int>(cell(low)), 0),
-          std::min(static_cast<int>(cell(high)), count - 1)};
+  return {static_cast<int16_t>(std::max(cell(low), 0.0)),
+          static_cast<int16_t>(std::min(cell(high), count - 1.0))};
 }
-
-struct CellBox {
-  CellRange x, y;
-};
 
 }  // namespace
 
-FilmBounds ProjectSphere(const TraceSphere& sphere, const CameraFrame& frame) {
-  const double pixel = frame.step_x.length();
-  const Vec3d right = frame.step_x / pixel;
-  const Vec3d down = frame.step_y / pixel;
-  const double x = sphere.center.dot(right);
-  const double y = sphere.center.dot(down);
-  const double z = sphere.center.dot(frame.forward);
-  const double middle_x = -frame.corner.dot(right) / pixel;
-  const double middle_y = -frame.corner.dot(down) / pixel;
+Projector::Projector(const CameraFrame& frame)
+    : perspective_(frame.projection == Projection::kPerspective),
+      forward_(frame.forward),
+      inverse_pixel_(1 / frame.step_x.length()),
+      right_(frame.step_x * inverse_pixel_),
+      down_(frame.step_y * inverse_pixel_),
+      middle_x_(-frame.corner.dot(right_) * inverse_pixel_),
+      middle_y_(-frame.corner.dot(down_) * inverse_pixel_) {}
+
+FilmBounds Projector::Project(const TraceSphere& sphere) const {
+  const double x = sphere.center.dot(right_);
+  const double y = sphere.center.dot(down_);
+  const double z = sphere.center.dot(forward_);
   FilmBounds bounds{};
   bounds.visible = z + sphere.radius > 0;
   if (!bounds.visible) return bounds;
   Interval across{x - sphere.radius, x + sphere.radius};
   Interval along{y - sphere.radius, y + sphere.radius};
-  if (frame.projection == Projection::kPerspective) {
+  if (perspective_) {
     across = Slopes(x, z, sphere.radius);
     along = Slopes(y, z, sphere.radius);
   }
   // A thousandth of a pixel, and a billionth of the distance on the film, are far more than all the
   // roundings here and of the rays.
   const auto place = [&](double slope, double middle, double sign) {
-    const double at = slope / pixel;
+    const double at = slope * inverse_pixel_;
     return at + middle + sign * (1e-3 + 1e-9 * std::abs(at));
   };
-  bounds.x0 = place(across.low, middle_x, -1);
-  bounds.x1 = place(across.high, middle_x, 1);
-  bounds.y0 = place(along.low, middle_y, -1);
-  bounds.y1 = place(along.high, middle_y, 1);
+  bounds.x0 = place(across.low, middle_x_, -1);
+  bounds.x1 = place(across.high, middle_x_, 1);
+  bounds.y0 = place(along.low, middle_y_, -1);
+  bounds.y1 = place(along.high, middle_y_, 1);
   return bounds;
 }
 
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
-                double reach, size_t max_entries, SphereBins* bins) {
+                double reach, size_t max_entries, int threads, SphereBins* bins) {
   *bins = {};
   bins->window = window;
   bins->columns = (window.width() + kCellSize - 1) / kCellSize;
   bins->rows = (window.height() + kCellSize - 1) / kCellSize;
-  bins->end.assign(static_cast<size_t>(bins->columns) * static_cast<size_t>(bins->rows), 0);
-  std::vector<CellBox> boxes(geometry.spheres.size());
-  size_t entries = 0;
-  for (size_t i = 0; i < boxes.size(); ++i) {
-    const FilmBounds b = ProjectSphere(geometry.spheres[i], frame);
-    boxes[i] = {{0, -1}, {0, -1}};
-    if (!b.visible) continue;
-    boxes[i] = {CellsOf(b.x0 - reach, b.x1 + reach, window.x0, bins->columns),
-                CellsOf(b.y0 - reach, b.y1 + reach, window.y0, bins->rows)};
+  const Projector projector(frame);
+  HugeArray<CellBox> boxes(geometry.spheres.size());
+  ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
+    const auto [begin, end] = CellListPiece(boxes.size(), piece);
+    for (size_t i = begin; i < end; ++i) {
+      const FilmBounds b = projector.Project(geometry.spheres[i]);
+      boxes[i] = {CellsOf(b.x0 - reach, b.x1 + reach, window.x0, bins->columns),
+                  CellsOf(b.y0 - reach, b.y1 + reach, window.y0, bins->rows)};
+      if (!b.visible) boxes[i] = {{0, -1}, {0, -1}};
+    }
+  });
+  const auto for_cells = [&](size_t i, const auto& emit) {
     const auto& [x, y] = boxes[i];
     for (int row = y.first; row <= y.last; ++row) {
-      for (int column = x.first; column <= x.last; ++column) ++bins->end[bins->Cell(column, row)];
+      for (int column = x.first; column <= x.last; ++column) emit(bins->Cell(column, row));
     }
-    if (y.first <= y.last && x.first <= x.last) {
-      entries +=
-          static_cast<size_t>(y.last - y.first + 1) * static_cast<size_t>(x.last - x.first + 1);
-    }
-    if (entries > max_entries) {
-      *bins = {};
-      return false;
-    }
-  }
-  // Counts become beginnings, and these, as spheres are put in, ends.
-  uint32_t sum = 0;
-  for (uint32_t& count : bins->end) sum += std::exchange(count, sum);
-  bins->spheres.resize(entries);
-  for (size_t i = 0; i < boxes.size(); ++i) {
-    const auto& [x, y] = boxes[i];
-    for (int row = y.first; row <= y.last; ++row) {
-      for (int column = x.first; column <= x.last; ++column) {
-        bins->spheres[bins->end[bins->Cell(column, row)]++] = static_cast<uint32_t>(i);
-      }
-    }
-  }
-  return true;
+  };
+  const size_t cells = static_cast<size_t>(bins->columns) * static_cast<size_t>(bins->rows);
+  const bool fits = SortIntoCells(
+      geometry.spheres.size(), cells, max_entries, threads, for_cells, &bins->end,
+      [&](size_t entries) { bins->spheres = HugeArray<uint32_t>(entries); },
+      [&](size_t i, uint32_t position) { bins->spheres[position] = static_cast<uint32_t>(i); });
+  if (!fits) *bins = {};
+  return fits;
 }
 
 }  // namespace nacre

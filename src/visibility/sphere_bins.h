@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/image.h"
 #include "hit/camera_frame.h"
 #include "visibility/geometry.h"
@@ -20,7 +21,7 @@ struct SphereBins {
   Window window;              // the pixels that are binned
   int columns = 0, rows = 0;  // of cells, from the window's corner
   std::vector<uint32_t> end;  // of each cell's spheres, row by row
-  std::vector<uint32_t> spheres;
+  HugeArray<uint32_t> spheres;
 
   size_t Cell(int column, int row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
@@ -33,11 +34,24 @@ struct FilmBounds {
   double x0, x1, y0, y1;
   bool visible;  // false: no camera ray can hit the sphere; the bounds are undefined
 };
-FilmBounds ProjectSphere(const TraceSphere& sphere, const CameraFrame& frame);
+
+// Spheres as a camera sees them.
+class Projector {
+ public:
+  explicit Projector(const CameraFrame& frame);
+  FilmBounds Project(const TraceSphere& sphere) const;
+
+ private:
+  bool perspective_;
+  Vec3d forward_;
+  double inverse_pixel_;
+  Vec3d right_, down_;
+  double middle_x_, middle_y_;  // of the film, in pixels
+};
 
 // `reach`: how far a pixel's samples lie outside it, in pixels. Fails, with empty bins, if there
 // would be more than `max_entries` in all: many spheres that cover much of the picture.
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
-                double reach, size_t max_entries, SphereBins* bins);
+                double reach, size_t max_entries, int threads, SphereBins* bins);
 
 }  // namespace nacre

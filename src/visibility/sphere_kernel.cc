@@ -6,6 +6,7 @@
 #define HWY_TARGET_INCLUDE "visibility/sphere_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "visibility/occlusion-inl.h"
 #include "visibility/sphere_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,13 +48,9 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
     const auto hit = TestLanes(d, packet, lane, sphere);
-    // From the sphere itself one root is 0, and the other twice the way to the closest approach:
-    // negative for a ray that leaves outward, whatever the rounding of its origin.
-    const auto own = StartsOn(d, packet, lane, sphere);
-    const auto t = hn::IfThenElse(own, hn::Add(hit.closest, hit.closest), hit.t);
-    const auto met = hn::Or(hn::And(own, hn::Gt(t, hn::Zero(d))), hn::AndNot(own, hit.hit));
-    const auto within = hn::Lt(t, hn::Load(d, packet.t_max + lane));
-    occluded |= BitsOfMask(d, hn::And(proposed, hn::And(met, within))) << lane;
+    const auto in_the_way = InTheWay(d, hit, StartsOn(d, packet, lane, sphere), packet.outward,
+                                     hn::Load(d, packet.t_max + lane));
+    occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
   }
   RecordOccluded(&packet, occluded);
   ReturnDepths(packet, args->valid, args->ray, args->N);

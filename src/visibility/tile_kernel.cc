@@ -53,20 +53,20 @@ template <bool kPerspective>
 HWY_INLINE void TracePacket(const CameraFrame& frame, const std::vector<TileCandidate>* begin,
                             const std::vector<TileCandidate>* end, CameraPacket* packet) {
   FillFloatRays<kPerspective>(frame, packet);
+  packet->hit = 0;
+  packet->alone = nullptr;
+  if (end - begin == 1 && begin->size() == 1 && kPerspective && !begin->front().around_camera) {
+    packet->alone = &begin->front();
+    return TestAlone<kPerspective>(frame, packet);
+  }
   const CameraFloat d;
   const float infinity = std::numeric_limits<float>::infinity();
-  packet->hit = 0;
-  packet->exact = 0;
-  packet->alone = nullptr;
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
     const auto used = MaskOfBits(d, packet->lanes, static_cast<int>(i));
     hn::Store(hn::IfThenElse(used, hn::Set(d, infinity), hn::Set(d, -infinity)), d,
               packet->depth + i);
   }
-  if (end - begin == 1 && begin->size() == 1 && kPerspective && !begin->front().around_camera) {
-    packet->alone = &begin->front();
-    return TestAlone<kPerspective>(frame, packet);
-  }
+  packet->exact = 0;
   std::fill_n(packet->t, kCameraPacket, std::numeric_limits<double>::infinity());
   for (; begin != end; ++begin) TraceCell<kPerspective>(frame, *begin, packet);
 }

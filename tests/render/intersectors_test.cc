@@ -32,6 +32,9 @@ void CheckSame(const Scene& scene, RenderSettings settings) {
   settings.intersector = IntersectorChoice::kTiles;
   const Image tiles = RenderImage(scene, settings);
   CHECK(SameBits(embree, tiles));
+  settings.intersector = IntersectorChoice::kEmbree;
+  settings.general_path = true;
+  CHECK(SameBits(RenderImage(scene, settings), tiles));
 }
 
 // Spheres of all sizes around the camera: before, beside, behind and around it.
@@ -46,7 +49,13 @@ Scene RandomScene(uint32_t seed) {
   sun.name = "sun";
   sun.shadows = seed % 2 == 0;
   sun.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {1, 1, 1}};
-  scene.lights = {sun};
+  // Over the camera's shoulder; in, on or between the spheres.
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.kind = PointLight{.position = {uniform(-4, 4), uniform(-4, 4), uniform(-20, 5)},
+                         .intensity = {9, 9, 9},
+                         .attenuation = {1, 0, 0.01}};
+  scene.lights = {sun, lamp};
   scene.background = Rgb(0.1, 0.2, 0.3);
   scene.camera.position = Vec3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
   scene.camera.look_at = Vec3d(uniform(-5, 5), uniform(-5, 5), -10);
@@ -78,6 +87,37 @@ TEST_CASE("tiles and Embree give the same bits, whatever the scene") {
       settings.tile_size = tile_sizes[seed % 4];
       if (seed % 5 == 2) settings.region = {21, 19, 90, 60};
       CheckSame(RandomScene(seed), settings);
+    }
+  });
+}
+
+// More spheres than lists are made for, some of them large, and lights among them.
+TEST_CASE("bins for shadow rays give the same bits as Embree") {
+  ForEachTarget([](Target) {
+    for (uint32_t seed = 0; seed < 8; ++seed) {
+      CAPTURE(seed);
+      Scene scene = RandomScene(seed);
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      for (int i = 0; i < 2000; ++i) {
+        const Vec3d center(8 * uniform(random), 8 * uniform(random), 15 * uniform(random) - 10);
+        scene.spheres.push_back({center, 0.2 * std::pow(10, uniform(random) - 1), {0}});
+      }
+      if (seed % 2 == 1) scene.spheres.push_back({{0, -1e6 - 9, 0}, 1e6, {0}});
+      Light spot;
+      spot.name = "spot";
+      SpotLight cone;
+      cone.position = {2, 3, -4};
+      cone.direction_of_travel = {-0.2, -1, -0.5};
+      spot.kind = cone;
+      scene.lights.push_back(spot);
+      for (Light& light : scene.lights) light.shadows = true;
+      RenderSettings settings;
+      settings.threads = static_cast<int>(seed % 3);
+      CheckSame(scene, settings);
+      for (const PlannedLight& light : MakePlan(scene, {}).lights) {
+        CHECK(light.occluders != kAnyLight);
+      }
     }
   });
 }
@@ -166,9 +206,12 @@ TEST_CASE("Embree is there where it is needed, and only there") {
     return std::pair(plan.tiles, embree);
   };
   Scene scene = RandomScene(0);
-  CHECK(uses(scene, {}) == std::pair(true, true));  // for shadows
-  scene.image.shadows = false;
   CHECK(uses(scene, {}) == std::pair(true, false));
+  RenderSettings general;
+  general.general_path = true;
+  CHECK(uses(scene, general) == std::pair(true, true));  // for shadows
+  scene.image.shadows = false;
+  CHECK(uses(scene, general) == std::pair(true, false));
   RenderSettings forced;
   forced.intersector = IntersectorChoice::kEmbree;
   CHECK(uses(scene, forced) == std::pair(false, true));

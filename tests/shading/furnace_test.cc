@@ -78,7 +78,9 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
   const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
   HitBatch hits;
   Surface surface;
-  LightBatch light;
+  const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
+  LightBatch evaluated;
+  const LightOnBatch on_hits{&light, &evaluated};
   NarrowLobes scratch;
   hits.count = kBatchCapacity;
   for (size_t i = 0; i < kBatchCapacity; ++i) {
@@ -92,17 +94,17 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
   for (size_t first = 0; first < directions.size(); first += kBatchCapacity) {
     for (size_t i = 0; i < kBatchCapacity; ++i) {
       const auto& [l, weight] = directions[first + i];
-      light.offset.x[i] = l.x;
-      light.offset.y[i] = l.y;
-      light.offset.z[i] = l.z;
-      light.to_light.x[i] = static_cast<float>(l.x);
-      light.to_light.y[i] = static_cast<float>(l.y);
-      light.to_light.z[i] = static_cast<float>(l.z);
-      light.irradiance[i] = static_cast<float>(weight);
+      hits.position.x[i] = -l.x;
+      hits.position.y[i] = -l.y;
+      hits.position.z[i] = -l.z;
+      evaluated.to_light.x[i] = static_cast<float>(l.x);
+      evaluated.to_light.y[i] = static_cast<float>(l.y);
+      evaluated.to_light.z[i] = static_cast<float>(l.z);
+      evaluated.irradiance[i] = static_cast<float>(weight);
     }
     ReflectedRadiance radiance;
     ClearRadiance(kBatchCapacity, &radiance);
-    ShadeRun(prepared, Rgb(1), {hits, surface, light}, 0, kBatchCapacity, &scratch, &radiance);
+    ShadeRun(prepared, {hits, surface, {&on_hits, 1}}, 0, kBatchCapacity, &scratch, &radiance);
     for (size_t i = 0; i < kBatchCapacity; ++i) {
       sum += Rgb(double{radiance.diffuse.x[i]} + radiance.specular.x[i],
                  double{radiance.diffuse.y[i]} + radiance.specular.y[i],

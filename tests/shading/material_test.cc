@@ -129,10 +129,9 @@ TEST_CASE("lights and hits meet in the camera's space") {
                         .attenuation = {}};
   for (const Light& light : {point, spot}) {
     LightBatch batch;
-    EvaluateLight(light, camera, hits, surface, &batch);
-    CHECK(batch.offset.x[0] == position.x);
-    CHECK(batch.offset.y[0] == position.y);
-    CHECK(batch.offset.z[0] == position.z);
+    const ShadingLight prepared = PrepareLight(light, camera);
+    EvaluateLight(prepared, hits, surface, &batch);
+    CHECK(prepared.OffsetFrom(Vec3d(0)) == position);
     CHECK(batch.irradiance[0] == Approx(1 / position.length2()).epsilon(1e-6));
   }
 }
@@ -150,7 +149,7 @@ TEST_CASE("a light beside a far hit keeps its direction") {
     Surface surface;
     LightBatch batch;
     PrepareSurface(hits, &surface);
-    EvaluateLight(light, {0, 0, 0}, hits, surface, &batch);
+    EvaluateLight(PrepareLight(light, {0, 0, 0}), hits, surface, &batch);
     // The positions are doubles of 2e-10; the rest is a few roundings to float.
     CHECK(batch.to_light.x[0] == Approx(offset.normalized().x).epsilon(1e-6));
     CHECK(batch.irradiance[0] == Approx(1 / offset.length2()).epsilon(1e-6));
@@ -203,10 +202,12 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
     PrepareRun(prepared, 0, 1, &surface);
     Light light;
     light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
-    EvaluateLight(light, {0, 0, 0}, hits, surface, &batch);
+    const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+    EvaluateLight(prepared_light, hits, surface, &batch);
+    const LightOnBatch on_hit{&prepared_light, &batch};
     ReflectedRadiance radiance;
     NarrowLobes scratch;
-    ShadeRun(prepared, {1, 1, 1}, {hits, surface, batch}, 0, 1, &scratch, &radiance);
+    ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
 }

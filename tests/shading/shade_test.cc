@@ -192,17 +192,19 @@ Reflected Reflect(const MicrofacetModel& m, const Vec3d& n, const Vec3d& v, cons
 struct Batch {
   HitBatch hits = MakeHits();
   Surface surface;
-  LightBatch light;
+  ShadingLight light;
+  LightBatch evaluated;
   NarrowLobes scratch;
 
-  explicit Batch(const Light& scene_light) {
+  explicit Batch(const Light& scene_light) : light(PrepareLight(scene_light, {0, 0, 0})) {
     PrepareSurface(hits, &surface);
-    EvaluateLight(scene_light, {0, 0, 0}, hits, surface, &light);
+    EvaluateLight(light, hits, surface, &evaluated);
   }
   void Shade(const ShadingMaterial& material, size_t begin, size_t end,
              ReflectedRadiance* radiance) {
+    const LightOnBatch on_hits{&light, &evaluated};
     PrepareRun(material, begin, end, &surface);
-    ShadeRun(material, kLightColor, {hits, surface, light}, begin, end, &scratch, radiance);
+    ShadeRun(material, {hits, surface, {&on_hits, 1}}, begin, end, &scratch, radiance);
   }
 };
 
@@ -367,7 +369,8 @@ double HighlightError(const ShadingMaterial& material, const Model& model, doubl
   Light light;
   light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = kLightColor};
   PrepareSurface(batch.hits, &batch.surface);
-  EvaluateLight(light, {0, 0, 0}, batch.hits, batch.surface, &batch.light);
+  batch.light = PrepareLight(light, {0, 0, 0});
+  EvaluateLight(batch.light, batch.hits, batch.surface, &batch.evaluated);
   ReflectedRadiance got;
   batch.Shade(material, 0, kHits, &got);
   double worst = 0;
@@ -458,6 +461,41 @@ TEST_CASE("a hit's bits do not depend on its place in the batch or the run") {
   });
 }
 
+TEST_CASE("lights leave the same bits taken together, one by one, in place or evaluated before") {
+  const FlushDenormals flush;
+  std::vector<Material> materials = MicrofacetMaterials(0.05);
+  for (const Material& material : MicrofacetMaterials(0.4)) materials.push_back(material);
+  for (const MaterialModel& model : MaterialModels()) materials.push_back(model.make());
+  const ShadingLight point = PrepareLight(MakeLight("point"), {0, 0, 0});
+  const ShadingLight sun = PrepareLight(MakeLight("directional"), {0, 0, 0});
+  REQUIRE((EvaluatedInPlace(point) && EvaluatedInPlace(sun)));
+  std::vector<LightOnBatch> lights;  // more than one call of a kernel takes
+  for (int i = 0; i < 20; ++i) lights.push_back({i % 3 == 0 ? &sun : &point, nullptr});
+  ForEachTarget([&](Target) {
+    Batch batch(MakeLight("point"));
+    LightBatch evaluated_point, evaluated_sun;
+    EvaluateLight(point, batch.hits, batch.surface, &evaluated_point);
+    EvaluateLight(sun, batch.hits, batch.surface, &evaluated_sun);
+    for (const Material& material : materials) {
+      const ShadingMaterial prepared = Prepare(material);
+      PrepareRun(prepared, 0, kHits, &batch.surface);
+      const auto shade = [&](std::span<const LightOnBatch> some, ReflectedRadiance* radiance) {
+        ShadeRun(prepared, {batch.hits, batch.surface, some}, 0, kHits, &batch.scratch, radiance);
+      };
+      ReflectedRadiance together, single;
+      shade(lights, &together);
+      for (LightOnBatch light : lights) {
+        light.evaluated = light.light == &sun ? &evaluated_sun : &evaluated_point;
+        shade({&light, 1}, &single);
+      }
+      for (size_t i = 0; i < kHits; ++i) {
+        REQUIRE(At(together.diffuse, i) == At(single.diffuse, i));
+        REQUIRE(At(together.specular, i) == At(single.specular, i));
+      }
+    }
+  });
+}
+
 TEST_CASE("a light near a huge, far surface keeps its direction") {
   // Ground of radius 1e6 around (0, -1e6, 0): a light 1 above it, hits 1 away from its foot.
   ForEachTarget([](Target) {
@@ -474,11 +512,13 @@ TEST_CASE("a light near a huge, far surface keeps its direction") {
     PrepareSurface(hits, &surface);
     Light light;
     light.kind = PointLight{.position = {0, 1, 0}, .intensity = {1, 1, 1}, .attenuation = {}};
-    EvaluateLight(light, {0, 0, 0}, hits, surface, &batch);
+    EvaluateLight(PrepareLight(light, {0, 0, 0}), hits, surface, &batch);
     // Rounding of the difference to float and one normalisation: a few u.
-    CHECK(batch.to_light.x[0] == Approx(-std::sqrt(0.5)).epsilon(8 * 0x1p-24));
-    CHECK(batch.to_light.y[0] == Approx(std::sqrt(0.5)).epsilon(8 * 0x1p-24));
-    CHECK(batch.irradiance[0] == Approx(0.5).epsilon(8 * 0x1p-24));
+    const Vec3d offset = Vec3d(0, 1, 0) - At(hits.position, 0);
+    const Vec3d to_light = offset.normalized();
+    CHECK(batch.to_light.x[0] == Approx(to_light.x).epsilon(8 * 0x1p-24));
+    CHECK(batch.to_light.y[0] == Approx(to_light.y).epsilon(8 * 0x1p-24));
+    CHECK(batch.irradiance[0] == Approx(1 / offset.length2()).epsilon(8 * 0x1p-24));
   });
 }
 

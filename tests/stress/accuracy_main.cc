@@ -151,13 +151,13 @@ Highlight Render(const ShadingMaterial& material, double width) {
   Light light;
   light.kind = DirectionalLight{.direction_of_travel = -kToLight, .irradiance = Rgb(1)};
   Surface surface;
-  LightBatch lit;
   NarrowLobes scratch;
   ReflectedRadiance radiance;
   PrepareSurface(highlight.hits, &surface);
   PrepareRun(material, 0, highlight.hits.count, &surface);
-  EvaluateLight(light, Vec3d(0), highlight.hits, surface, &lit);
-  ShadeRun(material, Rgb(1), {highlight.hits, surface, lit}, 0, highlight.hits.count, &scratch,
+  const ShadingLight prepared = PrepareLight(light, Vec3d(0));
+  const LightOnBatch on_hits{&prepared, nullptr};
+  ShadeRun(material, {highlight.hits, surface, {&on_hits, 1}}, 0, highlight.hits.count, &scratch,
            &radiance);
   highlight.specular.assign(radiance.specular.x.data(),
                             radiance.specular.x.data() + highlight.hits.count);

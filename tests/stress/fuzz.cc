@@ -28,9 +28,11 @@ static_assert(kHits + 16 <= kBatchCapacity);
 // A batch and what is reflected of it.
 struct Placement {
   std::array<size_t, kHits> place;  // of each hit in the batch
+  bool in_place;                    // the light, where that can be
   HitBatch hits;
   Surface surface;
-  LightBatch light;
+  ShadingLight light;
+  LightBatch evaluated;
   NarrowLobes scratch;
   ReflectedRadiance radiance;
 };
@@ -53,13 +55,17 @@ void Fill(const std::vector<Drawn>& drawn, const Light& light, Placement* p) {
     Set(drawn[i].to_view, p->place[i], &p->hits.to_view);
   }
   PrepareSurface(p->hits, &p->surface);
-  EvaluateLight(light, Vec3d(0, 0, 0), p->hits, p->surface, &p->light);
+  p->light = PrepareLight(light, Vec3d(0, 0, 0));
+  EvaluateLight(p->light, p->hits, p->surface, &p->evaluated);
 }
 
 void Shade(const ShadingMaterial& material, const Rgb& color, size_t begin, size_t end,
            Placement* p) {
+  p->light.color = color;
+  const bool in_place = p->in_place && EvaluatedInPlace(p->light);
+  const LightOnBatch on_hits{&p->light, in_place ? nullptr : &p->evaluated};
   PrepareRun(material, begin, end, &p->surface);
-  ShadeRun(material, color, {p->hits, p->surface, p->light}, begin, end, &p->scratch, &p->radiance);
+  ShadeRun(material, {p->hits, p->surface, {&on_hits, 1}}, begin, end, &p->scratch, &p->radiance);
 }
 
 // The bits of a hit's radiance.
@@ -104,6 +110,8 @@ class ChunkFuzz {
       hit = {-d.to_light * DrawDistance(&random_), d.normal, d.to_view};
     }
     const size_t first = random_.Below(17);
+    ordered_.in_place = false;
+    moved_.in_place = true;
     for (size_t i = 0; i < kHits; ++i) {
       ordered_.place[i] = i;
       moved_.place[i] = first + kHits - 1 - i;
@@ -135,7 +143,7 @@ class ChunkFuzz {
 
  private:
   void Judge(const MaterialModel& model, const Material& material, const Rgb& color, size_t hit) {
-    const double irradiance = ordered_.light.irradiance[hit];
+    const double irradiance = ordered_.evaluated.irradiance[hit];
     result_->lit += irradiance > 0;
     const std::array<uint32_t, 6> bits = BitsOf(ordered_, hit);
     if (bits != BitsOf(moved_, hit)) Fault(&result_->moved, "moved", model, material, hit);
@@ -164,7 +172,7 @@ class ChunkFuzz {
       return;
     }
     const float expected =
-        static_cast<float>(phong->ks.x * color.x) * ordered_.light.irradiance[hit];
+        static_cast<float>(phong->ks.x * color.x) * ordered_.evaluated.irradiance[hit];
     if (!std::isnormal(expected)) return;
     const float got = ordered_.radiance.specular.x[hit];
     if (got != expected) Fault(&result_->power_of_zero, "0^0 is not 1", model, material, hit);
@@ -185,7 +193,7 @@ class ChunkFuzz {
     result_->first_fault = fmt::format(
         "{}: {}{} n {} v {} l {} irradiance {:g} diffuse {} specular {}", what, model.name,
         parameters, text(ordered_.surface.normal), text(ordered_.surface.to_view),
-        text(ordered_.light.to_light), ordered_.light.irradiance[hit],
+        text(ordered_.evaluated.to_light), ordered_.evaluated.irradiance[hit],
         text(ordered_.radiance.diffuse), text(ordered_.radiance.specular));
   }
 

@@ -26,18 +26,18 @@ Vec3d Reflect(const Material& material, const Rgb& color, const Point& point, bo
   set(point.to_light * -point.distance, &hits.position);
   set(point.normal, &hits.normal);
   set(point.to_view, &hits.to_view);
-  Light light;
-  light.kind = PointLight{};
+  const ShadingLight light{.color = color};
   Surface surface;
   LightBatch batch;
   ReflectedRadiance radiance;
   PrepareSurface(hits, &surface);
-  EvaluateLight(light, Vec3d(0, 0, 0), hits, surface, &batch);
+  EvaluateLight(light, hits, surface, &batch);
   REQUIRE(batch.irradiance[0] > 0);
   NarrowLobes scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
   PrepareRun(prepared, 0, 1, &surface);
-  ShadeRun(prepared, color, {hits, surface, batch}, 0, 1, &scratch, &radiance);
+  const LightOnBatch on_hit{&light, &batch};
+  ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
   const Soa3<float>& part = specular ? radiance.specular : radiance.diffuse;
   return {part.x[0], part.y[0], part.z[0]};
 }

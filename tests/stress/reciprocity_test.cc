@@ -17,19 +17,22 @@ namespace {
 constexpr size_t kHits = kBatchCapacity;
 
 // In double and in float, as the kernels read them.
+template <typename Real>
+void Set(const Vec3d& v, size_t i, Soa3<Real>* to) {
+  to->x[i] = static_cast<Real>(v.x);
+  to->y[i] = static_cast<Real>(v.y);
+  to->z[i] = static_cast<Real>(v.z);
+}
+
 void Set(const Vec3d& v, size_t i, Soa3<double>* to, Soa3<float>* rounded) {
-  to->x[i] = v.x;
-  to->y[i] = v.y;
-  to->z[i] = v.z;
-  rounded->x[i] = static_cast<float>(v.x);
-  rounded->y[i] = static_cast<float>(v.y);
-  rounded->z[i] = static_cast<float>(v.z);
+  Set(v, i, to);
+  Set(v, i, rounded);
 }
 
 struct Side {
   HitBatch hits;
   Surface surface;
-  LightBatch light;
+  LightBatch evaluated;
   NarrowLobes scratch;
   ReflectedRadiance radiance;
 };
@@ -44,11 +47,13 @@ struct BothSides {
       for (Side* side : {&there, &back}) {
         Set(d.normal, i, &side->hits.normal, &side->surface.normal);
       }
-      Set(d.to_light, i, &there.light.offset, &there.light.to_light);
+      Set(-d.to_light, i, &there.hits.position);
+      Set(d.to_light, i, &there.evaluated.to_light);
       Set(d.to_view, i, &there.hits.to_view, &there.surface.to_view);
-      Set(d.to_view, i, &back.light.offset, &back.light.to_light);
+      Set(-d.to_view, i, &back.hits.position);
+      Set(d.to_view, i, &back.evaluated.to_light);
       Set(d.to_light, i, &back.hits.to_view, &back.surface.to_view);
-      there.light.irradiance[i] = back.light.irradiance[i] = 1;
+      there.evaluated.irradiance[i] = back.evaluated.irradiance[i] = 1;
       ++i;
     }
   }
@@ -58,7 +63,7 @@ struct BothSides {
 
 double Cosine(const Side& side, size_t i) {
   const Soa3<float>& n = side.surface.normal;
-  const Soa3<float>& l = side.light.to_light;
+  const Soa3<float>& l = side.evaluated.to_light;
   return double{n.x[i]} * l.x[i] + double{n.y[i]} * l.y[i] + double{n.z[i]} * l.z[i];
 }
 
@@ -78,12 +83,13 @@ double Difference(const BothSides& sides, const Soa3<float>& there, const Soa3<f
 }
 
 void CheckReciprocal(const Material& material, BothSides* sides, double bound, double floor) {
-  const Rgb white(1, 1, 1);
+  const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
   const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
   for (Side* side : {&sides->there, &sides->back}) {
     ClearRadiance(kHits, &side->radiance);
     PrepareRun(prepared, 0, kHits, &side->surface);
-    ShadeRun(prepared, white, {side->hits, side->surface, side->light}, 0, kHits, &side->scratch,
+    const LightOnBatch on_hits{&light, &side->evaluated};
+    ShadeRun(prepared, {side->hits, side->surface, {&on_hits, 1}}, 0, kHits, &side->scratch,
              &side->radiance);
   }
   const ReflectedRadiance& there = sides->there.radiance;

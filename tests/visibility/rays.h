@@ -96,10 +96,14 @@ inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
   return surfaces;
 }
 
+// `light`, `outward`: ShadowRayBatch's.
 inline std::vector<bool> TraceShadows(const Intersector& intersector,
-                                      const std::vector<ShadowRay>& rays) {
+                                      const std::vector<ShadowRay>& rays,
+                                      uint32_t light = kAnyLight, bool outward = false) {
   std::vector<bool> occluded;
   ShadowRayBatch batch;
+  batch.light = light;
+  batch.outward = outward;
   for (size_t first = 0; first < rays.size(); first += kBatchCapacity) {
     batch.count = std::min(kBatchCapacity, rays.size() - first);
     for (size_t i = 0; i < batch.count; ++i) {
@@ -139,7 +143,7 @@ inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
 
 // Occlusion by spheres, and by triangles further off than `gap` (in t).
 inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& shadow,
-                               double gap = 0) {
+                               double gap = 0, bool outward = false) {
   const auto& [ray, t_max, start] = shadow;
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
     const TraceSphere& sphere = geometry.spheres[i];
@@ -148,7 +152,7 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
                      geometry.spheres[start].center == sphere.center &&
                      geometry.spheres[start].radius == sphere.radius;
     const double t = own ? 2 * hit.closest : hit.t;
-    if ((own ? t > 0 : hit.hit) && t < t_max) return true;
+    if ((own ? t > 0 && !outward : hit.hit) && t < t_max) return true;
   }
   for (size_t i = 0; i < geometry.triangles.size(); ++i) {
     if (geometry.SphereCount() + i == start) continue;

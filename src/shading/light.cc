@@ -1,0 +1,61 @@
+#include "shading/light.h"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "base/overloaded.h"
+
+namespace nacre {
+namespace {
+
+AttenuationTerms<float> ToTerms(const Attenuation& a) {
+  return {static_cast<float>(a.constant), static_cast<float>(a.linear),
+          static_cast<float>(a.quadratic)};
+}
+
+ConeTerms<float> ToTerms(const SpotLight& spot) {
+  const auto cosine = [](double degrees) {
+    return static_cast<float>(std::cos(degrees * M_PI / 180));
+  };
+  return {cosine(spot.cutoff_deg), cosine(spot.inner_deg), static_cast<float>(spot.exponent)};
+}
+
+}  // namespace
+
+double ShadingLight::TMax() const {
+  return form == LightForm::kDirectional ? std::numeric_limits<double>::infinity() : 1.0;
+}
+
+ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
+  ShadingLight prepared;
+  std::visit(Overloaded{[](const AmbientLight&) {},
+                        [&](const DirectionalLight& directional) {
+                          prepared.form = LightForm::kDirectional;
+                          prepared.color = directional.irradiance;
+                          prepared.to_light = -directional.direction_of_travel.normalized();
+                        },
+                        [&](const PointLight& point) {
+                          const Attenuation& a = point.attenuation;
+                          prepared.inverse_quadratic = static_cast<float>(1 / a.quadratic);
+                          const bool inverse_square = a.constant == 0 && a.linear == 0 &&
+                                                      std::isfinite(prepared.inverse_quadratic);
+                          prepared.form =
+                              inverse_square ? LightForm::kInverseSquare : LightForm::kPoint;
+                          prepared.color = point.intensity;
+                          prepared.position = point.position - camera_position;
+                          prepared.attenuation = ToTerms(a);
+                        },
+                        [&](const SpotLight& spot) {
+                          prepared.form = LightForm::kSpot;
+                          prepared.color = spot.intensity;
+                          prepared.position = spot.position - camera_position;
+                          prepared.axis = Vec3f(spot.direction_of_travel.normalized());
+                          prepared.attenuation = ToTerms(spot.attenuation);
+                          prepared.cone = ToTerms(spot);
+                        }},
+             light.kind);
+  return prepared;
+}
+
+}  // namespace nacre

@@ -1,0 +1,69 @@
+// visibility/cell_lists.h: sorts items into the lists of the cells that they touch, in parallel.
+// The order within a list is that of the items, whatever the threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+
+namespace nacre {
+
+// Items in pieces, each with its own count for every cell: so many that all threads have work, so
+// few that the counts stay small.
+inline size_t CellListPieces(size_t items) { return items < (size_t{1} << 14) ? 1 : 8; }
+
+struct CellListRange {
+  size_t begin, end;
+};
+inline CellListRange CellListPiece(size_t items, size_t piece) {
+  const size_t pieces = CellListPieces(items);
+  return {items * piece / pieces, items * (piece + 1) / pieces};
+}
+
+// for_cells(item, emit) calls emit(cell) for each cell of the item, each time in the same way; it
+// is called twice. Then end[cell] is where the cell's list ends, allocate(entries) is called once,
+// and place(item, position) for each entry, from several threads. Returns false, with nothing
+// allocated, if there would be more than max_entries, which is below 2^32.
+template <class ForCells, class Allocate, class Place>
+bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
+                   const ForCells& for_cells, std::vector<uint32_t>* end, const Allocate& allocate,
+                   const Place& place) {
+  const size_t pieces = CellListPieces(items);
+  std::vector<std::vector<uint32_t>> next(pieces);  // first counts, then where the next one goes
+  std::atomic<size_t> entries{0};
+  ParallelFor(pieces, threads, [&](size_t piece) {
+    std::vector<uint32_t> count(cells);
+    size_t sum = 0;
+    const auto [begin, end_of_piece] = CellListPiece(items, piece);
+    for (size_t item = begin; item < end_of_piece && sum <= max_entries; ++item) {
+      for_cells(item, [&](size_t cell) {
+        ++count[cell];
+        ++sum;
+      });
+    }
+    entries += sum;
+    next[piece] = std::move(count);
+  });
+  if (entries > max_entries) return false;
+  end->resize(cells);
+  uint32_t sum = 0;
+  for (size_t cell = 0; cell < cells; ++cell) {
+    for (std::vector<uint32_t>& count : next) sum += std::exchange(count[cell], sum);
+    (*end)[cell] = sum;
+  }
+  allocate(entries.load());
+  ParallelFor(pieces, threads, [&](size_t piece) {
+    const auto [begin, end_of_piece] = CellListPiece(items, piece);
+    for (size_t item = begin; item < end_of_piece; ++item) {
+      for_cells(item, [&](size_t cell) { place(item, next[piece][cell]++); });
+    }
+  });
+  return true;
+}
+
+}  // namespace nacre

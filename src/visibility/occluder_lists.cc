@@ -1,0 +1,96 @@
+#include "visibility/occluder_lists.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nacre {
+namespace {
+
+// A surface counts as lit by float directions: where the true n.l is above this, in any case.
+constexpr double kGrazing = -2e-6;
+
+// A sphere as it is seen against the light. Radii are margins larger than they are.
+struct Seen {
+  double radius;
+  double lit;  // how far lit points lie behind the centre (away from a directional light), or
+               // from a light at a point, at most
+  // Of a light at a point:
+  bool around_light;    // the light may be in the sphere
+  Vec3d direction;      // unit, from the light to the centre
+  double distance;      // of the centre
+  double sine, cosine;  // of the angle between the centre and the silhouette
+};
+
+Seen SeeAlong(const TraceSphere& sphere, bool outward) {
+  const double margin = BoundMargin(sphere.radius, sphere.center.length());
+  Seen seen{};
+  seen.radius = sphere.radius + margin;
+  seen.lit = margin + (outward ? -kGrazing * sphere.radius : sphere.radius);
+  return seen;
+}
+
+Seen SeeFrom(const Vec3d& light, const TraceSphere& sphere, bool outward) {
+  const Vec3d offset = sphere.center - light;
+  const double margin = BoundMargin(sphere.radius, sphere.center.length() + light.length());
+  Seen seen{};
+  seen.radius = sphere.radius + margin;
+  seen.distance = offset.length();
+  seen.around_light = seen.distance <= seen.radius;
+  // The tangents' length squared; with n.l = g < 0 still lit, points are 2 r |g| beyond it.
+  const double tangent2 =
+      (seen.distance - sphere.radius + 2 * margin) * (seen.distance + sphere.radius);
+  seen.lit = outward ? std::sqrt(std::max(tangent2, 0.0)) - 2 * kGrazing * sphere.radius + margin
+                     : seen.distance + seen.radius;
+  if (seen.around_light) return seen;
+  seen.direction = offset / seen.distance;
+  seen.sine = seen.radius / seen.distance;
+  seen.cosine = std::sqrt((1 - seen.sine) * (1 + seen.sine));
+  return seen;
+}
+
+// Whether the blocker reaches over the lowest lit points within the cylinder about the sphere.
+bool MayBlockAlong(const TraceSphere& blocker, const Seen& seen_blocker, const TraceSphere& sphere,
+                   const Seen& seen, const Vec3d& to_light) {
+  const Vec3d offset = blocker.center - sphere.center;
+  const double along = offset.dot(to_light);
+  if (along + seen_blocker.radius + seen.lit < 0) return false;
+  const Vec3d across = offset - to_light * along;
+  const double radii = seen_blocker.radius + seen.radius;
+  return across.dot(across) <= radii * radii;
+}
+
+// Whether the blocker reaches nearer to the light than the furthest lit points within the cone
+// about the sphere. Cosines err by a few 2^-53.
+bool MayBlockFrom(const Seen& blocker, const Seen& sphere) {
+  if (blocker.distance - blocker.radius > sphere.lit) return false;
+  if (blocker.around_light || sphere.around_light) return true;
+  return blocker.direction.dot(sphere.direction) >
+         blocker.cosine * sphere.cosine - blocker.sine * sphere.sine - 1e-12;
+}
+
+}  // namespace
+
+OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward) {
+  const HugeArray<TraceSphere>& spheres = geometry.spheres;
+  std::vector<Seen> seen;
+  seen.reserve(spheres.size());
+  for (const TraceSphere& sphere : spheres) {
+    seen.push_back(light.positional ? SeeFrom(light.place, sphere, outward)
+                                    : SeeAlong(sphere, outward));
+  }
+  OccluderLists lists;
+  lists.end.reserve(spheres.size());
+  for (size_t i = 0; i < spheres.size(); ++i) {
+    for (size_t j = 0; j < spheres.size(); ++j) {
+      const bool may = light.positional
+                           ? MayBlockFrom(seen[j], seen[i])
+                           : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.place);
+      if (!may || (outward && Coincide(spheres[i], spheres[j]))) continue;
+      lists.spheres.push_back(static_cast<uint32_t>(j));
+    }
+    lists.end.push_back(static_cast<uint32_t>(lists.spheres.size()));
+  }
+  return lists;
+}
+
+}  // namespace nacre

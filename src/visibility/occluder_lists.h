@@ -1,0 +1,35 @@
+// visibility/occluder_lists.h: for each sphere of a small scene those that can come between it and
+// a light, so that its shadow rays need no tree, or need not be asked at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "hit/batch.h"
+#include "visibility/geometry.h"
+#include "visibility/shadow_light.h"
+
+namespace nacre {
+
+// Pairs of spheres are tested, so this is for few: beyond, bins are faster (light_bins.h).
+inline constexpr size_t kMaxListedSpheres = 256;
+
+struct OccluderLists {
+  std::vector<uint32_t> end;      // of each sphere's list
+  std::vector<uint32_t> spheres;  // those that may hide the light from it, in ascending order
+
+  uint32_t Begin(size_t sphere) const { return sphere == 0 ? 0 : end[sphere - 1]; }
+};
+
+// The list of a sphere holds every sphere that the exact test could find in the way of a shadow
+// ray from any of its points that face the light. `outward`: such rays surely leave the sphere
+// outward (ShadowRayBatch), and it is then not in its own list, nor are those that coincide with
+// it. Triangles are not seen.
+OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward);
+
+// Intersector::Occluded for rays to the lists' light from spheres.
+void OccludedByLists(const TraceGeometry& geometry, const OccluderLists& lists,
+                     ShadowRayBatch* rays);
+
+}  // namespace nacre

@@ -1,0 +1,18 @@
+#include "visibility/shadow_light.h"
+
+#include <variant>
+
+namespace nacre {
+
+ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position) {
+  if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+    return {true, point->position - camera_position};
+  }
+  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
+    return {true, spot->position - camera_position};
+  }
+  const auto& sun = std::get<DirectionalLight>(light.kind);
+  return {false, -sun.direction_of_travel.normalized()};
+}
+
+}  // namespace nacre

@@ -1,0 +1,219 @@
+// tests/visibility/occluders_test.cc: shadow rays without a tree, against brute force.
+#include "catch.h"
+#include "targets.h"
+#include "visibility/rays.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Light PointAt(const Vec3d& position) {
+  Light light;
+  light.kind = PointLight{.position = position, .intensity = {1, 1, 1}, .attenuation = {}};
+  return light;
+}
+
+Light SunAlong(const Vec3d& direction) {
+  Light light;
+  light.kind = DirectionalLight{.direction_of_travel = direction, .irradiance = {1, 1, 1}};
+  return light;
+}
+
+// Shadow rays from those of the surfaces that face the light.
+std::vector<ShadowRay> RaysTo(const Light& light, const Vec3d& eye,
+                              const std::vector<Surface>& surfaces) {
+  const ShadowLight target = MakeShadowLight(light, eye);
+  std::vector<ShadowRay> rays;
+  for (const Surface& surface : surfaces) {
+    const Vec3d direction = target.positional ? target.place - surface.position : target.place;
+    if (surface.normal.dot(direction) <= 0) continue;
+    rays.push_back(
+        {{surface.position, direction}, target.positional ? 1 : kInfinity, surface.primitive});
+  }
+  return rays;
+}
+
+// What stands in the way of each ray: by the tree, and by what was found for the light.
+void CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool outward,
+                const std::vector<Surface>& surfaces) {
+  const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
+  const std::vector<ShadowRay> rays = RaysTo(light, eye, surfaces);
+  ForEachTarget([&](Target) {
+    Intersector intersector(scene, eye);
+    const uint32_t number = intersector.FindOccluders(light, outward);
+    REQUIRE(number != kAnyLight);
+    const std::vector<bool> found = TraceShadows(intersector, rays, number, outward);
+    const std::vector<bool> by_tree = TraceShadows(intersector, rays, kAnyLight, outward);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      INFO("ray " << i << " from " << rays[i].primitive);
+      REQUIRE(found[i] == BruteForceOccluded(geometry, rays[i], 0, outward));
+      REQUIRE(by_tree[i] == found[i]);
+    }
+  });
+}
+
+bool IsOutside(const Scene& scene, const Vec3d& eye) {
+  return std::all_of(scene.spheres.begin(), scene.spheres.end(), [&](const Sphere& sphere) {
+    return (sphere.center - eye).length() > sphere.radius * (1 + 1e-9);
+  });
+}
+
+// Lights of all kinds, near, far, in and on the scene's spheres, for what is seen of it. Returns
+// how much that is.
+size_t CheckLights(const Scene& scene, const Vec3d& eye, Random* random,
+                   const std::vector<Ray>& rays) {
+  const auto surfaces = TraceSurfaces(Intersector(scene, eye), rays);
+  const bool outside = IsOutside(scene, eye);
+  const auto check = [&](const Light& light) {
+    CheckLight(scene, light, eye, false, surfaces);
+    if (outside) CheckLight(scene, light, eye, true, surfaces);
+  };
+  for (int i = 0; i < 2; ++i) {
+    const auto& spheres = scene.spheres;
+    const Sphere& sphere =
+        spheres[static_cast<size_t>(random->Uniform(0, static_cast<double>(spheres.size())))];
+    check(SunAlong(random->Direction() * random->Magnitude(1e-3, 1e3)));
+    check(PointAt(eye + random->InBox({-3, -3, -8}, {3, 3, 2})));
+    check(PointAt(eye + random->Direction() * random->Magnitude(1e-3, 1e6)));
+    check(PointAt(sphere.center + random->Direction() * (sphere.radius * random->Uniform(0, 1))));
+    check(PointAt(sphere.center + random->Direction() * sphere.radius));
+    check(PointAt(sphere.center +
+                  random->Direction() * (sphere.radius * (1 + random->Magnitude(1e-6, 1)))));
+  }
+  return surfaces.size();
+}
+
+TEST_CASE("occluders are brute force's") {
+  Random random(41);
+  size_t seen = 0;
+  for (const unsigned count : {1u, 2u, 7u, 25u, 100u, 256u, 257u, 1000u}) {
+    CAPTURE(count);
+    Scene scene = RandomSpheres(&random, count);
+    for (int i = 0; i < 2; ++i) {
+      seen += CheckLights(scene, Vec3d(0), &random, CameraRays(&random, 900));
+      // From outside.
+      std::erase_if(scene.spheres,
+                    [](const Sphere& s) { return s.center.length() < s.radius * 1.1; });
+    }
+  }
+  CHECK(seen > 1000);
+}
+
+TEST_CASE("occluders of all sizes and distances") {
+  Random random(42);
+  for (int round = 0; round < 12; ++round) {
+    CAPTURE(round);
+    Scene scene;
+    std::vector<Ray> rays;
+    const int count = round < 6 ? 60 : 400;  // lists, and bins
+    for (int i = 0; i < count; ++i) {
+      const double distance = random.Magnitude(1e-2, 1e4);
+      scene.spheres.push_back(
+          MakeSphere(random.Direction() * distance, distance * random.Magnitude(1e-5, 0.5)));
+      const Sphere& sphere = scene.spheres.back();
+      if (i % 10 == 0) scene.spheres.push_back(sphere);  // the same again
+      if (i % 10 == 1) {                                 // touching
+        scene.spheres.push_back(
+            MakeSphere(sphere.center + random.Direction() * (2 * sphere.radius), sphere.radius));
+      }
+    }
+    if (round % 2 == 0) scene.spheres.push_back(MakeSphere({0, -1e6 - 1, 0}, 1e6));
+    for (const Sphere& sphere : scene.spheres) {
+      for (int i = 0; i < (round < 6 ? 5 : 1); ++i) {
+        rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.9});
+      }
+    }
+    CHECK(CheckLights(scene, Vec3d(0), &random, rays) > 100);
+  }
+}
+
+TEST_CASE("occluders far from the eye") {
+  Random random(43);
+  for (const double distance : {1e3, 1e6, 1e9}) {
+    CAPTURE(distance);
+    Scene scene;
+    const Vec3d eye = random.Direction() * distance;
+    std::vector<Ray> rays;
+    for (int i = 0; i < 300; ++i) {
+      scene.spheres.push_back(
+          MakeSphere(random.InBox(Vec3d(-1), Vec3d(1)), random.Magnitude(1e-3, 0.5)));
+      for (int k = 0; k < 2; ++k) {
+        const Sphere& sphere = scene.spheres.back();
+        rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius - eye});
+      }
+    }
+    CHECK(CheckLights(scene, eye, &random, rays) > 100);
+  }
+}
+
+// What the bins' choice of frame and cells must not fall over.
+TEST_CASE("occluders of crowds that are hard to bin") {
+  Random random(44);
+  std::vector<Scene> scenes(6);
+  for (int i = 0; i < 600; ++i) {
+    const Vec3d inside = random.InBox(Vec3d(-1, -1, -6), Vec3d(1, 1, -4));
+    // A crowd in a wide space; all on one spot, or nearly; a plane; a line; all in one.
+    scenes[0].spheres.push_back(MakeSphere(i % 100 == 0 ? inside * 1e6 : inside, 0.03));
+    scenes[1].spheres.push_back(MakeSphere({0.5, 0.5, -5}, 1));
+    scenes[2].spheres.push_back(MakeSphere({inside.x, -1, inside.z}, 0.1));
+    scenes[3].spheres.push_back(MakeSphere({inside.x * 5, 0, -5}, 0.05));
+    scenes[4].spheres.push_back(MakeSphere(inside * 1e-3, 1e-3 * random.Magnitude(1, 100)));
+    scenes[5].spheres.push_back(MakeSphere(inside, i % 8 == 0 ? 1.5 : 1e-3));
+  }
+  scenes[0].spheres[7] = scenes[0].spheres[8] = MakeSphere({0, -1e9 - 3, 0}, 1e9);
+  for (const Scene& scene : scenes) {
+    std::vector<Ray> rays;
+    for (const Sphere& sphere : scene.spheres) {
+      rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.9});
+    }
+    CHECK(CheckLights(scene, Vec3d(0), &random, rays) > 100);
+  }
+}
+
+TEST_CASE("bins do not depend on the threads that make them") {
+  Random random(45);
+  Scene scene;
+  for (int i = 0; i < 40000; ++i) {
+    const double radius = i % 5000 == 0 ? 3 : random.Magnitude(0.01, 0.1);
+    scene.spheres.push_back(MakeSphere(random.InBox({-5, -5, -15}, {5, 5, -5}), radius));
+  }
+  const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+  for (const Light& light : {SunAlong({1, -2, 0.5}), PointAt({0.3, 1, -9})}) {
+    const ShadowLight target = MakeShadowLight(light, Vec3d(0));
+    const LightBins one = BinForLight(geometry, target, 1);
+    const LightBins two = BinForLight(geometry, target, 2);
+    REQUIRE(one.entries() > scene.spheres.size());
+    CHECK(one.end == two.end);
+    CHECK(one.large == two.large);
+    CHECK(one.large.size() >= 8);
+    CHECK(std::equal(one.spheres.begin(), one.spheres.end(), two.spheres.begin()));
+    // What they are for.
+    CHECK(one.meeting < 500);
+  }
+}
+
+TEST_CASE("the lists leave out what cannot be in the way") {
+  Scene scene;
+  scene.spheres = {MakeSphere({0, 0, -5}, 1), MakeSphere({0, 3, -5}, 0.5),
+                   MakeSphere({0, -3, -5}, 0.5), MakeSphere({3, 3, -5}, 0.5)};
+  const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+  const auto lists = [&](const Light& light, bool outward) {
+    const OccluderLists found = ListOccluders(geometry, MakeShadowLight(light, Vec3d(0)), outward);
+    std::vector<std::vector<uint32_t>> by_sphere;
+    for (size_t i = 0; i < found.end.size(); ++i) {
+      by_sphere.emplace_back(found.spheres.begin() + found.Begin(i),
+                             found.spheres.begin() + found.end[i]);
+    }
+    return by_sphere;
+  };
+  using Lists = std::vector<std::vector<uint32_t>>;
+  // From above; the lamp is between the upper sphere and the middle one.
+  CHECK(lists(SunAlong({0, -1, 0}), true) == Lists{{1}, {}, {0, 1}, {}});
+  CHECK(lists(SunAlong({0, -1, 0}), false) == Lists{{0, 1}, {1}, {0, 1, 2}, {3}});
+  CHECK(lists(PointAt({0, 2, -5}), true) == Lists{{}, {}, {0}, {}});
+  CHECK(lists(PointAt({0, 9, -5}), true) == Lists{{1}, {}, {0, 1}, {}});
+}
+
+}  // namespace
+}  // namespace nacre
