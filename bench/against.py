@@ -137,7 +137,7 @@ def _common_names(old, new, only):
     return [name for name in names if re.search(only, name)]
 
 
-def main(root, arguments, _sizes):
+def main(root, arguments):
     """Exit code 1 if anything is slower."""
     rounds = QUICK if arguments.quick else FULL
     revision, old = build_revision(root, arguments.against)

@@ -19,27 +19,26 @@ class BatchShader {
   // Material i is that of the hits from i * run on.
   BatchShader(std::vector<ShadingMaterial> materials, size_t run, const PointLight& light)
       : materials_(std::move(materials)), run_(run) {
-    light_.kind = light;
+    Light source;
+    source.kind = light;
+    light_ = PrepareLight(source, Vec3d(0));
   }
 
   // Adds what the first materials * run hits reflect to `radiance`.
   void Shade(PreparedHits* batch, ReflectedRadiance* radiance) {
     auto& [hits, surface] = *batch;
+    const LightOnBatch on_batch{&light_, nullptr};
     for (size_t i = 0; i < materials_.size(); ++i) {
       PrepareRun(materials_[i], i * run_, (i + 1) * run_, &surface);
-    }
-    EvaluateLight(light_, Vec3d(0), hits, surface, &lit_);
-    for (size_t i = 0; i < materials_.size(); ++i) {
-      ShadeRun(materials_[i], LightColor(light_), {hits, surface, lit_}, i * run_, (i + 1) * run_,
-               &scratch_, radiance);
+      ShadeRun(materials_[i], {hits, surface, {&on_batch, 1}}, i * run_, (i + 1) * run_, &scratch_,
+               radiance);
     }
   }
 
  private:
   std::vector<ShadingMaterial> materials_;
   size_t run_;
-  Light light_;
-  LightBatch lit_;
+  ShadingLight light_;
   NarrowLobes scratch_;
 };
 

@@ -81,7 +81,7 @@ def main():
     arguments = parse_arguments()
     sizes = settings.QUICK if arguments.quick else settings.FULL
     if arguments.against:
-        return against.main(ROOT, arguments, sizes)
+        return against.main(ROOT, arguments)
     if arguments.summary:
         sizes = dataclasses.replace(sizes, groups=settings.SUMMARY_GROUPS)
     arguments.out.mkdir(parents=True, exist_ok=True)
