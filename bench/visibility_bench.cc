@@ -1,39 +1,24 @@
 // bench/visibility_bench.cc: camera rays against spheres: the exact hits of a 1920x1080 frame,
-// one thread, by number of spheres.
+// one thread, by number of spheres. bench/embree_baseline.cc is what they are held against.
 #include <cstdlib>
+#include <string>
 
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
 #include "render/camera.h"
 #include "visibility/intersector.h"
+#include "visibility_scenes.h"
 
 namespace nacre {
 namespace {
 
-constexpr int kWidth = 1920;
-constexpr int kHeight = 1080;
+constexpr int kWidth = kFrameWidth;
+constexpr int kHeight = kFrameHeight;
 
-// A square grid of `side`^2 spheres that fills the height of the frame.
-Scene MakeGrid(int side) {
-  Scene scene;
-  scene.camera.position = {0, 0, 10};
-  scene.materials.emplace_back();
-  const double spacing = 5.0 / side;
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
-      scene.spheres.push_back(
-          {.center = {(column - (side - 1) / 2.0) * spacing, ((side - 1) / 2.0 - row) * spacing, 0},
-           .radius = 0.4 * spacing,
-           .material = {0}});
-    }
-  }
-  return scene;
-}
-
-void BenchClosest(benchmark::State& state) {
+void BenchClosest(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
-  const Scene scene = MakeGrid(static_cast<int>(state.range(0)));
+  const Scene scene = MakeSphereScene(which);
   const Intersector intersector(scene, scene.camera.position, {});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   RayBatch rays;
@@ -55,19 +40,12 @@ void BenchClosest(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * kPixels);
 }
-BENCHMARK(BenchClosest)
-    ->Name("visibility/embree/spheres_per_side")
-    ->Arg(5)
-    ->Arg(32)
-    ->Arg(100)
-    ->Arg(316)
-    ->Unit(benchmark::kMillisecond);
 
 // The same frame by tiles, with the binning of every frame and the hits' points and normals;
 // Embree's tree above is built before.
-void BenchTiles(benchmark::State& state) {
+void BenchTiles(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
-  const Scene scene = MakeGrid(static_cast<int>(state.range(0)));
+  const Scene scene = MakeSphereScene(which);
   Intersector intersector(scene, scene.camera.position, {.embree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   const Window frame{0, 0, kWidth, kHeight};
@@ -96,13 +74,17 @@ void BenchTiles(benchmark::State& state) {
   }
   state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
 }
-BENCHMARK(BenchTiles)
-    ->Name("visibility/tiles/spheres_per_side")
-    ->Arg(5)
-    ->Arg(32)
-    ->Arg(100)
-    ->Arg(316)
-    ->Unit(benchmark::kMillisecond);
+
+const bool kRegistered = [] {
+  for (const SphereScene& which : SphereScenes()) {
+    const std::string scene = which.name;
+    benchmark::RegisterBenchmark(("visibility/tiles/" + scene).c_str(), BenchTiles, which)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("visibility/embree_user/" + scene).c_str(), BenchClosest, which)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
 
 }  // namespace
 }  // namespace nacre

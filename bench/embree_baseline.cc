@@ -1,0 +1,117 @@
+// bench/embree_baseline.cc: what Embree alone needs for a frame of camera rays: its built-in
+// spheres, packets of 16 rays made in float, the coherent flag, the closest hit and nothing after
+// it. Building the tree is left out. One thread.
+#include <cmath>
+#include <memory>
+
+#include <benchmark/benchmark.h>
+
+#include "base/parallel.h"
+#include "render/camera.h"
+#include "visibility/embree_api.h"
+#include "visibility_scenes.h"
+
+namespace nacre {
+namespace {
+
+struct ReleaseDevice {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
+using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+// The spheres relative to the camera, as RTC_GEOMETRY_TYPE_SPHERE_POINT wants them.
+ScenePointer BuildTree(const Scene& scene, RTCDevice device) {
+  ScenePointer tree(rtcNewScene(device));
+  RTCGeometry spheres = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(spheres, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT4, 4 * sizeof(float),
+                                                               scene.spheres.size()));
+  for (const Sphere& sphere : scene.spheres) {
+    const Vec3d center = sphere.center - scene.camera.position;
+    *vertices++ = static_cast<float>(center.x);
+    *vertices++ = static_cast<float>(center.y);
+    *vertices++ = static_cast<float>(center.z);
+    *vertices++ = static_cast<float>(sphere.radius);
+  }
+  rtcCommitGeometry(spheres);
+  rtcAttachGeometry(tree.get(), spheres);
+  rtcReleaseGeometry(spheres);
+  rtcCommitScene(tree.get());
+  return tree;
+}
+
+// A perspective camera in float: the direction through a pixel's centre is
+// corner + (x + 1/2) step_x + (y + 1/2) step_y.
+struct FloatCamera {
+  Imath::V3f corner, step_x, step_y;
+};
+
+constexpr unsigned kPacket = 16;
+static_assert(kFrameWidth % kPacket == 0);
+
+// 16 rays beside each other, beginning at pixel (x0, y).
+void MakePacket(const FloatCamera& camera, int x0, int y, RTCRayHit16* packet) {
+  const Imath::V3f row = camera.corner + camera.step_y * (static_cast<float>(y) + 0.5f);
+  for (unsigned i = 0; i < kPacket; ++i) {
+    const float x = static_cast<float>(x0) + static_cast<float>(i) + 0.5f;
+    packet->ray.org_x[i] = 0;
+    packet->ray.org_y[i] = 0;
+    packet->ray.org_z[i] = 0;
+    packet->ray.dir_x[i] = row.x + camera.step_x.x * x;
+    packet->ray.dir_y[i] = row.y + camera.step_x.y * x;
+    packet->ray.dir_z[i] = row.z + camera.step_x.z * x;
+    packet->ray.tnear[i] = 0;
+    packet->ray.tfar[i] = INFINITY;
+    packet->ray.time[i] = 0;
+    packet->ray.mask[i] = 0xffffffffu;
+    packet->ray.flags[i] = 0;
+    packet->hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    packet->hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+}
+
+void BenchSpherePoint(benchmark::State& state, const SphereScene& which) {
+  const FlushDenormals flush;
+  const DevicePointer device(rtcNewDevice("verbose=0,set_affinity=0"));
+  const Scene scene = MakeSphereScene(which);
+  const ScenePointer tree = BuildTree(scene, device.get());
+  const CameraFrame frame = MakeCameraFrame(scene.camera, kFrameWidth, kFrameHeight);
+  const FloatCamera camera{Imath::V3f(frame.corner), Imath::V3f(frame.step_x),
+                           Imath::V3f(frame.step_y)};
+  EmbreeContext context;
+  InitContext(&context);
+  alignas(64) int valid[kPacket];
+  std::fill(valid, valid + kPacket, -1);
+  RTCRayHit16 packet;
+  int64_t hits = 0;
+  for (auto _ : state) {
+    hits = 0;
+    for (int y = 0; y < kFrameHeight; ++y) {
+      for (int x = 0; x < kFrameWidth; x += static_cast<int>(kPacket)) {
+        MakePacket(camera, x, y, &packet);
+        IntersectPacket(static_cast<int>(kPacket), valid, tree.get(), &context, &packet);
+        for (const unsigned id : packet.hit.geomID) hits += id != RTC_INVALID_GEOMETRY_ID;
+      }
+    }
+    benchmark::DoNotOptimize(hits);
+  }
+  state.SetItemsProcessed(state.iterations() * kFrameWidth * kFrameHeight);
+  state.counters["hits"] = static_cast<double>(hits);
+}
+
+const bool kRegistered = [] {
+  for (const SphereScene& which : SphereScenes()) {
+    benchmark::RegisterBenchmark(
+        (std::string("visibility/embree_sphere_point/") + which.name).c_str(), BenchSpherePoint,
+        which)
+        ->Unit(benchmark::kMillisecond);
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace nacre

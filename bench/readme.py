@@ -1,0 +1,58 @@
+"""Puts the diagrams into scenes/gallery and the table between two marks of the README."""
+import shutil
+
+import figures
+import machine
+import report
+
+BEGIN, END = "<!-- bench: begin -->", "<!-- bench: end -->"
+
+
+def replace_between(text, begin, end, new):
+    """`text` with what stands between the lines `begin` and `end` replaced."""
+    head, found_begin, rest = text.partition(begin)
+    _, found_end, tail = rest.partition(end)
+    if not found_begin or not found_end:
+        raise ValueError(f"no {begin} ... {end}")
+    return f"{head}{begin}\n{new.strip()}\n{end}{tail}"
+
+
+def _number(value):
+    return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
+
+
+def markdown(results):
+    """The short form: kernels beside plain C++, and the headline numbers."""
+    best = results["best_target"]
+    rows = [row for row in report.kernel_rows(results["benchmarks"])
+            if row[1] == "cached" and row[2] in ("avx2", best)]
+    by_model = {}
+    for model, _, target, ns, rate, ratio, _ in rows:
+        by_model.setdefault(model, {})[target] = (ns, rate, ratio)
+    lines = [f"Measured by `scripts/bench`: {machine.line(results['machine'])}.", "",
+             f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}.", "",
+             f"| kernel | {best}, ns | million/s | times plain | avx2, ns |",
+             "|---|---|---|---|---|"]
+    for model, found in by_model.items():
+        if best not in found:
+            continue
+        ns, rate, ratio = found[best]
+        avx2 = f"{found['avx2'][0]:.2f}" if "avx2" in found else ""
+        lines.append(f"| {model.replace('_', ' ')} | {ns:.2f} | {rate / 1e6:.0f} | "
+                     f"{f'{ratio:.1f}' if ratio else ''} | {avx2} |")
+    lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is; in memory "
+              "unless it says process. Embree's spheres are traced bare, in float, their tree "
+              "built before.", "", "| headline | value |", "|---|---|"]
+    lines += [f"| `{name}` | {_number(value)} |" for name, value in results["summary"].items()
+              if not name.startswith(("growth", "steepest"))]
+    return "\n".join(lines)
+
+
+def update(root, results, folder):
+    """Copies the diagrams and rewrites the README's part."""
+    for name in figures.ALL:
+        for suffix in ("svg", "png"):
+            if (folder / f"{name}.{suffix}").exists():
+                shutil.copy(folder / f"{name}.{suffix}", root / "scenes" / "gallery")
+    readme = root / "README.md"
+    readme.write_text(replace_between(readme.read_text(), BEGIN, END, markdown(results)))

@@ -1,0 +1,63 @@
+"""All sizes of a run: how often, how large, how far. `--quick` takes the small end of each."""
+import dataclasses
+
+
+@dataclasses.dataclass(frozen=True)
+class Settings:
+    # Google Benchmark: repetitions of each benchmark in random order, and seconds of each.
+    repetitions: int = 9
+    min_time: float = 0.1
+    # Rounds of whole processes; every round runs each case once.
+    process_rounds: int = 15
+    slow_process_rounds: int = 5  # of those that take a second or more
+    # Scaling, on one thread: what grows, and how often each size is run.
+    scaling_rounds: int = 3
+    spheres: tuple = (25, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
+    triangles: tuple = (100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000)
+    lights: tuple = (1, 3, 10, 30, 100, 300, 1_000)
+    sides: tuple = (256, 512, 1024, 2048, 4096, 8192)
+    size: str = "1920x1080"  # of the frames that spheres, triangles and lights are counted in
+    # Run time against error: sample counts, the truth's, and the tolerances of adaptive sampling.
+    precision_size: str = "480x270"  # as in frame_bench.cc
+    precision_spp: tuple = (1, 2, 4, 8, 16, 32, 64, 128, 256)
+    precision_rounds: int = 7
+    truth_spp: int = 16384
+    max_errors: tuple = (0.03, 0.01, 0.003, 0.001, 0.0003)
+    # Other renderers, where installed: antialiasing depths of POV-Ray, samples of Blender.
+    povray_depths: tuple = (1, 2, 3, 4, 5)
+    povray_truth_depth: int = 9
+    blender_spp: tuple = (1, 4, 16, 64)
+    blender_truth_spp: int = 1024
+    # Which benchmarks, as regular expressions of Google Benchmark; what one of them names is run in
+    # random order.
+    groups: tuple = ("^shade/", "^access/", "^math/", "^visibility/", "^frame/.*/1920x1080/",
+                     "^frame/.*/480x270/")
+
+
+FULL = Settings()
+QUICK = Settings(
+    repetitions=5,
+    min_time=0.01,
+    process_rounds=7,
+    slow_process_rounds=2,
+    scaling_rounds=1,
+    spheres=(25, 1_000, 10_000, 100_000, 1_000_000),
+    triangles=(100, 1_000, 10_000, 100_000),
+    lights=(1, 10, 100),
+    sides=(256, 512, 1024, 2048),
+    precision_spp=(1, 4, 16, 64),
+    precision_rounds=3,
+    truth_spp=4096,
+    max_errors=(0.03, 0.01, 0.003),
+    povray_depths=(1, 2, 3),
+    povray_truth_depth=7,
+    blender_spp=(1, 4),
+    blender_truth_spp=256,
+    groups=("^shade/", "^access/.*/avx[23]$", "^math/", "^visibility/",
+            "^frame/[a-z_]+/1920x1080/1spp/(avx2|avx3.*)$"
+            "|^frame/material_grid(_plain)?/1920x1080/16spp/",
+            "^frame/material_grid/480x270/(1|4|16)spp/"),
+)
+# What the headline numbers are made of, and no more.
+SUMMARY_GROUPS = ("^shade/", "^math/ggx/0.3/", "^visibility/",
+                  "^frame/material_grid[a-z_]*/1920x1080/")
