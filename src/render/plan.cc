@@ -47,7 +47,7 @@ int LightLayer(const std::vector<Layer>& layers, size_t light) {
   return -1;
 }
 
-void PlanLights(const Scene& scene, RenderPlan* plan) {
+void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   for (const Layer& layer : plan->layers) {
     if (layer.kind == LayerKind::kLight) ++plan->light_layer_count;
   }
@@ -66,8 +66,22 @@ void PlanLights(const Scene& scene, RenderPlan* plan) {
           {name + " shadow rays", false,
            light.shadows ? "the scene turns shadows off" : "the light casts none"});
     }
-    plan->lights.push_back({i, color, shadow_rays, LightLayer(plan->layers, i), {}});
+    PlannedLight& planned = plan->lights.emplace_back();
+    planned.index = i;
+    planned.color = color;
+    planned.shadow_rays = shadow_rays;
+    planned.layer = LightLayer(plan->layers, i);
+    planned.reach = ReachOf(light, scene.camera.position);
   }
+  const size_t count = plan->lights.size();
+  plan->cull_lights = count >= kFewestCulledLights && !settings.general_path;
+  plan->items.push_back(
+      {"light culling", plan->cull_lights,
+       plan->cull_lights ? fmt::format("of {} lights a tile's hits are given those that they face "
+                                       "and whose cone they are in",
+                                       count)
+       : settings.general_path ? "the general path is asked for"
+                               : fmt::format("fewer than {} lights", kFewestCulledLights)});
 }
 
 void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
@@ -176,7 +190,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
-  PlanLights(scene, &plan);
+  PlanLights(scene, settings, &plan);
   PlanGeometry(scene, settings, &plan);
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),
@@ -214,7 +228,19 @@ std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats) {
     text +=
         fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", item.what, item.reason);
   }
+  // What is skipped above changes no bit; what is not exact stands here.
+  text += "substitutions (which agree within a stated error):\n";
+  for (const PlanItem& item : plan.substitutions) {
+    text += fmt::format("  {}: {}\n", item.what, item.reason);
+  }
+  if (plan.substitutions.empty()) text += "  none: every skip above leaves all bits as they are\n";
   if (stats == nullptr) return text;
+  if (plan.cull_lights && stats->light_batches > 0) {
+    text += fmt::format(
+        "lights culled: {:.1f} % of {} lights times batches of hits\n",
+        100 * static_cast<double>(stats->culled_lights) / static_cast<double>(stats->light_batches),
+        stats->light_batches);
+  }
   double total = 0;
   for (const double seconds : stats->stage_seconds) total += seconds;
   text += "share of the time (all threads):\n";

@@ -8,6 +8,7 @@
 
 #include "render/camera.h"
 #include "render/layers.h"
+#include "render/light_cull.h"
 #include "render/settings.h"
 #include "render/stats.h"
 #include "sampling/pixel_sampler.h"
@@ -29,8 +30,9 @@ struct PlannedLight {
   size_t index;  // into Scene::lights
   Rgb color;
   bool shadow_rays;
-  int layer;                       // which of the light layers shows it alone, or -1
-  std::vector<uint8_t> shadowed;   // per sphere: whether to trace its shadow rays; empty: all
+  int layer;                      // which of the light layers shows it alone, or -1
+  std::vector<uint8_t> shadowed;  // per sphere: whether to trace its shadow rays; empty: all
+  LightReach reach;
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
@@ -46,12 +48,14 @@ struct RenderPlan {
   std::vector<ShadingMaterial> materials;     // one per material of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
+  bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool tiles = false;                         // camera rays: binned spheres, not Embree
   bool eye_outside = false;                   // no camera ray starts in a sphere
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
-  std::vector<std::string> notes;  // what the picture cannot show, and why
+  std::vector<PlanItem> substitutions;  // choices that agree within a stated error, not to the bit
+  std::vector<std::string> notes;       // what the picture cannot show, and why
 };
 
 // Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a

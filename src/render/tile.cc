@@ -106,8 +106,14 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   ClearRadiance(s->hits.count, &s->total);
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
+  const BatchBounds bounds = plan.cull_lights ? BoundHits(s->hits) : BatchBounds{};
   clock->Charge(Stage::kRefine);
   for (const PlannedLight& planned : plan.lights) {
+    ++stats->light_batches;
+    if (plan.cull_lights && !MayReach(planned.reach, bounds)) {
+      ++stats->culled_lights;
+      continue;
+    }
     const Light& light = scene.lights[planned.index];
     EvaluateLight(light, scene.camera.position, s->hits, s->surface, &s->light);
     clock->Charge(Stage::kLight);
