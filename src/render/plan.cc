@@ -109,6 +109,10 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   plan->intersector = std::make_unique<Intersector>(
       scene, scene.camera.position,
       IntersectorSettings{.threads = settings.threads, .embree = false});
+  const auto tell = [&](double done) {
+    if (settings.on_plan_progress) settings.on_plan_progress(done);
+  };
+  tell(0.15);
   if (want_tiles) {
     const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
     plan->tiles = plan->intersector->BinForCamera(plan->camera, plan->window, reach);
@@ -118,7 +122,9 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
                          : triangles > 0 ? "there are triangles"
                          : want_tiles    ? "the bins would not fit 256 MiB"
                                          : "--intersector embree"});
+  tell(0.4);
   const bool tree_for_shadows = PlanShadows(scene, settings, plan);
+  tell(0.8);
   if (!plan->tiles || tree_for_shadows) plan->intersector->BuildTree();
   plan->items.push_back({"intersector embree", !plan->tiles || tree_for_shadows,
                          !plan->tiles       ? "for all rays: " + shapes

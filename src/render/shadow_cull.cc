@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,21 @@ bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
   const double pixel = scene.camera.height / scene.image.height;
   const double plane = pixel * (scene.image.height + scene.image.width);
   return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
+}
+
+// Adds the items of the lights; of many that are alike the first speaks for all.
+void AddItems(std::vector<PlanItem> items, RenderPlan* plan) {
+  constexpr size_t kMost = 8;
+  std::map<std::pair<bool, std::string>, std::vector<PlanItem*>> alike;
+  for (PlanItem& item : items) alike[{item.used, item.reason}].push_back(&item);
+  for (PlanItem& item : items) {
+    const std::vector<PlanItem*>& same = alike[{item.used, item.reason}];
+    if (same.size() > kMost && same.front() != &item) continue;
+    plan->items.push_back(item);
+    if (same.size() > kMost) {
+      plan->items.back().what += fmt::format(" and those of {} more", same.size() - 1);
+    }
+  }
 }
 
 // For each sphere 1 if anything can come between it and the light.
@@ -115,6 +131,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
     plan->intersector->FindOccluders(lights, plan->eye_outside);
   }
   size_t listed = 0, binned = 0, left = 0;
+  std::vector<PlanItem> items;
   std::string crowded, crowd;  // why bins are not used, or what they are like
   for (PlannedLight& light : plan->lights) {
     if (!light.shadow_rays) continue;
@@ -133,8 +150,9 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
       if (!crowded.empty() || !why_tree.empty()) light.occluders = kAnyLight;
     }
     if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : bins ? binned : listed);
-    plan->items.push_back(std::move(item));
+    items.push_back(std::move(item));
   }
+  AddItems(std::move(items), plan);
   const std::string why_not = listed + binned + left == 0 ? "nothing is left for them"
                               : !why_tree.empty()         ? why_tree
                               : !crowded.empty()          ? crowded

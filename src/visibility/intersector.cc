@@ -235,7 +235,7 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
   // Many lights are shared out among the threads; few have all of them, one after the other.
   const bool many = lights.size() >= 8;
   const int inner = many ? 1 : s.settings.threads;
-  const size_t room = kBinRoom / std::max<size_t>(lights.size(), 16);
+  const size_t room = kBinRoom / std::max<size_t>(lights.size(), 4);
   s.occluders.resize(lights.size());
   ParallelFor(lights.size(), many ? s.settings.threads : 1, [&](size_t i) {
     const ShadowLight target = MakeShadowLight(*lights[i], s.camera_position);

@@ -101,7 +101,7 @@ LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, s
                       int threads);
 
 // As many entries as are nothing to speak of, for all lights together.
-inline constexpr size_t kBinRoom = size_t{1} << 22;
+inline constexpr size_t kBinRoom = size_t{1} << 19;
 
 // Intersector::Occluded for rays to the bins' light from spheres.
 void OccludedByBins(const TraceGeometry& geometry, const LightBins& bins, ShadowRayBatch* rays);
