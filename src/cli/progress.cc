@@ -73,9 +73,9 @@ void Progress::Print(double done, double elapsed_seconds) const {
   } else {
     constexpr int kBarWidth = 30;
     const int filled = static_cast<int>(done * kBarWidth);
-    PrintError(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}  {} left\033[K", what_, "", filled,
-                           "", kBarWidth - filled, 100 * done, FormatRate(rate, unit_),
-                           FormatSeconds(left)));
+    const std::string told = unit_count_ > 0 ? FormatRate(rate, unit_) + "  " : "";
+    PrintError(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}{} left\033[K", what_, "", filled,
+                           "", kBarWidth - filled, 100 * done, told, FormatSeconds(left)));
   }
   std::fflush(stderr);
 }

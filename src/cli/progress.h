@@ -14,7 +14,8 @@ ProgressForm DefaultProgressForm();
 // Progress of one job on standard error. Calls from one thread at a time.
 class Progress {
  public:
-  // `unit_count` of `unit` ("pixel samples") make the job; the rate is told in them.
+  // `unit_count` of `unit` ("pixel samples") make the job; the rate is told in them, if it is
+  // above 0.
   Progress(ProgressForm form, std::string what, double unit_count, std::string unit);
   ~Progress();
 

@@ -27,6 +27,12 @@ ProgressForm ChooseProgressForm(const RenderOptions& options) {
   return DefaultProgressForm();
 }
 
+// Of what comes before the rendering, for people: programs are told how far the rendering is.
+ProgressForm EarlyProgressForm(const RenderOptions& options) {
+  const ProgressForm form = ChooseProgressForm(options);
+  return form == ProgressForm::kJson ? ProgressForm::kNone : form;
+}
+
 // What the user must know of samples that are not as computed.
 void WarnAboutSamples(const OutputCounts& counts) {
   if (counts.exr.clamped > 0) {
@@ -68,7 +74,7 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
                   const std::function<Scene(const LoadOptions&)>& load) {
   const Clock::time_point start = Clock::now();
   JobTimes times;
-  const LoadOptions load_options = MakeLoadOptions(options);
+  LoadOptions load_options = MakeLoadOptions(options);
   RenderSettings settings;
   settings.threads = options.threads;
   settings.region = ParseRegion(options.region);
@@ -88,12 +94,20 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   if (!input.empty()) paths.push_back(input);
   CheckPathsDiffer(paths);
 
-  const Scene scene = load(load_options);
+  const Scene scene = [&] {
+    Progress progress(EarlyProgressForm(options), "reading", 0, "");
+    load_options.on_progress = [&](double done) { progress.Update(done); };
+    return load(load_options);
+  }();
   times.load_seconds = SecondsSince(start);
   ThrowIfStopped();
 
   const Clock::time_point plan_start = Clock::now();
-  const RenderPlan plan = MakePlan(scene, settings);
+  const RenderPlan plan = [&] {
+    Progress progress(EarlyProgressForm(options), "planning", 0, "");
+    settings.on_plan_progress = [&](double done) { progress.Update(done); };
+    return MakePlan(scene, settings);
+  }();
   const double plan_seconds = SecondsSince(plan_start);
   Outputs outputs(options, plan);
   RenderStats stats;

@@ -47,7 +47,7 @@ int LightLayer(const std::vector<Layer>& layers, size_t light) {
   return -1;
 }
 
-void PlanLights(const Scene& scene, RenderPlan* plan) {
+void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   for (const Layer& layer : plan->layers) {
     if (layer.kind == LayerKind::kLight) ++plan->light_layer_count;
   }
@@ -66,8 +66,22 @@ void PlanLights(const Scene& scene, RenderPlan* plan) {
           {name + " shadow rays", false,
            light.shadows ? "the scene turns shadows off" : "the light casts none"});
     }
-    plan->lights.push_back({i, prepared, shadow_rays, LightLayer(plan->layers, i), {}});
+    PlannedLight& planned = plan->lights.emplace_back();
+    planned.index = i;
+    planned.light = prepared;
+    planned.shadow_rays = shadow_rays;
+    planned.layer = LightLayer(plan->layers, i);
+    planned.reach = ReachOf(light, scene.camera.position);
   }
+  const size_t count = plan->lights.size();
+  plan->cull_lights = count >= kFewestCulledLights && !settings.general_path;
+  plan->items.push_back(
+      {"light culling", plan->cull_lights,
+       plan->cull_lights ? fmt::format("of {} lights a tile's hits are given those that they face "
+                                       "and whose cone they are in",
+                                       count)
+       : settings.general_path ? "the general path is asked for"
+                               : fmt::format("fewer than {} lights", kFewestCulledLights)});
 }
 
 // The cells of adaptive sampling lie on a grid of the frame and are evaluated whole.
@@ -102,6 +116,10 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   plan->intersector = std::make_unique<Intersector>(
       scene, scene.camera.position,
       IntersectorSettings{.threads = settings.threads, .embree = false});
+  const auto tell = [&](double done) {
+    if (settings.on_plan_progress) settings.on_plan_progress(done);
+  };
+  tell(0.15);
   if (want_tiles) {
     const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
     const Window binned = settings.max_error > 0 ? WholeCells(plan->window) : plan->window;
@@ -112,7 +130,9 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
                          : triangles > 0 ? "there are triangles"
                          : want_tiles    ? "the bins would not fit 256 MiB"
                                          : "--intersector embree"});
+  tell(0.4);
   const bool tree_for_shadows = PlanShadows(scene, settings, plan);
+  tell(0.8);
   if (!plan->tiles || tree_for_shadows) plan->intersector->BuildTree();
   plan->items.push_back({"intersector embree", !plan->tiles || tree_for_shadows,
                          !plan->tiles       ? "for all rays: " + shapes
@@ -197,7 +217,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
-  PlanLights(scene, &plan);
+  PlanLights(scene, settings, &plan);
   PlanGeometry(scene, settings, &plan);
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),
@@ -261,12 +281,19 @@ std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats) {
     text +=
         fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", item.what, item.reason);
   }
-  if (!plan.substitutions.empty())
-    text += "in place of the general way, within the stated error:\n";
+  // What is skipped above changes no bit; what is not exact stands here.
+  text += "substitutions (which agree within a stated error):\n";
   for (const PlanItem& item : plan.substitutions) {
     text += fmt::format("  {}: {}\n", item.what, item.reason);
   }
+  if (plan.substitutions.empty()) text += "  none: every skip above leaves all bits as they are\n";
   if (stats == nullptr) return text;
+  if (plan.cull_lights && stats->light_batches > 0) {
+    text += fmt::format(
+        "lights culled: {:.1f} % of {} lights times batches of hits\n",
+        100 * static_cast<double>(stats->culled_lights) / static_cast<double>(stats->light_batches),
+        stats->light_batches);
+  }
   double total = 0;
   for (const double seconds : stats->stage_seconds) total += seconds;
   text += "share of the time (all threads):\n";

@@ -9,6 +9,7 @@
 #include "render/adaptive_plan.h"
 #include "render/camera.h"
 #include "render/layers.h"
+#include "render/light_cull.h"
 #include "render/settings.h"
 #include "render/stats.h"
 #include "sampling/pixel_sampler.h"
@@ -30,8 +31,9 @@ struct PlannedLight {
   size_t index;  // into Scene::lights
   ShadingLight light;
   bool shadow_rays;
-  int layer;                       // which of the light layers shows it alone, or -1
-  std::vector<uint8_t> shadowed;   // per sphere: whether to trace its shadow rays; empty: all
+  int layer;                      // which of the light layers shows it alone, or -1
+  std::vector<uint8_t> shadowed;  // per sphere: whether to trace its shadow rays; empty: all
+  LightReach reach;
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
@@ -54,6 +56,7 @@ struct RenderPlan {
   std::vector<ShadingMaterial> materials;     // one per material of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
+  bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool tiles = false;                         // camera rays: binned spheres, not Embree
   bool splits = false;                        // some material depends on the film position
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
@@ -61,7 +64,7 @@ struct RenderPlan {
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
-  std::vector<PlanItem> substitutions;  // what agrees with the general way within a stated error
+  std::vector<PlanItem> substitutions;  // choices that agree within a stated error, not to the bit
   std::vector<std::string> notes;       // what the picture cannot show, and why
 };
 

@@ -29,6 +29,8 @@ struct RenderSettings {
   // Called after every strip, from any thread, one call at a time, with the share done in (0, 1].
   // Throwing from it stops the render.
   std::function<void(double)> on_progress;
+  // The same while the plan is made, between its large steps.
+  std::function<void(double)> on_plan_progress;
 };
 
 }  // namespace nacre

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,21 @@ bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
   const double pixel = scene.camera.height / scene.image.height;
   const double plane = pixel * (scene.image.height + scene.image.width);
   return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
+}
+
+// Adds the items of the lights; of many that are alike the first speaks for all.
+void AddItems(std::vector<PlanItem> items, RenderPlan* plan) {
+  constexpr size_t kMost = 8;
+  std::map<std::pair<bool, std::string>, std::vector<PlanItem*>> alike;
+  for (PlanItem& item : items) alike[{item.used, item.reason}].push_back(&item);
+  for (PlanItem& item : items) {
+    const std::vector<PlanItem*>& same = alike[{item.used, item.reason}];
+    if (same.size() > kMost && same.front() != &item) continue;
+    plan->items.push_back(item);
+    if (same.size() > kMost) {
+      plan->items.back().what += fmt::format(" and those of {} more", same.size() - 1);
+    }
+  }
 }
 
 // For each sphere 1 if anything can come between it and the light.
@@ -50,12 +66,31 @@ void SkipUnshadowed(const OccluderLists& lists, PlannedLight* light, PlanItem* i
 // Why a tree is better than the bins, or nothing.
 std::string WhyNotBins(const LightBins& bins) {
   constexpr double kCrowd = 2000;
-  constexpr size_t kLarge = 200;
+  constexpr size_t kLarge = 32;
   if (bins.meeting > kCrowd) {
     return fmt::format("{:.0f} spheres meet in a light's cell", bins.meeting);
   }
   if (bins.large.size() > kLarge) {
     return fmt::format("{} spheres cover many of a light's cells", bins.large.size());
+  }
+  return {};
+}
+
+constexpr char kEmbreeAskedFor[] = "--intersector embree";
+
+// Why shadow rays need a tree whatever the lights, or nothing.
+std::string WhyTree(const Scene& scene, const RenderSettings& settings, const RenderPlan& plan) {
+  if (settings.general_path) return "the general path is asked for";
+  if (!scene.meshes.empty()) return "there are triangles";
+  if (settings.intersector == IntersectorChoice::kEmbree) return kEmbreeAskedFor;
+  if (settings.intersector == IntersectorChoice::kTiles) return {};
+  // Measured: by then one tree is made faster than the bins of all lights, and takes less room.
+  constexpr double kMostPairs = 8e6;
+  const auto lights = std::count_if(plan.lights.begin(), plan.lights.end(),
+                                    [](const PlannedLight& light) { return light.shadow_rays; });
+  if (static_cast<double>(lights) * static_cast<double>(scene.spheres.size()) > kMostPairs &&
+      lights > 1) {
+    return fmt::format("one tree is less work than bins for {} lights", lights);
   }
   return {};
 }
@@ -83,38 +118,48 @@ bool EyeIsOutside(const Scene& scene, int threads) {
 }
 
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
-  const IntersectorChoice choice = settings.intersector;
-  const bool find = scene.meshes.empty() && !settings.general_path;
+  const bool few = scene.spheres.size() <= kMaxListedSpheres;
+  const std::string why_tree = WhyTree(scene, settings, *plan);
+  // Embree is asked about the same rays as the others, when it is asked for.
+  if (why_tree.empty() || (few && why_tree == kEmbreeAskedFor)) {
+    std::vector<const Light*> lights;
+    for (PlannedLight& light : plan->lights) {
+      if (!light.shadow_rays) continue;
+      light.occluders = static_cast<uint32_t>(lights.size());
+      lights.push_back(&scene.lights[light.index]);
+    }
+    plan->intersector->FindOccluders(lights, plan->eye_outside);
+  }
   size_t listed = 0, binned = 0, left = 0;
+  std::vector<PlanItem> items;
   std::string crowded, crowd;  // why bins are not used, or what they are like
   for (PlannedLight& light : plan->lights) {
     if (!light.shadow_rays) continue;
     PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name), true,
                   settings.general_path ? "the general path is asked for"
                                         : "something may lie between a surface and the light"};
-    const bool few = scene.spheres.size() <= kMaxListedSpheres;
-    if (find && (few || choice != IntersectorChoice::kEmbree)) {
-      light.occluders =
-          plan->intersector->FindOccluders(scene.lights[light.index], plan->eye_outside);
+    bool bins = false;
+    if (light.occluders != kAnyLight) {
       const LightOccluders& found = plan->intersector->Occluders(light.occluders);
       if (few) SkipUnshadowed(found.lists, &light, &item);
-      if (!few && choice == IntersectorChoice::kAuto) {
+      bins = light.shadow_rays && found.bins.has_value();
+      if (bins && settings.intersector == IntersectorChoice::kAuto) {
         crowded = WhyNotBins(*found.bins);
-        if (!crowded.empty()) light.occluders = kAnyLight;
       }
-      if (!few && light.occluders != kAnyLight) crowd = DescribeBins(*found.bins);
-      if (choice == IntersectorChoice::kEmbree) light.occluders = kAnyLight;
+      if (bins) crowd = DescribeBins(*found.bins);
+      if (!crowded.empty() || !why_tree.empty()) light.occluders = kAnyLight;
     }
-    if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : few ? listed : binned);
-    plan->items.push_back(std::move(item));
+    if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : bins ? binned : listed);
+    items.push_back(std::move(item));
   }
-  const std::string why_not = left == 0                              ? "nothing is left for them"
-                              : choice == IntersectorChoice::kEmbree ? "--intersector embree"
-                              : settings.general_path ? "the general path is asked for"
-                              : !scene.meshes.empty() ? "there are triangles"
-                                                      : crowded;
-  plan->items.push_back({"intersector lists, for shadow rays", listed > 0,
-                         listed > 0 ? "each sphere's possible occluders need no tree" : why_not});
+  AddItems(std::move(items), plan);
+  const std::string why_not = listed + binned + left == 0 ? "nothing is left for them"
+                              : !why_tree.empty()         ? why_tree
+                              : !crowded.empty()          ? crowded
+                                                          : "others are faster here";
+  plan->items.push_back(
+      {"intersector lists, for shadow rays", listed > 0,
+       listed > 0 ? "each sphere's few possible occluders need no tree" : why_not});
   plan->items.push_back(
       {"intersector bins, for shadow rays", binned > 0,
        binned > 0 ? "spheres binned as the light sees them need no tree: " + crowd : why_not});

@@ -30,6 +30,8 @@ struct RenderStats {
   uint64_t camera_rays = 0;
   uint64_t hits = 0;
   uint64_t shadow_rays = 0;
+  uint64_t light_batches = 0;     // lights times batches of hits
+  uint64_t culled_lights = 0;     // of these, those that could not reach any hit
   uint64_t unsettled_pixels = 0;  // of adaptive sampling: their error is not known to be small
   uint64_t shades = 0;            // hits times lights that were evaluated
   std::array<double, kStageCount> stage_seconds{};  // thread seconds
@@ -45,6 +47,8 @@ struct RenderStats {
     camera_rays += part.camera_rays;
     hits += part.hits;
     shadow_rays += part.shadow_rays;
+    light_batches += part.light_batches;
+    culled_lights += part.culled_lights;
     shades += part.shades;
     unsettled_pixels += part.unsettled_pixels;
     for (size_t i = 0; i < kStageCount; ++i) stage_seconds[i] += part.stage_seconds[i];

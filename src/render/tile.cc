@@ -180,6 +180,7 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   ClearRadiance(s->hits.count, &s->total);
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
+  const BatchBounds bounds = plan.cull_lights ? BoundHits(s->hits, s->surface) : BatchBounds{};
   clock->Charge(Stage::kRefine);
   s->together.clear();
   const auto shade_together = [&] {
@@ -187,6 +188,11 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
     s->together.clear();
   };
   for (const PlannedLight& planned : plan.lights) {
+    ++stats->light_batches;
+    if (plan.cull_lights && !MayReach(planned.reach, bounds)) {
+      ++stats->culled_lights;
+      continue;
+    }
     const bool shadowed =
         s->hits.one_primitive ? !NeverShadowed(planned, s->hits.primitive[0]) : planned.shadow_rays;
     if (!shadowed && planned.layer < 0 && EvaluatedInPlace(planned.light)) {

@@ -128,6 +128,7 @@ void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::
 }
 
 JsonObject::JsonObject(const JsonValue& value, std::string_view hint) : value_(value) {
+  known_.reserve(8);
   value.Expect(value.json.is_object(), "an object", hint);
 }
 

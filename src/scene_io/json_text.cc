@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -25,12 +26,35 @@ std::string LineAndColumn(std::string_view text, size_t bytes_read) {
   return fmt::format("{}:{}", line, before.size() - line_start + 1);
 }
 
+// Walks through the text and tells how far it has come.
+struct CountingIterator {
+  using iterator_category = std::forward_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  const char* at = nullptr;
+  const char** reached = nullptr;
+
+  reference operator*() const { return *at; }
+  CountingIterator& operator++() {
+    *reached = ++at;
+    return *this;
+  }
+  bool operator==(const CountingIterator& other) const { return at == other.at; }
+};
+
 // Builds the tree from the parser's events: its own builder tells neither repeated names nor
 // where a number is that overflows.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
-  TreeBuilder(std::string_view text, const std::string& file, FaultList* faults)
-      : text_(text), file_(file), faults_(faults) {}
+  TreeBuilder(std::string_view text, const std::string& file, FaultList* faults,
+              const std::function<void(double)>& on_progress)
+      : text_(text), file_(file), faults_(faults), on_progress_(on_progress) {}
+
+  CountingIterator begin() { return {text_.data(), &reached_}; }
+  CountingIterator end() { return {text_.data() + text_.size(), &reached_}; }
 
   Json TakeRoot() { return std::move(root_); }
 
@@ -48,7 +72,7 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     Level& level = levels_.back();
-    if (!level.names.insert(name).second) {
+    if (IsRepeated(name, &level)) {
       faults_->Add(Pointer(), fmt::format("\"{}\" is there twice", name), "keep one of them");
     }
     level.name = std::move(name);
@@ -74,8 +98,23 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   struct Level {
     Json* value;       // an object or array; stays where it is while it is the last in its parent
     std::string name;  // of the member that comes next, in an object
-    std::unordered_set<std::string> names;
+    std::unordered_set<std::string> names;  // of the members so far, once they are many
   };
+
+  // Whether the innermost object has a member of this name; notes it.
+  static bool IsRepeated(const std::string& name, Level* level) {
+    // In a small object, as a million spheres are, looking is faster than remembering.
+    constexpr size_t kFew = 16;
+    const auto& members = level->value->get_ref<const Json::object_t&>();
+    if (members.size() <= kFew) {
+      return std::any_of(members.begin(), members.end(),
+                         [&](const auto& member) { return member.first == name; });
+    }
+    if (level->names.empty()) {
+      for (const auto& member : members) level->names.insert(member.first);
+    }
+    return !level->names.insert(name).second;
+  }
 
   // The pointer to the innermost open object or array.
   std::string Pointer() const {
@@ -133,12 +172,20 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
   bool Close() {
     levels_.pop_back();
+    constexpr size_t kEvery = size_t{1} << 12;
+    if (on_progress_ && ++closed_ % kEvery == 0) {
+      on_progress_(static_cast<double>(reached_ - text_.data()) /
+                   static_cast<double>(text_.size()));
+    }
     return true;
   }
 
   std::string_view text_;
   const std::string& file_;
   FaultList* faults_;
+  const std::function<void(double)>& on_progress_;
+  const char* reached_ = nullptr;
+  size_t closed_ = 0;
   Json root_;
   std::vector<Level> levels_;
 };
@@ -149,9 +196,10 @@ std::string PlaceInFile(const std::string& file, const std::string& pointer) {
   return pointer.empty() ? file : file + ": " + pointer;
 }
 
-Json ParseJson(std::string_view text, const std::string& file, FaultList* faults) {
-  TreeBuilder builder(text, file, faults);
-  Json::sax_parse(text, &builder);
+Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
+               const std::function<void(double)>& on_progress) {
+  TreeBuilder builder(text, file, faults, on_progress);
+  Json::sax_parse(builder.begin(), builder.end(), &builder);
   return builder.TakeRoot();
 }
 

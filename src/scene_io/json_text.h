@@ -1,6 +1,7 @@
 // scene_io/json_text.h: JSON text to a tree, with the strictness that scene files want.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -16,7 +17,9 @@ using Json = nlohmann::ordered_json;
 // What `text` says. Names that an object has twice are added to `faults` by JSON pointer. Throws
 // Error (kBadInput) with `file` in its place for text that is not JSON (line and column), numbers
 // too large for a double (pointer) and nesting deeper than 100.
-Json ParseJson(std::string_view text, const std::string& file, FaultList* faults);
+// `on_progress`, if any, is told now and then which share of the text has been read.
+Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
+               const std::function<void(double)>& on_progress = {});
 
 // "scenes/grid.json: /materials/gold"; the file alone for the pointer to all of it.
 std::string PlaceInFile(const std::string& file, const std::string& pointer);

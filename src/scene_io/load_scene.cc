@@ -83,7 +83,7 @@ void AddValidation(const Scene& scene, FaultList* faults) {
 Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
   FaultList faults;
-  Json root = ParseJson(text, file, &faults);
+  Json root = ParseJson(text, file, &faults, options.on_progress);
   for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, &root);
   CheckVersion(root, file);
 

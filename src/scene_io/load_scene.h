@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +20,9 @@ struct LoadOptions {
 
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;
+
+  // Told now and then which share of the file has been read. Throwing from it stops the reading.
+  std::function<void(double)> on_progress = {};
 };
 
 // Reads a scene file (JSON, up to 1 GiB). The scene has passed Validate().

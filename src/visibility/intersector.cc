@@ -229,16 +229,21 @@ void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
   RefineHits({state_->geometry, rays, closest, ray_indices, count}, to);
 }
 
-uint32_t Intersector::FindOccluders(const Light& light, bool outward) {
+void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool outward) {
   State& s = *state_;
-  const ShadowLight target = MakeShadowLight(light, s.camera_position);
-  LightOccluders& occluders = s.occluders.emplace_back();
-  if (s.geometry.spheres.size() <= kMaxListedSpheres) {
-    occluders.lists = ListOccluders(s.geometry, target, outward);
-  } else {
-    occluders.bins = BinForLight(s.geometry, target, s.settings.threads);
-  }
-  return static_cast<uint32_t>(s.occluders.size() - 1);
+  const bool few = s.geometry.spheres.size() <= kMaxListedSpheres;
+  // Many lights are shared out among the threads; few have all of them, one after the other.
+  const bool many = lights.size() >= 8;
+  const int inner = many ? 1 : s.settings.threads;
+  const size_t room = kBinRoom / std::max<size_t>(lights.size(), 4);
+  s.occluders.resize(lights.size());
+  ParallelFor(lights.size(), many ? s.settings.threads : 1, [&](size_t i) {
+    const ShadowLight target = MakeShadowLight(*lights[i], s.camera_position);
+    LightOccluders& occluders = s.occluders[i];
+    if (few) occluders.lists = ListOccluders(s.geometry, target, outward);
+    if (few && occluders.lists.longest <= kMaxListed) return;
+    occluders.bins = BinForLight(s.geometry, target, room, inner);
+  });
 }
 
 const LightOccluders& Intersector::Occluders(uint32_t light) const {

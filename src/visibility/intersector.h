@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/vec.h"
 #include "hit/batch.h"
@@ -25,7 +26,8 @@ struct IntersectorSettings {
   bool embree = true;  // false: no tree is built until BuildTree is called
 };
 
-// What can come between the spheres and a light: bins, or else lists.
+// What can come between the spheres and a light: bins, or else lists; in small scenes both may be
+// there.
 struct LightOccluders {
   std::optional<LightBins> bins;
   OccluderLists lists;
@@ -72,11 +74,10 @@ class Intersector {
   void Refine(const RayBatch& rays, const ClosestHits& closest, const uint32_t* ray_indices,
               size_t count, const HitsTo& to) const;
 
-  // Finds what can come between the spheres and the light, so that shadow rays to it need no tree;
-  // returns the light's number for ShadowRayBatch::light, or kAnyLight where this would cost more
-  // than it saves. Triangles are not seen: with any in the scene this must not be called.
-  // `outward`: ShadowRayBatch's, which those rays must have.
-  uint32_t FindOccluders(const Light& light, bool outward);
+  // Finds what can come between the spheres and each light, so that shadow rays to it need no tree:
+  // ShadowRayBatch::light is then the light's place in `lights`. Triangles are not seen: with any
+  // in the scene this must not be called. `outward`: ShadowRayBatch's, which those rays must have.
+  void FindOccluders(const std::vector<const Light*>& lights, bool outward);
 
   // What was found for a light. The reference holds until the next FindOccluders.
   const LightOccluders& Occluders(uint32_t light) const;

@@ -12,10 +12,8 @@
 namespace nacre {
 namespace {
 
-// Cells are made so large that about this many spheres meet in one: a vector of them.
+// Cells are made so large that at least about this many spheres meet in one, unless there is room.
 constexpr double kMeeting = 12;
-// A sphere that touches more cells than this is tested by every ray instead.
-constexpr int kMaxCellsEach = 64;
 constexpr size_t kSampleSize = 4096;
 constexpr double kFar = 1e30;  // in place of infinity, where it has to be computed with
 constexpr double kTiny = 1e-30;
@@ -31,9 +29,12 @@ struct Bounds {
 
 class Binner {
  public:
-  Binner(const TraceGeometry& geometry, const ShadowLight& light, int threads)
-      : spheres_(geometry.spheres), threads_(threads) {
+  Binner(const TraceGeometry& geometry, const ShadowLight& light, size_t room, int threads)
+      : spheres_(geometry.spheres),
+        threads_(threads),
+        room_(static_cast<double>(room) / static_cast<double>(spheres_.size())) {
     bins_.positional = light.positional;
+    max_cells_each_ = static_cast<int>(std::clamp(4 * room_, 256.0, 4096.0));
     TakeSample();
     ChooseFrame(light);
     const int count = light.positional ? 6 : 1;
@@ -144,9 +145,15 @@ class Binner {
       }
       across[i] = std::max(high - low[i], 0.0);
     }
-    // With n spheres of this width over the area, (cell + width)^2 n / area of them meet in one.
+    // With n spheres of this width over the area, (cell + width)^2 n / area of them meet in one,
+    // and each is in (1 + width / cell)^2 of them.
     const double area = across[0] * across[1];
-    const double cell = std::max({std::sqrt(kMeeting * area / count) - size, 1.5 * size,
+    const double room = std::sqrt(room_);
+    const double widths = std::clamp(1 / std::max(room - 1, 0.1), 0.15, 1.5);
+    const double most = room > 2 ? 0 : std::sqrt(kMeeting * area / count) - size;
+    const double most_cells =
+        std::max(room_, 1.0) * static_cast<double>(spheres_.size()) / (bins_.positional ? 6 : 1);
+    const double cell = std::max({most, widths * size, std::sqrt(area / most_cells),
                                   std::max(across[0], across[1]) / 8192, kTiny});
     grid.x0 = low[0];
     grid.y0 = low[1];
@@ -188,12 +195,12 @@ class Binner {
       const CellBox box = CellsOf(bins_.grids[face], b);
       const int across = box.x1 - box.x0 + 1;
       const int along = box.y1 - box.y0 + 1;
-      found.large = found.large || across > kMaxCellsEach || along > kMaxCellsEach;
+      found.large = found.large || across > max_cells_each_ || along > max_cells_each_;
       cells += found.large ? 0 : across * along;
       found.faces[found.count] = face;
       found.boxes[found.count++] = box;
     }
-    found.large = found.large || cells > kMaxCellsEach;
+    found.large = found.large || cells > max_cells_each_;
     return found;
   }
 
@@ -316,8 +323,10 @@ class Binner {
 
   const HugeArray<TraceSphere>& spheres_;
   int threads_;
+  double room_;  // in entries for each sphere
   std::vector<size_t> sample_;
   double margin_ = 0;
+  int max_cells_each_;  // a sphere that touches more is tested by every ray instead
   size_t block_count_ = 0;
   std::vector<uint32_t> block_end_;  // of each block's spheres in these:
   HugeArray<BinnedSphere> block_spheres_;
@@ -327,8 +336,9 @@ class Binner {
 
 }  // namespace
 
-LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, int threads) {
-  return Binner(geometry, light, threads).Bin();
+LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t room,
+                      int threads) {
+  return Binner(geometry, light, room, threads).Bin();
 }
 
 }  // namespace nacre

@@ -17,7 +17,8 @@ namespace nacre {
 
 // Cells are numbered block by block, blocks and the cells in one row by row: neighbours are close
 // in memory, and a block's spheres are sorted within the cache.
-inline constexpr int kBlockSize = 16;  // cells across
+inline constexpr int kBlockBits = 4;
+inline constexpr int kBlockSize = 1 << kBlockBits;  // cells across
 inline constexpr size_t kBlockCells = size_t{kBlockSize} * kBlockSize;
 
 // Square cells on a plane before the light. Those at the border reach to infinity: all places have
@@ -95,7 +96,12 @@ inline FacePlace PlaceOnCube(const Vec3d& direction) {
           direction[(axis + 2) % 3] / z};
 }
 
-LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, int threads);
+// Cells become smaller than most spheres where no more than about `room` entries come of it.
+LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t room,
+                      int threads);
+
+// As many entries as are nothing to speak of, for all lights together.
+inline constexpr size_t kBinRoom = size_t{1} << 19;
 
 // Intersector::Occluded for rays to the bins' light from spheres.
 void OccludedByBins(const TraceGeometry& geometry, const LightBins& bins, ShadowRayBatch* rays);

@@ -48,65 +48,110 @@ HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const
   return hit.hit && hit.t < ray.t_max;
 }
 
-// A ray as the float test has it, in the coordinates of BinnedSphere.
-struct BinnedRay {
-  float x, y, z;  // directional: where it starts, z rounded down; else its direction, unit, from
-                  // the light
-  float length;   // of that to where it starts
+// The rays of a batch as cells and the float tests have them, in the coordinates of BinnedSphere.
+struct PlacedRays {
+  static constexpr size_t kSize = kBatchCapacity + kMaxPacketWidth;
+  // Directional: where they start, z rounded down. Else their directions, unit, from the light.
+  alignas(64) float x[kSize], y[kSize], z[kSize];
+  alignas(64) float length[kSize];   // of these, to where they start
+  alignas(64) uint32_t cell[kSize];  // kNoCell: beyond the bins' reach
 };
 
-HWY_INLINE BinnedRay PlaceRay(const LightBins& bins, const OneRay& ray) {
-  if (bins.positional) {
-    const double length = ray.direction.length();
-    const Vec3d unit = ray.direction * (-1 / length);
-    return {static_cast<float>(unit.x), static_cast<float>(unit.y), static_cast<float>(unit.z),
-            static_cast<float>(length)};
-  }
-  const Vec3d offset = ray.origin - bins.center;
-  const double z = offset.dot(bins.axes[2]);
-  return {static_cast<float>(offset.dot(bins.axes[0])),
-          static_cast<float>(offset.dot(bins.axes[1])), static_cast<float>(z - 1e-6 * std::abs(z)),
-          0};
-}
-
-// The spheres of a vector that the ray may meet, as bits. Their radii cover the roundings here.
-template <class D>
-HWY_INLINE uint32_t MayMeet(D d, const BinnedSphere* spheres, const BinnedRay& ray,
+// Whether rays and spheres, of which one is the same in all lanes, may meet. The spheres' radii
+// cover the roundings here.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE uint32_t MayMeet(D d, const Vec3V<V>& center, V radius, const Vec3V<V>& ray, V length,
                             bool positional) {
-  using V = hn::Vec<D>;
-  V x, y, z, radius;
-  hn::LoadInterleaved4(d, &spheres->x, x, y, z, radius);
   const V radius2 = hn::Mul(radius, radius);
   if (positional) {
-    const Vec3V<V> center{x, y, z};
-    const Vec3V<V> direction{hn::Set(d, ray.x), hn::Set(d, ray.y), hn::Set(d, ray.z)};
-    const V closest = FusedDot(center, direction);
-    const Vec3V<V> across = Sub(center, Scale(direction, closest));
+    const V closest = FusedDot(center, ray);
+    const Vec3V<V> across = Sub(center, Scale(ray, closest));
     const auto near = hn::Le(FusedDot(across, across), radius2);
     const auto ahead = hn::Gt(hn::Add(closest, radius), hn::Zero(d));
-    const auto before = hn::Lt(hn::Sub(closest, radius), hn::Set(d, ray.length));
+    const auto before = hn::Lt(hn::Sub(closest, radius), length);
     return BitsOfMask(d, hn::And(near, hn::And(ahead, before)));
   }
-  const V across_x = hn::Sub(x, hn::Set(d, ray.x));
-  const V across_y = hn::Sub(y, hn::Set(d, ray.y));
+  const V across_x = hn::Sub(center.x, ray.x);
+  const V across_y = hn::Sub(center.y, ray.y);
   const V distance2 = hn::MulAdd(across_x, across_x, hn::Mul(across_y, across_y));
-  return BitsOfMask(d, hn::And(hn::Le(distance2, radius2), hn::Gt(z, hn::Set(d, ray.z))));
+  return BitsOfMask(d, hn::And(hn::Le(distance2, radius2), hn::Gt(center.z, ray.z)));
 }
 
-HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& bins, uint32_t cell,
-                               const OneRay& ray) {
+// One ray against the spheres of its cell, a vector of them at a time.
+HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& bins,
+                               const PlacedRays& placed, size_t i, const OneRay& ray) {
   const hn::CappedTag<float, kMaxPacketWidth> d;
-  const BinnedRay placed = PlaceRay(bins, ray);
-  const uint32_t end = bins.end[cell];
-  for (uint32_t i = bins.Begin(cell); i < end; i += static_cast<uint32_t>(hn::Lanes(d))) {
+  using V = hn::Vec<decltype(d)>;
+  const Vec3V<V> direction{hn::Set(d, placed.x[i]), hn::Set(d, placed.y[i]),
+                           hn::Set(d, placed.z[i])};
+  const V length = hn::Set(d, placed.length[i]);
+  const uint32_t end = bins.end[placed.cell[i]];
+  for (uint32_t k = bins.Begin(placed.cell[i]); k < end; k += static_cast<uint32_t>(hn::Lanes(d))) {
     // The last vector goes on into the next cell: its spheres are as good as any.
-    uint32_t bits = MayMeet(d, bins.binned.data() + i, placed, bins.positional);
+    Vec3V<V> center;
+    V radius;
+    hn::LoadInterleaved4(d, &bins.binned[k].x, center.x, center.y, center.z, radius);
+    uint32_t bits = MayMeet(d, center, radius, direction, length, bins.positional);
     for (; bits != 0; bits &= bits - 1) {
-      const uint32_t number = bins.spheres[i + static_cast<uint32_t>(__builtin_ctz(bits))];
+      const uint32_t number = bins.spheres[k + static_cast<uint32_t>(__builtin_ctz(bits))];
       if (IsInTheWay(geometry, number, ray)) return true;
     }
   }
   return false;
+}
+
+// Those of `lanes`, as bits, of the rays from `first` on that the sphere is in the way of.
+HWY_INLINE uint32_t OccludedBySphere(const TraceGeometry& geometry, uint32_t number,
+                                     const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
+  const hn::ScalableTag<double> d;
+  const TraceSphere& sphere = geometry.spheres[number];
+  uint32_t own = 0;
+  for (uint32_t left = lanes; left != 0; left &= left - 1) {
+    const int lane = __builtin_ctz(left);
+    const uint32_t start = rays.primitive[first + static_cast<size_t>(lane)];
+    own |= static_cast<uint32_t>(start == number || Coincide(sphere, geometry.spheres[start]))
+           << lane;
+  }
+  uint32_t occluded = 0;
+  const int step = static_cast<int>(hn::Lanes(d));
+  for (int lane = 0; lanes >> lane != 0; lane += step) {
+    const auto asked = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, asked)) continue;
+    const auto loaded = LoadShadowRays(d, rays, first + static_cast<size_t>(lane));
+    const auto blocked =
+        OccludedLanes(d, sphere, loaded, asked, MaskOfBits(d, own, lane), rays.outward);
+    occluded |= BitsOfMask(d, blocked) << lane;
+  }
+  return occluded;
+}
+
+// Rays [begin, end), which share a cell, against its spheres, a vector of rays at a time.
+HWY_INLINE void TestRun(const TraceGeometry& geometry, const LightBins& bins,
+                        const PlacedRays& placed, size_t begin, size_t end, ShadowRayBatch* rays) {
+  const hn::CappedTag<float, kMaxPacketWidth> d;
+  using V = hn::Vec<decltype(d)>;
+  const uint32_t cell = placed.cell[begin];
+  const size_t step = hn::Lanes(d);
+  for (size_t first = begin; first < end; first += step) {
+    uint32_t left = 0;
+    for (size_t lane = 0; lane < std::min(step, end - first); ++lane) {
+      left |= static_cast<uint32_t>(rays->occluded[first + lane] == 0) << lane;
+    }
+    const uint32_t asked = left;
+    const Vec3V<V> direction = LoadU3(d, placed.x + first, placed.y + first, placed.z + first);
+    const V length = hn::LoadU(d, placed.length + first);
+    for (uint32_t k = bins.Begin(cell); k < bins.end[cell] && left != 0; ++k) {
+      const BinnedSphere& sphere = bins.binned[k];
+      const Vec3V<V> center{hn::Set(d, sphere.x), hn::Set(d, sphere.y), hn::Set(d, sphere.z)};
+      const uint32_t bits =
+          left & MayMeet(d, center, hn::Set(d, sphere.radius), direction, length, bins.positional);
+      if (bits == 0) continue;
+      left &= ~OccludedBySphere(geometry, bins.spheres[k], *rays, first, bits);
+    }
+    for (uint32_t hit = asked & ~left; hit != 0; hit &= hit - 1) {
+      rays->occluded[first + static_cast<size_t>(__builtin_ctz(hit))] = 1;
+    }
+  }
 }
 
 HWY_INLINE bool OccludedByAny(const TraceGeometry& geometry, const OneRay& ray) {
@@ -116,21 +161,103 @@ HWY_INLINE bool OccludedByAny(const TraceGeometry& geometry, const OneRay& ray) 
   return false;
 }
 
-// The cells of rays; kNoCell for those beyond the bins' reach. Starts fetching what comes next.
-HWY_INLINE void FindCells(const LightBins& bins, const ShadowRayBatch& rays, uint32_t* cells) {
+using RayTag = hn::ScalableTag<double>;
+using RayV = hn::Vec<RayTag>;
+
+HWY_INLINE Vec3V<RayV> Set3(const Vec3d& v) {
+  const RayTag d;
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+
+HWY_INLINE void StoreRounded(RayV v, float* to) {
+  const hn::Rebind<float, RayTag> df;
+  hn::StoreU(hn::DemoteTo(df, v), df, to);
+}
+
+// LightGrid::Cell on vectors.
+HWY_INLINE void StoreCells(const LightGrid& grid, RayV x, RayV y, uint32_t* cells) {
+  const RayTag d;
+  const hn::Rebind<int32_t, RayTag> di;
+  const auto clamped = [&](RayV place, double begin, int count) HWY_ATTR {
+    const RayV at = hn::Mul(hn::Sub(place, hn::Set(d, begin)), hn::Set(d, grid.inverse_cell));
+    return hn::DemoteTo(di, hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, count - 0.5)));
+  };
+  const auto column = clamped(x, grid.x0, grid.columns);
+  const auto row = clamped(y, grid.y0, grid.rows);
+  const auto block_columns = hn::Set(di, static_cast<int32_t>(grid.BlockColumns()));
+  const auto first = hn::Set(di, static_cast<int32_t>(grid.first_block));
+  const auto in_block = hn::Set(di, kBlockSize - 1);
+  const auto block_row = hn::Mul(hn::ShiftRight<kBlockBits>(row), block_columns);
+  const auto block = hn::Add(first, hn::Add(block_row, hn::ShiftRight<kBlockBits>(column)));
+  const auto cell_row = hn::Add(hn::ShiftLeft<kBlockBits>(block), hn::And(row, in_block));
+  const auto cell = hn::Add(hn::ShiftLeft<kBlockBits>(cell_row), hn::And(column, in_block));
+  hn::StoreU(cell, di, reinterpret_cast<int32_t*>(cells));
+}
+
+// The rays to a directional light from number i on.
+HWY_INLINE void PlaceAlong(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
+                           PlacedRays* placed) {
+  const RayTag d;
+  const Vec3V<RayV> origin =
+      Load3(d, rays.origin.x.data() + i, rays.origin.y.data() + i, rays.origin.z.data() + i);
+  const Vec3V<RayV> offset = Sub(origin, Set3(bins.center));
+  const RayV x = Dot(offset, Set3(bins.axes[0]));
+  const RayV y = Dot(offset, Set3(bins.axes[1]));
+  const RayV z = Dot(offset, Set3(bins.axes[2]));
+  StoreCells(bins.grids[0], x, y, placed->cell + i);
+  StoreRounded(x, placed->x + i);
+  StoreRounded(y, placed->y + i);
+  StoreRounded(hn::Sub(z, hn::Mul(hn::Abs(z), hn::Set(d, 1e-6))), placed->z + i);
+}
+
+// The same to a light at a point.
+HWY_INLINE void PlaceFrom(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
+                          PlacedRays* placed) {
+  const RayTag d;
+  const RayV zero = hn::Zero(d);
+  const RayV one = hn::Set(d, 1.0);
+  const Vec3V<RayV> to_light = Load3(d, rays.direction.x.data() + i, rays.direction.y.data() + i,
+                                     rays.direction.z.data() + i);
+  const Vec3V<RayV> from_light = Sub(Vec3V<RayV>{zero, zero, zero}, to_light);
+  const RayV length = hn::Sqrt(Dot(from_light, from_light));
+  const Vec3V<RayV> unit = Scale(from_light, hn::Div(one, length));
+  StoreRounded(unit.x, placed->x + i);
+  StoreRounded(unit.y, placed->y + i);
+  StoreRounded(unit.z, placed->z + i);
+  StoreRounded(length, placed->length + i);
+  // PlaceOnCube on vectors.
+  const Vec3V<RayV> size{hn::Abs(unit.x), hn::Abs(unit.y), hn::Abs(unit.z)};
+  const auto on_x = hn::And(hn::Ge(size.x, size.y), hn::Ge(size.x, size.z));
+  const auto on_y = hn::AndNot(on_x, hn::Ge(size.y, size.z));
+  const auto choose = [&](RayV x, RayV y, RayV z)
+                          HWY_ATTR { return hn::IfThenElse(on_x, x, hn::IfThenElse(on_y, y, z)); };
+  const RayV main = choose(unit.x, unit.y, unit.z);
+  const RayV face = hn::Add(choose(zero, hn::Set(d, 2.0), hn::Set(d, 4.0)),
+                            hn::IfThenElseZero(hn::Lt(main, zero), one));
+  const auto first_face = static_cast<size_t>(hn::GetLane(face));
+  if (hn::AllTrue(d, hn::Eq(face, hn::Set(d, static_cast<double>(first_face))))) {
+    const RayV inverse = hn::Div(one, hn::Abs(main));
+    StoreCells(bins.grids[first_face], hn::Mul(choose(unit.y, unit.z, unit.x), inverse),
+               hn::Mul(choose(unit.z, unit.x, unit.y), inverse), placed->cell + i);
+    return;
+  }
+  for (size_t k = i; k < i + hn::Lanes(d); ++k) {
+    const FacePlace place =
+        PlaceOnCube({-rays.direction.x[k], -rays.direction.y[k], -rays.direction.z[k]});
+    placed->cell[k] = static_cast<uint32_t>(bins.grids[place.face].Cell(place.x, place.y));
+  }
+}
+
+HWY_INLINE void PlaceRays(const LightBins& bins, const ShadowRayBatch& rays, PlacedRays* placed) {
+  for (size_t i = 0; i < rays.count; i += hn::Lanes(RayTag())) {
+    bins.positional ? PlaceFrom(bins, rays, i, placed) : PlaceAlong(bins, rays, i, placed);
+  }
+  const double reach2 = bins.max_reach * bins.max_reach;
+  const auto& [x, y, z] = rays.origin;
   for (size_t i = 0; i < rays.count; ++i) {
-    const OneRay ray = RayAt(rays, i);
-    size_t cell = 0;
-    if (bins.positional) {
-      const FacePlace place = PlaceOnCube(-ray.direction);
-      cell = bins.grids[place.face].Cell(place.x, place.y);
-    } else {
-      const Vec3d offset = ray.origin - bins.center;
-      cell = bins.grids[0].Cell(offset.dot(bins.axes[0]), offset.dot(bins.axes[1]));
-    }
-    __builtin_prefetch(bins.end.data() + cell);
-    const bool within = ray.origin.length2() <= bins.max_reach * bins.max_reach;
-    cells[i] = within ? static_cast<uint32_t>(cell) : kNoCell;
+    __builtin_prefetch(bins.end.data() + placed->cell[i]);
+    const bool within = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] <= reach2;
+    placed->cell[i] = within ? placed->cell[i] : kNoCell;
   }
 }
 
@@ -167,24 +294,35 @@ HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
   }
 }
 
+// Starts fetching the spheres of a ray's cell.
+HWY_INLINE void Prefetch(const LightBins& bins, uint32_t cell) {
+  if (cell == kNoCell) return;
+  const BinnedSphere* const next = bins.binned.data() + bins.Begin(cell);
+  constexpr int kLine = 64 / sizeof(BinnedSphere);
+  for (int line = 0; line < 4; ++line) __builtin_prefetch(next + line * kLine);
+}
+
 void OccludedByBinsT(const TraceGeometry& geometry, const LightBins& bins, ShadowRayBatch* rays) {
-  uint32_t cells[kBatchCapacity];
-  FindCells(bins, *rays, cells);
+  PlacedRays placed;
+  PlaceRays(bins, *rays, &placed);
   TestLarge(geometry, bins, rays);
   constexpr size_t kAhead = 4;
-  for (size_t i = 0; i < rays->count; ++i) {
-    if (i + kAhead < rays->count && cells[i + kAhead] != kNoCell) {
-      const BinnedSphere* next = bins.binned.data() + bins.Begin(cells[i + kAhead]);
-      __builtin_prefetch(next);
-      __builtin_prefetch(next + 4);
-      __builtin_prefetch(next + 8);
-      __builtin_prefetch(next + 12);
+  constexpr size_t kRun = 6;  // so many rays that share a cell are worth a vector
+  for (size_t i = 0, end = 0; i < rays->count; i = end) {
+    const uint32_t cell = placed.cell[i];
+    for (end = i + 1; end < rays->count && placed.cell[end] == cell;) ++end;
+    if (end + kAhead <= rays->count) Prefetch(bins, placed.cell[end + kAhead - 1]);
+    if (cell != kNoCell && end - i >= kRun) {
+      TestRun(geometry, bins, placed, i, end, rays);
+      continue;
     }
-    if (rays->occluded[i] != 0) continue;
-    const OneRay ray = RayAt(*rays, i);
-    const bool occluded = cells[i] == kNoCell ? OccludedByAny(geometry, ray)
-                                              : OccludedInCell(geometry, bins, cells[i], ray);
-    rays->occluded[i] = occluded ? 1 : 0;
+    for (size_t k = i; k < end; ++k) {
+      if (rays->occluded[k] != 0) continue;
+      const OneRay ray = RayAt(*rays, k);
+      const bool occluded = cell == kNoCell ? OccludedByAny(geometry, ray)
+                                            : OccludedInCell(geometry, bins, placed, k, ray);
+      rays->occluded[k] = occluded ? 1 : 0;
+    }
   }
 }
 

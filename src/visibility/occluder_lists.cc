@@ -89,6 +89,7 @@ OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& li
       lists.spheres.push_back(static_cast<uint32_t>(j));
     }
     lists.end.push_back(static_cast<uint32_t>(lists.spheres.size()));
+    lists.longest = std::max<size_t>(lists.longest, lists.end[i] - lists.Begin(i));
   }
   return lists;
 }

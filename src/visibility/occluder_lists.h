@@ -14,10 +14,13 @@ namespace nacre {
 
 // Pairs of spheres are tested, so this is for few: beyond, bins are faster (light_bins.h).
 inline constexpr size_t kMaxListedSpheres = 256;
+inline constexpr size_t kMaxListed = 8;  // longer lists take rays longer than bins do
 
 struct OccluderLists {
   std::vector<uint32_t> end;      // of each sphere's list
   std::vector<uint32_t> spheres;  // those that may hide the light from it, in ascending order
+
+  size_t longest = 0;
 
   uint32_t Begin(size_t sphere) const { return sphere == 0 ? 0 : end[sphere - 1]; }
 };

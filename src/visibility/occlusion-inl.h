@@ -37,15 +37,16 @@ HWY_INLINE hn::Mask<D> InTheWay(D d, const SphereHitV<D>& hit, hn::Mask<D> own, 
   return hn::And(met, hn::Lt(t, t_max));
 }
 
+// The rays from any number on.
 template <class D>
 HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t i) {
   ShadowRaysV<D> loaded;
   loaded.origin =
-      Load3(d, rays.origin.x.data() + i, rays.origin.y.data() + i, rays.origin.z.data() + i);
-  loaded.direction = Load3(d, rays.direction.x.data() + i, rays.direction.y.data() + i,
-                           rays.direction.z.data() + i);
+      LoadU3(d, rays.origin.x.data() + i, rays.origin.y.data() + i, rays.origin.z.data() + i);
+  loaded.direction = LoadU3(d, rays.direction.x.data() + i, rays.direction.y.data() + i,
+                            rays.direction.z.data() + i);
   loaded.inverse_dd = hn::Div(hn::Set(d, 1.0), Dot(loaded.direction, loaded.direction));
-  loaded.t_max = hn::Load(d, rays.t_max.data() + i);
+  loaded.t_max = hn::LoadU(d, rays.t_max.data() + i);
   return loaded;
 }
 
