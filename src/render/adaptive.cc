@@ -315,7 +315,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   CellScratch& c = *cell_scratch;
   StageClock clock(stats);
   const bool anything = plan.intersector != nullptr &&
-                        (!plan.tiles || plan.intersector->EnterTile(cell, &s.candidates));
+                        (!plan.binned || plan.intersector->EnterTile(cell, &s.candidates));
   clock.Charge(Stage::kIntersect);
   if (!anything) {
     FillBackground(plan, part, strip);

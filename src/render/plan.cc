@@ -120,10 +120,12 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
   tell(0.15);
-  if (want_tiles) {
+  // Footprints are looked for in the bins, whoever traces: the bits must not depend on that.
+  if (want_tiles || (settings.max_error > 0 && triangles == 0)) {
     const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
     const Window binned = settings.max_error > 0 ? WholeCells(plan->window) : plan->window;
-    plan->tiles = plan->intersector->BinForCamera(plan->camera, binned, reach);
+    plan->binned = plan->intersector->BinForCamera(plan->camera, binned, reach);
+    plan->tiles = want_tiles && plan->binned;
   }
   plan->items.push_back({"intersector tiles, for camera rays", plan->tiles,
                          plan->tiles     ? "spheres binned to 16x16 pixels need no tree: " + shapes
@@ -235,7 +237,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
          fmt::format("blocks of 4x4 pixels stop where 95 % of what their samples leave possible is "
                      "within {} of max(|L|, 0.05); {}",
                      settings.max_error,
-                     plan.adaptive.footprints && plan.tiles
+                     plan.adaptive.footprints && plan.binned
                          ? "those on one smooth hit, at the pixels' centres"
                          : "no footprint is known to be smooth")});
   }

@@ -57,7 +57,8 @@ struct RenderPlan {
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool cull_lights = false;                   // leave out those that cannot reach a batch
-  bool tiles = false;                         // camera rays: binned spheres, not Embree
+  bool binned = false;                        // spheres are binned for the camera
+  bool tiles = false;                         // camera rays are traced by bins, not by Embree
   bool splits = false;                        // some material depends on the film position
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
   bool eye_outside = false;                   // no camera ray starts in a sphere
