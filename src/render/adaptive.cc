@@ -37,15 +37,15 @@ FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
 // The units' samples [first, first + count), one unit after the other. `samplers`: of each
 // replicate.
 void MakeUnitSamples(const PixelSampler* samplers, const Window& cell,
-                     const std::vector<Unit>& units, int first, int count, TileScratch* s) {
-  size_t ray = 0;
+                     const std::vector<Unit>& units, int first, int count, TileScratch* s,
+                     CellScratch* c) {
+  c->pixels.clear();
   for (const Unit& unit : units) {
     const FilmPixel pixel = PixelOf(cell, unit.pixel);
-    SampleOnePixel(samplers[unit.replicate], pixel.x, pixel.y, first, count,
-                   s->samples.x.data() + ray, s->samples.y.data() + ray);
-    ray += static_cast<size_t>(count);
+    c->pixels.push_back({pixel.x, pixel.y, unit.replicate});
   }
-  s->samples.count = ray;
+  SamplePixelList(samplers, c->pixels, first, count, s->samples.x.data(), s->samples.y.data());
+  s->samples.count = units.size() * static_cast<size_t>(count);
 }
 
 // The same where units take one sample and come by whole blocks.
@@ -80,11 +80,11 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       for (const Unit& unit : units) {
-        const double piece = SumOfPiece(value, s.weights.data(), count);
+        // The beauty's sum is that of its replicates.
+        double* const to = layer.kind == LayerKind::kBeauty ? c->replicate[unit.replicate][channel]
+                                                            : s.film.sums[sum].data();
+        to[unit.pixel] += SumOfPiece(value, s.weights.data(), count);
         value += count;
-        s.film.sums[sum][unit.pixel] += piece;
-        if (layer.kind != LayerKind::kBeauty) continue;
-        c->replicate[unit.replicate][channel][unit.pixel] += piece;
       }
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
@@ -115,7 +115,7 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
       if (by_blocks) {
         MakeBlockSamples(samplers.data(), cell, units, s, c);
       } else {
-        MakeUnitSamples(samplers.data(), cell, units, first, count, s);
+        MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
       }
       TraceAndShade(plan, s, clock, stats);
       AddUnits(plan, cell, units, s, c);
@@ -250,6 +250,16 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
   return smooth;
 }
 
+// The beauty, which is the film's first three channels.
+void AddReplicates(const CellScratch& c, TileFilm* film) {
+  for (size_t channel = 0; channel < 3; ++channel) {
+    double* const sums = film->sums[channel].data();
+    for (const auto& replicate : c.replicate) {
+      for (size_t i = 0; i < kCellPixels; ++i) sums[i] += replicate[channel][i];
+    }
+  }
+}
+
 // Rows of blocks into rows of the strip, as far as they lie in `part`: convert(i) is the cell's
 // pixel i.
 template <typename T, typename Convert>
@@ -340,6 +350,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
     clock.Charge(Stage::kFilm);
   }
   stats->unsettled_pixels += c.active.size();
+  AddReplicates(c, &s.film);
   ResolveCell(plan, cell, part, s.film, c, strip);
   clock.Charge(Stage::kFilm);
 }

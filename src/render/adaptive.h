@@ -42,6 +42,7 @@ struct CellScratch {
   // Sums of the beauty's samples in each replicate.
   double replicate[kReplicates][3][kCellPixels];
   PixelInterval intervals[kCellPixels];
+  std::vector<SampledPixel> pixels;
   std::vector<Unit> units;  // of a batch
   PixelShifts shifts{kBlockPixels + kBatchPadding};
   FilmBatch corners;

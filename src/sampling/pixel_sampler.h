@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/aligned.h"
@@ -66,8 +67,15 @@ void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts*
 void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
                   int first, int count, double* film_x, double* film_y);
 
-// Samples [first, first + count) of the pixel in column x and row y, likewise.
-void SampleOnePixel(const PixelSampler& sampler, int x, int y, int first, int count, double* film_x,
-                    double* film_y);
+// A pixel, by column and row, and which of several samplers places its samples.
+struct SampledPixel {
+  int x, y;
+  uint32_t sampler;
+};
+
+// Samples [first, first + count) of each of the pixels, one pixel after the other, likewise. The
+// samplers are of the same filter.
+void SamplePixelList(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,
+                     int count, double* film_x, double* film_y);
 
 }  // namespace nacre

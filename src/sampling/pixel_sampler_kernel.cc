@@ -183,15 +183,20 @@ HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int
   }
 }
 
-void SampleOnePixelT(const PixelSampler& sampler, int x, int y, int first, int count,
-                     double* film_x, double* film_y) {
+void SamplePixelListT(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,
+                      int count, double* film_x, double* film_y) {
   const auto begin = static_cast<size_t>(first);
   const auto end = static_cast<size_t>(first + count);
-  const size_t split = std::clamp(static_cast<size_t>(sampler.positive_count), begin, end);
-  WithFilters(sampler, [&](const auto& positive, const auto& negative) HWY_ATTR {
-    SampleRun(positive, sampler, x, y, begin, split, film_x, film_y);
-    SampleRun(negative, sampler, x, y, split, end, film_x + (split - begin),
-              film_y + (split - begin));
+  WithFilters(samplers[0], [&](const auto& positive, const auto& negative) HWY_ATTR {
+    for (const SampledPixel& pixel : pixels) {
+      const PixelSampler& sampler = samplers[pixel.sampler];
+      const size_t split = std::clamp(static_cast<size_t>(sampler.positive_count), begin, end);
+      SampleRun(positive, sampler, pixel.x, pixel.y, begin, split, film_x, film_y);
+      SampleRun(negative, sampler, pixel.x, pixel.y, split, end, film_x + (split - begin),
+                film_y + (split - begin));
+      film_x += count;
+      film_y += count;
+    }
   });
 }
 
@@ -202,15 +207,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(SamplePixelsT);
-HWY_EXPORT(SampleOnePixelT);
+HWY_EXPORT(SamplePixelListT);
 void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
                   int first, int count, double* film_x, double* film_y) {
   HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, shifts, first, count, film_x, film_y);
 }
 
-void SampleOnePixel(const PixelSampler& sampler, int x, int y, int first, int count, double* film_x,
-                    double* film_y) {
-  HWY_DYNAMIC_DISPATCH(SampleOnePixelT)(sampler, x, y, first, count, film_x, film_y);
+void SamplePixelList(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,
+                     int count, double* film_x, double* film_y) {
+  HWY_DYNAMIC_DISPATCH(SamplePixelListT)(samplers, pixels, first, count, film_x, film_y);
 }
 }  // namespace nacre
 #endif

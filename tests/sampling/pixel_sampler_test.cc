@@ -142,6 +142,18 @@ TEST_CASE("SamplePixels is SamplePixel to the bit on every target", "[sampling]"
               }
             }
           }
+          // And the samples of listed pixels, pixel by pixel.
+          const std::vector<SampledPixel> list{{5, -2, 0}, {7, 9, 0}, {5, -2, 0}};
+          AlignedArray<double> list_x(3 * static_cast<size_t>(count));
+          AlignedArray<double> list_y(3 * static_cast<size_t>(count));
+          SamplePixelList(&sampler, list, first, count, list_x.data(), list_y.data());
+          ray = 0;
+          for (const SampledPixel& pixel : list) {
+            for (int i = first; i < first + count; ++i, ++ray) {
+              const PixelSample s = SamplePixel(sampler, pixel.x, pixel.y, i);
+              wrong += list_x[ray] != pixel.x + 0.5 + s.dx || list_y[ray] != pixel.y + 0.5 + s.dy;
+            }
+          }
           CAPTURE(static_cast<int>(filter.kind), spp, first, count);
           CHECK(wrong == 0);
         }
