@@ -10,7 +10,7 @@
 
 namespace nacre {
 
-// How camera rays find spheres. All find the same hits, to the bit.
+// How rays find spheres. All find the same hits, to the bit.
 enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles };
 
 struct RenderSettings {

@@ -67,6 +67,7 @@ void SkipUnshadowed(const OccluderLists& lists, PlannedLight* light, PlanItem* i
 std::string WhyNotBins(const LightBins& bins) {
   constexpr double kCrowd = 2000;
   constexpr size_t kLarge = 32;
+  if (bins.overfull) return "the light's cells would hold more than 2^28 spheres";
   if (bins.meeting > kCrowd) {
     return fmt::format("{:.0f} spheres meet in a light's cell", bins.meeting);
   }
@@ -143,7 +144,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
       const LightOccluders& found = plan->intersector->Occluders(light.occluders);
       if (few) SkipUnshadowed(found.lists, &light, &item);
       bins = light.shadow_rays && found.bins.has_value();
-      if (bins && settings.intersector == IntersectorChoice::kAuto) {
+      if (bins && (settings.intersector == IntersectorChoice::kAuto || found.bins->overfull)) {
         crowded = WhyNotBins(*found.bins);
       }
       if (bins) crowd = DescribeBins(*found.bins);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -42,6 +43,23 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
 }
 
 }  // namespace
+
+std::vector<uint32_t> FirstTwins(const HugeArray<TraceSphere>& spheres,
+                                 const std::vector<uint32_t>& numbers) {
+  const auto key = [&](uint32_t i) {
+    const auto& [center, radius] = spheres[i];
+    return std::make_tuple(center.x, center.y, center.z, radius, i);
+  };
+  std::vector<uint32_t> order = numbers;
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
+  std::vector<uint32_t> twins(numbers.size());
+  for (size_t i = 0, first = 0; i < order.size(); ++i) {
+    if (!Coincide(spheres[order[i]], spheres[order[first]])) first = i;
+    const auto place = std::lower_bound(numbers.begin(), numbers.end(), order[i]);
+    twins[static_cast<size_t>(place - numbers.begin())] = order[first];
+  }
+  return twins;
+}
 
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads) {
   CheckPrimitiveCount(scene);

@@ -21,6 +21,11 @@ inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
   return a.center == b.center && a.radius == b.radius;
 }
 
+// For each of these spheres, which are in ascending order, the first of them that it coincides
+// with: itself, as a rule.
+std::vector<uint32_t> FirstTwins(const HugeArray<TraceSphere>& spheres,
+                                 const std::vector<uint32_t>& numbers);
+
 struct TraceGeometry {
   HugeArray<TraceSphere> spheres;  // in scene order
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
 #include <utility>
 
 #include "visibility/cell_lists.h"
@@ -45,7 +45,7 @@ class Binner {
     SortIntoBlocks();
     TakeLarge();
     SortBlocks();
-    CountMeeting();
+    if (!bins_.overfull) CountMeeting();
     return std::move(bins_);
   }
 
@@ -112,9 +112,13 @@ class Binner {
     return seen->x0 <= 1 && seen->x1 >= -1 && seen->y0 <= 1 && seen->y1 >= -1;
   }
 
-  // About the middle of what the sample shows, so that a few far spheres do not stretch it.
-  void ChooseGrid(int face) {
+  // What a face sees of the sample: the spheres' middles and widths.
+  struct SeenSample {
     std::vector<double> x, y, width;
+  };
+
+  SeenSample SeeSample(int face) const {
+    auto [x, y, width] = SeenSample{};
     for (const size_t i : sample_) {
       Bounds b{};
       if (!See(Place(i), face, &b)) continue;
@@ -125,6 +129,12 @@ class Binner {
       y.push_back(middle(b.y0, b.y1));
       width.push_back(std::min(std::min(b.x1 - b.x0, b.y1 - b.y0), kFar));
     }
+    return {std::move(x), std::move(y), std::move(width)};
+  }
+
+  // About the middle of what the sample shows, so that a few far spheres do not stretch it.
+  void ChooseGrid(int face) {
+    auto [x, y, width] = SeeSample(face);
     LightGrid& grid = bins_.grids[face];
     grid.first_block = block_count_;
     if (x.empty()) {
@@ -145,22 +155,26 @@ class Binner {
       }
       across[i] = std::max(high - low[i], 0.0);
     }
-    // With n spheres of this width over the area, (cell + width)^2 n / area of them meet in one,
-    // and each is in (1 + width / cell)^2 of them.
-    const double area = across[0] * across[1];
-    const double room = std::sqrt(room_);
-    const double widths = std::clamp(1 / std::max(room - 1, 0.1), 0.15, 1.5);
-    const double most = room > 2 ? 0 : std::sqrt(kMeeting * area / count) - size;
-    const double most_cells =
-        std::max(room_, 1.0) * static_cast<double>(spheres_.size()) / (bins_.positional ? 6 : 1);
-    const double cell = std::max({most, widths * size, std::sqrt(area / most_cells),
-                                  std::max(across[0], across[1]) / 8192, kTiny});
+    const double cell = ChooseCell(across, size, count);
     grid.x0 = low[0];
     grid.y0 = low[1];
     grid.inverse_cell = 1 / cell;
     grid.columns = static_cast<int>(across[0] / cell) + 1;
     grid.rows = static_cast<int>(across[1] / cell) + 1;
     block_count_ += grid.BlockColumns() * grid.BlockRows();
+  }
+
+  // With `count` spheres of this size over the area, (cell + size)^2 count / area of them meet in
+  // one cell, and each is in (1 + size / cell)^2 of them.
+  double ChooseCell(const double (&across)[2], double size, double count) const {
+    const double area = across[0] * across[1];
+    const double room = std::sqrt(room_);
+    const double widths = std::clamp(1 / std::max(room - 1, 0.1), 0.15, 1.5);
+    const double most = room > 2 ? 0 : std::sqrt(kMeeting * area / count) - size;
+    const double most_cells =
+        std::max(room_, 1.0) * static_cast<double>(spheres_.size()) / (bins_.positional ? 6 : 1);
+    return std::max({most, widths * size, std::sqrt(area / most_cells),
+                     std::max(across[0], across[1]) / 8192, kTiny});
   }
 
   static double Quantile(std::vector<double>* values, double share) {
@@ -269,6 +283,9 @@ class Binner {
       uint32_t* const count = bins_.end.data() + block * kBlockCells;
       ForCells(FaceOf(block), block, [&](size_t cell, uint32_t) { ++count[cell]; });
     });
+    constexpr size_t kMostEntries = size_t{1} << 28;
+    bins_.overfull = std::accumulate(bins_.end.begin(), bins_.end.end(), size_t{0}) > kMostEntries;
+    if (bins_.overfull) return;
     // Counts become beginnings, and these, as spheres are put in, ends.
     uint32_t sum = 0;
     for (uint32_t& count : bins_.end) sum += std::exchange(count, sum);
@@ -292,24 +309,7 @@ class Binner {
   void TakeLarge() {
     const uint32_t begin = block_count_ == 0 ? 0 : block_end_[block_count_ - 1];
     bins_.large.assign(block_numbers_.data() + begin, block_numbers_.data() + block_end_.back());
-    FindTwins();
-  }
-
-  void FindTwins() {
-    const auto key = [&](uint32_t i) {
-      const auto& [center, radius] = spheres_[i];
-      return std::make_tuple(center.x, center.y, center.z, radius, i);
-    };
-    std::vector<uint32_t> order = bins_.large;
-    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-    const auto place = [&](uint32_t i) {
-      return std::lower_bound(bins_.large.begin(), bins_.large.end(), i) - bins_.large.begin();
-    };
-    bins_.large_twin.resize(order.size());
-    for (size_t i = 0, first = 0; i < order.size(); ++i) {
-      if (!Coincide(spheres_[order[i]], spheres_[order[first]])) first = i;
-      bins_.large_twin[static_cast<size_t>(place(order[i]))] = order[first];
-    }
+    bins_.large_twin = FirstTwins(spheres_, bins_.large);
   }
 
   void CountMeeting() {

@@ -76,6 +76,8 @@ struct LightBins {
   std::vector<uint32_t> large;       // spheres that any ray may meet, in ascending order
   std::vector<uint32_t> large_twin;  // of each, the first of them that coincides with it
 
+  bool overfull = false;  // there would be too many: no cell has any
+
   size_t entries() const { return end.empty() ? 0 : end.back(); }
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
   // How many spheres a ray's cell holds, on average over the spheres' own places.

@@ -52,6 +52,12 @@ void CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool o
   });
 }
 
+std::vector<Ray> RaysAllAround(Random* random, size_t count) {
+  std::vector<Ray> rays(count);
+  for (Ray& ray : rays) ray.direction = random->Direction();
+  return rays;
+}
+
 bool IsOutside(const Scene& scene, const Vec3d& eye) {
   return std::all_of(scene.spheres.begin(), scene.spheres.end(), [&](const Sphere& sphere) {
     return (sphere.center - eye).length() > sphere.radius * (1 + 1e-9);
@@ -143,6 +149,24 @@ TEST_CASE("occluders far from the eye") {
       }
     }
     CHECK(CheckLights(scene, eye, &random, rays) > 100);
+  }
+}
+
+// The walls are lit where they are further from the lamp than their tangents, which there are not.
+TEST_CASE("occluders in a room, with the eye and the lamp in it") {
+  Random random(46);
+  for (const int count : {30, 300}) {
+    Scene scene;
+    scene.spheres.push_back(MakeSphere({0, 0, 0}, 10));
+    for (int i = 0; i < count; ++i) {
+      scene.spheres.push_back(
+          MakeSphere(random.Direction() * random.Uniform(2, 8), random.Uniform(0.1, 0.5)));
+    }
+    const auto surfaces = TraceSurfaces(Intersector(scene, Vec3d(0)), RaysAllAround(&random, 2000));
+    for (int i = 0; i < 6; ++i) {
+      const Light lamp = PointAt(random.Direction() * random.Uniform(0, 9.9));
+      CheckLight(scene, lamp, Vec3d(0), false, surfaces);
+    }
   }
 }
 
