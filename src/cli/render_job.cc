@@ -127,6 +127,12 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   if (!options.quiet) {
     for (const std::string& note : plan.notes) PrintError("note: " + note + "\n");
   }
+  if (!options.quiet && stats.unsettled_pixels > 0) {
+    PrintError(fmt::format(
+        "note: {} of {} pixels did not settle within {} samples; give more by --spp, or a larger "
+        "--max-error\n",
+        stats.unsettled_pixels, plan.window.pixel_count(), settings.max_samples));
+  }
   WarnAboutSamples(counts);
   if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);
   if (options.explain) PrintOut(ExplainPlan(plan, &stats));

@@ -120,6 +120,19 @@ class CliTest(unittest.TestCase):
         self.render('-o', self.out / 'a.exr', '--set', '/image/width=33', '--spp', '1')
         self.assertIn('33x', run('info', self.out / 'a.exr').stdout)
 
+    def test_max_error_tells_what_it_took_and_what_did_not_settle(self):
+        grid = str(SOURCE / 'scenes/material_grid.json')
+        options = ['--size', '96x54', '--max-error', '0.05', '-o', self.out / 'a.exr']
+        text = self.render(*options, '--stats', self.out / 's.json', '--explain',
+                           scene=grid)
+        self.assertIn('adaptive sampling', text.stdout)
+        image = json.loads((self.out / 's.json').read_text())['image']
+        self.assertEqual(image['max_error'], 0.05)
+        self.assertLess(image['unsettled_pixels'], 96 * 54 / 20)
+        self.assertIn('nacre:maxError', run('info', self.out / 'a.exr').stdout)
+        self.assertIn('did not settle within 8 samples',
+                      self.render(*options, '--spp', '8', scene=grid).stderr)
+
     def test_region_writes_a_data_window_in_the_display_window(self):
         self.render('-o', self.out / 'a.exr', '--region', '5,6,25,30', *SMALL)
         text = run('info', self.out / 'a.exr').stdout
