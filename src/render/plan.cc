@@ -234,12 +234,13 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
     plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
     plan.substitutions.push_back(
         {"adaptive sampling", true,
-         fmt::format("blocks of 4x4 pixels stop where 95 % of what their samples leave possible is "
-                     "within {} of max(|L|, 0.05); {}",
-                     settings.max_error,
-                     plan.adaptive.footprints && plan.binned
-                         ? "those on one smooth hit, at the pixels' centres"
-                         : "no footprint is known to be smooth")});
+         fmt::format(
+             "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
+             "of max(|L|, 0.05); {}",
+             settings.max_error,
+             plan.adaptive.footprints && plan.binned
+                 ? "those on one smooth hit stop at their pixels' centres"
+                 : "none is known to be smooth")});
   }
   NoteMirrors(scene, &plan);
   return plan;
