@@ -29,24 +29,25 @@ HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
 
 // Each ray has a vector of its own, its direction (perspective) or its origin (orthographic):
 // corner + x step_x + y step_y of the frame. The other vector is the same for all.
-struct alignas(kVectorBytes) CameraPacket {
+struct CameraPacket {
   uint32_t lanes;        // that hold rays, as bits
   const double* film_x;  // the packet's piece of the batch
   const double* film_y;
   // In float, for proposals: the own vectors, and the squared length of the directions.
-  float own[3][kCameraPacket];
-  float dd[kCameraPacket];
+  alignas(kVectorBytes) float own[3][kCameraPacket];
+  alignas(kVectorBytes) float dd[kCameraPacket];
   // In double, for the groups of lanes that some sphere was proposed for.
   uint32_t exact;
-  double exact_own[3][kCameraPacket];
-  double exact_dd[kCameraPacket];
-  double inverse_dd[kCameraPacket];
+  alignas(kVectorBytes) double exact_own[3][kCameraPacket];
+  alignas(kVectorBytes) double exact_dd[kCameraPacket];
+  alignas(kVectorBytes) double inverse_dd[kCameraPacket];
   // The best hits so far, of the lanes in `hit`.
   uint32_t hit;
-  float depth[kCameraPacket];  // no hit beyond this t |direction|^2 counts
-  double t[kCameraPacket];
-  double along[kCameraPacket];  // half the chord, negative where the ray starts outside
-  double perpendicular[3][kCameraPacket];
+  alignas(kVectorBytes) float depth[kCameraPacket];  // no hit beyond this t |direction|^2 counts
+  alignas(kVectorBytes) double t[kCameraPacket];
+  alignas(kVectorBytes) double along[kCameraPacket];  // half the chord, negative where the ray
+                                                      // starts outside
+  alignas(kVectorBytes) double perpendicular[3][kCameraPacket];
   const TileCandidate* alone;  // the only candidate, which all hits are of; or null, and then:
   const TileCandidate* best[kCameraPacket];
 };
