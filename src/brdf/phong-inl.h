@@ -32,15 +32,19 @@ struct LobeCosineV {
   V one_minus_c, c;
 };
 
-// r.v, r the reflection of the light.
+// r.v, r the reflection of the light, without r and its roundings: the scalar twin tells how.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
                                       const Vec3V<V>& to_view) {
-  const V n_dot_l = FusedDot(normal, to_light);
-  const Vec3V<V> r = Sub(Scale(normal, hn::Add(n_dot_l, n_dot_l)), to_light);
-  const Vec3V<V> r_minus_v = Sub(r, to_view);
-  return {hn::Mul(FusedDot(r_minus_v, r_minus_v), hn::Set(d, hn::TFromD<D>(0.5))),
-          FusedDot(r, to_view)};
+  const Vec3V<V> u = Add(to_light, to_view);
+  const V along = FusedDot(normal, Sub(to_light, to_view));
+  const V n_dot_u = FusedDot(normal, u);
+  const Vec3V<V> across{hn::NegMulAdd(normal.x, n_dot_u, u.x),
+                        hn::NegMulAdd(normal.y, n_dot_u, u.y),
+                        hn::NegMulAdd(normal.z, n_dot_u, u.z)};
+  const V squared = hn::MulAdd(along, along, FusedDot(across, across));
+  const V one_minus_c = hn::Mul(squared, hn::Set(d, hn::TFromD<D>(0.5)));
+  return {one_minus_c, hn::Sub(hn::Set(d, hn::TFromD<D>(1)), one_minus_c)};
 }
 
 // (n.h)^2, of which Blinn's lobe is the power n/2.

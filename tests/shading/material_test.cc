@@ -9,18 +9,12 @@
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "brdf/quadrature.h"
+#include "shading/prepare.h"
 #include "shading/shade.h"
 #include "targets.h"
 
 namespace nacre {
 namespace {
-
-template <class Model>
-ShadingMaterial Prepare(const Model& model, const Rgb& sky = {0, 0, 0}) {
-  Material material;
-  material.model = model;
-  return PrepareMaterial(material, sky);
-}
 
 template <class Model>
 MicrofacetModel PrepareModel(const Model& model) {

@@ -12,7 +12,7 @@
 #include "brdf/albedo_integral.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
-#include "shading/shade.h"
+#include "shading/highlight.h"
 #include "visibility/intersector.h"
 
 namespace nacre {
@@ -87,7 +87,9 @@ void PrintHits() {
       HitDirections rounded;
       rays.count = kBatchCapacity;
       for (size_t i = 0; i < kBatchCapacity; ++i) {
-        const Vec3d to = center + right * uniform(random) + up * uniform(random);
+        const double x = uniform(random);
+        const double y = uniform(random);
+        const Vec3d to = center + right * x + up * y;
         rays.direction.x[i] = to.x;
         rays.direction.y[i] = to.y;
         rays.direction.z[i] = to.z;
@@ -117,74 +119,27 @@ void PrintHits() {
 
 // ---- Highlights ---------------------------------------------------------------------------------
 
-const Vec3d kToView(0, 0, 1);
-const Vec3d kToLight = Vec3d(0.7, 0.2, 0.6).normalized();
-
-// Normals within three widths of the half vector, where a lobe of that width is.
-HitBatch MakeHighlight(double width) {
-  HitBatch hits;
-  hits.count = kBatchCapacity;
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(-3, 3);
-  const Vec3d half = (kToLight + kToView).normalized();
-  const Vec3d across = (half % Vec3d(0, 1, 0)).normalized();
-  const Vec3d along = half % across;
-  for (size_t i = 0; i < hits.count; ++i) {
-    const Vec3d n =
-        (half + (across * uniform(random) + along * uniform(random)) * width).normalized();
-    hits.normal.x[i] = n.x;
-    hits.normal.y[i] = n.y;
-    hits.normal.z[i] = n.z;
-    hits.to_view.z[i] = 1;
-    hits.position.z[i] = -5;
-  }
-  return hits;
-}
-
-struct Highlight {
-  HitBatch hits;
-  std::vector<float> specular;  // as rendered
-};
-
-Highlight Render(const ShadingMaterial& material, double width) {
-  Highlight highlight{MakeHighlight(width), {}};
-  Light light;
-  light.kind = DirectionalLight{.direction_of_travel = -kToLight, .irradiance = Rgb(1)};
-  Surface surface;
-  NarrowLobes scratch;
-  ReflectedRadiance radiance;
-  PrepareSurface(highlight.hits, &surface);
-  PrepareRun(material, 0, highlight.hits.count, &surface);
-  const ShadingLight prepared = PrepareLight(light, Vec3d(0));
-  const LightOnBatch on_hits{&prepared, nullptr};
-  ShadeRun(material, {highlight.hits, surface, {&on_hits, 1}}, 0, highlight.hits.count, &scratch,
-           &radiance);
-  highlight.specular.assign(radiance.specular.x.data(),
-                            radiance.specular.x.data() + highlight.hits.count);
-  return highlight;
-}
-
 // The worst relative error of what is rendered, and of a formula of float vectors n, l, v.
 template <class Truth, class Formula>
 void PrintHighlight(const char* label, double value, const ShadingMaterial& material, double width,
                     const Truth& truth, const Formula& formula) {
-  const Highlight got = Render(material, width);
+  const Highlight got = ShadeHighlight(material, Rgb(1), width, 5);
   double ours = 0;
   double naive = 0;
   for (size_t i = 0; i < got.hits.count; ++i) {
     const Vec3d n(got.hits.normal.x[i], got.hits.normal.y[i], got.hits.normal.z[i]);
     const double expected = truth(n);
     if (!(expected > 0)) continue;
-    ours = std::max(ours, std::abs(got.specular[i] / expected - 1));
+    ours = std::max(ours, std::abs(got.radiance.specular.x[i] / expected - 1));
     const double value_of_formula =
-        formula(Imath::V3f(n), Imath::V3f(kToLight), Imath::V3f(kToView));
+        formula(Imath::V3f(n), Imath::V3f(kHighlightToLight), Imath::V3f(kHighlightToView));
     naive = std::max(naive, std::abs(value_of_formula / expected - 1));
   }
   std::printf("| %s %g | %.1e | %.1e |\n", label, value, naive, ours);
 }
 
 double TrueGgx(const Vec3d& n, double alpha) {
-  const Angles<double> a = ComputeAngles(n, kToLight, kToView);
+  const Angles<double> a = ComputeAngles(n, kHighlightToLight, kHighlightToView);
   return GgxDistribution(a, alpha) * VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, alpha) *
          a.n_dot_l;
 }
@@ -196,7 +151,7 @@ double TextbookGgx(const Imath::V3f& n, const Imath::V3f& l, const Imath::V3f& v
   const float alpha2 = alpha * alpha;
   const float denominator = n_dot_h * n_dot_h * (alpha2 - 1) + 1;
   const float d = alpha2 / (static_cast<float>(M_PI) * denominator * denominator);
-  const Angles<double> a = ComputeAngles(Vec3d(n), kToLight, kToView);
+  const Angles<double> a = ComputeAngles(Vec3d(n), kHighlightToLight, kHighlightToView);
   return d * VisibilityHeightCorrelated<double>(a.n_dot_l, a.n_dot_v, alpha) * a.n_dot_l;
 }
 
@@ -224,7 +179,9 @@ void PrintHighlights() {
                                    .shininess = shininess};
     PrintHighlight(
         "Phong, exponent", shininess, PrepareMaterial(material, Rgb(0)), 0.5 / std::sqrt(shininess),
-        [&](const Vec3d& n) { return PhongLobe(n, kToLight, kToView, shininess); },
+        [&](const Vec3d& n) {
+          return PhongLobe(n, kHighlightToLight, kHighlightToView, shininess);
+        },
         [&](const Imath::V3f& n, const Imath::V3f& l, const Imath::V3f& v) {
           const Imath::V3f r = n * (2 * n.dot(l)) - l;
           return double{std::pow(std::max(r.dot(v), 0.0f), static_cast<float>(shininess))};

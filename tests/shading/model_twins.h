@@ -1,0 +1,142 @@
+// tests/shading/model_twins.h: lights and reflection models evaluated in double, one hit at a time,
+// from the scalar twins: what the shading kernels are held against.
+#pragma once
+
+#include <cmath>
+#include <variant>
+
+#include "brdf/fresnel.h"
+#include "brdf/ggx.h"
+#include "brdf/phong.h"
+#include "light/punctual.h"
+#include "shading/material.h"
+
+namespace nacre {
+
+// Of every light here.
+inline const Rgb kLightColor(60, 50, 40);
+
+// Direction to the light, and irradiance perpendicular to it per unit of its colour.
+struct Incident {
+  Vec3d to_light;
+  double irradiance;
+};
+
+inline Incident Illuminate(const Light& light, const Vec3d& position) {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
+    return {-sun->direction_of_travel.normalized(), 1};
+  }
+  const auto from = [&](const Vec3d& where, const Attenuation& a) -> Incident {
+    const Vec3d offset = where - position;
+    const AttenuationTerms<double> terms{a.constant, a.linear, a.quadratic};
+    return {offset.normalized(), AttenuationFactor(terms, offset.length())};
+  };
+  if (const auto* point = std::get_if<PointLight>(&light.kind)) {
+    return from(point->position, point->attenuation);
+  }
+  const auto& spot = std::get<SpotLight>(light.kind);
+  Incident incident = from(spot.position, spot.attenuation);
+  const double degree = M_PI / 180;
+  incident.irradiance *= SpotFactor<double>(
+      {std::cos(spot.cutoff_deg * degree), std::cos(spot.inner_deg * degree), spot.exponent},
+      -(incident.to_light ^ spot.direction_of_travel.normalized()));
+  return incident;
+}
+
+// Radiance towards the viewer.
+struct Reflected {
+  Rgb diffuse{0, 0, 0}, specular{0, 0, 0};
+};
+
+inline Reflected Reflect(const LambertMaterial& m, const Vec3d& n, const Vec3d&,
+                         const Incident& in) {
+  return {m.albedo * kLightColor * (M_1_PI * (n ^ in.to_light) * in.irradiance), Rgb(0, 0, 0)};
+}
+
+inline Reflected Reflect(const PhongMaterial& m, const Vec3d& n, const Vec3d& v,
+                         const Incident& in) {
+  const bool blinn = m.model == PhongModel::kBlinnPhong;
+  const double lobe = blinn ? BlinnLobe(ComputeAngles(n, in.to_light, v), m.shininess)
+                            : PhongLobe(n, in.to_light, v, m.shininess);
+  const double cosine = n ^ in.to_light;
+  const bool radiometric = m.convention == PhongConvention::kRadiometric;
+  const double kd = radiometric ? M_1_PI : 1;
+  const double ks = !radiometric ? 1
+                    : blinn      ? BlinnNormalization(m.shininess)
+                                 : PhongNormalization(m.shininess);
+  const double weight = m.model == PhongModel::kModifiedPhong ? cosine : 1;
+  return {m.kd * m.color * kLightColor * (kd * cosine * in.irradiance),
+          m.ks * kLightColor * (ks * lobe * weight * in.irradiance)};
+}
+
+inline Rgb Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
+  Rgb fresnel;
+  for (int c = 0; c < 3; ++c) {
+    switch (m.fresnel) {
+      case FresnelForm::kSchlick:
+        fresnel[c] = FresnelSchlick(m.f0[c], SchlickWeight(a));
+        break;
+      case FresnelForm::kF82:
+        fresnel[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.f0[c], m.f82_slope[c]);
+        break;
+      case FresnelForm::kDielectric:
+        fresnel[c] = FresnelDielectric(VDotH(a), OneMinusVDotH(a), m.eta[c]);
+        break;
+      case FresnelForm::kConductor:
+        fresnel[c] = FresnelConductor(VDotH(a), OneMinusVDotH(a), m.eta[c], m.k[c]);
+        break;
+    }
+  }
+  return fresnel;
+}
+
+inline double Visibility(const MicrofacetModel& m, const Angles<double>& a) {
+  switch (m.shadowing) {
+    case Shadowing::kHeightCorrelated:
+      return VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, m.alpha);
+    case Shadowing::kSeparable:
+      return VisibilitySeparable(a.n_dot_l, a.n_dot_v, m.alpha);
+    case Shadowing::kSchlickDirect:
+      break;
+  }
+  return VisibilitySchlickDirect(a.n_dot_l, a.n_dot_v, std::sqrt(m.alpha));
+}
+
+// What reaches the base and leaves it again, of channel c.
+inline double BaseShare(const MicrofacetModel& m, const Angles<double>& a, double fresnel, int c) {
+  switch (m.coupling) {
+    case DiffuseCoupling::kAlbedoScaled: {
+      const double out = 1 - LobeAlbedo(m, a.n_dot_v, c);
+      const bool reciprocal = m.compensation == Compensation::kKullaConty;
+      return reciprocal ? out * (1 - LobeAlbedo(m, a.n_dot_l, c)) : out;
+    }
+    case DiffuseCoupling::kOneMinusFresnel:
+      return 1 - fresnel;
+    case DiffuseCoupling::kNone:
+      break;
+  }
+  return 1;
+}
+
+inline Reflected Reflect(const MicrofacetModel& m, const Vec3d& n, const Vec3d& v,
+                         const Incident& in) {
+  const Angles<double> a = ComputeAngles(n, in.to_light, v);
+  const double weight = a.n_dot_l * in.irradiance;
+  const Rgb fresnel = Fresnel(m, a);
+  const double lobe = GgxDistribution(a, m.alpha) * Visibility(m, a);
+  const double loss_v = AlbedoLoss(m.albedo.lobe, a.n_dot_v);
+  const double loss_l = AlbedoLoss(m.albedo.lobe, a.n_dot_l);
+  Reflected out;
+  for (int c = 0; c < 3; ++c) {
+    double specular = fresnel[c] * lobe;
+    if (m.compensation == Compensation::kTurquin) specular *= 1 + m.f0[c] * loss_v / (1 - loss_v);
+    if (m.compensation == Compensation::kKullaConty) {
+      specular += m.f_multiple[c] * m.multiple * loss_v * loss_l;
+    }
+    out.specular[c] = specular * kLightColor[c] * weight;
+    out.diffuse[c] = BaseShare(m, a, fresnel[c], c) * m.diffuse[c] * kLightColor[c] * weight;
+  }
+  return out;
+}
+
+}  // namespace nacre
