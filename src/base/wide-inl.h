@@ -48,6 +48,17 @@ HWY_INLINE Wide<Vec<D>> Set(WideTag<D>, TFromD<D> value) {
 }
 
 template <class D>
+HWY_INLINE Wide<Vec<D>> Load(WideTag<D>, const TFromD<D>* HWY_RESTRICT from) {
+  return {Load(D(), from), Load(D(), from + Lanes(D()))};
+}
+
+template <class D, class V>
+HWY_INLINE void Store(const Wide<V>& v, WideTag<D>, TFromD<D>* HWY_RESTRICT to) {
+  Store(v.low, D(), to);
+  Store(v.high, D(), to + Lanes(D()));
+}
+
+template <class D>
 HWY_INLINE Wide<Vec<D>> LoadU(WideTag<D>, const TFromD<D>* HWY_RESTRICT from) {
   return {LoadU(D(), from), LoadU(D(), from + Lanes(D()))};
 }

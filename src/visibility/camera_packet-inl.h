@@ -7,6 +7,7 @@
 #define NACRE_VISIBILITY_CAMERA_PACKET_INL_H_
 #endif
 
+#include "base/wide-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/tile_kernel.h"
@@ -119,10 +120,9 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
 }
 
 // The double rays of the lanes from `lane` on.
-template <bool kPerspective>
-HWY_INLINE void FillExactRays(const CameraFrame& frame, int lane, CameraPacket* packet) {
-  const CameraDouble d;
-  using V = hn::Vec<CameraDouble>;
+template <bool kPerspective, class D>
+HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPacket* packet) {
+  using V = hn::Vec<D>;
   const V x = hn::LoadU(d, packet->film_x + lane);
   const V y = hn::LoadU(d, packet->film_y + lane);
   // The operations of MakeCameraRays.
@@ -136,10 +136,9 @@ HWY_INLINE void FillExactRays(const CameraFrame& frame, int lane, CameraPacket* 
   hn::Store(hn::Div(hn::Set(d, 1.0), dd), d, packet->inverse_dd + lane);
 }
 
-template <bool kPerspective>
-HWY_INLINE Vec3V<hn::Vec<CameraDouble>> ExactDirection(const CameraFrame& frame, int lane,
-                                                       const CameraPacket& packet) {
-  const CameraDouble d;
+template <bool kPerspective, class D>
+HWY_INLINE Vec3V<hn::Vec<D>> ExactDirection(D d, const CameraFrame& frame, int lane,
+                                            const CameraPacket& packet) {
   if constexpr (!kPerspective) return SetVec3(d, frame.forward);
   return Load3(d, packet.exact_own[0] + lane, packet.exact_own[1] + lane,
                packet.exact_own[2] + lane);
@@ -175,6 +174,21 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
   for (; bits != 0; bits &= bits - 1) packet->best[lane + __builtin_ctz(bits)] = &candidate;
 }
 
+// The exact test is one long chain of dependent operations: AVX-512, with registers to spare, runs
+// two of them side by side.
+#if HWY_TARGET <= HWY_AVX3
+using ExactTag = hn::WideTag<CameraDouble>;
+
+HWY_INLINE uint32_t ExactBits(ExactTag /*d*/, const hn::Wide<hn::Mask<CameraDouble>>& mask) {
+  const CameraDouble half;
+  return BitsOfMask(half, mask.low) | BitsOfMask(half, mask.high) << hn::Lanes(half);
+}
+#else
+using ExactTag = CameraDouble;
+
+HWY_INLINE uint32_t ExactBits(ExactTag d, hn::Mask<ExactTag> mask) { return BitsOfMask(d, mask); }
+#endif
+
 // Against the only candidate there is, with the camera outside: no depth is needed, and the line's
 // test and its direction decide, which spares a division. Of perspective rays.
 template <bool kPerspective>
@@ -182,21 +196,21 @@ HWY_INLINE void TestAlone(const CameraFrame& frame, CameraPacket* packet) {
   const TileCandidate& candidate = *packet->alone;
   const uint32_t lanes = ProposedLanes<kPerspective, true>(frame, candidate, *packet);
   if (lanes == 0) return;
-  const CameraDouble d;
+  const ExactTag d;
   const auto center = SetVec3(d, candidate.sphere.center);
   const auto radius = hn::Set(d, candidate.sphere.radius);
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < kCameraPacket; lane += step) {
-    const auto proposed = MaskOfBits(d, lanes, lane);
-    if (hn::AllFalse(d, proposed)) continue;
-    FillExactRays<kPerspective>(frame, lane, packet);
-    const auto direction = ExactDirection<kPerspective>(frame, lane, *packet);
+    const uint32_t proposed = lanes >> lane & ((1u << step) - 1);
+    if (proposed == 0) continue;
+    FillExactRays<kPerspective>(d, frame, lane, packet);
+    const auto direction = ExactDirection<kPerspective>(d, frame, lane, *packet);
     const auto hit = TestLine(d, center, direction, hn::Load(d, packet->inverse_dd + lane), radius);
     hn::Store(hn::Neg(hit.half_chord), d, packet->along + lane);
     Store3(hit.perpendicular, d, packet->perpendicular[0] + lane, packet->perpendicular[1] + lane,
            packet->perpendicular[2] + lane);
     const auto ahead = hn::Gt(hit.closest, hn::Zero(d));
-    packet->hit |= BitsOfMask(d, hn::And(proposed, hn::And(hit.hit, ahead))) << lane;
+    packet->hit |= (proposed & ExactBits(d, hn::And(hit.hit, ahead))) << lane;
   }
 }
 
@@ -214,14 +228,14 @@ HWY_INLINE bool TestOneOfMany(const CameraFrame& frame, const TileCandidate& can
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
     if ((packet->exact >> lane & 1) == 0) {
-      FillExactRays<kPerspective>(frame, lane, packet);
+      FillExactRays<kPerspective>(d, frame, lane, packet);
       packet->exact |= 1u << lane;
     }
     const auto to_center =
         kPerspective ? center
                      : Sub(center, Load3(d, packet->exact_own[0] + lane,
                                          packet->exact_own[1] + lane, packet->exact_own[2] + lane));
-    const auto direction = ExactDirection<kPerspective>(frame, lane, *packet);
+    const auto direction = ExactDirection<kPerspective>(d, frame, lane, *packet);
     const auto hit =
         TestSphere(d, to_center, direction, hn::Load(d, packet->inverse_dd + lane), radius);
     KeepNearer(hit, proposed, candidate, lane, packet);

@@ -159,7 +159,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
   for (int lane = 0; lane < kCameraPacket; lane += step) {
     const uint32_t bits = (packet.hit >> lane) & ((1u << step) - 1);
     if (bits == 0) continue;
-    const auto direction = ExactDirection<kPerspective>(frame, lane, packet);
+    const auto direction = ExactDirection<kPerspective>(d, frame, lane, packet);
     const Vec3V<hn::Vec<CameraDouble>> perpendicular =
         Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
               packet.perpendicular[2] + lane);
