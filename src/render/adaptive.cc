@@ -18,9 +18,10 @@ constexpr double kStudent = 3.182446305;
 // of the additions is.
 constexpr int kPiece = 16;
 
-// Levels that all pixels of a block take, or none: features between a pixel's few samples show in
-// its neighbours.
-constexpr size_t kCommonLevels = 2;
+// Levels that every block takes whose footprint is not plain (footprint.h), 16 samples a pixel: an
+// edge that cuts a corner off shows in none of four samples too often. After them a block stops as a
+// whole, or its pixels one by one.
+constexpr size_t kCommonLevels = 3;
 
 // A peak narrower than a pixel may fall between its samples, but its neighbours' see the flanks: a
 // pixel goes on while their intervals are wider than this many times what it wants itself.
@@ -173,9 +174,10 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
   return widest;
 }
 
-// Takes the pixels that have converged from the active ones: whole blocks in the common levels, and
-// then the pixels whose neighbours, too, are not far from what they want.
+// Takes the pixels that have converged from the active ones: whole blocks after the common levels,
+// and then the pixels whose neighbours, too, are not far from what they want.
 void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
+  if (level + 1 < kCommonLevels) return;
   for (const uint32_t pixel : c->active) MeasurePixel(plan, pixel, c);
   if (level >= kCommonLevels) {
     std::erase_if(c->active, [&](uint32_t pixel) {
