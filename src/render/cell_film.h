@@ -1,0 +1,16 @@
+// render/cell_film.h: the film of adaptive sampling: a cell's pixels, block by block, each with as
+// many samples as it took.
+#pragma once
+
+#include "render/adaptive.h"
+
+namespace nacre {
+
+// Adds the replicates' sums to the film's first three channels, the beauty.
+void AddReplicates(const CellScratch& cell_scratch, TileFilm* film);
+
+// Divides by the numbers of samples and puts the cell's pixels that lie in `part` into the strip.
+void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
+                 const TileFilm& film, const CellScratch& cell_scratch, Strip* strip);
+
+}  // namespace nacre
