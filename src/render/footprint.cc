@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace nacre {
@@ -100,13 +101,13 @@ bool IsNeverShadowed(const RenderPlan& plan, uint32_t sphere) {
 // The largest second differences of a block's values along rows and columns, added.
 double Curvature(const double* v) {
   double along_x = 0, along_y = 0;
-  for (int i = 0; i < kBlockSide; ++i) {
-    for (int j = 1; j + 1 < kBlockSide; ++j) {
-      const double* row = v + i * kBlockSide + j;
-      const double* column = v + j * kBlockSide + i;
+  constexpr std::ptrdiff_t kSide = kBlockSide;
+  for (std::ptrdiff_t i = 0; i < kSide; ++i) {
+    for (std::ptrdiff_t j = 1; j + 1 < kSide; ++j) {
+      const double* row = v + i * kSide + j;
+      const double* column = v + j * kSide + i;
       along_x = std::max(along_x, std::abs(row[-1] - 2 * row[0] + row[1]));
-      along_y =
-          std::max(along_y, std::abs(column[-kBlockSide] - 2 * column[0] + column[kBlockSide]));
+      along_y = std::max(along_y, std::abs(column[-kSide] - 2 * column[0] + column[kSide]));
     }
   }
   return along_x + along_y;

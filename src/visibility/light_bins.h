@@ -29,14 +29,15 @@ struct LightGrid {
   int columns = 1, rows = 1;
   size_t first_block = 0;
 
-  size_t BlockColumns() const { return static_cast<size_t>((columns - 1) / kBlockSize + 1); }
-  size_t BlockRows() const { return static_cast<size_t>((rows - 1) / kBlockSize + 1); }
+  size_t BlockColumns() const { return static_cast<size_t>((columns - 1) / kBlockSize) + 1; }
+  size_t BlockRows() const { return static_cast<size_t>((rows - 1) / kBlockSize) + 1; }
   size_t Block(int column, int row) const {
     return first_block + static_cast<size_t>(row / kBlockSize) * BlockColumns() +
            static_cast<size_t>(column / kBlockSize);
   }
   static size_t InBlock(int column, int row) {
-    return static_cast<size_t>(row % kBlockSize * kBlockSize + column % kBlockSize);
+    return static_cast<size_t>(row % kBlockSize) * kBlockSize +
+           static_cast<size_t>(column % kBlockSize);
   }
 
   int Column(double x) const { return Clamped((x - x0) * inverse_cell, columns); }

@@ -318,7 +318,7 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   const double own = OwnBound(frame, bins.window);
   candidates->tile = tile;
   candidates->first_column = first;
-  candidates->cells.resize(static_cast<size_t>(last - first + 1));
+  candidates->cells.resize(static_cast<size_t>(last - first) + 1);
   bool any = false;
   for (int column = first; column <= last; ++column) {
     std::vector<TileCandidate>& cell = candidates->cells[static_cast<size_t>(column - first)];
