@@ -2,10 +2,12 @@
 // small enough.
 //
 // Blocks lie on a grid of the whole frame and are evaluated whole, so that a block's pixels never
-// depend on crops, strips or threads. A block stops where, in each of its pixels and channels, the
-// half-width of the 95 % confidence interval from the spread of four independent scramblings
-// (Student's t with three degrees of freedom) is below the wanted error times max(|L|, 0.05); or,
-// after the pixels' centres alone, where its footprint lies in one smooth hit (footprint.h).
+// depend on crops, strips or threads. A block whose footprint lies on one smooth hit, or beside
+// everything, stops at its pixels' centres (footprint.h). The others take the common levels; then a
+// block stops as a whole, or its pixels one by one, where in each channel the half-width of the 95
+// % confidence interval from the spread of four independent scramblings (Student's t with three
+// degrees of freedom) is below the wanted error times max(|L|, 0.05), and no neighbour in the block
+// is far from that.
 #pragma once
 
 #include "render/tile.h"
@@ -15,8 +17,9 @@ namespace nacre {
 inline constexpr int kBlockSide = 4;
 inline constexpr size_t kBlockPixels = size_t{kBlockSide} * kBlockSide;
 // Blocks are taken together by cells of the intersector's bins.
-inline constexpr int kCellSide = 16;
-inline constexpr size_t kCellBlocks = 16;
+inline constexpr int kCellSide = kCellSize;
+inline constexpr size_t kCellBlocks =
+    size_t{kCellSide / kBlockSide} * size_t{kCellSide / kBlockSide};
 inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
 
 // Below this value an error is absolute: what a display shows as near black.
