@@ -123,6 +123,57 @@ struct AddLightKind {
     hash->Add(light.inner_deg);
     hash->Add(light.exponent);
   }
+  void operator()(const SphereAreaLight& light) const {
+    hash->Add(light.center);
+    hash->Add(light.radius);
+    hash->Add(light.radiance);
+    hash->Word(light.visible);
+  }
+  void operator()(const RectangleAreaLight& light) const {
+    hash->Add(light.center);
+    hash->Add(light.facing);
+    hash->Add(light.up);
+    hash->Add(light.width);
+    hash->Add(light.height);
+    Surface(light);
+  }
+  void operator()(const DiskAreaLight& light) const {
+    hash->Add(light.center);
+    hash->Add(light.facing);
+    hash->Add(light.radius);
+    Surface(light);
+  }
+  void operator()(const EnvironmentLight& light) const {
+    hash->Word(light.sky.index());
+    std::visit(*this, light.sky);
+    hash->Add(light.rotate_deg);
+    hash->Word(light.background);
+  }
+  void operator()(const ConstantSky& sky) const { hash->Add(sky.radiance); }
+  void operator()(const GradientSky& sky) const {
+    hash->Add(sky.zenith);
+    hash->Add(sky.horizon);
+    hash->Add(sky.ground);
+  }
+  void operator()(const QuadraticSky& sky) const {
+    hash->Add(sky.radiance);
+    hash->Add(sky.axis);
+    hash->Add(sky.constant);
+    hash->Add(sky.linear);
+    hash->Add(sky.quadratic);
+  }
+  void operator()(const PictureSky& sky) const {
+    hash->Word(static_cast<uint64_t>(sky.picture->width));
+    hash->Word(static_cast<uint64_t>(sky.picture->height));
+    for (const float texel : sky.picture->rgb) hash->Word(std::bit_cast<uint32_t>(texel));
+    hash->Add(sky.scale);
+  }
+  template <class Flat>
+  void Surface(const Flat& light) const {
+    hash->Add(light.radiance);
+    hash->Word(light.two_sided);
+    hash->Word(light.visible);
+  }
 };
 
 }  // namespace
@@ -136,6 +187,7 @@ uint64_t HashScene(const Scene& scene) {
   for (const Material& material : scene.materials) {
     hash.Word(material.model.index());
     hash.Add(material.emission);
+    hash.Word(material.emits_in_front_only);
     std::visit(AddModel{&hash}, material.model);
   }
   hash.Word(scene.lights.size());

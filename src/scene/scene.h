@@ -5,10 +5,11 @@
 // World space is right-handed, +y up. All positions and lengths are doubles in world units and
 // stay as the file has them; everything in float later on is relative to the camera.
 // Colours are linear Rec. 709. Directional light: irradiance on a surface facing it. Point and
-// spot: radiant intensity. Ambient and background: radiance.
+// spot: radiant intensity. All others and the background: radiance.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -155,6 +156,9 @@ struct SplitMaterial {
 struct Material {
   std::string name;
   Rgb emission{0, 0, 0};  // radiance, >= 0
+  // Only spheres' outsides and triangles' fronts emit (from where their corners run
+  // counter-clockwise).
+  bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial>
       model;
@@ -201,11 +205,89 @@ struct SpotLight {
   double exponent = 0;     // >= 0
 };
 
+// Surfaces that emit the same radiance everywhere and in all directions. `visible`: the camera sees
+// them, and they block the light of others.
+
+// Emits outwards.
+struct SphereAreaLight {
+  Vec3d center{0, 0, 0};
+  double radius = 1;  // > 0
+  Rgb radiance{1, 1, 1};
+  bool visible = true;
+};
+
+struct RectangleAreaLight {
+  Vec3d center{0, 0, 0};
+  Vec3d facing{0, -1, 0};        // the side that emits, any length > 0
+  Vec3d up{0, 0, -1};            // along its height, made perpendicular to `facing`
+  double width = 1, height = 1;  // > 0
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+struct DiskAreaLight {
+  Vec3d center{0, 0, 0};
+  Vec3d facing{0, -1, 0};  // the side that emits, any length > 0
+  double radius = 1;       // > 0
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+// What an environment looks like. Directions are unit vectors; +y is up.
+struct ConstantSky {
+  Rgb radiance{1, 1, 1};
+};
+
+// From the horizon's colour to the zenith's with the height y of the direction, mix(horizon,
+// zenith, y); below the horizon likewise to the ground's.
+struct GradientSky {
+  Rgb zenith{0.3, 0.5, 1}, horizon{1, 1, 1}, ground{0.2, 0.2, 0.2};
+};
+
+// radiance (constant + linear c + quadratic c^2), c the cosine of the angle from `axis`; >= 0 for
+// every c in [-1, 1].
+struct QuadraticSky {
+  Rgb radiance{1, 1, 1};
+  Vec3d axis{0, 1, 0};  // any length > 0
+  double constant = 1, linear = 0, quadratic = 0;
+};
+
+// Linear radiance by direction, row by row from +y down to -y: the texel at (u, v) in [0, 1)^2 is
+// seen in the direction (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v). A texel has one
+// value all over.
+struct SkyPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  // 3 width height, each >= 0
+};
+
+struct PictureSky {
+  std::shared_ptr<const SkyPicture> picture;  // shared by copies of the scene, never changed
+  Rgb scale{1, 1, 1};
+};
+
+// Light from infinitely far, all around.
+struct EnvironmentLight {
+  std::variant<ConstantSky, GradientSky, QuadraticSky, PictureSky> sky;
+  double rotate_deg = 0;   // about +y, right-handed
+  bool background = true;  // seen where nothing is hit, in place of Scene::background
+};
+
 struct Light {
   std::string name;  // unique; names the layer light.<name>
   bool shadows = true;
-  std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight> kind;
+  std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
+               RectangleAreaLight, DiskAreaLight, EnvironmentLight>
+      kind;
 };
+
+// True for lights without extent, which reach a point from one direction.
+inline bool IsPunctual(const Light& light) {
+  return std::holds_alternative<DirectionalLight>(light.kind) ||
+         std::holds_alternative<PointLight>(light.kind) ||
+         std::holds_alternative<SpotLight>(light.kind);
+}
 
 // ---- Shapes -------------------------------------------------------------------------------------
 

@@ -49,7 +49,7 @@ void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
   member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
   member("materials", [&](const JsonValue& value) { ReadMaterials(value, context); });
-  member("lights", [&](const JsonValue& value) { ReadLights(value, &scene->lights); });
+  member("lights", [&](const JsonValue& value) { ReadLights(value, context); });
   member("shapes", [&](const JsonValue& value) { ReadShapes(value, context); });
   object.Color("background", limits::kRadiance, &scene->background);
   object.RefuseOthers();

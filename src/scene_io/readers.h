@@ -16,7 +16,6 @@ namespace nacre {
 
 void ReadCamera(const JsonValue& value, Camera* camera);
 void ReadImage(const JsonValue& value, ImageSettings* image);
-void ReadLights(const JsonValue& value, std::vector<Light>* lights);
 
 // What materials and shapes need to know of the rest of the file.
 struct SceneContext {
@@ -28,6 +27,27 @@ struct SceneContext {
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
 };
+
+// The object "lights".
+void ReadLights(const JsonValue& value, SceneContext* context);
+
+// Lights by type, from the object of one; read_area_lights.cc.
+SphereAreaLight ReadSphereArea(JsonObject* light);
+RectangleAreaLight ReadRectangleArea(JsonObject* light);
+DiskAreaLight ReadDiskArea(JsonObject* light);
+EnvironmentLight ReadEnvironment(JsonObject* light, const SceneContext& context);
+
+// Members that a light must have.
+inline void ReadRequiredPoint(JsonObject* object, std::string_view name, std::string_view hint,
+                              Vec3d* out) {
+  object->Require(name, hint);
+  object->Point(name, out);
+}
+inline void ReadRadiance(JsonObject* object, std::string_view name, std::string_view hint,
+                         Rgb* out) {
+  object->Require(name, hint);
+  object->Color(name, limits::kRadiance, out);
+}
 
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
