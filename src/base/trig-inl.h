@@ -58,13 +58,15 @@ HWY_INLINE SinCosV<V> SinCosTurns(D d, V u) {
       hn::Mul(hn::IfThenElse(odd, sine, cosine), hn::IfThenElse(odd, hn::Neg(whole), even_sign))};
 }
 
-// (x - atan x) / x^3 for 0 <= x <= 1, of z = x^2: relative error 1e-7 before rounding.
+// (x - atan x) / x^3 for 0 <= x <= 1, as a polynomial in z = x^2: relative error 1e-7 before
+// rounding.
+inline constexpr float kAtanRemainder[] = {0.333333313f,  -0.199997395f,  0.142785683f,
+                                           -0.110337645f, 0.0865688026f,  -0.0625016913f,
+                                           0.0358715393f, -0.0135077713f, 0.00238699722f};
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V AtanRemainderPolynomial(D d, V z) {
-  constexpr float kCoefficients[] = {0.333333313f,  -0.199997395f,  0.142785683f,
-                                     -0.110337645f, 0.0865688026f,  -0.0625016913f,
-                                     0.0358715393f, -0.0135077713f, 0.00238699722f};
-  return EvaluatePolynomial(d, kCoefficients, 9, z);
+  return EvaluatePolynomial(d, kAtanRemainder, 9, z);
 }
 
 // (x - atan x) / x^3 for x >= 0 with normal x^2 if x > 1: relative error 1e-6.

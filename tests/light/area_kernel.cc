@@ -7,10 +7,7 @@
 
 #include "base/target_ops-inl.h"
 #include "light/area_kernel.h"
-#include "light/disk_light-inl.h"
-#include "light/rectangle_light-inl.h"
-#include "light/sphere_light-inl.h"
-#include "light/triangle_light-inl.h"
+#include "light/irradiance-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -85,14 +82,16 @@ void Ask(const std::vector<Query>& queries, Answers* answers) {
         sample.inverse_pdf,
         sample.cos_light,
         LightPdf(d, light, Column3(queries, first, [](const Query& q) { return q.direction; })),
-        SolidAngleOf(light)};
+        SolidAngleOf(light),
+        Irradiance(d, light, Column3(queries, first, [](const Query& q) { return q.normal; }))};
     alignas(64) float lanes[std::size(columns)][kMaxLanes];
     for (size_t c = 0; c < std::size(columns); ++c) hn::Store(columns[c], d, lanes[c]);
     for (size_t i = 0; i < hn::Lanes(d) && first + i < queries.size(); ++i) {
       (*answers)[first + i] = {
           {Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]), lanes[3][i], lanes[4][i], lanes[5][i]},
           lanes[6][i],
-          lanes[7][i]};
+          lanes[7][i],
+          lanes[8][i]};
     }
   }
 }

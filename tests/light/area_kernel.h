@@ -16,12 +16,14 @@ struct LightQuery {
   Light light;
   float u0 = 0, u1 = 0;      // for the sample
   Vec3f direction{0, 0, 1};  // for the density
+  Vec3f normal{0, 0, 1};     // for the irradiance
 };
 
 struct LightAnswer {
   AreaSample<float> sample;
   float pdf = 0;
   float solid_angle = 0;  // 0 for disks
+  float irradiance = 0;
 };
 
 // On the active target, query by query.

@@ -5,37 +5,12 @@
 
 #include "catch.h"
 #include "light/area_kernel.h"
+#include "light/area_rounding.h"
 #include "light/area_shapes.h"
 #include "targets.h"
 
 namespace nacre {
 namespace {
-
-SphereLight<float> ToFloat(const SphereLight<double>& light) {
-  return {Vec3f(light.centre), static_cast<float>(light.radius)};
-}
-RectangleLight<float> ToFloat(const RectangleLight<double>& light) {
-  return {Vec3f(light.corner), Vec3f(light.edge_x), Vec3f(light.edge_y)};
-}
-TriangleLight<float> ToFloat(const TriangleLight<double>& light) {
-  return {Vec3f(light.corner), Vec3f(light.edge_x), Vec3f(light.edge_y)};
-}
-DiskLight<float> ToFloat(const DiskLight<double>& light) {
-  return {Vec3f(light.centre), Vec3f(light.normal), static_cast<float>(light.radius)};
-}
-
-SphereLight<double> ToDouble(const SphereLight<float>& light) {
-  return {Vec3d(light.centre), light.radius};
-}
-RectangleLight<double> ToDouble(const RectangleLight<float>& light) {
-  return {Vec3d(light.corner), Vec3d(light.edge_x), Vec3d(light.edge_y)};
-}
-TriangleLight<double> ToDouble(const TriangleLight<float>& light) {
-  return {Vec3d(light.corner), Vec3d(light.edge_x), Vec3d(light.edge_y)};
-}
-DiskLight<double> ToDouble(const DiskLight<float>& light) {
-  return {Vec3d(light.centre), Vec3d(light.normal), light.radius};
-}
 
 // What float may be off by.
 struct Tolerances {
