@@ -45,6 +45,11 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
 // The array "shapes".
 void ReadShapes(const JsonValue& value, SceneContext* context);
 
+// Those with a file or faces of their own.
+void ReadMesh(JsonObject* shape, SceneContext* context);
+void ReadIcosphere(JsonObject* shape, SceneContext* context);
+void ReadUvSphere(JsonObject* shape, SceneContext* context);
+
 // The generators among the shapes; each adds what it makes to the scene unless there are faults.
 void ReadGrid(JsonObject* shape, SceneContext* context);
 void ReadPair(JsonObject* shape, SceneContext* context);
