@@ -32,6 +32,9 @@ struct SceneContext {
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
 
+// Sets what the object says of a material that is there; its model stays.
+void ChangeMaterial(const JsonValue& value, Material* material);
+
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);
 
