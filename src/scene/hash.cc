@@ -22,6 +22,10 @@ class Hasher {
     Add(v.y);
     Add(v.z);
   }
+  void Add(const Vec2d& v) {
+    Add(v.x);
+    Add(v.y);
+  }
   void Add(MaterialId id) { Word(id.index); }
   void Add(std::string_view text) {
     Word(text.size());
@@ -207,9 +211,13 @@ uint64_t HashScene(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     hash.Word(mesh.positions.size());
     hash.Word(mesh.normals.size());
+    hash.Word(mesh.uvs.size());
     hash.Word(mesh.triangles.size());
+    hash.Word(static_cast<uint64_t>(mesh.interpolation));
+    hash.Word(mesh.smooth_terminator);
     for (const Vec3d& position : mesh.positions) hash.Add(position);
     for (const Vec3d& normal : mesh.normals) hash.Add(normal);
+    for (const Vec2d& uv : mesh.uvs) hash.Add(uv);
     for (const uint32_t index : mesh.triangles) hash.Word(index);
     hash.Add(mesh.material);
   }

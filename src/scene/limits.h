@@ -62,5 +62,11 @@ inline constexpr uint64_t kMaxPrimitives = 0xfffffffeu;
 inline constexpr Range kCloudCount{1, 1e8};
 inline constexpr Range kGridCount{1, 1000};
 
+inline constexpr Range kCreaseAngleDeg{0, 180};
+// Meshes of spheres: at most 327 680 and 4 194 304 faces.
+inline constexpr Range kSubdivisions{0, 7};
+inline constexpr Range kSegments{3, 2048};
+inline constexpr Range kRings{2, 1025};
+
 }  // namespace limits
 }  // namespace nacre

@@ -6,7 +6,10 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "scene/validate.h"
+#include "scene_io/gltf.h"
+#include "scene_io/model_scene.h"
 #include "scene_io/overrides.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
@@ -102,7 +105,29 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   return scene;
 }
 
+namespace {
+
+// A model with camera and light added where it has none.
+Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
+  const std::string file = path.string();
+  bool has_camera = false;
+  Scene scene = ReadGltf(path, options, &has_camera);
+  CompleteModelScene(options, file, has_camera, &scene);
+  std::vector<Fault> faults = Validate(scene);
+  if (faults.empty()) return scene;
+  for (Fault& fault : faults) fault.where = PlaceInFile(file, fault.where);
+  throw Error(ExitCode::kBadInput, std::move(faults));
+}
+
+}  // namespace
+
+bool IsModelFile(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  return HasExtension(file, ".gltf") || HasExtension(file, ".glb");
+}
+
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
+  if (IsModelFile(path)) return LoadModel(path, options);
   const std::string text = ReadTextFile(path, kMaxBytes);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
 }

@@ -1,5 +1,6 @@
 #include "scene_io/obj.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <exception>
@@ -41,12 +42,16 @@ bool IsFiniteNumber(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
 }
 
-void CheckNumbers(std::string_view line, std::string_view keyword, const std::string& place) {
-  for (int i = 0; i < 3; ++i) {
+// `line` begins with `fewest` numbers, or more up to `most`.
+void CheckNumbers(std::string_view line, std::string_view keyword, int fewest, int most,
+                  const std::string& place) {
+  constexpr std::array<std::string_view, 4> kNumberNames = {"no", "one", "two", "three"};
+  for (int i = 0; i < most; ++i) {
     const std::string_view word = NextWord(&line);
-    if (IsFiniteNumber(word)) continue;
+    if (IsFiniteNumber(word) || (word.empty() && i >= fewest)) continue;
     Refuse(place, fmt::format("\"{}\" is not a finite number", word),
-           fmt::format("\"{}\" is followed by three", keyword));
+           fmt::format("\"{}\" is followed by {}", keyword,
+                       kNumberNames[static_cast<size_t>(fewest)]));
   }
 }
 
@@ -59,7 +64,9 @@ void Prepare(const std::string& file, std::string* text) {
     std::string_view line = std::string_view(*text).substr(start, end - start);
     const std::string_view keyword = NextWord(&line);
     if (keyword == "v" || keyword == "vn") {
-      CheckNumbers(line, keyword, fmt::format("{}:{}", file, line_number));
+      CheckNumbers(line, keyword, 3, 3, fmt::format("{}:{}", file, line_number));
+    } else if (keyword == "vt") {
+      CheckNumbers(line, keyword, 1, 2, fmt::format("{}:{}", file, line_number));
     } else if (keyword == "t") {
       (*text)[static_cast<size_t>(keyword.data() - text->data())] = '#';
     }
@@ -100,6 +107,13 @@ ObjFile Parse(std::string text, const std::string& file) {
 void CheckIndices(const ObjFile& obj, const std::string& file) {
   const size_t positions = obj.attributes.vertices.size() / 3;
   const size_t normals = obj.attributes.normals.size() / 3;
+  const size_t uvs = obj.attributes.texcoords.size() / 2;
+  const auto check = [&](int index, size_t count, const char* what) {
+    if (index < -1 || (index >= 0 && static_cast<size_t>(index) >= count)) {
+      Refuse(file, fmt::format("a face has {} {}", what, int64_t{index} + 1),
+             fmt::format("there are {}", count));
+    }
+  };
   size_t corners = 0;
   for (const tinyobj::shape_t& shape : obj.shapes) {
     size_t expected = 0;
@@ -112,21 +126,19 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
         Refuse(file, fmt::format("a face has position {}", int64_t{corner.vertex_index} + 1),
                fmt::format("there are {}", positions));
       }
-      if (corner.normal_index < -1 ||
-          (corner.normal_index >= 0 && static_cast<size_t>(corner.normal_index) >= normals)) {
-        Refuse(file, fmt::format("a face has normal {}", int64_t{corner.normal_index} + 1),
-               fmt::format("there are {}", normals));
-      }
+      check(corner.normal_index, normals, "normal");
+      check(corner.texcoord_index, uvs, "uv");
     }
     corners += expected;
   }
   if (corners == 0) Refuse(file, "has no faces");
 }
 
-bool AllHaveNormals(const ObjFile& obj) {
+// Whether every corner has a normal, or a uv.
+bool AllHave(const ObjFile& obj, int tinyobj::index_t::*index) {
   for (const tinyobj::shape_t& shape : obj.shapes) {
     for (const tinyobj::index_t& corner : shape.mesh.indices) {
-      if (corner.normal_index < 0) return false;
+      if (corner.*index < 0) return false;
     }
   }
   return true;
@@ -137,11 +149,29 @@ Vec3d Triple(const std::vector<double>& numbers, int index) {
   return {numbers[i], numbers[i + 1], numbers[i + 2]};
 }
 
-// Collects vertices: OBJ numbers positions and normals apart, a mesh has one normal per position.
+// What makes a vertex of its own.
+struct VertexKey {
+  int position, normal, uv;
+  bool operator==(const VertexKey&) const = default;
+};
+struct HashKey {
+  size_t operator()(const VertexKey& key) const {
+    uint64_t hash = static_cast<uint32_t>(key.position);
+    for (const int index : {key.normal, key.uv}) {
+      hash = (hash ^ hash >> 32) * 0x9e3779b97f4a7c15u + static_cast<uint32_t>(index);
+    }
+    return hash ^ hash >> 29;
+  }
+};
+
+// Collects vertices: OBJ numbers positions, normals and uvs apart, a mesh has them by position.
 class MeshBuilder {
  public:
   MeshBuilder(const ObjFile& obj, const std::string& file)
-      : obj_(obj), file_(file), with_normals_(AllHaveNormals(obj)) {}
+      : obj_(obj),
+        file_(file),
+        with_normals_(AllHave(obj, &tinyobj::index_t::normal_index)),
+        with_uvs_(AllHave(obj, &tinyobj::index_t::texcoord_index)) {}
 
   void AddFace(const tinyobj::index_t* corners, size_t count) {
     face_.clear();
@@ -157,27 +187,31 @@ class MeshBuilder {
 
  private:
   uint32_t Vertex(const tinyobj::index_t& corner) {
-    const auto position = static_cast<uint64_t>(corner.vertex_index);
-    const auto normal = with_normals_ ? static_cast<uint64_t>(corner.normal_index) : 0;
-    const auto [entry, is_new] = vertices_.try_emplace(
-        position << 32 | normal, static_cast<uint32_t>(mesh_.positions.size()));
+    const VertexKey key{corner.vertex_index, with_normals_ ? corner.normal_index : 0,
+                        with_uvs_ ? corner.texcoord_index : 0};
+    const auto [entry, is_new] =
+        vertices_.try_emplace(key, static_cast<uint32_t>(mesh_.positions.size()));
     if (!is_new) return entry->second;
     mesh_.positions.push_back(Triple(obj_.attributes.vertices, corner.vertex_index));
     if (with_normals_) {
       const Vec3d unit = Triple(obj_.attributes.normals, corner.normal_index).normalized();
       if (unit == Vec3d(0, 0, 0)) {
-        Refuse(file_, fmt::format("normal {} has length 0", normal + 1),
+        Refuse(file_, fmt::format("normal {} has length 0", key.normal + 1),
                "leave the normals out to have smooth ones computed");
       }
       mesh_.normals.push_back(unit);
+    }
+    if (with_uvs_) {
+      const auto uv = 2 * static_cast<size_t>(key.uv);
+      mesh_.uvs.emplace_back(obj_.attributes.texcoords[uv], obj_.attributes.texcoords[uv + 1]);
     }
     return entry->second;
   }
 
   const ObjFile& obj_;
   const std::string& file_;
-  bool with_normals_;
-  std::unordered_map<uint64_t, uint32_t> vertices_;
+  bool with_normals_, with_uvs_;
+  std::unordered_map<VertexKey, uint32_t, HashKey> vertices_;
   std::vector<Vec3d> face_;      // of one face: its corners,
   std::vector<uint32_t> local_;  // and its triangles as indices into them
   Mesh mesh_;

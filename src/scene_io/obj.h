@@ -8,8 +8,8 @@
 namespace nacre {
 
 // All faces of the file as one mesh, polygons cut into triangles, named after the file. Normals
-// are the file's, made unit, if all corners of all faces have one; otherwise there are none.
-// Texture coordinates, groups, lines, points and materials (MTL) are not read.
+// are the file's, made unit, if all corners of all faces have one; otherwise there are none. The
+// same goes for texture coordinates. Groups, lines, points and materials (MTL) are not read.
 // Throws Error (kBadInput) with the file, and the line where it is known, for numbers that are none
 // or not finite, indices out of range, faces of fewer than 3 or more than 255 corners, normals
 // of length 0 and files without faces.

@@ -114,6 +114,14 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
   }
 }
 
+void ChangeMaterial(const JsonValue& value, Material* material) {
+  JsonObject object(value);
+  if (const MaterialModel* const model = ModelOf(*material)) {
+    ReadParameters(*model, &object, material);
+  }
+  object.RefuseOthers();
+}
+
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id) {
   if (value.json.is_string()) {
     *id = FindMaterial(value, *context);

@@ -52,6 +52,9 @@ inline void ReadRadiance(JsonObject* object, std::string_view name, std::string_
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
 
+// Sets what the object says of a material that is there; its model stays.
+void ChangeMaterial(const JsonValue& value, Material* material);
+
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);
 
@@ -64,6 +67,11 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
 
 // The array "shapes".
 void ReadShapes(const JsonValue& value, SceneContext* context);
+
+// Those with a file or faces of their own.
+void ReadMesh(JsonObject* shape, SceneContext* context);
+void ReadIcosphere(JsonObject* shape, SceneContext* context);
+void ReadUvSphere(JsonObject* shape, SceneContext* context);
 
 // The generators among the shapes; each adds what it makes to the scene unless there are faults.
 void ReadGrid(JsonObject* shape, SceneContext* context);

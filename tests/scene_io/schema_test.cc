@@ -11,6 +11,7 @@
 #include "scene/filter_width.h"
 #include "scene/limits.h"
 #include "scene/material_parameters.h"
+#include "scene/sphere_mesh.h"
 #include "scene_io/load_scene.h"
 
 namespace nacre {
@@ -106,6 +107,10 @@ TEST_CASE("the schema's ranges are those of scene/limits.h") {
   CHECK(RangeOf(Property("spot_light", "inner_deg")) == limits::kInnerDeg);
   CHECK(RangeOf(Property("split_material", "at")["items"]) == limits::kSplitAt);
   CHECK(RangeOf(Property("cloud", "count")) == limits::kCloudCount);
+  CHECK(RangeOf(Property("mesh", "crease_angle_deg")) == limits::kCreaseAngleDeg);
+  CHECK(RangeOf(Property("icosphere", "subdivisions")) == limits::kSubdivisions);
+  CHECK(RangeOf(Property("uv_sphere", "segments")) == limits::kSegments);
+  CHECK(RangeOf(Property("uv_sphere", "rings")) == limits::kRings);
   for (const char* term : {"constant", "linear", "quadratic"}) {
     CHECK(RangeOf(definitions["attenuation"]["anyOf"][1]["properties"][term]) ==
           limits::kAttenuation);
@@ -120,6 +125,9 @@ TEST_CASE("the schema's defaults are those of scene/scene.h") {
   CHECK(Property("perspective_camera", "fov_y_deg")["default"] == scene.camera.fov_y_deg);
   CHECK(Property("orthographic_camera", "height")["default"] == scene.camera.height);
   CHECK(Property("spot_light", "cutoff_deg")["default"] == SpotLight{}.cutoff_deg);
+  CHECK(Property("icosphere", "subdivisions")["default"] == Icosphere{}.subdivisions);
+  CHECK(Property("uv_sphere", "segments")["default"] == UvSphere{}.segments);
+  CHECK(Property("uv_sphere", "rings")["default"] == UvSphere{}.rings);
 }
 
 // Objects that do not say additionalProperties would let slips through.
