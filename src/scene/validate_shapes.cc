@@ -40,6 +40,21 @@ void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faul
   }
 }
 
+void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  if (mesh.uvs.empty()) return;
+  if (mesh.uvs.size() != mesh.positions.size()) {
+    faults->Add(where + "/uvs",
+                fmt::format("{} texture coordinates for {} positions", mesh.uvs.size(),
+                            mesh.positions.size()),
+                "one per position, or none");
+  }
+  for (size_t i = 0; i < mesh.uvs.size(); ++i) {
+    if (std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y)) continue;
+    faults->Add(fmt::format("{}/uvs/{}", where, i), "is not finite", {});
+    return;
+  }
+}
+
 void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults) {
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) {
     faults->Add(where + "/triangles", fmt::format("{} indices", mesh.triangles.size()),
@@ -80,6 +95,7 @@ void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& wh
   const size_t before = faults->count();
   ValidatePositions(mesh, where, faults);
   ValidateNormals(mesh, where, faults);
+  ValidateUvs(mesh, where, faults);
   if (faults->count() == before) ValidateTriangles(mesh, where, faults);
   CheckMaterial(mesh.material, material_count, where + "/material", faults);
 }
