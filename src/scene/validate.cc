@@ -13,9 +13,12 @@
 
 namespace nacre {
 
-// In validate_shapes.cc and validate_lights.cc.
+// In validate_shapes.cc, validate_lights.cc and validate_textures.cc.
 void ValidateShapes(const Scene& scene, FaultList* faults);
 void ValidateLights(const Scene& scene, FaultList* faults);
+void ValidateTextures(const Scene& scene, FaultList* faults);
+void ValidateMaps(const Scene& scene, const Material& material, const std::string& where,
+                  FaultList* faults);
 
 namespace {
 
@@ -91,11 +94,16 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
   if (material.emission != Rgb(0, 0, 0)) {
     faults->Add(where + "/emission", "a split has no emission", "give it to the materials in it");
   }
+  if (material.emission_map.valid() || material.normal_map.texture.valid() ||
+      material.bump_map.texture.valid()) {
+    faults->Add(where, "a split has no maps", "give them to the materials in it");
+  }
 }
 
 void ValidateMaterials(const Scene& scene, FaultList* faults) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
+    ValidateMaps(scene, material, MaterialPlace(scene, i), faults);
     const MaterialModel* model = ModelOf(material);
     if (model == nullptr) {
       ValidateSplit(scene, material, MaterialPlace(scene, i), faults);
@@ -130,6 +138,7 @@ std::vector<Fault> Validate(const Scene& scene) {
   ValidateImage(scene.image, &faults);
   CheckColor(scene.background, limits::kRadiance, "/background", &faults);
   ValidateMaterials(scene, &faults);
+  ValidateTextures(scene, &faults);
   ValidateLights(scene, &faults);
   ValidateShapes(scene, &faults);
   return faults.All();
