@@ -30,10 +30,6 @@ class Hasher {
   }
   void Add(MaterialId id) { Word(id.index); }
   void Add(TextureId id) { Word(id.index); }
-  void Add(const Vec2d& v) {
-    Add(v.x);
-    Add(v.y);
-  }
   void Add(std::string_view text) {
     Word(text.size());
     for (const char c : text) Word(static_cast<unsigned char>(c));

@@ -53,7 +53,7 @@ void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
   member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
   member("textures", [&](const JsonValue& value) { ReadTextures(value, context); });
   member("materials", [&](const JsonValue& value) { ReadMaterials(value, context); });
-  member("lights", [&](const JsonValue& value) { ReadLights(value, context); });
+  member("lights", [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
   member("shapes", [&](const JsonValue& value) { ReadShapes(value, context); });
   object.Color("background", limits::kRadiance, &scene->background);
   object.RefuseOthers();

@@ -75,9 +75,9 @@ void SetMaterials(const JsonValue& value, Scene* scene) {
 }
 
 // New lights, and others in the place of those of the same name.
-void SetLights(const JsonValue& value, Scene* scene) {
+void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene) {
   std::vector<Light> lights;
-  ReadLights(value, &lights);
+  ReadLights(value, context, &lights);
   for (Light& light : lights) {
     const auto found = std::find_if(scene->lights.begin(), scene->lights.end(),
                                     [&](const Light& old) { return old.name == light.name; });
@@ -156,7 +156,10 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
     again.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   }
   if (scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
-  overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, scene); });
+  SceneContext context;
+  context.folder = std::filesystem::path(file).parent_path();
+  context.allow_paths = options.allow_paths;
+  overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });
   overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, scene); });
   overrides.root().Color("background", limits::kRadiance, &scene->background);
   overrides.root().RefuseOthers();

@@ -125,13 +125,13 @@ void ReadLight(const JsonValue& value, const SceneContext& context, Light* light
 
 }  // namespace
 
-void ReadLights(const JsonValue& value, SceneContext* context) {
+void ReadLights(const JsonValue& value, const SceneContext& context, std::vector<Light>* lights) {
   const JsonObject object(value, R"(lights by name: {"key": {"type": "point", ...}})");
   if (!object.is_object()) return;
   for (const auto& [name, json] : value.json.items()) {
-    Light& light = context->scene->lights.emplace_back();
+    Light& light = lights->emplace_back();
     light.name = name;
-    ReadLight({json, object.path().Member(name), object.faults()}, *context, &light);
+    ReadLight({json, object.path().Member(name), object.faults()}, context, &light);
   }
 }
 

@@ -42,8 +42,8 @@ struct SceneContext {
   std::unordered_map<std::string, ImageId> images;  // by path and encoding
 };
 
-// The object "lights".
-void ReadLights(const JsonValue& value, SceneContext* context);
+// The object "lights"; `context` says where their pictures are.
+void ReadLights(const JsonValue& value, const SceneContext& context, std::vector<Light>* lights);
 
 // Lights by type, from the object of one; read_area_lights.cc.
 SphereAreaLight ReadSphereArea(JsonObject* light);

@@ -7,9 +7,7 @@
 #include "hwy/highway.h"
 
 #include "base/target_ops-inl.h"
-#include "light/disk_light-inl.h"
-#include "light/rectangle_light-inl.h"
-#include "light/sphere_light-inl.h"
+#include "light/irradiance-inl.h"
 #include "shading/area_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -153,6 +151,41 @@ void FindAreaT(const SampledLight& light, const HitBatch& hits, LightDirections*
            HWY_ATTR { return MeetPlane(disk.centre, normal, direction); });
 }
 
+// front(i): the hits that see a side that emits.
+template <class At, class Front>
+void ShapeIrradiance(const SampledLight& light, const Surface& surface, size_t count,
+                     float* irradiance, const At& at, const Front& front) {
+  const D d;
+  const Soa3<float>& n = surface.normal;
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto shape = at(i);
+    const V value = hn::Max(Irradiance(d, shape, Load(n, i)), hn::Zero(d));
+    hn::StoreU(light.two_sided ? value : hn::IfThenElseZero(front(shape), value), d,
+               irradiance + i);
+  }
+}
+
+void AreaIrradianceT(const SampledLight& light, const HitBatch& hits, const Surface& surface,
+                     float* irradiance) {
+  const auto fill = [&](const auto& at, const auto& front) {
+    ShapeIrradiance(light, surface, hits.count, irradiance, at, front);
+  };
+  const Vec3V<V> normal = Set3(light.normal);
+  const auto before = [&](const Vec3V<V>& offset)
+                          HWY_ATTR { return hn::Lt(FusedDot(offset, normal), hn::Zero(D())); };
+  if (light.form == SampledForm::kSphere) {
+    return fill([&](size_t i) HWY_ATTR { return SphereAt(light, hits, i); },
+                [](const SphereLightV<V>& sphere)
+                    HWY_ATTR { return hn::Gt(Length(sphere.centre), sphere.radius); });
+  }
+  if (light.form == SampledForm::kRectangle) {
+    return fill([&](size_t i) HWY_ATTR { return RectangleAt(light, hits, i); },
+                [&](const RectangleLightV<V>& r) HWY_ATTR { return before(r.corner); });
+  }
+  fill([&](size_t i) HWY_ATTR { return DiskAt(light, hits, i); },
+       [&](const DiskLightV<V>& disk) HWY_ATTR { return before(disk.centre); });
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -162,6 +195,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(SampleAreaT);
 HWY_EXPORT(FindAreaT);
+HWY_EXPORT(AreaIrradianceT);
 
 void SampleArea(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
                 LightDirections* directions) {
@@ -170,6 +204,11 @@ void SampleArea(const SampledLight& light, const HitBatch& hits, const float* u,
 
 void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
   HWY_DYNAMIC_DISPATCH(FindAreaT)(light, hits, directions);
+}
+
+void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
+                    float* irradiance) {
+  HWY_DYNAMIC_DISPATCH(AreaIrradianceT)(light, hits, surface, irradiance);
 }
 }  // namespace nacre
 #endif

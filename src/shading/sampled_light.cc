@@ -95,7 +95,7 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
 
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      Soa3<float>* irradiance) {
-  static_cast<void>(hits);
+  if (!IsSky(light)) return AreaIrradiance(light, hits, surface, irradiance->x.data());
   if (IsColored(light)) return SkyIrradiance(light, surface, hits.count, irradiance);
   std::fill_n(irradiance->x.data(), hits.count, static_cast<float>(M_PI));
 }

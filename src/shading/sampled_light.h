@@ -59,9 +59,9 @@ inline bool HasSampler(const SampledLight& light) { return !IsSky(light); }
 // Whether its radiance depends on the direction.
 inline bool IsColored(const SampledLight& light) { return light.form > SampledForm::kConstantSky; }
 
-// Whether LightIrradiance is for it: all but pictures.
+// Whether LightIrradiance is for it: not for pictures.
 inline bool HasIrradiance(const SampledLight& light) {
-  return IsSky(light) && light.form != SampledForm::kPictureSky;
+  return light.form != SampledForm::kPictureSky;
 }
 
 // One direction from each hit of a batch, and what of the light is seen there.
