@@ -7,6 +7,7 @@
 #endif
 
 #include "base/basis-inl.h"
+#include "base/concentric_disk-inl.h"
 #include "light/rectangle_light-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -51,26 +52,6 @@ template <class V>
 HWY_INLINE RectangleLightV<V> SquareAround(const DiskLightV<V>& light, const DiskViewV<V>& view) {
   const Vec3V<V> x = Scale(view.x_axis, light.radius), y = Scale(view.y_axis, light.radius);
   return {Sub(Sub(light.centre, x), y), Add(x, x), Add(y, y)};
-}
-
-template <class V>
-struct PointOnDiskV {
-  V x, y;
-};
-
-// Shirley and Chiu 1997, on the unit disk: angles are eighths of a turn at most, plus a quarter.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE PointOnDiskV<V> ConcentricDisk(D d, V u0, V u1) {
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0f);
-  const V two = hn::Set(d, 2.0f);
-  const V a = hn::MulSub(two, u0, one), b = hn::MulSub(two, u1, one);
-  const auto flat = hn::Gt(hn::Abs(a), hn::Abs(b));
-  const V larger = hn::IfThenElse(flat, a, b), smaller = hn::IfThenElse(flat, b, a);
-  const V ratio = hn::Div(smaller, hn::IfThenElse(hn::Eq(larger, zero), one, larger));
-  const SinCosV<V> phi = SinCosTurns(d, hn::Mul(ratio, hn::Set(d, 0.125f)));
-  return {hn::Mul(larger, hn::IfThenElse(flat, phi.cos, phi.sin)),
-          hn::Mul(larger, hn::IfThenElse(flat, phi.sin, phi.cos))};
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "base/basis.h"
+#include "base/concentric_disk.h"
 #include "light/rectangle_light.h"
 
 namespace nacre {
@@ -59,20 +60,6 @@ RectangleLight<Real> SquareAround(const DiskLight<Real>& light, const DiskView<R
   return {light.centre - x - y, x * 2, y * 2};
 }
 
-// Shirley and Chiu 1997, on the unit disk.
-template <typename Real>
-Imath::Vec2<Real> ConcentricDisk(Real u0, Real u1) {
-  const Real a = 2 * u0 - 1, b = 2 * u1 - 1;
-  if (a == 0 && b == 0) return {0, 0};
-  const Real quarter_pi = static_cast<Real>(M_PI / 4);
-  if (std::abs(a) > std::abs(b)) {
-    const Real phi = quarter_pi * (b / a);
-    return {a * std::cos(phi), a * std::sin(phi)};
-  }
-  const Real phi = quarter_pi * (a / b);
-  return {b * std::sin(phi), b * std::cos(phi)};
-}
-
 template <typename Real>
 AreaSample<Real> SampleLight(const DiskLight<Real>& light, Real u0, Real u1) {
   const DiskView<Real> view = ViewOf(light);
@@ -83,9 +70,9 @@ AreaSample<Real> SampleLight(const DiskLight<Real>& light, Real u0, Real u1) {
     if (point.length2() > light.radius * light.radius) sample.inverse_pdf = 0;
     return sample;
   }
-  const Imath::Vec2<Real> on_disk = ConcentricDisk(u0, u1) * light.radius;
+  const PointOnDisk<Real> on_disk = ConcentricDisk(u0, u1);
   const Imath::Vec3<Real> to_light =
-      light.centre + view.x_axis * on_disk.x + view.y_axis * on_disk.y;
+      light.centre + (view.x_axis * on_disk.x + view.y_axis * on_disk.y) * light.radius;
   AreaSample<Real> sample;
   sample.distance = to_light.length();
   sample.to_light = to_light / sample.distance;
