@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/film.h"
+#include "render/film_kernel.h"
 #include "render/plan.h"
 #include "render/stage_clock.h"
 
@@ -44,6 +45,7 @@ struct TileScratch {
   // Layers on their way to the film.
   AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // of each pixel, in this round
   Soa3<double> hit_values, ray_values;
+  std::vector<HitSpan> spans;
 };
 
 // From scratch->samples to its hits and what they reflect.
