@@ -27,8 +27,9 @@ HWY_INLINE V AlbedoMasking(D d, const AlbedoShape& shape, V n_dot_v) {
   const V k = hn::Set(d, shape.k);
   const V one_minus_k = hn::Set(d, 1.0f - shape.k);
   const V y2 = hn::MulAdd(n_dot_v, n_dot_v, hn::Set(d, shape.softening));
-  return hn::Div(
-      y2, hn::Mul(hn::MulAdd(n_dot_v, one_minus_k, k), hn::MulAdd(hn::Sqrt(y2), one_minus_k, k)));
+  const V product =
+      hn::Mul(hn::MulAdd(n_dot_v, one_minus_k, k), hn::MulAdd(SquareRoot(d, y2), one_minus_k, k));
+  return hn::Mul(y2, Reciprocal(d, product));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -37,21 +38,32 @@ HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const AlbedoShape& sh
   const V least = hn::Set(d, static_cast<float>(kLeastAlbedoCosine));
   const V mu = hn::Min(hn::Max(n_dot_v, least), one);
   const V offset = hn::Set(d, shape.offset);
-  const V root = hn::Sqrt(hn::MulAdd(mu, mu, hn::Mul(offset, offset)));
-  const V inverse = hn::Div(one, hn::Add(offset, root));
-  const V z = hn::MulSub(hn::Set(d, shape.scale), hn::Sqrt(hn::Mul(mu, inverse)), one);
-  if (shape.k > 0) return {z, mu, AlbedoMasking(d, shape, mu)};
-  const V layer = hn::Mul(hn::Add(offset, offset), inverse);
-  return {z, mu, hn::Mul(hn::MulAdd(mu, mu, one), hn::Mul(layer, layer))};
+  const V root = SquareRoot(d, hn::MulAdd(mu, mu, hn::Mul(offset, offset)));
+  const V inverse = Reciprocal(d, hn::Add(offset, root));
+  const V z = hn::MulSub(hn::Set(d, shape.scale), SquareRoot(d, hn::Mul(mu, inverse)), one);
+  // A vector, not a struct, is what the branch chooses: GCC takes structs through memory.
+  V factor;
+  if (shape.k > 0) {
+    factor = AlbedoMasking(d, shape, mu);
+  } else {
+    const V layer = hn::Mul(hn::Add(offset, offset), inverse);
+    factor = hn::Mul(hn::MulAdd(mu, mu, one), hn::Mul(layer, layer));
+  }
+  return {z, mu, factor};
 }
 
+// Even and odd powers each by Horner's rule: of one chain of dependent steps, two half as long.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V EvaluateAlbedoPolynomial(D d, const AlbedoPolynomial& polynomial, V z) {
-  V sum = hn::Set(d, polynomial[kAlbedoTerms - 1]);
-  for (size_t i = kAlbedoTerms - 1; i-- > 0;) {
-    sum = hn::MulAdd(sum, z, hn::Set(d, polynomial[i]));
+  static_assert(kAlbedoTerms % 2 == 0);
+  const V z2 = hn::Mul(z, z);
+  V even = hn::Set(d, polynomial[kAlbedoTerms - 2]);
+  V odd = hn::Set(d, polynomial[kAlbedoTerms - 1]);
+  for (size_t i = kAlbedoTerms - 2; i != 0; i -= 2) {
+    even = hn::MulAdd(even, z2, hn::Set(d, polynomial[i - 2]));
+    odd = hn::MulAdd(odd, z2, hn::Set(d, polynomial[i - 1]));
   }
-  return sum;
+  return hn::MulAdd(odd, z, even);
 }
 
 // 1 - E.

@@ -8,22 +8,15 @@
 namespace nacre {
 namespace {
 
-// Calls copy(row of the tile, row of the strip) for each row of a channel.
-template <typename From, typename To, typename Copy>
-void ForEachRow(const Window& tile, const Window& strip, const From* from, To* to,
-                const Copy& copy) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const auto tile_row = static_cast<size_t>(y - tile.y0) * static_cast<size_t>(tile.width());
-    const auto strip_row = static_cast<size_t>(y - strip.y0) * static_cast<size_t>(strip.width());
-    copy(from + tile_row, to + strip_row + static_cast<size_t>(tile.x0 - strip.x0));
-  }
-}
-
 template <typename T>
 void CopyTile(const Window& tile, const Window& strip, const AlignedArray<T>& from,
               std::vector<T>* to) {
-  ForEachRow(tile, strip, from.data(), to->data(),
-             [&](const T* row, T* out) { std::copy_n(row, tile.width(), out); });
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const auto tile_row = static_cast<size_t>(y - tile.y0) * static_cast<size_t>(tile.width());
+    const auto strip_row = static_cast<size_t>(y - strip.y0) * static_cast<size_t>(strip.width());
+    std::copy_n(from.data() + tile_row, tile.width(),
+                to->data() + strip_row + static_cast<size_t>(tile.x0 - strip.x0));
+  }
 }
 
 }  // namespace
@@ -52,19 +45,19 @@ void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip) {
 
 void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
   film->window = tile;
-  film->empty = true;
   const auto count = [&](ChannelKind kind) {
     return static_cast<size_t>(std::count(plan.channels.begin(), plan.channels.end(), kind));
   };
   while (film->sums.size() < count(ChannelKind::kAveraged)) {
     film->sums.emplace_back(kBatchCapacity);
   }
+  const size_t pixels = tile.pixel_count();
+  for (AlignedArray<double>& sums : film->sums) std::fill_n(sums.data(), pixels, 0.0);
   while (film->nearest.size() < count(ChannelKind::kNearest)) {
     film->nearest.emplace_back(kBatchCapacity);
   }
   while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(kBatchCapacity);
   if (film->nearest.empty() && film->ids.empty()) return;
-  const size_t pixels = tile.pixel_count();
   if (film->nearest_distance.size() == 0) {
     film->nearest_distance = AlignedArray<double>(kBatchCapacity);
   }
@@ -73,22 +66,40 @@ void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
   for (AlignedArray<uint32_t>& channel : film->ids) std::fill_n(channel.data(), pixels, 0u);
 }
 
+bool ShowsBackground(const Layer& layer) {
+  return layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
+}
+
+Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan) {
+  const bool shows = ShowsBackground(layer) && plan.sky == nullptr;
+  return shows ? RoundToFloat(plan.scene->background) : Rgb(0, 0, 0);
+}
+
 void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
   const Window& tile = film.window;
-  const double scale = 1.0 / plan.scene->image.spp;
-  size_t sum = 0, nearest = 0, id = 0, color = 0;
-  for (const ChannelKind kind : plan.channels) {
-    if (kind == ChannelKind::kAveraged) {
-      ForEachRow(tile, strip->window, film.sums[sum++].data(), strip->colors[color++].data(),
-                 [&](const double* row, float* out) {
-                   RoundSums(row, scale, static_cast<size_t>(tile.width()), out);
-                 });
-    } else if (kind == ChannelKind::kNearest) {
-      CopyTile(tile, strip->window, film.nearest[nearest++], &strip->colors[color++]);
-    } else {
-      CopyTile(tile, strip->window, film.ids[id], &strip->ids[id]);
-      ++id;
+  const auto width = static_cast<size_t>(tile.width()), height = static_cast<size_t>(tile.height());
+  const auto stride = static_cast<size_t>(strip->window.width());
+  const size_t place = static_cast<size_t>(tile.y0 - strip->window.y0) * stride +
+                       static_cast<size_t>(tile.x0 - strip->window.x0);
+  const int spp = plan.scene->image.spp;
+  double weight = 0;
+  for (int i = 0; i < spp; ++i) weight += SampleWeight(plan.sampler, i);
+  const double* const coverage = film.sums[kAlphaSum].data();
+  size_t sum = 0, nearest = 0, color = 0;
+  for (const Layer& layer : plan.layers) {
+    const Rgb background = BackgroundOf(layer, plan);
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      std::vector<float>& channel = strip->colors[color++];
+      if (IsAveraged(layer.kind)) {
+        RoundSums(film.sums[sum++].data(), coverage, {background[c], weight, 1.0 / spp}, width,
+                  height, channel.data() + place, stride);
+      } else {
+        CopyTile(tile, strip->window, film.nearest[nearest++], &channel);
+      }
     }
+  }
+  for (size_t id = 0; id < strip->ids.size(); ++id) {
+    CopyTile(tile, strip->window, film.ids[id], &strip->ids[id]);
   }
 }
 

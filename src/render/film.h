@@ -12,15 +12,18 @@ namespace nacre {
 
 // The tile's pixels, one plane per channel, row by row. Averaged channels are summed in double:
 // every layer rounds once, however many samples there are and however their weights cancel, and
-// so the layers add up to the beauty.
+// so the layers add up to the beauty. The sums are of hits alone: those of the alpha layer, the
+// hits' weights, tell how much of the background the rest shows.
 struct TileFilm {
   Window window;
-  bool empty = true;                         // no samples yet: the sums are 0, whatever they hold
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order
   std::vector<AlignedArray<uint32_t>> ids;   // id channels, in layer order
   AlignedArray<double> nearest_distance;     // of the sample they come from, pixels squared
 };
+
+// Which of a film's sums are those of the alpha layer: it follows the beauty.
+inline constexpr size_t kAlphaSum = 3;
 
 // A finished strip, channels in the order of StripChannels. Id channels hold uint32_t.
 struct Strip {
@@ -38,7 +41,17 @@ void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip);
 // Empties the tile's channels. `tile` has at most kBatchCapacity pixels.
 void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film);
 
-// Divides by the number of samples, rounds to float and puts the tile into its strip.
+// What a layer shows where nothing is hit: a colour of floats.
+Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan);
+
+// Whether what lies behind the shapes shows in the layer.
+bool ShowsBackground(const Layer& layer);
+
+// Layers hold floats; what they add up to is computed from the same floats.
+inline Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
+
+// Adds the background, divides by the number of samples, rounds to float and puts the tile into its
+// strip.
 void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip);
 
 }  // namespace nacre

@@ -17,10 +17,10 @@ using V = hn::Vec<D>;
 using F = hn::Rebind<float, D>;
 
 void AddSamplesT(const double* values, const double* weights, int samples, size_t pixels,
-                 bool first, double* sums) {
+                 double* sums) {
   const D d;
   for (size_t p = 0; p < pixels; p += hn::Lanes(d)) {
-    V sum = first ? hn::Zero(d) : hn::Load(d, sums + p);
+    V sum = hn::Load(d, sums + p);
     const double* value = values + p;
     for (int s = 0; s < samples; ++s, value += pixels) {
       sum = hn::Add(sum, hn::Mul(hn::Set(d, weights[s]), hn::LoadU(d, value)));
@@ -29,14 +29,69 @@ void AddSamplesT(const double* values, const double* weights, int samples, size_
   }
 }
 
-void RoundSumsT(const double* sums, double scale, size_t count, float* out) {
+// One row of RoundSums.
+HWY_INLINE void RoundRow(const double* sums, const double* coverage, const RoundedBy& by,
+                         size_t width, float* out) {
   const D d;
-  const V factor = hn::Set(d, scale);
+  const V background = hn::Set(d, by.background);
+  const V weight = hn::Set(d, by.weight);
+  const V scale = hn::Set(d, by.scale);
   size_t i = 0;
-  for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
-    hn::StoreU(hn::DemoteTo(F(), hn::Mul(hn::LoadU(d, sums + i), factor)), F(), out + i);
+  for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) {
+    const V missed = hn::Sub(weight, hn::LoadU(d, coverage + i));
+    const V sum = hn::Add(hn::LoadU(d, sums + i), hn::Mul(background, missed));
+    hn::StoreU(hn::DemoteTo(F(), hn::Mul(sum, scale)), F(), out + i);
   }
-  for (; i < count; ++i) out[i] = static_cast<float>(sums[i] * scale);
+  for (; i < width; ++i) {
+    const double sum = sums[i] + by.background * (by.weight - coverage[i]);
+    out[i] = static_cast<float>(sum * by.scale);
+  }
+}
+
+void RoundSumsT(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
+                size_t height, float* out, size_t stride) {
+  for (size_t y = 0; y < height; ++y, sums += width, coverage += width, out += stride) {
+    RoundRow(sums, coverage, by, width, out);
+  }
+}
+
+// Adds value(i), for i from a hit on, to the sums of the spans' pixels.
+template <class Value>
+HWY_INLINE void AddSpans(std::span<const HitSpan> spans, double* HWY_RESTRICT sums,
+                         const Value& value) {
+  const D d;
+  for (const HitSpan& span : spans) {
+    const V weight = hn::Set(d, span.weight);
+    double* const to = sums + span.pixel;
+    size_t i = 0;
+    for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
+      const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
+      hn::StoreU(sum, d, to + i);
+    }
+    if (i == span.count) continue;
+    const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
+    hn::BlendedStore(sum, hn::FirstN(d, span.count - i), d, to + i);
+  }
+}
+
+void AddHitsT(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, double constant,
+              double further, std::span<const HitSpan> spans, double* HWY_RESTRICT sums) {
+  const D d;
+  const V first = hn::Set(d, constant);
+  const V second = hn::Set(d, further);
+  if (a == nullptr) {
+    const V both = hn::Add(first, second);
+    return AddSpans(spans, sums, [&](size_t) HWY_ATTR { return both; });
+  }
+  if (b == nullptr) {
+    return AddSpans(spans, sums,
+                    [&](size_t i) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), a + i)); });
+  }
+  AddSpans(spans, sums, [&](size_t i) HWY_ATTR {
+    const V sum =
+        hn::Add(hn::PromoteTo(d, hn::LoadU(F(), a + i)), hn::PromoteTo(d, hn::LoadU(F(), b + i)));
+    return hn::Add(hn::Add(sum, first), second);
+  });
 }
 
 void AddFloatsT(const float* a, const float* b, double constant, double further, size_t begin,
@@ -58,16 +113,23 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(AddSamplesT);
+HWY_EXPORT(AddHitsT);
 HWY_EXPORT(RoundSumsT);
 HWY_EXPORT(AddFloatsT);
 
-void AddSamples(const double* values, const double* weights, int samples, size_t pixels, bool first,
+void AddSamples(const double* values, const double* weights, int samples, size_t pixels,
                 double* sums) {
-  HWY_DYNAMIC_DISPATCH(AddSamplesT)(values, weights, samples, pixels, first, sums);
+  HWY_DYNAMIC_DISPATCH(AddSamplesT)(values, weights, samples, pixels, sums);
 }
 
-void RoundSums(const double* sums, double scale, size_t count, float* out) {
-  HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, scale, count, out);
+void AddHits(const float* a, const float* b, double constant, double further,
+             std::span<const HitSpan> spans, double* sums) {
+  HWY_DYNAMIC_DISPATCH(AddHitsT)(a, b, constant, further, spans, sums);
+}
+
+void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
+               size_t height, float* out, size_t stride) {
+  HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, width, height, out, stride);
 }
 
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,

@@ -104,11 +104,10 @@ void ShadeUnit(const Lit& lit) {
     light.color = Rgb(1, 1, 1);
     return light;
   }();
-  ClearRadiance(lit.count(), &lit.c.unit);
   const LightOnBatch light{&kUnit, &lit.s.light};
   for (const MaterialRun& run : lit.s.runs) {
-    ShadeRun(lit.MaterialOf(run), {lit.s.hits, lit.s.surface, {&light, 1}}, run.begin, run.end,
-             &lit.s.narrow, &lit.c.unit);
+    ShadeRun(lit.MaterialOf(run), {lit.s.hits, lit.s.surface, {&light, 1}, true}, run.begin,
+             run.end, &lit.s.narrow, &lit.c.unit);
   }
 }
 

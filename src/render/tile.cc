@@ -182,11 +182,11 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   }
 }
 
-void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, TileScratch* s,
-               ReflectedRadiance* radiance) {
+void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, bool replace,
+               TileScratch* s, ReflectedRadiance* radiance) {
   for (const MaterialRun& run : s->runs) {
-    ShadeRun(plan.materials[run.material.index], {s->hits, s->surface, lights}, run.begin, run.end,
-             &s->narrow, radiance);
+    ShadeRun(plan.materials[run.material.index], {s->hits, s->surface, lights, replace}, run.begin,
+             run.end, &s->narrow, radiance);
   }
 }
 
@@ -202,8 +202,7 @@ void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch
   }
   const LightOnBatch light{&planned.light, &s->light};
   const bool apart = planned.layer >= 0;
-  if (apart) ClearRadiance(s->hits.count, &s->single);
-  ShadeRuns(plan, {&light, 1}, s, apart ? &s->single : &s->total);
+  ShadeRuns(plan, {&light, 1}, apart, s, apart ? &s->single : &s->total);
   if (apart) KeepLight(planned.layer, s);
 }
 
@@ -213,15 +212,21 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   for (const MaterialRun& run : s->runs) {
     PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface);
   }
-  ClearRadiance(s->hits.count, &s->total);
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
   const BatchBounds bounds = plan.cull_lights ? BoundHits(s->hits, s->surface) : BatchBounds{};
   clock->Charge(Stage::kRefine);
   s->together.clear();
+  bool dark = true;  // nothing is in s->total yet
   const auto shade_together = [&] {
-    if (!s->together.empty()) ShadeRuns(plan, s->together, s, &s->total);
+    if (s->together.empty()) return;
+    ShadeRuns(plan, s->together, dark, s, &s->total);
     s->together.clear();
+    dark = false;
+  };
+  const auto clear_if_dark = [&] {
+    if (dark) ClearRadiance(s->hits.count, &s->total);
+    dark = false;
   };
   for (const PlannedLight& planned : plan.lights) {
     ++stats->light_batches;
@@ -235,11 +240,13 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();
+      clear_if_dark();
       ShadeByOne(plan, planned, s, clock, stats);
     }
     stats->shades += s->hits.count;
   }
   shade_together();
+  clear_if_dark();
   clock->Charge(Stage::kShade);
   if (!plan.sampled_lights.empty()) ShadeBySampledLights(plan, s, clock, stats);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/film.h"
+#include "render/film_kernel.h"
 #include "render/plan.h"
 #include "render/sampled_lights.h"
 #include "render/stage_clock.h"
@@ -47,6 +48,7 @@ struct TileScratch {
   // Layers on their way to the film.
   AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // of each pixel, in this round
   Soa3<double> hit_values, ray_values;
+  std::vector<HitSpan> spans;
 };
 
 // Sets scratch->in_sight for a tile or cell, and readies the scratch for it. False if there is

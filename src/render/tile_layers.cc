@@ -16,9 +16,6 @@ void AddSoa(const Soa3<float>& a, size_t count, Soa3<float>* sum) {
   }
 }
 
-// Layers hold floats; what they add up to is computed from the same floats.
-Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
-
 // Where a layer's values come from: the sum of two arrays of floats and two constants, in double.
 // The beauty is the exact sum of the other layers' floats, so after the film's average each is
 // rounded once, whatever the filter's weights cancel. It never depends on which layers are asked
@@ -55,29 +52,73 @@ LayerTerms TermsOf(const Layer& layer, size_t light_layer, const ShadingMaterial
   }
 }
 
+const float* ChannelOrNull(const Soa3<float>* soa, int c) {
+  if (soa == nullptr) return nullptr;
+  return (c == 0 ? soa->x : c == 1 ? soa->y : soa->z).data();
+}
+
 // Channel c of a layer at the hits of a run.
 void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* values) {
-  const auto channel = [c](const Soa3<float>& soa) {
-    return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
-  };
-  if (terms.first == nullptr) {
+  const float* const first = ChannelOrNull(terms.first, c);
+  if (first == nullptr) {
     std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
   } else if (terms.second == nullptr) {
-    std::copy(channel(*terms.first) + run.begin, channel(*terms.first) + run.end,
-              values + run.begin);
+    std::copy(first + run.begin, first + run.end, values + run.begin);
   } else {
-    AddFloats(channel(*terms.first), channel(*terms.second), terms.constant[c], terms.further[c],
-              run.begin, run.end, values);
+    AddFloats(first, ChannelOrNull(terms.second, c), terms.constant[c], terms.further[c], run.begin,
+              run.end, values);
   }
 }
 
-bool ShowsBackground(const Layer& layer) {
-  return layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
+// How many hits from `first` on, not beyond `end`, are of rays one after the other.
+size_t CountConsecutive(const uint32_t* ray, size_t first, size_t end) {
+  const auto all = [&](size_t last) { return ray[last] - ray[first] == last - first; };
+  if (all(end - 1)) return end - first;
+  constexpr size_t kStride = 8;
+  size_t next = first + 1;
+  while (next + kStride <= end && all(next + kStride - 1)) next += kStride;
+  while (next < end && all(next)) ++next;
+  return next - first;
 }
 
-// What a layer shows where nothing is hit, unless that is a sky.
-Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
-  return ShowsBackground(layer) ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
+// Finds the spans of a batch whose hits are in the order of their rays.
+void FindSpans(TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  const size_t pixels = s.film.window.pixel_count();
+  const uint32_t* const ray = s.hits.ray.data();
+  s.spans.clear();
+  size_t sample = 0;
+  for (size_t i = 0; i < s.hits.count;) {
+    while (ray[i] >= (sample + 1) * pixels) ++sample;
+    const size_t pixel = ray[i] - sample * pixels;
+    const size_t end = std::min(s.hits.count, i + (pixels - pixel));
+    const size_t count = CountConsecutive(ray, i, end);
+    s.spans.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(pixel),
+                       static_cast<uint32_t>(count), s.weights[sample]});
+    i += count;
+  }
+}
+
+// Adds a layer of a batch that FindSpans was asked about.
+void AddRun(const RenderPlan& plan, const Layer& layer, size_t light_layer, double* const* sums,
+            const TileScratch& s) {
+  const ShadingMaterial& constants = plan.materials[s.runs[0].material.index];
+  const LayerTerms terms = TermsOf(layer, light_layer, constants, s);
+  for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+    AddHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
+            terms.further[c], s.spans, sums[c]);
+  }
+}
+
+// Adds a layer of any batch.
+void AddRays(const RenderPlan& plan, const Layer& layer, size_t light_layer, double* const* sums,
+             TileScratch* scratch) {
+  Soa3<double>& values = GatherLayer(plan, layer, light_layer, Rgb(0, 0, 0), scratch);
+  for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+    AddSamples(ChannelOf(values, c).data(), scratch->weights.data(),
+               static_cast<int>(scratch->weights.size()), scratch->film.window.pixel_count(),
+               sums[c]);
+  }
 }
 
 // Makes values by ray of those by hit. `sky`: what the rays see that hit nothing, or null.
@@ -150,7 +191,7 @@ void SeeSky(const RenderPlan& plan, TileScratch* scratch) {
 }
 
 Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
-                          TileScratch* scratch) {
+                          const Rgb& background, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const int channels = FloatChannels(layer.kind);
   if (s.hits.count > 0) {
@@ -161,22 +202,28 @@ Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t lig
   }
   // Where every ray hits the same material, hits are in the order of rays.
   if (s.hits.count == s.samples.count && s.runs.size() == 1) return s.hit_values;
-  const Soa3<float>* const sky =
-      plan.sky != nullptr && ShowsBackground(layer) ? &s.sampled->sky : nullptr;
-  SpreadHits(BackgroundOf(layer, *plan.scene), sky, channels, &s);
+  const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
+  SpreadHits(background, sees_sky ? &s.sampled->sky : nullptr, channels, &s);
   return s.ray_values;
 }
 
 void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
+  if (s.hits.count == 0 && plan.sky == nullptr) return;
+  // A pixel's samples are added in their order, whatever materials they hit.
+  const bool in_order = s.hits.count > 0 && s.runs.size() == 1;
+  if (in_order) FindSpans(&s);
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    Soa3<double>& values = GatherLayer(plan, layer, light_layer, &s);
-    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      AddSamples(ChannelOf(values, c).data(), s.weights.data(), static_cast<int>(s.weights.size()),
-                 s.film.window.pixel_count(), s.film.empty, s.film.sums[sum++].data());
+    double* sums[3] = {};
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) sums[c] = s.film.sums[sum++].data();
+    const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
+    if (in_order && !sees_sky) {
+      AddRun(plan, layer, light_layer, sums, s);
+    } else if (s.hits.count > 0 || sees_sky) {
+      AddRays(plan, layer, light_layer, sums, &s);
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
@@ -184,7 +231,6 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
     AddNearest(
         plan, [&](uint32_t ray) { return RowPixel(s.film.window, ray); }, &s);
   }
-  s.film.empty = false;
 }
 
 void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {
@@ -199,7 +245,7 @@ void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {
   };
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
-    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, *plan.scene) : Rgb(0, 0, 0);
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
     // As the film averages it: the sum of spp floats, at most 2^16, is exact.
     const Rgb mean = background * spp * (1.0 / spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {

@@ -14,9 +14,10 @@ inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
   return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
 }
 
-// An averaged layer's values at the rays of scratch->samples, in buffers of the scratch.
+// An averaged layer's values at the rays of scratch->samples, in buffers of the scratch;
+// `background` for those that hit nothing.
 Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
-                          TileScratch* scratch);
+                          const Rgb& background, TileScratch* scratch);
 
 // Finds what of the plan's sky, if it has one, the samples' rays see that hit nothing, for
 // GatherLayer.

@@ -48,6 +48,7 @@ struct ShadeRange {
   std::span<const LightOnBatch> lights;
   size_t begin, end;
   ReflectedRadiance* radiance;
+  bool replace = false;  // LitHits'
 };
 
 void PrepareMicrofacet(const MicrofacetModel& model, size_t begin, size_t end, Surface* surface);

@@ -43,20 +43,27 @@ HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {
           hn::Set(d, 1.0f)};
 }
 
+// Direction and irradiance of an inverse-square light at `offset` from the hits.
+HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset, FloatV scale) {
+  const FloatV squared = FusedDot(offset, offset);
+  const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
+  const FloatV inverse = hn::IfThenElseZero(apart, ReciprocalSqrt(d, squared));
+  return {Scale(offset, inverse), hn::Mul(hn::Mul(inverse, inverse), scale)};
+}
+
 template <LightForm kForm>
 HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Soa3<double>& position,
                                size_t i) {
   const Vec3V<FloatV> offset{OffsetFrom(d, position.x.data(), i, light.position.x),
                              OffsetFrom(d, position.y.data(), i, light.position.y),
                              OffsetFrom(d, position.z.data(), i, light.position.z)};
-  const FloatV squared = FusedDot(offset, offset);
-  const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
-  const FloatV inverse = hn::IfThenElseZero(apart, ReciprocalSqrt(d, squared));
-  const Vec3V<FloatV> to_light = Scale(offset, inverse);
   if constexpr (kForm == LightForm::kInverseSquare) {
-    const FloatV falloff = hn::Mul(inverse, inverse);
-    return {to_light, hn::Mul(falloff, hn::Set(d, light.inverse_quadratic))};
+    return InverseSquareAt(d, offset, hn::Set(d, light.inverse_quadratic));
   } else {
+    const FloatV squared = FusedDot(offset, offset);
+    const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
+    const FloatV inverse = hn::IfThenElseZero(apart, ReciprocalSqrt(d, squared));
+    const Vec3V<FloatV> to_light = Scale(offset, inverse);
     const FloatV distance = hn::IfThenElseZero(apart, hn::Mul(squared, inverse));
     FloatV irradiance = AttenuationFactor(d, light.attenuation, distance);
     if constexpr (kForm == LightForm::kSpot) {
@@ -68,6 +75,30 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Soa3
     return {to_light, irradiance};
   }
 }
+
+// PositionalAt<kInverseSquare> with what all packets share in registers.
+class PointLightV {
+ public:
+  PointLightV(FloatTag d, const ShadingLight& light, const Soa3<double>& position)
+      : x_(position.x.data()),
+        y_(position.y.data()),
+        z_(position.z.data()),
+        from_(light.position),
+        scale_(hn::Set(d, light.inverse_quadratic)) {}
+
+  HWY_INLINE LightV At(FloatTag d, size_t i) const {
+    const Vec3V<FloatV> offset{OffsetFrom(d, x_, i, from_.x), OffsetFrom(d, y_, i, from_.y),
+                               OffsetFrom(d, z_, i, from_.z)};
+    return InverseSquareAt(d, offset, scale_);
+  }
+
+ private:
+  const double* HWY_RESTRICT x_;
+  const double* HWY_RESTRICT y_;
+  const double* HWY_RESTRICT z_;
+  Vec3d from_;
+  FloatV scale_;
+};
 
 // The light of a batch's hits i..., evaluated before or, in its two most frequent forms, here.
 // Vectors, not structs, are what the branches choose: GCC takes a struct that they choose through

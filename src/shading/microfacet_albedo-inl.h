@@ -25,11 +25,16 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
   const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
   const FloatV one = AlbedoOne(d, fit, x);
   const FloatV loss = AlbedoLoss(d, fit, x);
+  // Vectors, not structs, are what the branch chooses: GCC takes structs through memory.
+  FloatV scale, bias;
   if (model.fresnel == FresnelForm::kDielectric) {
-    return {one, loss, hn::Zero(d), AlbedoFresnel(d, model.albedo, one, x)};
+    scale = hn::Zero(d);
+    bias = AlbedoFresnel(d, model.albedo, one, x);
+  } else {
+    bias = AlbedoSchlick(d, fit, one, x);
+    scale = hn::Sub(one, bias);
   }
-  const FloatV schlick = AlbedoSchlick(d, fit, one, x);
-  return {one, loss, hn::Sub(one, schlick), schlick};
+  return {one, loss, scale, bias};
 }
 
 // 1 minus the albedo of the whole lobe, Kulla and Conty's part included: what reaches the base,

@@ -22,7 +22,7 @@ HWY_INLINE void StoreMasked(FloatTag d, hn::Mask<FloatTag> mask, FloatV value, f
 HWY_INLINE FloatV Multiple(FloatTag d, const MicrofacetModel& model, const AlbedoV& albedo) {
   switch (model.compensation) {
     case Compensation::kTurquin:
-      return hn::Div(albedo.loss, albedo.one);
+      return hn::Mul(albedo.loss, Reciprocal(d, albedo.one));
     case Compensation::kKullaConty:
       return hn::Mul(albedo.loss, hn::Set(d, static_cast<float>(model.multiple)));
     case Compensation::kNone:

@@ -47,13 +47,6 @@ HWY_INLINE RgbV AddRgb(const RgbV& a, const RgbV& b) {
   return {hn::Add(a.r, b.r), hn::Add(a.g, b.g), hn::Add(a.b, b.b)};
 }
 
-HWY_INLINE void StoreRgb(FloatTag d, hn::Mask<FloatTag> mask, const RgbV& value, size_t i,
-                         Soa3<float>* soa) {
-  hn::BlendedStore(value.r, mask, d, soa->x.data() + i);
-  hn::BlendedStore(value.g, mask, d, soa->y.data() + i);
-  hn::BlendedStore(value.b, mask, d, soa->z.data() + i);
-}
-
 // Hits i... of a batch.
 struct PacketV {
   size_t i;
@@ -69,44 +62,122 @@ struct IncidentV {
   hn::Mask<FloatTag> lit;
 };
 
-HWY_INLINE IncidentV IncidentAt(FloatTag d, const LightOnBatch& light, const HitBatch& hits,
-                                const PacketV& packet) {
-  const LightV at = LightAt(d, light, hits, packet.i);
+HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const PacketV& packet) {
   const FloatV n_dot_l = FusedDot(packet.normal, at.to_light);
   const auto lit = hn::Gt(n_dot_l, hn::Zero(d));
   const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, at.irradiance));
   return {at.to_light, n_dot_l, hn::IfThenElseZero(lit, at.irradiance), weight, lit};
 }
 
-// For each packet of the range: what `model` reflects of every light, in the order of the lights.
-//   view = model.SeenBy(packet, surface)              what does not depend on the light
-//   model.Add(view, packet, incident, k, &radiance)   adds what light k makes of it
-// Sums stay in registers from light to light. Arrays are padded to whole vectors and ranges of a
-// batch follow one another, so a packet may reach past its range: the lanes that do are not stored.
+// The arrays of three coordinates, in registers: what a kernel stores might be their pointers, for
+// all that the compiler knows.
+template <typename T>
+struct Pointers3 {
+  T* HWY_RESTRICT x;
+  T* HWY_RESTRICT y;
+  T* HWY_RESTRICT z;
+};
+
+HWY_INLINE Pointers3<const float> PointersTo(const Soa3<float>& soa) {
+  return {soa.x.data(), soa.y.data(), soa.z.data()};
+}
+
+HWY_INLINE Pointers3<float> PointersTo(Soa3<float>* soa) {
+  return {soa->x.data(), soa->y.data(), soa->z.data()};
+}
+
+HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, size_t i) {
+  return LoadU3(d, from.x + i, from.y + i, from.z + i);
+}
+
+HWY_INLINE RgbV SumSoFar(FloatTag d, bool replace, const Pointers3<float>& sum, size_t i) {
+  FloatV r = hn::Zero(d), g = r, b = r;
+  if (!replace) {
+    r = hn::LoadU(d, sum.x + i);
+    g = hn::LoadU(d, sum.y + i);
+    b = hn::LoadU(d, sum.z + i);
+  }
+  return {r, g, b};
+}
+
+// Stores `count` lanes at most.
+HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Pointers3<float>& to,
+                         size_t i) {
+  if (count >= hn::Lanes(d)) {
+    hn::StoreU(value.r, d, to.x + i);
+    hn::StoreU(value.g, d, to.y + i);
+    hn::StoreU(value.b, d, to.z + i);
+  } else {
+    const auto mask = hn::FirstN(d, count);
+    hn::BlendedStore(value.r, mask, d, to.x + i);
+    hn::BlendedStore(value.g, mask, d, to.y + i);
+    hn::BlendedStore(value.b, mask, d, to.z + i);
+  }
+}
+
+// What packets reflect so far: sums stay in registers from light to light.
 struct RadianceV {
   RgbV diffuse, specular;
 };
 
-template <class Model>
-HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
-  const Soa3<float>& n = range.surface.normal;
-  const Soa3<float>& v = range.surface.to_view;
-  const LightOnBatch* const lights = range.lights.data();
-  const size_t light_count = range.lights.size();
-  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const PacketV packet{i, LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
-                         LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i)};
-    const auto view = model.SeenBy(d, packet, range.surface);
-    RadianceV sum{LoadRgb(d, range.radiance->diffuse, i), LoadRgb(d, range.radiance->specular, i)};
-    for (size_t k = 0; k < light_count; ++k) {
-      model.Add(d, view, packet, IncidentAt(d, lights[k], range.hits, packet), k, &sum);
-    }
-    const auto mask = hn::FirstN(d, range.end - i);
-    StoreRgb(d, mask, sum.diffuse, i, &range.radiance->diffuse);
-    if constexpr (Model::kHasSpecular) {
-      StoreRgb(d, mask, sum.specular, i, &range.radiance->specular);
+// The lights of a range. In the most frequent case it is one, without a choice inside the loop.
+struct OneLight {
+  PointLightV light;
+
+  template <class Model>
+  HWY_INLINE void Add(FloatTag d, const Model& model, const typename Model::View& view,
+                      const PacketV& packet, RadianceV* sum) const {
+    model.Add(d, view, packet, MakeIncident(d, light.At(d, packet.i), packet), 0, sum);
+  }
+};
+
+struct ManyLights {
+  const HitBatch& hits;
+  std::span<const LightOnBatch> lights;
+
+  template <class Model>
+  HWY_INLINE void Add(FloatTag d, const Model& model, const typename Model::View& view,
+                      const PacketV& packet, RadianceV* sum) const {
+    for (size_t k = 0; k < lights.size(); ++k) {
+      const LightV at = LightAt(d, lights[k], hits, packet.i);
+      model.Add(d, view, packet, MakeIncident(d, at, packet), k, sum);
     }
   }
+};
+
+// Arrays are padded to whole vectors and ranges of a batch follow one another, so a packet may
+// reach past its range: the lanes that do are not stored.
+template <class Model, class Lights>
+HWY_INLINE void ShadePacketsBy(FloatTag d, const Model& model, const Lights& lights,
+                               const ShadeRange& range) {
+  const Pointers3<const float> n = PointersTo(range.surface.normal);
+  const Pointers3<const float> v = PointersTo(range.surface.to_view);
+  const Pointers3<float> diffuse = PointersTo(&range.radiance->diffuse);
+  const Pointers3<float> specular = PointersTo(&range.radiance->specular);
+  const bool replace = range.replace;
+  const size_t end = range.end;
+  for (size_t i = range.begin; i < end; i += hn::Lanes(d)) {
+    const PacketV packet{i, LoadAt(d, n, i), LoadAt(d, v, i)};
+    const auto view = model.SeenBy(d, packet, range.surface);
+    RadianceV sum{SumSoFar(d, replace, diffuse, i), SumSoFar(d, replace, specular, i)};
+    lights.Add(d, model, view, packet, &sum);
+    StoreRgb(d, end - i, sum.diffuse, diffuse, i);
+    if (Model::kHasSpecular || replace) StoreRgb(d, end - i, sum.specular, specular, i);
+  }
+}
+
+// For each packet of the range: what `model` reflects of every light, in the order of the lights.
+//   view = model.SeenBy(packet, surface)              what does not depend on the light
+//   model.Add(view, packet, incident, k, &radiance)   adds what light k makes of it
+template <class Model>
+HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
+  const LightOnBatch& first = range.lights[0];
+  if (range.lights.size() == 1 && first.evaluated == nullptr &&
+      first.light->form == LightForm::kInverseSquare) {
+    const OneLight one{PointLightV(d, *first.light, range.hits.position)};
+    return ShadePacketsBy(d, model, one, range);
+  }
+  ShadePacketsBy(d, model, ManyLights{range.hits, range.lights}, range);
 }
 
 }  // namespace HWY_NAMESPACE

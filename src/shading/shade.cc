@@ -85,8 +85,10 @@ void ForEachGroup(const Model& model, const ShadeRange& range, size_t at_once, c
     for (size_t k = 0; k < count; ++k) {
       lights[k] = MakeLight(model, range.lights[first + k].light->color);
     }
-    shade(lights.data(), ShadeRange{range.hits, range.surface, range.lights.subspan(first, count),
-                                    range.begin, range.end, range.radiance});
+    ShadeRange group = range;
+    group.lights = range.lights.subspan(first, count);
+    group.replace = range.replace && first == 0;
+    shade(lights.data(), group);
   }
 }
 
@@ -133,7 +135,7 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               NarrowLobes* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance};
+  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.replace};
   std::visit(
       Overloaded{[](std::monostate) {}, [&](const LambertModel& lambert) { Shade(lambert, range); },
                  [&](const auto& model) { Shade(model, range, scratch); }},

@@ -54,6 +54,7 @@ struct LitHits {
   const HitBatch& hits;
   const Surface& surface;
   std::span<const LightOnBatch> lights;
+  bool replace = false;  // the radiance so far counts as 0, whatever it is
 };
 
 // Rounds hits whose directions were given in double.

@@ -7,7 +7,6 @@
 #define NACRE_VISIBILITY_CAMERA_PACKET_INL_H_
 #endif
 
-#include "base/wide-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/tile_kernel.h"
@@ -49,7 +48,6 @@ struct CameraPacket {
   alignas(kVectorBytes) double along[kCameraPacket];  // half the chord, negative where the ray
                                                       // starts outside
   alignas(kVectorBytes) double perpendicular[3][kCameraPacket];
-  const TileCandidate* alone;  // the only candidate, which all hits are of; or null, and then:
   const TileCandidate* best[kCameraPacket];
 };
 
@@ -119,15 +117,21 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
   return lanes & packet.lanes;
 }
 
+// The own vectors, in double, of the lanes from `lane` on: by the operations of MakeCameraRays.
+template <class D>
+HWY_INLINE Vec3V<hn::Vec<D>> ExactOwn(D d, const CameraFrame& frame, int lane,
+                                      const CameraPacket& packet) {
+  const auto x = hn::LoadU(d, packet.film_x + lane);
+  const auto y = hn::LoadU(d, packet.film_y + lane);
+  return Add(Add(SetVec3(d, frame.corner), Scale(SetVec3(d, frame.step_x), x)),
+             Scale(SetVec3(d, frame.step_y), y));
+}
+
 // The double rays of the lanes from `lane` on.
 template <bool kPerspective, class D>
 HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPacket* packet) {
   using V = hn::Vec<D>;
-  const V x = hn::LoadU(d, packet->film_x + lane);
-  const V y = hn::LoadU(d, packet->film_y + lane);
-  // The operations of MakeCameraRays.
-  const Vec3V<V> own = Add(Add(SetVec3(d, frame.corner), Scale(SetVec3(d, frame.step_x), x)),
-                           Scale(SetVec3(d, frame.step_y), y));
+  const Vec3V<V> own = ExactOwn(d, frame, lane, *packet);
   const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
   const V dd = Dot(direction, direction);
   Store3(own, d, packet->exact_own[0] + lane, packet->exact_own[1] + lane,
@@ -172,46 +176,6 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
              packet->depth + lane);
   packet->hit |= bits << lane;
   for (; bits != 0; bits &= bits - 1) packet->best[lane + __builtin_ctz(bits)] = &candidate;
-}
-
-// The exact test is one long chain of dependent operations: AVX-512, with registers to spare, runs
-// two of them side by side.
-#if HWY_TARGET <= HWY_AVX3
-using ExactTag = hn::WideTag<CameraDouble>;
-
-HWY_INLINE uint32_t ExactBits(ExactTag /*d*/, const hn::Wide<hn::Mask<CameraDouble>>& mask) {
-  const CameraDouble half;
-  return BitsOfMask(half, mask.low) | BitsOfMask(half, mask.high) << hn::Lanes(half);
-}
-#else
-using ExactTag = CameraDouble;
-
-HWY_INLINE uint32_t ExactBits(ExactTag d, hn::Mask<ExactTag> mask) { return BitsOfMask(d, mask); }
-#endif
-
-// Against the only candidate there is, with the camera outside: no depth is needed, and the line's
-// test and its direction decide, which spares a division. Of perspective rays.
-template <bool kPerspective>
-HWY_INLINE void TestAlone(const CameraFrame& frame, CameraPacket* packet) {
-  const TileCandidate& candidate = *packet->alone;
-  const uint32_t lanes = ProposedLanes<kPerspective, true>(frame, candidate, *packet);
-  if (lanes == 0) return;
-  const ExactTag d;
-  const auto center = SetVec3(d, candidate.sphere.center);
-  const auto radius = hn::Set(d, candidate.sphere.radius);
-  const int step = static_cast<int>(hn::Lanes(d));
-  for (int lane = 0; lane < kCameraPacket; lane += step) {
-    const uint32_t proposed = lanes >> lane & ((1u << step) - 1);
-    if (proposed == 0) continue;
-    FillExactRays<kPerspective>(d, frame, lane, packet);
-    const auto direction = ExactDirection<kPerspective>(d, frame, lane, *packet);
-    const auto hit = TestLine(d, center, direction, hn::Load(d, packet->inverse_dd + lane), radius);
-    hn::Store(hn::Neg(hit.half_chord), d, packet->along + lane);
-    Store3(hit.perpendicular, d, packet->perpendicular[0] + lane, packet->perpendicular[1] + lane,
-           packet->perpendicular[2] + lane);
-    const auto ahead = hn::Gt(hit.closest, hn::Zero(d));
-    packet->hit |= (proposed & ExactBits(d, hn::And(hit.hit, ahead))) << lane;
-  }
 }
 
 // One of several candidates.

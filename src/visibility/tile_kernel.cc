@@ -8,8 +8,7 @@
 #define HWY_TARGET_INCLUDE "visibility/tile_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "visibility/camera_packet-inl.h"
-#include "visibility/surface-inl.h"
+#include "visibility/alone-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -54,11 +53,6 @@ HWY_INLINE void TracePacket(const CameraFrame& frame, const std::vector<TileCand
                             const std::vector<TileCandidate>* end, CameraPacket* packet) {
   FillFloatRays<kPerspective>(frame, packet);
   packet->hit = 0;
-  packet->alone = nullptr;
-  if (end - begin == 1 && begin->size() == 1 && kPerspective && !begin->front().around_camera) {
-    packet->alone = &begin->front();
-    return TestAlone<kPerspective>(frame, packet);
-  }
   const CameraFloat d;
   const float infinity = std::numeric_limits<float>::infinity();
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
@@ -100,48 +94,9 @@ HWY_INLINE HitSpheres GatherSpheres(const CameraPacket& packet, int lane, uint32
   return {Load3(d, gathered[0], gathered[1], gathered[2]), hn::Load(d, gathered[3])};
 }
 
-// Appends the lanes of a group that hit something to arrays that are `count` long.
-class Appender {
- public:
-  Appender(size_t count, uint32_t bits) : count_(count) {
-    bytes_[0] = static_cast<uint8_t>(bits);
-    bytes_[1] = static_cast<uint8_t>(bits >> 8);
-    all_ = bits == (1u << hn::Lanes(CameraDouble())) - 1;
-  }
-
-  template <class D, class T>
-  HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
-    if (all_) {
-      hn::StoreU(value, d, to->data() + count_);
-    } else {
-      hn::CompressBitsStore(value, bytes_, d, to->data() + count_);
-    }
-  }
-
-  template <class D, class T>
-  HWY_INLINE void Append3(D d, const Vec3V<hn::Vec<D>>& value, Soa3<T>* to) const {
-    (*this)(d, value.x, &to->x);
-    (*this)(d, value.y, &to->y);
-    (*this)(d, value.z, &to->z);
-  }
-
- private:
-  size_t count_;
-  uint8_t bytes_[8] = {};
-  bool all_;
-};
-
 // Appends the primitives, and with them counts the hits.
 HWY_INLINE void AppendPrimitives(const CameraPacket& packet, int lane, uint32_t bits,
-                                 const TileCandidate* only, const Appender& append,
                                  HitBatch* hits) {
-  const hn::Rebind<uint32_t, CameraDouble> du;
-  if (only != nullptr) {
-    append(du, hn::Set(du, only->primitive), &hits->primitive);
-    if (hits->primitive[0] != only->primitive) hits->one_primitive = false;
-    hits->count += static_cast<size_t>(__builtin_popcount(bits));
-    return;
-  }
   hits->one_primitive = false;
   for (; bits != 0; bits &= bits - 1) {
     hits->primitive[hits->count++] = packet.best[lane + __builtin_ctz(bits)]->primitive;
@@ -152,10 +107,7 @@ template <bool kPerspective>
 HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet, size_t first_ray,
                            const HitsTo& to) {
   const CameraDouble d;
-  const hn::Rebind<float, CameraDouble> df;
-  const hn::Rebind<uint32_t, CameraDouble> du;
   const int step = static_cast<int>(hn::Lanes(d));
-  HitBatch& hits = *to.hits;
   for (int lane = 0; lane < kCameraPacket; lane += step) {
     const uint32_t bits = (packet.hit >> lane) & ((1u << step) - 1);
     if (bits == 0) continue;
@@ -163,8 +115,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const Vec3V<hn::Vec<CameraDouble>> perpendicular =
         Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
               packet.perpendicular[2] + lane);
-    const TileCandidate* const only =
-        packet.alone != nullptr ? packet.alone : OnlySphere(packet, lane, bits);
+    const TileCandidate* const only = OnlySphere(packet, lane, bits);
     const HitSpheres spheres = only != nullptr ? HitSpheres{SetVec3(d, only->sphere.center),
                                                             hn::Set(d, only->inverse_radius)}
                                                : GatherSpheres(packet, lane, bits);
@@ -172,17 +123,12 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
         SphereSurface(d, direction, hn::Load(d, packet.along + lane), perpendicular, spheres.center,
                       spheres.inverse_radius);
     const auto to_view = ToView(d, direction, hn::Load(d, packet.exact_dd + lane));
-    const Appender append(hits.count, bits);
-    append.Append3(d, surface.position, &hits.position);
-    append.Append3(df, Demote3(d, surface.normal), &to.directions->normal);
-    append.Append3(df, Demote3(d, to_view), &to.directions->to_view);
-    if (to.exact) {
-      append.Append3(d, surface.normal, &hits.normal);
-      append.Append3(d, to_view, &hits.to_view);
+    AppendSurface(surface, to_view, bits, first_ray + static_cast<size_t>(lane), to);
+    if (only != nullptr) {
+      AppendPrimitive(only->primitive, bits, to.hits);
+    } else {
+      AppendPrimitives(packet, lane, bits, to.hits);
     }
-    append(du, hn::Iota(du, static_cast<uint32_t>(first_ray) + static_cast<uint32_t>(lane)),
-           &hits.ray);
-    AppendPrimitives(packet, lane, bits, only, append, &hits);
   }
 }
 
@@ -211,31 +157,70 @@ void PadHits(const HitsTo& to) {
   PadSoa(count, &to.hits->to_view);
 }
 
+// The cell's only candidate, if perspective rays through the cell meet it from outside; or null.
+template <bool kPerspective>
+HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) {
+  return kPerspective && cell.size() == 1 && !cell[0].around_camera ? &cell[0] : nullptr;
+}
+
+// The part of a tile's row from column x on, at most, whose cells have this candidate alone.
+template <bool kPerspective, class CellAt>
+HWY_INLINE int AloneUntil(const TileCandidate& candidate, int x, int width, const CellAt& cell_at) {
+  for (x += kCameraPacket; x < width; x += kCameraPacket) {
+    const std::vector<TileCandidate>* const cell = cell_at(x);
+    const TileCandidate* const other = AloneIn<kPerspective>(*cell);
+    if (other == nullptr || other->primitive != candidate.primitive) return x;
+    if (cell_at(std::min(x + kCameraPacket, width) - 1) != cell) return x;
+  }
+  return width;
+}
+
+template <bool kPerspective>
+HWY_INLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
+                         const TileCandidates& candidates, const FilmBatch& film, size_t row,
+                         CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
+  const int tile_width = candidates.tile.width();
+  const int left = candidates.tile.x0 - bins.window.x0;
+  const auto cell_at = [&](int column) {
+    return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
+  };
+  for (int x = 0; x < tile_width;) {
+    const int width = std::min(kCameraPacket, tile_width - x);
+    const std::vector<TileCandidate>* begin = cell_at(x);
+    const std::vector<TileCandidate>* const end = cell_at(x + width - 1) + 1;
+    const size_t first = row + static_cast<size_t>(x);
+    const TileCandidate* const alone = end - begin == 1 ? AloneIn<kPerspective>(*begin) : nullptr;
+    if (alone != nullptr) {
+      const int until = AloneUntil<kPerspective>(*alone, x, tile_width, cell_at);
+      TraceAlone(frame, *alone, film, first, static_cast<size_t>(until - x), packet, block, to);
+      x = until;
+      continue;
+    }
+    x += kCameraPacket;
+    while (begin != end && begin->empty()) ++begin;
+    if (begin == end) continue;
+    packet->lanes = (1u << width) - 1;
+    packet->film_x = film.x.data() + first;
+    packet->film_y = film.y.data() + first;
+    TracePacket<kPerspective>(frame, begin, end, packet);
+    if (packet->hit != 0) AppendHits<kPerspective>(frame, *packet, first, to);
+  }
+}
+
 template <bool kPerspective>
 HWY_INLINE void TraceRows(const CameraFrame& frame, const SphereBins& bins,
                           const TileCandidates& candidates, const FilmBatch& film,
                           const HitsTo& to) {
   CameraPacket packet;
-  const Window& tile = candidates.tile;
-  const int left = tile.x0 - bins.window.x0;
-  size_t row = 0;
-  for (; row < film.count; row += static_cast<size_t>(tile.width())) {
-    for (int x = 0; x < tile.width(); x += kCameraPacket) {
-      const int width = std::min(kCameraPacket, tile.width() - x);
-      const auto cell = [&](int column) {
-        return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
-      };
-      const std::vector<TileCandidate>* begin = cell(x);
-      const std::vector<TileCandidate>* const end = cell(x + width - 1) + 1;
-      while (begin != end && begin->empty()) ++begin;
-      if (begin == end) continue;
-      const size_t first = row + static_cast<size_t>(x);
-      packet.lanes = (1u << width) - 1;
-      packet.film_x = film.x.data() + first;
-      packet.film_y = film.y.data() + first;
-      TracePacket<kPerspective>(frame, begin, end, &packet);
-      if (packet.hit != 0) AppendHits<kPerspective>(frame, packet, first, to);
-    }
+  AloneBlock block;
+  const TileCandidate* const alone =
+      candidates.cells.size() == 1 ? AloneIn<kPerspective>(candidates.cells[0]) : nullptr;
+  if (alone != nullptr) {
+    return TraceAlone(frame, *alone, film, 0, film.count, &packet, &block, to);
+  }
+  const auto width = static_cast<size_t>(candidates.tile.width());
+  for (size_t row = 0; row < film.count; row += width) {
+    TraceRow<kPerspective>(frame, bins, candidates, film, row, &packet, &block, to);
   }
 }
 

@@ -1,0 +1,78 @@
+// visibility/append-inl.h: writes the hits of a group of lanes behind those that a batch has.
+#if defined(NACRE_VISIBILITY_APPEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_VISIBILITY_APPEND_INL_H_
+#undef NACRE_VISIBILITY_APPEND_INL_H_
+#else
+#define NACRE_VISIBILITY_APPEND_INL_H_
+#endif
+
+#include "visibility/camera_packet-inl.h"
+#include "visibility/surface-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Appends the lanes of `bits` to arrays that are `count` long. What lies behind them, up to a whole
+// vector, may be overwritten.
+class Appender {
+ public:
+  Appender(size_t count, uint32_t bits)
+      : count_(count), bits_(bits), all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {}
+
+  template <class D, class T>
+  HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
+    if (all_) {
+      hn::StoreU(value, d, to->data() + count_);
+    } else {
+      hn::CompressStore(value, MaskOfBits(d, bits_, 0), d, to->data() + count_);
+    }
+  }
+
+  template <class D, class T>
+  HWY_INLINE void Append3(D d, const Vec3V<hn::Vec<D>>& value, Soa3<T>* to) const {
+    (*this)(d, value.x, &to->x);
+    (*this)(d, value.y, &to->y);
+    (*this)(d, value.z, &to->z);
+  }
+
+ private:
+  size_t count_;
+  uint32_t bits_;
+  bool all_;
+};
+
+// Appends all of a group's hits but their primitives, with which the hits will be counted. `ray` is
+// that of the first lane.
+template <class V>
+HWY_INLINE void AppendSurface(const SurfaceV<CameraDouble, V>& surface, const Vec3V<V>& to_view,
+                              uint32_t bits, size_t ray, const HitsTo& to) {
+  const CameraDouble d;
+  const hn::Rebind<float, CameraDouble> df;
+  const hn::Rebind<uint32_t, CameraDouble> du;
+  HitBatch& hits = *to.hits;
+  const Appender append(hits.count, bits);
+  append.Append3(d, surface.position, &hits.position);
+  append.Append3(df, Demote3(d, surface.normal), &to.directions->normal);
+  append.Append3(df, Demote3(d, to_view), &to.directions->to_view);
+  if (to.exact) {
+    append.Append3(d, surface.normal, &hits.normal);
+    append.Append3(d, to_view, &hits.to_view);
+  }
+  // Not Iota from `ray` on: that takes the lanes through memory one by one.
+  append(du, hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<uint32_t>(ray))), &hits.ray);
+}
+
+// Appends the primitives of lanes that all hit the same, and with them counts the hits.
+HWY_INLINE void AppendPrimitive(uint32_t primitive, uint32_t bits, HitBatch* hits) {
+  const hn::Rebind<uint32_t, CameraDouble> du;
+  hn::StoreU(hn::Set(du, primitive), du, hits->primitive.data() + hits->count);
+  if (hits->primitive[0] != primitive) hits->one_primitive = false;
+  hits->count += static_cast<size_t>(__builtin_popcount(bits));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
