@@ -7,6 +7,7 @@
 #include "render/cell_film.h"
 #include "render/footprint.h"
 #include "render/tile_layers.h"
+#include "sampling/hash.h"
 
 namespace nacre {
 namespace {
@@ -60,6 +61,20 @@ void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
                  s->samples.y.data() + ray);
   }
   s->samples.count = units.size();
+}
+
+// Which samples those are, for lights that are sampled.
+void NumberUnits(const PixelSampler* samplers, const Window& cell, const std::vector<Unit>& units,
+                 int first, int count, SampleNumbers* numbers) {
+  size_t ray = 0;
+  for (const Unit& unit : units) {
+    const FilmPixel pixel = PixelOf(cell, unit.pixel);
+    const uint64_t seed = PixelSeed(pixel.x, pixel.y, samplers[unit.replicate].seed);
+    for (int k = 0; k < count; ++k, ++ray) {
+      numbers->number[ray] = static_cast<uint32_t>(first + k);
+      numbers->pixel[ray] = seed;
+    }
+  }
 }
 
 double SumOfPiece(const double* values, const double* weights, size_t count) {
@@ -118,7 +133,11 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
       } else {
         MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
       }
+      if (s->sampled) {
+        NumberUnits(samplers.data(), cell, units, first, count, &s->sampled->numbers);
+      }
       TraceAndShade(plan, s, clock, stats);
+      SeeSky(plan, s);
       AddUnits(plan, cell, units, s, c);
       clock->Charge(Stage::kFilm);
       units.clear();
@@ -219,6 +238,11 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
     s.samples.y[i] = pixel.y + 0.5;
   }
   s.samples.count = pixels.size();
+  if (s.sampled) {
+    // Only where they lie is of interest: no footprint is plain under sampled lights.
+    std::fill_n(s.sampled->numbers.number.data(), pixels.size(), 0u);
+    std::fill_n(s.sampled->numbers.pixel.data(), pixels.size(), uint64_t{0});
+  }
   TraceAndShade(plan, &s, clock, stats);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
@@ -275,8 +299,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   TileScratch& s = *scratch;
   CellScratch& c = *cell_scratch;
   StageClock clock(stats);
-  const bool anything = plan.intersector != nullptr &&
-                        (!plan.binned || plan.intersector->EnterTile(cell, &s.candidates));
+  const bool anything = EnterTile(plan, cell, &s);
   clock.Charge(Stage::kIntersect);
   if (!anything) {
     FillBackground(plan, part, strip);

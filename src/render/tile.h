@@ -3,6 +3,7 @@
 
 #include "render/film.h"
 #include "render/plan.h"
+#include "render/sampled_lights.h"
 #include "render/stage_clock.h"
 
 namespace nacre {
@@ -20,6 +21,7 @@ struct TileScratch {
   PixelShifts shifts{kBatchCapacity};
   FilmBatch samples;
   std::vector<double> weights;
+  bool in_sight = true;  // some of the scene's shapes may be behind the samples
   // Camera rays: by bins, or by Embree.
   TileCandidates candidates;
   RayBatch rays;
@@ -35,7 +37,8 @@ struct TileScratch {
   AlignedArray<uint32_t> order{kBatchCapacity};
   LightBatch light;
   NarrowLobes narrow;
-  std::vector<LightOnBatch> together;  // lights shaded by in one go
+  std::vector<LightOnBatch> together;       // lights shaded by in one go
+  std::unique_ptr<SampledScratch> sampled;  // where the plan has sampled lights
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
   ReflectedRadiance total;             // of all lights
@@ -45,6 +48,10 @@ struct TileScratch {
   AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // of each pixel, in this round
   Soa3<double> hit_values, ray_values;
 };
+
+// Sets scratch->in_sight for a tile or cell, and readies the scratch for it. False if there is
+// nothing to be seen but a background of one colour.
+bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch);
 
 // From scratch->samples to its hits and what they reflect.
 void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,

@@ -71,20 +71,28 @@ void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* val
   }
 }
 
-// What a layer shows where nothing is hit.
-Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
-  const bool shows = layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
-  return shows ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
+bool ShowsBackground(const Layer& layer) {
+  return layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
 }
 
-// Makes values by ray of those by hit.
-void SpreadHits(const Rgb& background, int channels, TileScratch* s) {
+// What a layer shows where nothing is hit, unless that is a sky.
+Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
+  return ShowsBackground(layer) ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
+}
+
+// Makes values by ray of those by hit. `sky`: what the rays see that hit nothing, or null.
+void SpreadHits(const Rgb& background, const Soa3<float>* sky, int channels, TileScratch* s) {
   const size_t hits = s->hits.count;
   const uint32_t* const ray = s->hits.ray.data();
   for (int c = 0; c < channels; ++c) {
     const double* const from = ChannelOf(s->hit_values, c).data();
     double* const to = ChannelOf(s->ray_values, c).data();
-    std::fill_n(to, s->samples.count, background[c]);
+    if (sky != nullptr) {
+      const AlignedArray<float>& seen = c == 0 ? sky->x : c == 1 ? sky->y : sky->z;
+      std::copy_n(seen.data(), s->samples.count, to);
+    } else {
+      std::fill_n(to, s->samples.count, background[c]);
+    }
     for (size_t i = 0; i < hits; ++i) to[ray[i]] = from[i];
   }
 }
@@ -121,13 +129,24 @@ void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* s
   }
 }
 
-void KeepLightLayer(size_t light_layer, TileScratch* scratch) {
+void KeepLight(int light_layer, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const size_t count = s.hits.count;
-  AddSoa(s.single.diffuse, count, &s.per_light[light_layer]);
-  AddSoa(s.single.specular, count, &s.per_light[light_layer]);
+  if (light_layer >= 0) {
+    Soa3<float>& layer = s.per_light[static_cast<size_t>(light_layer)];
+    AddSoa(s.single.diffuse, count, &layer);
+    AddSoa(s.single.specular, count, &layer);
+  }
   AddSoa(s.single.diffuse, count, &s.total.diffuse);
   AddSoa(s.single.specular, count, &s.total.specular);
+}
+
+void SeeSky(const RenderPlan& plan, TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  if (plan.sky == nullptr || s.hits.count == s.samples.count) return;
+  RayBatch& rays = s.sampled->sky_rays;
+  MakeCameraRays(plan.camera, s.samples.x.data(), s.samples.y.data(), s.samples.count, &rays);
+  SkyRadiance(*plan.sky, rays.direction, s.samples.count, &s.sampled->sky);
 }
 
 Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
@@ -142,7 +161,9 @@ Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t lig
   }
   // Where every ray hits the same material, hits are in the order of rays.
   if (s.hits.count == s.samples.count && s.runs.size() == 1) return s.hit_values;
-  SpreadHits(BackgroundOf(layer, *plan.scene), channels, &s);
+  const Soa3<float>* const sky =
+      plan.sky != nullptr && ShowsBackground(layer) ? &s.sampled->sky : nullptr;
+  SpreadHits(BackgroundOf(layer, *plan.scene), sky, channels, &s);
   return s.ray_values;
 }
 

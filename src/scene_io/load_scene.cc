@@ -53,8 +53,9 @@ void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
   object.Find("nacre");
   member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+  member("textures", [&](const JsonValue& value) { ReadTextures(value, context); });
   member("materials", [&](const JsonValue& value) { ReadMaterials(value, context); });
-  member("lights", [&](const JsonValue& value) { ReadLights(value, &scene->lights); });
+  member("lights", [&](const JsonValue& value) { ReadLights(value, context); });
   member("shapes", [&](const JsonValue& value) { ReadShapes(value, context); });
   object.Color("background", limits::kRadiance, &scene->background);
   object.RefuseOthers();
@@ -63,7 +64,8 @@ void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
 // The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
 std::string PartOf(const std::string& pointer) {
   if (pointer.starts_with("/spheres") || pointer.starts_with("/meshes")) return "/shapes";
-  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/");
+  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/") ||
+                        pointer.starts_with("/textures/");
   const size_t first_end = pointer.find('/', 1);
   return pointer.substr(0, is_named ? pointer.find('/', first_end + 1) : first_end);
 }

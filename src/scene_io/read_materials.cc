@@ -72,6 +72,7 @@ void ReadMaterial(const JsonValue& value, SceneContext* context, Material* mater
     const MaterialModel& model = MaterialModels()[choice];
     material->model = model.make().model;
     ReadParameters(model, &object, material);
+    ReadMaps(model, &object, context, material);
   }
   object.RefuseOthers();
 }

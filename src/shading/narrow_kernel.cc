@@ -28,6 +28,16 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
   hn::StoreU(hn::DemoteTo(df, value), df, to);
 }
 
+// A direction that was chosen in float is that direction, to the last digit.
+HWY_INLINE Vec3V<DoubleV> PromoteGiven(const LightOnBatch& light, size_t i) {
+  const DoubleTag d;
+  const HalfFloatTag df;
+  const Soa3<float>& l = light.evaluated->to_light;
+  return {hn::PromoteTo(d, hn::LoadU(df, l.x.data() + i)),
+          hn::PromoteTo(d, hn::LoadU(df, l.y.data() + i)),
+          hn::PromoteTo(d, hn::LoadU(df, l.z.data() + i))};
+}
+
 // Calls form(directions, i) for each packet of the range. Arrays are padded, and what a packet
 // writes past the end of its run is scratch.
 template <class Form>
@@ -41,8 +51,12 @@ HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const Vec3d& from = far ? light.to_light : light.position;
   const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
   const DoubleV one = hn::Set(d, 1.0);
+  const auto offset_at = [&](size_t i) HWY_ATTR {
+    if (light.form == LightForm::kGiven) return PromoteGiven(range.lights[0], i);
+    return far ? origin : Sub(origin, load(range.hits.position, i));
+  };
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const Vec3V<DoubleV> offset = far ? origin : Sub(origin, load(range.hits.position, i));
+    const Vec3V<DoubleV> offset = offset_at(i);
     const DoubleV squared = FusedDot(offset, offset);
     const DoubleV distance = hn::Sqrt(squared);
     // A light exactly at the hit has no direction, and no irradiance.

@@ -65,6 +65,7 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
 // True for directional lights and point lights that fall off with the square of the distance.
 bool EvaluatedInPlace(const ShadingLight& light);
 
+// `light` is not LightForm::kGiven.
 void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                    LightBatch* result);
 

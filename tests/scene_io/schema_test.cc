@@ -65,7 +65,13 @@ TEST_CASE("the schema's materials are those of the parameter table") {
     const json& definition = schema["$defs"].at(name);
     CHECK(definition["additionalProperties"] == false);
     CHECK(definition["properties"]["model"]["const"] == model.name);
-    CHECK(definition["properties"].size() == 1 + model.parameters.size() + model.choices.size());
+    // The model, its parameters, choices and maps, and the maps that all have.
+    CHECK(definition["properties"].size() ==
+          1 + model.parameters.size() + model.choices.size() + model.maps.size() + 2);
+    for (const MaterialMap& map : model.maps) {
+      INFO(map.name);
+      CHECK(definition["properties"].at(std::string(map.name))["$ref"] == "#/$defs/texture_name");
+    }
 
     for (const MaterialParameter& parameter : model.parameters) {
       INFO(parameter.name);
@@ -98,6 +104,10 @@ TEST_CASE("the schema's ranges are those of scene/limits.h") {
   CHECK(RangeOf(definitions["seed"]) == limits::kSeed);
   CHECK(RangeOf(definitions["radiance"]["anyOf"][0]) == limits::kRadiance);
   CHECK(RangeOf(definitions["axis_count"]) == limits::kGridCount);
+  CHECK(RangeOf(definitions["texture_scale"]) == limits::kTextureScale);
+  CHECK(RangeOf(definitions["angle_deg"]) == limits::kAngleDeg);
+  CHECK(RangeOf(definitions["normal_map"]["anyOf"][1]["properties"]["scale"]) ==
+        limits::kNormalScale);
   CHECK(RangeOf(Property("perspective_camera", "fov_y_deg")) == limits::kFovYDeg);
   CHECK(RangeOf(Property("image", "width")) == limits::kImageSide);
   CHECK(RangeOf(Property("image", "height")) == limits::kImageSide);
