@@ -86,8 +86,9 @@ void AddInfoCommand(CLI::App* app, int*) {
     bool allow_paths = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->files,
-                      "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb)");
+  command->add_option(
+      "FILE", arguments->files,
+      "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");
   command->add_flag("--allow-paths", arguments->allow_paths,
                     "Let scenes refer to files outside their own folder");
   command->callback([arguments] {

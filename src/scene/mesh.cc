@@ -27,6 +27,17 @@ Vec3d FaceNormal(const Mesh& mesh, size_t triangle) {
   return (b - a).cross(c - a).normalized();  // 0 stays 0
 }
 
+bool HasArea(const Mesh& mesh) {
+  for (size_t i = 0; i < mesh.triangles.size() / 3; ++i) {
+    if (FaceNormal(mesh, i) != Vec3d(0, 0, 0)) return true;
+  }
+  return false;
+}
+
+void DropMeshesWithoutArea(Scene* scene) {
+  std::erase_if(scene->meshes, [](const Mesh& mesh) { return !HasArea(mesh); });
+}
+
 void ApplyTransform(const Transform& transform, Mesh* mesh) {
   const Imath::M33d rotation = RotationMatrix(transform.rotate_deg);
   for (Vec3d& position : mesh->positions) {

@@ -31,6 +31,18 @@ enum class NormalWeighting : uint8_t {
 // more than two faces on one edge only consecutive triangles are compared.
 void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh);
 
+// For models that come without normals and do not say which of their edges are sharp.
+inline constexpr double kModelCreaseAngleDeg = 45;
+
+// Puts averages of the faces, by angle, in the place of normals that are not unit vectors.
+void MendNormals(Mesh* mesh);
+
+// Whether any triangle has an area.
+bool HasArea(const Mesh& mesh);
+
+// Takes those away that no ray can hit.
+void DropMeshesWithoutArea(Scene* scene);
+
 // Scales, then rotates about x, then y, then z by right-handed degrees, then translates.
 struct Transform {
   Vec3d translate{0, 0, 0};

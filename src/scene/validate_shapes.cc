@@ -69,10 +69,7 @@ void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* fa
                 fmt::format("the mesh has {}", mesh.positions.size()));
     return;
   }
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    if (FaceNormal(mesh, i / 3) != Vec3d(0, 0, 0)) return;
-  }
-  faults->Add(where, "no triangle has an area", {});
+  if (!HasArea(mesh)) faults->Add(where, "no triangle has an area", {});
 }
 
 bool IsSound(const Sphere& sphere, size_t material_count) {

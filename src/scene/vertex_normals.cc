@@ -1,5 +1,5 @@
-// scene/vertex_normals.cc: ComputeNormals() of mesh.h. Faces around a vertex fall into groups that
-// share a normal there; without creases there is one group.
+// scene/vertex_normals.cc: ComputeNormals() and MendNormals() of mesh.h. Faces around a vertex fall
+// into groups that share a normal there; without creases there is one group.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -172,6 +172,16 @@ void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* me
   mesh->normals.assign(mesh->positions.size(), Vec3d(0, 1, 0));
   for (size_t i = 0; i < group_of.size(); ++i) {
     if (group_of[i] != kNoGroup) mesh->normals[i] = UnitOrUp(sums[group_of[i]]);
+  }
+}
+
+void MendNormals(Mesh* mesh) {
+  const auto is_unit = [](const Vec3d& normal) { return std::abs(normal.length() - 1) < 1e-6; };
+  if (std::all_of(mesh->normals.begin(), mesh->normals.end(), is_unit)) return;
+  const std::vector<Vec3d> given = std::move(mesh->normals);
+  ComputeNormals(NormalWeighting::kAngle, 180, mesh);
+  for (size_t i = 0; i < given.size(); ++i) {
+    if (is_unit(given[i])) mesh->normals[i] = given[i];
   }
 }
 

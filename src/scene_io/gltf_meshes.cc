@@ -123,17 +123,6 @@ void ReadPositions(const GltfDocument& document, const Primitive& primitive,
   }
 }
 
-// Normals that have no direction, as some exporters write them, become averages of the faces.
-void MendNormals(Mesh* mesh) {
-  const auto is_unit = [](const Vec3d& normal) { return std::abs(normal.length() - 1) < 1e-6; };
-  if (std::all_of(mesh->normals.begin(), mesh->normals.end(), is_unit)) return;
-  const std::vector<Vec3d> given = std::move(mesh->normals);
-  ComputeNormals(NormalWeighting::kAngle, 180, mesh);
-  for (size_t i = 0; i < given.size(); ++i) {
-    if (is_unit(given[i])) mesh->normals[i] = given[i];
-  }
-}
-
 void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_t positions,
                  const Imath::M44d& world_from_node, Mesh* mesh) {
   const int index = AttributeOf(primitive, "NORMAL");
@@ -151,7 +140,7 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
     const Vec3d normal = Triple(accessor, element);
     mesh->normals.push_back(((x * normal.x + y * normal.y + z * normal.z) * side).normalized());
   }
-  MendNormals(mesh);
+  MendNormals(mesh);  // some exporters write normals without a direction
 }
 
 void ReadUvs(const GltfDocument& document, const Primitive& primitive, size_t positions,
@@ -170,13 +159,6 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, size_t po
     }
     mesh->uvs.push_back(uv);
   }
-}
-
-bool HasArea(const Mesh& mesh) {
-  for (size_t i = 0; i < mesh.triangles.size() / 3; ++i) {
-    if (FaceNormal(mesh, i) != Vec3d(0, 0, 0)) return true;
-  }
-  return false;
 }
 
 MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {

@@ -10,7 +10,9 @@
 #include "scene/validate.h"
 #include "scene_io/gltf.h"
 #include "scene_io/model_scene.h"
+#include "scene_io/obj.h"
 #include "scene_io/overrides.h"
+#include "scene_io/ply.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
 
@@ -113,7 +115,9 @@ namespace {
 Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   const std::string file = path.string();
   bool has_camera = false;
-  Scene scene = ReadGltf(path, options, &has_camera);
+  Scene scene = HasExtension(file, ".obj")   ? ReadObjScene(path, options)
+                : HasExtension(file, ".ply") ? ReadPlyScene(path, options)
+                                             : ReadGltf(path, options, &has_camera);
   CompleteModelScene(options, file, has_camera, &scene);
   std::vector<Fault> faults = Validate(scene);
   if (faults.empty()) return scene;
@@ -125,7 +129,8 @@ Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
 
 bool IsModelFile(const std::filesystem::path& path) {
   const std::string file = path.string();
-  return HasExtension(file, ".gltf") || HasExtension(file, ".glb");
+  return HasExtension(file, ".gltf") || HasExtension(file, ".glb") || HasExtension(file, ".obj") ||
+         HasExtension(file, ".ply");
 }
 
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {

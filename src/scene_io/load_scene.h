@@ -28,7 +28,8 @@ struct LoadOptions {
   std::function<void(const std::string&)> on_warning = {};
 };
 
-// True for files that hold a model, by their extension (.gltf, .glb), and not a scene in JSON.
+// True for files that hold a model, by their extension (.gltf, .glb, .obj, .ply), and not a scene
+// in JSON.
 bool IsModelFile(const std::filesystem::path& path);
 
 // Reads a scene file (JSON, up to 1 GiB) or a model, which gets a camera that sees all of it and

@@ -128,7 +128,12 @@ void AddStudioLights(Scene* scene) {
   const auto [right, up, back] = ViewOf(scene->camera);
   // Under the key light alone white paper has radiance 0.8; the fill opens its shadows, the rim
   // parts the model from the background.
-  const double key = 0.8 * std::numbers::pi;
+  const bool is_classic =
+      std::any_of(scene->materials.begin(), scene->materials.end(), [](const Material& material) {
+        const auto* phong = std::get_if<PhongMaterial>(&material.model);
+        return phong != nullptr && phong->convention == PhongConvention::kClassic;
+      });
+  const double key = 0.8 * (is_classic ? 1 : std::numbers::pi);
   scene->lights.push_back(MakeDirectional("key", right * -0.6 + up * 0.8 + back * 0.9, key));
   scene->lights.push_back(MakeDirectional("fill", right * 0.9 + up * 0.2 + back * 0.6, 0.25 * key));
   scene->lights.back().shadows = false;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "scene/scene.h"
+#include "scene_io/load_scene.h"
 
 namespace nacre {
 
@@ -14,5 +15,11 @@ namespace nacre {
 // or not finite, indices out of range, faces of fewer than 3 or more than 255 corners, normals
 // of length 0 and files without faces.
 Mesh ReadObj(const std::filesystem::path& path);
+
+// The same faces as a scene of their own, with the materials of the libraries (MTL) that the file
+// names; faces without normals get averages, parted where they meet at more than
+// kModelCreaseAngleDeg. Camera and light are left to CompleteModelScene (model_scene.h). What is
+// not shown is told by options.on_warning.
+Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options);
 
 }  // namespace nacre

@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "scene/mesh.h"
 #include "scene/sphere_mesh.h"
 #include "scene_io/obj.h"
+#include "scene_io/ply.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
 
@@ -96,7 +98,8 @@ void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSe
   std::string file;
   if (!ReadText(value, &file)) return;
   try {
-    Mesh loaded = ReadObj(ResolveReference(context->folder, file, context->allow_paths));
+    const auto path = ResolveReference(context->folder, file, context->allow_paths);
+    Mesh loaded = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
     loaded.material = mesh.material;
     loaded.interpolation = mesh.interpolation;
     loaded.smooth_terminator = mesh.smooth_terminator;
@@ -144,7 +147,7 @@ void ReadMesh(JsonObject* shape, SceneContext* context) {
   NormalSettings normals;
   ReadNormals(shape, &normals);
   ReadInterpolation(shape, &mesh);
-  if (const Json* file = shape->Require("file", "an OBJ file in the scene's folder")) {
+  if (const Json* file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
     LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, normals,
              std::move(mesh), context);
   }
