@@ -192,6 +192,30 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
   return used;
 }
 
+void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  size_t count = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (used[i] && plan->materials[i].textured != nullptr) ++count;
+  }
+  plan->textured = count > 0;
+  if (!plan->textured) {
+    plan->items.push_back({"textures", false, "no shape's material has a map"});
+    return;
+  }
+  // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
+  const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
+  const double footprint = std::max(1 / std::sqrt(samples), 0.125);
+  plan->textures = PrepareTextures(scene, plan->camera, footprint);
+  size_t bytes = 0;
+  for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
+  plan->items.push_back(
+      {"textures", true,
+       fmt::format("maps on {} materials: {} images, {:.1f} MiB with their mip levels; a sample's "
+                   "footprint is {:g} pixels wide",
+                   count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
+}
+
 // A perfect mirror shows only what has an extent, and no light here has one.
 void NoteMirrors(const Scene& scene, RenderPlan* plan) {
   const std::vector<bool> used = FindUsedMaterials(scene);
@@ -230,6 +254,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
     plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
+  PlanTextures(scene, settings, &plan);
   if (settings.max_error > 0) {
     plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
     plan.substitutions.push_back(
@@ -238,7 +263,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
              "of max(|L|, 0.05); {}",
              settings.max_error,
-             plan.adaptive.footprints && plan.binned
+             plan.adaptive.footprints && plan.binned && !plan.textured
                  ? "those on one smooth hit stop at their pixels' centres"
                  : "none is known to be smooth")});
   }

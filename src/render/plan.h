@@ -15,6 +15,7 @@
 #include "sampling/pixel_sampler.h"
 #include "scene/scene.h"
 #include "shading/shade.h"
+#include "shading/textures.h"
 #include "visibility/intersector.h"
 
 namespace nacre {
@@ -54,11 +55,13 @@ struct RenderPlan {
   size_t light_layer_count = 0;
   std::vector<PlannedLight> lights;
   std::vector<ShadingMaterial> materials;     // one per material of the scene
+  TextureScene textures;                      // empty if no shape has any
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool binned = false;                        // spheres are binned for the camera
   bool tiles = false;                         // camera rays are traced by bins, not by Embree
+  bool textured = false;                      // some hits may need textures
   bool splits = false;                        // some material depends on the film position
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
   bool eye_outside = false;                   // no camera ray starts in a sphere

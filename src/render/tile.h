@@ -1,6 +1,8 @@
 // render/tile.h: the work on one tile: samples, rays, hits, light, film.
 #pragma once
 
+#include <memory>
+
 #include "render/film.h"
 #include "render/plan.h"
 #include "render/stage_clock.h"
@@ -33,6 +35,8 @@ struct TileScratch {
   std::vector<uint32_t> run_of_material;  // index into runs, or none, per material of the scene
   AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
   AlignedArray<uint32_t> order{kBatchCapacity};
+  std::unique_ptr<HitTextures> textures;  // made for the first hit on a material with maps
+  bool turned = false;                    // some hit's normal is not that of its surface
   LightBatch light;
   NarrowLobes narrow;
   std::vector<LightOnBatch> together;  // lights shaded by in one go

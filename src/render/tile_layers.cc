@@ -16,8 +16,14 @@ void AddSoa(const Soa3<float>& a, size_t count, Soa3<float>* sum) {
   }
 }
 
+// Not inlined: of neighbouring values GCC 12 otherwise leaves the rounding to float out, wherever
+// it vectorises double(float(x)).
+[[gnu::noinline]] float Rounded(double value) { return static_cast<float>(value); }
+
 // Layers hold floats; what they add up to is computed from the same floats.
-Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
+Rgb RoundToFloat(const Rgb& value) {
+  return {Rounded(value.x), Rounded(value.y), Rounded(value.z)};
+}
 
 // Where a layer's values come from: the sum of two arrays of floats and two constants, in double.
 // The beauty is the exact sum of the other layers' floats, so after the film's average each is
@@ -27,10 +33,38 @@ struct LayerTerms {
   const Soa3<float>* first = nullptr;  // null: zeros
   const Soa3<float>* second = nullptr;
   Rgb constant{0, 0, 0}, further{0, 0, 0};
+  // Of materials with maps, in place of the constants.
+  const Soa3<float>* ambient = nullptr;
+  const Soa3<float>* emission = nullptr;
 };
+
+// The same where maps give each hit its own constants.
+LayerTerms MappedTermsOf(const Layer& layer, const TileScratch& s) {
+  switch (layer.kind) {
+    case LayerKind::kBeauty:
+      return {.first = &s.total.diffuse,
+              .second = &s.total.specular,
+              .ambient = &s.textures->ambient,
+              .emission = &s.textures->emission};
+    case LayerKind::kAmbient:
+      return {.first = &s.textures->ambient};
+    case LayerKind::kEmission:
+      return {.first = &s.textures->emission};
+    case LayerKind::kAlbedo:
+      return {.first = &s.textures->albedo};
+    default:
+      return {};
+  }
+}
+
+bool IsMapped(LayerKind kind) {
+  return kind == LayerKind::kBeauty || kind == LayerKind::kAmbient ||
+         kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
+}
 
 LayerTerms TermsOf(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                    const TileScratch& s) {
+  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(layer, s);
   const Rgb ambient = RoundToFloat(constants.ambient);
   const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
@@ -60,7 +94,11 @@ void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* val
   const auto channel = [c](const Soa3<float>& soa) {
     return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
   };
-  if (terms.first == nullptr) {
+  if (terms.ambient != nullptr) {
+    AddFloats({channel(*terms.first), channel(*terms.second), channel(*terms.ambient),
+               channel(*terms.emission)},
+              run.begin, run.end, values);
+  } else if (terms.first == nullptr) {
     std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
   } else if (terms.second == nullptr) {
     std::copy(channel(*terms.first) + run.begin, channel(*terms.first) + run.end,
