@@ -66,6 +66,14 @@ void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
   for (AlignedArray<uint32_t>& channel : film->ids) std::fill_n(channel.data(), pixels, 0u);
 }
 
+// Not inlined: of neighbouring values GCC 12 otherwise leaves the rounding to float out, wherever
+// it vectorises double(float(x)).
+[[gnu::noinline]] static float Rounded(double value) { return static_cast<float>(value); }
+
+Rgb RoundToFloat(const Rgb& value) {
+  return {Rounded(value.x), Rounded(value.y), Rounded(value.z)};
+}
+
 bool ShowsBackground(const Layer& layer) {
   return layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
 }

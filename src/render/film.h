@@ -48,7 +48,7 @@ Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan);
 bool ShowsBackground(const Layer& layer);
 
 // Layers hold floats; what they add up to is computed from the same floats.
-inline Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
+Rgb RoundToFloat(const Rgb& value);
 
 // Adds the background, divides by the number of samples, rounds to float and puts the tile into its
 // strip.

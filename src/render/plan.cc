@@ -196,6 +196,30 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
   return used;
 }
 
+void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  size_t count = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (used[i] && plan->materials[i].textured != nullptr) ++count;
+  }
+  plan->textured = count > 0;
+  if (!plan->textured) {
+    plan->items.push_back({"textures", false, "no shape's material has a map"});
+    return;
+  }
+  // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
+  const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
+  const double footprint = std::max(1 / std::sqrt(samples), 0.125);
+  plan->textures = PrepareTextures(scene, plan->camera, footprint);
+  size_t bytes = 0;
+  for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
+  plan->items.push_back(
+      {"textures", true,
+       fmt::format("maps on {} materials: {} images, {:.1f} MiB with their mip levels; a sample's "
+                   "footprint is {:g} pixels wide",
+                   count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
+}
+
 // A perfect mirror shows only what has an extent; says so where no light has one.
 void NoteMirrors(const Scene& scene, RenderPlan* plan) {
   if (!plan->sampled_lights.empty()) return;
@@ -239,8 +263,9 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
     plan.one_sided = plan.one_sided || material.emits_in_front_only;
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
+  PlanTextures(scene, settings, &plan);
   plan.black = {static_cast<uint32_t>(plan.materials.size())};
-  plan.materials.emplace_back();
+  plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
   if (settings.max_error > 0) {
     plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
     plan.substitutions.push_back(
@@ -249,7 +274,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
              "of max(|L|, 0.05); {}",
              settings.max_error,
-             plan.adaptive.footprints && plan.binned
+             plan.adaptive.footprints && plan.binned && !plan.textured
                  ? "those on one smooth hit stop at their pixels' centres"
                  : "none is known to be smooth")});
   }

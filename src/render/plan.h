@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "shading/sampled_light.h"
 #include "shading/shade.h"
+#include "shading/textures.h"
 #include "visibility/intersector.h"
 
 namespace nacre {
@@ -78,11 +79,13 @@ struct RenderPlan {
   PairSampler pairs;                          // their samples'; three pairs a light
   const SampledLight* sky = nullptr;          // seen where nothing is hit, of sampled_lights
   std::vector<ShadingMaterial> materials;     // one per material of the scene, and `black`
+  TextureScene textures;                      // empty if no shape has any
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool binned = false;                        // spheres are binned for the camera
   bool tiles = false;                         // camera rays are traced by bins, not by Embree
+  bool textured = false;                      // some hits may need textures
   bool splits = false;                        // some material depends on the film position
   bool one_sided = false;                     // some material emits in front only
   MaterialId black;                           // the back of those

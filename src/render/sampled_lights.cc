@@ -22,7 +22,7 @@ struct Lit {
     return plan.materials[run.material.index];
   }
   LobeRange RangeOf(const MaterialRun& run) const {
-    return {s.hits, s.surface, run.begin, run.end};
+    return {s.hits, s.surface, run.begin, run.end, s.textures.get()};
   }
 };
 
@@ -54,6 +54,7 @@ void FaceLight(const Lit& lit) {
     const bool shines = directions.distance[i] > 0 && NDotL(lit.s.surface, l, i) > 0;
     light.irradiance[i] = shines ? 1.0f : 0.0f;
   }
+  HideTurned(lit.plan, &lit.s);
 }
 
 // Takes the light from the hits that something lies before it for.
@@ -106,8 +107,8 @@ void ShadeUnit(const Lit& lit) {
   }();
   const LightOnBatch light{&kUnit, &lit.s.light};
   for (const MaterialRun& run : lit.s.runs) {
-    ShadeRun(lit.MaterialOf(run), {lit.s.hits, lit.s.surface, {&light, 1}, true}, run.begin,
-             run.end, &lit.s.narrow, &lit.c.unit);
+    const LitHits hits{lit.s.hits, lit.s.surface, {&light, 1}, lit.s.textures.get(), true};
+    ShadeRun(lit.MaterialOf(run), hits, run.begin, run.end, &lit.s.narrow, &lit.c.unit);
   }
 }
 

@@ -148,6 +148,31 @@ void SortHits(const RenderPlan& plan, TileScratch* s) {
   if (s->runs.size() > 1) PermuteHits(plan.exact_directions, s);
 }
 
+// Looks up the maps of the materials that have any.
+void TextureRuns(const RenderPlan& plan, TileScratch* s) {
+  s->turned = false;
+  if (!plan.textured) return;
+  for (const MaterialRun& run : s->runs) {
+    const ShadingMaterial& material = plan.materials[run.material.index];
+    if (material.textured == nullptr) continue;
+    if (!s->textures) s->textures = std::make_unique<HitTextures>();
+    TextureHits({plan.textures, material, run.begin, run.end}, &s->hits, &s->surface,
+                s->textures.get());
+    s->turned = s->turned || material.turned;
+  }
+}
+
+}  // namespace
+
+void HideTurned(const RenderPlan& plan, TileScratch* scratch) {
+  for (const MaterialRun& run : scratch->runs) {
+    if (!plan.materials[run.material.index].turned) continue;
+    HideBelowHorizon(*scratch->textures, run.begin, run.end, &scratch->light);
+  }
+}
+
+namespace {
+
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
 void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                  RenderStats* stats) {
@@ -185,8 +210,8 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
 void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, bool replace,
                TileScratch* s, ReflectedRadiance* radiance) {
   for (const MaterialRun& run : s->runs) {
-    ShadeRun(plan.materials[run.material.index], {s->hits, s->surface, lights, replace}, run.begin,
-             run.end, &s->narrow, radiance);
+    const LitHits lit{s->hits, s->surface, lights, s->textures.get(), replace};
+    ShadeRun(plan.materials[run.material.index], lit, run.begin, run.end, &s->narrow, radiance);
   }
 }
 
@@ -195,6 +220,7 @@ void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, boo
 void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                 StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
+  if (s->turned) HideTurned(plan, s);
   clock->Charge(Stage::kLight);
   if (planned.shadow_rays) {
     CastShadows(plan, planned, s, stats);
@@ -209,8 +235,10 @@ void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch
 // Adds up what the batch's hits reflect of every light, in the order of the lights. Those that
 // need nothing but their sum are taken together while they follow one another.
 void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
+  TextureRuns(plan, s);
   for (const MaterialRun& run : s->runs) {
-    PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface);
+    PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface,
+               s->textures.get());
   }
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
@@ -236,7 +264,7 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
     }
     const bool shadowed =
         s->hits.one_primitive ? !NeverShadowed(planned, s->hits.primitive[0]) : planned.shadow_rays;
-    if (!shadowed && planned.layer < 0 && EvaluatedInPlace(planned.light)) {
+    if (!shadowed && planned.layer < 0 && !s->turned && EvaluatedInPlace(planned.light)) {
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();

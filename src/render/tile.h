@@ -1,6 +1,8 @@
 // render/tile.h: the work on one tile: samples, rays, hits, light, film.
 #pragma once
 
+#include <memory>
+
 #include "render/film.h"
 #include "render/film_kernel.h"
 #include "render/plan.h"
@@ -36,6 +38,8 @@ struct TileScratch {
   std::vector<uint32_t> run_of_material;  // index into runs, or none, per material of the scene
   AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
   AlignedArray<uint32_t> order{kBatchCapacity};
+  std::unique_ptr<HitTextures> textures;  // made for the first hit on a material with maps
+  bool turned = false;                    // some hit's normal is not that of its surface
   LightBatch light;
   NarrowLobes narrow;
   std::vector<LightOnBatch> together;       // lights shaded by in one go
@@ -54,6 +58,9 @@ struct TileScratch {
 // Sets scratch->in_sight for a tile or cell, and readies the scratch for it. False if there is
 // nothing to be seen but a background of one colour.
 bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch);
+
+// Takes scratch->light from the hits whose surface faces away, though their turned normals do not.
+void HideTurned(const RenderPlan& plan, TileScratch* scratch);
 
 // From scratch->samples to its hits and what they reflect.
 void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,

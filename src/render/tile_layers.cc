@@ -24,10 +24,38 @@ struct LayerTerms {
   const Soa3<float>* first = nullptr;  // null: zeros
   const Soa3<float>* second = nullptr;
   Rgb constant{0, 0, 0}, further{0, 0, 0};
+  // Of materials with maps, in place of the constants.
+  const Soa3<float>* ambient = nullptr;
+  const Soa3<float>* emission = nullptr;
 };
+
+// The same where maps give each hit its own constants.
+LayerTerms MappedTermsOf(const Layer& layer, const TileScratch& s) {
+  switch (layer.kind) {
+    case LayerKind::kBeauty:
+      return {.first = &s.total.diffuse,
+              .second = &s.total.specular,
+              .ambient = &s.textures->ambient,
+              .emission = &s.textures->emission};
+    case LayerKind::kAmbient:
+      return {.first = &s.textures->ambient};
+    case LayerKind::kEmission:
+      return {.first = &s.textures->emission};
+    case LayerKind::kAlbedo:
+      return {.first = &s.textures->albedo};
+    default:
+      return {};
+  }
+}
+
+bool IsMapped(LayerKind kind) {
+  return kind == LayerKind::kBeauty || kind == LayerKind::kAmbient ||
+         kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
+}
 
 LayerTerms TermsOf(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                    const TileScratch& s) {
+  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(layer, s);
   const Rgb ambient = RoundToFloat(constants.ambient);
   const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
@@ -60,7 +88,11 @@ const float* ChannelOrNull(const Soa3<float>* soa, int c) {
 // Channel c of a layer at the hits of a run.
 void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* values) {
   const float* const first = ChannelOrNull(terms.first, c);
-  if (first == nullptr) {
+  if (terms.ambient != nullptr) {
+    AddFloats({first, ChannelOrNull(terms.second, c), ChannelOrNull(terms.ambient, c),
+               ChannelOrNull(terms.emission, c)},
+              run.begin, run.end, values);
+  } else if (first == nullptr) {
     std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
   } else if (terms.second == nullptr) {
     std::copy(first + run.begin, first + run.end, values + run.begin);
@@ -212,7 +244,8 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   if (s.hits.count == 0 && plan.sky == nullptr) return;
   // A pixel's samples are added in their order, whatever materials they hit.
   const bool in_order = s.hits.count > 0 && s.runs.size() == 1;
-  if (in_order) FindSpans(&s);
+  const bool mapped = in_order && plan.materials[s.runs[0].material.index].mapped;
+  if (in_order && !mapped) FindSpans(&s);
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
@@ -220,7 +253,7 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
     double* sums[3] = {};
     for (int c = 0; c < FloatChannels(layer.kind); ++c) sums[c] = s.film.sums[sum++].data();
     const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
-    if (in_order && !sees_sky) {
+    if (in_order && !mapped && !sees_sky) {
       AddRun(plan, layer, light_layer, sums, s);
     } else if (s.hits.count > 0 || sees_sky) {
       AddRays(plan, layer, light_layer, sums, &s);

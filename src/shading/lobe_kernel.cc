@@ -5,6 +5,8 @@
 #include "base/overloaded.h"
 #include "brdf/fresnel.h"
 #include "shading/lobe_sample.h"
+#include "shading/mapped.h"
+#include "shading/texture_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lobe_kernel.cc"
@@ -50,52 +52,73 @@ void SampleCosineT(const Surface& surface, size_t count, const float* u, const f
   });
 }
 
-void SampleGgxT(float alpha, const LobeRange& range, const float* u, const float* v,
-                Soa3<float>* to_light) {
+// The width of a material's lobe: its own, or that of each hit by a map.
+struct Width {
+  float uniform;
+  const float* by_hit;  // or null
+
+  HWY_INLINE V At(size_t i) const {
+    const D d;
+    return by_hit != nullptr ? hn::LoadU(d, by_hit + i) : hn::Set(d, uniform);
+  }
+};
+
+HWY_INLINE Width WidthOf(double uniform, const float* by_hit) {
+  return {static_cast<float>(uniform), by_hit};
+}
+
+void SampleGgxT(double alpha, const float* by_hit, const LobeRange& range, const float* u,
+                const float* v, Soa3<float>* to_light) {
   const D d;
+  const Width width = WidthOf(alpha, by_hit);
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
     return SampleGgxLobe(d, Load(range.surface.normal, i), Load(range.surface.to_view, i),
-                         hn::Set(d, alpha), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+                         width.At(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
   });
 }
 
 // Phong's lobe is about the mirrored view direction, Blinn's half vector about the normal.
-void SamplePhongT(const PhongFamilyModel& phong, const LobeRange& range, const float* u,
-                  const float* v, Soa3<float>* to_light) {
+void SamplePhongT(const PhongFamilyModel& phong, const float* by_hit, const LobeRange& range,
+                  const float* u, const float* v, Soa3<float>* to_light) {
   const D d;
-  const V exponent = hn::Set(d, static_cast<float>(phong.shininess));
+  const Width width = WidthOf(phong.shininess, by_hit);
   const bool blinn = phong.model == PhongModel::kBlinnPhong;
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
     const Vec3V<V> n = Load(range.surface.normal, i);
     const Vec3V<V> to_view = Load(range.surface.to_view, i);
     const Vec3V<V> axis = blinn ? n : Mirror(to_view, n);
     const Vec3V<V> chosen =
-        SamplePowerLobe(d, axis, exponent, hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+        SamplePowerLobe(d, axis, width.At(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
     return blinn ? Mirror(to_view, chosen) : chosen;
   });
 }
 
-void GgxDensityT(const MicrofacetModel& model, const LobeRange& range, const LightBatch& light,
-                 const float* narrow, float* density) {
+void GgxDensityT(const MicrofacetModel& model, const float* by_hit, const LobeRange& range,
+                 const LightBatch& light, const float* narrow, float* density) {
   const D d;
-  const V alpha = hn::Set(d, static_cast<float>(model.alpha));
+  const Width width = WidthOf(model.alpha, by_hit);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const AnglesV<V> angles = ComputeAngles(
-        d, Load(range.surface.normal, i), Load(light.to_light, i), Load(range.surface.to_view, i));
-    const V distribution =
-        narrow != nullptr ? hn::LoadU(d, narrow + i) : GgxDistribution(d, angles, alpha);
+    const V alpha = width.At(i);
+    const AnglesV<V> angles =
+        ComputeAngles(d, Load(range.surface.normal, i), Load(light.to_light, i),
+                      Load(range.surface.to_view, i));
+    V distribution = GgxDistribution(d, angles, alpha);
+    if (narrow != nullptr) {
+      const V exact = hn::LoadU(d, narrow + i);
+      distribution = hn::IfThenElse(hn::Ge(exact, hn::Zero(d)), exact, distribution);
+    }
     hn::BlendedStore(GgxLobeDensity(d, distribution, angles.n_dot_v, alpha),
                      hn::FirstN(d, range.end - i), d, density + i);
   }
 }
 
-void PhongDensityT(const PhongFamilyModel& phong, const LobeRange& range, const LightBatch& light,
-                   const NarrowLobes* narrow, float* density) {
+void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const LobeRange& range,
+                   const LightBatch& light, const NarrowLobes* narrow, float* density) {
   const D d;
-  const auto n = static_cast<float>(phong.shininess);
-  const V exponent = hn::Set(d, n);
+  const Width width = WidthOf(phong.shininess, by_hit);
   const bool blinn = phong.model == PhongModel::kBlinnPhong;
-  const V scale = hn::Set(d, static_cast<float>((phong.shininess + 1) * M_1_PI / 2));
+  const V one = hn::Set(d, 1.0f);
+  const V scale = hn::Set(d, static_cast<float>(M_1_PI / 2));
   const V smallest = hn::Set(d, 0x1p-60f);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const Vec3V<V> normal = Load(range.surface.normal, i), to_light = Load(light.to_light, i);
@@ -104,10 +127,14 @@ void PhongDensityT(const PhongFamilyModel& phong, const LobeRange& range, const 
     LobeCosineV<V> cosine =
         blinn ? BlinnSquaredCosine(d, angles) : PhongCosine(d, normal, to_light, to_view);
     if (narrow != nullptr) {
-      cosine = {hn::LoadU(d, narrow->first.data() + i), hn::LoadU(d, narrow->second.data() + i)};
+      const V exact = hn::LoadU(d, narrow->first.data() + i);
+      const auto is_narrow = hn::Ge(exact, hn::Zero(d));  // others have -1
+      cosine = {hn::IfThenElse(is_narrow, exact, cosine.one_minus_c),
+                hn::IfThenElse(is_narrow, hn::LoadU(d, narrow->second.data() + i), cosine.c)};
     }
-    V value =
-        hn::Mul(scale, blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent));
+    const V exponent = width.At(i);
+    const V lobe = blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent);
+    V value = hn::Mul(hn::Mul(scale, hn::Add(exponent, one)), lobe);
     // |u| = 2 v.h: the density of h over 4 v.h is that of l.
     const V u_length = hn::Sqrt(hn::Max(angles.u_squared, smallest));
     if (blinn) value = hn::Div(value, hn::Add(u_length, u_length));
@@ -140,14 +167,43 @@ namespace {
 bool HasLobe(const PhongFamilyModel& phong) { return phong.specular.length2() > 0; }
 bool HasLobe(const MicrofacetModel& microfacet) { return !microfacet.delta; }
 
-// What NarrowGgx and NarrowPhong take: the directions as a light that is given.
-ShadeRange AsLit(const LobeRange& range, const LightOnBatch& given) {
-  return {range.hits, range.surface, {&given, 1}, range.begin, range.end, nullptr};
-}
-
 const ShadingLight& GivenLight() {
   static const ShadingLight kGiven{.form = LightForm::kGiven};
   return kGiven;
+}
+
+// The lobe's width at each hit, if a map gives it; else null.
+const float* WidthByHit(const ShadingMaterial& material, const LobeRange& range) {
+  return HasMappedModel(material) ? range.textures->alpha.data() : nullptr;
+}
+
+// The terms of narrow lobes along a light's directions, or null if no hit has one.
+const NarrowLobes* Narrow(const MicrofacetModel& model, bool mapped, const LobeRange& hits,
+                          const ShadeRange& range, NarrowLobes* scratch) {
+  if (mapped) {
+    const double* const alpha = hits.textures->double_alpha.data();
+    const auto is_narrow = [](double a) { return a >= 0; };
+    if (std::none_of(alpha + hits.begin, alpha + hits.end, is_narrow)) return nullptr;
+    NarrowGgxMaps(alpha, range, scratch);
+  } else {
+    if (!model.double_terms) return nullptr;
+    NarrowGgx(model.alpha, range, scratch);
+  }
+  return scratch;
+}
+
+const NarrowLobes* Narrow(const PhongFamilyModel& phong, bool mapped, const LobeRange& hits,
+                          const ShadeRange& range, NarrowLobes* scratch) {
+  if (mapped) {
+    const double* const width = hits.textures->width.data();
+    const auto is_narrow = [](double n) { return n > kDoubleTermsShininess; };
+    if (std::none_of(width + hits.begin, width + hits.end, is_narrow)) return nullptr;
+    NarrowPhongMaps(phong.model, width, range, scratch);
+  } else {
+    if (!phong.double_terms) return nullptr;
+    NarrowPhong(phong.model, range, scratch);
+  }
+  return scratch;
 }
 
 // The model's Fresnel curve at the cosine of the angle of incidence, exactly.
@@ -187,6 +243,7 @@ bool HasSampledLobe(const ShadingMaterial& material) {
 }
 
 bool DiffuseIsFlat(const ShadingMaterial& material) {
+  if (material.turned) return false;  // the surface's own horizon cuts the light
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr) return true;
   return model->coupling == DiffuseCoupling::kNone ||
@@ -202,29 +259,32 @@ void SampleCosine(const Surface& surface, size_t count, const float* u, const fl
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
                 const float* v, Soa3<float>* to_light) {
   if (!HasSampledLobe(material)) return;
+  const float* const by_hit = WidthByHit(material, range);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    return HWY_DYNAMIC_DISPATCH(SamplePhongT)(*phong, range, u, v, to_light);
+    return HWY_DYNAMIC_DISPATCH(SamplePhongT)(*phong, by_hit, range, u, v, to_light);
   }
-  const auto& model = std::get<MicrofacetModel>(material.model);
-  HWY_DYNAMIC_DISPATCH(SampleGgxT)(static_cast<float>(model.alpha), range, u, v, to_light);
+  const double alpha = std::get<MicrofacetModel>(material.model).alpha;
+  HWY_DYNAMIC_DISPATCH(SampleGgxT)(alpha, by_hit, range, u, v, to_light);
 }
 
-void LobeDensity(const ShadingMaterial& material, const LobeRange& range, const LightBatch& light,
+void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
                  NarrowLobes* scratch, float* density) {
   if (!HasSampledLobe(material)) {
-    std::fill(density + range.begin, density + range.end, 0.0f);
+    std::fill(density + hits.begin, density + hits.end, 0.0f);
     return;
   }
   const LightOnBatch given{&GivenLight(), &light};
+  const ShadeRange range{hits.hits, hits.surface, {&given, 1}, hits.begin, hits.end, nullptr};
+  const float* const by_hit = WidthByHit(material, hits);
+  const bool mapped = by_hit != nullptr;
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    if (phong->double_terms) NarrowPhong(phong->model, AsLit(range, given), scratch);
-    return HWY_DYNAMIC_DISPATCH(PhongDensityT)(*phong, range, light,
-                                               phong->double_terms ? scratch : nullptr, density);
+    const NarrowLobes* const narrow = Narrow(*phong, mapped, hits, range, scratch);
+    return HWY_DYNAMIC_DISPATCH(PhongDensityT)(*phong, by_hit, hits, light, narrow, density);
   }
   const auto& model = std::get<MicrofacetModel>(material.model);
-  if (model.double_terms) NarrowGgx(model.alpha, AsLit(range, given), scratch);
+  const NarrowLobes* const narrow = Narrow(model, mapped, hits, range, scratch);
   HWY_DYNAMIC_DISPATCH(GgxDensityT)
-  (model, range, light, model.double_terms ? scratch->first.data() : nullptr, density);
+  (model, by_hit, hits, light, narrow != nullptr ? narrow->first.data() : nullptr, density);
 }
 
 void MirrorDirections(const LobeRange& range, Soa3<float>* to_light) {

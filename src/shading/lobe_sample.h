@@ -5,6 +5,7 @@
 #include "hit/batch.h"
 #include "shading/material.h"
 #include "shading/shade.h"
+#include "shading/textures.h"
 
 namespace nacre {
 
@@ -20,11 +21,12 @@ bool DiffuseIsFlat(const ShadingMaterial& material);
 void SampleCosine(const Surface& surface, size_t count, const float* u, const float* v,
                   Soa3<float>* to_light);
 
-// Hits [begin, end) of a batch, all of one material, and where directions of theirs are.
+// Hits [begin, end) of a batch, all of one material.
 struct LobeRange {
   const HitBatch& hits;
   const Surface& surface;
   size_t begin, end;
+  const HitTextures* textures = nullptr;  // of materials with maps
 };
 
 // Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe, the

@@ -76,13 +76,42 @@ void NarrowGgxT(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
   });
 }
 
+void NarrowGgxMapsT(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
+  const DoubleTag d;
+  const DoubleV zero = hn::Zero(d);
+  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
+    const DoubleV alpha = hn::LoadU(d, alphas + i);
+    const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
+    const DoubleV distribution = GgxDistribution(d, angles, hn::Max(alpha, zero));
+    StoreRounded(d, hn::IfThenElse(hn::Ge(alpha, zero), distribution, hn::Set(d, -1.0)),
+                 lobes->first.data() + i);
+  });
+}
+
+HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at) {
+  const DoubleTag d;
+  return model == PhongModel::kBlinnPhong
+             ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
+             : PhongCosine(d, at.normal, at.to_light, at.to_view);
+}
+
+void NarrowPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,
+                      NarrowLobes* lobes) {
+  const DoubleTag d;
+  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
+    const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
+    const auto narrow =
+        hn::Gt(hn::LoadU(d, exponents + i), hn::Set(d, double{kDoubleTermsShininess}));
+    StoreRounded(d, hn::IfThenElse(narrow, cosine.one_minus_c, hn::Set(d, -1.0)),
+                 lobes->first.data() + i);
+    StoreRounded(d, cosine.c, lobes->second.data() + i);
+  });
+}
+
 void NarrowPhongT(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
   const DoubleTag d;
   ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
-    const LobeCosineV<DoubleV> cosine =
-        model == PhongModel::kBlinnPhong
-            ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
-            : PhongCosine(d, at.normal, at.to_light, at.to_view);
+    const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
     StoreRounded(d, cosine.one_minus_c, lobes->first.data() + i);
     StoreRounded(d, cosine.c, lobes->second.data() + i);
   });
@@ -96,6 +125,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(NarrowGgxT);
 HWY_EXPORT(NarrowPhongT);
+HWY_EXPORT(NarrowGgxMapsT);
+HWY_EXPORT(NarrowPhongMapsT);
 
 void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
   HWY_DYNAMIC_DISPATCH(NarrowGgxT)(alpha, range, lobes);
@@ -103,6 +134,15 @@ void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
 
 void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
   HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, range, lobes);
+}
+
+void NarrowGgxMaps(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowGgxMapsT)(alphas, range, lobes);
+}
+
+void NarrowPhongMaps(PhongModel model, const double* exponents, const ShadeRange& range,
+                     NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowPhongMapsT)(model, exponents, range, lobes);
 }
 }  // namespace nacre
 #endif

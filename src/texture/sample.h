@@ -122,4 +122,26 @@ Real SampleTrilinear(const MipChain& image, const SampleSettings& settings, Real
   return near + (mip_level - static_cast<Real>(level)) * (far - near);
 }
 
+// How fast the first channel grows with u and with v, by central differences over one texel of the
+// level: the slope of a bilinear surface has steps at the texels' centres, this one has none.
+template <typename Real>
+void SampleSlopes(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
+                  Real v, Real* du, Real* dv) {
+  const auto at = [&](Real x, Real y) {
+    switch (settings.filter) {
+      case TextureFilter::kNearest:
+        return SampleNearest(image, 0, settings, x, y, 0);
+      case TextureFilter::kBilinear:
+        return SampleBilinear(image, 0, settings, x, y, 0);
+      default:
+        return SampleTrilinear(image, settings, mip_level, x, y, 0);
+    }
+  };
+  const Real texels = settings.filter == TextureFilter::kTrilinear ? std::exp2(mip_level) : Real(1);
+  const Real step_u = texels / static_cast<Real>(image.levels[0].width);
+  const Real step_v = texels / static_cast<Real>(image.levels[0].height);
+  *du = (at(u + step_u / 2, v) - at(u - step_u / 2, v)) / step_u;
+  *dv = (at(u, v + step_v / 2) - at(u, v - step_v / 2)) / step_v;
+}
+
 }  // namespace nacre

@@ -19,4 +19,9 @@ struct SamplePoints {
 void SampleTexture(const MipChain& image, const SampleSettings& settings,
                    const SamplePoints& points, int channels, float* const* to);
 
+// to_u[i] and to_v[i] are how fast channel 0 grows with u and with v at point i; see SampleSlopes
+// of sample.h.
+void SampleSlopes(const MipChain& image, const SampleSettings& settings, const SamplePoints& points,
+                  float* to_u, float* to_v);
+
 }  // namespace nacre
