@@ -17,9 +17,10 @@ struct Lambert {
   const LambertLight* HWY_RESTRICT lights;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE void Add(FloatTag d, const View&, const PacketV&, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, lights[k].diffuse), in.weight));
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV&, const IncidentV& in,
+                               size_t k) const {
+    const FloatV zero = hn::Zero(d);
+    return {ScaleRgb(SetRgb(d, lights[k].diffuse), in.weight), {zero, zero, zero}};
   }
 };
 

@@ -86,7 +86,7 @@ HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
 template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared>
 struct Microfacet {
   static constexpr bool kHasSpecular = true;
-  const MicrofacetUniforms& uniforms;
+  const MicrofacetUniforms uniforms;  // a copy: nothing that a kernel stores can be in it
   const MicrofacetModel& model;
 
   struct View {
@@ -131,8 +131,8 @@ struct Microfacet {
                               hn::Min(hn::Mul(numerator, Reciprocal(d, denominator)), largest));
   }
 
-  HWY_INLINE void Add(FloatTag d, const View& view, const PacketV& p, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
     const MicrofacetLight& light = uniforms.lights[k];
     const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, in.to_light, p.to_view);
     const FloatV u_squared =
@@ -144,8 +144,7 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = SetRgb(d, light.diffuse);
     if constexpr (kPrepared) Complete(d, view, in, light, &reflected, &base);
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(base, in.weight));
-    sum->specular = AddRgb(sum->specular, reflected);
+    return {ScaleRgb(base, in.weight), reflected};
   }
 
   // Adds what bounces more than once, and takes from the base what the lobe's albedo does.

@@ -32,8 +32,8 @@ struct PhongFamily {
     }
   }
 
-  HWY_INLINE void Add(FloatTag d, const View&, const PacketV& p, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
     const LobeCosineV<FloatV> cosine = Cosine(d, p, in);
     const FloatV shininess = hn::Set(d, uniforms.shininess);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
@@ -41,8 +41,8 @@ struct PhongFamily {
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
     const PhongLight& by = uniforms.lights[k];
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, by.diffuse), in.weight));
-    sum->specular = AddRgb(sum->specular, ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, light)));
+    return {ScaleRgb(SetRgb(d, by.diffuse), in.weight),
+            ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, light))};
   }
 };
 
