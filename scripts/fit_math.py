@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the polynomial coefficients of src/base/math-inl.h and their errors.
+"""Prints the polynomial coefficients of src/base/{math,trig}-inl.h and their errors.
 
 Interpolates at Chebyshev nodes in exact rational arithmetic, then rounds to float. The error
 printed is that of the rounded polynomial, evaluated exactly, over a dense grid.
@@ -47,3 +47,21 @@ def log2_over_f(f):
 
 show('log2(1 + f) / f', log2_over_f, math.sqrt(0.5) - 1, math.sqrt(2) - 1, 9)
 show('2^f', lambda f: 2.0 ** f, -0.5, 0.5, 6)
+
+
+def atan_remainder(z):
+    x = math.sqrt(z)
+    if z > 0.05:
+        return (x - math.atan(x)) / x ** 3
+    return math.fsum((-z) ** k / (2 * k + 3) for k in range(16))
+
+
+def half_pi_sine(z):
+    x = math.sqrt(z)
+    return math.sin(math.pi / 2 * x) / x if x > 1e-9 else math.pi / 2
+
+
+print('src/base/trig-inl.h:')
+show('sin(pi/2 x) / x in x^2', half_pi_sine, 0, 0.25, 4)
+show('cos(pi/2 x) in x^2', lambda z: math.cos(math.pi / 2 * math.sqrt(z)), 0, 0.25, 4)
+show('(x - atan x) / x^3 in x^2', atan_remainder, 0, 1, 8)

@@ -1,5 +1,5 @@
-// brdf/albedo-inl.h: directional albedos on SIMD vectors, all lanes of one material. Scalar twins:
-// brdf/albedo_curve.h and brdf/albedo.h.
+// brdf/albedo-inl.h: directional albedos on SIMD vectors, all lanes of one material, or each of its
+// own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
 #if defined(NACRE_BRDF_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_ALBEDO_INL_H_
 #undef NACRE_BRDF_ALBEDO_INL_H_
@@ -15,6 +15,39 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// A fit for each lane: what AlbedoFit has, in arrays.
+struct AlbedoShapeLanes {
+  const float *offset, *scale, *k, *softening;
+  bool has_masking;
+};
+struct AlbedoPolynomialLanes {
+  const float* first;
+  size_t stride;  // from one coefficient to the next
+};
+struct AlbedoFitLanes {
+  AlbedoShapeLanes shape;
+  AlbedoPolynomialLanes one, schlick;
+};
+
+template <class D>
+HWY_INLINE hn::Vec<D> AlbedoNumber(D d, float number) {
+  return hn::Set(d, number);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> AlbedoNumber(D d, const float* numbers) {
+  return hn::LoadU(d, numbers);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomial& polynomial, size_t i) {
+  return hn::Set(d, polynomial[i]);
+}
+template <class D>
+HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomialLanes& polynomial, size_t i) {
+  return hn::LoadU(d, polynomial.first + i * polynomial.stride);
+}
+HWY_INLINE bool HasMasking(const AlbedoShape& shape) { return shape.k > 0; }
+HWY_INLINE bool HasMasking(const AlbedoShapeLanes& shape) { return shape.has_masking; }
+
 // What the curves of one n.v share: evaluated once for all of them.
 template <class V>
 struct AlbedoVariablesV {
@@ -22,28 +55,29 @@ struct AlbedoVariablesV {
   V factor;  // of fit.one: of the loss for Smith's forms, of E for kSchlickDirect
 };
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoMasking(D d, const AlbedoShape& shape, V n_dot_v) {
-  const V k = hn::Set(d, shape.k);
-  const V one_minus_k = hn::Set(d, 1.0f - shape.k);
-  const V y2 = hn::MulAdd(n_dot_v, n_dot_v, hn::Set(d, shape.softening));
+template <class D, class Shape, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoMasking(D d, const Shape& shape, V n_dot_v) {
+  const V k = AlbedoNumber(d, shape.k);
+  const V one_minus_k = hn::Sub(hn::Set(d, 1.0f), k);
+  const V y2 = hn::MulAdd(n_dot_v, n_dot_v, AlbedoNumber(d, shape.softening));
   const V product =
       hn::Mul(hn::MulAdd(n_dot_v, one_minus_k, k), hn::MulAdd(SquareRoot(d, y2), one_minus_k, k));
   return hn::Mul(y2, Reciprocal(d, product));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const AlbedoShape& shape, V n_dot_v) {
+template <class D, class Shape, class V = hn::Vec<D>>
+HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shape& shape, V n_dot_v) {
   const V one = hn::Set(d, 1.0f);
   const V least = hn::Set(d, static_cast<float>(kLeastAlbedoCosine));
   const V mu = hn::Min(hn::Max(n_dot_v, least), one);
-  const V offset = hn::Set(d, shape.offset);
+  const V offset = AlbedoNumber(d, shape.offset);
   const V root = SquareRoot(d, hn::MulAdd(mu, mu, hn::Mul(offset, offset)));
   const V inverse = Reciprocal(d, hn::Add(offset, root));
-  const V z = hn::MulSub(hn::Set(d, shape.scale), SquareRoot(d, hn::Mul(mu, inverse)), one);
+  const V scale = AlbedoNumber(d, shape.scale);
+  const V z = hn::MulSub(scale, SquareRoot(d, hn::Mul(mu, inverse)), one);
   // A vector, not a struct, is what the branch chooses: GCC takes structs through memory.
   V factor;
-  if (shape.k > 0) {
+  if (HasMasking(shape)) {
     factor = AlbedoMasking(d, shape, mu);
   } else {
     const V layer = hn::Mul(hn::Add(offset, offset), inverse);
@@ -53,48 +87,48 @@ HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const AlbedoShape& sh
 }
 
 // Even and odd powers each by Horner's rule: of one chain of dependent steps, two half as long.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V EvaluateAlbedoPolynomial(D d, const AlbedoPolynomial& polynomial, V z) {
+template <class D, class Polynomial, class V = hn::Vec<D>>
+HWY_INLINE V EvaluateAlbedoPolynomial(D d, const Polynomial& polynomial, V z) {
   static_assert(kAlbedoTerms % 2 == 0);
   const V z2 = hn::Mul(z, z);
-  V even = hn::Set(d, polynomial[kAlbedoTerms - 2]);
-  V odd = hn::Set(d, polynomial[kAlbedoTerms - 1]);
+  V even = AlbedoCoefficient(d, polynomial, kAlbedoTerms - 2);
+  V odd = AlbedoCoefficient(d, polynomial, kAlbedoTerms - 1);
   for (size_t i = kAlbedoTerms - 2; i != 0; i -= 2) {
-    even = hn::MulAdd(even, z2, hn::Set(d, polynomial[i - 2]));
-    odd = hn::MulAdd(odd, z2, hn::Set(d, polynomial[i - 1]));
+    even = hn::MulAdd(even, z2, AlbedoCoefficient(d, polynomial, i - 2));
+    odd = hn::MulAdd(odd, z2, AlbedoCoefficient(d, polynomial, i - 1));
   }
   return hn::MulAdd(odd, z, even);
 }
 
 // 1 - E.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoLoss(D d, const AlbedoFit& fit, const AlbedoVariablesV<V>& x) {
+template <class D, class Fit, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoLoss(D d, const Fit& fit, const AlbedoVariablesV<V>& x) {
   const V product = hn::Mul(x.factor, EvaluateAlbedoPolynomial(d, fit.one, x.z));
-  const V loss = fit.shape.k > 0 ? hn::Sub(hn::Set(d, 1.0f), product) : product;
+  const V loss = HasMasking(fit.shape) ? hn::Sub(hn::Set(d, 1.0f), product) : product;
   return hn::Max(loss, hn::Zero(d));
 }
 
 // E: the albedo for F = 1.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoOne(D d, const AlbedoFit& fit, const AlbedoVariablesV<V>& x) {
+template <class D, class Fit, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoOne(D d, const Fit& fit, const AlbedoVariablesV<V>& x) {
   const V one = hn::Set(d, 1.0f);
   const V product = hn::Mul(x.factor, EvaluateAlbedoPolynomial(d, fit.one, x.z));
-  if (fit.shape.k > 0) return hn::Min(product, one);
+  if (HasMasking(fit.shape)) return hn::Min(product, one);
   return hn::Sub(one, hn::Max(product, hn::Zero(d)));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoNearMirror(D d, const AlbedoFit& fit, const AlbedoPolynomial& polynomial,
-                              V mirror, V albedo_one, const AlbedoVariablesV<V>& x) {
+template <class D, class Fit, class Polynomial, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoNearMirror(D d, const Fit& fit, const Polynomial& polynomial, V mirror,
+                              V albedo_one, const AlbedoVariablesV<V>& x) {
   const V value = EvaluateAlbedoPolynomial(d, polynomial, x.z);
-  const V wider = fit.shape.k > 0 ? hn::Mul(value, x.factor) : value;
+  const V wider = HasMasking(fit.shape) ? hn::Mul(value, x.factor) : value;
   const V albedo = hn::MulAdd(mirror, albedo_one, wider);
   return hn::Min(hn::Max(albedo, hn::Zero(d)), hn::Set(d, 1.0f));
 }
 
 // B: the albedo for F = (1 - v.h)^5, from E.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoSchlick(D d, const AlbedoFit& fit, V albedo_one, const AlbedoVariablesV<V>& x) {
+template <class D, class Fit, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoSchlick(D d, const Fit& fit, V albedo_one, const AlbedoVariablesV<V>& x) {
   const V mirror = Power5(hn::Sub(hn::Set(d, 1.0f), x.n_dot_v));
   return AlbedoNearMirror(d, fit, fit.schlick, mirror, albedo_one, x);
 }
@@ -109,18 +143,18 @@ HWY_INLINE V AlbedoFresnel(D d, const FresnelAlbedoFit& fit, V albedo_one,
 }
 
 // The same from n.v alone, for callers of one of them.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoOne(D d, const AlbedoFit& fit, V n_dot_v) {
+template <class D, class Fit, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoOne(D d, const Fit& fit, V n_dot_v) {
   return AlbedoOne(d, fit, ComputeAlbedoVariables(d, fit.shape, n_dot_v));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoLoss(D d, const AlbedoFit& fit, V n_dot_v) {
+template <class D, class Fit, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoLoss(D d, const Fit& fit, V n_dot_v) {
   return AlbedoLoss(d, fit, ComputeAlbedoVariables(d, fit.shape, n_dot_v));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V AlbedoSchlick(D d, const AlbedoFit& fit, V n_dot_v) {
+template <class D, class Fit, class V = hn::Vec<D>>
+HWY_INLINE V AlbedoSchlick(D d, const Fit& fit, V n_dot_v) {
   const AlbedoVariablesV<V> x = ComputeAlbedoVariables(d, fit.shape, n_dot_v);
   return AlbedoSchlick(d, fit, AlbedoOne(d, fit, x), x);
 }

@@ -9,23 +9,18 @@ namespace nacre {
 AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
   AlbedoFit fit;
   fit.shape = MakeAlbedoShape(shadowing, roughness);
-  // The cubic through the four nearest roughnesses of the table.
-  const double position = std::sqrt(roughness) * kAlbedoIntervals;
-  const int first = std::clamp(static_cast<int>(position) - 1, 0, kAlbedoIntervals - 3);
-  const double t = position - first;
-  const double weights[4] = {(1 - t) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2,
-                             t * (t - 1) * (3 - t) / 2, t * (t - 1) * (t - 2) / 6};
+  const AlbedoWeights at = FindAlbedoWeights(roughness);
   double one_average = 0;
   double schlick_average = 0;
   for (int i = 0; i < 4; ++i) {
-    const AlbedoEntry& entry = kAlbedoTable[static_cast<int>(shadowing)][first + i];
-    const auto weight = static_cast<float>(weights[i]);
+    const AlbedoEntry& entry = kAlbedoTable[static_cast<int>(shadowing)][at.first + i];
+    const auto weight = static_cast<float>(at.weights[i]);
     for (size_t j = 0; j < kAlbedoTerms; ++j) {
       fit.one[j] += weight * entry.one[j];
       fit.schlick[j] += weight * entry.schlick[j];
     }
-    one_average += weights[i] * double{entry.one_average};
-    schlick_average += weights[i] * double{entry.schlick_average};
+    one_average += at.weights[i] * double{entry.one_average};
+    schlick_average += at.weights[i] * double{entry.schlick_average};
   }
   if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror has no width
   fit.e_average = shadowing == Shadowing::kSchlickDirect

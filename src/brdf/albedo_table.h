@@ -2,6 +2,7 @@
 // brdf/table/make_albedo_table.cc.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "brdf/albedo_curve.h"
@@ -24,6 +25,21 @@ extern const AlbedoEntry kAlbedoTable[kShadowingForms][kAlbedoIntervals + 1];
 // 1 - E_avg falls as alpha^2 log(1 / alpha).
 inline double AverageLossScale(double alpha) {
   return alpha > 0 ? alpha * alpha * (1 + std::log1p(1 / alpha)) : 0;
+}
+
+// The cubic through the four roughnesses of the table around one: the first of them, and the
+// weights of all four.
+struct AlbedoWeights {
+  int first;
+  double weights[4];
+};
+inline AlbedoWeights FindAlbedoWeights(double roughness) {
+  const double position = std::sqrt(roughness) * kAlbedoIntervals;
+  const int first = std::clamp(static_cast<int>(position) - 1, 0, kAlbedoIntervals - 3);
+  const double t = position - first;
+  return {first,
+          {(1 - t) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, t * (t - 1) * (3 - t) / 2,
+           t * (t - 1) * (t - 2) / 6}};
 }
 
 }  // namespace nacre

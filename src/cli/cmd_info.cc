@@ -86,13 +86,15 @@ void AddInfoCommand(CLI::App* app, int*) {
     bool allow_paths = false;
   };
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->files, "Images (EXR, PNG, ...) and scenes (.json)");
+  command->add_option(
+      "FILE", arguments->files,
+      "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");
   command->add_flag("--allow-paths", arguments->allow_paths,
                     "Let scenes refer to files outside their own folder");
   command->callback([arguments] {
     if (arguments->files.empty()) PrintBuild();
     for (const std::string& file : arguments->files) {
-      if (HasExtension(file, ".json")) {
+      if (HasExtension(file, ".json") || IsModelFile(file)) {
         PrintScene(file, arguments->allow_paths);
       } else {
         PrintImage(file);

@@ -17,7 +17,10 @@ void AddRenderCommand(CLI::App* app, int*) {
     RenderOptions options;
   };
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("SCENE", arguments->scene, "Scene file (.json)")->required();
+  command
+      ->add_option("SCENE", arguments->scene,
+                   "Scene file (.json) or model (.gltf, .glb, .obj, .ply)")
+      ->required();
   command
       ->add_option("--preset", arguments->preset,
                    "textbook: the picture of the founding lesson that SCENE resembles, made by the "

@@ -94,11 +94,16 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   if (!input.empty()) paths.push_back(input);
   CheckPathsDiffer(paths);
 
+  std::vector<std::string> warnings;
   const Scene scene = [&] {
     Progress progress(EarlyProgressForm(options), "reading", 0, "");
+    load_options.on_warning = [&](const std::string& text) {
+      if (!options.quiet) warnings.push_back(text);
+    };
     load_options.on_progress = [&](double done) { progress.Update(done); };
     return load(load_options);
   }();
+  for (const std::string& text : warnings) PrintError("warning: " + text + "\n");
   times.load_seconds = SecondsSince(start);
   ThrowIfStopped();
 

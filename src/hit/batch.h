@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "base/aligned.h"
+#include "scene/light_shapes.h"
 
 namespace nacre {
 
@@ -81,6 +82,8 @@ struct ShadowRayBatch {
   // They surely leave the spheres that they start on outward, because these were seen from outside
   // and face the light: such a sphere is then never in the way, whatever the last digit says.
   bool outward = false;
+  // Primitives of the light itself, which are never in the way of rays to it.
+  PrimitiveRange target;
   Soa3<double> origin;                         // HitBatch::position
   Soa3<double> direction;                      // towards the light, not normalised
   AlignedArray<double> t_max{kBatchCapacity};  // 1: a light at origin + direction; or infinity

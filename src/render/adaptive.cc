@@ -7,6 +7,7 @@
 #include "render/cell_film.h"
 #include "render/footprint.h"
 #include "render/tile_layers.h"
+#include "sampling/hash.h"
 
 namespace nacre {
 namespace {
@@ -62,6 +63,20 @@ void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
   s->samples.count = units.size();
 }
 
+// Which samples those are, for lights that are sampled.
+void NumberUnits(const PixelSampler* samplers, const Window& cell, const std::vector<Unit>& units,
+                 int first, int count, SampleNumbers* numbers) {
+  size_t ray = 0;
+  for (const Unit& unit : units) {
+    const FilmPixel pixel = PixelOf(cell, unit.pixel);
+    const uint64_t seed = PixelSeed(pixel.x, pixel.y, samplers[unit.replicate].seed);
+    for (int k = 0; k < count; ++k, ++ray) {
+      numbers->number[ray] = static_cast<uint32_t>(first + k);
+      numbers->pixel[ray] = seed;
+    }
+  }
+}
+
 double SumOfPiece(const double* values, const double* weights, size_t count) {
   if (count == 1) return weights[0] * values[0];
   double sums[4] = {};
@@ -78,7 +93,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
     Soa3<double>& values =
-        GatherLayer(plan, layer, light_layer, BackgroundOf(layer, *plan.scene), &s);
+        GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       for (const Unit& unit : units) {
@@ -119,7 +134,11 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
       } else {
         MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
       }
+      if (s->sampled) {
+        NumberUnits(samplers.data(), cell, units, first, count, &s->sampled->numbers);
+      }
       TraceAndShade(plan, s, clock, stats);
+      SeeSky(plan, s);
       AddUnits(plan, cell, units, s, c);
       clock->Charge(Stage::kFilm);
       units.clear();
@@ -220,6 +239,11 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
     s.samples.y[i] = pixel.y + 0.5;
   }
   s.samples.count = pixels.size();
+  if (s.sampled) {
+    // Only where they lie is of interest: no footprint is plain under sampled lights.
+    std::fill_n(s.sampled->numbers.number.data(), pixels.size(), 0u);
+    std::fill_n(s.sampled->numbers.pixel.data(), pixels.size(), uint64_t{0});
+  }
   TraceAndShade(plan, &s, clock, stats);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
@@ -230,7 +254,7 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
     Soa3<double>& values =
-        GatherLayer(plan, layer, light_layer, BackgroundOf(layer, *plan.scene), &s);
+        GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
     if (layer.kind == LayerKind::kBeauty) {
       for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
         const uint32_t bit = 1u << pixels[i] / kBlockPixels;
@@ -277,8 +301,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   TileScratch& s = *scratch;
   CellScratch& c = *cell_scratch;
   StageClock clock(stats);
-  const bool anything = plan.intersector != nullptr &&
-                        (!plan.binned || plan.intersector->EnterTile(cell, &s.candidates));
+  const bool anything = EnterTile(plan, cell, &s);
   clock.Charge(Stage::kIntersect);
   if (!anything) {
     FillBackground(plan, part, strip);

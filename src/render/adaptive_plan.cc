@@ -66,7 +66,12 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
     }
     plan.levels.push_back(std::move(level));
   }
-  plan.footprints = !both_signs && !HasHardCone(scene);
+  // What is sampled is not known from one sample, however smooth it is.
+  const bool sampled =
+      std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+        return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
+      });
+  plan.footprints = !both_signs && !HasHardCone(scene) && !sampled;
   plan.center = MakePixelSampler(filter, 1, scene.image.seed);
   plan.reach = std::max(filter.width / 2, 0.5);
   // Half the second moment where the picture is smooth; where a line of a pixel bends it, at the

@@ -66,9 +66,21 @@ void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
   for (AlignedArray<uint32_t>& channel : film->ids) std::fill_n(channel.data(), pixels, 0u);
 }
 
-Rgb BackgroundOf(const Layer& layer, const Scene& scene) {
-  const bool shows = layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
-  return shows ? RoundToFloat(scene.background) : Rgb(0, 0, 0);
+// Not inlined: of neighbouring values GCC 12 otherwise leaves the rounding to float out, wherever
+// it vectorises double(float(x)).
+[[gnu::noinline]] static float Rounded(double value) { return static_cast<float>(value); }
+
+Rgb RoundToFloat(const Rgb& value) {
+  return {Rounded(value.x), Rounded(value.y), Rounded(value.z)};
+}
+
+bool ShowsBackground(const Layer& layer) {
+  return layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
+}
+
+Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan) {
+  const bool shows = ShowsBackground(layer) && plan.sky == nullptr;
+  return shows ? RoundToFloat(plan.scene->background) : Rgb(0, 0, 0);
 }
 
 void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
@@ -83,7 +95,7 @@ void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
   const double* const coverage = film.sums[kAlphaSum].data();
   size_t sum = 0, nearest = 0, color = 0;
   for (const Layer& layer : plan.layers) {
-    const Rgb background = BackgroundOf(layer, *plan.scene);
+    const Rgb background = BackgroundOf(layer, plan);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
       std::vector<float>& channel = strip->colors[color++];
       if (IsAveraged(layer.kind)) {

@@ -42,10 +42,13 @@ void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip);
 void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film);
 
 // What a layer shows where nothing is hit: a colour of floats.
-Rgb BackgroundOf(const Layer& layer, const Scene& scene);
+Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan);
+
+// Whether what lies behind the shapes shows in the layer.
+bool ShowsBackground(const Layer& layer);
 
 // Layers hold floats; what they add up to is computed from the same floats.
-inline Rgb RoundToFloat(const Rgb& value) { return Rgb(Imath::C3f(value)); }
+Rgb RoundToFloat(const Rgb& value);
 
 // Adds the background, divides by the number of samples, rounds to float and puts the tile into its
 // strip.

@@ -106,6 +106,16 @@ void AddFloatsT(const float* a, const float* b, double constant, double further,
   }
 }
 
+void AddFloatsByHitT(const FloatsToAdd& floats, size_t begin, size_t end, double* to) {
+  const D d;
+  const auto load = [&](const float* from, size_t i)
+                        HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), from + i)); };
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const V sum = hn::Add(load(floats.a, i), load(floats.b, i));
+    hn::StoreU(hn::Add(hn::Add(sum, load(floats.constant, i)), load(floats.further, i)), d, to + i);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -116,6 +126,7 @@ HWY_EXPORT(AddSamplesT);
 HWY_EXPORT(AddHitsT);
 HWY_EXPORT(RoundSumsT);
 HWY_EXPORT(AddFloatsT);
+HWY_EXPORT(AddFloatsByHitT);
 
 void AddSamples(const double* values, const double* weights, int samples, size_t pixels,
                 double* sums) {
@@ -135,6 +146,10 @@ void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, 
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,
                size_t end, double* to) {
   HWY_DYNAMIC_DISPATCH(AddFloatsT)(a, b, constant, further, begin, end, to);
+}
+
+void AddFloats(const FloatsToAdd& floats, size_t begin, size_t end, double* to) {
+  HWY_DYNAMIC_DISPATCH(AddFloatsByHitT)(floats, begin, end, to);
 }
 }  // namespace nacre
 #endif

@@ -40,4 +40,10 @@ void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, 
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,
                size_t end, double* to);
 
+// The same with constants of their own.
+struct FloatsToAdd {
+  const float *a, *b, *constant, *further;
+};
+void AddFloats(const FloatsToAdd& floats, size_t begin, size_t end, double* to);
+
 }  // namespace nacre

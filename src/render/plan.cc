@@ -9,7 +9,9 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/target.h"
+#include "render/sampled_plan.h"
 #include "render/shadow_cull.h"
+#include "scene/mesh.h"
 
 namespace nacre {
 namespace {
@@ -53,7 +55,7 @@ void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* 
   }
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
-    if (std::holds_alternative<AmbientLight>(light.kind)) continue;
+    if (!IsPunctual(light)) continue;
     const ShadingLight prepared = PrepareLight(light, scene.camera.position);
     const std::string name = fmt::format("light \"{}\"", light.name);
     if (IsBlack(prepared.color)) {
@@ -133,7 +135,9 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
                          : want_tiles    ? "the bins would not fit 256 MiB"
                                          : "--intersector embree"});
   tell(0.4);
-  const bool tree_for_shadows = PlanShadows(scene, settings, plan);
+  const bool tree_for_punctual = PlanShadows(scene, settings, plan);
+  const bool tree_for_sampled = PlanSampledShadows(scene, settings, plan);
+  const bool tree_for_shadows = tree_for_punctual || tree_for_sampled;
   tell(0.8);
   if (!plan->tiles || tree_for_shadows) plan->intersector->BuildTree();
   plan->items.push_back({"intersector embree", !plan->tiles || tree_for_shadows,
@@ -192,8 +196,33 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
   return used;
 }
 
-// A perfect mirror shows only what has an extent, and no light here has one.
+void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  size_t count = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (used[i] && plan->materials[i].textured != nullptr) ++count;
+  }
+  plan->textured = count > 0;
+  if (!plan->textured) {
+    plan->items.push_back({"textures", false, "no shape's material has a map"});
+    return;
+  }
+  // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
+  const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
+  const double footprint = std::max(1 / std::sqrt(samples), 0.125);
+  plan->textures = PrepareTextures(scene, plan->camera, footprint);
+  size_t bytes = 0;
+  for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
+  plan->items.push_back(
+      {"textures", true,
+       fmt::format("maps on {} materials: {} images, {:.1f} MiB with their mip levels; a sample's "
+                   "footprint is {:g} pixels wide",
+                   count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
+}
+
+// A perfect mirror shows only what has an extent; says so where no light has one.
 void NoteMirrors(const Scene& scene, RenderPlan* plan) {
+  if (!plan->sampled_lights.empty()) return;
   const std::vector<bool> used = FindUsedMaterials(scene);
   std::string first;
   size_t count = 0;
@@ -211,8 +240,10 @@ void NoteMirrors(const Scene& scene, RenderPlan* plan) {
 
 }  // namespace
 
-RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
+RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   RenderPlan plan;
+  plan.with_lights = ShowLights(given);
+  const Scene& scene = plan.with_lights ? plan.with_lights->scene : given;
   plan.scene = &scene;
   plan.frame = {0, 0, scene.image.width, scene.image.height};
   plan.window = PlanWindow(plan.frame, settings.region);
@@ -220,6 +251,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
   PlanLights(scene, settings, &plan);
+  PlanSampledLights(scene, settings, &plan);
   PlanGeometry(scene, settings, &plan);
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),
@@ -228,8 +260,12 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   for (const Material& material : scene.materials) {
     plan.materials.push_back(PrepareMaterial(material, ambient));
     plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
+    plan.one_sided = plan.one_sided || material.emits_in_front_only;
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
+  PlanTextures(scene, settings, &plan);
+  plan.black = {static_cast<uint32_t>(plan.materials.size())};
+  plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
   if (settings.max_error > 0) {
     plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
     plan.substitutions.push_back(
@@ -238,7 +274,7 @@ RenderPlan MakePlan(const Scene& scene, const RenderSettings& settings) {
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
              "of max(|L|, 0.05); {}",
              settings.max_error,
-             plan.adaptive.footprints && plan.binned
+             plan.adaptive.footprints && plan.binned && !plan.textured
                  ? "those on one smooth hit stop at their pixels' centres"
                  : "none is known to be smooth")});
   }
@@ -256,6 +292,12 @@ size_t MeshOf(const RenderPlan& plan, uint32_t triangle) {
 }
 
 }  // namespace
+
+Vec3d FaceNormalOf(const RenderPlan& plan, uint32_t primitive) {
+  const uint32_t triangle = primitive - static_cast<uint32_t>(plan.scene->spheres.size());
+  const size_t mesh = MeshOf(plan, triangle);
+  return FaceNormal(plan.scene->meshes[mesh], triangle - plan.mesh_first_triangle[mesh]);
+}
 
 uint32_t ObjectOf(const RenderPlan& plan, uint32_t primitive) {
   const auto spheres = static_cast<uint32_t>(plan.scene->spheres.size());

@@ -12,9 +12,13 @@
 #include "render/light_cull.h"
 #include "render/settings.h"
 #include "render/stats.h"
+#include "sampling/pair_sampler.h"
 #include "sampling/pixel_sampler.h"
+#include "scene/light_shapes.h"
 #include "scene/scene.h"
+#include "shading/sampled_light.h"
 #include "shading/shade.h"
+#include "shading/textures.h"
 #include "visibility/intersector.h"
 
 namespace nacre {
@@ -37,15 +41,33 @@ struct PlannedLight {
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
+// A light with an extent, or an environment, that is not black.
+struct PlannedSampledLight {
+  size_t index;  // into Scene::lights
+  SampledLight light;
+  bool shadow_rays;
+  int layer;                       // likewise
+  std::vector<uint8_t> shadowed;   // likewise
+  uint32_t occluders = kAnyLight;  // likewise
+  PrimitiveRange primitives;       // of the light itself, if it is a visible surface
+  bool trace_all = false;          // even where nothing can be in the way
+  size_t first_pair;               // of the three that RenderPlan::pairs has for it
+  bool closed_form;                // its diffuse reflection need not be sampled where all of
+                                   // it is seen
+};
+
 // Whether no hit on the primitive can lie in the light's shadow.
-inline bool NeverShadowed(const PlannedLight& planned, uint32_t primitive) {
-  return !planned.shadow_rays || (!planned.shadowed.empty() && planned.shadowed[primitive] == 0);
+template <class Planned>
+bool NeverShadowed(const Planned& planned, uint32_t primitive) {
+  return !planned.shadow_rays ||
+         (primitive < planned.shadowed.size() && planned.shadowed[primitive] == 0);
 }
 
 struct RenderPlan {
   const Scene* scene = nullptr;
-  Window frame;   // all pixels: 0, 0, width, height
-  Window window;  // those to render
+  std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` where lights are visible
+  Window frame;                                        // all pixels: 0, 0, width, height
+  Window window;                                       // those to render
   CameraFrame camera;
   PixelSampler sampler;
   AdaptivePlan adaptive;
@@ -53,13 +75,20 @@ struct RenderPlan {
   std::vector<ChannelKind> channels;  // of the layers, in their order
   size_t light_layer_count = 0;
   std::vector<PlannedLight> lights;
-  std::vector<ShadingMaterial> materials;     // one per material of the scene
+  std::vector<PlannedSampledLight> sampled_lights;
+  PairSampler pairs;                          // their samples'; three pairs a light
+  const SampledLight* sky = nullptr;          // seen where nothing is hit, of sampled_lights
+  std::vector<ShadingMaterial> materials;     // one per material of the scene, and `black`
+  TextureScene textures;                      // empty if no shape has any
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool binned = false;                        // spheres are binned for the camera
   bool tiles = false;                         // camera rays are traced by bins, not by Embree
+  bool textured = false;                      // some hits may need textures
   bool splits = false;                        // some material depends on the film position
+  bool one_sided = false;                     // some material emits in front only
+  MaterialId black;                           // the back of those
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
   bool eye_outside = false;                   // no camera ray starts in a sphere
   int tile_width = 16;                        // pixels; tiles are as high as strips
@@ -83,6 +112,9 @@ std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats);
 // The number of the object that a primitive belongs to: that of the sphere, or the number of
 // spheres and that of the mesh.
 uint32_t ObjectOf(const RenderPlan& plan, uint32_t primitive);
+
+// The unit normal of the triangle of that number.
+Vec3d FaceNormalOf(const RenderPlan& plan, uint32_t primitive);
 
 // The material of a primitive where the sample lies at film_x pixels from the frame's left edge:
 // splits resolved.

@@ -23,6 +23,9 @@ struct RenderSettings {
   // how many samples a pixel takes at most. 0: every pixel takes the scene's samples.
   double max_error = 0;
   int max_samples = 4096;
+  // Reflect lights with an extent in closed form where that can be; false: only by samples. For
+  // tests that hold the two together.
+  bool closed_forms = true;
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;

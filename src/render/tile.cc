@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/tile_layers.h"
+#include "sampling/hash.h"
 
 namespace nacre {
 namespace {
@@ -18,6 +19,23 @@ void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int coun
   s->weights.resize(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
     s->weights[static_cast<size_t>(i)] = SampleWeight(plan.sampler, first + i);
+  }
+}
+
+// Which samples those are, for lights that are sampled.
+void NumberSamples(const RenderPlan& plan, const Window& tile, int first, int count,
+                   SampleNumbers* numbers) {
+  const size_t pixels = tile.pixel_count();
+  size_t i = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x, ++i) {
+      const uint64_t seed = PixelSeed(x, y, plan.sampler.seed);
+      for (int k = 0; k < count; ++k) {
+        const size_t ray = static_cast<size_t>(k) * pixels + i;
+        numbers->number[ray] = static_cast<uint32_t>(first + k);
+        numbers->pixel[ray] = seed;
+      }
+    }
   }
 }
 
@@ -36,8 +54,26 @@ void FindHits(const RenderPlan& plan, TileScratch* s) {
   if (count > 0) plan.intersector->Refine(s->rays, s->closest, s->hit_rays.data(), count, to);
 }
 
+// Whether a hit shows the inside of its sphere or the back of its triangle.
+bool IsFromBehind(const RenderPlan& plan, const TileScratch& s, size_t hit) {
+  const uint32_t primitive = s.hits.primitive[hit];
+  const Scene& scene = *plan.scene;
+  const Soa3<double>& p = s.hits.position;
+  const auto spheres = static_cast<uint32_t>(scene.spheres.size());
+  if (primitive < spheres) {
+    const Vec3d center = scene.spheres[primitive].center - scene.camera.position;
+    const Soa3<float>& n = s.surface.normal;
+    return (Vec3d(p.x[hit], p.y[hit], p.z[hit]) - center).dot(Vec3d(n.x[hit], n.y[hit], n.z[hit])) <
+           0;
+  }
+  const Soa3<float>& v = s.surface.to_view;
+  return FaceNormalOf(plan, primitive).dot(Vec3d(v.x[hit], v.y[hit], v.z[hit])) < 0;
+}
+
 MaterialId MaterialOfHit(const RenderPlan& plan, const TileScratch& s, size_t hit) {
-  return MaterialAt(plan, s.hits.primitive[hit], s.samples.x[s.hits.ray[hit]]);
+  const MaterialId id = MaterialAt(plan, s.hits.primitive[hit], s.samples.x[s.hits.ray[hit]]);
+  if (!plan.one_sided || !plan.scene->materials[id.index].emits_in_front_only) return id;
+  return IsFromBehind(plan, s, hit) ? plan.black : id;
 }
 
 template <typename T>
@@ -92,10 +128,10 @@ void CountRuns(const RenderPlan& plan, TileScratch* s) {
 // Sorts the hits by material, within a run in the order of their rays, so that what a hit's lane
 // computes never depends on its neighbours.
 void SortHits(const RenderPlan& plan, TileScratch* s) {
-  s->run_of_material.resize(plan.scene->materials.size(), kNoRun);
+  s->run_of_material.resize(plan.materials.size(), kNoRun);
   for (const MaterialRun& run : s->runs) s->run_of_material[run.material.index] = kNoRun;
   s->runs.clear();
-  if (s->hits.one_primitive && !plan.splits) {
+  if (s->hits.one_primitive && !plan.splits && !plan.one_sided) {
     s->runs.push_back({MaterialOfHit(plan, *s, 0), 0, s->hits.count});
     return;
   }
@@ -111,6 +147,31 @@ void SortHits(const RenderPlan& plan, TileScratch* s) {
   }
   if (s->runs.size() > 1) PermuteHits(plan.exact_directions, s);
 }
+
+// Looks up the maps of the materials that have any.
+void TextureRuns(const RenderPlan& plan, TileScratch* s) {
+  s->turned = false;
+  if (!plan.textured) return;
+  for (const MaterialRun& run : s->runs) {
+    const ShadingMaterial& material = plan.materials[run.material.index];
+    if (material.textured == nullptr) continue;
+    if (!s->textures) s->textures = std::make_unique<HitTextures>();
+    TextureHits({plan.textures, material, run.begin, run.end}, &s->hits, &s->surface,
+                s->textures.get());
+    s->turned = s->turned || material.turned;
+  }
+}
+
+}  // namespace
+
+void HideTurned(const RenderPlan& plan, TileScratch* scratch) {
+  for (const MaterialRun& run : scratch->runs) {
+    if (!plan.materials[run.material.index].turned) continue;
+    HideBelowHorizon(*scratch->textures, run.begin, run.end, &scratch->light);
+  }
+}
+
+namespace {
 
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
 void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
@@ -149,8 +210,8 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
 void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, bool replace,
                TileScratch* s, ReflectedRadiance* radiance) {
   for (const MaterialRun& run : s->runs) {
-    ShadeRun(plan.materials[run.material.index], {s->hits, s->surface, lights, replace}, run.begin,
-             run.end, &s->narrow, radiance);
+    const LitHits lit{s->hits, s->surface, lights, s->textures.get(), replace};
+    ShadeRun(plan.materials[run.material.index], lit, run.begin, run.end, &s->narrow, radiance);
   }
 }
 
@@ -159,6 +220,7 @@ void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, boo
 void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                 StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
+  if (s->turned) HideTurned(plan, s);
   clock->Charge(Stage::kLight);
   if (planned.shadow_rays) {
     CastShadows(plan, planned, s, stats);
@@ -167,14 +229,16 @@ void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch
   const LightOnBatch light{&planned.light, &s->light};
   const bool apart = planned.layer >= 0;
   ShadeRuns(plan, {&light, 1}, apart, s, apart ? &s->single : &s->total);
-  if (apart) KeepLightLayer(static_cast<size_t>(planned.layer), s);
+  if (apart) KeepLight(planned.layer, s);
 }
 
 // Adds up what the batch's hits reflect of every light, in the order of the lights. Those that
 // need nothing but their sum are taken together while they follow one another.
 void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
+  TextureRuns(plan, s);
   for (const MaterialRun& run : s->runs) {
-    PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface);
+    PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface,
+               s->textures.get());
   }
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
@@ -200,7 +264,7 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
     }
     const bool shadowed =
         s->hits.one_primitive ? !NeverShadowed(planned, s->hits.primitive[0]) : planned.shadow_rays;
-    if (!shadowed && planned.layer < 0 && EvaluatedInPlace(planned.light)) {
+    if (!shadowed && planned.layer < 0 && !s->turned && EvaluatedInPlace(planned.light)) {
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();
@@ -212,15 +276,26 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   shade_together();
   clear_if_dark();
   clock->Charge(Stage::kShade);
+  if (!plan.sampled_lights.empty()) ShadeBySampledLights(plan, s, clock, stats);
 }
 
 }  // namespace
+
+bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  s.in_sight = plan.intersector != nullptr &&
+               (!plan.binned || plan.intersector->EnterTile(tile, &s.candidates));
+  if (!plan.sampled_lights.empty() && !s.sampled) s.sampled = std::make_unique<SampledScratch>();
+  return s.in_sight || plan.sky != nullptr;
+}
 
 void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,
                    RenderStats* stats) {
   TileScratch& s = *scratch;
   stats->camera_rays += s.samples.count;
   clock->Charge(Stage::kSample);
+  s.hits.count = 0;
+  if (!s.in_sight) return;
   FindHits(plan, &s);
   clock->Charge(Stage::kIntersect);
   if (s.hits.count == 0) return;
@@ -234,8 +309,7 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
   TileScratch& s = *scratch;
   StageClock clock(stats);
   const int spp = plan.scene->image.spp;
-  const bool anything = plan.intersector != nullptr &&
-                        (!plan.tiles || plan.intersector->EnterTile(tile, &s.candidates));
+  const bool anything = EnterTile(plan, tile, &s);
   clock.Charge(Stage::kIntersect);
   if (!anything && HasUnitWeights(plan.sampler)) {
     FillBackground(plan, tile, strip);
@@ -246,9 +320,11 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
   clock.Charge(Stage::kFilm);
   ShiftPixels(plan.sampler, tile, &s.shifts);
   for (int first = 0; first < spp; first += plan.samples_per_round) {
-    MakeSamples(plan, tile, first, std::min(plan.samples_per_round, spp - first), &s);
-    s.hits.count = 0;
-    if (anything) TraceAndShade(plan, &s, &clock, stats);
+    const int count = std::min(plan.samples_per_round, spp - first);
+    MakeSamples(plan, tile, first, count, &s);
+    if (s.sampled) NumberSamples(plan, tile, first, count, &s.sampled->numbers);
+    TraceAndShade(plan, &s, &clock, stats);
+    SeeSky(plan, &s);
     AddToFilm(plan, &s);
     clock.Charge(Stage::kFilm);
   }

@@ -1,9 +1,12 @@
 // render/tile.h: the work on one tile: samples, rays, hits, light, film.
 #pragma once
 
+#include <memory>
+
 #include "render/film.h"
 #include "render/film_kernel.h"
 #include "render/plan.h"
+#include "render/sampled_lights.h"
 #include "render/stage_clock.h"
 
 namespace nacre {
@@ -21,6 +24,7 @@ struct TileScratch {
   PixelShifts shifts{kBatchCapacity};
   FilmBatch samples;
   std::vector<double> weights;
+  bool in_sight = true;  // some of the scene's shapes may be behind the samples
   // Camera rays: by bins, or by Embree.
   TileCandidates candidates;
   RayBatch rays;
@@ -34,9 +38,12 @@ struct TileScratch {
   std::vector<uint32_t> run_of_material;  // index into runs, or none, per material of the scene
   AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
   AlignedArray<uint32_t> order{kBatchCapacity};
+  std::unique_ptr<HitTextures> textures;  // made for the first hit on a material with maps
+  bool turned = false;                    // some hit's normal is not that of its surface
   LightBatch light;
   NarrowLobes narrow;
-  std::vector<LightOnBatch> together;  // lights shaded by in one go
+  std::vector<LightOnBatch> together;       // lights shaded by in one go
+  std::unique_ptr<SampledScratch> sampled;  // where the plan has sampled lights
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
   ReflectedRadiance total;             // of all lights
@@ -47,6 +54,13 @@ struct TileScratch {
   Soa3<double> hit_values, ray_values;
   std::vector<HitSpan> spans;
 };
+
+// Sets scratch->in_sight for a tile or cell, and readies the scratch for it. False if there is
+// nothing to be seen but a background of one colour.
+bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch);
+
+// Takes scratch->light from the hits whose surface faces away, though their turned normals do not.
+void HideTurned(const RenderPlan& plan, TileScratch* scratch);
 
 // From scratch->samples to its hits and what they reflect.
 void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,

@@ -24,10 +24,38 @@ struct LayerTerms {
   const Soa3<float>* first = nullptr;  // null: zeros
   const Soa3<float>* second = nullptr;
   Rgb constant{0, 0, 0}, further{0, 0, 0};
+  // Of materials with maps, in place of the constants.
+  const Soa3<float>* ambient = nullptr;
+  const Soa3<float>* emission = nullptr;
 };
+
+// The same where maps give each hit its own constants.
+LayerTerms MappedTermsOf(const Layer& layer, const TileScratch& s) {
+  switch (layer.kind) {
+    case LayerKind::kBeauty:
+      return {.first = &s.total.diffuse,
+              .second = &s.total.specular,
+              .ambient = &s.textures->ambient,
+              .emission = &s.textures->emission};
+    case LayerKind::kAmbient:
+      return {.first = &s.textures->ambient};
+    case LayerKind::kEmission:
+      return {.first = &s.textures->emission};
+    case LayerKind::kAlbedo:
+      return {.first = &s.textures->albedo};
+    default:
+      return {};
+  }
+}
+
+bool IsMapped(LayerKind kind) {
+  return kind == LayerKind::kBeauty || kind == LayerKind::kAmbient ||
+         kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
+}
 
 LayerTerms TermsOf(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
                    const TileScratch& s) {
+  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(layer, s);
   const Rgb ambient = RoundToFloat(constants.ambient);
   const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
@@ -60,7 +88,11 @@ const float* ChannelOrNull(const Soa3<float>* soa, int c) {
 // Channel c of a layer at the hits of a run.
 void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* values) {
   const float* const first = ChannelOrNull(terms.first, c);
-  if (first == nullptr) {
+  if (terms.ambient != nullptr) {
+    AddFloats({first, ChannelOrNull(terms.second, c), ChannelOrNull(terms.ambient, c),
+               ChannelOrNull(terms.emission, c)},
+              run.begin, run.end, values);
+  } else if (first == nullptr) {
     std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
   } else if (terms.second == nullptr) {
     std::copy(first + run.begin, first + run.end, values + run.begin);
@@ -121,14 +153,19 @@ void AddRays(const RenderPlan& plan, const Layer& layer, size_t light_layer, dou
   }
 }
 
-// Makes values by ray of those by hit.
-void SpreadHits(const Rgb& background, int channels, TileScratch* s) {
+// Makes values by ray of those by hit. `sky`: what the rays see that hit nothing, or null.
+void SpreadHits(const Rgb& background, const Soa3<float>* sky, int channels, TileScratch* s) {
   const size_t hits = s->hits.count;
   const uint32_t* const ray = s->hits.ray.data();
   for (int c = 0; c < channels; ++c) {
     const double* const from = ChannelOf(s->hit_values, c).data();
     double* const to = ChannelOf(s->ray_values, c).data();
-    std::fill_n(to, s->samples.count, background[c]);
+    if (sky != nullptr) {
+      const AlignedArray<float>& seen = c == 0 ? sky->x : c == 1 ? sky->y : sky->z;
+      std::copy_n(seen.data(), s->samples.count, to);
+    } else {
+      std::fill_n(to, s->samples.count, background[c]);
+    }
     for (size_t i = 0; i < hits; ++i) to[ray[i]] = from[i];
   }
 }
@@ -165,13 +202,24 @@ void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* s
   }
 }
 
-void KeepLightLayer(size_t light_layer, TileScratch* scratch) {
+void KeepLight(int light_layer, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const size_t count = s.hits.count;
-  AddSoa(s.single.diffuse, count, &s.per_light[light_layer]);
-  AddSoa(s.single.specular, count, &s.per_light[light_layer]);
+  if (light_layer >= 0) {
+    Soa3<float>& layer = s.per_light[static_cast<size_t>(light_layer)];
+    AddSoa(s.single.diffuse, count, &layer);
+    AddSoa(s.single.specular, count, &layer);
+  }
   AddSoa(s.single.diffuse, count, &s.total.diffuse);
   AddSoa(s.single.specular, count, &s.total.specular);
+}
+
+void SeeSky(const RenderPlan& plan, TileScratch* scratch) {
+  TileScratch& s = *scratch;
+  if (plan.sky == nullptr || s.hits.count == s.samples.count) return;
+  RayBatch& rays = s.sampled->sky_rays;
+  MakeCameraRays(plan.camera, s.samples.x.data(), s.samples.y.data(), s.samples.count, &rays);
+  SkyRadiance(*plan.sky, rays.direction, s.samples.count, &s.sampled->sky);
 }
 
 Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
@@ -186,30 +234,33 @@ Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t lig
   }
   // Where every ray hits the same material, hits are in the order of rays.
   if (s.hits.count == s.samples.count && s.runs.size() == 1) return s.hit_values;
-  SpreadHits(background, channels, &s);
+  const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
+  SpreadHits(background, sees_sky ? &s.sampled->sky : nullptr, channels, &s);
   return s.ray_values;
 }
 
 void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
-  if (s.hits.count == 0) return;
+  if (s.hits.count == 0 && plan.sky == nullptr) return;
   // A pixel's samples are added in their order, whatever materials they hit.
-  const bool in_order = s.runs.size() == 1;
-  if (in_order) FindSpans(&s);
+  const bool in_order = s.hits.count > 0 && s.runs.size() == 1;
+  const bool mapped = in_order && plan.materials[s.runs[0].material.index].mapped;
+  if (in_order && !mapped) FindSpans(&s);
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
     double* sums[3] = {};
     for (int c = 0; c < FloatChannels(layer.kind); ++c) sums[c] = s.film.sums[sum++].data();
-    if (in_order) {
+    const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
+    if (in_order && !mapped && !sees_sky) {
       AddRun(plan, layer, light_layer, sums, s);
-    } else {
+    } else if (s.hits.count > 0 || sees_sky) {
       AddRays(plan, layer, light_layer, sums, &s);
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
-  if (s.film.nearest_distance.size() > 0) {
+  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
     AddNearest(
         plan, [&](uint32_t ray) { return RowPixel(s.film.window, ray); }, &s);
   }
@@ -227,7 +278,7 @@ void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {
   };
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
-    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, *plan.scene) : Rgb(0, 0, 0);
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
     // As the film averages it: the sum of spp floats, at most 2^16, is exact.
     const Rgb mean = background * spp * (1.0 / spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {

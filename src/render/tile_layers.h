@@ -7,8 +7,8 @@
 
 namespace nacre {
 
-// Adds scratch->single, the reflection of one light, to the light's layer and to the total.
-void KeepLightLayer(size_t light_layer, TileScratch* scratch);
+// Adds scratch->single, the reflection of one light, to the total and, unless -1, to a light layer.
+void KeepLight(int light_layer, TileScratch* scratch);
 
 inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
   return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
@@ -18,6 +18,10 @@ inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
 // `background` for those that hit nothing.
 Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t light_layer,
                           const Rgb& background, TileScratch* scratch);
+
+// Finds what of the plan's sky, if it has one, the samples' rays see that hit nothing, for
+// GatherLayer.
+void SeeSky(const RenderPlan& plan, TileScratch* scratch);
 
 // Takes P, Z and ids of the film's entry `pixel` from a hit.
 void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* scratch);

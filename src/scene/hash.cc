@@ -3,6 +3,8 @@
 #include <bit>
 #include <string_view>
 
+#include "scene/material_parameters.h"
+
 namespace nacre {
 namespace {
 
@@ -22,7 +24,12 @@ class Hasher {
     Add(v.y);
     Add(v.z);
   }
+  void Add(const Vec2d& v) {
+    Add(v.x);
+    Add(v.y);
+  }
   void Add(MaterialId id) { Word(id.index); }
+  void Add(TextureId id) { Word(id.index); }
   void Add(std::string_view text) {
     Word(text.size());
     for (const char c : text) Word(static_cast<unsigned char>(c));
@@ -49,6 +56,54 @@ void Add(const ImageSettings& image, Hasher* hash) {
   hash->Add(image.filter.width);
   hash->Word(image.seed);
   hash->Word(image.shadows);
+}
+
+// Contents, not names of files.
+void Add(const SceneImage& image, Hasher* hash) {
+  const MipLevel& whole = image.texels->levels[0];
+  hash->Word(static_cast<uint64_t>(whole.width));
+  hash->Word(static_cast<uint64_t>(whole.height));
+  hash->Word(static_cast<uint64_t>(image.texels->channels));
+  hash->Word(std::bit_cast<uint32_t>(image.middle));
+  const size_t count = static_cast<size_t>(whole.width) * static_cast<size_t>(whole.height) *
+                       static_cast<size_t>(image.texels->channels);
+  for (size_t i = 0; i < count; ++i) hash->Word(std::bit_cast<uint32_t>(image.texels->values[i]));
+}
+
+void Add(const Texture& texture, Hasher* hash) {
+  hash->Word(texture.image.index);
+  hash->Word(static_cast<uint64_t>(texture.sampling.filter));
+  hash->Word(static_cast<uint64_t>(texture.sampling.wrap_u));
+  hash->Word(static_cast<uint64_t>(texture.sampling.wrap_v));
+  hash->Word(static_cast<uint64_t>(texture.mapping));
+  hash->Add(texture.axis);
+  hash->Add(texture.rotate_deg);
+  hash->Add(texture.center);
+  hash->Add(texture.size);
+  hash->Add(texture.scale);
+  hash->Add(texture.uv_rotate_deg);
+  hash->Add(texture.offset);
+}
+
+// Nothing for a material without maps.
+void AddMaps(const Material& material, Hasher* hash) {
+  const MaterialModel* const model = ModelOf(material);
+  if (model == nullptr) return;
+  for (size_t i = 0; i < model->maps.size(); ++i) {
+    const TextureId id = model->maps[i].get(material);
+    if (!id.valid()) continue;
+    hash->Word(i);
+    hash->Add(id);
+  }
+  if (material.normal_map.texture.valid()) {
+    hash->Add(material.normal_map.texture);
+    hash->Add(material.normal_map.scale);
+    hash->Word(static_cast<uint64_t>(material.normal_map.convention));
+  }
+  if (material.bump_map.texture.valid()) {
+    hash->Add(material.bump_map.texture);
+    hash->Add(material.bump_map.distance);
+  }
 }
 
 struct AddModel {
@@ -123,6 +178,57 @@ struct AddLightKind {
     hash->Add(light.inner_deg);
     hash->Add(light.exponent);
   }
+  void operator()(const SphereAreaLight& light) const {
+    hash->Add(light.center);
+    hash->Add(light.radius);
+    hash->Add(light.radiance);
+    hash->Word(light.visible);
+  }
+  void operator()(const RectangleAreaLight& light) const {
+    hash->Add(light.center);
+    hash->Add(light.facing);
+    hash->Add(light.up);
+    hash->Add(light.width);
+    hash->Add(light.height);
+    Surface(light);
+  }
+  void operator()(const DiskAreaLight& light) const {
+    hash->Add(light.center);
+    hash->Add(light.facing);
+    hash->Add(light.radius);
+    Surface(light);
+  }
+  void operator()(const EnvironmentLight& light) const {
+    hash->Word(light.sky.index());
+    std::visit(*this, light.sky);
+    hash->Add(light.rotate_deg);
+    hash->Word(light.background);
+  }
+  void operator()(const ConstantSky& sky) const { hash->Add(sky.radiance); }
+  void operator()(const GradientSky& sky) const {
+    hash->Add(sky.zenith);
+    hash->Add(sky.horizon);
+    hash->Add(sky.ground);
+  }
+  void operator()(const QuadraticSky& sky) const {
+    hash->Add(sky.radiance);
+    hash->Add(sky.axis);
+    hash->Add(sky.constant);
+    hash->Add(sky.linear);
+    hash->Add(sky.quadratic);
+  }
+  void operator()(const PictureSky& sky) const {
+    hash->Word(static_cast<uint64_t>(sky.picture->width));
+    hash->Word(static_cast<uint64_t>(sky.picture->height));
+    for (const float texel : sky.picture->rgb) hash->Word(std::bit_cast<uint32_t>(texel));
+    hash->Add(sky.scale);
+  }
+  template <class Flat>
+  void Surface(const Flat& light) const {
+    hash->Add(light.radiance);
+    hash->Word(light.two_sided);
+    hash->Word(light.visible);
+  }
 };
 
 }  // namespace
@@ -132,11 +238,15 @@ uint64_t HashScene(const Scene& scene) {
   Add(scene.camera, &hash);
   Add(scene.image, &hash);
   hash.Add(scene.background);
+  for (const SceneImage& image : scene.images) Add(image, &hash);
+  for (const Texture& texture : scene.textures) Add(texture, &hash);
   hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
   for (const Material& material : scene.materials) {
     hash.Word(material.model.index());
     hash.Add(material.emission);
+    hash.Word(material.emits_in_front_only);
     std::visit(AddModel{&hash}, material.model);
+    AddMaps(material, &hash);
   }
   hash.Word(scene.lights.size());
   for (const Light& light : scene.lights) {
@@ -155,9 +265,13 @@ uint64_t HashScene(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     hash.Word(mesh.positions.size());
     hash.Word(mesh.normals.size());
+    hash.Word(mesh.uvs.size());
     hash.Word(mesh.triangles.size());
+    hash.Word(static_cast<uint64_t>(mesh.interpolation));
+    hash.Word(mesh.smooth_terminator);
     for (const Vec3d& position : mesh.positions) hash.Add(position);
     for (const Vec3d& normal : mesh.normals) hash.Add(normal);
+    for (const Vec2d& uv : mesh.uvs) hash.Add(uv);
     for (const uint32_t index : mesh.triangles) hash.Word(index);
     hash.Add(mesh.material);
   }

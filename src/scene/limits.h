@@ -49,7 +49,14 @@ inline constexpr Range kExponent{0, 1e9};
 inline constexpr Range kAttenuation{0, 1e15};
 inline constexpr Range kCutoffDeg{0, 180, true, false};
 inline constexpr Range kInnerDeg{0, 180};
+// Of a quadratic sky.
+inline constexpr Range kSkyTerm{-1e6, 1e6};
 inline constexpr Range kSplitAt{0, 1, true, true};
+
+// Texture coordinates: what they are scaled by and moved by. Far from 0 they lose their digits.
+inline constexpr Range kTextureScale{-1e6, 1e6};
+inline constexpr Range kAngleDeg{-36000, 36000};
+inline constexpr Range kNormalScale{-100, 100};
 
 // width x height x spp: about a day of rendering at 1e8 samples a second; more is a slip.
 inline constexpr double kMaxSamples = 1e13;
@@ -59,6 +66,12 @@ inline constexpr uint64_t kMaxPrimitives = 0xfffffffeu;
 
 inline constexpr Range kCloudCount{1, 1e8};
 inline constexpr Range kGridCount{1, 1000};
+
+inline constexpr Range kCreaseAngleDeg{0, 180};
+// Meshes of spheres: at most 327 680 and 4 194 304 faces.
+inline constexpr Range kSubdivisions{0, 7};
+inline constexpr Range kSegments{3, 2048};
+inline constexpr Range kRings{2, 1025};
 
 }  // namespace limits
 }  // namespace nacre

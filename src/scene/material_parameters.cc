@@ -50,6 +50,12 @@ constexpr MaterialChoice Choice(std::string_view name, std::span<const std::stri
           }};
 }
 
+template <auto kMember>
+constexpr MaterialMap Map(std::string_view name, MapUse use) {
+  return {name, use, [](const Material& material) { return FieldOf<kMember>(material); },
+          [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; }};
+}
+
 constexpr MaterialParameter kEmission = Color<&Material::emission>("emission", limits::kRadiance);
 
 constexpr std::array kLambertParameters = {
@@ -133,6 +139,20 @@ constexpr std::array kDielectricChoices = {
     Choice<&DielectricMaterial::diffuse_coupling>("diffuse_coupling", kCouplings),
     Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels)};
 
+constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>("emission_map", MapUse::kColor);
+constexpr std::array kLambertMaps = {
+    Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap};
+constexpr std::array kPhongMaps = {
+    Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor),
+    Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor),
+    Map<&PhongMaterial::shininess_map>("shininess_map", MapUse::kData), kEmissionMap};
+constexpr std::array kMetallicRoughnessMaps = {
+    Map<&MetallicRoughnessMaterial::base_color_map>("base_color_map", MapUse::kColor),
+    Map<&MetallicRoughnessMaterial::metallic_roughness_map>("metallic_roughness_map",
+                                                            MapUse::kTwoData),
+    kEmissionMap};
+constexpr std::array kOtherMaps = {kEmissionMap};
+
 template <typename Model>
 Material Make() {
   Material material;
@@ -149,14 +169,16 @@ Material MakePhong() {
 
 // The Phong family first and in the order of its enumeration: see ModelOf.
 constexpr std::array<MaterialModel, 7> kModels = {{
-    {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices},
-    {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices},
-    {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices},
-    {"lambert", Make<LambertMaterial>, kLambertParameters, {}},
+    {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps},
+    {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices,
+     kPhongMaps},
+    {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices,
+     kPhongMaps},
+    {"lambert", Make<LambertMaterial>, kLambertParameters, {}, kLambertMaps},
     {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
-     kMetallicRoughnessChoices},
-    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices},
-    {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices},
+     kMetallicRoughnessChoices, kMetallicRoughnessMaps},
+    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kOtherMaps},
+    {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices, kOtherMaps},
 }};
 
 }  // namespace

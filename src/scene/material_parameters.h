@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -30,11 +31,25 @@ struct MaterialChoice {
   void (*set)(Material&, size_t option);
 };
 
+// A texture that multiplies a parameter.
+enum class MapUse : uint8_t {
+  kColor,    // its 8- and 16-bit files are sRGB unless they say otherwise
+  kData,     // numbers, never encoded; the first channel counts
+  kTwoData,  // the same; green and blue count
+};
+struct MaterialMap {
+  std::string_view name;
+  MapUse use;
+  TextureId (*get)(const Material&);
+  void (*set)(Material&, TextureId);
+};
+
 struct MaterialModel {
   std::string_view name;  // "metallic_roughness"
   Material (*make)();     // one with every default
   std::span<const MaterialParameter> parameters;
   std::span<const MaterialChoice> choices;
+  std::span<const MaterialMap> maps;
 };
 
 // All models that have parameters, that is, all but `split`.

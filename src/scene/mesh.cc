@@ -7,10 +7,6 @@
 namespace nacre {
 namespace {
 
-double AngleBetween(const Vec3d& a, const Vec3d& b) {
-  return std::atan2(a.cross(b).length(), a.dot(b));
-}
-
 // Imath's row vectors: v * matrix.
 Imath::M33d RotationMatrix(const Vec3d& degrees) {
   const Vec3d angles = degrees * (std::numbers::pi / 180);
@@ -31,24 +27,15 @@ Vec3d FaceNormal(const Mesh& mesh, size_t triangle) {
   return (b - a).cross(c - a).normalized();  // 0 stays 0
 }
 
-std::vector<Vec3d> AngleWeightedNormals(const Mesh& mesh) {
-  std::vector<Vec3d> normals(mesh.positions.size(), Vec3d(0, 0, 0));
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const Vec3d face = FaceNormal(mesh, i / 3);
-    if (face == Vec3d(0, 0, 0)) continue;
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t corner = mesh.triangles[i + k];
-      const Vec3d& p = mesh.positions[corner];
-      const Vec3d to_next = mesh.positions[mesh.triangles[i + (k + 1) % 3]] - p;
-      const Vec3d to_last = mesh.positions[mesh.triangles[i + (k + 2) % 3]] - p;
-      normals[corner] += face * AngleBetween(to_next, to_last);
-    }
+bool HasArea(const Mesh& mesh) {
+  for (size_t i = 0; i < mesh.triangles.size() / 3; ++i) {
+    if (FaceNormal(mesh, i) != Vec3d(0, 0, 0)) return true;
   }
-  for (Vec3d& normal : normals) {
-    normal.normalize();
-    if (normal == Vec3d(0, 0, 0)) normal = Vec3d(0, 1, 0);
-  }
-  return normals;
+  return false;
+}
+
+void DropMeshesWithoutArea(Scene* scene) {
+  std::erase_if(scene->meshes, [](const Mesh& mesh) { return !HasArea(mesh); });
 }
 
 void ApplyTransform(const Transform& transform, Mesh* mesh) {

@@ -1,7 +1,9 @@
-// scene/mesh.h: work on triangle meshes: face normals, smooth normals, transforms.
+// scene/mesh.h: work on triangle meshes: face normals, vertex normals (vertex_normals.cc),
+// transforms.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "scene/scene.h"
@@ -12,10 +14,34 @@ namespace nacre {
 // no triangle is too small (an absolute threshold would lose small meshes).
 Vec3d FaceNormal(const Mesh& mesh, size_t triangle);
 
-// One unit normal per position: the average of the faces around it, weighted by their angles there
-// (Thuermer and Wuethrich 1998), which does not depend on how the surface is cut into triangles.
-// (0, 1, 0) where no face has an area or they cancel out.
-std::vector<Vec3d> AngleWeightedNormals(const Mesh& mesh);
+// How much each face around a vertex counts for its normal.
+enum class NormalWeighting : uint8_t {
+  kAngle,    // by its angle there: does not depend on how the surface is cut into triangles
+             // (Thuermer and Wuethrich 1998)
+  kArea,     // by its area
+  kUniform,  // equally, as lessons do
+};
+
+// Gives the mesh normals: unit ones, one per position, each the weighted average of the faces
+// around it; (0, 1, 0) where no face has an area or they cancel out. Positions at the same place
+// that only uvs tell apart are taken as one.
+//
+// Faces that meet along an edge at more than crease_angle_deg are not averaged over it: positions
+// are then repeated, so that each side has normals of its own. From 180 on nothing is a crease. Of
+// more than two faces on one edge only consecutive triangles are compared.
+void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh);
+
+// For models that come without normals and do not say which of their edges are sharp.
+inline constexpr double kModelCreaseAngleDeg = 45;
+
+// Puts averages of the faces, by angle, in the place of normals that are not unit vectors.
+void MendNormals(Mesh* mesh);
+
+// Whether any triangle has an area.
+bool HasArea(const Mesh& mesh);
+
+// Takes those away that no ray can hit.
+void DropMeshesWithoutArea(Scene* scene);
 
 // Scales, then rotates about x, then y, then z by right-handed degrees, then translates.
 struct Transform {

@@ -5,10 +5,11 @@
 // World space is right-handed, +y up. All positions and lengths are doubles in world units and
 // stay as the file has them; everything in float later on is relative to the camera.
 // Colours are linear Rec. 709. Directional light: irradiance on a surface facing it. Point and
-// spot: radiant intensity. Ambient and background: radiance.
+// spot: radiant intensity. All others and the background: radiance.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +18,8 @@
 #include "base/vec.h"
 #include "brdf/ggx.h"
 #include "sampling/pixel_filter.h"
+#include "texture/mapping.h"
+#include "texture/sample.h"
 
 namespace nacre {
 
@@ -30,6 +33,8 @@ struct Handle {
   bool operator==(const Handle&) const = default;
 };
 using MaterialId = Handle<struct MaterialTag>;
+using ImageId = Handle<struct ImageTag>;
+using TextureId = Handle<struct TextureTag>;
 
 // ---- Camera and image ---------------------------------------------------------------------------
 
@@ -53,6 +58,54 @@ struct ImageSettings {
   bool shadows = true;  // false: no light casts any
 };
 
+// ---- Textures -----------------------------------------------------------------------------------
+
+// A decoded image file. Shared, so that scenes are copied without it.
+struct SceneImage {
+  std::string file;  // as the scene names it
+  std::shared_ptr<const MipChain> texels;
+  float middle = 0.5f;  // the value that stands for 0 in a normal map: 128/255 of 8-bit files
+};
+
+// An image on surfaces. (u, v) has its origin at the lower left corner of the image, v up. It comes
+// from the mapping, is scaled, turned and then moved (as in glTF's KHR_texture_transform, but with
+// v up), and then wrapped.
+//
+// Mappings but kUv see an object with its axis up: a sphere in units of its radius around its
+// centre, a mesh in units of `size` around `center`. Longitudes begin behind the axis +y, at -z,
+// and go to the right as seen from outside; v is 1 at the axis' end.
+struct Texture {
+  std::string name;
+  ImageId image;
+  SampleSettings sampling;
+  MappingKind mapping = MappingKind::kUv;
+  Vec3d axis{0, 1, 0};    // any length > 0
+  double rotate_deg = 0;  // about the axis, right-handed
+  Vec3d center{0, 0, 0};  // of meshes
+  double size = 1;        // of meshes, > 0
+  Vec2d scale{1, 1};
+  double uv_rotate_deg = 0;  // counter-clockwise
+  Vec2d offset{0, 0};
+};
+
+// Tangent-space normals, x along growing u, y along growing v.
+struct NormalMap {
+  TextureId texture{};
+  double scale = 1;  // of x and y
+  // How a value c in [0, 1] is read.
+  enum class Convention : uint8_t {
+    kExactFlat,  // 8-bit files as (255 c - 128) / 127, so that 128 is exactly 0; others as 2 c - 1
+    kLiteral,    // 2 c - 1: a flat 8-bit map, (128, 128, 255), leans by 0.3 degrees
+  };
+  Convention convention = Convention::kExactFlat;
+};
+
+// Heights, whose slope turns the normal; the surface stays where it is.
+struct BumpMap {
+  TextureId texture{};
+  double distance = 0.01;  // world units between the values 0 and 1; below 0: into the surface
+};
+
 // ---- Materials ----------------------------------------------------------------------------------
 
 // How the Phong family's coefficients are read.
@@ -70,6 +123,7 @@ enum class PhongModel : uint8_t {
 
 struct LambertMaterial {
   Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
+  TextureId albedo_map{};
 };
 
 struct PhongMaterial {
@@ -79,7 +133,10 @@ struct PhongMaterial {
   Rgb ka{0.1, 0.1, 0.1};
   Rgb kd{0.7, 0.7, 0.7};
   Rgb ks{0.3, 0.3, 0.3};
-  double shininess = 32;  // exponent n >= 0
+  double shininess = 32;      // exponent n >= 0
+  TextureId diffuse_map{};    // of color kd and color ka
+  TextureId specular_map{};   // of ks
+  TextureId shininess_map{};  // of the exponent
 };
 
 // The light that bounces more than once between microfacets, which a single-scattering lobe
@@ -112,6 +169,8 @@ struct MetallicRoughnessMaterial {
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kTurquin;
   DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
+  TextureId base_color_map{};
+  TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
 };
 
 enum class ConductorFresnel : uint8_t {
@@ -155,9 +214,16 @@ struct SplitMaterial {
 struct Material {
   std::string name;
   Rgb emission{0, 0, 0};  // radiance, >= 0
+  // Only spheres' outsides and triangles' fronts emit (from where their corners run
+  // counter-clockwise).
+  bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
                DielectricMaterial, SplitMaterial>
       model;
+  // Maps multiply the numbers beside them.
+  TextureId emission_map{};
+  NormalMap normal_map{};
+  BumpMap bump_map{};
 };
 
 // ---- Lights -------------------------------------------------------------------------------------
@@ -201,11 +267,89 @@ struct SpotLight {
   double exponent = 0;     // >= 0
 };
 
+// Surfaces that emit the same radiance everywhere and in all directions. `visible`: the camera sees
+// them, and they block the light of others.
+
+// Emits outwards.
+struct SphereAreaLight {
+  Vec3d center{0, 0, 0};
+  double radius = 1;  // > 0
+  Rgb radiance{1, 1, 1};
+  bool visible = true;
+};
+
+struct RectangleAreaLight {
+  Vec3d center{0, 0, 0};
+  Vec3d facing{0, -1, 0};        // the side that emits, any length > 0
+  Vec3d up{0, 0, -1};            // along its height, made perpendicular to `facing`
+  double width = 1, height = 1;  // > 0
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+struct DiskAreaLight {
+  Vec3d center{0, 0, 0};
+  Vec3d facing{0, -1, 0};  // the side that emits, any length > 0
+  double radius = 1;       // > 0
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+// What an environment looks like. Directions are unit vectors; +y is up.
+struct ConstantSky {
+  Rgb radiance{1, 1, 1};
+};
+
+// From the horizon's colour to the zenith's with the height y of the direction, mix(horizon,
+// zenith, y); below the horizon likewise to the ground's.
+struct GradientSky {
+  Rgb zenith{0.3, 0.5, 1}, horizon{1, 1, 1}, ground{0.2, 0.2, 0.2};
+};
+
+// radiance (constant + linear c + quadratic c^2), c the cosine of the angle from `axis`; >= 0 for
+// every c in [-1, 1].
+struct QuadraticSky {
+  Rgb radiance{1, 1, 1};
+  Vec3d axis{0, 1, 0};  // any length > 0
+  double constant = 1, linear = 0, quadratic = 0;
+};
+
+// Linear radiance by direction, row by row from +y down to -y: the texel at (u, v) in [0, 1)^2 is
+// seen in the direction (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v). A texel has one
+// value all over.
+struct SkyPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  // 3 width height, each >= 0
+};
+
+struct PictureSky {
+  std::shared_ptr<const SkyPicture> picture;  // shared by copies of the scene, never changed
+  Rgb scale{1, 1, 1};
+};
+
+// Light from infinitely far, all around.
+struct EnvironmentLight {
+  std::variant<ConstantSky, GradientSky, QuadraticSky, PictureSky> sky;
+  double rotate_deg = 0;   // about +y, right-handed
+  bool background = true;  // seen where nothing is hit, in place of Scene::background
+};
+
 struct Light {
   std::string name;  // unique; names the layer light.<name>
   bool shadows = true;
-  std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight> kind;
+  std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
+               RectangleAreaLight, DiskAreaLight, EnvironmentLight>
+      kind;
 };
+
+// True for lights without extent, which reach a point from one direction.
+inline bool IsPunctual(const Light& light) {
+  return std::holds_alternative<DirectionalLight>(light.kind) ||
+         std::holds_alternative<PointLight>(light.kind) ||
+         std::holds_alternative<SpotLight>(light.kind);
+}
 
 // ---- Shapes -------------------------------------------------------------------------------------
 
@@ -215,13 +359,32 @@ struct Sphere {
   MaterialId material;
 };
 
+// What is interpolated across a triangle.
+enum class Interpolation : uint8_t {
+  kPhong,    // the vertices' normals, renormalised at each point (Phong 1975)
+  kGouraud,  // what the vertices reflect (Gouraud 1971), diffuse and specular apart
+  kFlat,     // nothing: all of it reflects what its centroid does under the face normal
+  kFaceted,  // nothing but the position: the face normal at each point
+};
+
 struct Mesh {
   std::string name;
   std::vector<Vec3d> positions;     // world space
   std::vector<Vec3d> normals;       // unit, one per position; empty: face normals
+  std::vector<Vec2d> uvs;           // one per position, or empty; (0, 0) is an image's bottom left
   std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
   MaterialId material;
+  Interpolation interpolation = Interpolation::kPhong;
+  // Shadow rays of smooth normals start on the surface that the normals tell of, not in the
+  // triangle (Hanika 2021): no jagged shadows along the terminator of coarse meshes.
+  bool smooth_terminator = true;
 };
+
+// Whether hits have normals of their own, interpolated from the vertices.
+inline bool HasSmoothNormals(const Mesh& mesh) {
+  return !mesh.normals.empty() && (mesh.interpolation == Interpolation::kPhong ||
+                                   mesh.interpolation == Interpolation::kGouraud);
+}
 
 // Text that --labels writes into the PNG, beside the projection of a world point.
 struct Label {
@@ -234,6 +397,8 @@ struct Label {
 struct Scene {
   Camera camera;
   ImageSettings image;
+  std::vector<SceneImage> images;
+  std::vector<Texture> textures;
   std::vector<Material> materials;
   std::vector<Light> lights;
   std::vector<Sphere> spheres;

@@ -1,8 +1,8 @@
-// scene/validate.cc: camera, image, materials and lights. Shapes: validate_shapes.cc.
+// scene/validate.cc: camera, image and materials. Shapes: validate_shapes.cc; lights:
+// validate_lights.cc.
 #include "scene/validate.h"
 
 #include <algorithm>
-#include <unordered_set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -13,8 +13,12 @@
 
 namespace nacre {
 
-// In validate_shapes.cc.
+// In validate_shapes.cc, validate_lights.cc and validate_textures.cc.
 void ValidateShapes(const Scene& scene, FaultList* faults);
+void ValidateLights(const Scene& scene, FaultList* faults);
+void ValidateTextures(const Scene& scene, FaultList* faults);
+void ValidateMaps(const Scene& scene, const Material& material, const std::string& where,
+                  FaultList* faults);
 
 namespace {
 
@@ -90,11 +94,16 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
   if (material.emission != Rgb(0, 0, 0)) {
     faults->Add(where + "/emission", "a split has no emission", "give it to the materials in it");
   }
+  if (material.emission_map.valid() || material.normal_map.texture.valid() ||
+      material.bump_map.texture.valid()) {
+    faults->Add(where, "a split has no maps", "give them to the materials in it");
+  }
 }
 
 void ValidateMaterials(const Scene& scene, FaultList* faults) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& material = scene.materials[i];
+    ValidateMaps(scene, material, MaterialPlace(scene, i), faults);
     const MaterialModel* model = ModelOf(material);
     if (model == nullptr) {
       ValidateSplit(scene, material, MaterialPlace(scene, i), faults);
@@ -114,64 +123,6 @@ void ValidateMaterials(const Scene& scene, FaultList* faults) {
   }
 }
 
-void CheckAttenuation(const Attenuation& attenuation, const std::string& where, FaultList* faults) {
-  CheckNumber(attenuation.constant, limits::kAttenuation, where + "/constant", faults);
-  CheckNumber(attenuation.linear, limits::kAttenuation, where + "/linear", faults);
-  CheckNumber(attenuation.quadratic, limits::kAttenuation, where + "/quadratic", faults);
-  if (attenuation.constant == 0 && attenuation.linear == 0 && attenuation.quadratic == 0) {
-    faults->Add(where, "all three terms are 0", "\"none\" is constant 1");
-  }
-}
-
-// One overload for each kind of light.
-struct LightChecker {
-  const std::string& where;
-  FaultList* faults;
-
-  void operator()(const AmbientLight& light) const {
-    CheckColor(light.radiance, limits::kRadiance, where + "/radiance", faults);
-  }
-  void operator()(const DirectionalLight& light) const {
-    CheckDirection(light.direction_of_travel, where + "/direction_of_travel", faults);
-    CheckColor(light.irradiance, limits::kRadiance, where + "/irradiance", faults);
-  }
-  void operator()(const PointLight& light) const {
-    CheckPoint(light.position, where + "/position", faults);
-    CheckColor(light.intensity, limits::kRadiance, where + "/intensity", faults);
-    CheckAttenuation(light.attenuation, where + "/attenuation", faults);
-  }
-  void operator()(const SpotLight& light) const {
-    CheckPoint(light.position, where + "/position", faults);
-    CheckDirection(light.direction_of_travel, where + "/direction_of_travel", faults);
-    CheckColor(light.intensity, limits::kRadiance, where + "/intensity", faults);
-    CheckAttenuation(light.attenuation, where + "/attenuation", faults);
-    CheckNumber(light.cutoff_deg, limits::kCutoffDeg, where + "/cutoff_deg", faults);
-    CheckNumber(light.inner_deg, limits::kInnerDeg, where + "/inner_deg", faults);
-    if (light.inner_deg > light.cutoff_deg) {
-      faults->Add(where + "/inner_deg",
-                  fmt::format("{} is beyond cutoff_deg, {}", light.inner_deg, light.cutoff_deg),
-                  "at most cutoff_deg; equal to it for a hard edge");
-    }
-    CheckNumber(light.exponent, limits::kExponent, where + "/exponent", faults);
-  }
-};
-
-void ValidateLights(const Scene& scene, FaultList* faults) {
-  std::unordered_set<std::string> names;
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    const std::string where =
-        "/lights/" + (light.name.empty() ? std::to_string(i) : PointerToken(light.name));
-    if (!IsLayerName(light.name)) {
-      faults->Add(where, "the name cannot name an image layer",
-                  "1 to 64 letters, digits, spaces, '_' or '-'");
-    } else if (!names.insert(light.name).second) {
-      faults->Add(where, "a second light of this name", "names of lights are unique");
-    }
-    std::visit(LightChecker{where, faults}, light.kind);
-  }
-}
-
 }  // namespace
 
 bool IsLayerName(const std::string& name) {
@@ -187,6 +138,7 @@ std::vector<Fault> Validate(const Scene& scene) {
   ValidateImage(scene.image, &faults);
   CheckColor(scene.background, limits::kRadiance, "/background", &faults);
   ValidateMaterials(scene, &faults);
+  ValidateTextures(scene, &faults);
   ValidateLights(scene, &faults);
   ValidateShapes(scene, &faults);
   return faults.All();

@@ -40,6 +40,22 @@ void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faul
   }
 }
 
+void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  if (mesh.uvs.empty()) return;
+  if (mesh.uvs.size() != mesh.positions.size()) {
+    faults->Add(where + "/uvs",
+                fmt::format("{} uvs for {} positions", mesh.uvs.size(), mesh.positions.size()),
+                "one per position, or none");
+  }
+  for (size_t i = 0; i < mesh.uvs.size(); ++i) {
+    const auto& [u, v] = mesh.uvs[i];
+    if (limits::kCoordinate.Contains(u) && limits::kCoordinate.Contains(v)) continue;
+    faults->Add(fmt::format("{}/uvs/{}", where, i), fmt::format("[{}, {}] is out of range", u, v),
+                "each coordinate " + Describe(limits::kCoordinate));
+    return;
+  }
+}
+
 void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults) {
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) {
     faults->Add(where + "/triangles", fmt::format("{} indices", mesh.triangles.size()),
@@ -53,10 +69,7 @@ void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* fa
                 fmt::format("the mesh has {}", mesh.positions.size()));
     return;
   }
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    if (FaceNormal(mesh, i / 3) != Vec3d(0, 0, 0)) return;
-  }
-  faults->Add(where, "no triangle has an area", {});
+  if (!HasArea(mesh)) faults->Add(where, "no triangle has an area", {});
 }
 
 bool IsSound(const Sphere& sphere, size_t material_count) {
@@ -80,6 +93,11 @@ void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& wh
   const size_t before = faults->count();
   ValidatePositions(mesh, where, faults);
   ValidateNormals(mesh, where, faults);
+  ValidateUvs(mesh, where, faults);
+  if (mesh.interpolation == Interpolation::kGouraud && mesh.normals.empty()) {
+    faults->Add(where + "/interpolation", "Gouraud's needs a normal at each vertex",
+                "give the mesh normals, or choose another interpolation");
+  }
   if (faults->count() == before) ValidateTriangles(mesh, where, faults);
   CheckMaterial(mesh.material, material_count, where + "/material", faults);
 }

@@ -6,8 +6,13 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "scene/validate.h"
+#include "scene_io/gltf.h"
+#include "scene_io/model_scene.h"
+#include "scene_io/obj.h"
 #include "scene_io/overrides.h"
+#include "scene_io/ply.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
 
@@ -48,8 +53,9 @@ void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
   object.Find("nacre");
   member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+  member("textures", [&](const JsonValue& value) { ReadTextures(value, context); });
   member("materials", [&](const JsonValue& value) { ReadMaterials(value, context); });
-  member("lights", [&](const JsonValue& value) { ReadLights(value, &scene->lights); });
+  member("lights", [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
   member("shapes", [&](const JsonValue& value) { ReadShapes(value, context); });
   object.Color("background", limits::kRadiance, &scene->background);
   object.RefuseOthers();
@@ -58,7 +64,8 @@ void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
 // The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
 std::string PartOf(const std::string& pointer) {
   if (pointer.starts_with("/spheres") || pointer.starts_with("/meshes")) return "/shapes";
-  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/");
+  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/") ||
+                        pointer.starts_with("/textures/");
   const size_t first_end = pointer.find('/', 1);
   return pointer.substr(0, is_named ? pointer.find('/', first_end + 1) : first_end);
 }
@@ -102,7 +109,32 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   return scene;
 }
 
+namespace {
+
+// A model with camera and light added where it has none.
+Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
+  const std::string file = path.string();
+  bool has_camera = false;
+  Scene scene = HasExtension(file, ".obj")   ? ReadObjScene(path, options)
+                : HasExtension(file, ".ply") ? ReadPlyScene(path, options)
+                                             : ReadGltf(path, options, &has_camera);
+  CompleteModelScene(options, file, has_camera, &scene);
+  std::vector<Fault> faults = Validate(scene);
+  if (faults.empty()) return scene;
+  for (Fault& fault : faults) fault.where = PlaceInFile(file, fault.where);
+  throw Error(ExitCode::kBadInput, std::move(faults));
+}
+
+}  // namespace
+
+bool IsModelFile(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  return HasExtension(file, ".gltf") || HasExtension(file, ".glb") || HasExtension(file, ".obj") ||
+         HasExtension(file, ".ply");
+}
+
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
+  if (IsModelFile(path)) return LoadModel(path, options);
   const std::string text = ReadTextFile(path, kMaxBytes);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
 }

@@ -1,5 +1,5 @@
-// scene_io/load_scene.h: scene files. What they may contain is written down in
-// scenes/nacre.schema.json, which SceneSchema() returns.
+// scene_io/load_scene.h: scene files, and models as scenes. What scene files may contain is written
+// down in scenes/nacre.schema.json, which SceneSchema() returns.
 #pragma once
 
 #include <filesystem>
@@ -23,9 +23,17 @@ struct LoadOptions {
 
   // Told now and then which share of the file has been read. Throwing from it stops the reading.
   std::function<void(double)> on_progress = {};
+
+  // Told, once each, what a model file holds that is not shown.
+  std::function<void(const std::string&)> on_warning = {};
 };
 
-// Reads a scene file (JSON, up to 1 GiB). The scene has passed Validate().
+// True for files that hold a model, by their extension (.gltf, .glb, .obj, .ply), and not a scene
+// in JSON.
+bool IsModelFile(const std::filesystem::path& path);
+
+// Reads a scene file (JSON, up to 1 GiB) or a model, which gets a camera that sees all of it and
+// studio lights if it has none. The scene has passed Validate().
 // Throws Error: kBadInput with all faults of the file at once (the first 20 in words), each with
 // its JSON pointer; kUsage if an override cannot be made.
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options = {});

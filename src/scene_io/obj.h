@@ -4,15 +4,22 @@
 #include <filesystem>
 
 #include "scene/scene.h"
+#include "scene_io/load_scene.h"
 
 namespace nacre {
 
 // All faces of the file as one mesh, polygons cut into triangles, named after the file. Normals
-// are the file's, made unit, if all corners of all faces have one; otherwise there are none.
-// Texture coordinates, groups, lines, points and materials (MTL) are not read.
+// are the file's, made unit, if all corners of all faces have one; otherwise there are none. The
+// same goes for texture coordinates. Groups, lines, points and materials (MTL) are not read.
 // Throws Error (kBadInput) with the file, and the line where it is known, for numbers that are none
 // or not finite, indices out of range, faces of fewer than 3 or more than 255 corners, normals
 // of length 0 and files without faces.
 Mesh ReadObj(const std::filesystem::path& path);
+
+// The same faces as a scene of their own, with the materials of the libraries (MTL) that the file
+// names; faces without normals get averages, parted where they meet at more than
+// kModelCreaseAngleDeg. Camera and light are left to CompleteModelScene (model_scene.h). What is
+// not shown is told by options.on_warning.
+Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options);
 
 }  // namespace nacre

@@ -1,4 +1,4 @@
-// scene_io/read_lights.cc: the part "lights".
+// scene_io/read_lights.cc: the part "lights". Those with an extent: read_area_lights.cc.
 #include <array>
 
 #include "scene_io/readers.h"
@@ -6,8 +6,18 @@
 namespace nacre {
 namespace {
 
-enum class LightType { kAmbient, kDirectional, kPoint, kSpot };
-constexpr std::array<std::string_view, 4> kLightTypes = {"ambient", "directional", "point", "spot"};
+enum class LightType {
+  kAmbient,
+  kDirectional,
+  kPoint,
+  kSpot,
+  kSphere,
+  kRectangle,
+  kDisk,
+  kEnvironment
+};
+constexpr std::array<std::string_view, 8> kLightTypes = {
+    "ambient", "directional", "point", "spot", "sphere", "rectangle", "disk", "environment"};
 
 void ReadAttenuation(const JsonValue& value, Attenuation* attenuation) {
   constexpr std::string_view kHint =
@@ -29,17 +39,6 @@ void ReadAttenuation(const JsonValue& value, Attenuation* attenuation) {
   object.Number("linear", limits::kAttenuation, &attenuation->linear);
   object.Number("quadratic", limits::kAttenuation, &attenuation->quadratic);
   object.RefuseOthers();
-}
-
-void ReadRequiredPoint(JsonObject* object, std::string_view name, std::string_view hint,
-                       Vec3d* out) {
-  object->Require(name, hint);
-  object->Point(name, out);
-}
-
-void ReadRadiance(JsonObject* object, std::string_view name, std::string_view hint, Rgb* out) {
-  object->Require(name, hint);
-  object->Color(name, limits::kRadiance, out);
 }
 
 // What point and spot lights have in common.
@@ -86,9 +85,10 @@ SpotLight ReadSpot(JsonObject* object) {
   return light;
 }
 
-void ReadLight(const JsonValue& value, Light* light) {
+void ReadLight(const JsonValue& value, const SceneContext& context, Light* light) {
   JsonObject object(value);
-  object.Require("type", "one of: ambient, directional, point, spot");
+  object.Require("type",
+                 "one of: ambient, directional, point, spot, sphere, rectangle, disk, environment");
   size_t type = 0;
   if (!object.Choice("type", kLightTypes, &type)) return;
   switch (static_cast<LightType>(type)) {
@@ -104,6 +104,18 @@ void ReadLight(const JsonValue& value, Light* light) {
     case LightType::kSpot:
       light->kind = ReadSpot(&object);
       break;
+    case LightType::kSphere:
+      light->kind = ReadSphereArea(&object);
+      break;
+    case LightType::kRectangle:
+      light->kind = ReadRectangleArea(&object);
+      break;
+    case LightType::kDisk:
+      light->kind = ReadDiskArea(&object);
+      break;
+    case LightType::kEnvironment:
+      light->kind = ReadEnvironment(&object, context);
+      break;
   }
   if (static_cast<LightType>(type) != LightType::kAmbient) {
     object.Boolean("shadows", &light->shadows);
@@ -113,13 +125,13 @@ void ReadLight(const JsonValue& value, Light* light) {
 
 }  // namespace
 
-void ReadLights(const JsonValue& value, std::vector<Light>* lights) {
+void ReadLights(const JsonValue& value, const SceneContext& context, std::vector<Light>* lights) {
   const JsonObject object(value, R"(lights by name: {"key": {"type": "point", ...}})");
   if (!object.is_object()) return;
   for (const auto& [name, json] : value.json.items()) {
     Light& light = lights->emplace_back();
     light.name = name;
-    ReadLight({json, object.path().Member(name), object.faults()}, &light);
+    ReadLight({json, object.path().Member(name), object.faults()}, context, &light);
   }
 }
 

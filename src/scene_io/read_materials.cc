@@ -72,6 +72,7 @@ void ReadMaterial(const JsonValue& value, SceneContext* context, Material* mater
     const MaterialModel& model = MaterialModels()[choice];
     material->model = model.make().model;
     ReadParameters(model, &object, material);
+    ReadMaps(model, &object, context, material);
   }
   object.RefuseOthers();
 }
@@ -112,6 +113,14 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
     if (value.faults->count() != before) context->unreadable_materials.insert(index);
     materials[index++] = std::move(material);  // not through a reference: inline ones are added
   }
+}
+
+void ChangeMaterial(const JsonValue& value, Material* material) {
+  JsonObject object(value);
+  if (const MaterialModel* const model = ModelOf(*material)) {
+    ReadParameters(*model, &object, material);
+  }
+  object.RefuseOthers();
 }
 
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id) {

@@ -1,14 +1,9 @@
-// scene_io/read_shapes.cc: the part "shapes". Grids, pairs and clouds: read_generators.cc.
+// scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
+// read_generators.cc.
 #include <array>
-#include <cmath>
-#include <utility>
 
 #include "base/error.h"
-#include "scene/mesh.h"
-#include "scene/validate.h"
-#include "scene_io/obj.h"
 #include "scene_io/readers.h"
-#include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
@@ -23,71 +18,14 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
   context->scene->spheres.push_back(sphere);
 }
 
-void ReadScale(const JsonValue& value, Vec3d* scale) {
-  double uniform = 1;
-  if (value.json.is_number()) {
-    if (ReadNumber(value, limits::kCoordinate, &uniform)) *scale = Vec3d(uniform);
-  } else {
-    ReadPoint(value, limits::kCoordinate, scale);
-  }
-  for (const double component : {scale->x, scale->y, scale->z}) {
-    if (limits::kLength.Contains(std::abs(component))) continue;
-    value.AddFault("would flatten the mesh", "no component is 0");
-    break;
-  }
-}
-
-void ReadTransform(const JsonValue& value, Transform* transform) {
-  JsonObject object(value);
-  object.Point("translate", &transform->translate);
-  if (const Json* scale = object.Find("scale")) {
-    ReadScale({*scale, object.path().Member("scale"), object.faults()}, &transform->scale);
-  }
-  object.Point("rotate_deg", &transform->rotate_deg);
-  object.RefuseOthers();
-}
-
-// Adds the mesh in `file`, or a fault of `value`, where the scene names it.
-void LoadMesh(const JsonValue& value, const Transform& transform, bool smooth, MaterialId material,
-              SceneContext* context) {
-  std::string file;
-  if (!ReadText(value, &file)) return;
-  try {
-    Mesh mesh = ReadObj(ResolveReference(context->folder, file, context->allow_paths));
-    mesh.material = material;
-    if (!smooth) mesh.normals.clear();
-    ApplyTransform(transform, &mesh);
-    if (smooth && mesh.normals.empty()) mesh.normals = AngleWeightedNormals(mesh);
-    context->scene->meshes.push_back(std::move(mesh));
-  } catch (const Error& error) {
-    for (const Fault& fault : error.faults()) {
-      value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
-                     fault.hint);
-    }
-  }
-}
-
-void ReadMesh(JsonObject* shape, SceneContext* context) {
-  MaterialId material;
-  ReadMaterialOf(shape, context, &material);
-  Transform transform;
-  if (const Json* json = shape->Find("transform")) {
-    ReadTransform({*json, shape->path().Member("transform"), shape->faults()}, &transform);
-  }
-  bool smooth = true;
-  shape->Boolean("smooth", &smooth);
-  if (const Json* file = shape->Require("file", "an OBJ file in the scene's folder")) {
-    LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, smooth, material,
-             context);
-  }
-}
-
 struct ShapeType {
   std::string_view name;
   void (*read)(JsonObject*, SceneContext*);
 };
-constexpr std::array<ShapeType, 5> kShapeTypes = {{{"sphere", ReadSphere},
+constexpr std::array<ShapeType, 7> kShapeTypes = {{{"sphere", ReadSphere},
                                                    {"mesh", ReadMesh},
+                                                   {"icosphere", ReadIcosphere},
+                                                   {"uv_sphere", ReadUvSphere},
                                                    {"grid", ReadGrid},
                                                    {"pair", ReadPair},
                                                    {"cloud", ReadCloud}}};
@@ -96,7 +34,7 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
   std::array<std::string_view, kShapeTypes.size()> names;
   for (size_t i = 0; i < names.size(); ++i) names[i] = kShapeTypes[i].name;
   JsonObject shape(value);
-  shape.Require("type", "one of: sphere, mesh, grid, pair, cloud");
+  shape.Require("type", "one of: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud");
   size_t type = 0;
   if (!shape.Choice("type", names, &type)) return;
   try {

@@ -3,20 +3,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "scene/generators.h"
+#include "scene/material_parameters.h"
 #include "scene/scene.h"
 #include "scene_io/json_reader.h"
+#include "scene_io/texture_image.h"
 
 namespace nacre {
 
 void ReadCamera(const JsonValue& value, Camera* camera);
 void ReadImage(const JsonValue& value, ImageSettings* image);
-void ReadLights(const JsonValue& value, std::vector<Light>* lights);
 
 // What materials and shapes need to know of the rest of the file.
 struct SceneContext {
@@ -27,10 +29,54 @@ struct SceneContext {
   // So that one fault does not make others of all that refer to it:
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
+  // Textures by name. One that says nothing of its encoding is sRGB where it is a colour and linear
+  // where it is data: up to two of the scene's textures, read when first used.
+  struct TextureSource {
+    Texture texture;  // all but the image
+    std::string file;
+    bool is_readable = false;  // false: its faults have been told
+    std::optional<TextureEncoding> encoding;
+    TextureId srgb{}, linear{};
+  };
+  std::unordered_map<std::string, TextureSource> textures;
+  std::unordered_map<std::string, ImageId> images;  // by path and encoding
 };
+
+// The object "lights"; `context` says where their pictures are.
+void ReadLights(const JsonValue& value, const SceneContext& context, std::vector<Light>* lights);
+
+// Lights by type, from the object of one; read_area_lights.cc.
+SphereAreaLight ReadSphereArea(JsonObject* light);
+RectangleAreaLight ReadRectangleArea(JsonObject* light);
+DiskAreaLight ReadDiskArea(JsonObject* light);
+EnvironmentLight ReadEnvironment(JsonObject* light, const SceneContext& context);
+
+// Members that a light must have.
+inline void ReadRequiredPoint(JsonObject* object, std::string_view name, std::string_view hint,
+                              Vec3d* out) {
+  object->Require(name, hint);
+  object->Point(name, out);
+}
+inline void ReadRadiance(JsonObject* object, std::string_view name, std::string_view hint,
+                         Rgb* out) {
+  object->Require(name, hint);
+  object->Color(name, limits::kRadiance, out);
+}
+// The object "textures". Their images are read when a material names them.
+void ReadTextures(const JsonValue& value, SceneContext* context);
+
+// A texture by its name. Its absence is a fault.
+void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, TextureId* id);
+
+// The members of a material that name textures.
+void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
+              Material* material);
 
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
+
+// Sets what the object says of a material that is there; its model stays.
+void ChangeMaterial(const JsonValue& value, Material* material);
 
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);
@@ -44,6 +90,11 @@ bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* m
 
 // The array "shapes".
 void ReadShapes(const JsonValue& value, SceneContext* context);
+
+// Those with a file or faces of their own.
+void ReadMesh(JsonObject* shape, SceneContext* context);
+void ReadIcosphere(JsonObject* shape, SceneContext* context);
+void ReadUvSphere(JsonObject* shape, SceneContext* context);
 
 // The generators among the shapes; each adds what it makes to the scene unless there are faults.
 void ReadGrid(JsonObject* shape, SceneContext* context);

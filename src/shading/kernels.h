@@ -8,38 +8,61 @@
 
 namespace nacre {
 
+// What follows comes in two forms. Number is float: the same for all hits. Or it is const float*:
+// one for each hit of the batch, of materials with maps, shaded under one light at a time.
+
 // Products of one light and the material's constants, for each light of a range.
-struct LambertLight {
-  float diffuse[3];  // albedo / pi * light
+template <class Number>
+struct LambertLightOf {
+  Number diffuse[3];  // albedo / pi * light
 };
+using LambertLight = LambertLightOf<float>;
 
-struct PhongLight {
-  float diffuse[3], specular[3];  // PhongFamilyModel's constants times light
+template <class Number>
+struct PhongLightOf {
+  Number diffuse[3], specular[3];  // PhongFamilyModel's constants times light
 };
+using PhongLight = PhongLightOf<float>;
 
-struct PhongUniforms {
+template <class Number>
+struct PhongUniformsOf {
   PhongModel model;
-  float shininess;
-  const PhongLight* lights;
-  const NarrowLobes* narrow;  // terms formed in double, for a range under one light; or null
+  Number shininess;
+  const PhongLightOf<Number>* lights;
+  // Terms formed in double, for a range under one light; or null. Where each hit has its exponent,
+  // `first` is below 0 at those whose lobe is wide.
+  const NarrowLobes* narrow;
 };
+using PhongUniforms = PhongUniformsOf<float>;
 
-struct MicrofacetLight {
-  float diffuse[3];   // MicrofacetModel::diffuse * light
-  float specular[3];  // light; 0 for a delta lobe, which these lights cannot show
+template <class Number>
+struct MicrofacetLightOf {
+  Number diffuse[3];   // MicrofacetModel::diffuse * light
+  Number specular[3];  // light; 0 for a delta lobe, which these lights cannot show
   // kSchlick, with the two ends of its curve multiplied in: F0 and 1 - F0.
-  float specular_f0[3], specular_rest[3], diffuse_rest[3];
-  float multiple[3];  // kKullaConty: F_ms * light
+  Number specular_f0[3], specular_rest[3], diffuse_rest[3];
+  Number multiple[3];  // kKullaConty: F_ms * light
 };
+using MicrofacetLight = MicrofacetLightOf<float>;
 
-struct MicrofacetUniforms {
+template <class Number>
+struct MicrofacetUniformsOf {
   const MicrofacetModel* model;
-  const MicrofacetLight* lights;
+  const MicrofacetLightOf<Number>* lights;
   // The model's, rounded.
-  float alpha, alpha2_over_pi, schlick_k;
-  float f0[3], f82_slope[3], eta[3], k[3], f_multiple[3];
-  const float* narrow;  // the distribution at each hit, formed in double, under one light; or null
+  Number alpha, alpha2_over_pi, schlick_k;
+  Number f0[3], f82_slope[3];
+  float eta[3], k[3];
+  Number f_multiple[3];
+  // The distribution at each hit, formed in double, under one light; or null. Where each hit has
+  // its alpha, below 0 at those whose lobe is wide.
+  const float* narrow;
+  // Of hits with a roughness each: their albedo fits, entry k of hit i at [k * stride + i]. Null:
+  // all have the model's.
+  const float* fit = nullptr;
+  size_t fit_stride = 0;
 };
+using MicrofacetUniforms = MicrofacetUniformsOf<float>;
 
 // Hits [begin, end) of a batch, the lights on them and where their radiance goes.
 struct ShadeRange {
@@ -53,11 +76,21 @@ struct ShadeRange {
 
 void PrepareMicrofacet(const MicrofacetModel& model, size_t begin, size_t end, Surface* surface);
 
+struct HitTextures;
+// `own_fits`: hits have a roughness, and so an albedo fit, each; else all have the model's.
+void PrepareMicrofacetMaps(const MicrofacetModel& model, const HitTextures& textures, bool own_fits,
+                           size_t begin, size_t end, Surface* surface);
+
 // The terms of narrow lobes under the first light of a range, formed in double and rounded to
 // float. `first`: the GGX distribution.
 void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes);
 // `first`, `second`: 1 - c and c of the lobe's cosine c.
 void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes);
+// The same, of hits with an alpha or exponent each: `first` is -1 where alphas[i] is below 0, or
+// the exponent not above kDoubleTermsShininess.
+void NarrowGgxMaps(const double* alphas, const ShadeRange& range, NarrowLobes* lobes);
+void NarrowPhongMaps(PhongModel model, const double* exponents, const ShadeRange& range,
+                     NarrowLobes* lobes);
 
 void ShadeLambert(const LambertLight* lights, const ShadeRange& range);
 void ShadePhong(const PhongUniforms& uniforms, const ShadeRange& range);
@@ -66,5 +99,11 @@ void ShadeSchlick(const MicrofacetUniforms& uniforms, const ShadeRange& range);
 void ShadeF82(const MicrofacetUniforms& uniforms, const ShadeRange& range);
 void ShadeDielectric(const MicrofacetUniforms& uniforms, const ShadeRange& range);
 void ShadeConductor(const MicrofacetUniforms& uniforms, const ShadeRange& range);
+
+// Of materials with maps.
+void ShadeLambertMaps(const LambertLightOf<const float*>& light, const ShadeRange& range);
+void ShadePhongMaps(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range);
+void ShadeSchlickMaps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range);
+void ShadeF82Maps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range);
 
 }  // namespace nacre

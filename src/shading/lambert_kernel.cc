@@ -11,21 +11,26 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
+template <class Number>
 struct Lambert {
   static constexpr bool kHasSpecular = false;
   struct View {};
-  const LambertLight* HWY_RESTRICT lights;
+  const LambertLightOf<Number>* HWY_RESTRICT lights;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV&, const IncidentV& in,
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
                                size_t k) const {
     const FloatV zero = hn::Zero(d);
-    return {ScaleRgb(SetRgb(d, lights[k].diffuse), in.weight), {zero, zero, zero}};
+    return {ScaleRgb(RgbAt(d, lights[k].diffuse, p.i), in.weight), {zero, zero, zero}};
   }
 };
 
 void ShadeLambertT(const LambertLight* lights, const ShadeRange& range) {
-  ShadePackets(FloatTag(), Lambert{lights}, range);
+  ShadePackets(FloatTag(), Lambert<float>{lights}, range);
+}
+
+void ShadeLambertMapsT(const LambertLightOf<const float*>& light, const ShadeRange& range) {
+  ShadePackets(FloatTag(), Lambert<const float*>{&light}, range);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -35,8 +40,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShadeLambertT);
+HWY_EXPORT(ShadeLambertMapsT);
 void ShadeLambert(const LambertLight* lights, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeLambertT)(lights, range);
+}
+void ShadeLambertMaps(const LambertLightOf<const float*>& light, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeLambertMapsT)(light, range);
 }
 }  // namespace nacre
 #endif

@@ -29,7 +29,7 @@ double ShadingLight::TMax() const {
 
 ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
   ShadingLight prepared;
-  std::visit(Overloaded{[](const AmbientLight&) {},
+  std::visit(Overloaded{[](const auto&) {},
                         [&](const DirectionalLight& directional) {
                           prepared.form = LightForm::kDirectional;
                           prepared.color = directional.irradiance;

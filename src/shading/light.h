@@ -13,9 +13,10 @@ enum class LightForm : uint8_t {
   kInverseSquare,  // a point light's usual fall-off, 1 / (quadratic d^2)
   kPoint,          // with any attenuation
   kSpot,
+  kGiven,  // LightBatch says it all
 };
 
-// A light prepared for shading: not ambient. Positions are relative to the camera.
+// A punctual light prepared for shading. Positions are relative to the camera.
 struct ShadingLight {
   LightForm form = LightForm::kInverseSquare;
   Rgb color{0, 0, 0};       // irradiance of a directional light, intensity of the others
@@ -34,6 +35,7 @@ struct ShadingLight {
   double TMax() const;
 };
 
+// `light` is punctual.
 ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position);
 
 }  // namespace nacre

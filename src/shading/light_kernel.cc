@@ -73,6 +73,8 @@ void EvaluateLightT(const ShadingLight& light, const HitBatch& hits, const Surfa
       return EvaluatePositional<LightForm::kPoint>(light, hits, surface, result);
     case LightForm::kSpot:
       return EvaluatePositional<LightForm::kSpot>(light, hits, surface, result);
+    case LightForm::kGiven:
+      return;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "shading/material.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/overloaded.h"
@@ -8,6 +9,7 @@
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
+#include "scene/material_parameters.h"
 
 namespace nacre {
 namespace {
@@ -46,7 +48,7 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   model.alpha = AlphaFromRoughness(material.roughness);
   model.schlick_k = (material.roughness + 1) * (material.roughness + 1) / 8;
   model.delta = IsDeltaLobe(model.alpha);
-  model.double_terms = !model.delta && material.roughness < kDoubleTermsRoughness;
+  model.double_terms = IsNarrow(material.roughness, model.alpha);
   model.albedo.lobe = MakeAlbedoFit(material.shadowing, material.roughness);
   return model;
 }
@@ -134,6 +136,27 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
 
 }  // namespace
 
+namespace {
+
+void FindMaps(const Material& material, ShadingMaterial* prepared) {
+  if (const MaterialModel* const model = ModelOf(material)) {
+    prepared->mapped =
+        std::any_of(model->maps.begin(), model->maps.end(),
+                    [&](const MaterialMap& map) { return map.get(material).valid(); });
+  }
+  prepared->turned = material.normal_map.texture.valid() || material.bump_map.texture.valid();
+  if (prepared->mapped || prepared->turned) prepared->textured = &material;
+  auto* const microfacet = std::get_if<MicrofacetModel>(&prepared->model);
+  const auto* const metallic = std::get_if<MetallicRoughnessMaterial>(&material.model);
+  if (!prepared->mapped || microfacet == nullptr || metallic == nullptr) return;
+  // Where maps may make it metallic, a tint shows.
+  if (metallic->f82_tint != Rgb(1) && metallic->metallic > 0) {
+    microfacet->fresnel = FresnelForm::kF82;
+  }
+}
+
+}  // namespace
+
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
@@ -170,6 +193,8 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
                         [](const SplitMaterial&) {}},
              material.model);
   prepared.ambient = of_ambient * ambient_radiance;
+  prepared.ambient_radiance = ambient_radiance;
+  FindMaps(material, &prepared);
   if (auto* microfacet = std::get_if<MicrofacetModel>(&prepared.model)) {
     microfacet->prepared = microfacet->compensation != Compensation::kNone ||
                            microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
@@ -197,6 +222,7 @@ double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
 }
 
 bool HasDoubleTerms(const ShadingMaterial& material) {
+  if (material.textured != nullptr) return true;  // mappings start from the exact normal, too
   return std::visit(
       Overloaded{[](const PhongFamilyModel& phong) { return phong.double_terms; },
                  [](const MicrofacetModel& microfacet) { return microfacet.double_terms; },

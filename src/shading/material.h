@@ -58,6 +58,12 @@ struct ShadingMaterial {
   Rgb emission{0, 0, 0};
   // For the albedo layer: diffuse reflectance, or base colour, or F0 of a conductor.
   Rgb albedo{0, 0, 0};
+  // Of materials with maps: the scene's, which outlives this; else null. The model is then that of
+  // the maps' factors.
+  const Material* textured = nullptr;
+  bool mapped = false;  // maps give each hit numbers of its own
+  bool turned = false;  // maps turn the normal
+  Rgb ambient_radiance{0, 0, 0};
   std::variant<std::monostate, LambertModel, PhongFamilyModel, MicrofacetModel> model;
 };
 
@@ -66,7 +72,12 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
 // The directional albedo of the whole lobe, compensation included, seen from n.v, of one channel.
 double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
 
-// True if the material has a lobe whose terms are formed in double.
+// Whether a lobe's terms are formed in double where maps give the hit this roughness.
+inline bool IsNarrow(double roughness, double alpha) {
+  return !IsDeltaLobe(alpha) && roughness < kDoubleTermsRoughness;
+}
+
+// True if the material has a lobe whose terms are formed in double, or, with maps, may have.
 bool HasDoubleTerms(const ShadingMaterial& material);
 
 // True if the material has a perfect mirror's lobe.

@@ -20,6 +20,16 @@ void ShadeF82T(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
 }
 
+// Of materials with maps.
+void ShadeSchlickMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
+                       const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kSchlick>(uniforms, range);
+}
+
+void ShadeF82MapsT(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -28,6 +38,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(ShadeSchlickT);
 HWY_EXPORT(ShadeF82T);
+HWY_EXPORT(ShadeSchlickMapsT);
+HWY_EXPORT(ShadeF82MapsT);
 
 void ShadeSchlick(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeSchlickT)(uniforms, range);
@@ -35,6 +47,14 @@ void ShadeSchlick(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
 
 void ShadeF82(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeF82T)(uniforms, range);
+}
+
+void ShadeSchlickMaps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeSchlickMapsT)(uniforms, range);
+}
+
+void ShadeF82Maps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeF82MapsT)(uniforms, range);
 }
 }  // namespace nacre
 #endif

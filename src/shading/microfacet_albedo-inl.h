@@ -37,6 +37,24 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
   return {one, loss, scale, bias};
 }
 
+// Of Schlick's curve, from the fit of each hit.
+HWY_INLINE AlbedoV EvaluateSchlickAlbedo(FloatTag d, const AlbedoFitLanes& fit, FloatV cosine) {
+  const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
+  const FloatV one = AlbedoOne(d, fit, x);
+  const FloatV schlick = AlbedoSchlick(d, fit, one, x);
+  return {one, AlbedoLoss(d, fit, x), hn::Sub(one, schlick), schlick};
+}
+
+// The fits of hits from `fit` on, whose entries are `stride` apart.
+HWY_INLINE AlbedoFitLanes FitAt(const float* fit, size_t stride, Shadowing shadowing) {
+  AlbedoFitLanes lanes;
+  lanes.shape = {fit, fit + stride, fit + 2 * stride, fit + 3 * stride,
+                 shadowing == Shadowing::kSchlickDirect};
+  lanes.one = {fit + 4 * stride, stride};
+  lanes.schlick = {fit + (4 + kAlbedoTerms) * stride, stride};
+  return lanes;
+}
+
 // 1 minus the albedo of the whole lobe, Kulla and Conty's part included: what reaches the base,
 // of light from that direction or on its way there. Rounding may leave it below 0 where nothing
 // is left.

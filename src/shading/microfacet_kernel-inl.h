@@ -9,6 +9,7 @@
 #endif
 
 #include <limits>
+#include <type_traits>
 
 #include "brdf/fresnel-inl.h"
 #include "brdf/ggx-inl.h"
@@ -42,20 +43,21 @@ struct HalfV {
   FloatV lv_squared, u_length;
 };
 
-template <FresnelForm kFresnel>
-HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, const MicrofacetUniforms& uniforms,
-                                const MicrofacetLight& light) {
+template <FresnelForm kFresnel, class Number>
+HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
+                                const MicrofacetUniformsOf<Number>& uniforms,
+                                const MicrofacetLightOf<Number>& light) {
   const FloatV one = hn::Set(d, 1.0f);
   const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, half.u_length);
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const FloatV weight = Power5(one_minus_vh);
-    return {MulAddRgb(SetRgb(d, light.specular_rest), weight, SetRgb(d, light.specular_f0)),
-            ScaleRgb(SetRgb(d, light.diffuse_rest), hn::Sub(one, weight))};
+    return {MulAddRgb(RgbAt(d, light.specular_rest, i), weight, RgbAt(d, light.specular_f0, i)),
+            ScaleRgb(RgbAt(d, light.diffuse_rest, i), hn::Sub(one, weight))};
   } else {
     const FloatV v_dot_h = VDotH(d, half.u_length);
     RgbV fresnel;
     if constexpr (kFresnel == FresnelForm::kF82) {
-      const RgbV f0 = SetRgb(d, uniforms.f0), slope = SetRgb(d, uniforms.f82_slope);
+      const RgbV f0 = RgbAt(d, uniforms.f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
       fresnel = {FresnelF82(d, v_dot_h, one_minus_vh, f0.r, slope.r),
                  FresnelF82(d, v_dot_h, one_minus_vh, f0.g, slope.g),
                  FresnelF82(d, v_dot_h, one_minus_vh, f0.b, slope.b)};
@@ -70,8 +72,9 @@ HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, const MicrofacetU
     }
     // The exact curves may round to just above 1 at grazing angles.
     const auto left = [&](FloatV f) HWY_ATTR { return hn::Max(hn::Sub(one, f), hn::Zero(d)); };
-    return {MulRgb(fresnel, SetRgb(d, light.specular)),
-            MulRgb({left(fresnel.r), left(fresnel.g), left(fresnel.b)}, SetRgb(d, light.diffuse))};
+    return {
+        MulRgb(fresnel, RgbAt(d, light.specular, i)),
+        MulRgb({left(fresnel.r), left(fresnel.g), left(fresnel.b)}, RgbAt(d, light.diffuse, i))};
   }
 }
 
@@ -83,10 +86,11 @@ HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
 
 // kPrepared: with what PrepareMicrofacet has left of every hit: multiple scattering, or a base
 // that gets what the lobe's albedo leaves.
-template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared>
+template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared, class Number>
 struct Microfacet {
   static constexpr bool kHasSpecular = true;
-  const MicrofacetUniforms uniforms;  // a copy: nothing that a kernel stores can be in it
+  static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
+  const MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
 
   struct View {
@@ -101,7 +105,7 @@ struct Microfacet {
     view.n_dot_v = n_dot_v;
     if constexpr (kPrepared) {
       view.multiple = hn::LoadU(d, surface.multiple.data() + p.i);
-      view.turquin = TurquinScale(d, SetRgb(d, uniforms.f0), view.multiple);
+      view.turquin = TurquinScale(d, RgbAt(d, uniforms.f0, p.i), view.multiple);
       view.base = LoadRgb(d, surface.base, p.i);
     }
     return view;
@@ -116,40 +120,60 @@ struct Microfacet {
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
     const auto above = hn::Gt(angles.n_dot_u, hn::Set(d, 0x1p-63f));
-    const FloatV alpha = hn::Set(d, uniforms.alpha);
+    const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
     const FloatV masking = VisibilityDenominator<kShadowing>(d, in.n_dot_l, view.n_dot_v, alpha,
-                                                             hn::Set(d, uniforms.schlick_k));
-    if (uniforms.narrow != nullptr) {
-      const FloatV visibility = hn::Min(hn::Div(in.weight, hn::Max(masking, smallest)), largest);
-      const FloatV product = hn::Mul(hn::LoadU(d, uniforms.narrow + p.i), visibility);
-      return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
-    }
+                                                             NumberAt(d, uniforms.schlick_k, p.i));
+    if (kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in, masking);
     const FloatV q = GgxRootDenominator(d, angles, hn::Mul(u_inverse, u_inverse), alpha);
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
-    const FloatV numerator = hn::Mul(in.weight, hn::Set(d, uniforms.alpha2_over_pi));
-    return hn::IfThenElseZero(hn::And(in.lit, above),
-                              hn::Min(hn::Mul(numerator, Reciprocal(d, denominator)), largest));
+    const FloatV numerator = hn::Mul(in.weight, NumberAt(d, uniforms.alpha2_over_pi, p.i));
+    const FloatV wide = hn::IfThenElseZero(
+        hn::And(in.lit, above), hn::Min(hn::Mul(numerator, Reciprocal(d, denominator)), largest));
+    if (kSame || uniforms.narrow == nullptr) return wide;
+    const auto is_narrow = hn::Ge(hn::LoadU(d, uniforms.narrow + p.i), hn::Zero(d));
+    return hn::IfThenElse(is_narrow, NarrowLobe(d, p, in, masking), wide);
+  }
+
+  // The same with the distribution that was formed in double.
+  HWY_INLINE FloatV NarrowLobe(FloatTag d, const PacketV& p, const IncidentV& in,
+                               FloatV masking) const {
+    const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
+    const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+    const FloatV visibility = hn::Min(hn::Div(in.weight, hn::Max(masking, smallest)), largest);
+    const FloatV product = hn::Mul(hn::LoadU(d, uniforms.narrow + p.i), visibility);
+    return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
   }
 
   HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
                                size_t k) const {
-    const MicrofacetLight& light = uniforms.lights[k];
+    const MicrofacetLightOf<Number>& light = uniforms.lights[k];
     const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, in.to_light, p.to_view);
     const FloatV u_squared =
         hn::Max(angles.u_squared, hn::Set(d, std::numeric_limits<float>::min()));
     const FloatV u_inverse = ReciprocalSqrt(d, u_squared);
     const HalfV half{angles.lv_squared, hn::Mul(u_squared, u_inverse)};
-    const CurveV curve = EvaluateCurve<kFresnel>(d, half, uniforms, light);
+    const CurveV curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms, light);
     RgbV reflected = ScaleRgb(curve.reflected, Lobe(d, view, p, in, angles, u_inverse));
     RgbV base = curve.left;
-    if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = SetRgb(d, light.diffuse);
-    if constexpr (kPrepared) Complete(d, view, in, light, &reflected, &base);
+    if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
+    if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
     return {ScaleRgb(base, in.weight), reflected};
   }
 
+  HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {
+    if constexpr (kSame) {
+      return EvaluateAlbedo(d, model, cosine);
+    } else {
+      if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, cosine);
+      return EvaluateSchlickAlbedo(d, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
+                                   cosine);
+    }
+  }
+
   // Adds what bounces more than once, and takes from the base what the lobe's albedo does.
-  HWY_INLINE void Complete(FloatTag d, const View& view, const IncidentV& in,
-                           const MicrofacetLight& light, RgbV* reflected, RgbV* base) const {
+  HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
+                           const MicrofacetLightOf<Number>& light, RgbV* reflected,
+                           RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
     if (scaled) *base = MulRgb(*base, view.base);
     if (model.compensation == Compensation::kTurquin) {
@@ -157,11 +181,12 @@ struct Microfacet {
     }
     if (model.compensation != Compensation::kKullaConty) return;
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
-    const AlbedoV from_light = EvaluateAlbedo(d, model, hn::Max(in.n_dot_l, hn::Zero(d)));
+    const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
     const FloatV amount = hn::Mul(hn::Mul(view.multiple, from_light.loss), in.weight);
-    *reflected = AddRgb(*reflected, ScaleRgb(SetRgb(d, light.multiple), hn::Min(amount, largest)));
+    *reflected =
+        AddRgb(*reflected, ScaleRgb(RgbAt(d, light.multiple, i), hn::Min(amount, largest)));
     if (scaled) {
-      const RgbV f0 = SetRgb(d, uniforms.f0), f_multiple = SetRgb(d, uniforms.f_multiple);
+      const RgbV f0 = RgbAt(d, uniforms.f0, i), f_multiple = RgbAt(d, uniforms.f_multiple, i);
       *base = MulRgb(*base, {KullaContyBase(d, from_light, f0.r, f_multiple.r),
                              KullaContyBase(d, from_light, f0.g, f_multiple.g),
                              KullaContyBase(d, from_light, f0.b, f_multiple.b)});
@@ -169,18 +194,20 @@ struct Microfacet {
   }
 };
 
-template <FresnelForm kFresnel, Shadowing kShadowing>
-void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+template <FresnelForm kFresnel, Shadowing kShadowing, class Number>
+void ShadeMicrofacetForm(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRange& range) {
   const MicrofacetModel& model = *uniforms.model;
   if (model.prepared) {
-    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, true>{uniforms, model}, range);
+    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, true, Number>{uniforms, model},
+                 range);
   } else {
-    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, false>{uniforms, model}, range);
+    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, false, Number>{uniforms, model},
+                 range);
   }
 }
 
-template <FresnelForm kFresnel>
-void ShadeMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+template <FresnelForm kFresnel, class Number>
+void ShadeMicrofacet(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.model->shadowing) {
     case Shadowing::kHeightCorrelated:
       return ShadeMicrofacetForm<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);

@@ -28,6 +28,16 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
   hn::StoreU(hn::DemoteTo(df, value), df, to);
 }
 
+// A direction that was chosen in float is that direction, to the last digit.
+HWY_INLINE Vec3V<DoubleV> PromoteGiven(const LightOnBatch& light, size_t i) {
+  const DoubleTag d;
+  const HalfFloatTag df;
+  const Soa3<float>& l = light.evaluated->to_light;
+  return {hn::PromoteTo(d, hn::LoadU(df, l.x.data() + i)),
+          hn::PromoteTo(d, hn::LoadU(df, l.y.data() + i)),
+          hn::PromoteTo(d, hn::LoadU(df, l.z.data() + i))};
+}
+
 // Calls form(directions, i) for each packet of the range. Arrays are padded, and what a packet
 // writes past the end of its run is scratch.
 template <class Form>
@@ -41,8 +51,12 @@ HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const Vec3d& from = far ? light.to_light : light.position;
   const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
   const DoubleV one = hn::Set(d, 1.0);
+  const auto offset_at = [&](size_t i) HWY_ATTR {
+    if (light.form == LightForm::kGiven) return PromoteGiven(range.lights[0], i);
+    return far ? origin : Sub(origin, load(range.hits.position, i));
+  };
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const Vec3V<DoubleV> offset = far ? origin : Sub(origin, load(range.hits.position, i));
+    const Vec3V<DoubleV> offset = offset_at(i);
     const DoubleV squared = FusedDot(offset, offset);
     const DoubleV distance = hn::Sqrt(squared);
     // A light exactly at the hit has no direction, and no irradiance.
@@ -62,13 +76,42 @@ void NarrowGgxT(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
   });
 }
 
+void NarrowGgxMapsT(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
+  const DoubleTag d;
+  const DoubleV zero = hn::Zero(d);
+  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
+    const DoubleV alpha = hn::LoadU(d, alphas + i);
+    const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
+    const DoubleV distribution = GgxDistribution(d, angles, hn::Max(alpha, zero));
+    StoreRounded(d, hn::IfThenElse(hn::Ge(alpha, zero), distribution, hn::Set(d, -1.0)),
+                 lobes->first.data() + i);
+  });
+}
+
+HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at) {
+  const DoubleTag d;
+  return model == PhongModel::kBlinnPhong
+             ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
+             : PhongCosine(d, at.normal, at.to_light, at.to_view);
+}
+
+void NarrowPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,
+                      NarrowLobes* lobes) {
+  const DoubleTag d;
+  ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
+    const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
+    const auto narrow =
+        hn::Gt(hn::LoadU(d, exponents + i), hn::Set(d, double{kDoubleTermsShininess}));
+    StoreRounded(d, hn::IfThenElse(narrow, cosine.one_minus_c, hn::Set(d, -1.0)),
+                 lobes->first.data() + i);
+    StoreRounded(d, cosine.c, lobes->second.data() + i);
+  });
+}
+
 void NarrowPhongT(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
   const DoubleTag d;
   ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
-    const LobeCosineV<DoubleV> cosine =
-        model == PhongModel::kBlinnPhong
-            ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
-            : PhongCosine(d, at.normal, at.to_light, at.to_view);
+    const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
     StoreRounded(d, cosine.one_minus_c, lobes->first.data() + i);
     StoreRounded(d, cosine.c, lobes->second.data() + i);
   });
@@ -82,6 +125,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(NarrowGgxT);
 HWY_EXPORT(NarrowPhongT);
+HWY_EXPORT(NarrowGgxMapsT);
+HWY_EXPORT(NarrowPhongMapsT);
 
 void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
   HWY_DYNAMIC_DISPATCH(NarrowGgxT)(alpha, range, lobes);
@@ -89,6 +134,15 @@ void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
 
 void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
   HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, range, lobes);
+}
+
+void NarrowGgxMaps(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowGgxMapsT)(alphas, range, lobes);
+}
+
+void NarrowPhongMaps(PhongModel model, const double* exponents, const ShadeRange& range,
+                     NarrowLobes* lobes) {
+  HWY_DYNAMIC_DISPATCH(NarrowPhongMapsT)(model, exponents, range, lobes);
 }
 }  // namespace nacre
 #endif

@@ -1,4 +1,6 @@
 // shading/phong_kernel.cc: Phong, modified Phong and Blinn-Phong.
+#include <type_traits>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/phong_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -12,19 +14,35 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-template <PhongModel kModel>
+template <PhongModel kModel, class Number>
 struct PhongFamily {
   static constexpr bool kHasSpecular = true;
   struct View {};
-  const PhongUniforms& uniforms;
+  const PhongUniformsOf<Number>& uniforms;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
   HWY_INLINE LobeCosineV<FloatV> Cosine(FloatTag d, const PacketV& p, const IncidentV& in) const {
     const NarrowLobes* const narrow = uniforms.narrow;
-    if (narrow != nullptr) {
-      return {hn::LoadU(d, narrow->first.data() + p.i), hn::LoadU(d, narrow->second.data() + p.i)};
+    if constexpr (std::is_same_v<Number, float>) {
+      return narrow != nullptr ? LoadNarrow(d, *narrow, p.i) : WideCosine(d, p, in);
+    } else {
+      const LobeCosineV<FloatV> wide = WideCosine(d, p, in);
+      if (narrow == nullptr) return wide;
+      const LobeCosineV<FloatV> exact = LoadNarrow(d, *narrow, p.i);
+      const auto is_narrow = hn::Ge(exact.one_minus_c, hn::Zero(d));
+      return {hn::IfThenElse(is_narrow, exact.one_minus_c, wide.one_minus_c),
+              hn::IfThenElse(is_narrow, exact.c, wide.c)};
     }
+  }
+
+  static HWY_INLINE LobeCosineV<FloatV> LoadNarrow(FloatTag d, const NarrowLobes& narrow,
+                                                   size_t i) {
+    return {hn::LoadU(d, narrow.first.data() + i), hn::LoadU(d, narrow.second.data() + i)};
+  }
+
+  static HWY_INLINE LobeCosineV<FloatV> WideCosine(FloatTag d, const PacketV& p,
+                                                   const IncidentV& in) {
     if constexpr (kModel == PhongModel::kBlinnPhong) {
       return BlinnSquaredCosine(d, ComputeAngles(d, p.normal, in.to_light, p.to_view));
     } else {
@@ -35,26 +53,37 @@ struct PhongFamily {
   HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
                                size_t k) const {
     const LobeCosineV<FloatV> cosine = Cosine(d, p, in);
-    const FloatV shininess = hn::Set(d, uniforms.shininess);
+    const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
                                                           : PhongLobe(d, cosine, shininess);
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
-    const PhongLight& by = uniforms.lights[k];
-    return {ScaleRgb(SetRgb(d, by.diffuse), in.weight),
-            ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, light))};
+    const PhongLightOf<Number>& by = uniforms.lights[k];
+    return {ScaleRgb(RgbAt(d, by.diffuse, p.i), in.weight),
+            ScaleRgb(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light))};
   }
 };
 
-void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+template <class Number>
+void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.model) {
     case PhongModel::kPhong:
-      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kPhong>{uniforms}, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kPhong, Number>{uniforms}, range);
     case PhongModel::kModifiedPhong:
-      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kModifiedPhong>{uniforms}, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kModifiedPhong, Number>{uniforms},
+                          range);
     case PhongModel::kBlinnPhong:
-      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kBlinnPhong>{uniforms}, range);
+      return ShadePackets(FloatTag(), PhongFamily<PhongModel::kBlinnPhong, Number>{uniforms},
+                          range);
   }
+}
+
+void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+  ShadePhongOf(uniforms, range);
+}
+
+void ShadePhongMapsT(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+  ShadePhongOf(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -64,8 +93,12 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShadePhongT);
+HWY_EXPORT(ShadePhongMapsT);
 void ShadePhong(const PhongUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadePhongT)(uniforms, range);
+}
+void ShadePhongMaps(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadePhongMapsT)(uniforms, range);
 }
 }  // namespace nacre
 #endif

@@ -25,6 +25,17 @@ HWY_INLINE RgbV SetRgb(FloatTag d, const float (&rgb)[3]) {
   return {hn::Set(d, rgb[0]), hn::Set(d, rgb[1]), hn::Set(d, rgb[2])};
 }
 
+// A number that all hits share, or that of each of hits i...
+HWY_INLINE FloatV NumberAt(FloatTag d, float number, size_t) { return hn::Set(d, number); }
+HWY_INLINE FloatV NumberAt(FloatTag d, const float* numbers, size_t i) {
+  return hn::LoadU(d, numbers + i);
+}
+
+template <class Number>
+HWY_INLINE RgbV RgbAt(FloatTag d, const Number (&rgb)[3], size_t i) {
+  return {NumberAt(d, rgb[0], i), NumberAt(d, rgb[1], i), NumberAt(d, rgb[2], i)};
+}
+
 HWY_INLINE RgbV LoadRgb(FloatTag d, const Soa3<float>& soa, size_t i) {
   return {hn::LoadU(d, soa.x.data() + i), hn::LoadU(d, soa.y.data() + i),
           hn::LoadU(d, soa.z.data() + i)};

@@ -7,6 +7,7 @@
 
 #include "base/overloaded.h"
 #include "shading/kernels.h"
+#include "shading/mapped.h"
 
 namespace nacre {
 namespace {
@@ -126,9 +127,13 @@ bool EvaluatedInPlace(const ShadingLight& light) {
   return light.form == LightForm::kDirectional || light.form == LightForm::kInverseSquare;
 }
 
-void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface) {
+void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
+                const HitTextures* textures) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
-  if (microfacet != nullptr && microfacet->prepared) {
+  if (microfacet == nullptr || !microfacet->prepared) return;
+  if (HasMappedModel(material)) {
+    PrepareMicrofacetMaps(*microfacet, *textures, HasOwnFits(material), begin, end, surface);
+  } else {
     PrepareMicrofacet(*microfacet, begin, end, surface);
   }
 }
@@ -136,6 +141,7 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               NarrowLobes* scratch, ReflectedRadiance* radiance) {
   const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.replace};
+  if (HasMappedModel(material)) return ShadeMapped(material, range, scratch, lit.textures);
   std::visit(
       Overloaded{[](std::monostate) {}, [&](const LambertModel& lambert) { Shade(lambert, range); },
                  [&](const auto& model) { Shade(model, range, scratch); }},

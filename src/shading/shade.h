@@ -49,23 +49,29 @@ struct NarrowLobes {
   AlignedArray<float> first{kBatchCapacity}, second{kBatchCapacity};
 };
 
+struct HitTextures;
+
 // A batch under lights, whose reflections are added in this order.
 struct LitHits {
   const HitBatch& hits;
   const Surface& surface;
   std::span<const LightOnBatch> lights;
-  bool replace = false;  // the radiance so far counts as 0, whatever it is
+  HitTextures* textures = nullptr;  // of materials with maps
+  bool replace = false;             // the radiance so far counts as 0, whatever it is
 };
 
 // Rounds hits whose directions were given in double.
 void PrepareSurface(const HitBatch& hits, Surface* surface);
 
 // Hits [begin, end) are all of `material`.
-void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface);
+// Those of materials with maps have been looked up (textures.h).
+void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
+                const HitTextures* textures = nullptr);
 
 // True for directional lights and point lights that fall off with the square of the distance.
 bool EvaluatedInPlace(const ShadingLight& light);
 
+// `light` is not LightForm::kGiven.
 void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                    LightBatch* result);
 

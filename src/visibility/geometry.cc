@@ -33,7 +33,9 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
     geometry->extent = std::max(geometry->extent, geometry->positions.back().length());
   }
   if (with_normals) {
-    geometry->normals.insert(geometry->normals.end(), mesh.normals.begin(), mesh.normals.end());
+    if (HasSmoothNormals(mesh)) {
+      geometry->normals.insert(geometry->normals.end(), mesh.normals.begin(), mesh.normals.end());
+    }
     geometry->normals.resize(geometry->positions.size(), Vec3d(0));
   }
   for (size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) {
@@ -80,8 +82,8 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     extents[block] = extent;
   });
   for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
-  const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                                        [](const Mesh& mesh) { return !mesh.normals.empty(); });
+  const bool with_normals =
+      std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
   for (const Mesh& mesh : scene.meshes) AppendMesh(mesh, camera_position, with_normals, &geometry);
   return geometry;
 }

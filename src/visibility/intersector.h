@@ -79,6 +79,11 @@ class Intersector {
   // in the scene this must not be called. `outward`: ShadowRayBatch's, which those rays must have.
   void FindOccluders(const std::vector<const Light*>& lights, bool outward);
 
+  // Likewise, after FindOccluders, what can come between the spheres and a light with an extent
+  // (occluder_lists.h), of at most kMaxListedSpheres spheres. Returns the light's place.
+  uint32_t FindOccludersOfBall(const std::optional<LightBall>& ball, const PrimitiveRange& target,
+                               bool outward);
+
   // What was found for a light. The reference holds until the next FindOccluders.
   const LightOccluders& Occluders(uint32_t light) const;
 

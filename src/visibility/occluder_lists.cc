@@ -68,7 +68,57 @@ bool MayBlockFrom(const Seen& blocker, const Seen& sphere) {
          blocker.cosine * sphere.cosine - blocker.sine * sphere.sine - 1e-12;
 }
 
+// Whether the blocker reaches into the hull of the sphere and the ball: into the sphere about some
+// point between their centres whose radius is in between theirs. Its distance from there, less the
+// radii, is smallest where the slope of the distance is that of the radius.
+bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const LightBall& ball) {
+  const Vec3d axis = ball.center - sphere.center;
+  const Vec3d offset = blocker.center - sphere.center;
+  const double length2 = axis.length2();
+  const double widening = ball.radius - sphere.radius;
+  const auto gap = [&](double t) {
+    return (offset - axis * t).length() - (sphere.radius + t * widening);
+  };
+  double least = std::min(gap(0), gap(1));
+  if (widening * widening < length2) {
+    const double foot = offset.dot(axis) / length2;
+    const double height = (offset - axis * foot).length();
+    const double t =
+        foot + height * widening / length2 / std::sqrt(1 - widening * widening / length2);
+    if (t > 0 && t < 1) least = std::min(least, gap(t));
+  }
+  const double reach = sphere.center.length() + ball.center.length() + ball.radius;
+  return least <= blocker.radius +
+                      BoundMargin(blocker.radius + sphere.radius, reach + blocker.center.length());
+}
+
+// The list of every sphere, of those spheres j for which may_block(i, j).
+template <class MayBlock>
+OccluderLists MakeLists(size_t count, const MayBlock& may_block) {
+  OccluderLists lists;
+  lists.end.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t j = 0; j < count; ++j) {
+      if (may_block(i, j)) lists.spheres.push_back(static_cast<uint32_t>(j));
+    }
+    lists.end.push_back(static_cast<uint32_t>(lists.spheres.size()));
+    lists.longest = std::max<size_t>(lists.longest, lists.end[i] - lists.Begin(i));
+  }
+  return lists;
+}
+
 }  // namespace
+
+OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
+                                  const std::optional<LightBall>& ball,
+                                  const PrimitiveRange& target, bool outward) {
+  const HugeArray<TraceSphere>& spheres = geometry.spheres;
+  return MakeLists(spheres.size(), [&](size_t i, size_t j) {
+    if (target.Contains(static_cast<uint32_t>(j))) return false;
+    if (Coincide(spheres[i], spheres[j])) return !outward;
+    return !ball || MayBlockBall(spheres[j], spheres[i], *ball);
+  });
+}
 
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward) {
   const HugeArray<TraceSphere>& spheres = geometry.spheres;
@@ -78,20 +128,12 @@ OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& li
     seen.push_back(light.positional ? SeeFrom(light.place, sphere, outward)
                                     : SeeAlong(sphere, outward));
   }
-  OccluderLists lists;
-  lists.end.reserve(spheres.size());
-  for (size_t i = 0; i < spheres.size(); ++i) {
-    for (size_t j = 0; j < spheres.size(); ++j) {
-      const bool may = light.positional
-                           ? MayBlockFrom(seen[j], seen[i])
-                           : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.place);
-      if (!may || (outward && Coincide(spheres[i], spheres[j]))) continue;
-      lists.spheres.push_back(static_cast<uint32_t>(j));
-    }
-    lists.end.push_back(static_cast<uint32_t>(lists.spheres.size()));
-    lists.longest = std::max<size_t>(lists.longest, lists.end[i] - lists.Begin(i));
-  }
-  return lists;
+  return MakeLists(spheres.size(), [&](size_t i, size_t j) {
+    const bool may = light.positional
+                         ? MayBlockFrom(seen[j], seen[i])
+                         : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.place);
+    return may && !(outward && Coincide(spheres[i], spheres[j]));
+  });
 }
 
 }  // namespace nacre

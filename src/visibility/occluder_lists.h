@@ -4,9 +4,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "hit/batch.h"
+#include "scene/light_shapes.h"
 #include "visibility/geometry.h"
 #include "visibility/shadow_light.h"
 
@@ -14,7 +16,8 @@ namespace nacre {
 
 // Pairs of spheres are tested, so this is for few: beyond, bins are faster (light_bins.h).
 inline constexpr size_t kMaxListedSpheres = 256;
-inline constexpr size_t kMaxListed = 8;  // longer lists take rays longer than bins do
+inline constexpr size_t kMaxListed = 8;        // longer lists take rays longer than bins do
+inline constexpr size_t kMaxSampledList = 64;  // and these, of rays all over, longer than a tree
 
 struct OccluderLists {
   std::vector<uint32_t> end;      // of each sphere's list
@@ -30,6 +33,12 @@ struct OccluderLists {
 // outward (ShadowRayBatch), and it is then not in its own list, nor are those that coincide with
 // it. Triangles are not seen.
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward);
+
+// The same for a light that lies anywhere in a ball, or without one for a sky. `target`: spheres
+// that are the light itself. The ball is relative to the camera.
+OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
+                                  const std::optional<LightBall>& ball,
+                                  const PrimitiveRange& target, bool outward);
 
 // Intersector::Occluded for rays to the lists' light from spheres.
 void OccludedByLists(const TraceGeometry& geometry, const OccluderLists& lists,

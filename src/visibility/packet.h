@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "scene/light_shapes.h"
 #include "visibility/embree_api.h"
 #include "visibility/geometry.h"
 
@@ -48,6 +49,7 @@ struct Packet {
   // Occlusion queries.
   const double* t_max = nullptr;
   bool outward = false;                         // ShadowRayBatch's
+  PrimitiveRange target;                        // likewise
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
   // If that is a sphere, its centre and radius, by which the ray also leaves the spheres that
   // coincide with it; else NaN.

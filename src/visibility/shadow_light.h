@@ -11,7 +11,7 @@ struct ShadowLight {
   Vec3d place{0, 0, 1};  // its position relative to the camera; else the unit direction towards it
 };
 
-// `light` is not ambient.
+// `light` is punctual.
 ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position);
 
 // How much larger a sphere is taken than it is wherever only bounds are asked for: far more than

@@ -36,6 +36,7 @@ HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const Trace
 
 void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
   Packet& packet = PacketOf(args->context);
+  if (packet.target.Contains(args->primID)) return;
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const TraceSphere& sphere = geometry.spheres[args->primID];
   uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N);

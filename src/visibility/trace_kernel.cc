@@ -92,6 +92,7 @@ void Occluded(const TraceScene& scene, ShadowRayBatch* rays) {
   for (size_t first = 0; first < rays->count; first += width) {
     packet.t_max = rays->t_max.data() + first;
     packet.outward = rays->outward;
+    packet.target = rays->target;
     packet.occluded = 0;
     FillPacket(*rays, first, &packet);
     FillStarts(*rays, first, &packet);

@@ -82,6 +82,7 @@ HWY_INLINE hn::Mask<D> OnPlane(D d, const Packet& packet, int lane, const Corner
 void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
   Packet& packet = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  if (packet.target.Contains(geometry.SphereCount() + args->primID)) return;
   const Corners corners = CornersOf(geometry, args->primID);
   const uint32_t starting = StartingLanes(packet, geometry.SphereCount() + args->primID);
   const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N) & ~starting;

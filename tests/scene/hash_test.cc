@@ -3,6 +3,7 @@
 
 #include "catch.h"
 #include "scene/material_parameters.h"
+#include "scene/sphere_mesh.h"
 
 namespace nacre {
 namespace {
@@ -21,6 +22,7 @@ Scene MakeScene() {
   key.name = "key";
   key.kind = PointLight{};
   scene.lights = {key};
+  scene.meshes = {MakeMesh(UvSphere{.segments = 3, .rings = 2})};
   return scene;
 }
 
@@ -67,6 +69,13 @@ TEST_CASE("what else shows changes the hash") {
   CHECK(differs([](Scene* s) { s->lights[0].kind = SpotLight{}; }));
   CHECK(differs([](Scene* s) { std::swap(s->spheres[0], s->spheres[1]); }));
   CHECK(differs([](Scene* s) { s->spheres.pop_back(); }));
+  CHECK(differs([](Scene* s) { s->meshes.pop_back(); }));
+  CHECK(differs([](Scene* s) { s->meshes[0].positions[2].y += 1e-12; }));
+  CHECK(differs([](Scene* s) { s->meshes[0].normals.clear(); }));
+  CHECK(differs([](Scene* s) { s->meshes[0].uvs.clear(); }));
+  CHECK(differs([](Scene* s) { s->meshes[0].uvs[1].y += 1e-12; }));
+  CHECK(differs([](Scene* s) { s->meshes[0].interpolation = Interpolation::kFaceted; }));
+  CHECK(differs([](Scene* s) { s->meshes[0].smooth_terminator = false; }));
 }
 
 }  // namespace

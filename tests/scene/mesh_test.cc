@@ -31,6 +31,11 @@ double Volume(const Mesh& mesh) {
   return volume / 6;
 }
 
+std::vector<Vec3d> NormalsOf(Mesh mesh, NormalWeighting weighting = NormalWeighting::kAngle) {
+  ComputeNormals(weighting, 180, &mesh);
+  return mesh.normals;
+}
+
 TEST_CASE("face normals follow the right hand and do not know scale") {
   for (const double size : {1e-12, 1.0, 1e12}) {
     Mesh mesh;
@@ -46,18 +51,93 @@ TEST_CASE("smooth normals do not depend on how faces are cut") {
   // Weighting by count or by area would pull them towards faces that have two triangles at the
   // corner.
   const Mesh cube = Cube();
-  const std::vector<Vec3d> normals = AngleWeightedNormals(cube);
+  const std::vector<Vec3d> normals = NormalsOf(cube);
   for (size_t i = 0; i < 8; ++i) {
     // Sums of three right angles, a few roundings each.
     CHECK((normals[i] - cube.positions[i] / std::sqrt(3)).length() < 1e-15);
   }
 }
 
+TEST_CASE("normals weighted by area, and equally") {
+  // Three faces of a box's corner, of areas 1 : 2 : 3 along x, y, z, the second one cut in two.
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 3, 0}, {0, 0, 2}, {0.5, 0, 1}};
+  mesh.triangles = {0, 2, 1, 0, 1, 4, 0, 4, 3, 0, 3, 2};
+  const Vec3d by_area = -Vec3d(6, 2, 3).normalized();  // of the triangles: 3 x 2, 2 x 1, 1 x 3
+  CHECK((NormalsOf(mesh, NormalWeighting::kArea)[0] - by_area).length() < 1e-15);
+  const Vec3d by_count = -Vec3d(1, 2, 1).normalized();
+  CHECK((NormalsOf(mesh, NormalWeighting::kUniform)[0] - by_count).length() < 1e-15);
+  const Vec3d by_angle = -Vec3d(1, 1, 1).normalized();
+  CHECK((NormalsOf(mesh, NormalWeighting::kAngle)[0] - by_angle).length() < 1e-15);
+}
+
+TEST_CASE("faces are not averaged over creases") {
+  for (const double angle : {0.0, 89.0, 91.0, 179.9}) {
+    Mesh mesh = Cube();
+    ComputeNormals(NormalWeighting::kUniform, angle, &mesh);
+    REQUIRE(mesh.normals.size() == mesh.positions.size());
+    const bool creased = angle < 90;
+    CHECK(mesh.positions.size() == (creased ? 24 : 8));
+    CHECK(Volume(mesh) == 8);
+    for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+      const double cosine = mesh.normals[mesh.triangles[i]].dot(FaceNormal(mesh, i / 3));
+      CHECK((cosine > 1 - 1e-15) == creased);
+    }
+  }
+}
+
+TEST_CASE("a crease on one side of a vertex does not part the faces that go round the other") {
+  // A book of 60 degrees on a table: the pages meet at their spine alone.
+  Mesh tent;
+  tent.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 1}, {1, 1, 0}};
+  tent.triangles = {0, 1, 2, 0, 3, 1};  // about the spine 0-1, at 90 degrees
+  Mesh split = tent;
+  ComputeNormals(NormalWeighting::kAngle, 60, &split);
+  CHECK(split.positions.size() == 6);
+  // Joined by a strip that turns in two steps of 45 degrees, they are one smooth surface.
+  Mesh ridge;
+  ridge.positions = {{0, 0, 0},  {1, 0, 0},  {1, 0, 2},  {0, 0, 2},
+                     {0, 1, -1}, {1, 1, -1}, {0, 2, -1}, {1, 2, -1}};
+  ridge.triangles = {0, 1, 2, 0, 2, 3, 4, 5, 1, 4, 1, 0, 6, 7, 5, 6, 5, 4};
+  Mesh smooth = ridge;
+  ComputeNormals(NormalWeighting::kAngle, 46, &smooth);
+  CHECK(smooth.positions.size() == 8);
+  ComputeNormals(NormalWeighting::kAngle, 44, &ridge);
+  CHECK(ridge.positions.size() == 12);
+}
+
+TEST_CASE("a seam of uvs is no crease, and a fan of many faces takes no time") {
+  Mesh quad;
+  quad.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0.5}, {0, 0, 0}, {1, 1, 0.5}, {0, 1, 0}};
+  quad.triangles = {0, 1, 2, 3, 4, 5};
+  quad.uvs = {{0, 0}, {1, 0}, {1, 1}, {0.5, 0}, {0.5, 1}, {0, 1}};
+  for (const double angle : {180.0, 80.0}) {
+    Mesh mesh = quad;
+    ComputeNormals(NormalWeighting::kAngle, angle, &mesh);
+    CHECK(mesh.positions.size() == 6);
+    CHECK(mesh.normals[0] == mesh.normals[3]);
+    CHECK(mesh.normals[2] == mesh.normals[4]);
+  }
+  quad.uvs.clear();
+  ComputeNormals(NormalWeighting::kAngle, 180, &quad);
+  CHECK(quad.normals[0] != quad.normals[3]);
+
+  Mesh fan;
+  constexpr uint32_t kFaces = 200000;
+  fan.positions.emplace_back(0, 0, 1);
+  for (uint32_t i = 0; i < kFaces; ++i) {
+    fan.positions.emplace_back(std::cos(i * 1e-5), std::sin(i * 1e-5), 0);
+    if (i > 0) fan.triangles.insert(fan.triangles.end(), {0, i, i + 1});
+  }
+  ComputeNormals(NormalWeighting::kUniform, 0, &fan);  // every edge is a crease
+  CHECK(fan.positions.size() > kFaces);
+}
+
 TEST_CASE("positions without any area around them have some unit normal") {
   Mesh mesh = Cube();
   mesh.positions.emplace_back(5, 5, 5);
   mesh.triangles.insert(mesh.triangles.end(), {8, 8, 0});
-  CHECK(AngleWeightedNormals(mesh)[8] == Vec3d(0, 1, 0));
+  CHECK(NormalsOf(mesh)[8] == Vec3d(0, 1, 0));
 }
 
 TEST_CASE("transforms scale, rotate about x, y, z and translate") {
@@ -89,7 +169,7 @@ TEST_CASE("normals stay perpendicular to a scaled surface") {
 TEST_CASE("a mirrored mesh keeps its outside outside") {
   for (const Vec3d& scale : {Vec3d(-1, 1, 1), Vec3d(-1, -1, 1), Vec3d(-1, -2, -3)}) {
     Mesh mesh = Cube();
-    mesh.normals = AngleWeightedNormals(mesh);
+    mesh.normals = NormalsOf(mesh);
     ApplyTransform({.translate = {0, 0, 0}, .scale = scale, .rotate_deg = {0, 0, 0}}, &mesh);
     CHECK(Volume(mesh) == Approx(8 * std::abs(scale.x * scale.y * scale.z)));
     for (size_t i = 0; i < 8; ++i) CHECK(mesh.normals[i].dot(mesh.positions[i]) > 0);

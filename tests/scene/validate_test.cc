@@ -191,6 +191,16 @@ TEST_CASE("shape faults") {
        [](Scene& s) {
          s.meshes[0].normals = {{0, 0, kNan}, {0, 0, 1}, {0, 0, 1}};
        }},
+      {"/meshes/0/uvs", "2 uvs for 3",
+       [](Scene& s) {
+         s.meshes[0].uvs = {{0, 0}, {1, 1}};
+       }},
+      {"/meshes/0/uvs/1", "nan",
+       [](Scene& s) {
+         s.meshes[0].uvs = {{0, 0}, {0, kNan}, {1, 1}};
+       }},
+      {"/meshes/0/interpolation", "needs a normal",
+       [](Scene& s) { s.meshes[0].interpolation = Interpolation::kGouraud; }},
       {"/meshes/0", "no triangle has an area",
        [](Scene& s) {
          s.meshes[0].triangles = {0, 1, 1};

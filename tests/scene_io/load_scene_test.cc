@@ -232,6 +232,55 @@ TEST_CASE("a flat mesh has no normals, even if its file does") {
   }
 }
 
+TEST_CASE("normals come from where the mesh asks for them") {
+  const TemporaryFolder folder;
+  // Two faces of a roof, with normals and uvs of their own.
+  std::ofstream(folder.path / "roof.obj")
+      << "v 0 1 0\nv 0 1 1\nv -1 0 0\nv 1 0 0\nvn 0 1 0\nvt 0 0\nvt 1 0.5\n"
+         "f 1/1/1 3/2/1 2/1/1\nf 1/1/1 2/2/1 4/1/1\n";
+  const auto load = [&](const std::string& members) {
+    return LoadSceneText(
+               R"({"nacre": 1, "shapes": [{"type": "mesh", "file": "roof.obj",
+                   "material": {"model": "lambert"})" +
+                   members + "}]}",
+               "test.json", folder.path)
+        .meshes.at(0);
+  };
+  const Mesh file = load("");
+  CHECK(file.normals == std::vector<Vec3d>(file.positions.size(), Vec3d(0, 1, 0)));
+  CHECK(file.positions.size() == 5);  // the ridge's far end has two uvs
+  CHECK(file.uvs.at(1) == Vec2d(1, 0.5));
+  CHECK(file.interpolation == Interpolation::kPhong);
+  CHECK(load(R"(, "normals": "none")").normals.empty());
+  const Mesh faceted = load(R"(, "interpolation": "faceted")");
+  CHECK(faceted.interpolation == Interpolation::kFaceted);
+  CHECK(faceted.normals.size() == 5);
+  for (const std::string weighting : {"angle", "area", "uniform"}) {
+    const Mesh mesh = load(R"(, "normals": ")" + weighting + "\"");
+    // The roof is symmetric, so its ridge's normals are vertical whatever the weights.
+    CHECK((mesh.normals[0] - Vec3d(0, 1, 0)).length() < 1e-15);
+    CHECK((mesh.normals[1] - Vec3d(-1, 1, 0).normalized()).length() < 1e-15);
+  }
+  const Mesh sharp = load(R"(, "normals": "angle", "crease_angle_deg": 80)");
+  CHECK(sharp.positions.size() == 6);
+  CHECK(sharp.uvs.size() == 6);
+  CHECK(Contains(MessageOf([&] { load(R"(, "crease_angle_deg": 80)"); }),
+                 "the file has its own; \"normals\": \"angle\" computes them"));
+}
+
+TEST_CASE("spheres of faces") {
+  const Scene scene = Load(R"(, "shapes": [
+      {"type": "icosphere", "center": [1, 2, 3], "radius": 2, "subdivisions": 1,
+       "material": {"model": "lambert"}, "interpolation": "faceted"},
+      {"type": "uv_sphere", "center": [1, 2, 3], "radius": 2, "segments": 5, "rings": 3,
+       "material": {"model": "lambert"}}])");
+  REQUIRE(scene.meshes.size() == 2);
+  CHECK(scene.meshes[0].triangles.size() == 3 * 80);
+  CHECK(scene.meshes[0].interpolation == Interpolation::kFaceted);
+  CHECK(scene.meshes[1].triangles.size() == 3 * 20);
+  CHECK(scene.meshes[1].uvs.size() == scene.meshes[1].positions.size());
+}
+
 TEST_CASE("--set changes values, adds them, and makes what is missing on the way") {
   const LoadOptions options{.overrides = {{"/image/spp", "64"},
                                           {"/camera/fov_y_deg", "20"},

@@ -67,6 +67,15 @@ TEST_CASE("a triangle") {
   CHECK(mesh.normals.empty());
 }
 
+TEST_CASE("texture coordinates part vertices, and are read if every corner has them") {
+  const std::string uvs = "vt 0 0\nvt 1 0.25\nvt 0.5\n";
+  const Mesh mesh = Read(kTriangle + uvs + "f 1/1 2/2 3/3\nf 1/2 3/3 2/2\n");
+  CHECK(mesh.positions.size() == 4);
+  CHECK(mesh.uvs == std::vector<Vec2d>{{0, 0}, {1, 0.25}, {0.5, 0}, {1, 0.25}});
+  CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2, 3, 2, 1});
+  CHECK(Read(kTriangle + uvs + "f 1/1 2/2 3/3\nf 1 3 2\n").uvs.empty());
+}
+
 TEST_CASE("positions are read in double") {
   const Mesh mesh = Read("v 0.123456789012 0 1e6\nv +1 0 0\nv 0 1 0\nf 1 2 3");
   // tinyobjloader's own conversion is right to about an ulp, not correctly rounded.
@@ -142,6 +151,10 @@ TEST_CASE("what is wrong with an OBJ file is said") {
   CHECK(Refused(kTriangle + "v 0 inf 0\n", "\"inf\" is not a finite number"));
   CHECK(Refused(kTriangle + "v 0 1e999 0\n", "\"1e999\" is not a finite number"));
   CHECK(Refused(kTriangle + "vn 0 1,5 0\n", "\"1,5\" is not a finite number"));
+  CHECK(Refused(kTriangle + "vt\n",
+                ".obj:4: \"\" is not a finite number\n  hint: \"vt\" is followed by one"));
+  CHECK(Refused(kTriangle + "vt 0 nan\n", "\"nan\" is not a finite number"));
+  CHECK(Refused(kTriangle + "vt 0 0\nf 1/1 2/2 3/1\n", "a face has uv 2\n  hint: there are 1"));
   CHECK(Refused(kTriangle + "vn 0 0 0\nf 1//1 2//1 3//1\n", "normal 1 has length 0"));
 }
 

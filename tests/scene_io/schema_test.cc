@@ -11,6 +11,7 @@
 #include "scene/filter_width.h"
 #include "scene/limits.h"
 #include "scene/material_parameters.h"
+#include "scene/sphere_mesh.h"
 #include "scene_io/load_scene.h"
 
 namespace nacre {
@@ -64,7 +65,13 @@ TEST_CASE("the schema's materials are those of the parameter table") {
     const json& definition = schema["$defs"].at(name);
     CHECK(definition["additionalProperties"] == false);
     CHECK(definition["properties"]["model"]["const"] == model.name);
-    CHECK(definition["properties"].size() == 1 + model.parameters.size() + model.choices.size());
+    // The model, its parameters, choices and maps, and the maps that all have.
+    CHECK(definition["properties"].size() ==
+          1 + model.parameters.size() + model.choices.size() + model.maps.size() + 2);
+    for (const MaterialMap& map : model.maps) {
+      INFO(map.name);
+      CHECK(definition["properties"].at(std::string(map.name))["$ref"] == "#/$defs/texture_name");
+    }
 
     for (const MaterialParameter& parameter : model.parameters) {
       INFO(parameter.name);
@@ -97,6 +104,10 @@ TEST_CASE("the schema's ranges are those of scene/limits.h") {
   CHECK(RangeOf(definitions["seed"]) == limits::kSeed);
   CHECK(RangeOf(definitions["radiance"]["anyOf"][0]) == limits::kRadiance);
   CHECK(RangeOf(definitions["axis_count"]) == limits::kGridCount);
+  CHECK(RangeOf(definitions["texture_scale"]) == limits::kTextureScale);
+  CHECK(RangeOf(definitions["angle_deg"]) == limits::kAngleDeg);
+  CHECK(RangeOf(definitions["normal_map"]["anyOf"][1]["properties"]["scale"]) ==
+        limits::kNormalScale);
   CHECK(RangeOf(Property("perspective_camera", "fov_y_deg")) == limits::kFovYDeg);
   CHECK(RangeOf(Property("image", "width")) == limits::kImageSide);
   CHECK(RangeOf(Property("image", "height")) == limits::kImageSide);
@@ -106,6 +117,10 @@ TEST_CASE("the schema's ranges are those of scene/limits.h") {
   CHECK(RangeOf(Property("spot_light", "inner_deg")) == limits::kInnerDeg);
   CHECK(RangeOf(Property("split_material", "at")["items"]) == limits::kSplitAt);
   CHECK(RangeOf(Property("cloud", "count")) == limits::kCloudCount);
+  CHECK(RangeOf(Property("mesh", "crease_angle_deg")) == limits::kCreaseAngleDeg);
+  CHECK(RangeOf(Property("icosphere", "subdivisions")) == limits::kSubdivisions);
+  CHECK(RangeOf(Property("uv_sphere", "segments")) == limits::kSegments);
+  CHECK(RangeOf(Property("uv_sphere", "rings")) == limits::kRings);
   for (const char* term : {"constant", "linear", "quadratic"}) {
     CHECK(RangeOf(definitions["attenuation"]["anyOf"][1]["properties"][term]) ==
           limits::kAttenuation);
@@ -120,6 +135,9 @@ TEST_CASE("the schema's defaults are those of scene/scene.h") {
   CHECK(Property("perspective_camera", "fov_y_deg")["default"] == scene.camera.fov_y_deg);
   CHECK(Property("orthographic_camera", "height")["default"] == scene.camera.height);
   CHECK(Property("spot_light", "cutoff_deg")["default"] == SpotLight{}.cutoff_deg);
+  CHECK(Property("icosphere", "subdivisions")["default"] == Icosphere{}.subdivisions);
+  CHECK(Property("uv_sphere", "segments")["default"] == UvSphere{}.segments);
+  CHECK(Property("uv_sphere", "rings")["default"] == UvSphere{}.rings);
 }
 
 // Objects that do not say additionalProperties would let slips through.

@@ -40,7 +40,9 @@ constexpr const char* kScene = R"({
     {"type": "pair", "a": {"material": "phong", "parameter": "shininess", "values": [8, 16]},
      "b": {"material": "pbr", "count": 2}},
     {"type": "cloud", "count": 3, "min": [0, 0, 0], "max": [1, 1, 1], "radius": 0.1,
-     "materials": ["pbr"]}
+     "materials": ["pbr"]},
+    {"type": "icosphere", "center": [0, 0, 0], "radius": 1, "material": "pbr"},
+    {"type": "uv_sphere", "center": [0, 0, 0], "radius": 1, "material": "pbr"}
   ]
 })";
 
@@ -77,7 +79,7 @@ TEST_CASE("an unknown key is refused in every object") {
     changed[place]["qqqqqqqq"] = 1;
     CHECK(Message(changed).find("unknown key \"qqqqqqqq\"") != std::string::npos);
   });
-  CHECK(objects == 24);
+  CHECK(objects == 26);
 }
 
 }  // namespace

@@ -1,0 +1,31 @@
+// brdf/burley.h: the diffuse term of Burley 2012, "Physically-Based Shading at Disney",
+// section 5.3. SIMD twin: burley-inl.h.
+//
+// Fitted to measured materials: darker towards grazing angles for smooth surfaces, brighter for
+// rough ones. Reciprocal, but not bound to keep energy: a white rough surface gives back more than
+// it receives at grazing angles, up to 1.56 times at roughness 1. brdf/eon.h does keep it.
+#pragma once
+
+#include "brdf/angles.h"
+
+namespace nacre {
+
+// (1 - cos)^5.
+template <typename Real>
+Real BurleyGrazing(Real cos) {
+  const Real x = 1 - cos, x2 = x * x;
+  return x2 * x2 * x;
+}
+
+// The BRDF per unit of albedo: 1 / pi times what Fresnel's term of half the angle between light and
+// viewer makes of both angles. `roughness` is perceptual. 0 unless both are above the surface.
+template <typename Real>
+Real BurleyDiffuse(const Angles<Real>& a, Real roughness) {
+  if (!(a.n_dot_l > 0) || !(a.n_dot_v > 0)) return 0;
+  // F at 90 degrees less 1: 2 roughness (v.h)^2 - 1/2, and (v.h)^2 = |u|^2 / 4.
+  const Real rise = roughness * a.u_squared / 2 - static_cast<Real>(0.5);
+  return (1 + rise * BurleyGrazing(a.n_dot_l)) * (1 + rise * BurleyGrazing(a.n_dot_v)) /
+         static_cast<Real>(M_PI);
+}
+
+}  // namespace nacre

@@ -1,0 +1,85 @@
+// brdf/eon-inl.h: rough diffuse reflection on SIMD vectors. Scalar twin: brdf/eon.h.
+#if defined(NACRE_BRDF_EON_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_BRDF_EON_INL_H_
+#undef NACRE_BRDF_EON_INL_H_
+#else
+#define NACRE_BRDF_EON_INL_H_
+#endif
+
+#include "base/trig-inl.h"
+#include "brdf/angles-inl.h"
+#include "brdf/eon.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V EonScale(D d, V roughness) {
+  const V one = hn::Set(d, 1.0f);
+  return hn::Div(one, hn::MulAdd(hn::Set(d, static_cast<float>(kEonAlbedo)), roughness, one));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V EonLoss(D d, V cos) {
+  const V one = hn::Set(d, 1.0f);
+  const V sin2 = hn::Max(hn::Mul(hn::Sub(one, cos), hn::Add(one, cos)), hn::Zero(d));
+  const V sin = hn::Sqrt(sin2);
+  const V angle = Atan2Upper(d, sin, cos);
+  const V one_plus_sin = hn::Add(one, sin);
+  const V tangential =
+      hn::Sub(hn::Div(hn::Mul(cos, hn::Add(one_plus_sin, sin2)), one_plus_sin), one);
+  const V sum = hn::MulAdd(hn::Set(d, 2.0f / 3), tangential, hn::NegMulAdd(sin, cos, angle));
+  const V g = hn::Mul(sin, sum);
+  return hn::NegMulAdd(hn::Set(d, 0.318309886f), g, hn::Set(d, static_cast<float>(kEonAlbedo)));
+}
+
+// `scale` is EonScale(roughness).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V EonSingle(D d, V n_dot_l, V n_dot_v, V l_dot_v, V roughness, V scale) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const V s = hn::NegMulAdd(n_dot_l, n_dot_v, l_dot_v);
+  const auto forward = hn::Gt(s, zero);
+  const V t = hn::IfThenElse(forward, hn::Max(n_dot_l, n_dot_v), one);
+  const V inverse_pi = hn::Set(d, 0.318309886f);
+  return hn::Mul(hn::Mul(inverse_pi, scale), hn::MulAdd(roughness, hn::Div(s, t), one));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V EonMultiple(D d, V n_dot_l, V n_dot_v, V roughness, V scale) {
+  const V inverse_mean =
+      hn::Set(d, static_cast<float>(1 / ((kEonAlbedo - kEonMeanAlbedo) * 3.14159265358979324)));
+  return hn::Mul(hn::Mul(hn::Mul(scale, roughness), inverse_mean),
+                 hn::Mul(EonLoss(d, n_dot_l), EonLoss(d, n_dot_v)));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V EonMultipleAlbedo(D d, V albedo, V roughness, V scale) {
+  const V one = hn::Set(d, 1.0f);
+  const V mean =
+      hn::Mul(scale, hn::MulAdd(hn::Set(d, static_cast<float>(kEonMeanAlbedo)), roughness, one));
+  const V rest = hn::NegMulAdd(albedo, hn::Sub(one, mean), one);
+  return hn::Div(hn::Mul(hn::Mul(albedo, albedo), mean), rest);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Eon(D d, const AnglesV<V>& a, V albedo, V roughness) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const auto above = hn::And(hn::Gt(a.n_dot_l, zero), hn::Gt(a.n_dot_v, zero));
+  const V n_dot_l = hn::IfThenElse(above, a.n_dot_l, one);
+  const V n_dot_v = hn::IfThenElse(above, a.n_dot_v, one);
+  const V l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), a.lv_squared, one);
+  const V scale = EonScale(d, roughness);
+  const V single = EonSingle(d, n_dot_l, n_dot_v, l_dot_v, roughness, scale);
+  const V multiple = hn::Mul(EonMultipleAlbedo(d, albedo, roughness, scale),
+                             EonMultiple(d, n_dot_l, n_dot_v, roughness, scale));
+  return hn::IfThenElseZero(above, hn::MulAdd(albedo, single, multiple));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,139 @@
+// brdf/lobe_sampling-inl.h: lobes sampled on SIMD vectors. Scalar twin: brdf/lobe_sampling.h.
+#if defined(NACRE_BRDF_LOBE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_BRDF_LOBE_SAMPLING_INL_H_
+#undef NACRE_BRDF_LOBE_SAMPLING_INL_H_
+#else
+#define NACRE_BRDF_LOBE_SAMPLING_INL_H_
+#endif
+
+#include "base/basis-inl.h"
+#include "base/concentric_disk-inl.h"
+#include "brdf/ggx-inl.h"
+#include "brdf/phong-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> Mirrored(D, const Vec3V<V>& v, const Vec3V<V>& m) {
+  const V along = FusedDot(m, v);
+  const V twice = hn::Add(along, along);
+  return {hn::MulSub(m.x, twice, v.x), hn::MulSub(m.y, twice, v.y), hn::MulSub(m.z, twice, v.z)};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SampleCosine(D d, const Vec3V<V>& normal, V u0, V u1) {
+  const V one = hn::Set(d, 1.0f);
+  const PointOnDiskV<V> p = ConcentricDisk(d, u0, u1);
+  const V z = hn::Sqrt(hn::Mul(hn::Sub(one, p.radius), hn::Add(one, p.radius)));
+  return ToWorld(BasisAbout(d, normal), Vec3V<V>{p.x, p.y, z});
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V CosinePdf(D d, V n_dot_l) {
+  return hn::Mul(hn::Max(n_dot_l, hn::Zero(d)), hn::Set(d, 0.318309886f));
+}
+
+// alpha must not be a delta lobe's.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view, V alpha,
+                                     V u0, V u1) {
+  const V one = hn::Set(d, 1.0f);
+  const BasisV<V> basis = BasisAbout(d, normal);
+  const Vec3V<V> v = ToLocal(basis, to_view);
+  const Vec3V<V> scaled{hn::Mul(alpha, v.x), hn::Mul(alpha, v.y), v.z};
+  const V across2 = hn::MulAdd(scaled.x, scaled.x, hn::Mul(scaled.y, scaled.y));
+  const V length = hn::Sqrt(hn::MulAdd(scaled.z, scaled.z, across2));
+  const Vec3V<V> squeezed = Scale(scaled, hn::Div(one, length));
+  const SinCosV<V> phi = SinCosTurns(d, u0);
+  const V top = hn::Add(one, squeezed.z);
+  const V half_z = hn::Mul(hn::Sub(one, u1), top);
+  const V one_plus_z =
+      hn::Add(half_z, hn::Div(across2, hn::Mul(length, hn::Add(length, scaled.z))));
+  const V sin = hn::Sqrt(hn::Mul(hn::Mul(u1, top), one_plus_z));
+  const Vec3V<V> half{hn::Mul(alpha, hn::MulAdd(sin, phi.cos, squeezed.x)),
+                      hn::Mul(alpha, hn::MulAdd(sin, phi.sin, squeezed.y)), half_z};
+  const V inverse = hn::Div(one, hn::Sqrt(FusedDot(half, half)));
+  return Mirrored(d, to_view, ToWorld(basis, Scale(half, inverse)));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V GgxVisiblePdf(D d, const AnglesV<V>& a, V alpha) {
+  const V one = hn::Set(d, 1.0f);
+  const auto above = hn::Gt(a.n_dot_v, hn::Zero(d));
+  const V sum = hn::Add(a.n_dot_v, SmithRoot(d, a.n_dot_v, alpha));
+  const V twice = hn::IfThenElse(above, hn::Add(sum, sum), one);
+  return hn::IfThenElseZero(above, hn::Div(GgxDistribution(d, a, alpha), twice));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V GgxVisibleWeight(D d, V n_dot_l, V n_dot_v, V alpha) {
+  const V zero = hn::Zero(d);
+  const auto above = hn::And(hn::Gt(n_dot_l, zero), hn::Gt(n_dot_v, zero));
+  const V v_root = SmithRoot(d, n_dot_v, alpha);
+  const V sum = hn::MulAdd(n_dot_l, v_root, hn::Mul(n_dot_v, SmithRoot(d, n_dot_l, alpha)));
+  const V weight = hn::Div(hn::Mul(n_dot_l, hn::Add(n_dot_v, v_root)),
+                           hn::IfThenElse(above, sum, hn::Set(d, 1.0f)));
+  return hn::IfThenElseZero(above, weight);
+}
+
+// 1 - 2^y for y <= 0, without cancellation next to 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V OneMinusExp2(D d, V y) {
+  // 2^y less its first coefficient: base/math-inl.h.
+  constexpr float kCoefficients[] = {0.693147182f,   0.240226507f,  0.0555032715f,
+                                     0.00961805694f, 0.0013400428f, 0.000154614449f};
+  const V far = hn::Sub(hn::Set(d, 1.0f), Exp2(d, y));
+  const V near = hn::Neg(hn::Mul(y, EvaluatePolynomial(d, kCoefficients, 6, y)));
+  return hn::IfThenElse(hn::Gt(y, hn::Set(d, -0.5f)), near, far);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SampleCosinePower(D d, const Vec3V<V>& axis, V shininess, V u0, V u1) {
+  const V one = hn::Set(d, 1.0f);
+  const V log2 = Log2OneMinus(d, u0, hn::Sub(one, u0));
+  const V x = OneMinusExp2(d, hn::Div(log2, hn::Add(shininess, one)));
+  const V sin = hn::Sqrt(hn::Mul(x, hn::Sub(hn::Set(d, 2.0f), x)));
+  const SinCosV<V> phi = SinCosTurns(d, u1);
+  return ToWorld(BasisAbout(d, axis),
+                 Vec3V<V>{hn::Mul(sin, phi.cos), hn::Mul(sin, phi.sin), hn::Sub(one, x)});
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SamplePhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
+                                    V shininess, V u0, V u1) {
+  return SampleCosinePower(d, Mirrored(d, to_view, normal), shininess, u0, u1);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PhongLobePdf(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
+                          const Vec3V<V>& to_light, V shininess) {
+  const LobeCosineV<V> cosine = PhongCosine(d, normal, to_light, to_view);
+  const V scale = hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, 0.159154943f));
+  return hn::IfThenElseZero(hn::Gt(cosine.c, hn::Zero(d)),
+                            hn::Mul(scale, PhongLobe(d, cosine, shininess)));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SampleBlinnLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
+                                    V shininess, V u0, V u1) {
+  return Mirrored(d, to_view, SampleCosinePower(d, normal, shininess, u0, u1));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V BlinnLobePdf(D d, const AnglesV<V>& a, V shininess) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(a.u_squared, zero));
+  const V length = hn::Sqrt(hn::IfThenElse(above, a.u_squared, one));
+  const V lobe = BlinnLobe(d, BlinnSquaredCosine(d, a), shininess);
+  const V scale = hn::Mul(hn::Add(shininess, one), hn::Set(d, 0.0795774715f));
+  return hn::IfThenElseZero(above, hn::Div(hn::Mul(scale, lobe), length));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,83 @@
+// light/area_sample-inl.h: samples of area lights on SIMD vectors: what the shapes share. Scalar
+// twin: area_sample.h.
+#if defined(NACRE_LIGHT_AREA_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_LIGHT_AREA_SAMPLE_INL_H_
+#undef NACRE_LIGHT_AREA_SAMPLE_INL_H_
+#else
+#define NACRE_LIGHT_AREA_SAMPLE_INL_H_
+#endif
+
+#include "base/trig-inl.h"
+#include "base/vec3-inl.h"
+#include "light/area_sample.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr float kTwoPi = 6.28318531f;
+
+template <class V>
+struct AreaSampleV {
+  Vec3V<V> to_light;
+  V distance, inverse_pdf, cos_light;
+};
+
+template <class M, class V>
+HWY_INLINE AreaSampleV<V> Select(M mask, const AreaSampleV<V>& yes, const AreaSampleV<V>& no) {
+  return {Select(mask, yes.to_light, no.to_light), hn::IfThenElse(mask, yes.distance, no.distance),
+          hn::IfThenElse(mask, yes.inverse_pdf, no.inverse_pdf),
+          hn::IfThenElse(mask, yes.cos_light, no.cos_light)};
+}
+
+// All 0 where `mask` does not hold.
+template <class D, class M, class V>
+HWY_INLINE AreaSampleV<V> SampleIf(D d, M mask, const AreaSampleV<V>& sample) {
+  const V zero = hn::Zero(d);
+  return Select(mask, sample, {{zero, zero, zero}, zero, zero, zero});
+}
+
+template <class D, class M>
+HWY_INLINE bool NoneOf(D d, M mask) {
+  return hn::AllFalse(d, mask);
+}
+template <class D, class M>
+HWY_INLINE bool NoneOf(hn::WideTag<D>, const hn::Wide<M>& mask) {
+  return hn::AllFalse(D(), mask.low) && hn::AllFalse(D(), mask.high);
+}
+
+template <class V>
+HWY_INLINE V Length(const Vec3V<V>& v) {
+  return hn::Sqrt(FusedDot(v, v));
+}
+
+template <class V>
+HWY_INLINE V Hypot(V x, V y) {
+  return hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
+}
+
+// a + b s.
+template <class V>
+HWY_INLINE Vec3V<V> AddScaled(const Vec3V<V>& a, const Vec3V<V>& b, V s) {
+  return {hn::MulAdd(b.x, s, a.x), hn::MulAdd(b.y, s, a.y), hn::MulAdd(b.z, s, a.z)};
+}
+
+// a (b x c).
+template <class V>
+HWY_INLINE V TripleProduct(const Vec3V<V>& a, const Vec3V<V>& b, const Vec3V<V>& c) {
+  return FusedDot(a, FusedCross(b, c));
+}
+
+// 1 / x, 0 where x <= 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V InverseIfPositive(D d, V x) {
+  const V one = hn::Set(d, 1.0f);
+  const auto positive = hn::Gt(x, hn::Zero(d));
+  return hn::IfThenElseZero(positive, hn::Div(one, hn::IfThenElse(positive, x, one)));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

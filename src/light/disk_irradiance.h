@@ -1,0 +1,122 @@
+// light/disk_irradiance.h: the irradiance of a surface under a disk. SIMD twin:
+// disk_irradiance-inl.h.
+//
+// Stokes' theorem makes a contour integral of it, half of that of normal.(r x dr) / r^2 (Fock 1924,
+// Lambert for polygons). Over a circle r^2 = a + b cos(t), and the integral is elementary, also
+// over the arc above the horizon; the chord along the horizon adds its angle.
+//
+// In the disk's axes (light/disk_light.h) the shaded point sees the centre at z normal +
+// rho x_axis, and the surface's normal has the components n.
+#pragma once
+
+#include <cmath>
+
+#include "base/trig.h"
+#include "light/disk_light.h"
+
+namespace nacre {
+
+template <typename Real>
+struct DiskAbove {
+  Imath::Vec3<Real> n;
+  Real rho, z, radius;
+  Real centre_height;  // over the horizon
+  Real rim_height;     // of the highest point of the rim over the centre
+};
+
+template <typename Real>
+DiskAbove<Real> DiskAboveHorizon(const DiskLight<Real>& light, const Imath::Vec3<Real>& normal) {
+  const DiskView<Real> view = ViewOf(light);
+  DiskAbove<Real> disk;
+  disk.n = {normal ^ view.x_axis, normal ^ view.y_axis, normal ^ light.normal};
+  disk.rho = view.rho;
+  disk.z = view.z;
+  disk.radius = light.radius;
+  disk.centre_height = normal ^ light.centre;
+  disk.rim_height = light.radius * std::hypot(disk.n.x, disk.n.y);
+  return disk;
+}
+
+// All above the horizon: pi radius^2 (n.z (w + q) + 2 z rho n.x) / (q (a + q)) with
+// a = z^2 + rho^2 + radius^2, w = z^2 + radius^2 - rho^2, q^2 = a^2 - b^2 = w^2 + (2 z rho)^2.
+template <typename Real>
+Real IrradianceOfWholeDisk(const DiskAbove<Real>& disk) {
+  const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
+  const Real a = z2 + disk.rho * disk.rho + radius2;
+  const Real w = z2 + (disk.radius - disk.rho) * (disk.radius + disk.rho);
+  const Real cross = 2 * disk.z * disk.rho;
+  const Real q = std::hypot(w, cross);
+  const Real w_plus_q = w > 0 ? w + q : cross * cross / (q - w);
+  return static_cast<Real>(M_PI) * radius2 * std::abs(disk.n.z * w_plus_q + cross * disk.n.x) /
+         (q * (a + q));
+}
+
+// A disk across the horizon so small that distance and direction are the same all over it (below
+// 1e-5 of its distance; this is off by 4 times that): the height's first moment over the segment.
+template <typename Real>
+Real IrradianceOfRisingSpeck(const DiskAbove<Real>& disk) {
+  const Real x = -disk.centre_height / disk.rim_height;  // the horizon, in radii from the centre
+  const Real y = std::sqrt((1 - x) * (1 + x));
+  const Real moment = 2 * y * y * y / 3 - x * (std::acos(x) - x * y);
+  const Real distance2 = disk.z * disk.z + disk.rho * disk.rho;
+  return std::abs(disk.z) * disk.radius * disk.radius * disk.rim_height * moment /
+         (distance2 * distance2);
+}
+
+// A point of the rim, and the antiderivatives there of 1, cos(t) and sin(t) over a + b cos(t).
+template <typename Real>
+struct RimPoint {
+  Imath::Vec3<Real> position;
+  Real distance2;  // a + b cos(t)
+  Real one, cos;   // that of sin(t) is a logarithm of the ratio of distance2
+};
+
+template <typename Real>
+RimPoint<Real> RimPointAt(const DiskAbove<Real>& disk, Real t) {
+  const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
+  const Real a = z2 + disk.rho * disk.rho + radius2;
+  const Real b = 2 * disk.rho * disk.radius;
+  const Real w = z2 + (disk.radius - disk.rho) * (disk.radius + disk.rho);
+  const Real q = std::hypot(w, 2 * disk.z * disk.rho);
+  RimPoint<Real> rim;
+  rim.position = {disk.rho + disk.radius * std::cos(t), disk.radius * std::sin(t), disk.z};
+  rim.distance2 = a + b * std::cos(t);
+  // The arc tangent over b, which has a limit at b = 0.
+  const Real slope = std::sin(t) / (a + q + b * std::cos(t));
+  const Real x = std::abs(b * slope);
+  const Real angle_over_b = slope * (1 - x * x * AtanRemainder(x));
+  rim.one = (t - 2 * b * angle_over_b) / q;
+  rim.cos = (2 * a * angle_over_b - t * b / (a + q)) / q;
+  return rim;
+}
+
+// The disk cut by the horizon. In double: terms of the order of the disk's angular size cancel to
+// its cube, so at 1e-5 of its distance 6 digits are left.
+inline double IrradianceOfRisingDisk(const DiskAbove<double>& disk) {
+  const double distance = std::hypot(disk.z, disk.rho);
+  if (disk.radius < 1e-5 * distance) return IrradianceOfRisingSpeck(disk);
+  const double highest = std::atan2(disk.n.y, disk.n.x);
+  const double half = std::acos(std::fmax(-1, std::fmin(1, -disk.centre_height / disk.rim_height)));
+  const RimPoint<double> from = RimPointAt(disk, highest - half);
+  const RimPoint<double> to = RimPointAt(disk, highest + half);
+  const double sin_integral =
+      -std::log1p((to.distance2 - from.distance2) / from.distance2) / (2 * disk.rho * disk.radius);
+  const double sin_limit = (from.position.x - to.position.x) / (disk.radius * from.distance2);
+  const double arc = disk.radius * disk.n.z * (to.one - from.one) +
+                     (disk.rho * disk.n.z - disk.z * disk.n.x) * (to.cos - from.cos) -
+                     disk.z * disk.n.y * (disk.rho > 1e-9 * distance ? sin_integral : sin_limit);
+  const double chord =
+      std::atan2(disk.n ^ (to.position % from.position), to.position ^ from.position);
+  return std::abs(disk.radius * arc + chord) / 2;
+}
+
+template <typename Real>
+Real Irradiance(const DiskLight<Real>& light, const Imath::Vec3<Real>& normal) {
+  const DiskAbove<Real> disk = DiskAboveHorizon(light, normal);
+  if (disk.z == 0 || !(disk.radius > 0) || disk.centre_height <= -disk.rim_height) return 0;
+  if (disk.centre_height >= disk.rim_height) return IrradianceOfWholeDisk(disk);
+  return static_cast<Real>(IrradianceOfRisingDisk(
+      {Vec3d(disk.n), disk.rho, disk.z, disk.radius, disk.centre_height, disk.rim_height}));
+}
+
+}  // namespace nacre

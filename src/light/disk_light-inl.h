@@ -1,0 +1,106 @@
+// light/disk_light-inl.h: sampling disks as lights on SIMD vectors. Scalar twin: disk_light.h.
+#if defined(NACRE_LIGHT_DISK_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_LIGHT_DISK_LIGHT_INL_H_
+#undef NACRE_LIGHT_DISK_LIGHT_INL_H_
+#else
+#define NACRE_LIGHT_DISK_LIGHT_INL_H_
+#endif
+
+#include "base/basis-inl.h"
+#include "base/concentric_disk-inl.h"
+#include "light/rectangle_light-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct DiskLightV {
+  Vec3V<V> centre, normal;
+  V radius;
+};
+
+template <class V>
+struct DiskViewV {
+  Vec3V<V> x_axis, y_axis;
+  V rho, z;
+};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE DiskViewV<V> ViewOf(D d, const DiskLightV<V>& light) {
+  const BasisV<V> basis = BasisAbout(d, light.normal);
+  const Vec3V<V> centre = ToLocal(basis, light.centre);
+  const V rho = Hypot(centre.x, centre.y);
+  const V inverse = InverseIfPositive(d, rho);
+  const auto beside = hn::Gt(rho, hn::Zero(d));
+  const V cos = hn::IfThenElse(beside, hn::Mul(centre.x, inverse), hn::Set(d, 1.0f));
+  const V sin = hn::Mul(centre.y, inverse);
+  return {AddScaled(Scale(basis.x, cos), basis.y, sin),
+          AddScaled(Scale(basis.y, cos), basis.x, hn::Neg(sin)), rho, centre.z};
+}
+
+// A mask.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE auto IsNearby(D d, const DiskViewV<V>& view, V radius) {
+  const V beside = hn::Max(hn::Sub(view.rho, radius), hn::Zero(d));
+  const V nearest2 = hn::MulAdd(beside, beside, hn::Mul(view.z, view.z));
+  return hn::Lt(nearest2, hn::Mul(hn::Set(d, 0.49f), hn::Mul(radius, radius)));
+}
+
+template <class V>
+HWY_INLINE RectangleLightV<V> SquareAround(const DiskLightV<V>& light, const DiskViewV<V>& view) {
+  const Vec3V<V> x = Scale(view.x_axis, light.radius), y = Scale(view.y_axis, light.radius);
+  return {Sub(Sub(light.centre, x), y), Add(x, x), Add(y, y)};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE AreaSampleV<V> SampleDiskByArea(D d, const DiskLightV<V>& light,
+                                           const DiskViewV<V>& view, V u0, V u1) {
+  const PointOnDiskV<V> on_disk = ConcentricDisk(d, u0, u1);
+  const Vec3V<V> point =
+      AddScaled(AddScaled(light.centre, view.x_axis, hn::Mul(on_disk.x, light.radius)), view.y_axis,
+                hn::Mul(on_disk.y, light.radius));
+  const V distance = Length(point);
+  const V inverse = InverseIfPositive(d, distance);
+  const V cos_light = hn::Neg(hn::Mul(view.z, inverse));
+  const V area = hn::Mul(hn::Set(d, kTwoPi / 2), hn::Mul(light.radius, light.radius));
+  return {Scale(point, inverse), distance,
+          hn::Mul(hn::Mul(area, hn::Abs(cos_light)), hn::Mul(inverse, inverse)), cos_light};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE AreaSampleV<V> SampleLight(D d, const DiskLightV<V>& light, V u0, V u1) {
+  const V zero = hn::Zero(d);
+  const DiskViewV<V> view = ViewOf(d, light);
+  AreaSampleV<V> square = SampleLight(d, SquareAround(light, view), u0, u1);
+  const Vec3V<V> from_centre = Sub(Scale(square.to_light, square.distance), light.centre);
+  const auto hit = hn::Ge(hn::Mul(light.radius, light.radius), FusedDot(from_centre, from_centre));
+  square.inverse_pdf = hn::IfThenElseZero(hit, square.inverse_pdf);
+  const AreaSampleV<V> sample =
+      Select(IsNearby(d, view, light.radius), square, SampleDiskByArea(d, light, view, u0, u1));
+  return SampleIf(d, hn::And(hn::Gt(hn::Abs(view.z), zero), hn::Gt(light.radius, zero)), sample);
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LightPdf(D d, const DiskLightV<V>& light, const Vec3V<V>& direction) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const DiskViewV<V> view = ViewOf(d, light);
+  const V towards = FusedDot(direction, light.normal);
+  const auto ahead = hn::Gt(hn::Mul(view.z, towards), zero);
+  const V t = hn::Div(view.z, hn::IfThenElse(ahead, towards, one));
+  const V radius2 = hn::Mul(light.radius, light.radius);
+  const Vec3V<V> from_centre = Sub(Scale(direction, t), light.centre);
+  const auto hit = hn::And(ahead, hn::Ge(radius2, FusedDot(from_centre, from_centre)));
+  const V area = hn::Mul(hn::Mul(hn::Set(d, kTwoPi / 2), radius2), hn::Abs(towards));
+  const V by_area = hn::Mul(hn::Mul(t, t), InverseIfPositive(d, area));
+  const V by_square = LightPdf(d, SquareAround(light, view), direction);
+  return hn::IfThenElseZero(hit,
+                            hn::IfThenElse(IsNearby(d, view, light.radius), by_square, by_area));
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,115 @@
+// light/environment-inl.h: an environment's image on SIMD vectors. Scalar twin: environment.h.
+//
+// Look-ups go lane by lane: a texel is one load of four floats, and a sampled one three random
+// reads, which no gather makes faster.
+#if defined(NACRE_LIGHT_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_LIGHT_ENVIRONMENT_INL_H_
+#undef NACRE_LIGHT_ENVIRONMENT_INL_H_
+#else
+#define NACRE_LIGHT_ENVIRONMENT_INL_H_
+#endif
+
+#include "base/trig-inl.h"
+#include "base/vec3-inl.h"
+#include "light/environment.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr size_t kMaxEnvironmentLanes = 2 * 64 / sizeof(float);
+
+template <class V>
+struct LatLongV {
+  V u, v;
+};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE LatLongV<V> LatLongFromDirection(D d, const Vec3V<V>& direction) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  const V turns = hn::Set(d, 0.159154943f);
+  const V half_turns = hn::Set(d, 0.318309886f);
+  const V turn = hn::Mul(Atan2Upper(d, hn::Abs(direction.x), hn::Neg(direction.z)), turns);
+  const V u = hn::IfThenElse(hn::Lt(direction.x, zero), hn::Sub(one, turn), turn);
+  const V r = hn::Sqrt(hn::MulAdd(direction.x, direction.x, hn::Mul(direction.z, direction.z)));
+  return {hn::IfThenElseZero(hn::Lt(u, one), u),
+          hn::Mul(Atan2Upper(d, r, direction.y), half_turns)};
+}
+
+template <class V>
+struct EnvironmentTexelV {
+  V red, green, blue, pdf;
+};
+
+// The texels of four arrays' lanes.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const float (*lanes)[kMaxEnvironmentLanes]) {
+  return {hn::Load(d, lanes[0]), hn::Load(d, lanes[1]), hn::Load(d, lanes[2]),
+          hn::Load(d, lanes[3])};
+}
+
+HWY_INLINE void StoreTexel(const EnvironmentTexel& texel, size_t lane,
+                           float (*lanes)[kMaxEnvironmentLanes]) {
+  lanes[0][lane] = texel.red;
+  lanes[1][lane] = texel.green;
+  lanes[2][lane] = texel.blue;
+  lanes[3][lane] = texel.pdf;
+}
+
+// Radiance and density of sampling in these directions.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE EnvironmentTexelV<V> TexelAt(D d, const EnvironmentMap& map, const Vec3V<V>& direction) {
+  const LatLongV<V> at = LatLongFromDirection(d, direction);
+  alignas(64) float u[kMaxEnvironmentLanes], v[kMaxEnvironmentLanes];
+  hn::Store(hn::Mul(at.u, hn::Set(d, static_cast<float>(map.width))), d, u);
+  hn::Store(hn::Mul(at.v, hn::Set(d, static_cast<float>(map.height))), d, v);
+  alignas(64) float lanes[4][kMaxEnvironmentLanes];
+  for (size_t i = 0; i < hn::Lanes(d); ++i) {
+    const int x = HWY_MIN(static_cast<int>(u[i]), map.width - 1);
+    const int y = HWY_MIN(static_cast<int>(v[i]), map.height - 1);
+    const auto texel =
+        static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x);
+    StoreTexel(map.texels[texel], i, lanes);
+  }
+  return LoadTexels(d, lanes);
+}
+
+template <class V>
+struct EnvironmentSampleV {
+  Vec3V<V> to_light;
+  EnvironmentTexelV<V> texel;
+};
+
+// Samples from 32 random bits a number, one a lane: floats have too few for dim texels next to a
+// sun.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& map,
+                                                   const uint32_t* HWY_RESTRICT bits0,
+                                                   const uint32_t* HWY_RESTRICT bits1) {
+  const V zero = hn::Zero(d);
+  const V one = hn::Set(d, 1.0f);
+  if (map.is_black) return {{zero, one, zero}, {zero, zero, zero, zero}};
+  alignas(64) float u[kMaxEnvironmentLanes], heights[kMaxEnvironmentLanes];
+  alignas(64) float signs[kMaxEnvironmentLanes];
+  alignas(64) float lanes[4][kMaxEnvironmentLanes];
+  for (size_t i = 0; i < hn::Lanes(d); ++i) {
+    const EnvironmentPick pick = PickTexel(map, bits0[i] * 0x1p-32, bits1[i] * 0x1p-32);
+    StoreTexel(pick.texel, i, lanes);
+    u[i] = static_cast<float>(pick.u);
+    heights[i] = static_cast<float>(pick.one_minus_cos);
+    signs[i] = static_cast<float>(pick.sign);
+  }
+  const V t = hn::Load(d, heights);
+  const V sin = hn::Sqrt(hn::Mul(t, hn::Sub(hn::Set(d, 2.0f), t)));
+  const SinCosV<V> phi = SinCosTurns(d, hn::Load(d, u));
+  return {{hn::Mul(phi.sin, sin), hn::Mul(hn::Load(d, signs), hn::Sub(one, t)),
+           hn::Neg(hn::Mul(phi.cos, sin))},
+          LoadTexels(d, lanes)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

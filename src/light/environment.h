@@ -1,0 +1,125 @@
+// light/environment.h: light from all round, from a latitude-longitude image: look-up, importance
+// sampling and its density. SIMD twin: environment-inl.h. Skies by formula: light/sky.h.
+//
+// y is up. Row 0 of the image is +y, its middle column -z, and u runs towards +x:
+//   direction(u, v) = (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v),   u, v in [0, 1].
+//
+// Every texel is one radiance over its own solid angle: piecewise constant, looked up by nearest.
+// That is what sampling has densities for: luminance times solid angle, exactly, and within a texel
+// evenly per solid angle. A bilinear look-up of the same image is another function, close to it,
+// but bright also inside texels that are black here and thus are never sampled.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "base/vec.h"
+#include "sampling/alias_table.h"
+
+namespace nacre {
+
+// Radiance of a texel, and the density with which its directions are sampled.
+struct EnvironmentTexel {
+  float red, green, blue;
+  float pdf;
+};
+
+// 1 - |cos(theta)| at both edges of a row, and the sign of cos(theta): the cosine itself would be
+// rounded away at the poles. A row across the equator has cosines above 0, and 1 - cos up to
+// over 1.
+struct EnvironmentRow {
+  float first, last;
+  float sign;
+};
+
+struct EnvironmentMap {
+  int width = 0, height = 0;
+  std::vector<EnvironmentTexel> texels;  // row by row
+  std::vector<EnvironmentRow> rows;
+  std::vector<AliasEntry> row_table;
+  std::vector<AliasEntry> column_tables;  // `width` entries a row
+  bool is_black = true;                   // nothing to sample
+};
+
+// Texels in rows from +y on; radiances >= 0 and finite.
+EnvironmentMap MakeEnvironmentMap(int width, int height, const std::vector<Vec3f>& texels);
+
+// Of any texel of this row of an image of this size.
+double TexelSolidAngle(int width, int height, int row);
+
+template <typename Real>
+struct LatLong {
+  Real u, v;
+};
+
+template <typename Real>
+Imath::Vec3<Real> DirectionFromLatLong(Real u, Real v) {
+  const Real pi = static_cast<Real>(M_PI);
+  const Real sin = std::sin(pi * v);
+  return {std::sin(2 * pi * u) * sin, std::cos(pi * v), -std::cos(2 * pi * u) * sin};
+}
+
+// u in [0, 1), v in [0, 1]. Arc tangents: an arc cosine of y has no digits at the poles.
+template <typename Real>
+LatLong<Real> LatLongFromDirection(const Imath::Vec3<Real>& direction) {
+  const Real pi = static_cast<Real>(M_PI);
+  const Real turn = std::atan2(direction.x, -direction.z) / (2 * pi);
+  const Real u = turn < 0 ? turn + 1 : turn;
+  return {u < 1 ? u : 0, std::atan2(std::hypot(direction.x, direction.z), direction.y) / pi};
+}
+
+template <typename Real>
+const EnvironmentTexel& TexelAt(const EnvironmentMap& map, const Imath::Vec3<Real>& direction) {
+  const LatLong<Real> at = LatLongFromDirection(direction);
+  const int x = std::min(static_cast<int>(at.u * static_cast<Real>(map.width)), map.width - 1);
+  const int y = std::min(static_cast<int>(at.v * static_cast<Real>(map.height)), map.height - 1);
+  return map
+      .texels[static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x)];
+}
+
+// A texel drawn by its luminance and solid angle, and where in it a sample lies.
+struct EnvironmentPick {
+  EnvironmentTexel texel;
+  double u;              // of the image
+  double one_minus_cos;  // 1 - |cos(theta)|, as in EnvironmentRow
+  double sign;
+};
+
+inline EnvironmentPick PickTexel(const EnvironmentMap& map, double u0, double u1) {
+  const AliasPick row = PickAlias(map.row_table, u1);
+  const auto width = static_cast<size_t>(map.width);
+  const AliasPick column = PickAlias({map.column_tables.data() + row.index * width, width}, u0);
+  const EnvironmentRow& edges = map.rows[row.index];
+  return {map.texels[row.index * width + column.index],
+          (column.index + column.rest) / static_cast<double>(width),
+          edges.first + row.rest * (double{edges.last} - edges.first), edges.sign};
+}
+
+template <typename Real>
+struct EnvironmentSample {
+  Imath::Vec3<Real> to_light{0, 1, 0};
+  EnvironmentTexel texel{0, 0, 0, 0};  // its pdf is the sample's; 0: no sample
+};
+
+// A direction to the environment by importance. None from a black one. The two numbers want 32
+// bits: 24 do not reach dim texels next to a sun.
+template <typename Real>
+EnvironmentSample<Real> SampleEnvironment(const EnvironmentMap& map, double u0, double u1) {
+  if (map.is_black) return {};
+  const EnvironmentPick pick = PickTexel(map, u0, u1);
+  const double sin = std::sqrt(pick.one_minus_cos * (2 - pick.one_minus_cos));
+  const double phi = 2 * M_PI * pick.u;
+  return {Imath::Vec3<Real>(Vec3d(std::sin(phi) * sin, pick.sign * (1 - pick.one_minus_cos),
+                                  -std::cos(phi) * sin)),
+          pick.texel};
+}
+
+// The density of SampleEnvironment.
+template <typename Real>
+Real EnvironmentPdf(const EnvironmentMap& map, const Imath::Vec3<Real>& direction) {
+  return TexelAt(map, direction).pdf;
+}
+
+}  // namespace nacre

@@ -1,0 +1,63 @@
+// light/sky.h: environments by formula, with the irradiance of an unoccluded surface under them in
+// closed form. One channel each. SIMD twin: sky-inl.h.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/vec.h"
+
+namespace nacre {
+
+// The same radiance all round.
+template <typename Real>
+Real ConstantSkyIrradiance(Real radiance) {
+  return static_cast<Real>(M_PI) * radiance;
+}
+
+// From the horizon linearly in the height of the direction, up to the zenith and down to the
+// ground.
+template <typename Real>
+struct GradientSky {
+  Real zenith, horizon, ground;
+};
+
+template <typename Real>
+Real Radiance(const GradientSky<Real>& sky, const Imath::Vec3<Real>& direction) {
+  const Real other = direction.y > 0 ? sky.zenith : sky.ground;
+  return sky.horizon + (other - sky.horizon) * std::abs(direction.y);
+}
+
+// The integral of the product of two clamped cosines whose axes are at the angle t is
+// 2/3 (sin t + (pi - t) cos t).
+template <typename Real>
+Real Irradiance(const GradientSky<Real>& sky, const Imath::Vec3<Real>& normal) {
+  const Real pi = static_cast<Real>(M_PI);
+  const Real sin = std::hypot(normal.x, normal.z), cos = normal.y;
+  const Real angle = std::atan2(sin, cos);
+  const Real upper = 2 * (sin + (pi - angle) * cos) / 3;
+  const Real lower = 2 * (sin - angle * cos) / 3;
+  return pi * sky.horizon + (sky.zenith - sky.horizon) * upper + (sky.ground - sky.horizon) * lower;
+}
+
+// a0 + a1 c + a2 c^2, c the cosine from an axis of unit length.
+template <typename Real>
+struct QuadraticSky {
+  Imath::Vec3<Real> axis;
+  Real a0, a1, a2;
+};
+
+template <typename Real>
+Real Radiance(const QuadraticSky<Real>& sky, const Imath::Vec3<Real>& direction) {
+  const Real c = sky.axis ^ direction;
+  return sky.a0 + c * (sky.a1 + c * sky.a2);
+}
+
+// The clamped cosine's moments: pi, 2 pi / 3 c, pi / 4 (1 + c^2).
+template <typename Real>
+Real Irradiance(const QuadraticSky<Real>& sky, const Imath::Vec3<Real>& normal) {
+  const Real c = sky.axis ^ normal;
+  return static_cast<Real>(M_PI) * (sky.a0 + 2 * sky.a1 * c / 3 + sky.a2 * (1 + c * c) / 4);
+}
+
+}  // namespace nacre

@@ -1,0 +1,99 @@
+// light/sphere_light.h: sampling a sphere as a light. SIMD twin: sphere_light-inl.h.
+//
+// From outside, directions are uniform in the cone that the sphere fills. From inside, where a
+// sphere that emits on both sides surrounds the point, they are uniform all round; cos_light is
+// then negative. On the surface the cone is the half-space towards the centre.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/basis.h"
+#include "light/area_sample.h"
+
+namespace nacre {
+
+template <typename Real>
+struct SphereLight {
+  Imath::Vec3<Real> centre;
+  Real radius;
+};
+
+// The cone of directions from a point outside.
+template <typename Real>
+struct SphereCone {
+  Real distance;       // of the centre
+  Real sin;            // of the half angle: radius / distance, 1 from inside
+  Real one_minus_cos;  // sin^2 / (1 + cos): the difference would cancel for far spheres
+};
+
+template <typename Real>
+SphereCone<Real> ConeOf(const SphereLight<Real>& light) {
+  const Real distance = light.centre.length();
+  if (!(distance > light.radius)) return {distance, 1, 1};
+  const Real sin = light.radius / distance;
+  return {distance, sin, sin * sin / (1 + std::sqrt((1 - sin) * (1 + sin)))};
+}
+
+template <typename Real>
+bool IsInside(const SphereLight<Real>& light) {
+  return light.centre.length() < light.radius;
+}
+
+template <typename Real>
+Real SolidAngle(const SphereLight<Real>& light) {
+  const Real two_pi = 2 * static_cast<Real>(M_PI);
+  return IsInside(light) ? 2 * two_pi : two_pi * ConeOf(light).one_minus_cos;
+}
+
+template <typename Real>
+AreaSample<Real> SampleSphereFromInside(const SphereLight<Real>& light, Real u0, Real u1) {
+  const Real z = 1 - 2 * u0;
+  const Real r = 2 * std::sqrt(u0 * (1 - u0));
+  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
+  AreaSample<Real> sample;
+  sample.to_light = {r * std::cos(phi), r * std::sin(phi), z};
+  const Real along = light.centre ^ sample.to_light;
+  const Real distance = light.centre.length();
+  const Real power = (light.radius - distance) * (light.radius + distance);
+  const Real root = std::sqrt(along * along + power);
+  // The larger root of t^2 - 2 along t - power = 0, by whichever form does not cancel.
+  sample.distance = along >= 0 ? along + root : power / (root - along);
+  sample.inverse_pdf = 4 * static_cast<Real>(M_PI);
+  sample.cos_light = -root / light.radius;
+  return sample;
+}
+
+template <typename Real>
+AreaSample<Real> SampleLight(const SphereLight<Real>& light, Real u0, Real u1) {
+  if (!(light.radius > 0)) return {};
+  if (IsInside(light)) return SampleSphereFromInside(light, u0, u1);
+  const SphereCone<Real> cone = ConeOf(light);
+  const Real m = cone.one_minus_cos;
+  const Real x = u0 * m;  // 1 - cos of the sample's angle from the axis
+  const Real sin = std::sqrt(x * (2 - x));
+  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
+  AreaSample<Real> sample;
+  sample.to_light = BasisAbout(light.centre / cone.distance)
+                        .ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
+  // Half the chord in units of the centre's distance: sin^2 of the cone minus that of the sample.
+  const Real half_chord = std::sqrt(m * (1 - u0) * (2 - m * (1 + u0)));
+  // The product of both intersections' distances, distance^2 - radius^2, over the farther one.
+  sample.distance = cone.distance * (1 - cone.sin) * (1 + cone.sin) / (1 - x + half_chord);
+  sample.inverse_pdf = 2 * static_cast<Real>(M_PI) * m;
+  sample.cos_light = std::min(half_chord / cone.sin, static_cast<Real>(1));
+  return sample;
+}
+
+// Directions to the very rim may count as misses: it is a matter of rounding there.
+template <typename Real>
+Real LightPdf(const SphereLight<Real>& light, const Imath::Vec3<Real>& direction) {
+  const Real solid_angle = SolidAngle(light);
+  if (!(solid_angle > 0)) return 0;
+  if (IsInside(light)) return 1 / solid_angle;
+  const bool hit = (direction ^ light.centre) > 0 &&
+                   (direction % light.centre).length2() <= light.radius * light.radius;
+  return hit ? 1 / solid_angle : 0;
+}
+
+}  // namespace nacre

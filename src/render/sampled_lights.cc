@@ -1,0 +1,300 @@
+#include "render/sampled_lights.h"
+
+#include <algorithm>
+
+#include "render/tile_layers.h"
+#include "shading/lobe_sample.h"
+
+namespace nacre {
+namespace {
+
+// A batch of hits under one light.
+struct Lit {
+  const RenderPlan& plan;
+  const PlannedSampledLight& planned;
+  TileScratch& s;
+  SampledScratch& c;
+  StageClock* clock;
+  RenderStats* stats;
+
+  size_t count() const { return s.hits.count; }
+  const ShadingMaterial& MaterialOf(const MaterialRun& run) const {
+    return plan.materials[run.material.index];
+  }
+  LobeRange RangeOf(const MaterialRun& run) const {
+    return {s.hits, s.surface, run.begin, run.end, s.textures.get()};
+  }
+};
+
+// Which of the reflected parts directions are chosen for.
+struct Parts {
+  bool diffuse, specular;
+};
+
+// The ways of choosing directions that are combined: what each part's density is the sum of.
+struct Ways {
+  bool light;   // SampleLight
+  bool cosine;  // SampleCosine, for the diffuse part; SampleLobe always is, for the specular part
+};
+
+float NDotL(const Surface& surface, const Soa3<float>& l, size_t i) {
+  const Soa3<float>& n = surface.normal;
+  return n.x[i] * l.x[i] + n.y[i] * l.y[i] + n.z[i] * l.z[i];
+}
+
+// Lets a unit light shine on the hits that face it along the directions and do not miss it.
+void FaceLight(const Lit& lit) {
+  const LightDirections& directions = lit.c.directions;
+  LightBatch& light = lit.s.light;
+  const Soa3<float>& l = directions.to_light;
+  for (size_t i = 0; i < lit.count(); ++i) {
+    light.to_light.x[i] = l.x[i];
+    light.to_light.y[i] = l.y[i];
+    light.to_light.z[i] = l.z[i];
+    const bool shines = directions.distance[i] > 0 && NDotL(lit.s.surface, l, i) > 0;
+    light.irradiance[i] = shines ? 1.0f : 0.0f;
+  }
+  HideTurned(lit.plan, &lit.s);
+}
+
+// Takes the light from the hits that something lies before it for.
+void CastShadows(const Lit& lit) {
+  TileScratch& s = lit.s;
+  const HitBatch& hits = s.hits;
+  const LightDirections& directions = lit.c.directions;
+  ShadowRayBatch& rays = s.shadow_rays;
+  rays.count = 0;
+  for (size_t i = 0; i < hits.count; ++i) {
+    if (!(s.light.irradiance[i] > 0)) continue;
+    if (!lit.planned.trace_all && NeverShadowed(lit.planned, hits.primitive[i])) continue;
+    const size_t ray = rays.count++;
+    s.shadow_hits[ray] = static_cast<uint32_t>(i);
+    rays.primitive[ray] = hits.primitive[i];
+    rays.origin.x[ray] = hits.position.x[i];
+    rays.origin.y[ray] = hits.position.y[i];
+    rays.origin.z[ray] = hits.position.z[i];
+    rays.direction.x[ray] = directions.to_light.x[i];
+    rays.direction.y[ray] = directions.to_light.y[i];
+    rays.direction.z[ray] = directions.to_light.z[i];
+    rays.t_max[ray] = directions.distance[i];
+  }
+  lit.stats->shadow_rays += rays.count;
+  if (rays.count == 0) return;
+  rays.light = lit.planned.occluders;
+  rays.outward = lit.plan.eye_outside;
+  rays.target = lit.planned.primitives;
+  lit.plan.intersector->Occluded(&rays);
+  rays.target = {};
+  for (size_t ray = 0; ray < rays.count; ++ray) {
+    if (rays.occluded[ray] != 0) s.light.irradiance[s.shadow_hits[ray]] = 0;
+  }
+}
+
+void Shadow(const Lit& lit) {
+  lit.clock->Charge(Stage::kLight);
+  if (!lit.planned.shadow_rays) return;
+  CastShadows(lit);
+  lit.clock->Charge(Stage::kShadow);
+}
+
+// What a light of colour 1 reflects along TileScratch::light, into c.unit.
+void ShadeUnit(const Lit& lit) {
+  static const ShadingLight kUnit = [] {
+    ShadingLight light;
+    light.form = LightForm::kGiven;
+    light.color = Rgb(1, 1, 1);
+    return light;
+  }();
+  const LightOnBatch light{&kUnit, &lit.s.light};
+  for (const MaterialRun& run : lit.s.runs) {
+    const LitHits hits{lit.s.hits, lit.s.surface, {&light, 1}, lit.s.textures.get(), true};
+    ShadeRun(lit.MaterialOf(run), hits, run.begin, run.end, &lit.s.narrow, &lit.c.unit);
+  }
+}
+
+// sum += part x c.weight x the radiance that is seen.
+void AddWeighted(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
+  const SampledLight& light = lit.planned.light;
+  const bool colored = IsColored(light);
+  const auto add = [&](const AlignedArray<float>& from, const AlignedArray<float>& radiance,
+                       double color, AlignedArray<float>* to) {
+    const auto scale = static_cast<float>(color);
+    const float* const weight = lit.c.weight.data();
+    for (size_t i = 0; i < lit.count(); ++i) {
+      const float seen = colored ? radiance[i] * scale : scale;
+      (*to)[i] += from[i] * weight[i] * seen;
+    }
+  };
+  const Soa3<float>& radiance = lit.c.directions.radiance;
+  add(part.x, radiance.x, light.color.x, &sum->x);
+  add(part.y, radiance.y, light.color.y, &sum->y);
+  add(part.z, radiance.z, light.color.z, &sum->z);
+}
+
+// c.weight = 1 / c.density; 0 where no light comes from, or no direction is chosen.
+void WeighByDensity(const Lit& lit) {
+  const float* const irradiance = lit.s.light.irradiance.data();
+  for (size_t i = 0; i < lit.count(); ++i) {
+    const bool counts = irradiance[i] > 0 && lit.c.density[i] > 0;
+    lit.c.weight[i] = counts ? 1 / lit.c.density[i] : 0.0f;
+  }
+}
+
+void WeighDiffuse(const Lit& lit, const Ways& ways) {
+  const LightDirections& directions = lit.c.directions;
+  for (size_t i = 0; i < lit.count(); ++i) {
+    float density = ways.light ? directions.density[i] : 0.0f;
+    if (ways.cosine) {
+      density += NDotL(lit.s.surface, directions.to_light, i) * static_cast<float>(M_1_PI);
+    }
+    lit.c.density[i] = lit.planned.closed_form && lit.c.flat[i] != 0 ? 0 : density;
+  }
+  WeighByDensity(lit);
+}
+
+void WeighSpecular(const Lit& lit, const Ways& ways) {
+  const LightDirections& directions = lit.c.directions;
+  for (const MaterialRun& run : lit.s.runs) {
+    LobeDensity(lit.MaterialOf(run), lit.RangeOf(run), lit.s.light, &lit.s.narrow,
+                lit.c.density.data());
+  }
+  if (ways.light) {
+    for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
+  }
+  WeighByDensity(lit);
+}
+
+// Adds what is reflected along the directions, which were chosen in one of the ways.
+void AddDirections(const Lit& lit, const Ways& ways, const Parts& parts) {
+  FaceLight(lit);
+  Shadow(lit);
+  ShadeUnit(lit);
+  if (parts.diffuse) {
+    WeighDiffuse(lit, ways);
+    AddWeighted(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+  }
+  if (parts.specular) {
+    WeighSpecular(lit, ways);
+    AddWeighted(lit, lit.c.unit.specular, &lit.s.single.specular);
+  }
+  lit.stats->shades += lit.count();
+  lit.clock->Charge(Stage::kShade);
+}
+
+// Which hits reflect the light in closed form: those that see all of it, and whose diffuse
+// reflection does not ask where it comes from. Returns whether all do.
+bool FindFlat(const Lit& lit) {
+  bool all = true;
+  for (const MaterialRun& run : lit.s.runs) {
+    const bool flat = lit.planned.closed_form && DiffuseIsFlat(lit.MaterialOf(run));
+    for (size_t i = run.begin; i < run.end; ++i) {
+      lit.c.flat[i] = flat && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
+      all = all && lit.c.flat[i] != 0;
+    }
+  }
+  return all;
+}
+
+// The diffuse part of those: as if all light came along the normal.
+void AddClosedForm(const Lit& lit) {
+  const SampledLight& light = lit.planned.light;
+  Soa3<float>& irradiance = lit.c.directions.radiance;
+  LightIrradiance(light, lit.s.hits, lit.s.surface, &irradiance);
+  const Soa3<float>& n = lit.s.surface.normal;
+  LightBatch& batch = lit.s.light;
+  for (size_t i = 0; i < lit.count(); ++i) {
+    batch.to_light.x[i] = n.x[i];
+    batch.to_light.y[i] = n.y[i];
+    batch.to_light.z[i] = n.z[i];
+    batch.irradiance[i] = lit.c.flat[i] != 0 ? 1.0f : 0.0f;
+    lit.c.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
+  }
+  ShadeUnit(lit);
+  AddWeighted(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+  lit.clock->Charge(Stage::kLight);
+}
+
+void ChoosePoints(const Lit& lit, size_t pair) {
+  SamplePair(lit.plan.pairs, lit.planned.first_pair + pair, lit.c.numbers, lit.s.hits.ray.data(),
+             lit.count(), lit.c.u.data(), lit.c.v.data());
+}
+
+void AddByLight(const Lit& lit, const Parts& parts) {
+  ChoosePoints(lit, 0);
+  SampleLight(lit.planned.light, lit.s.hits, lit.c.u.data(), lit.c.v.data(), &lit.c.directions);
+  AddDirections(lit, {true, IsSky(lit.planned.light)}, parts);
+}
+
+void AddByCosine(const Lit& lit) {
+  ChoosePoints(lit, 1);
+  SampleCosine(lit.s.surface, lit.count(), lit.c.u.data(), lit.c.v.data(),
+               &lit.c.directions.to_light);
+  FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
+  AddDirections(lit, {HasSampler(lit.planned.light), true}, {true, false});
+}
+
+void AddByLobe(const Lit& lit) {
+  ChoosePoints(lit, 2);
+  // Hits without a lobe look along their normals, and reflect nothing of it.
+  Soa3<float>& to_light = lit.c.directions.to_light;
+  const Soa3<float>& n = lit.s.surface.normal;
+  std::copy_n(n.x.data(), lit.count(), to_light.x.data());
+  std::copy_n(n.y.data(), lit.count(), to_light.y.data());
+  std::copy_n(n.z.data(), lit.count(), to_light.z.data());
+  for (const MaterialRun& run : lit.s.runs) {
+    SampleLobe(lit.MaterialOf(run), lit.RangeOf(run), lit.c.u.data(), lit.c.v.data(), &to_light);
+  }
+  FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
+  AddDirections(lit, {HasSampler(lit.planned.light), false}, {false, true});
+}
+
+// Perfect mirrors see the light in one direction.
+void AddByMirror(const Lit& lit) {
+  TileScratch& s = lit.s;
+  MirrorDirections({s.hits, s.surface, 0, lit.count()}, &lit.c.directions.to_light);
+  FindLight(lit.planned.light, s.hits, &lit.c.directions);
+  ClearRadiance(lit.count(), &lit.c.unit);
+  FaceLight(lit);
+  for (const MaterialRun& run : s.runs) {
+    if (HasDeltaLobe(lit.MaterialOf(run))) {
+      MirrorReflectance(lit.MaterialOf(run), lit.RangeOf(run), &lit.c.unit.specular);
+    } else {
+      std::fill(s.light.irradiance.data() + run.begin, s.light.irradiance.data() + run.end, 0.0f);
+    }
+  }
+  Shadow(lit);
+  std::copy_n(s.light.irradiance.data(), lit.count(), lit.c.weight.data());
+  AddWeighted(lit, lit.c.unit.specular, &s.single.specular);
+  lit.clock->Charge(Stage::kShade);
+}
+
+void ShadeByOne(const Lit& lit) {
+  bool lobes = false, mirrors = false;
+  for (const MaterialRun& run : lit.s.runs) {
+    lobes = lobes || HasSampledLobe(lit.MaterialOf(run));
+    mirrors = mirrors || HasDeltaLobe(lit.MaterialOf(run));
+  }
+  const bool sampled_diffuse = !FindFlat(lit);
+  if (lit.planned.closed_form) AddClosedForm(lit);
+  if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
+    AddByLight(lit, {sampled_diffuse, lobes});
+  }
+  if (IsSky(lit.planned.light) && sampled_diffuse) AddByCosine(lit);
+  if (lobes) AddByLobe(lit);
+  if (mirrors) AddByMirror(lit);
+}
+
+}  // namespace
+
+void ShadeBySampledLights(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,
+                          RenderStats* stats) {
+  TileScratch& s = *scratch;
+  for (const PlannedSampledLight& planned : plan.sampled_lights) {
+    ++stats->light_batches;
+    ClearRadiance(s.hits.count, &s.single);
+    ShadeByOne({plan, planned, s, *s.sampled, clock, stats});
+    KeepLight(planned.layer, &s);
+  }
+}
+
+}  // namespace nacre

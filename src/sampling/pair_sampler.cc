@@ -1,0 +1,40 @@
+#include "sampling/pair_sampler.h"
+
+#include "sampling/hash.h"
+#include "sampling/sobol.h"
+
+namespace nacre {
+
+PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed) {
+  PairSampler sampler;
+  sampler.samples = static_cast<size_t>(samples);
+  sampler.u_bits.reserve(pairs * sampler.samples);
+  sampler.v_bits.reserve(pairs * sampler.samples);
+  for (size_t pair = 0; pair < pairs; ++pair) {
+    for (uint32_t i = 0; i < sampler.samples; ++i) {
+      const Vec2d point = SobolSample2D(i, static_cast<uint32_t>(1 + pair), seed);
+      sampler.u_bits.push_back(static_cast<uint32_t>(point.x * 0x1p32));  // exact
+      sampler.v_bits.push_back(static_cast<uint32_t>(point.y * 0x1p32));
+    }
+  }
+  return sampler;
+}
+
+void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& samples,
+                const uint32_t* entries, size_t count, float* u, float* v) {
+  const uint32_t* const u_bits = sampler.u_bits.data() + pair * sampler.samples;
+  const uint32_t* const v_bits = sampler.v_bits.data() + pair * sampler.samples;
+  // Odd, and so a bijection of the seeds; the pixel sampler's own shift is pair 0's, unmixed.
+  const uint64_t key = (pair + 1) * 0x9e3779b97f4a7c15u;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t entry = entries[i];
+    const uint32_t number = samples.number[entry];
+    const uint64_t shift = Mix64(samples.pixel[entry] + key);
+    // The upper 24 bits: a float below 1.
+    u[i] = static_cast<float>((u_bits[number] ^ static_cast<uint32_t>(shift)) >> 8) * 0x1p-24f;
+    v[i] =
+        static_cast<float>((v_bits[number] ^ static_cast<uint32_t>(shift >> 32)) >> 8) * 0x1p-24f;
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,35 @@
+// sampling/pair_sampler.h: the points that a sample takes besides its place in the pixel: on
+// lights and in lobes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/aligned.h"
+
+namespace nacre {
+
+// Pair p of sample i is the pair of dimensions 2 (1 + p) of the point whose first two place the
+// sample in its pixel (PixelSampler), so that few samples of a pixel are well distributed over
+// all that they stand for. As there each pixel shifts the digits by random numbers of its own.
+struct PairSampler {
+  size_t samples = 0;                    // a pixel
+  std::vector<uint32_t> u_bits, v_bits;  // pair by pair, of each the points of all samples
+};
+
+// samples in [1, 65536].
+PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed);
+
+// Which sample each entry is: its number among its pixel's, and the pixel's PixelSeed.
+struct SampleNumbers {
+  explicit SampleNumbers(size_t capacity) : number(capacity), pixel(capacity) {}
+  AlignedArray<uint32_t> number;
+  AlignedArray<uint64_t> pixel;
+};
+
+// The pair of the samples entries[0..count), in [0, 1).
+void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& samples,
+                const uint32_t* entries, size_t count, float* u, float* v);
+
+}  // namespace nacre

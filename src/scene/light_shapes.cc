@@ -1,0 +1,114 @@
+#include "scene/light_shapes.h"
+
+#include <cmath>
+#include <utility>
+
+namespace nacre {
+namespace {
+
+// 1 - cos(pi / n) is below 5e-6.
+constexpr uint32_t kDiskCorners = 1024;
+
+template <class AreaLight>
+MaterialId AddMaterial(const std::string& name, const AreaLight& light, bool two_sided,
+                       Scene* scene) {
+  Material& material = scene->materials.emplace_back();
+  material.name = "light " + name;
+  material.emission = light.radiance;
+  material.emits_in_front_only = !two_sided;
+  material.model = LambertMaterial{Rgb(0, 0, 0)};
+  return {static_cast<uint32_t>(scene->materials.size() - 1)};
+}
+
+Mesh MakeMesh(const RectangleAreaLight& light) {
+  const auto [corner, x, y] = CornersOf(light);
+  Mesh mesh;
+  mesh.positions = {corner, corner + x, corner + x + y, corner + y};
+  mesh.triangles = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+Mesh MakeMesh(const DiskAreaLight& light) {
+  Vec3d x, y;
+  MakeTangents(light.facing, &x, &y);
+  Mesh mesh;
+  mesh.positions.reserve(kDiskCorners);
+  for (uint32_t i = 0; i < kDiskCorners; ++i) {
+    const double angle = 2 * M_PI * i / kDiskCorners;
+    mesh.positions.push_back(light.center +
+                             (x * std::cos(angle) + y * std::sin(angle)) * light.radius);
+  }
+  // A fan from corner to corner, of about equal pieces at each halving, has no needles.
+  for (uint32_t step = 1; step < kDiskCorners; step *= 2) {
+    for (uint32_t i = 0; i + step < kDiskCorners; i += 2 * step) {
+      const uint32_t last = (i + 2 * step) % kDiskCorners;
+      if (last == i) continue;  // the two halves meet in one line
+      mesh.triangles.insert(mesh.triangles.end(), {i, i + step, last});
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+RectangleCorners CornersOf(const RectangleAreaLight& light) {
+  const Vec3d normal = light.facing.normalized();
+  const Vec3d right = light.up.normalized().cross(normal).normalized();
+  const Vec3d edge_x = right * light.width;
+  const Vec3d edge_y = normal.cross(right) * light.height;
+  return {light.center - edge_x / 2 - edge_y / 2, edge_x, edge_y};
+}
+
+void MakeTangents(const Vec3d& normal, Vec3d* tangent_x, Vec3d* tangent_y) {
+  const Vec3d n = normal.normalized();
+  const Vec3d helper = std::abs(n.x) < 0.5 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
+  *tangent_x = helper.cross(n).normalized();
+  *tangent_y = n.cross(*tangent_x);
+}
+
+std::optional<LightBall> VisibleBall(const Light& light) {
+  if (const auto* sphere = std::get_if<SphereAreaLight>(&light.kind)) {
+    if (sphere->visible) return LightBall{sphere->center, sphere->radius};
+  } else if (const auto* rectangle = std::get_if<RectangleAreaLight>(&light.kind)) {
+    if (rectangle->visible) {
+      return LightBall{rectangle->center, std::hypot(rectangle->width, rectangle->height) / 2};
+    }
+  } else if (const auto* disk = std::get_if<DiskAreaLight>(&light.kind)) {
+    if (disk->visible) return LightBall{disk->center, disk->radius};
+  }
+  return std::nullopt;
+}
+
+SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& shown) {
+  SceneWithLights result{scene, {}};
+  Scene& with = result.scene;
+  result.primitives.resize(scene.lights.size());
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    const auto* sphere = std::get_if<SphereAreaLight>(&scene.lights[i].kind);
+    if (sphere == nullptr || !shown[i]) continue;
+    const auto number = static_cast<uint32_t>(with.spheres.size());
+    result.primitives[i] = {number, number + 1};
+    with.spheres.push_back(
+        {sphere->center, sphere->radius, AddMaterial(scene.lights[i].name, *sphere, false, &with)});
+  }
+  uint32_t next = static_cast<uint32_t>(with.spheres.size());
+  for (const Mesh& mesh : scene.meshes) next += static_cast<uint32_t>(mesh.triangles.size() / 3);
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    if (!shown[i]) continue;
+    const auto add = [&](const auto& light) {
+      Mesh mesh = MakeMesh(light);
+      mesh.name = "light " + scene.lights[i].name;
+      mesh.material = AddMaterial(scene.lights[i].name, light, light.two_sided, &with);
+      const auto triangles = static_cast<uint32_t>(mesh.triangles.size() / 3);
+      result.primitives[i] = {next, next + triangles};
+      next += triangles;
+      with.meshes.push_back(std::move(mesh));
+    };
+    if (const auto* rectangle = std::get_if<RectangleAreaLight>(&scene.lights[i].kind))
+      add(*rectangle);
+    if (const auto* disk = std::get_if<DiskAreaLight>(&scene.lights[i].kind)) add(*disk);
+  }
+  return result;
+}
+
+}  // namespace nacre

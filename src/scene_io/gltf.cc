@@ -1,0 +1,156 @@
+#include "scene_io/gltf.h"
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene_io/gltf_document.h"
+#include "scene_io/gltf_lights.h"
+#include "scene_io/gltf_materials.h"
+#include "scene_io/gltf_meshes.h"
+
+namespace nacre {
+namespace {
+
+// Row vectors: the order of the numbers in the file, whose vectors are columns and whose matrices
+// are stored by columns.
+Imath::M44d MatrixOf(const GltfDocument& document, const tinygltf::Node& node,
+                     const std::string& place) {
+  Imath::M44d matrix;
+  if (!node.matrix.empty()) {
+    for (size_t i = 0; i < 16; ++i) matrix[static_cast<int>(i / 4)][i % 4] = node.matrix[i];
+    if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
+      document.Refuse(place + "/matrix", "is no matrix of translation, rotation and scale",
+                      "its last row is 0, 0, 0, 1");
+    }
+    return matrix;
+  }
+  if (!node.scale.empty()) matrix.scale(Vec3d(node.scale[0], node.scale[1], node.scale[2]));
+  if (!node.rotation.empty()) {
+    const auto& q = node.rotation;
+    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    if (!(length > 0) || !std::isfinite(length)) {
+      document.Refuse(place + "/rotation", "is no rotation", "a quaternion of length 1");
+    }
+    const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
+    matrix = matrix * Imath::M44d(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w),
+                                  0, 2 * (x * y - z * w), 1 - 2 * (x * x + z * z),
+                                  2 * (y * z + x * w), 0, 2 * (x * z + y * w), 2 * (y * z - x * w),
+                                  1 - 2 * (x * x + y * y), 0, 0, 0, 0, 1);
+  }
+  if (!node.translation.empty()) {
+    const auto& t = node.translation;
+    for (int c = 0; c < 3; ++c) matrix[3][c] = t[static_cast<size_t>(c)];
+  }
+  return matrix;
+}
+
+// The nodes at the top of the default scene, or, in a file without scenes, those without a parent.
+std::vector<int> RootsOf(const GltfDocument& document) {
+  const tinygltf::Model& model = document.model;
+  if (!model.scenes.empty()) {
+    const int scene = std::max(model.defaultScene, 0);
+    if (static_cast<size_t>(scene) >= model.scenes.size()) {
+      document.Refuse("/scene", fmt::format("there is no scene {}", scene),
+                      fmt::format("the file has {}", model.scenes.size()));
+    }
+    return model.scenes[static_cast<size_t>(scene)].nodes;
+  }
+  std::vector<bool> has_parent(model.nodes.size());
+  for (const tinygltf::Node& node : model.nodes) {
+    for (const int child : node.children) {
+      if (child >= 0 && static_cast<size_t>(child) < has_parent.size()) {
+        has_parent[static_cast<size_t>(child)] = true;
+      }
+    }
+  }
+  std::vector<int> roots;
+  for (size_t i = 0; i < has_parent.size(); ++i) {
+    if (!has_parent[i]) roots.push_back(static_cast<int>(i));
+  }
+  return roots;
+}
+
+// Walks the nodes from the roots, parents first, in the order of the file.
+class NodeWalk {
+ public:
+  NodeWalk(GltfDocument* document, Scene* scene) : document_(*document), scene_(*scene) {}
+
+  bool has_camera() const { return has_camera_; }
+
+  void Run() {
+    Push(RootsOf(document_), Imath::M44d());
+    std::vector<bool> seen(document_.model.nodes.size());
+    while (!stack_.empty()) {
+      const Visit visit = stack_.back();
+      stack_.pop_back();
+      const std::string place = fmt::format("/nodes/{}", visit.node);
+      if (visit.node < 0 || static_cast<size_t>(visit.node) >= seen.size()) {
+        document_.Refuse(place, "there is no such node",
+                         fmt::format("the file has {}", seen.size()));
+      }
+      const auto index = static_cast<size_t>(visit.node);
+      if (seen[index]) document_.Refuse(place, "is in the scene twice, or below itself");
+      seen[index] = true;
+      const tinygltf::Node& node = document_.model.nodes[index];
+      const Imath::M44d world = MatrixOf(document_, node, place) * visit.world_from_parent;
+      Add(node, place, world);
+      Push(node.children, world);
+    }
+  }
+
+ private:
+  struct Visit {
+    int node;
+    Imath::M44d world_from_parent;
+  };
+
+  void Push(const std::vector<int>& nodes, const Imath::M44d& world) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack_.push_back({*node, world});
+  }
+
+  void Add(const tinygltf::Node& node, const std::string& place, const Imath::M44d& world) {
+    if (node.skin >= 0) {
+      document_.Warn("skins are left out: meshes are shown as they are before posing");
+    }
+    if (node.mesh >= 0) {
+      AddGltfMesh(node.mesh, node.name, world, &document_, &budget_, &scene_);
+    }
+    if (node.camera >= 0 && !has_camera_) {
+      scene_.camera = MakeGltfCamera(document_, node.camera, world);
+      has_camera_ = true;
+    }
+    const auto light = node.extensions.find("KHR_lights_punctual");
+    if (light == node.extensions.end()) return;
+    if (!light->second.Has("light") || !light->second.Get("light").IsInt()) {
+      document_.Refuse(place + "/extensions/KHR_lights_punctual", "has no \"light\"");
+    }
+    AddGltfLight(light->second.Get("light").GetNumberAsInt(), world, &document_, &scene_);
+  }
+
+  GltfDocument& document_;
+  Scene& scene_;
+  GltfBudget budget_;
+  std::vector<Visit> stack_;  // not recursion: nodes may be nested a million deep
+  bool has_camera_ = false;
+};
+
+}  // namespace
+
+Scene ReadGltf(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera) {
+  GltfDocument document = ReadGltfDocument(path, options);
+  Scene scene;
+  scene.materials = MakeGltfMaterials(&document);
+  NodeWalk walk(&document, &scene);
+  walk.Run();
+  *has_camera = walk.has_camera();
+  if (!document.model.animations.empty()) {
+    document.Warn("animations are left out: nodes are where they are without them");
+  }
+  if (scene.meshes.empty()) document.Refuse({}, "has no triangles in its scene");
+  return scene;
+}
+
+}  // namespace nacre

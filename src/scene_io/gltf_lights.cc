@@ -1,0 +1,132 @@
+#include "scene_io/gltf_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "scene/limits.h"
+#include "scene/validate.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+// A direction of the node in the world.
+Vec3d DirectionOf(const Imath::M44d& world_from_node, const Vec3d& direction) {
+  Vec3d result;
+  world_from_node.multDirMatrix(direction, result);
+  return result.normalized();
+}
+
+// A name that can name a layer and that no other light has.
+std::string UniqueName(const std::string& wanted, const Scene& scene) {
+  std::string name = wanted.empty() ? "light" : wanted.substr(0, 48);
+  for (char& c : name) {
+    if (!IsLayerName(std::string(1, c))) c = '_';
+  }
+  const auto is_taken = [&](const std::string& candidate) {
+    return std::any_of(scene.lights.begin(), scene.lights.end(),
+                       [&](const Light& light) { return light.name == candidate; });
+  };
+  if (!is_taken(name)) return name;
+  return fmt::format("{} {}", name, scene.lights.size());
+}
+
+SpotLight MakeSpot(const tinygltf::Light& light, const std::string& place,
+                   const Imath::M44d& world_from_node, GltfDocument* document) {
+  SpotLight spot;
+  spot.direction_of_travel = DirectionOf(world_from_node, {0, 0, -1});
+  const auto& cone = light.spot;
+  if (!(cone.innerConeAngle >= 0) || !(cone.outerConeAngle >= cone.innerConeAngle) ||
+      !(cone.outerConeAngle > 0) || !(cone.outerConeAngle <= std::numbers::pi / 2 + 1e-6)) {
+    document->Refuse(
+        place + "/spot",
+        fmt::format("its cone is from {} to {}", cone.innerConeAngle, cone.outerConeAngle),
+        "angles in radians, 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+  }
+  spot.cutoff_deg = cone.outerConeAngle * kDegrees;
+  spot.inner_deg = cone.innerConeAngle * kDegrees;
+  if (spot.inner_deg < spot.cutoff_deg) {
+    document->Warn("the edges of spot lights fall off by smoothstep, not by a square");
+  }
+  return spot;
+}
+
+}  // namespace
+
+Camera MakeGltfCamera(const GltfDocument& document, int camera,
+                      const Imath::M44d& world_from_node) {
+  const std::string place = fmt::format("/cameras/{}", camera);
+  const auto& cameras = document.model.cameras;
+  if (camera < 0 || static_cast<size_t>(camera) >= cameras.size()) {
+    document.Refuse(place, "there is no such camera",
+                    fmt::format("the file has {}", cameras.size()));
+  }
+  const tinygltf::Camera& source = cameras[static_cast<size_t>(camera)];
+  Camera result;
+  if (source.type == "perspective") {
+    result.fov_y_deg = source.perspective.yfov * kDegrees;
+    if (!(result.fov_y_deg > 0 && result.fov_y_deg < 180)) {
+      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.perspective.yfov),
+                      "radians, greater than 0 and less than pi");
+    }
+  } else {
+    result.projection = Projection::kOrthographic;
+    result.height = 2 * std::abs(source.orthographic.ymag);
+    if (!limits::kLength.Contains(result.height)) {
+      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.orthographic.ymag),
+                      "half the height of the view, not 0");
+    }
+  }
+  result.position = world_from_node.translation();
+  const Vec3d forward = DirectionOf(world_from_node, {0, 0, -1});
+  result.up = DirectionOf(world_from_node, {0, 1, 0});
+  if (!(forward.length() > 0.5) || !(result.up.length() > 0.5)) {
+    document.Refuse(place, "its node's matrix has no direction");
+  }
+  // Far enough from it that adding the position does not round the direction away.
+  result.look_at = result.position + forward * std::max(result.position.length(), 1.0);
+  return result;
+}
+
+void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* document,
+                  Scene* scene) {
+  const auto& lights = document->model.lights;
+  const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", light);
+  if (light < 0 || static_cast<size_t>(light) >= lights.size()) {
+    document->Refuse(place, "there is no such light",
+                     fmt::format("the file has {}", lights.size()));
+  }
+  const tinygltf::Light& source = lights[static_cast<size_t>(light)];
+  if (!source.color.empty() && source.color.size() != 3) {
+    document->Refuse(place + "/color", "is not an array of 3 numbers");
+  }
+  const Rgb color =
+      source.color.empty() ? Rgb(1) : Rgb(source.color[0], source.color[1], source.color[2]);
+  const Rgb intensity = color * source.intensity;
+  if (source.range > 0) document->Warn("the ranges of lights are left out: they have no end");
+  Light result;
+  result.name = UniqueName(source.name, *scene);
+  if (source.type == "directional") {
+    result.kind = DirectionalLight{DirectionOf(world_from_node, {0, 0, -1}), intensity};
+  } else if (source.type == "point") {
+    PointLight point;
+    point.position = world_from_node.translation();
+    point.intensity = intensity;
+    result.kind = point;
+  } else if (source.type == "spot") {
+    SpotLight spot = MakeSpot(source, place, world_from_node, document);
+    spot.position = world_from_node.translation();
+    spot.intensity = intensity;
+    result.kind = spot;
+  } else {
+    document->Refuse(place + "/type", fmt::format("unknown type \"{}\"", source.type),
+                     "one of: directional, point, spot");
+  }
+  scene->lights.push_back(std::move(result));
+}
+
+}  // namespace nacre

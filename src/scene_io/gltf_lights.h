@@ -1,0 +1,19 @@
+// scene_io/gltf_lights.h: the cameras of a glTF file and its lights (KHR_lights_punctual).
+#pragma once
+
+#include "base/vec.h"
+#include "scene/scene.h"
+#include "scene_io/gltf_document.h"
+
+namespace nacre {
+
+// The file's camera, as the node with this matrix (row vectors) has it. Throws Error (kBadInput)
+// for one that is not there or has no view. Clipping planes are left out: nothing is clipped.
+Camera MakeGltfCamera(const GltfDocument& document, int camera, const Imath::M44d& world_from_node);
+
+// Adds a light of the file to the scene. Intensities are taken as they are: lux as irradiance,
+// candela as radiant intensity.
+void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* document,
+                  Scene* scene);
+
+}  // namespace nacre

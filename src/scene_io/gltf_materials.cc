@@ -1,0 +1,229 @@
+#include "scene_io/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene_io/text_file.h"
+
+namespace nacre {
+namespace {
+
+// Reads the members of one extension of a material.
+class Extension {
+ public:
+  Extension(const GltfDocument& document, const tinygltf::Value& value, std::string place)
+      : document_(document), value_(value), place_(std::move(place)) {}
+
+  double Number(const char* name, double otherwise) const {
+    if (!value_.Has(name)) return otherwise;
+    if (!value_.Get(name).IsNumber()) Refuse(name, "is not a number");
+    return value_.Get(name).GetNumberAsDouble();
+  }
+  Rgb Color(const char* name, const Rgb& otherwise) const {
+    if (!value_.Has(name)) return otherwise;
+    const tinygltf::Value& array = value_.Get(name);
+    if (!array.IsArray() || array.ArrayLen() < 3) Refuse(name, "is not an array of numbers");
+    Rgb color;
+    for (int c = 0; c < 3; ++c) {
+      if (!array.Get(c).IsNumber()) Refuse(name, "is not an array of numbers");
+      color[c] = array.Get(c).GetNumberAsDouble();
+    }
+    return color;
+  }
+  bool Has(const char* name) const { return value_.Has(name); }
+
+ private:
+  [[noreturn]] void Refuse(const char* name, const char* what) const {
+    document_.Refuse(place_ + "/" + name, what);
+  }
+
+  const GltfDocument& document_;
+  const tinygltf::Value& value_;
+  std::string place_;
+};
+
+std::optional<Extension> FindExtension(const GltfDocument& document,
+                                       const tinygltf::Material& material, size_t index,
+                                       const char* name) {
+  const auto found = material.extensions.find(name);
+  if (found == material.extensions.end()) return std::nullopt;
+  return Extension(document, found->second,
+                   fmt::format("/materials/{}/extensions/{}", index, name));
+}
+
+Rgb ColorOf(const std::vector<double>& factor, const Rgb& otherwise) {
+  return factor.size() < 3 ? otherwise : Rgb(factor[0], factor[1], factor[2]);
+}
+
+// The index of refraction whose reflectance at normal incidence is f0.
+double IorOf(double f0) { return (1 + std::sqrt(f0)) / (1 - std::sqrt(f0)); }
+
+// KHR_materials_ior and KHR_materials_specular change what a dielectric reflects. A clear coat by
+// Schlick's curve over a diffuse base is the same model with that reflectance free; what it cannot
+// say is left out.
+void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material, size_t index,
+                      Material* result) {
+  const auto ior = FindExtension(*document, material, index, "KHR_materials_ior");
+  const auto specular = FindExtension(*document, material, index, "KHR_materials_specular");
+  if (!ior && !specular) return;
+  const double n = ior ? ior->Number("ior", 1.5) : 1.5;
+  const double weight = specular ? specular->Number("specularFactor", 1) : 1;
+  const Rgb tint = specular ? specular->Color("specularColorFactor", Rgb(1)) : Rgb(1);
+  const auto& base = std::get<MetallicRoughnessMaterial>(result->model);
+  if (base.metallic == 1 || (n == 1.5 && weight == 1 && tint == Rgb(1))) return;
+  if (base.metallic == 0 && weight == 0) {
+    result->model = LambertMaterial{base.base_color};
+    return;
+  }
+  const double f0 = std::min((n - 1) * (n - 1) / ((n + 1) * (n + 1)) * tint.x, 1.0);
+  const bool is_grey = tint.x == tint.y && tint.y == tint.z;
+  const double equivalent = IorOf(f0);
+  if (base.metallic != 0 || weight != 1 || !is_grey || !(n >= 1) || !(equivalent <= 10)) {
+    document->Warn(fmt::format(
+        "material \"{}\": its ior or specular factors are left out (they are shown where metallic "
+        "is 0, specularFactor 0 or 1, and specularColorFactor grey)",
+        result->name));
+    return;
+  }
+  DielectricMaterial coat;
+  coat.base_color = base.base_color;
+  coat.ior = n == IorOf(0.04) && tint == Rgb(1) ? n : equivalent;
+  coat.roughness = base.roughness;
+  coat.fresnel = DielectricFresnel::kSchlick;
+  result->model = coat;
+}
+
+// Metallic and base colour with about the same diffuse and specular reflectances, after the
+// conversion in the appendix of KHR_materials_pbrSpecularGlossiness: equal brightness of the
+// specular reflectance decides the metallic.
+MetallicRoughnessMaterial FromSpecularGlossiness(const Extension& extension) {
+  const Rgb diffuse = extension.Color("diffuseFactor", Rgb(1));
+  const Rgb specular = extension.Color("specularFactor", Rgb(1));
+  const auto brightness = [](const Rgb& c) {
+    return std::sqrt(0.299 * c.x * c.x + 0.587 * c.y * c.y + 0.114 * c.z * c.z);
+  };
+  constexpr double kDielectric = 0.04;
+  const double rest = 1 - std::max({specular.x, specular.y, specular.z});
+  const double ks = brightness(specular), kd = brightness(diffuse);
+  double metallic = 0;
+  if (ks > kDielectric) {
+    const double b = kd * rest / (1 - kDielectric) + ks - 2 * kDielectric;
+    const double discriminant = std::max(b * b - 4 * kDielectric * (kDielectric - ks), 0.0);
+    metallic = std::clamp((-b + std::sqrt(discriminant)) / (2 * kDielectric), 0.0, 1.0);
+  }
+  MetallicRoughnessMaterial result;
+  for (int c = 0; c < 3; ++c) {
+    const double from_diffuse =
+        metallic < 1 ? diffuse[c] * rest / ((1 - kDielectric) * (1 - metallic)) : 0;
+    const double from_specular =
+        metallic > 0 ? (specular[c] - kDielectric * (1 - metallic)) / metallic : 0;
+    const double share = metallic * metallic;
+    result.base_color[c] =
+        std::clamp(from_diffuse + (from_specular - from_diffuse) * share, 0.0, 1.0);
+  }
+  result.metallic = metallic;
+  result.roughness = std::clamp(1 - extension.Number("glossinessFactor", 1), 0.0, 1.0);
+  return result;
+}
+
+Rgb EmissionOf(const GltfDocument& document, const tinygltf::Material& material, size_t index) {
+  const auto strength = FindExtension(document, material, index, "KHR_materials_emissive_strength");
+  return ColorOf(material.emissiveFactor, Rgb(0)) *
+         (strength ? strength->Number("emissiveStrength", 1) : 1);
+}
+
+void WarnOfImages(const tinygltf::Material& material, GltfDocument* document) {
+  const auto& pbr = material.pbrMetallicRoughness;
+  for (const int index : {pbr.baseColorTexture.index, pbr.metallicRoughnessTexture.index,
+                          material.normalTexture.index, material.emissiveTexture.index}) {
+    if (index >= 0) document->Warn("images are not shown, only the factors of materials");
+  }
+}
+
+Material MakeMaterial(GltfDocument* document, size_t index, std::string name) {
+  const tinygltf::Material& material = document->model.materials[index];
+  const auto& pbr = material.pbrMetallicRoughness;
+  Material result;
+  result.name = std::move(name);
+  WarnOfImages(material, document);
+  if (!material.alphaMode.empty() && material.alphaMode != "OPAQUE") {
+    document->Warn("transparency is not shown: all materials are opaque");
+  }
+  const Rgb base_color = ColorOf(pbr.baseColorFactor, Rgb(1));
+  if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
+    result.model = LambertMaterial{Rgb(0)};
+    result.emission = base_color;
+    return result;
+  }
+  result.emission = EmissionOf(*document, material, index);
+  if (const auto glossiness =
+          FindExtension(*document, material, index, "KHR_materials_pbrSpecularGlossiness")) {
+    document->Warn("specular-glossiness materials are shown as the nearest metallic-roughness");
+    result.model = FromSpecularGlossiness(*glossiness);
+    return result;
+  }
+  MetallicRoughnessMaterial metallic_roughness;
+  metallic_roughness.base_color = base_color;
+  metallic_roughness.metallic = pbr.metallicFactor;
+  metallic_roughness.roughness = pbr.roughnessFactor;
+  result.model = metallic_roughness;
+  ApplyReflectance(document, material, index, &result);
+  return result;
+}
+
+}  // namespace
+
+GltfImage FindGltfImage(const GltfDocument& document, int image) {
+  const tinygltf::Model& model = document.model;
+  const std::string place = fmt::format("/images/{}", image);
+  if (image < 0 || static_cast<size_t>(image) >= model.images.size()) {
+    document.Refuse(place, "there is no such image",
+                    fmt::format("the file has {}", model.images.size()));
+  }
+  const tinygltf::Image& source = model.images[static_cast<size_t>(image)];
+  if (source.bufferView < 0 && source.uri.empty()) return {{}, source.image};  // of a data URI
+  if (source.bufferView < 0) {
+    try {
+      return {ResolveReference(document.folder, source.uri, document.allow_paths), {}};
+    } catch (const Error& error) {
+      document.Refuse(place, error.faults().front().what, error.faults().front().hint);
+    }
+  }
+  if (static_cast<size_t>(source.bufferView) >= model.bufferViews.size()) {
+    document.Refuse(place, fmt::format("there is no buffer view {}", source.bufferView));
+  }
+  const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(source.bufferView)];
+  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model.buffers.size()) {
+    document.Refuse(place, fmt::format("there is no buffer {}", view.buffer));
+  }
+  const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
+  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
+    document.Refuse(place, "reaches beyond its buffer");
+  }
+  const auto first = data.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
+  return {{}, {first, first + static_cast<std::ptrdiff_t>(view.byteLength)}};
+}
+
+std::vector<Material> MakeGltfMaterials(GltfDocument* document) {
+  std::vector<Material> materials;
+  const size_t count = document->model.materials.size();
+  materials.reserve(count + 1);
+  std::unordered_set<std::string> names;
+  for (size_t i = 0; i < count; ++i) {
+    std::string name = document->model.materials[i].name;
+    if (name.empty() || !names.insert(name).second) name += fmt::format("#{}", i);
+    names.insert(name);
+    materials.push_back(MakeMaterial(document, i, std::move(name)));
+  }
+  // The defaults of the specification: white, metallic 1, roughness 1, which few files mean.
+  Material& otherwise = materials.emplace_back();
+  otherwise.name = "default";
+  otherwise.model = MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 1};
+  return materials;
+}
+
+}  // namespace nacre

@@ -1,0 +1,25 @@
+// scene_io/gltf_materials.h: the materials of a glTF file as materials of the scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "scene_io/gltf_document.h"
+
+namespace nacre {
+
+// Where an image of the file is: a file of its own, or bytes within.
+struct GltfImage {
+  std::filesystem::path file;        // resolved; empty: `bytes` hold it
+  std::vector<unsigned char> bytes;  // encoded (PNG, JPEG...)
+};
+
+// Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder.
+GltfImage FindGltfImage(const GltfDocument& document, int image);
+
+// A material for each of the file's, by the same number, with unique names, and after them the one
+// of primitives that name none. Factors only: images are told to be left out, once.
+std::vector<Material> MakeGltfMaterials(GltfDocument* document);
+
+}  // namespace nacre

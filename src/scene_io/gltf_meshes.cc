@@ -1,0 +1,235 @@
+#include "scene_io/gltf_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "scene/limits.h"
+#include "scene/mesh.h"
+#include "scene_io/gltf_accessor.h"
+
+namespace nacre {
+namespace {
+
+// A primitive on its way into the scene.
+struct Primitive {
+  const tinygltf::Primitive& source;
+  std::string place;
+  // The elements of the accessors that triangles use, ascending, and three indices into them for
+  // each triangle.
+  std::vector<uint32_t> vertices;
+  std::vector<uint32_t> triangles;
+};
+
+int AttributeOf(const Primitive& primitive, const char* name) {
+  const auto found = primitive.source.attributes.find(name);
+  return found == primitive.source.attributes.end() ? -1 : found->second;
+}
+
+// Which corners, as numbered by the primitive, triangle i has.
+std::array<size_t, 3> CornersOf(int mode, size_t i) {
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) return {i, i + 1 + i % 2, i + 2 - i % 2};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {i + 1, i + 2, 0};
+  return {3 * i, 3 * i + 1, 3 * i + 2};
+}
+
+// How many triangles `corners` make; refuses what are no whole ones.
+size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, size_t corners) {
+  const bool is_list = primitive.source.mode == TINYGLTF_MODE_TRIANGLES;
+  if (corners < 3 || (is_list && corners % 3 != 0)) {
+    document.Refuse(primitive.place, fmt::format("{} corners are no whole triangles", corners));
+  }
+  return is_list ? corners / 3 : corners - 2;
+}
+
+void Spend(uint64_t corners, const GltfDocument& document, GltfBudget* budget) {
+  if (corners > budget->corners) {
+    document.Refuse({}, "has more than 100 million triangles, counted as often as nodes show them");
+  }
+  budget->corners -= corners;
+}
+
+// Indices into the accessors, three a triangle.
+std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitive& primitive,
+                                    size_t vertex_count, GltfBudget* budget) {
+  std::vector<uint32_t> triangles;
+  const auto fill = [&](size_t corners, const auto& index_of) {
+    const size_t count = TriangleCount(document, primitive, corners);
+    Spend(3 * uint64_t{count}, document, budget);
+    triangles.reserve(3 * count);
+    for (size_t i = 0; i < count; ++i) {
+      for (const size_t corner : CornersOf(primitive.source.mode, i)) {
+        triangles.push_back(index_of(corner));
+      }
+    }
+  };
+  if (primitive.source.indices < 0) {
+    fill(vertex_count, [](size_t corner) { return static_cast<uint32_t>(corner); });
+    return triangles;
+  }
+  const GltfAccessor indices(document, primitive.source.indices, TINYGLTF_TYPE_SCALAR);
+  if (!indices.is_unsigned()) {
+    document.Refuse(indices.place() + "/componentType", "indices are of an unsigned type");
+  }
+  fill(indices.count(), [&](size_t corner) {
+    const uint32_t index = indices.Index(corner);
+    if (index >= vertex_count) {
+      document.Refuse(indices.place(), fmt::format("index {} at {}", index, corner),
+                      fmt::format("there are {} positions", vertex_count));
+    }
+    return index;
+  });
+  return triangles;
+}
+
+// Keeps only what is used: primitives may share long accessors.
+void Compact(Primitive* primitive) {
+  std::vector<uint32_t>& vertices = primitive->vertices;
+  vertices = primitive->triangles;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  if (vertices.back() + size_t{1} == vertices.size()) return;
+  for (uint32_t& index : primitive->triangles) {
+    const auto found = std::lower_bound(vertices.begin(), vertices.end(), index);
+    index = static_cast<uint32_t>(found - vertices.begin());
+  }
+}
+
+Vec3d Triple(const GltfAccessor& accessor, size_t element) {
+  return {accessor.Number(element, 0), accessor.Number(element, 1), accessor.Number(element, 2)};
+}
+
+void CheckCount(const GltfDocument& document, const GltfAccessor& accessor, size_t positions) {
+  if (accessor.count() == positions) return;
+  document.Refuse(accessor.place() + "/count",
+                  fmt::format("{} elements for {} positions", accessor.count(), positions));
+}
+
+void ReadPositions(const GltfDocument& document, const Primitive& primitive,
+                   const GltfAccessor& accessor, const Imath::M44d& world_from_node, Mesh* mesh) {
+  mesh->positions.reserve(primitive.vertices.size());
+  for (const uint32_t element : primitive.vertices) {
+    Vec3d position;
+    world_from_node.multVecMatrix(Triple(accessor, element), position);
+    for (int c = 0; c < 3; ++c) {
+      if (limits::kCoordinate.Contains(position[c])) continue;
+      document.Refuse(accessor.place(), fmt::format("position {} is out of range", element),
+                      "in the world each coordinate is " + Describe(limits::kCoordinate));
+    }
+    mesh->positions.push_back(position);
+  }
+}
+
+void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_t positions,
+                 const Imath::M44d& world_from_node, Mesh* mesh) {
+  const int index = AttributeOf(primitive, "NORMAL");
+  if (index < 0) return;  // "flat normals", says the specification: those of the faces
+  const GltfAccessor accessor(document, index, TINYGLTF_TYPE_VEC3);
+  CheckCount(document, accessor, positions);
+  // Normals go by the inverse transpose: the cofactors, which do not mind a determinant of 0.
+  const auto row = [&](int i) {
+    return Vec3d(world_from_node[i][0], world_from_node[i][1], world_from_node[i][2]);
+  };
+  const Vec3d x = row(1).cross(row(2)), y = row(2).cross(row(0)), z = row(0).cross(row(1));
+  const double side = row(0).dot(x) < 0 ? -1 : 1;
+  mesh->normals.reserve(primitive.vertices.size());
+  for (const uint32_t element : primitive.vertices) {
+    const Vec3d normal = Triple(accessor, element);
+    mesh->normals.push_back(((x * normal.x + y * normal.y + z * normal.z) * side).normalized());
+  }
+  MendNormals(mesh);  // some exporters write normals without a direction
+}
+
+void ReadUvs(const GltfDocument& document, const Primitive& primitive, size_t positions,
+             Mesh* mesh) {
+  const int index = AttributeOf(primitive, "TEXCOORD_0");
+  if (index < 0) return;
+  const GltfAccessor accessor(document, index, TINYGLTF_TYPE_VEC2);
+  CheckCount(document, accessor, positions);
+  mesh->uvs.reserve(primitive.vertices.size());
+  for (const uint32_t element : primitive.vertices) {
+    // There (0, 0) is an image's top left.
+    const Vec2d uv(accessor.Number(element, 0), 1 - accessor.Number(element, 1));
+    if (!limits::kCoordinate.Contains(uv.x) || !limits::kCoordinate.Contains(uv.y)) {
+      document.Refuse(accessor.place(),
+                      fmt::format("texture coordinate {} is out of range", element));
+    }
+    mesh->uvs.push_back(uv);
+  }
+}
+
+MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {
+  const auto count = static_cast<uint32_t>(document.model.materials.size());
+  const int index = primitive.source.material;
+  if (index < 0) return {count};  // the default one, after all others
+  if (static_cast<uint32_t>(index) >= count) {
+    document.Refuse(primitive.place + "/material", fmt::format("there is no material {}", index),
+                    fmt::format("the file has {}", count));
+  }
+  return {static_cast<uint32_t>(index)};
+}
+
+void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
+  if (AttributeOf(primitive, "COLOR_0") >= 0) document->Warn("vertex colours are not shown");
+  if (!primitive.source.targets.empty()) {
+    document->Warn("morph targets are left out: meshes are shown in their basic form");
+  }
+}
+
+void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44d& world_from_node,
+                  GltfDocument* document, GltfBudget* budget, Scene* scene) {
+  const int mode = primitive.source.mode;
+  if (mode < TINYGLTF_MODE_TRIANGLES) {
+    document->Warn("points and lines are not shown");
+    return;
+  }
+  if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+    document->Refuse(primitive.place + "/mode", fmt::format("{} is none", mode), "from 0 to 6");
+  }
+  WarnOfRest(primitive, document);
+  if (AttributeOf(primitive, "POSITION") < 0) {
+    document->Warn("primitives without positions are left out");
+    return;
+  }
+  const GltfAccessor positions(*document, AttributeOf(primitive, "POSITION"), TINYGLTF_TYPE_VEC3);
+  primitive.triangles = ReadTriangles(*document, primitive, positions.count(), budget);
+  Compact(&primitive);
+  Mesh mesh;
+  mesh.name = name;
+  mesh.material = MaterialOf(*document, primitive);
+  mesh.triangles = std::move(primitive.triangles);
+  ReadPositions(*document, primitive, positions, world_from_node, &mesh);
+  ReadNormals(*document, primitive, positions.count(), world_from_node, &mesh);
+  ReadUvs(*document, primitive, positions.count(), &mesh);
+  if (world_from_node.determinant() < 0) {
+    for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+      std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
+    }
+  }
+  if (!HasArea(mesh)) {
+    document->Warn("meshes without any area are left out");
+    return;
+  }
+  scene->meshes.push_back(std::move(mesh));
+}
+
+}  // namespace
+
+void AddGltfMesh(int mesh, const std::string& name, const Imath::M44d& world_from_node,
+                 GltfDocument* document, GltfBudget* budget, Scene* scene) {
+  const auto& meshes = document->model.meshes;
+  if (mesh < 0 || static_cast<size_t>(mesh) >= meshes.size()) {
+    document->Refuse(fmt::format("/meshes/{}", mesh), "there is no such mesh",
+                     fmt::format("the file has {}", meshes.size()));
+  }
+  const auto& primitives = meshes[static_cast<size_t>(mesh)].primitives;
+  for (size_t i = 0; i < primitives.size(); ++i) {
+    AddPrimitive({primitives[i], fmt::format("/meshes/{}/primitives/{}", mesh, i), {}, {}}, name,
+                 world_from_node, document, budget, scene);
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,177 @@
+#include "scene_io/model_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <Imath/ImathBox.h>
+
+#include "base/error.h"
+#include "scene_io/overrides.h"
+#include "scene_io/readers.h"
+
+namespace nacre {
+namespace {
+
+// Calls use(point, reach) for balls that hold all shapes between them.
+template <class Use>
+void ForEachPoint(const Scene& scene, const Use& use) {
+  for (const Mesh& mesh : scene.meshes) {
+    for (const Vec3d& position : mesh.positions) use(position, 0.0);
+  }
+  for (const Sphere& sphere : scene.spheres) use(sphere.center, sphere.radius);
+}
+
+// The unit vectors to the right of the camera, up and towards it.
+struct View {
+  Vec3d right, up, back;
+};
+View ViewOf(const Camera& camera) {
+  const Vec3d back = (camera.position - camera.look_at).normalized();
+  const Vec3d right = camera.up.cross(back).normalized();
+  return {right, back.cross(right), back};
+}
+
+Light MakeDirectional(std::string name, const Vec3d& to_light, double irradiance) {
+  Light light;
+  light.name = std::move(name);
+  light.kind = DirectionalLight{-to_light, Rgb(irradiance)};
+  return light;
+}
+
+// The parts of the tree that overrides make.
+class Overrides {
+ public:
+  Overrides(const Json& root, FaultList* faults) : root_({root, JsonPath{}, faults}) {}
+
+  template <class Read>
+  void Member(std::string_view name, const Read& read) {
+    if (const Json* json = root_.Find(name)) {
+      read(JsonValue{*json, root_.path().Member(name), root_.faults()});
+    }
+  }
+  JsonObject& root() { return root_; }
+
+ private:
+  JsonObject root_;
+};
+
+void SetMaterials(const JsonValue& value, Scene* scene) {
+  JsonObject object(value, "materials by name");
+  if (!object.is_object()) return;
+  std::vector<std::string> names;
+  for (const Material& material : scene->materials) names.push_back(material.name);
+  for (const auto& [name, json] : value.json.items()) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      FaultUnknownName(value, "material", name, names);
+      continue;
+    }
+    Material& material = scene->materials[static_cast<size_t>(found - names.begin())];
+    ChangeMaterial({json, object.path().Member(name), value.faults}, &material);
+  }
+}
+
+// New lights, and others in the place of those of the same name.
+void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene) {
+  std::vector<Light> lights;
+  ReadLights(value, context, &lights);
+  for (Light& light : lights) {
+    const auto found = std::find_if(scene->lights.begin(), scene->lights.end(),
+                                    [&](const Light& old) { return old.name == light.name; });
+    if (found == scene->lights.end()) {
+      scene->lights.push_back(std::move(light));
+    } else {
+      *found = std::move(light);
+    }
+  }
+}
+
+}  // namespace
+
+void FrameScene(Scene* scene) {
+  Imath::Box3d box;
+  ForEachPoint(*scene, [&](const Vec3d& point, double reach) {
+    box.extendBy(point - Vec3d(reach));
+    box.extendBy(point + Vec3d(reach));
+  });
+  if (box.isEmpty()) box = Imath::Box3d(Vec3d(-1), Vec3d(1));
+  Camera& camera = scene->camera;
+  camera.look_at = box.center();
+  camera.position = camera.look_at + Vec3d(0.55, 0.4, 1).normalized();
+  camera.up = Vec3d(0, 1, 0);
+  const auto [right, up, back] = ViewOf(camera);
+  const double aspect = static_cast<double>(scene->image.width) / scene->image.height;
+  // A tenth of the picture stays free on the sides that the model fills.
+  constexpr double kFilled = 0.9;
+  const double half_y = camera.fov_y_deg * (std::numbers::pi / 360);
+  const double tan_y = kFilled * std::tan(half_y), tan_x = tan_y * aspect;
+  double distance = 0, height = 0;
+  ForEachPoint(*scene, [&, right = right, up = up, back = back](const Vec3d& point, double reach) {
+    const Vec3d p = point - camera.look_at;
+    const double x = std::abs(p.dot(right)), y = std::abs(p.dot(up));
+    // Of a ball: the planes that bound the view touch it.
+    const auto needed = [&](double off_axis, double tangent) {
+      return p.dot(back) + off_axis / tangent + reach * std::hypot(1, 1 / tangent);
+    };
+    distance = std::max({distance, needed(x, tan_x), needed(y, tan_y)});
+    height = std::max({height, 2 * (y + reach), 2 * (x + reach) / aspect});
+  });
+  const double size = std::max(box.size().length(), limits::kLength.min);
+  camera.position = camera.look_at + back * std::max(distance, size / 2);
+  camera.height = std::max(height / kFilled, limits::kLength.min);
+}
+
+void AddStudioLights(Scene* scene) {
+  const auto [right, up, back] = ViewOf(scene->camera);
+  // Under the key light alone white paper has radiance 0.8; the fill opens its shadows, the rim
+  // parts the model from the background.
+  const bool is_classic =
+      std::any_of(scene->materials.begin(), scene->materials.end(), [](const Material& material) {
+        const auto* phong = std::get_if<PhongMaterial>(&material.model);
+        return phong != nullptr && phong->convention == PhongConvention::kClassic;
+      });
+  const double key = 0.8 * (is_classic ? 1 : std::numbers::pi);
+  scene->lights.push_back(MakeDirectional("key", right * -0.6 + up * 0.8 + back * 0.9, key));
+  scene->lights.push_back(MakeDirectional("fill", right * 0.9 + up * 0.2 + back * 0.6, 0.25 * key));
+  scene->lights.back().shadows = false;
+  scene->lights.push_back(MakeDirectional("rim", right * 0.4 + up * 0.7 + back * -1, 0.6 * key));
+  Light sky;
+  sky.name = "sky";
+  sky.kind = AmbientLight{Rgb(0.12)};
+  scene->lights.push_back(std::move(sky));
+  scene->background = Rgb(0.18);
+}
+
+void CompleteModelScene(const LoadOptions& options, const std::string& file, bool has_camera,
+                        Scene* scene) {
+  Json root = Json::object();
+  for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, &root);
+  FaultList faults;
+  Overrides overrides(root, &faults);
+  overrides.Member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+  // The kind and field of view of the camera decide how far away it must be.
+  overrides.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
+  if (!has_camera) {
+    FrameScene(scene);
+    FaultList told_already;
+    Overrides again(root, &told_already);
+    again.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
+  }
+  if (scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
+  SceneContext context;
+  context.folder = std::filesystem::path(file).parent_path();
+  context.allow_paths = options.allow_paths;
+  overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });
+  overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, scene); });
+  overrides.root().Color("background", limits::kRadiance, &scene->background);
+  overrides.root().RefuseOthers();
+  if (faults.count() == 0) return;
+  std::vector<Fault> all = faults.All();
+  for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
+  throw Error(ExitCode::kBadInput, std::move(all));
+}
+
+}  // namespace nacre

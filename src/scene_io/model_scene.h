@@ -1,0 +1,27 @@
+// scene_io/model_scene.h: what turns a model into a scene: a camera that sees all of it, light,
+// and the values that --set, --size and --spp give.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+
+// Points the camera at all spheres and meshes, from the front, the right and above: three quarters.
+// Keeps its kind and field of view.
+void FrameScene(Scene* scene);
+
+// Three lights as photographers set them (key, fill, rim), where the camera is, a little light from
+// everywhere, and a grey background. For scenes without any light.
+void AddStudioLights(Scene* scene);
+
+// Gives the scene of a model the overrides, a camera unless it has one, and light if it has none.
+// Overrides work as in scene files, on camera, image, lights, background and the parameters of the
+// materials that there are. Throws Error: kBadInput for values out of range and names that mean
+// nothing, kUsage for overrides that cannot be made.
+void CompleteModelScene(const LoadOptions& options, const std::string& file, bool has_camera,
+                        Scene* scene);
+
+}  // namespace nacre

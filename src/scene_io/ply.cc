@@ -1,0 +1,351 @@
+#include "scene_io/ply.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Imath/ImathBox.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "color/transfer.h"
+#include "scene/limits.h"
+#include "scene/mesh.h"
+#include "scene/polygon.h"
+#include "scene_io/obj_materials.h"
+#include "scene_io/ply_file.h"
+#include "scene_io/text_file.h"
+
+namespace nacre {
+namespace {
+
+constexpr uint64_t kMaxBytes = uint64_t{4} << 30;
+
+// What a file holds, as it is.
+struct PlyData {
+  std::vector<Vec3d> positions, normals;
+  std::vector<Vec2d> uvs;
+  std::vector<Rgb> colors;  // linear
+  std::vector<double> radii;
+  std::vector<uint32_t> triangles;
+};
+
+class PlyReader {
+ public:
+  explicit PlyReader(const std::filesystem::path& path)
+      : file_(path.string()),
+        bytes_(ReadTextFile(path, kMaxBytes)),
+        header_(ReadPlyHeader(bytes_, file_)),
+        numbers_(bytes_, header_, file_) {}
+
+  PlyData Read() {
+    const auto vertices =
+        std::find_if(header_.elements.begin(), header_.elements.end(),
+                     [](const PlyElement& element) { return element.name == "vertex"; });
+    if (vertices == header_.elements.end() || vertices->count == 0) Refuse("has no vertices");
+    vertex_count_ = vertices->count;
+    if (vertex_count_ > 0xfffffffeu) Refuse("has more than 4 thousand million vertices");
+    for (const PlyElement& element : header_.elements) {
+      if (element.name == "vertex") {
+        ReadVertices(element);
+      } else if (element.name == "face") {
+        faces_ = 0;
+        ReadFaces(element);
+      } else if (element.name == "tristrips") {
+        ReadStrips(element);
+      } else {
+        for (uint64_t i = 0; i < element.count; ++i) {
+          for (const PlyProperty& property : element.properties) numbers_.Skip(property);
+        }
+      }
+    }
+    CutPolygons();
+    return std::move(data_);
+  }
+
+ private:
+  [[noreturn]] void Refuse(std::string what, std::string hint = {}) const {
+    throw Error(ExitCode::kBadInput, file_, std::move(what), std::move(hint));
+  }
+
+  // The places of several numbers; all kNone unless all are there, and no list.
+  template <size_t N>
+  static std::array<size_t, N> FindAll(const PlyElement& element,
+                                       const std::array<std::string_view, N>& names) {
+    std::array<size_t, N> places;
+    for (size_t i = 0; i < N; ++i) {
+      places[i] = element.Find(names[i]);
+      if (places[i] == PlyElement::kNone || element.properties[places[i]].is_list) {
+        places.fill(PlyElement::kNone);
+        return places;
+      }
+    }
+    return places;
+  }
+
+  void ReadVertices(const PlyElement& element) {
+    const auto xyz = FindAll<3>(element, {"x", "y", "z"});
+    if (xyz[0] == PlyElement::kNone) Refuse("its vertices have no x, y and z");
+    const auto normal = FindAll<3>(element, {"nx", "ny", "nz"});
+    const auto color = FindAll<3>(element, {"red", "green", "blue"});
+    const auto radius = FindAll<1>(element, {"radius"});
+    auto uv = FindAll<2>(element, {"u", "v"});
+    for (const auto& names :
+         {std::array<std::string_view, 2>{"s", "t"}, {"texture_u", "texture_v"}}) {
+      if (uv[0] == PlyElement::kNone) uv = FindAll<2>(element, names);
+    }
+    data_.positions.reserve(element.count);
+    std::vector<double> values(element.properties.size());
+    const auto triple = [&](const std::array<size_t, 3>& at) {
+      return Vec3d(values[at[0]], values[at[1]], values[at[2]]);
+    };
+    for (uint64_t i = 0; i < element.count; ++i) {
+      for (size_t k = 0; k < values.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        if (property.is_list) {
+          numbers_.Skip(property);
+        } else {
+          values[k] = numbers_.Next(property.type);
+        }
+      }
+      AddPosition(triple(xyz), i);
+      if (normal[0] != PlyElement::kNone) data_.normals.push_back(triple(normal).normalized());
+      if (uv[0] != PlyElement::kNone) data_.uvs.emplace_back(values[uv[0]], values[uv[1]]);
+      if (color[0] != PlyElement::kNone) {
+        data_.colors.push_back(Linear(triple(color), element.properties[color[0]].type));
+      }
+      if (radius[0] != PlyElement::kNone) data_.radii.push_back(values[radius[0]]);
+    }
+  }
+
+  void AddPosition(const Vec3d& position, uint64_t number) {
+    for (int c = 0; c < 3; ++c) {
+      if (limits::kCoordinate.Contains(position[c])) continue;
+      Refuse(
+          fmt::format("vertex {} is at [{}, {}, {}]", number, position.x, position.y, position.z),
+          "each coordinate " + Describe(limits::kCoordinate));
+    }
+    data_.positions.push_back(position);
+  }
+
+  // Bytes are codes for displays; floats are taken as linear.
+  static Rgb Linear(const Vec3d& color, PlyType type) {
+    if (type != PlyType::kUint8) {
+      const auto unit = [](double c) { return std::isnan(c) ? 0 : std::clamp(c, 0.0, 1.0); };
+      return {unit(color.x), unit(color.y), unit(color.z)};
+    }
+    return {SrgbEotf(color.x / 255), SrgbEotf(color.y / 255), SrgbEotf(color.z / 255)};
+  }
+
+  uint32_t NextIndex(const PlyProperty& list) {
+    const double index = numbers_.Next(list.type);
+    if (!(index >= 0) || index >= static_cast<double>(vertex_count_) ||
+        index != std::floor(index)) {
+      Refuse(fmt::format("face {} has vertex {}", faces_, index),
+             fmt::format("there are {}, counted from 0", vertex_count_));
+    }
+    return static_cast<uint32_t>(index);
+  }
+
+  void ReadFaces(const PlyElement& element) {
+    size_t indices = element.Find("vertex_indices");
+    if (indices == PlyElement::kNone) indices = element.Find("vertex_index");
+    if (indices == PlyElement::kNone || !element.properties[indices].is_list) {
+      Refuse("its faces have no list \"vertex_indices\"");
+    }
+    constexpr size_t kMaxCorners = 255;
+    for (uint64_t i = 0; i < element.count; ++i) {
+      for (size_t k = 0; k < element.properties.size(); ++k) {
+        const PlyProperty& property = element.properties[k];
+        if (k != indices) {
+          numbers_.Skip(property);
+          continue;
+        }
+        const size_t count = numbers_.NextLength(property);
+        if (count < 3 || count > kMaxCorners) {
+          Refuse(fmt::format("face {} has {} corners", faces_, count),
+                 fmt::format("from 3 to {}", kMaxCorners));
+        }
+        corner_counts_.push_back(static_cast<unsigned char>(count));
+        for (size_t c = 0; c < count; ++c) corners_.push_back(NextIndex(property));
+      }
+      ++faces_;
+    }
+  }
+
+  // Strips one after the other, with -1 between them.
+  void ReadStrips(const PlyElement& element) {
+    for (uint64_t i = 0; i < element.count; ++i) {
+      for (const PlyProperty& property : element.properties) {
+        if (property.name != "vertex_indices" || !property.is_list) {
+          numbers_.Skip(property);
+          continue;
+        }
+        std::vector<uint32_t> strip;
+        const size_t count = numbers_.NextLength(property);
+        for (size_t k = 0; k < count; ++k) AddToStrip(numbers_.Next(property.type), &strip);
+      }
+    }
+  }
+
+  void AddToStrip(double index, std::vector<uint32_t>* strip) {
+    if (index == -1) {
+      strip->clear();
+      return;
+    }
+    if (!(index >= 0) || index >= static_cast<double>(vertex_count_) ||
+        index != std::floor(index)) {
+      Refuse(fmt::format("a strip has vertex {}", index),
+             fmt::format("there are {}, counted from 0", vertex_count_));
+    }
+    strip->push_back(static_cast<uint32_t>(index));
+    const size_t n = strip->size();
+    if (n < 3) return;
+    const uint32_t a = (*strip)[n - 3], b = (*strip)[n - 2], c = (*strip)[n - 1];
+    const bool odd = n % 2 == 0;  // every second triangle is wound the other way
+    data_.triangles.insert(data_.triangles.end(), {odd ? b : a, odd ? a : b, c});
+  }
+
+  // After all elements: faces may come before the vertices.
+  void CutPolygons() {
+    std::vector<Vec3d> corners;
+    std::vector<uint32_t> local;
+    const uint32_t* face = corners_.data();
+    for (const unsigned char count : corner_counts_) {
+      corners.clear();
+      local.clear();
+      for (size_t i = 0; i < count; ++i) corners.push_back(data_.positions[face[i]]);
+      Triangulate(corners, &local);
+      for (const uint32_t i : local) data_.triangles.push_back(face[i]);
+      face += count;
+    }
+  }
+
+  std::string file_;
+  std::string bytes_;
+  PlyHeader header_;
+  PlyNumbers numbers_;
+  PlyData data_;
+  uint64_t vertex_count_ = 0;
+  uint64_t faces_ = 0;
+  std::vector<unsigned char> corner_counts_;  // of each face,
+  std::vector<uint32_t> corners_;             // and their vertices
+};
+
+Mesh TakeMesh(const std::filesystem::path& path, PlyData* data) {
+  Mesh mesh;
+  mesh.name = path.stem().string();
+  mesh.positions = std::move(data->positions);
+  mesh.normals = std::move(data->normals);
+  mesh.uvs = std::move(data->uvs);
+  mesh.triangles = std::move(data->triangles);
+  if (!mesh.normals.empty()) MendNormals(&mesh);
+  return mesh;
+}
+
+// About a third of the distance between neighbours, if the points lie on a surface.
+double SuitableRadius(const std::vector<Vec3d>& positions) {
+  Imath::Box3d box;
+  for (const Vec3d& position : positions) box.extendBy(position);
+  const double spacing = box.size().length() / std::sqrt(static_cast<double>(positions.size()));
+  return spacing > 0 ? std::max(spacing / 3, limits::kLength.min) : 1;
+}
+
+// Materials of the cloud's colours. More than kMaxColors are rounded to 16 steps a channel.
+class CloudMaterials {
+ public:
+  explicit CloudMaterials(Scene* scene) : scene_(*scene) {}
+
+  // False if there would be too many.
+  bool AddAll(const std::vector<Rgb>& colors, int steps) {
+    ids_.clear();
+    scene_.materials.clear();
+    by_color_.clear();
+    for (const Rgb& color : colors) {
+      std::array<double, 3> key = {color.x, color.y, color.z};
+      if (steps > 0) {
+        for (double& c : key) {
+          c = SrgbEotf(std::round(SrgbOetf(c) * (steps - 1)) / (steps - 1));
+        }
+      }
+      const auto id = static_cast<uint32_t>(scene_.materials.size());
+      const auto [entry, is_new] = by_color_.try_emplace(key, id);
+      if (is_new) {
+        if (scene_.materials.size() == kMaxColors) return false;
+        Material& material = scene_.materials.emplace_back(MakeClay());
+        material.name = fmt::format("color {}", id);
+        std::get<MetallicRoughnessMaterial>(material.model).base_color = {key[0], key[1], key[2]};
+      }
+      ids_.push_back(entry->second);
+    }
+    return true;
+  }
+  MaterialId IdOf(size_t point) const { return {ids_.empty() ? 0 : ids_[point]}; }
+
+ private:
+  static constexpr size_t kMaxColors = 4096;
+  Scene& scene_;
+  std::map<std::array<double, 3>, uint32_t> by_color_;
+  std::vector<uint32_t> ids_;
+};
+
+void AddCloud(const PlyData& data, const std::string& file, const LoadOptions& options,
+              Scene* scene) {
+  if (static_cast<double>(data.positions.size()) > limits::kCloudCount.max) {
+    throw Error(ExitCode::kBadInput, file, fmt::format("{} points", data.positions.size()),
+                fmt::format("at most {}", limits::kCloudCount.max));
+  }
+  CloudMaterials materials(scene);
+  if (data.colors.empty()) {
+    scene->materials.push_back(MakeClay());
+  } else if (!materials.AddAll(data.colors, 0)) {
+    materials.AddAll(data.colors, 16);
+    if (options.on_warning) {
+      options.on_warning(file + ": more than 4096 colours: rounded to 16 steps a channel");
+    }
+  }
+  const double radius = SuitableRadius(data.positions);
+  scene->spheres.reserve(data.positions.size());
+  for (size_t i = 0; i < data.positions.size(); ++i) {
+    const double own = data.radii.empty() ? radius : data.radii[i];
+    if (!limits::kLength.Contains(own)) {
+      throw Error(ExitCode::kBadInput, file, fmt::format("vertex {} has radius {}", i, own),
+                  "a length " + Describe(limits::kLength));
+    }
+    scene->spheres.push_back({data.positions[i], own, materials.IdOf(i)});
+  }
+}
+
+}  // namespace
+
+Mesh ReadPly(const std::filesystem::path& path) {
+  PlyData data = PlyReader(path).Read();
+  if (data.triangles.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no faces");
+  return TakeMesh(path, &data);
+}
+
+Scene ReadPlyScene(const std::filesystem::path& path, const LoadOptions& options) {
+  PlyData data = PlyReader(path).Read();
+  Scene scene;
+  if (data.triangles.empty()) {
+    AddCloud(data, path.string(), options, &scene);
+    return scene;
+  }
+  if (!data.colors.empty() && options.on_warning) {
+    options.on_warning(path.string() + ": colours of vertices are not shown on faces");
+  }
+  scene.materials.push_back(MakeClay());
+  Mesh& mesh = scene.meshes.emplace_back(TakeMesh(path, &data));
+  mesh.material = {0};
+  if (mesh.normals.empty()) ComputeNormals(NormalWeighting::kAngle, kModelCreaseAngleDeg, &mesh);
+  if (!HasArea(mesh)) {
+    throw Error(ExitCode::kBadInput, path.string(), "has no face with an area");
+  }
+  return scene;
+}
+
+}  // namespace nacre

@@ -1,0 +1,26 @@
+// scene_io/ply.h: triangle meshes and clouds of points from PLY files.
+#pragma once
+
+#include <filesystem>
+
+#include "scene/scene.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+
+// The elements "vertex" (x, y, z; nx, ny, nz; u, v or s, t) and "face" (vertex_indices) or
+// "tristrips" of a PLY file as one mesh, named after the file, polygons cut into triangles. Normals
+// are the file's, or none.
+// Throws Error (kBadInput) with the file for what is malformed, for positions that are not finite
+// or out of range, indices out of range, faces of fewer than 3 or more than 255 corners, and files
+// without faces.
+Mesh ReadPly(const std::filesystem::path& path);
+
+// The same as a scene of its own, where faces without normals get averages, parted where they meet
+// at more than kModelCreaseAngleDeg. A file without faces is a cloud of spheres, with the vertices'
+// "radius" or one that suits their distances, and a material for each colour (red, green, blue:
+// sRGB in bytes, linear in floats). Camera and light are left to CompleteModelScene
+// (model_scene.h). What is not shown is told by options.on_warning.
+Scene ReadPlyScene(const std::filesystem::path& path, const LoadOptions& options);
+
+}  // namespace nacre

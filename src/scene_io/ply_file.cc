@@ -1,0 +1,285 @@
+#include "scene_io/ply_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+// Far more than any file has: names are compared one by one.
+constexpr size_t kMaxElements = 64;
+constexpr size_t kMaxProperties = 256;
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+struct TypeName {
+  std::string_view name;
+  PlyType type;
+};
+constexpr std::array kTypeNames = {
+    TypeName{"char", PlyType::kInt8},     TypeName{"int8", PlyType::kInt8},
+    TypeName{"uchar", PlyType::kUint8},   TypeName{"uint8", PlyType::kUint8},
+    TypeName{"short", PlyType::kInt16},   TypeName{"int16", PlyType::kInt16},
+    TypeName{"ushort", PlyType::kUint16}, TypeName{"uint16", PlyType::kUint16},
+    TypeName{"int", PlyType::kInt32},     TypeName{"int32", PlyType::kInt32},
+    TypeName{"uint", PlyType::kUint32},   TypeName{"uint32", PlyType::kUint32},
+    TypeName{"float", PlyType::kFloat},   TypeName{"float32", PlyType::kFloat},
+    TypeName{"double", PlyType::kDouble}, TypeName{"float64", PlyType::kDouble}};
+
+size_t SizeOf(PlyType type) {
+  constexpr std::array<size_t, 8> kSizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes[static_cast<size_t>(type)];
+}
+
+bool IsReal(PlyType type) { return type == PlyType::kFloat || type == PlyType::kDouble; }
+
+// Whether an integer type holds `value`.
+bool Holds(PlyType type, double value) {
+  constexpr std::array<double, 6> kMin = {-128, 0, -32768, 0, -2147483648.0, 0};
+  constexpr std::array<double, 6> kMax = {127, 255, 32767, 65535, 2147483647.0, 4294967295.0};
+  const auto i = static_cast<size_t>(type);
+  return value == std::floor(value) && value >= kMin[i] && value <= kMax[i];
+}
+
+// The lines of a header, in words.
+class HeaderReader {
+ public:
+  HeaderReader(const std::string& bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+
+  PlyHeader Read() {
+    if (NextLine() != std::vector<std::string_view>{"ply"}) {
+      throw Error(ExitCode::kBadInput, file_, "is not a PLY file", "its first line is \"ply\"");
+    }
+    while (true) {
+      const std::vector<std::string_view> words = NextLine();
+      if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+      if (words[0] == "end_header") break;
+      if (words[0] == "format") {
+        ReadFormat(words);
+      } else if (words[0] == "element") {
+        ReadElement(words);
+      } else if (words[0] == "property") {
+        ReadProperty(words);
+      } else {
+        Refuse(fmt::format("unknown keyword \"{}\"", words[0].substr(0, 40)));
+      }
+    }
+    if (!has_format_) Refuse("the header names no format");
+    header_.length = position_;
+    CheckCounts();
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void Refuse(std::string what, std::string hint = {}) const {
+    throw Error(ExitCode::kBadInput, fmt::format("{}:{}", file_, line_), std::move(what),
+                std::move(hint));
+  }
+
+  std::vector<std::string_view> NextLine() {
+    ++line_;
+    constexpr size_t kMaxLine = 4096;
+    const size_t end = bytes_.find('\n', position_);
+    if (end == std::string::npos || end - position_ > kMaxLine) {
+      Refuse(line_ == 1 ? "is not a PLY file" : "the header does not end");
+    }
+    std::string_view rest = std::string_view(bytes_).substr(position_, end - position_);
+    position_ = end + 1;
+    std::vector<std::string_view> words;
+    while (true) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(kBlanks), rest.size()));
+      if (rest.empty()) return words;
+      const size_t length = std::min(rest.find_first_of(kBlanks), rest.size());
+      words.push_back(rest.substr(0, length));
+      rest.remove_prefix(length);
+    }
+  }
+
+  void ReadFormat(const std::vector<std::string_view>& words) {
+    constexpr std::array<std::string_view, 3> kFormats = {"ascii", "binary_little_endian",
+                                                          "binary_big_endian"};
+    const auto format = words.size() == 3 && words[2] == "1.0"
+                            ? std::find(kFormats.begin(), kFormats.end(), words[1])
+                            : kFormats.end();
+    if (format == kFormats.end()) {
+      Refuse("unknown format", "ascii, binary_little_endian or binary_big_endian, 1.0");
+    }
+    header_.format = static_cast<PlyFormat>(format - kFormats.begin());
+    has_format_ = true;
+  }
+
+  void ReadElement(const std::vector<std::string_view>& words) {
+    PlyElement element;
+    const std::string_view count = words.size() == 3 ? words[2] : std::string_view();
+    const auto [end, error] =
+        std::from_chars(count.data(), count.data() + count.size(), element.count);
+    if (count.empty() || error != std::errc() || end != count.data() + count.size()) {
+      Refuse("not \"element NAME COUNT\"");
+    }
+    if (header_.elements.size() == kMaxElements) Refuse("too many elements");
+    element.name = words[1];
+    for (const PlyElement& other : header_.elements) {
+      if (other.name == element.name) Refuse("a second element of this name");
+    }
+    header_.elements.push_back(std::move(element));
+  }
+
+  PlyType TypeOf(std::string_view word) const {
+    for (const TypeName& known : kTypeNames) {
+      if (known.name == word) return known.type;
+    }
+    Refuse(fmt::format("unknown type \"{}\"", word.substr(0, 40)),
+           "char, uchar, short, ushort, int, uint, float or double");
+  }
+
+  void ReadProperty(const std::vector<std::string_view>& words) {
+    if (header_.elements.empty()) Refuse("a property of no element");
+    PlyElement& element = header_.elements.back();
+    PlyProperty property;
+    property.is_list = words.size() == 5 && words[1] == "list";
+    if (property.is_list) {
+      property.count_type = TypeOf(words[2]);
+      if (IsReal(property.count_type)) Refuse("a list is counted by whole numbers");
+    } else if (words.size() != 3) {
+      Refuse("not \"property TYPE NAME\" or \"property list TYPE TYPE NAME\"");
+    }
+    property.type = TypeOf(words[words.size() - 2]);
+    property.name = words.back();
+    if (element.Find(property.name) != PlyElement::kNone) Refuse("a second property of this name");
+    if (element.properties.size() == kMaxProperties) Refuse("too many properties");
+    element.properties.push_back(std::move(property));
+  }
+
+  // As text, a number and its blank take two bytes at least; the last blank may be missing.
+  void CheckCounts() const {
+    const size_t rest = bytes_.size() - header_.length + 1;
+    for (const PlyElement& element : header_.elements) {
+      size_t least = 0;
+      for (const PlyProperty& property : element.properties) {
+        const PlyType first = property.is_list ? property.count_type : property.type;
+        least += header_.format == PlyFormat::kText ? 2 : SizeOf(first);
+      }
+      if (element.count > 0 && (least == 0 || element.count > rest / least)) {
+        throw Error(ExitCode::kBadInput, file_,
+                    fmt::format("{} elements \"{}\" are more than the file holds", element.count,
+                                element.name),
+                    "the file is damaged or incomplete");
+      }
+    }
+  }
+
+  const std::string& bytes_;
+  const std::string& file_;
+  size_t position_ = 0;
+  size_t line_ = 0;
+  bool has_format_ = false;
+  PlyHeader header_;
+};
+
+template <typename T>
+double Load(const char* bytes, bool swap) {
+  std::array<char, sizeof(T)> ordered;
+  std::memcpy(ordered.data(), bytes, sizeof(T));
+  if (swap) std::reverse(ordered.begin(), ordered.end());  // our machines are little-endian
+  T value;
+  std::memcpy(&value, ordered.data(), sizeof(T));
+  return static_cast<double>(value);
+}
+
+double LoadNumber(const char* bytes, PlyType type, bool swap) {
+  switch (type) {
+    case PlyType::kInt8:
+      return Load<int8_t>(bytes, swap);
+    case PlyType::kUint8:
+      return Load<uint8_t>(bytes, swap);
+    case PlyType::kInt16:
+      return Load<int16_t>(bytes, swap);
+    case PlyType::kUint16:
+      return Load<uint16_t>(bytes, swap);
+    case PlyType::kInt32:
+      return Load<int32_t>(bytes, swap);
+    case PlyType::kUint32:
+      return Load<uint32_t>(bytes, swap);
+    case PlyType::kFloat:
+      return Load<float>(bytes, swap);
+    case PlyType::kDouble:
+      break;
+  }
+  return Load<double>(bytes, swap);
+}
+
+}  // namespace
+
+size_t PlyElement::Find(std::string_view property) const {
+  for (size_t i = 0; i < properties.size(); ++i) {
+    if (properties[i].name == property) return i;
+  }
+  return kNone;
+}
+
+PlyHeader ReadPlyHeader(const std::string& bytes, const std::string& file) {
+  return HeaderReader(bytes, file).Read();
+}
+
+PlyNumbers::PlyNumbers(const std::string& bytes, const PlyHeader& header, const std::string& file)
+    : bytes_(bytes), file_(file), format_(header.format), position_(header.length) {}
+
+void PlyNumbers::Refuse(std::string what) const {
+  throw Error(ExitCode::kBadInput, file_, std::move(what), "the file is damaged or incomplete");
+}
+
+std::string_view PlyNumbers::NextWord() {
+  const std::string_view text = bytes_;
+  const size_t begin = std::min(text.find_first_not_of(kBlanks, position_), text.size());
+  position_ = std::min(text.find_first_of(kBlanks, begin), text.size());
+  if (begin == position_) Refuse("ends too early");
+  return text.substr(begin, position_ - begin);
+}
+
+double PlyNumbers::Next(PlyType type) {
+  if (format_ != PlyFormat::kText) {
+    const size_t size = SizeOf(type);
+    if (bytes_.size() - position_ < size) Refuse("ends too early");
+    const char* const bytes = bytes_.data() + position_;
+    position_ += size;
+    return LoadNumber(bytes, type, format_ == PlyFormat::kBigEndian);
+  }
+  std::string_view word = NextWord();
+  const std::string_view whole = word;
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) {
+    Refuse(fmt::format("\"{}\" is not a number", whole.substr(0, 40)));
+  }
+  if (!IsReal(type) && !Holds(type, number)) {
+    Refuse(fmt::format("{} is not a number of its type", number));
+  }
+  return number;
+}
+
+size_t PlyNumbers::NextLength(const PlyProperty& list) {
+  const double length = Next(list.count_type);
+  const size_t least = format_ == PlyFormat::kText ? 2 : SizeOf(list.type);
+  const size_t rest = bytes_.size() - position_ + 1;
+  if (length < 0 || length > static_cast<double>(rest / least)) {
+    Refuse(fmt::format("a list of {} is more than the file holds", length));
+  }
+  return static_cast<size_t>(length);
+}
+
+void PlyNumbers::Skip(const PlyProperty& property) {
+  const size_t count = property.is_list ? NextLength(property) : 1;
+  for (size_t i = 0; i < count; ++i) Next(property.type);
+}
+
+}  // namespace nacre

@@ -1,0 +1,171 @@
+// scene_io/read_meshes.cc: the shapes "mesh", "icosphere" and "uv_sphere".
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "scene/mesh.h"
+#include "scene/sphere_mesh.h"
+#include "scene_io/obj.h"
+#include "scene_io/ply.h"
+#include "scene_io/readers.h"
+#include "scene_io/text_file.h"
+
+namespace nacre {
+namespace {
+
+void ReadScale(const JsonValue& value, Vec3d* scale) {
+  double uniform = 1;
+  if (value.json.is_number()) {
+    if (ReadNumber(value, limits::kCoordinate, &uniform)) *scale = Vec3d(uniform);
+  } else {
+    ReadPoint(value, limits::kCoordinate, scale);
+  }
+  for (const double component : {scale->x, scale->y, scale->z}) {
+    if (limits::kLength.Contains(std::abs(component))) continue;
+    value.AddFault("would flatten the mesh", "no component is 0");
+    break;
+  }
+}
+
+void ReadTransform(const JsonValue& value, Transform* transform) {
+  JsonObject object(value);
+  object.Point("translate", &transform->translate);
+  if (const Json* scale = object.Find("scale")) {
+    ReadScale({*scale, object.path().Member("scale"), object.faults()}, &transform->scale);
+  }
+  object.Point("rotate_deg", &transform->rotate_deg);
+  object.RefuseOthers();
+}
+
+// Where a mesh's normals come from.
+struct NormalSettings {
+  bool none = false;
+  bool from_file = true;  // where the file has some; else by weighting
+  NormalWeighting weighting = NormalWeighting::kAngle;
+  std::optional<double> crease_angle_deg;
+};
+
+void ReadNormals(JsonObject* shape, NormalSettings* normals) {
+  constexpr std::array<std::string_view, 5> kSources = {"file", "angle", "area", "uniform", "none"};
+  size_t source = 0;
+  const bool is_given = shape->Choice("normals", kSources, &source);
+  bool smooth = true;  // older scenes: false for "none"
+  if (shape->Boolean("smooth", &smooth) && is_given) {
+    shape->value().AddFault("\"normals\" takes the place of \"smooth\"", "keep \"normals\"");
+  }
+  normals->none = source == 4 || !smooth;
+  normals->from_file = source == 0;
+  constexpr std::array<NormalWeighting, 5> kWeightings = {
+      NormalWeighting::kAngle, NormalWeighting::kAngle, NormalWeighting::kArea,
+      NormalWeighting::kUniform};
+  normals->weighting = kWeightings[source];
+  double crease = 180;
+  if (shape->Number("crease_angle_deg", limits::kCreaseAngleDeg, &crease)) {
+    normals->crease_angle_deg = crease;
+  }
+}
+
+// The members that all meshes share.
+void ReadInterpolation(JsonObject* shape, Mesh* mesh) {
+  constexpr std::array<std::string_view, 2> kNames = {"phong", "faceted"};
+  constexpr std::array<Interpolation, 2> kInterpolations = {Interpolation::kPhong,
+                                                            Interpolation::kFaceted};
+  size_t choice = 0;
+  shape->Choice("interpolation", kNames, &choice);
+  mesh->interpolation = kInterpolations[choice];
+}
+
+void PrepareNormals(const JsonValue& file, const NormalSettings& settings, Mesh* mesh) {
+  const bool keep = settings.from_file && !mesh->normals.empty();
+  if (settings.crease_angle_deg && (settings.none || keep)) {
+    file.AddFault("no normals are computed that \"crease_angle_deg\" could part",
+                  keep ? "the file has its own; \"normals\": \"angle\" computes them"
+                       : "leave it out, or ask for \"normals\"");
+  }
+  if (settings.none) {
+    mesh->normals.clear();
+  } else if (!keep) {
+    ComputeNormals(settings.weighting, settings.crease_angle_deg.value_or(180), mesh);
+  }
+}
+
+// Adds the mesh in the file that `value` names, or a fault of it.
+void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
+              Mesh mesh, SceneContext* context) {
+  std::string file;
+  if (!ReadText(value, &file)) return;
+  try {
+    const auto path = ResolveReference(context->folder, file, context->allow_paths);
+    Mesh loaded = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
+    loaded.material = mesh.material;
+    loaded.interpolation = mesh.interpolation;
+    loaded.smooth_terminator = mesh.smooth_terminator;
+    ApplyTransform(transform, &loaded);
+    PrepareNormals(value, normals, &loaded);
+    context->scene->meshes.push_back(std::move(loaded));
+  } catch (const Error& error) {
+    for (const Fault& fault : error.faults()) {
+      value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
+                     fault.hint);
+    }
+  }
+}
+
+// The members center, radius, material and those of all meshes; true if there are no faults.
+template <typename SphereMesh>
+bool ReadSphereMesh(JsonObject* shape, SceneContext* context, SphereMesh* sphere, Mesh* mesh) {
+  shape->Require("center", "[x, y, z]");
+  shape->Point("center", &sphere->center);
+  shape->Require("radius", "a length greater than 0");
+  shape->Number("radius", limits::kLength, &sphere->radius);
+  ReadMaterialOf(shape, context, &mesh->material);
+  ReadInterpolation(shape, mesh);
+  return shape->faults()->count() == 0;
+}
+
+template <typename SphereMesh>
+void AddSphereMesh(const SphereMesh& sphere, const Mesh& settings, SceneContext* context) {
+  Mesh mesh = MakeMesh(sphere);
+  mesh.material = settings.material;
+  mesh.interpolation = settings.interpolation;
+  mesh.smooth_terminator = settings.smooth_terminator;
+  context->scene->meshes.push_back(std::move(mesh));
+}
+
+}  // namespace
+
+void ReadMesh(JsonObject* shape, SceneContext* context) {
+  Mesh mesh;
+  ReadMaterialOf(shape, context, &mesh.material);
+  Transform transform;
+  if (const Json* json = shape->Find("transform")) {
+    ReadTransform({*json, shape->path().Member("transform"), shape->faults()}, &transform);
+  }
+  NormalSettings normals;
+  ReadNormals(shape, &normals);
+  ReadInterpolation(shape, &mesh);
+  if (const Json* file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
+    LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, normals,
+             std::move(mesh), context);
+  }
+}
+
+void ReadIcosphere(JsonObject* shape, SceneContext* context) {
+  Icosphere sphere;
+  Mesh mesh;
+  shape->Whole("subdivisions", limits::kSubdivisions, &sphere.subdivisions);
+  if (ReadSphereMesh(shape, context, &sphere, &mesh)) AddSphereMesh(sphere, mesh, context);
+}
+
+void ReadUvSphere(JsonObject* shape, SceneContext* context) {
+  UvSphere sphere;
+  Mesh mesh;
+  shape->Whole("segments", limits::kSegments, &sphere.segments);
+  shape->Whole("rings", limits::kRings, &sphere.rings);
+  if (ReadSphereMesh(shape, context, &sphere, &mesh)) AddSphereMesh(sphere, mesh, context);
+}
+
+}  // namespace nacre

@@ -1,0 +1,221 @@
+// scene_io/read_textures.cc: the part "textures", and the maps of materials, which name them.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/error.h"
+#include "scene_io/readers.h"
+#include "scene_io/text_file.h"
+#include "scene_io/texture_image.h"
+
+namespace nacre {
+namespace {
+
+using TextureSource = SceneContext::TextureSource;
+
+constexpr std::array<std::string_view, 3> kEncodings = {"auto", "srgb", "linear"};
+constexpr std::array<std::string_view, 3> kFilters = {"nearest", "bilinear", "trilinear"};
+constexpr std::array<std::string_view, 3> kWraps = {"repeat", "clamp", "mirror"};
+constexpr std::array<std::string_view, 5> kMappings = {"uv", "spherical", "cylindrical", "planar",
+                                                       "cube"};
+constexpr std::array<std::string_view, 2> kConventions = {"exact_flat", "literal"};
+constexpr std::string_view kTextureHint = "the name of one in \"textures\"";
+
+template <size_t kCount, typename Enum>
+bool ReadChoice(JsonObject* object, std::string_view name,
+                const std::array<std::string_view, kCount>& names, Enum* out) {
+  size_t choice = 0;
+  const bool is_set = object->Choice(name, names, &choice);
+  if (is_set) *out = static_cast<Enum>(choice);
+  return is_set;
+}
+
+// [u, v], or one number for both.
+void ReadPair(JsonObject* object, std::string_view name, const Range& range, Vec2d* out) {
+  const Json* const json = object->Find(name);
+  if (json == nullptr) return;
+  const JsonPath path = object->path().Member(name);
+  const JsonValue value{*json, path, object->faults()};
+  if (json->is_number()) {
+    double both = 0;
+    if (ReadNumber(value, range, &both)) *out = Vec2d(both, both);
+    return;
+  }
+  if (!value.Expect(json->is_array() && json->size() == 2, "[u, v] or one number")) return;
+  ReadNumber({(*json)[0], path.Element(0), value.faults}, range, &out->x);
+  ReadNumber({(*json)[1], path.Element(1), value.faults}, range, &out->y);
+}
+
+// A mapping by name, or an object.
+void ReadMapping(const JsonValue& value, Texture* texture) {
+  if (value.json.is_string()) {
+    std::string word;
+    ReadText(value, &word);
+    const auto found = std::find(kMappings.begin(), kMappings.end(), word);
+    if (found == kMappings.end()) {
+      FaultUnknownName(value, "mapping", word, {kMappings.begin(), kMappings.end()});
+    } else {
+      texture->mapping = static_cast<MappingKind>(found - kMappings.begin());
+    }
+    return;
+  }
+  JsonObject object(value, R"("spherical", or {"kind": "spherical", "rotate_deg": 90})");
+  object.Require("kind", "one of: uv, spherical, cylindrical, planar, cube");
+  ReadChoice(&object, "kind", kMappings, &texture->mapping);
+  object.Point("axis", &texture->axis);
+  object.Number("rotate_deg", limits::kAngleDeg, &texture->rotate_deg);
+  object.Point("center", &texture->center);
+  object.Number("size", limits::kLength, &texture->size);
+  object.RefuseOthers();
+}
+
+// The image of the texture, decoded so; read once.
+ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
+  const auto path = ResolveReference(context->folder, source.file, context->allow_paths);
+  const std::string key = path.string() + (encoding == TextureEncoding::kSrgb ? ":s" : ":l");
+  const auto known = context->images.find(key);
+  if (known != context->images.end()) return known->second;
+  std::vector<SceneImage>& images = context->scene->images;
+  images.push_back(ReadTextureImage(path, source.file, encoding));
+  const ImageId id{static_cast<uint32_t>(images.size() - 1)};
+  context->images.emplace(key, id);
+  return id;
+}
+
+// Adds the texture to the scene. What is wrong with its file is told where the scene names it.
+TextureId AddTexture(TextureSource* source, TextureEncoding encoding, SceneContext* context,
+                     FaultList* faults) {
+  Texture texture = source->texture;
+  try {
+    texture.image = FindImage(*source, encoding, context);
+  } catch (const Error& error) {
+    source->is_readable = false;  // told once
+    for (const Fault& fault : error.faults()) {
+      faults->Add(
+          "/textures/" + PointerToken(texture.name) + "/file",
+          fault.where.empty() ? fault.what : "\"" + source->file + "\" " + fault.what,
+          fault.hint.empty() ? "save it again as PNG, JPEG or EXR, or name another" : fault.hint);
+    }
+    return {};
+  }
+  std::vector<Texture>& textures = context->scene->textures;
+  textures.push_back(std::move(texture));
+  return {static_cast<uint32_t>(textures.size() - 1)};
+}
+
+// Faults if there is no such file that may be read. Its contents are looked at when a material
+// wants them, and so in one encoding.
+void CheckFile(const JsonValue& value, TextureSource* source, const SceneContext& context) {
+  if (!ReadText(value, &source->file)) return;
+  try {
+    ResolveReference(context.folder, source->file, context.allow_paths);
+    source->is_readable = true;
+  } catch (const Error& error) {
+    for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);
+  }
+}
+
+void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* context) {
+  TextureSource source;
+  Texture& texture = source.texture;
+  texture.name = name;
+  JsonObject object(value, R"({"file": "earth.png"})");
+  if (const Json* file = object.Require("file", "an image in the scene's folder")) {
+    CheckFile({*file, object.path().Member("file"), object.faults()}, &source, *context);
+  }
+  size_t encoding = 0;
+  object.Choice("encoding", kEncodings, &encoding);
+  if (encoding != 0) {
+    source.encoding = encoding == 1 ? TextureEncoding::kSrgb : TextureEncoding::kLinear;
+  }
+  ReadChoice(&object, "filter", kFilters, &texture.sampling.filter);
+  if (const Json* mapping = object.Find("mapping")) {
+    ReadMapping({*mapping, object.path().Member("mapping"), object.faults()}, &texture);
+  }
+  // What lies across a pole, or beyond the face of a cube, is not the image's other end.
+  if (texture.mapping == MappingKind::kSpherical || texture.mapping == MappingKind::kCylindrical) {
+    texture.sampling.wrap_v = Wrap::kClamp;
+  } else if (texture.mapping == MappingKind::kCube) {
+    texture.sampling.wrap_u = texture.sampling.wrap_v = Wrap::kClamp;
+  }
+  ReadChoice(&object, "wrap_u", kWraps, &texture.sampling.wrap_u);
+  ReadChoice(&object, "wrap_v", kWraps, &texture.sampling.wrap_v);
+  ReadPair(&object, "scale", limits::kTextureScale, &texture.scale);
+  ReadPair(&object, "offset", limits::kTextureScale, &texture.offset);
+  object.Number("rotate_deg", limits::kAngleDeg, &texture.uv_rotate_deg);
+  object.RefuseOthers();
+  context->textures.emplace(name, std::move(source));
+}
+
+}  // namespace
+
+void ReadTextures(const JsonValue& value, SceneContext* context) {
+  const JsonObject object(value, R"(textures by name: {"earth": {"file": "earth.png"}})");
+  if (!object.is_object()) return;
+  for (const auto& [name, json] : value.json.items()) {
+    ReadTexture({json, object.path().Member(name), object.faults()}, name, context);
+  }
+}
+
+void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, TextureId* id) {
+  std::string name;
+  if (!value.Expect(value.json.is_string(), "a texture", kTextureHint)) return;
+  ReadText(value, &name);
+  const auto found = context->textures.find(name);
+  if (found == context->textures.end()) {
+    std::vector<std::string> names;
+    names.reserve(context->textures.size());
+    for (const auto& [known, source] : context->textures) names.push_back(known);
+    std::sort(names.begin(), names.end());
+    FaultUnknownName(value, "texture", name, names);
+    return;
+  }
+  TextureSource& source = found->second;
+  if (!source.is_readable) return;  // told before
+  const auto by_use = use == MapUse::kColor ? TextureEncoding::kSrgb : TextureEncoding::kLinear;
+  const TextureEncoding encoding = source.encoding.value_or(by_use);
+  TextureId& known = encoding == TextureEncoding::kSrgb ? source.srgb : source.linear;
+  if (!known.valid()) known = AddTexture(&source, encoding, context, value.faults);
+  *id = known;
+}
+
+void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
+              Material* material) {
+  const auto member = [&](std::string_view name, const auto& read) {
+    const Json* const json = object->Find(name);
+    if (json != nullptr) read(JsonValue{*json, object->path().Member(name), object->faults()});
+  };
+  for (const MaterialMap& map : model.maps) {
+    member(map.name, [&](const JsonValue& value) {
+      TextureId id;
+      ReadTextureId(value, map.use, context, &id);
+      map.set(*material, id);
+    });
+  }
+  // A texture's name, or an object that has it as its member "texture".
+  const auto texture_of = [&](const JsonValue& value, TextureId* id, const auto& read_others) {
+    if (!value.json.is_object()) return ReadTextureId(value, MapUse::kData, context, id);
+    JsonObject map(value);
+    if (const Json* texture = map.Require("texture", kTextureHint)) {
+      ReadTextureId({*texture, map.path().Member("texture"), map.faults()}, MapUse::kData, context,
+                    id);
+    }
+    read_others(&map);
+    map.RefuseOthers();
+  };
+  member("normal_map", [&](const JsonValue& value) {
+    NormalMap& normal = material->normal_map;
+    texture_of(value, &normal.texture, [&](JsonObject* map) {
+      map->Number("scale", limits::kNormalScale, &normal.scale);
+      ReadChoice(map, "convention", kConventions, &normal.convention);
+    });
+  });
+  member("bump_map", [&](const JsonValue& value) {
+    BumpMap& bump = material->bump_map;
+    texture_of(value, &bump.texture, [&](JsonObject* map) {
+      map->Number("distance", limits::kCoordinate, &bump.distance);
+    });
+  });
+}
+
+}  // namespace nacre

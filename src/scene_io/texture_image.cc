@@ -1,0 +1,137 @@
+#include "scene_io/texture_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "color/transfer.h"
+#include "image_io/exr_reader.h"
+#include "image_io/image_reader.h"
+#include "scene/limits.h"
+
+namespace nacre {
+namespace {
+
+// Values k / maximum of an integer file, and what they decode to. Integers come as floats: the code
+// is found again, so that each decodes from its exact value and not from its rounding.
+struct CodeTable {
+  std::vector<float> decoded;
+  float maximum;
+
+  CodeTable(int codes, TextureEncoding encoding) : maximum(static_cast<float>(codes - 1)) {
+    decoded.reserve(static_cast<size_t>(codes));
+    for (int code = 0; code < codes; ++code) {
+      const double value = static_cast<double>(code) / (codes - 1);
+      decoded.push_back(
+          static_cast<float>(encoding == TextureEncoding::kSrgb ? SrgbEotf(value) : value));
+    }
+  }
+  // Whether the float is one of the table's codes, give or take two roundings: at most 0.016 of a
+  // 16-bit code, and 255 times less than the distance of 16-bit codes of an 8-bit one.
+  bool Holds(float value) const {
+    const float code = value * maximum;
+    return value >= 0 && value <= 1 && std::abs(std::round(code) - code) <= maximum * 0x1p-22f;
+  }
+  float Decode(float value) const {
+    return decoded[static_cast<size_t>(std::round(value * maximum))];
+  }
+};
+
+void CheckSize(const std::filesystem::path& path, const Window& window, size_t channels) {
+  const auto width = int64_t{window.x1} - window.x0, height = int64_t{window.y1} - window.y0;
+  const double side = limits::kImageSide.max;
+  const auto values = static_cast<double>(width) * static_cast<double>(height) *
+                      static_cast<double>(std::min<size_t>(channels, 3));
+  if (width >= 1 && height >= 1 && static_cast<double>(width) <= side &&
+      static_cast<double>(height) <= side && values <= static_cast<double>(kMaxTexelValues)) {
+    return;
+  }
+  throw Error(ExitCode::kBadInput, path.string(),
+              fmt::format("{} x {} texels are too many for a texture", width, height),
+              "make it smaller: 65536 a side, 2^30 values in all");
+}
+
+// Red, green and blue, or the first channel that is not alpha.
+std::vector<const Channel*> ChannelsOf(const Image& image) {
+  const std::vector<const Channel*> rgb = {image.Find("R"), image.Find("G"), image.Find("B")};
+  if (rgb[0] != nullptr && rgb[1] != nullptr && rgb[2] != nullptr) return rgb;
+  for (const Channel& channel : image.channels) {
+    if (channel.name != "A" && channel.name != "Alpha") return {&channel};
+  }
+  return {};
+}
+
+// Row by row from the bottom, channels together.
+std::vector<float> Interleave(const Image& image, const std::vector<const Channel*>& channels) {
+  const auto width = static_cast<size_t>(image.data.width());
+  const auto height = static_cast<size_t>(image.data.height());
+  std::vector<float> values;
+  values.reserve(width * height * channels.size());
+  for (size_t y = height; y-- > 0;) {
+    for (size_t x = 0; x < width; ++x) {
+      for (const Channel* channel : channels) values.push_back(channel->samples[y * width + x]);
+    }
+  }
+  return values;
+}
+
+// Decodes the values of an integer file and returns the code that a normal map has as 0.
+float DecodeIntegers(TextureEncoding encoding, std::vector<float>* values) {
+  const CodeTable bytes(1 << 8, encoding);
+  const auto is_byte = [&](float value) { return bytes.Holds(value); };
+  if (std::all_of(values->begin(), values->end(), is_byte)) {
+    for (float& value : *values) value = bytes.Decode(value);
+    return 128.0f / 255;
+  }
+  const CodeTable words(1 << 16, encoding);
+  for (float& value : *values) {
+    value = words.Holds(value)                   ? words.Decode(value)
+            : encoding == TextureEncoding::kSrgb ? SrgbEotf(value)
+                                                 : value;
+  }
+  return 32768.0f / 65535;
+}
+
+}  // namespace
+
+SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
+                            TextureEncoding encoding) {
+  if (HasExtension(path.string(), ".exr")) {
+    const Image header = ReadExrHeader(path.string());  // before anything is decoded
+    CheckSize(path, header.data, header.channels.size());
+  }
+  SceneImage texture;
+  texture.file = file;
+  std::vector<float> values;
+  int width = 0, height = 0;
+  size_t channel_count = 0;
+  {
+    const Image image = ReadImage(path.string());  // OpenImageIO's reader refuses over 2 GiB
+    const std::vector<const Channel*> channels = ChannelsOf(image);
+    if (channels.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no colours");
+    CheckSize(path, image.data, channels.size());
+    channel_count = channels.size();
+    width = image.data.width();
+    height = image.data.height();
+    values = Interleave(image, channels);
+    const auto transfer = image.metadata.find("transfer");
+    if (transfer != image.metadata.end() && transfer->second == "display") {
+      texture.middle = DecodeIntegers(encoding, &values);
+    }
+  }
+  if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
+    throw Error(ExitCode::kBadInput, path.string(), "holds NaN or infinities",
+                "a texture needs finite values");
+  }
+  texture.texels = std::make_shared<const MipChain>(
+      MakeMipChain(width, height, static_cast<int>(channel_count), std::move(values)));
+  return texture;
+}
+
+}  // namespace nacre

@@ -1,0 +1,22 @@
+// shading/area_kernels.h: the SIMD kernels behind sampled_light.h, for area lights and for skies.
+#pragma once
+
+#include "shading/sampled_light.h"
+
+namespace nacre {
+
+// As SampleLight, FindLight and LightIrradiance, of lights that are no skies.
+void SampleArea(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+                LightDirections* directions);
+void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
+void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
+                    float* irradiance);
+
+// The radiance of a sky along unit vectors, as multiples of its colour.
+void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
+                 Soa3<float>* radiance);
+// A sky's irradiance, but of pictures.
+void SkyIrradiance(const SampledLight& light, const Surface& surface, size_t count,
+                   Soa3<float>* irradiance);
+
+}  // namespace nacre

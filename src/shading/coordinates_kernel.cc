@@ -1,0 +1,172 @@
+// shading/coordinates_kernel.cc: texture coordinates of hits, their gradients, and how they change
+// from pixel to pixel: analytic, so that neither a seam nor a neighbour counts.
+#include <algorithm>
+
+#include "shading/texture_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/coordinates_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "texture/mapping-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+using F = hn::Rebind<float, D>;
+
+HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
+  const D d;
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+
+HWY_INLINE Vec3V<V> Load(const Soa3<double>& soa, size_t i) {
+  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
+}
+
+HWY_INLINE void Store(const Vec3V<V>& v, size_t i, Soa3<double>* soa) {
+  const D d;
+  hn::StoreU(v.x, d, soa->x.data() + i);
+  hn::StoreU(v.y, d, soa->y.data() + i);
+  hn::StoreU(v.z, d, soa->z.data() + i);
+}
+
+// a x + b y.
+HWY_INLINE Vec3V<V> Combine(V a, const Vec3V<V>& x, V b, const Vec3V<V>& y) {
+  return {hn::MulAdd(a, x.x, hn::Mul(b, y.x)), hn::MulAdd(a, x.y, hn::Mul(b, y.y)),
+          hn::MulAdd(a, x.z, hn::Mul(b, y.z))};
+}
+
+// Where the ray through the next pixel, `step` away on the film, meets the tangent plane: the ray
+// differentials of Igehy 1999.
+HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const Vec3V<V>& normal) {
+  const V back = hn::Div(FusedDot(step, normal), FusedDot(along, normal));
+  return {hn::NegMulAdd(along.x, back, step.x), hn::NegMulAdd(along.y, back, step.y),
+          hn::NegMulAdd(along.z, back, step.z)};
+}
+
+void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
+  const D d;
+  const CameraFrame& camera = run.scene.camera;
+  const bool perspective = camera.projection == Projection::kPerspective;
+  const Vec3V<V> forward = Set3(camera.forward);
+  const Vec3V<V> step_x = Set3(camera.step_x * run.scene.footprint);
+  const Vec3V<V> step_y = Set3(camera.step_y * run.scene.footprint);
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> position = Load(hits.position, i), normal = Load(t->geometric, i);
+    // Perspective: steps grow with the depth, for `forward` and the film's rays have product 1.
+    const V depth = perspective ? FusedDot(position, forward) : hn::Set(d, 1.0);
+    const Vec3V<V> along = perspective ? position : forward;
+    Store(NextPixel(Scale(step_x, depth), along, normal), i, &t->dp_dx);
+    Store(NextPixel(Scale(step_y, depth), along, normal), i, &t->dp_dy);
+  }
+}
+
+// The point of meshes as the mapping sees it; spheres' have been found.
+void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
+                     HitTextures* t) {
+  const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
+  for (size_t i = run.begin; i < run.end; ++i) {
+    if (hits.primitive[i] < sphere_count) continue;
+    t->point.x[i] = (hits.position.x[i] - texture.center.x) * texture.inverse_size;
+    t->point.y[i] = (hits.position.y[i] - texture.center.y) * texture.inverse_size;
+    t->point.z[i] = (hits.position.z[i] - texture.center.z) * texture.inverse_size;
+    t->inverse_size[i] = texture.inverse_size;
+  }
+}
+
+void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures* t) {
+  const D d;
+  const Vec3V<V> fx = Set3(texture.frame[0]), fy = Set3(texture.frame[1]);
+  const Vec3V<V> fz = Set3(texture.frame[2]);
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> point = Load(t->point, i);
+    const Vec3V<V> local{FusedDot(point, fx), FusedDot(point, fy), FusedDot(point, fz)};
+    MappedV<V> mapped = MapPoint(d, texture.mapping, local);
+    const V scale = hn::LoadU(d, t->inverse_size.data() + i);
+    const auto to_world = [&](const Vec3V<V>& g) HWY_ATTR {
+      return Scale(Add(Combine(g.x, fx, g.y, fy), Scale(fz, g.z)), scale);
+    };
+    hn::StoreU(mapped.u, d, t->u.data() + i);
+    hn::StoreU(mapped.v, d, t->v.data() + i);
+    Store(to_world(mapped.du), i, &t->gradient_u);
+    Store(to_world(mapped.dv), i, &t->gradient_v);
+  }
+}
+
+// Whether v grows downwards in what the mapping gives.
+bool IsUpsideDown(MappingKind mapping) {
+  return mapping == MappingKind::kSpherical || mapping == MappingKind::kCube ||
+         mapping == MappingKind::kUv;
+}
+
+// v made to point up, the texture's own transform, and footprints. `upside_down` is 1 or, where v
+// points up already, 0.
+HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_down, size_t i,
+                             HitTextures* t) {
+  const D d;
+  const F f;
+  const V one = hn::Set(d, 1.0);
+  const V u = hn::LoadU(d, t->u.data() + i), down = hn::LoadU(d, t->v.data() + i);
+  const V v = hn::IfThenElse(upside_down, hn::Sub(one, down), down);
+  const Vec3V<V> gu = Load(t->gradient_u, i), gd = Load(t->gradient_v, i);
+  const Vec3V<V> gv = Scale(gd, hn::IfThenElse(upside_down, hn::Neg(one), one));
+  const V uu = hn::Set(d, texture.u_row.x), uv = hn::Set(d, texture.u_row.y);
+  const V vu = hn::Set(d, texture.v_row.x), vv = hn::Set(d, texture.v_row.y);
+  hn::StoreU(hn::MulAdd(uu, u, hn::MulAdd(uv, v, hn::Set(d, texture.offset.x))), d,
+             t->u.data() + i);
+  hn::StoreU(hn::MulAdd(vu, u, hn::MulAdd(vv, v, hn::Set(d, texture.offset.y))), d,
+             t->v.data() + i);
+  const Vec3V<V> gradient_u = Combine(uu, gu, uv, gv), gradient_v = Combine(vu, gu, vv, gv);
+  Store(gradient_u, i, &t->gradient_u);
+  Store(gradient_v, i, &t->gradient_v);
+  const Vec3V<V> dx = Load(t->dp_dx, i), dy = Load(t->dp_dy, i);
+  const auto store = [&](V value, AlignedArray<float>* to)
+                         HWY_ATTR { hn::StoreU(hn::DemoteTo(f, value), f, to->data() + i); };
+  store(FusedDot(gradient_u, dx), &t->du_dx);
+  store(FusedDot(gradient_v, dx), &t->dv_dx);
+  store(FusedDot(gradient_u, dy), &t->du_dy);
+  store(FusedDot(gradient_v, dy), &t->dv_dy);
+}
+
+void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
+                      HitTextures* t) {
+  const D d;
+  const bool own = texture.mapping == MappingKind::kUv;
+  FindSteps(run, hits, t);
+  if (t->any_mesh && !own) PlaceMeshPoints(run, texture, hits, t);
+  MapRun(run, texture, t);  // where a mesh has its own coordinates, of whatever point
+  if (t->any_mesh && own) FindMeshCoordinates(run, hits, t);
+  const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
+  const bool down = IsUpsideDown(texture.mapping);
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    alignas(64) double is_down[8] = {};
+    for (size_t k = 0; k < hn::Lanes(d); ++k) {
+      is_down[k] = down && !(own && hits.primitive[i + k] >= sphere_count) ? 1 : 0;
+    }
+    TransformHit(texture, hn::Gt(hn::Load(d, is_down), hn::Zero(d)), i, t);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(MakeCoordinatesT);
+
+void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
+                     HitTextures* textures) {
+  HWY_DYNAMIC_DISPATCH(MakeCoordinatesT)(run, texture, hits, textures);
+}
+}  // namespace nacre
+#endif

@@ -1,0 +1,48 @@
+// shading/lobe_sample.h: directions chosen by what a surface reflects, and how densely, per solid
+// angle.
+#pragma once
+
+#include "hit/batch.h"
+#include "shading/material.h"
+#include "shading/shade.h"
+#include "shading/textures.h"
+
+namespace nacre {
+
+// Whether SampleLobe is for the material: it has a specular lobe that is no perfect mirror's.
+bool HasSampledLobe(const ShadingMaterial& material);
+
+// Whether its diffuse reflection of a light is a function of the viewer's direction times the
+// light's irradiance.
+bool DiffuseIsFlat(const ShadingMaterial& material);
+
+// Directions by the cosine law about the normals, with density n.l / pi, by points (u, v) in
+// [0, 1)^2.
+void SampleCosine(const Surface& surface, size_t count, const float* u, const float* v,
+                  Soa3<float>* to_light);
+
+// Hits [begin, end) of a batch, all of one material.
+struct LobeRange {
+  const HitBatch& hits;
+  const Surface& surface;
+  size_t begin, end;
+  const HitTextures* textures = nullptr;  // of materials with maps
+};
+
+// Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe, the
+// lobe itself of the Phong family. Directions below the surface reflect nothing.
+void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
+                const float* v, Soa3<float>* to_light);
+
+// The density with which SampleLobe chooses the directions light.to_light; 0 of materials that it
+// is not for.
+void LobeDensity(const ShadingMaterial& material, const LobeRange& range, const LightBatch& light,
+                 NarrowLobes* scratch, float* density);
+
+// Where perfect mirrors look: the view direction mirrored in the normal, and what the mirror
+// reflects of light from there, per channel.
+void MirrorDirections(const LobeRange& range, Soa3<float>* to_light);
+void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
+                       Soa3<float>* reflectance);
+
+}  // namespace nacre

@@ -1,0 +1,103 @@
+#include "shading/mapped.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "base/overloaded.h"
+#include "shading/texture_kernels.h"
+
+namespace nacre {
+namespace {
+
+using ByHit = const float*;
+
+void Assign(const Soa3<float>& from, ByHit (&to)[3]) {
+  to[0] = from.x.data();
+  to[1] = from.y.data();
+  to[2] = from.z.data();
+}
+
+template <class Test>
+bool AnyOf(const AlignedArray<double>& numbers, const ShadeRange& range, const Test& test) {
+  return std::any_of(numbers.data() + range.begin, numbers.data() + range.end, test);
+}
+
+void Shade(const LambertModel&, const ShadeRange& range, bool, NarrowLobes*, const HitTextures& t) {
+  LambertLightOf<ByHit> light;
+  Assign(t.by_diffuse, light.diffuse);
+  ShadeLambertMaps(light, range);
+}
+
+void Shade(const PhongFamilyModel& phong, const ShadeRange& range, bool, NarrowLobes* scratch,
+           const HitTextures& t) {
+  PhongLightOf<ByHit> light;
+  Assign(t.by_diffuse, light.diffuse);
+  Assign(t.by_specular, light.specular);
+  PhongUniformsOf<ByHit> uniforms{phong.model, t.alpha.data(), &light, nullptr};
+  const auto is_narrow = [&](double n) { return n > kDoubleTermsShininess; };
+  if (AnyOf(t.width, range, is_narrow)) {
+    NarrowPhongMaps(phong.model, t.width.data(), range, scratch);
+    uniforms.narrow = scratch;
+  }
+  ShadePhongMaps(uniforms, range);
+}
+
+void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
+           NarrowLobes* scratch, const HitTextures& t) {
+  MicrofacetLightOf<ByHit> light;
+  Assign(t.by_diffuse, light.diffuse);
+  Assign(t.by_specular, light.specular);
+  Assign(t.by_specular_f0, light.specular_f0);
+  Assign(t.by_specular_rest, light.specular_rest);
+  Assign(t.by_diffuse_rest, light.diffuse_rest);
+  Assign(t.by_multiple, light.multiple);
+  MicrofacetUniformsOf<ByHit> uniforms{};
+  uniforms.model = &model;
+  uniforms.lights = &light;
+  uniforms.alpha = t.alpha.data();
+  uniforms.alpha2_over_pi = t.alpha2_over_pi.data();
+  uniforms.schlick_k = t.schlick_k.data();
+  Assign(t.f0, uniforms.f0);
+  Assign(t.f82_slope, uniforms.f82_slope);
+  Assign(t.f_multiple, uniforms.f_multiple);
+  uniforms.fit = own_fits ? t.fit.data() : nullptr;
+  uniforms.fit_stride = HitTextures::kFitStride;
+  if (AnyOf(t.double_alpha, range, [](double alpha) { return alpha >= 0; })) {
+    NarrowGgxMaps(t.double_alpha.data(), range, scratch);
+    uniforms.narrow = scratch->first.data();
+  }
+  if (model.fresnel == FresnelForm::kSchlick) return ShadeSchlickMaps(uniforms, range);
+  ShadeF82Maps(uniforms, range);
+}
+
+}  // namespace
+
+bool HasMappedModel(const ShadingMaterial& material) {
+  if (!material.mapped) return false;
+  for (const MapRole role :
+       {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kWidth, MapRole::kMetallicRoughness}) {
+    if (MapOf(*material.textured, role).valid()) return true;
+  }
+  return false;
+}
+
+bool HasOwnFits(const ShadingMaterial& material) {
+  return MapOf(*material.textured, MapRole::kMetallicRoughness).valid();
+}
+
+void ShadeMapped(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,
+                 HitTextures* textures) {
+  const bool own_fits = HasOwnFits(material);
+  for (const LightOnBatch& light : range.lights) {
+    MakeProducts({material, light.light->color, range.begin, range.end}, textures);
+    ShadeRange one = range;
+    one.lights = {&light, 1};
+    one.replace = range.replace && &light == range.lights.data();
+    std::visit(
+        Overloaded{[](std::monostate) {},
+                   [&](const auto& model) { Shade(model, one, own_fits, scratch, *textures); }},
+        material.model);
+  }
+}
+
+}  // namespace nacre

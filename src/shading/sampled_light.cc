@@ -1,0 +1,139 @@
+#include "shading/sampled_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "base/overloaded.h"
+#include "scene/light_shapes.h"
+#include "shading/area_kernels.h"
+
+namespace nacre {
+namespace {
+
+void Prepare(const SphereAreaLight& sphere, const Vec3d& camera, SampledLight* light) {
+  light->form = SampledForm::kSphere;
+  light->color = sphere.radiance;
+  light->place = sphere.center - camera;
+  light->radius = sphere.radius;
+}
+
+void Prepare(const RectangleAreaLight& rectangle, const Vec3d& camera, SampledLight* light) {
+  const RectangleCorners corners = CornersOf(rectangle);
+  light->form = SampledForm::kRectangle;
+  light->color = rectangle.radiance;
+  light->place = corners.corner - camera;
+  light->edge_x = corners.edge_x;
+  light->edge_y = corners.edge_y;
+  light->normal = rectangle.facing.normalized();
+  light->two_sided = rectangle.two_sided;
+}
+
+void Prepare(const DiskAreaLight& disk, const Vec3d& camera, SampledLight* light) {
+  light->form = SampledForm::kDisk;
+  light->color = disk.radiance;
+  light->place = disk.center - camera;
+  light->normal = disk.facing.normalized();
+  light->radius = disk.radius;
+  light->two_sided = disk.two_sided;
+}
+
+// A vector turned about +y, right-handed.
+Vec3d Rotate(const Vec3d& v, double cosine, double sine) {
+  return {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};
+}
+
+void Prepare(const EnvironmentLight& environment, SampledLight* light) {
+  ShadingSky& to = light->sky;
+  const double angle = environment.rotate_deg * M_PI / 180;
+  to.cos_rotation = std::cos(angle);
+  to.sin_rotation = std::sin(angle);
+  std::visit(
+      Overloaded{[&](const ConstantSky& sky) {
+                   light->form = SampledForm::kConstantSky;
+                   light->color = sky.radiance;
+                 },
+                 [&](const GradientSky& sky) {
+                   light->form = SampledForm::kGradientSky;
+                   light->color = Rgb(1, 1, 1);
+                   to.zenith = Vec3f(sky.zenith);
+                   to.horizon = Vec3f(sky.horizon);
+                   to.ground = Vec3f(sky.ground);
+                 },
+                 [&](const QuadraticSky& sky) {
+                   light->form = SampledForm::kQuadraticSky;
+                   light->color = sky.radiance;
+                   to.axis = Vec3f(Rotate(sky.axis.normalized(), to.cos_rotation, to.sin_rotation));
+                   to.constant = static_cast<float>(sky.constant);
+                   to.linear = static_cast<float>(sky.linear);
+                   to.quadratic = static_cast<float>(sky.quadratic);
+                 },
+                 [&](const PictureSky& sky) {
+                   light->form = SampledForm::kPictureSky;
+                   light->color = sky.scale;
+                   to.picture = sky.picture;
+                 }},
+      environment.sky);
+}
+
+}  // namespace
+
+void SampleLight(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+                 LightDirections* directions) {
+  SampleArea(light, hits, u, v, directions);
+}
+
+void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
+  if (!IsSky(light)) return FindArea(light, hits, directions);
+  std::fill_n(directions->distance.data(), hits.count, std::numeric_limits<float>::infinity());
+  std::fill_n(directions->density.data(), hits.count, 0.0f);
+  if (IsColored(light)) {
+    EvaluateSky(light, directions->to_light, hits.count, &directions->radiance);
+  }
+}
+
+void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
+                     Soa3<float>* irradiance) {
+  if (!IsSky(light)) return AreaIrradiance(light, hits, surface, irradiance->x.data());
+  if (IsColored(light)) return SkyIrradiance(light, surface, hits.count, irradiance);
+  std::fill_n(irradiance->x.data(), hits.count, static_cast<float>(M_PI));
+}
+
+void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size_t count,
+                 Soa3<float>* radiance) {
+  const Vec3f color(light.color);
+  if (IsColored(light)) {
+    Soa3<float> unit;
+    for (size_t i = 0; i < count; ++i) {
+      const Vec3d direction(directions.x[i], directions.y[i], directions.z[i]);
+      const Vec3d normalized = direction / direction.length();
+      unit.x[i] = static_cast<float>(normalized.x);
+      unit.y[i] = static_cast<float>(normalized.y);
+      unit.z[i] = static_cast<float>(normalized.z);
+    }
+    EvaluateSky(light, unit, count, radiance);
+  }
+  const auto scale = [&](float by, AlignedArray<float>* channel) {
+    for (size_t i = 0; i < count; ++i) {
+      (*channel)[i] = IsColored(light) ? by * (*channel)[i] : by;
+    }
+  };
+  scale(color.x, &radiance->x);
+  scale(color.y, &radiance->y);
+  scale(color.z, &radiance->z);
+}
+
+SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position) {
+  SampledLight prepared;
+  std::visit(
+      Overloaded{[&](const EnvironmentLight& environment) { Prepare(environment, &prepared); },
+                 [&](const SphereAreaLight& area) { Prepare(area, camera_position, &prepared); },
+                 [&](const RectangleAreaLight& area) { Prepare(area, camera_position, &prepared); },
+                 [&](const DiskAreaLight& area) { Prepare(area, camera_position, &prepared); },
+                 [](const auto&) {}},
+      light.kind);
+  return prepared;
+}
+
+}  // namespace nacre

@@ -1,0 +1,91 @@
+// shading/sampled_light.h: lights with an extent, and environments: directions to them, how densely
+// these were chosen, and what is seen along a direction. Densities are per solid angle.
+//
+// An estimate of what a hit reflects of such a light is the mean of (reflected radiance of a unit
+// light in direction l) x radiance(l) / density(l) over directions chosen with that density, with
+// shadow rays in between. Where two ways of choosing are combined, as Veach and Guibas 1995 do by
+// the balance heuristic, density(l) is the sum of both.
+#pragma once
+
+#include <memory>
+
+#include "hit/batch.h"
+#include "scene/scene.h"
+#include "shading/shade.h"
+
+namespace nacre {
+
+enum class SampledForm : uint8_t {
+  kSphere,
+  kRectangle,
+  kDisk,
+  kConstantSky,
+  kGradientSky,
+  kQuadraticSky,
+  kPictureSky,
+};
+
+// What a sky shows, in the order of the form's use.
+struct ShadingSky {
+  Vec3f zenith{0, 0, 0}, horizon{0, 0, 0}, ground{0, 0, 0};
+  Vec3f axis{0, 1, 0};  // unit
+  float constant = 1, linear = 0, quadratic = 0;
+  std::shared_ptr<const SkyPicture> picture;
+  double cos_rotation = 1, sin_rotation = 0;  // of the picture, about +y
+};
+
+// A light prepared for sampling. Positions are relative to the camera.
+struct SampledLight {
+  SampledForm form = SampledForm::kSphere;
+  Rgb color{0, 0, 0};     // radiance; of a sky what its value is multiplied by
+  Vec3d place{0, 0, 0};   // the centre, or a rectangle's corner
+  Vec3d edge_x{0, 0, 0};  // a rectangle's edges from there
+  Vec3d edge_y{0, 0, 0};
+  Vec3d normal{0, 0, 0};  // of rectangles and disks: unit, to the side that emits
+  double radius = 0;
+  bool two_sided = false;
+  ShadingSky sky;
+};
+
+// `light` is neither ambient nor punctual.
+SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position);
+
+inline bool IsSky(const SampledLight& light) { return light.form >= SampledForm::kConstantSky; }
+
+// Whether SampleLight is for it. Other skies are so smooth that directions chosen by what the
+// surface reflects serve as well.
+inline bool HasSampler(const SampledLight& light) { return !IsSky(light); }
+
+// Whether its radiance depends on the direction.
+inline bool IsColored(const SampledLight& light) { return light.form > SampledForm::kConstantSky; }
+
+// Whether LightIrradiance is for it: not for pictures.
+inline bool HasIrradiance(const SampledLight& light) {
+  return light.form != SampledForm::kPictureSky;
+}
+
+// One direction from each hit of a batch, and what of the light is seen there.
+struct LightDirections {
+  Soa3<float> to_light;                          // unit
+  AlignedArray<float> distance{kBatchCapacity};  // infinity: a sky; 0: the light is missed
+  AlignedArray<float> density{kBatchCapacity};   // with which SampleLight chooses it; 0: never
+  Soa3<float> radiance;  // of coloured lights, as multiples of SampledLight::color
+};
+
+// Chooses directions by points (u, v) in [0, 1)^2. A hit that cannot see the light misses it.
+void SampleLight(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+                 LightDirections* directions);
+
+// Fills in all but to_light, which is given.
+void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
+
+// The light's irradiance per unit of its colour on each hit that sees all of it. Of coloured
+// lights `irradiance` gives three values, of others one, in x.
+void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
+                     Soa3<float>* irradiance);
+
+// What the sky shows along directions, which need not be unit vectors.
+void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size_t count,
+                 Soa3<float>* radiance);
+
+}  // namespace nacre

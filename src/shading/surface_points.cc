@@ -1,0 +1,93 @@
+// shading/surface_points.cc: where hits lie on their shapes: what mappings take, and the triangles
+// behind hits on meshes.
+#include <algorithm>
+#include <cmath>
+
+#include "shading/texture_kernels.h"
+
+namespace nacre {
+namespace {
+
+Vec3d Get(const Soa3<double>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
+
+void Put(const Vec3d& v, size_t i, Soa3<double>* soa) {
+  soa->x[i] = v.x;
+  soa->y[i] = v.y;
+  soa->z[i] = v.z;
+}
+
+// A triangle, relative to its first corner.
+struct Corners {
+  const Mesh* mesh;
+  uint32_t index[3];
+  Vec3d a, e1, e2;  // a: in the world
+};
+
+Corners CornersOf(const TextureScene& scene, uint32_t triangle) {
+  const auto& first = scene.mesh_first_triangle;
+  const auto after = std::upper_bound(first.begin(), first.end(), triangle);
+  const auto mesh_index = static_cast<size_t>(after - first.begin()) - 1;
+  Corners corners;
+  corners.mesh = &scene.scene->meshes[mesh_index];
+  const size_t at = 3 * size_t{triangle - first[mesh_index]};
+  for (size_t k = 0; k < 3; ++k) corners.index[k] = corners.mesh->triangles[at + k];
+  corners.a = corners.mesh->positions[corners.index[0]];
+  corners.e1 = corners.mesh->positions[corners.index[1]] - corners.a;
+  corners.e2 = corners.mesh->positions[corners.index[2]] - corners.a;
+  return corners;
+}
+
+}  // namespace
+
+void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
+  HitTextures& t = *textures;
+  const Scene& scene = *run.scene.scene;
+  const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
+  t.any_mesh = false;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    const uint32_t primitive = hits.primitive[i];
+    const Vec3d normal = Get(hits.normal, i);
+    const Vec3d to_view = Get(hits.to_view, i);
+    if (primitive < sphere_count) {
+      const Sphere& sphere = scene.spheres[primitive];
+      const Vec3d center = sphere.center - scene.camera.position;
+      // The normal is on the ray's side; from inside it points to the centre.
+      const double side = (Get(hits.position, i) - center).dot(normal) < 0 ? -1 : 1;
+      t.side[i] = side;
+      Put(normal * side, i, &t.point);
+      t.inverse_size[i] = 1 / sphere.radius;
+      Put(normal, i, &t.geometric);
+    } else {
+      const Corners corners = CornersOf(run.scene, primitive - sphere_count);
+      const Vec3d face = corners.e1.cross(corners.e2).normalized();
+      t.side[i] = face.dot(to_view) < 0 ? -1 : 1;
+      Put(face * t.side[i], i, &t.geometric);
+      t.any_mesh = true;
+    }
+  }
+}
+
+void FindMeshCoordinates(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
+  HitTextures& t = *textures;
+  const Scene& scene = *run.scene.scene;
+  const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
+  for (size_t i = run.begin; i < run.end; ++i) {
+    if (hits.primitive[i] < sphere_count) continue;
+    const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
+    const auto& uvs = corners.mesh->uvs;
+    const Vec2d uv = uvs[corners.index[0]];
+    const Vec2d d1 = uvs[corners.index[1]] - uv, d2 = uvs[corners.index[2]] - uv;
+    // The gradients of the barycentric coordinates: dual to the edges, in their plane.
+    const Vec3d n = corners.e1.cross(corners.e2);
+    const double area2 = n.dot(n);
+    const Vec3d g1 = corners.e2.cross(n) / area2, g2 = n.cross(corners.e1) / area2;
+    const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
+    const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);
+    t.u[i] = uv.x + b1 * d1.x + b2 * d2.x;
+    t.v[i] = uv.y + b1 * d1.y + b2 * d2.y;
+    Put(g1 * d1.x + g2 * d2.x, i, &t.gradient_u);
+    Put(g1 * d1.y + g2 * d2.y, i, &t.gradient_v);
+  }
+}
+
+}  // namespace nacre

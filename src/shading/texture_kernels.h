@@ -1,0 +1,45 @@
+// shading/texture_kernels.h: the steps behind textures.h, over the hits of a run.
+#pragma once
+
+#include "shading/kernels.h"
+#include "shading/textures.h"
+#include "texture/sample_kernel.h"
+
+namespace nacre {
+
+// What a map multiplies.
+enum class MapRole : uint8_t {
+  kDiffuse,            // albedo, the Phong family's color, base_color
+  kSpecular,           // ks
+  kWidth,              // shininess
+  kMetallicRoughness,  // green: roughness, blue: metallic
+  kEmission,
+};
+TextureId MapOf(const Material& material, MapRole role);
+
+// Fills point, inverse_size, geometric and side (surface_points.cc).
+void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
+
+// For meshes with coordinates of their own: u, v and gradients at hits on triangles, before the
+// texture's transform (surface_points.cc).
+void FindMeshCoordinates(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
+
+// u, v, gradients and footprints for a texture (coordinates_kernel.cc).
+void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
+                     HitTextures* textures);
+
+// Normals turned by textures->texels, of which `middle` counts as 0, or by the slopes in its x and
+// y, times `distance` (turn_kernel.cc).
+void TurnNormals(const TexturedRun& run, float middle, float scale, const HitTextures& textures,
+                 HitBatch* hits, Surface* surface);
+void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,
+                         HitBatch* hits, Surface* surface);
+void RoundGeometric(const TexturedRun& run, HitTextures* textures);
+
+// The material's numbers at every hit, each map's values multiplied to them, and what shading and
+// layers make of them (mapped_material.cc).
+void StartMaterial(const TexturedRun& run, HitTextures* textures);
+void ApplyMap(const TexturedRun& run, MapRole role, HitTextures* textures);
+void FinishMaterial(const TexturedRun& run, HitTextures* textures);
+
+}  // namespace nacre

@@ -1,0 +1,173 @@
+#include "shading/textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "shading/texture_kernels.h"
+
+namespace nacre {
+namespace {
+
+// The axes of a mapping: z is its axis, and x points where longitudes begin or, seen along an axis
+// that is not vertical, to the right.
+void MakeFrame(const Texture& texture, Vec3d (&frame)[3]) {
+  const Vec3d z = texture.axis.normalized();
+  const Vec3d across = Vec3d(0, 1, 0).cross(z);
+  // Below this sine the axis counts as vertical.
+  constexpr double kUpright = 1e-9;
+  Vec3d x = across.length() > kUpright ? across.normalized() : Vec3d(0, 0, -1);
+  Vec3d y = z.cross(x).normalized();
+  const double angle = texture.rotate_deg * M_PI / 180;
+  const double c = std::cos(angle), s = std::sin(angle);
+  frame[0] = x * c + y * s;
+  frame[1] = y * c - x * s;
+  frame[2] = z;
+}
+
+// Scale, turn and offset, after what makes v point up.
+void MakeTransform(const Texture& texture, PreparedTexture* prepared) {
+  const double angle = texture.uv_rotate_deg * M_PI / 180;
+  const double c = texture.uv_rotate_deg == 0 ? 1 : std::cos(angle);
+  const double s = texture.uv_rotate_deg == 0 ? 0 : std::sin(angle);
+  prepared->u_row = Vec2d(c * texture.scale.x, -s * texture.scale.y);
+  prepared->v_row = Vec2d(s * texture.scale.x, c * texture.scale.y);
+  prepared->offset = texture.offset;
+}
+
+bool SameCoordinates(const Texture& a, const Texture& b) {
+  const auto key = [](const Texture& t) {
+    return std::make_tuple(t.mapping, t.axis.x, t.axis.y, t.axis.z, t.rotate_deg, t.center.x,
+                           t.center.y, t.center.z, t.size, t.scale.x, t.scale.y, t.uv_rotate_deg,
+                           t.offset.x, t.offset.y);
+  };
+  return key(a) == key(b);
+}
+
+// Coordinates made last; kNone before any.
+constexpr size_t kNone = static_cast<size_t>(-1);
+
+class RunTexturer {
+ public:
+  RunTexturer(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures)
+      : run_(run), hits_(hits), surface_(surface), t_(textures) {}
+
+  void Texture() {
+    FindPoints(run_, *hits_, t_);
+    const Material& material = *run_.material.textured;
+    if (material.normal_map.texture.valid()) TurnByNormalMap(material.normal_map);
+    if (material.bump_map.texture.valid()) TurnByBumpMap(material.bump_map);
+    if (run_.material.turned) RoundGeometric(run_, t_);
+    StartMaterial(run_, t_);
+    for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kWidth,
+                               MapRole::kMetallicRoughness, MapRole::kEmission}) {
+      const TextureId id = MapOf(material, role);
+      if (!id.valid()) continue;
+      LookUp(id);
+      ApplyMap(run_, role, t_);
+    }
+    FinishMaterial(run_, t_);
+  }
+
+ private:
+  const PreparedTexture& FindCoordinates(TextureId id) {
+    const PreparedTexture& texture = run_.scene.textures[id.index];
+    if (texture.coordinates != made_) MakeCoordinates(run_, texture, *hits_, t_);
+    made_ = texture.coordinates;
+    return texture;
+  }
+
+  SamplePoints Points() const {
+    const size_t i = run_.begin;
+    return {
+        t_->u.data() + i,
+        t_->v.data() + i,
+        {t_->du_dx.data() + i, t_->dv_dx.data() + i, t_->du_dy.data() + i, t_->dv_dy.data() + i},
+        run_.end - run_.begin};
+  }
+
+  void LookUp(TextureId id) {
+    const PreparedTexture& texture = FindCoordinates(id);
+    const size_t i = run_.begin;
+    float* const to[3] = {t_->texels.x.data() + i, t_->texels.y.data() + i,
+                          t_->texels.z.data() + i};
+    SampleTexture(*texture.image, texture.sampling, Points(), 3, to);
+  }
+
+  void TurnByNormalMap(const NormalMap& map) {
+    LookUp(map.texture);
+    const bool literal = map.convention == NormalMap::Convention::kLiteral;
+    const float middle = literal ? 0.5f : run_.scene.textures[map.texture.index].middle;
+    TurnNormals(run_, middle, static_cast<float>(map.scale), *t_, hits_, surface_);
+  }
+
+  void TurnByBumpMap(const BumpMap& map) {
+    const PreparedTexture& texture = FindCoordinates(map.texture);
+    const size_t i = run_.begin;
+    SampleSlopes(*texture.image, texture.sampling, Points(), t_->texels.x.data() + i,
+                 t_->texels.y.data() + i);
+    TurnNormalsBySlopes(run_, map.distance, *t_, hits_, surface_);
+  }
+
+  const TexturedRun& run_;
+  HitBatch* hits_;
+  Surface* surface_;
+  HitTextures* t_;
+  size_t made_ = kNone;
+};
+
+}  // namespace
+
+TextureId MapOf(const Material& material, MapRole role) {
+  if (role == MapRole::kEmission) return material.emission_map;
+  if (const auto* lambert = std::get_if<LambertMaterial>(&material.model)) {
+    return role == MapRole::kDiffuse ? lambert->albedo_map : TextureId{};
+  }
+  if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
+    return role == MapRole::kDiffuse    ? phong->diffuse_map
+           : role == MapRole::kSpecular ? phong->specular_map
+           : role == MapRole::kWidth    ? phong->shininess_map
+                                        : TextureId{};
+  }
+  if (const auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
+    return role == MapRole::kDiffuse             ? m->base_color_map
+           : role == MapRole::kMetallicRoughness ? m->metallic_roughness_map
+                                                 : TextureId{};
+  }
+  return {};
+}
+
+TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint) {
+  TextureScene prepared;
+  prepared.scene = &scene;
+  prepared.camera = camera;
+  prepared.footprint = footprint;
+  prepared.textures.reserve(scene.textures.size());
+  for (size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& texture = scene.textures[i];
+    PreparedTexture& to = prepared.textures.emplace_back();
+    const SceneImage& image = scene.images[texture.image.index];
+    to.image = image.texels.get();
+    to.sampling = texture.sampling;
+    to.mapping = texture.mapping;
+    to.middle = image.middle;
+    MakeFrame(texture, to.frame);
+    to.center = texture.center - scene.camera.position;
+    to.inverse_size = 1 / texture.size;
+    MakeTransform(texture, &to);
+    to.coordinates = 0;
+    while (!SameCoordinates(scene.textures[to.coordinates], texture)) ++to.coordinates;
+  }
+  uint32_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) {
+    prepared.mesh_first_triangle.push_back(triangles);
+    triangles += static_cast<uint32_t>(mesh.triangles.size() / 3);
+  }
+  return prepared;
+}
+
+void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures) {
+  RunTexturer(run, hits, surface, textures).Texture();
+}
+
+}  // namespace nacre

@@ -1,0 +1,100 @@
+// shading/textures.h: textures of a scene as hits look them up: prepared once per plan, and what
+// they give at the hits of a batch.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "hit/batch.h"
+#include "hit/camera_frame.h"
+#include "scene/scene.h"
+#include "shading/material.h"
+#include "shading/shade.h"
+
+namespace nacre {
+
+// A texture with its mapping worked out.
+struct PreparedTexture {
+  const MipChain* image;
+  SampleSettings sampling;
+  MappingKind mapping;
+  float middle;         // of a normal map: the value that is 0
+  Vec3d frame[3];       // the mapping's x, y and z axes, unit; z is its axis
+  Vec3d center;         // of meshes, relative to the camera
+  double inverse_size;  // of meshes
+  // (u, v) of the texture are these times those of the mapping, plus `offset`.
+  Vec2d u_row, v_row;
+  Vec2d offset;
+  size_t coordinates;  // textures with the same mapping have the same number
+};
+
+// What looking textures up takes, for all hits of a plan.
+struct TextureScene {
+  const Scene* scene = nullptr;
+  CameraFrame camera;
+  // What a sample stands for, in pixels: a sample of many is a small part of its pixel.
+  double footprint = 1;
+  std::vector<PreparedTexture> textures;      // one per texture of the scene
+  std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
+};
+
+TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint);
+
+// Of the hits of one batch that lie on materials with maps. Large: one per worker, and only if the
+// plan has such materials.
+struct HitTextures {
+  // Where the hits are: for spheres their unit outward direction, for meshes the position.
+  Soa3<double> point;
+  AlignedArray<double> inverse_size{kBatchCapacity};
+  Soa3<double> geometric;  // unit normal of the surface itself, on the ray's side
+  AlignedArray<double> side{kBatchCapacity};  // -1 where seen from behind or inside, else 1
+  Soa3<double> dp_dx, dp_dy;                  // of the position, from one pixel to the next
+  bool any_mesh = false;
+
+  // (u, v), their gradients in the world, and how they change from pixel to pixel.
+  AlignedArray<double> u{kBatchCapacity}, v{kBatchCapacity};
+  Soa3<double> gradient_u, gradient_v;
+  AlignedArray<float> du_dx{kBatchCapacity}, dv_dx{kBatchCapacity};
+  AlignedArray<float> du_dy{kBatchCapacity}, dv_dy{kBatchCapacity};
+
+  Soa3<float> texels;  // looked up last
+
+  // What the maps make of a material at each hit: what MicrofacetModel and PhongFamilyModel have of
+  // those names; `specular` of the former is F0.
+  Soa3<double> diffuse, specular;
+  AlignedArray<double> width{kBatchCapacity};  // roughness; or the Phong family's exponent
+  AlignedArray<double> metallic{kBatchCapacity};
+  Soa3<double> exact_slope, exact_f_multiple;  // f82_slope and f_multiple, not rounded
+  Soa3<float> albedo, ambient, emission;       // for the layers of these names
+  Soa3<float> geometric_rounded;               // for lights below the horizon
+  // The constants of models, rounded: alpha or exponent, alpha^2 / pi, Schlick's k; 0 for mirrors
+  // and else 1.
+  AlignedArray<float> alpha{kBatchCapacity}, alpha2_over_pi{kBatchCapacity};
+  AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
+  AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
+  Soa3<float> f0, f82_slope, f_multiple;
+  AlignedArray<float> multiple_scale{kBatchCapacity};  // kKullaConty: MicrofacetModel::multiple
+  // Coefficients of albedo fits, hit by hit: entry k of hit i is at [k * kFitStride + i].
+  static constexpr size_t kFitEntries = 4 + 2 * kAlbedoTerms;
+  static constexpr size_t kFitStride = kBatchCapacity + 3 * kBatchPadding;  // no power of two
+  AlignedArray<float> fit{kFitEntries * kFitStride};
+  // Products with one light; see MicrofacetLightOf.
+  Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rest, by_diffuse_rest,
+      by_multiple;
+};
+
+// What a material with maps has at hits [begin, end) of the batch, all of it: looks the maps up,
+// turns the normals of `hits` and `surface` by normal and bump maps, and leaves the rest in
+// `textures`. `hits` must have exact directions.
+struct TexturedRun {
+  const TextureScene& scene;
+  const ShadingMaterial& material;
+  size_t begin, end;
+};
+void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures);
+
+// Takes the light from hits [begin, end) where it is below the horizon of the surface itself,
+// though a turned normal faces it.
+void HideBelowHorizon(const HitTextures& textures, size_t begin, size_t end, LightBatch* light);
+
+}  // namespace nacre

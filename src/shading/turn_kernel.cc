@@ -1,0 +1,171 @@
+// shading/turn_kernel.cc: shading normals turned by normal maps and by the slopes of bump maps.
+#include "shading/texture_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/turn_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "base/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+using F = hn::Rebind<float, D>;
+
+HWY_INLINE Vec3V<V> Load(const Soa3<double>& soa, size_t i) {
+  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
+}
+
+HWY_INLINE V Promote(const AlignedArray<float>& from, size_t i) {
+  return hn::PromoteTo(D(), hn::LoadU(F(), from.data() + i));
+}
+
+HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
+  return Scale(v, hn::Div(hn::Set(D(), 1.0), hn::Sqrt(FusedDot(v, v))));
+}
+
+// v less its part along the unit normal n.
+HWY_INLINE Vec3V<V> Across(const Vec3V<V>& v, const Vec3V<V>& n) {
+  return Sub(v, Scale(n, FusedDot(v, n)));
+}
+
+HWY_INLINE hn::Mask<D> IsSound(const Vec3V<V>& v) {
+  return hn::And(hn::IsFinite(v.x), hn::And(hn::IsFinite(v.y), hn::IsFinite(v.z)));
+}
+
+// Stores a turned normal in the lanes of `mask`. One that leans below the surface is mirrored at
+// it: the viewer sees the upper side only.
+HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& geometric, hn::Mask<D> mask,
+                            size_t i, HitBatch* hits, Surface* surface) {
+  const D d;
+  const F f;
+  const V below = hn::Min(FusedDot(turned, geometric), hn::Zero(d));
+  const Vec3V<V> normal = Sub(turned, Scale(geometric, hn::Add(below, below)));
+  const auto store = [&](V value, AlignedArray<double>* exact, AlignedArray<float>* rounded)
+                         HWY_ATTR {
+                           double* const to = exact->data() + i;
+                           const V kept = hn::IfThenElse(mask, value, hn::LoadU(d, to));
+                           hn::StoreU(kept, d, to);
+                           hn::StoreU(hn::DemoteTo(f, kept), f, rounded->data() + i);
+                         };
+  store(normal.x, &hits->normal.x, &surface->normal.x);
+  store(normal.y, &hits->normal.y, &surface->normal.y);
+  store(normal.z, &hits->normal.z, &surface->normal.z);
+}
+
+// With the gradients of u and v across the normal n, dP/du is (dv x n) / det and dP/dv is
+// (n x du) / det, det = (du x dv).n, which is below 0 where the image is mirrored. The tangent is
+// unit along dP/du, the bitangent n x tangent on dP/dv's side, so that the three are orthonormal.
+void TurnNormalsT(const TexturedRun& run, float middle, float scale, const HitTextures& t,
+                  HitBatch* hits, Surface* surface) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V middle_v = hn::Set(d, double{middle});
+  const V stretch = hn::Set(d, 1 / (1 - double{middle}));
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> n = Load(hits->normal, i), geometric = Load(t.geometric, i);
+    const Vec3V<V> du = Across(Load(t.gradient_u, i), n), dv = Across(Load(t.gradient_v, i), n);
+    const V det = FusedDot(FusedCross(du, dv), n);
+    const V hand = hn::CopySign(one, det);
+    const Vec3V<V> tangent = Normalized(Scale(FusedCross(dv, n), hand));
+    const Vec3V<V> bitangent = Scale(FusedCross(n, tangent), hand);
+    const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
+      return hn::Mul(hn::Sub(Promote(from, i), middle_v), stretch);
+    };
+    const V side = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, double{scale}));
+    const V x = hn::Mul(component(t.texels.x), side), y = hn::Mul(component(t.texels.y), side);
+    const V z = component(t.texels.z);
+    const Vec3V<V> turned =
+        Normalized(Add(Add(Scale(tangent, x), Scale(bitangent, y)), Scale(n, z)));
+    // A level map leaves every bit as it is; so do one of length 0, and a place without tangents.
+    const auto level = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero));
+    const auto sound = IsSound(turned);
+    const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
+    StoreNormal(turned, geometric, mask, i, hits, surface);
+  }
+}
+
+// Blinn 1978: the surface P + h n has, but for h times the curvature, the normal n - grad h.
+void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitTextures& t,
+                          HitBatch* hits, Surface* surface) {
+  const D d;
+  const V zero = hn::Zero(d);
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> n = Load(hits->normal, i), geometric = Load(t.geometric, i);
+    // Heights are outwards, seen from wherever.
+    const V scale = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, distance));
+    const V slope_u = hn::Mul(Promote(t.texels.x, i), scale);
+    const V slope_v = hn::Mul(Promote(t.texels.y, i), scale);
+    const Vec3V<V> gradient =
+        Add(Scale(Load(t.gradient_u, i), slope_u), Scale(Load(t.gradient_v, i), slope_v));
+    const Vec3V<V> turned = Normalized(Sub(n, Across(gradient, n)));
+    const auto level = hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero));
+    const auto sound = IsSound(turned);
+    const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
+    StoreNormal(turned, geometric, mask, i, hits, surface);
+  }
+}
+
+void RoundGeometricT(const TexturedRun& run, HitTextures* t) {
+  const D d;
+  const F f;
+  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const Vec3V<V> n = Load(t->geometric, i);
+    hn::StoreU(hn::DemoteTo(f, n.x), f, t->geometric_rounded.x.data() + i);
+    hn::StoreU(hn::DemoteTo(f, n.y), f, t->geometric_rounded.y.data() + i);
+    hn::StoreU(hn::DemoteTo(f, n.z), f, t->geometric_rounded.z.data() + i);
+  }
+}
+
+void HideBelowHorizonT(const HitTextures& t, size_t begin, size_t end, LightBatch* light) {
+  const hn::ScalableTag<float> d;
+  const Soa3<float>& n = t.geometric_rounded;
+  const Soa3<float>& l = light->to_light;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const auto above = hn::Gt(FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
+                                       LoadU3(d, l.x.data() + i, l.y.data() + i, l.z.data() + i)),
+                              hn::Zero(d));
+    float* const irradiance = light->irradiance.data() + i;
+    const auto keep = hn::Or(above, hn::Not(hn::FirstN(d, end - i)));
+    hn::StoreU(hn::IfThenElseZero(keep, hn::LoadU(d, irradiance)), d, irradiance);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(TurnNormalsT);
+HWY_EXPORT(TurnNormalsBySlopesT);
+HWY_EXPORT(RoundGeometricT);
+HWY_EXPORT(HideBelowHorizonT);
+
+void TurnNormals(const TexturedRun& run, float middle, float scale, const HitTextures& textures,
+                 HitBatch* hits, Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(TurnNormalsT)(run, middle, scale, textures, hits, surface);
+}
+
+void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,
+                         HitBatch* hits, Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(TurnNormalsBySlopesT)(run, distance, textures, hits, surface);
+}
+
+void RoundGeometric(const TexturedRun& run, HitTextures* textures) {
+  HWY_DYNAMIC_DISPATCH(RoundGeometricT)(run, textures);
+}
+
+void HideBelowHorizon(const HitTextures& textures, size_t begin, size_t end, LightBatch* light) {
+  HWY_DYNAMIC_DISPATCH(HideBelowHorizonT)(textures, begin, end, light);
+}
+}  // namespace nacre
+#endif

@@ -1,0 +1,147 @@
+// texture/sample.h: a texture's value at (u, v): wrapping, nearest, bilinear and trilinear. SIMD
+// twin: sample-inl.h.
+//
+// Texel i of a row of W has its centre at u = (i + 1/2) / W, so a repeated image has period 1 and
+// its mirror images join without a seam.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "texture/texels.h"
+
+namespace nacre {
+
+// What lies outside [0, 1].
+enum class Wrap : uint8_t { kRepeat, kClamp, kMirror };
+
+enum class TextureFilter : uint8_t {
+  kNearest,    // the texel that (u, v) lies in
+  kBilinear,   // between the four nearest texel centres
+  kTrilinear,  // the same, between the two mip levels whose texels are about as large as a pixel
+};
+
+struct SampleSettings {
+  TextureFilter filter = TextureFilter::kTrilinear;
+  Wrap wrap_u = Wrap::kRepeat;
+  Wrap wrap_v = Wrap::kRepeat;
+};
+
+// u brought into [0, 1]. 0 for NaN, and for infinities but where they clamp. Whole turns are taken
+// off exactly in any u; what is left of a u of 2^30 has the digits that u itself had.
+template <typename Real>
+Real WrapCoordinate(Real u, Wrap wrap) {
+  Real wrapped = u;
+  if (wrap == Wrap::kRepeat) {
+    wrapped = u - std::floor(u);
+  } else if (wrap == Wrap::kMirror) {
+    const Real turned = u - 2 * std::floor(u / 2);
+    wrapped = turned > 1 ? 2 - turned : turned;
+  } else if (u > 1) {
+    wrapped = 1;
+  }
+  return wrapped >= 0 ? wrapped : 0;
+}
+
+// The texel that a wrapped coordinate lies in, the neighbour on the side of its other half, and
+// that one's weight, at most 1/2. Values are interpolated from the nearer one, so equal texels
+// interpolate to just their value.
+template <typename Real>
+struct Taps {
+  int near, far;
+  Real weight;  // of `far`
+};
+
+template <typename Real>
+Taps<Real> FindTaps(Real wrapped, int size, Wrap wrap) {
+  const Real x = wrapped * static_cast<Real>(size);
+  Taps<Real> taps;
+  taps.near = std::min(static_cast<int>(x), size - 1);  // 1 is the end of the last texel
+  const Real offset = x - static_cast<Real>(taps.near) - Real(0.5);
+  taps.far = taps.near + (offset < 0 ? -1 : 1);
+  if (wrap == Wrap::kRepeat) {
+    taps.far = taps.far < 0 ? size - 1 : taps.far == size ? 0 : taps.far;
+  } else {
+    taps.far = std::clamp(taps.far, 0, size - 1);
+  }
+  taps.weight = std::abs(offset);
+  return taps;
+}
+
+template <typename Real>
+Real SampleNearest(const MipChain& image, size_t level, const SampleSettings& settings, Real u,
+                   Real v, int channel) {
+  const MipLevel& l = image.levels[level];
+  const auto x = FindTaps(WrapCoordinate(u, settings.wrap_u), l.width, settings.wrap_u);
+  const auto y = FindTaps(WrapCoordinate(v, settings.wrap_v), l.height, settings.wrap_v);
+  return image.Value(level, x.near, y.near, channel);
+}
+
+template <typename Real>
+Real SampleBilinear(const MipChain& image, size_t level, const SampleSettings& settings, Real u,
+                    Real v, int channel) {
+  const MipLevel& l = image.levels[level];
+  const auto x = FindTaps(WrapCoordinate(u, settings.wrap_u), l.width, settings.wrap_u);
+  const auto y = FindTaps(WrapCoordinate(v, settings.wrap_v), l.height, settings.wrap_v);
+  const auto row = [&](int at) {
+    const Real near = image.Value(level, x.near, at, channel);
+    return near + x.weight * (image.Value(level, x.far, at, channel) - near);
+  };
+  const Real near = row(y.near);
+  return near + y.weight * (row(y.far) - near);
+}
+
+// How (u, v) changes from one sample's pixel to the next, to the right and downwards.
+template <typename Real>
+struct TextureFootprint {
+  Real du_dx, dv_dx, du_dy, dv_dy;
+};
+
+// The mip level, counted from 0 for the image itself, whose texels are as long as the longer side
+// of the footprint. Footprints without bounds take the last one.
+template <typename Real>
+Real MipLevelOf(const MipChain& image, const TextureFootprint<Real>& f) {
+  const Real w = static_cast<Real>(image.levels[0].width);
+  const Real h = static_cast<Real>(image.levels[0].height);
+  const auto squared = [&](Real du, Real dv) { return (du * w) * (du * w) + (dv * h) * (dv * h); };
+  const Real longer = std::max(squared(f.du_dx, f.dv_dx), squared(f.du_dy, f.dv_dy));
+  const Real last = static_cast<Real>(image.levels.size() - 1);
+  if (longer <= 1) return 0;
+  const Real level = std::log2(longer) / 2;
+  return level < last ? level : last;
+}
+
+template <typename Real>
+Real SampleTrilinear(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
+                     Real v, int channel) {
+  const auto level = static_cast<size_t>(mip_level);
+  const size_t next = std::min(level + 1, image.levels.size() - 1);
+  const Real near = SampleBilinear(image, level, settings, u, v, channel);
+  const Real far = SampleBilinear(image, next, settings, u, v, channel);
+  return near + (mip_level - static_cast<Real>(level)) * (far - near);
+}
+
+// How fast the first channel grows with u and with v, by central differences over one texel of the
+// level: the slope of a bilinear surface has steps at the texels' centres, this one has none.
+template <typename Real>
+void SampleSlopes(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
+                  Real v, Real* du, Real* dv) {
+  const auto at = [&](Real x, Real y) {
+    switch (settings.filter) {
+      case TextureFilter::kNearest:
+        return SampleNearest(image, 0, settings, x, y, 0);
+      case TextureFilter::kBilinear:
+        return SampleBilinear(image, 0, settings, x, y, 0);
+      default:
+        return SampleTrilinear(image, settings, mip_level, x, y, 0);
+    }
+  };
+  const Real texels = settings.filter == TextureFilter::kTrilinear ? std::exp2(mip_level) : Real(1);
+  const Real step_u = texels / static_cast<Real>(image.levels[0].width);
+  const Real step_v = texels / static_cast<Real>(image.levels[0].height);
+  *du = (at(u + step_u / 2, v) - at(u - step_u / 2, v)) / step_u;
+  *dv = (at(u, v + step_v / 2) - at(u, v - step_v / 2)) / step_v;
+}
+
+}  // namespace nacre

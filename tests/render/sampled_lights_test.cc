@@ -1,0 +1,401 @@
+// tests/render/sampled_lights_test.cc: pictures under lights with an extent and under skies,
+// against what they must be in closed form, and against the same by other ways.
+#include "render/sampled_lights.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "catch.h"
+#include "render/render.h"
+#include "sampling/pair_sampler.h"
+
+namespace nacre {
+namespace {
+
+Light Named(const std::string& name, decltype(Light::kind) kind) {
+  Light light;
+  light.name = name;
+  light.kind = std::move(kind);
+  return light;
+}
+
+Light Sky(double radiance) {
+  EnvironmentLight sky{.sky = ConstantSky{Rgb(radiance)}, .rotate_deg = 0, .background = false};
+  return Named("sky", sky);
+}
+
+// A sphere that fills the picture's middle, of one material.
+Scene OneSphere(decltype(Material::model) model) {
+  Scene scene;
+  scene.materials.emplace_back().model = std::move(model);
+  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
+  scene.camera.position = Vec3d(0, 0, 10);
+  scene.camera.fov_y_deg = 14;
+  scene.image.width = scene.image.height = 64;
+  scene.image.spp = 16;
+  return scene;
+}
+
+// Mean and standard error of the red channel over pixels wholly on the object.
+struct Mean {
+  double value = 0, error = 0;
+};
+
+template <class Value>
+Mean MeanOf(const Image& image, const Value& value) {
+  const std::vector<float>& alpha = image.Find("A")->samples;
+  double sum = 0, squares = 0, count = 0;
+  for (size_t i = 0; i < alpha.size(); ++i) {
+    if (alpha[i] < 1) continue;
+    const double x = value(i);
+    sum += x;
+    squares += x * x;
+    count += 1;
+  }
+  REQUIRE(count > 100);
+  const double mean = sum / count;
+  return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
+}
+
+Mean MeanRed(const Image& image) {
+  const std::vector<float>& red = image.Find("R")->samples;
+  return MeanOf(image, [&](size_t i) { return double{red[i]}; });
+}
+
+// The mean over the object of the difference of two pictures, which is 0 but for their noise.
+Mean MeanDifference(const Image& a, const Image& b) {
+  const std::vector<float>& x = a.Find("R")->samples;
+  const std::vector<float>& y = b.Find("R")->samples;
+  return MeanOf(a, [&](size_t i) { return double{x[i]} - y[i]; });
+}
+
+void CheckSameMean(const Image& a, const Image& b) {
+  const Mean difference = MeanDifference(a, b);
+  CAPTURE(difference.value, difference.error);
+  // Pixels' errors are independent: 4 standard errors, plus what float sums leave.
+  CHECK(std::abs(difference.value) <= 4 * difference.error + 1e-6 * MeanRed(a).value);
+}
+
+TEST_CASE("under a constant sky a matte sphere shows its albedo, to float's last digits") {
+  Scene scene = OneSphere(LambertMaterial{Rgb(0.6, 0.4, 0.2)});
+  scene.lights = {Sky(2)};
+  const Image image = RenderImage(scene, {});
+  const std::vector<float>& alpha = image.Find("A")->samples;
+  for (size_t i = 0; i < alpha.size(); ++i) {
+    if (alpha[i] < 1) continue;
+    // Products of a few floats: 4 x 2^-24.
+    CHECK(std::abs(image.Find("R")->samples[i] - 1.2) <= 1.2 * 0x1p-22);
+    CHECK(std::abs(image.Find("B")->samples[i] - 0.4) <= 0.4 * 0x1p-22);
+  }
+}
+
+TEST_CASE("a white furnace shows nothing, whatever the model and roughness") {
+  for (const double roughness : {0.0, 0.02, 0.1, 0.5, 1.0}) {
+    for (const double metallic : {0.0, 1.0}) {
+      CAPTURE(roughness, metallic);
+      MetallicRoughnessMaterial white;
+      white.base_color = Rgb(1, 1, 1);
+      white.roughness = roughness;
+      white.metallic = metallic;
+      Scene scene = OneSphere(white);
+      scene.lights = {Sky(1)};
+      scene.image.spp = 64;
+      const Mean mean = MeanRed(RenderImage(scene, {}));
+      CAPTURE(mean.value, mean.error);
+      // The compensation's own tolerance, 1e-3, is tested where it is computed; and the noise.
+      CHECK(std::abs(mean.value - 1) <= 1e-3 + 4 * mean.error);
+    }
+  }
+}
+
+TEST_CASE("a perfect mirror shows the sky that it sees") {
+  ConductorMaterial mirror;
+  mirror.roughness = 0;
+  mirror.fresnel = ConductorFresnel::kSchlick;
+  mirror.eta = Rgb(1e-3);
+  mirror.k = Rgb(100);  // F0 = 1 but for 4e-7
+  Scene scene = OneSphere(mirror);
+  GradientSky gradient;
+  gradient.zenith = Rgb(1, 2, 3);
+  gradient.horizon = Rgb(4, 5, 6);
+  gradient.ground = Rgb(7, 8, 9);
+  scene.lights = {Named("sky", EnvironmentLight{.sky = gradient, .background = false})};
+  scene.image.spp = 1;
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.height = 3;
+  RenderSettings settings;
+  settings.layers = {"N"};
+  const Image image = RenderImage(scene, settings);
+  size_t seen = 0;
+  for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+    if (image.Find("A")->samples[i] < 1) continue;
+    ++seen;
+    const double ny = image.Find("N.Y")->samples[i], nz = image.Find("N.Z")->samples[i];
+    const double y = 2 * nz * ny;  // of the view direction (0, 0, 1) mirrored in n
+    const double expected = y > 0 ? 4 + (1 - 4) * y : 4 + (7 - 4) * -y;
+    CHECK(std::abs(image.Find("R")->samples[i] - expected) <= 1e-5 * expected);
+  }
+  CHECK(seen > 1000);
+}
+
+TEST_CASE("the sky stands behind the scene where it is asked to") {
+  Scene scene = OneSphere(LambertMaterial{Rgb(0.5)});
+  scene.camera.fov_y_deg = 60;
+  GradientSky gradient;
+  scene.lights = {Named("sky", EnvironmentLight{.sky = gradient, .background = true})};
+  scene.image.spp = 1;
+  const Image image = RenderImage(scene, {});
+  const double slope = std::tan(30 * M_PI / 180) * (1 - 1.0 / 64);
+  for (const size_t column : {size_t{0}, size_t{31}}) {
+    const double x = (2 * (static_cast<double>(column) + 0.5) / 64 - 1) * std::tan(30 * M_PI / 180);
+    const double y = slope / std::sqrt(1 + x * x + slope * slope);
+    const double expected = 1 + (0.3 - 1) * y;
+    CHECK(std::abs(image.Find("R")->samples[column] - expected) <= 1e-6);
+  }
+  CHECK(image.Find("A")->samples[0] == 0);
+}
+
+// Lights near a sphere, each with all that can go wrong: near, large, partly below the horizon.
+std::vector<Light> AreaLights() {
+  RectangleAreaLight rectangle;
+  rectangle.center = Vec3d(2, 1.5, 2);
+  rectangle.facing = Vec3d(-2, -1.5, -2);
+  rectangle.width = 2;
+  rectangle.height = 1;
+  rectangle.up = Vec3d(0, 1, 0);
+  rectangle.radiance = Rgb(5);
+  DiskAreaLight disk;
+  disk.center = Vec3d(-1, 2, 1.5);
+  disk.facing = Vec3d(1, -2, -1.5);
+  disk.radius = 1;
+  disk.radiance = Rgb(5);
+  SphereAreaLight sphere;
+  sphere.center = Vec3d(1, 2, 2);
+  sphere.radius = 0.7;
+  sphere.radiance = Rgb(5);
+  return {Named("rectangle", rectangle), Named("disk", disk), Named("sphere", sphere)};
+}
+
+std::vector<decltype(Material::model)> Models() {
+  MetallicRoughnessMaterial metal;
+  metal.metallic = 1;
+  metal.roughness = 0.3;
+  MetallicRoughnessMaterial plastic;
+  plastic.roughness = 0.05;
+  MetallicRoughnessMaterial lesson;
+  lesson.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+  PhongMaterial phong;
+  PhongMaterial blinn;
+  blinn.model = PhongModel::kBlinnPhong;
+  blinn.shininess = 500;  // its terms are formed in double
+  return {LambertMaterial{Rgb(0.7)}, metal, plastic, lesson, phong, blinn};
+}
+
+TEST_CASE("area lights far away are point lights") {
+  for (const auto& model : Models()) {
+    // Lobes much wider than the light: the light's extent, 1/2000 rad, shows in the second order.
+    if (const auto* m = std::get_if<MetallicRoughnessMaterial>(&model); m && m->roughness < 0.2) {
+      continue;
+    }
+    if (const auto* m = std::get_if<PhongMaterial>(&model); m && m->shininess > 100) continue;
+    Scene scene = OneSphere(model);
+    const Vec3d place(300, 400, 500);
+    const double area = 4;  // of the light, each
+    SphereAreaLight sphere;
+    sphere.center = place;
+    sphere.radius = std::sqrt(area / M_PI);
+    sphere.radiance = Rgb(1e6);
+    RectangleAreaLight rectangle;
+    rectangle.center = place;
+    rectangle.facing = -place;
+    rectangle.up = Vec3d(0, 1, 0);
+    rectangle.width = rectangle.height = 2;
+    rectangle.radiance = Rgb(1e6);
+    DiskAreaLight disk;
+    disk.center = place;
+    disk.facing = -place;
+    disk.radius = sphere.radius;
+    disk.radiance = Rgb(1e6);
+    const Light bulb = Named(
+        "bulb", PointLight{.position = place, .intensity = Rgb(1e6 * area), .attenuation = {}});
+    scene.lights = {bulb};
+    const Image truth = RenderImage(scene, {});
+    for (const Light& light : {Named("a", sphere), Named("b", rectangle), Named("c", disk)}) {
+      scene.lights = {light};
+      const Image image = RenderImage(scene, {});
+      const double difference = MeanDifference(image, truth).value;
+      CAPTURE(light.name, difference, MeanRed(truth).value);
+      // (extent / distance)^2 = 8e-6, and what sampling the terminator leaves.
+      CHECK(std::abs(difference) <= 1e-4 * MeanRed(truth).value);
+    }
+  }
+}
+
+TEST_CASE("a light has the same mean whichever way its directions are chosen") {
+  std::vector<Light> lights = AreaLights();
+  lights.push_back(Sky(1));
+  QuadraticSky quadratic;
+  quadratic.axis = Vec3d(1, 2, 0);
+  quadratic.constant = 0.5;
+  quadratic.linear = 0.4;
+  quadratic.quadratic = 0.3;
+  lights.push_back(Named("quadratic", EnvironmentLight{.sky = quadratic, .background = false}));
+  lights.push_back(Named("gradient", EnvironmentLight{.sky = GradientSky{}, .background = false}));
+  for (const auto& model : Models()) {
+    for (const Light& light : lights) {
+      CAPTURE(light.name, model.index());
+      Scene scene = OneSphere(model);
+      scene.lights = {light};
+      scene.image.spp = 64;
+      RenderSettings settings;
+      const Image closed = RenderImage(scene, settings);
+      settings.closed_forms = false;
+      const Image sampled = RenderImage(scene, settings);
+      CheckSameMean(closed, sampled);
+    }
+  }
+}
+
+TEST_CASE("layers of sampled lights add up to the picture") {
+  Scene scene = OneSphere(MetallicRoughnessMaterial{});
+  scene.lights = AreaLights();
+  scene.lights.push_back(Sky(0.3));
+  RenderSettings settings;
+  const Image plain = RenderImage(scene, settings);
+  settings.layers = {"all"};
+  const Image all = RenderImage(scene, settings);
+  for (const char* channel : {"R", "G", "B"}) {
+    const std::vector<float>& beauty = all.Find(channel)->samples;
+    CHECK(std::memcmp(beauty.data(), plain.Find(channel)->samples.data(), 4 * beauty.size()) == 0);
+    const auto layer = [&](const std::string& name) -> const std::vector<float>& {
+      return all.Find(name + "." + channel)->samples;
+    };
+    for (size_t i = 0; i < beauty.size(); ++i) {
+      const double parts = double{layer("diffuse")[i]} + layer("specular")[i] +
+                           layer("ambient")[i] + layer("emission")[i];
+      // Layers round once each, after sums in double.
+      CHECK(std::abs(parts - beauty[i]) <= 4 * 0x1p-24 * beauty[i]);
+      const double lights = double{layer("light.rectangle")[i]} + layer("light.disk")[i] +
+                            layer("light.sphere")[i] + layer("light.sky")[i];
+      // The beauty adds the lights up in float, hit by hit.
+      CHECK(std::abs(lights - (double{layer("diffuse")[i]} + layer("specular")[i])) <=
+            16 * 0x1p-24 * beauty[i]);
+    }
+  }
+}
+
+TEST_CASE("pictures under sampled lights do not depend on threads, tiles, crops or intersectors") {
+  Scene scene = OneSphere(MetallicRoughnessMaterial{});
+  scene.spheres.push_back({Vec3d(0.8, 0.9, 0.9), 0.3, {0}});  // in the way
+  scene.spheres.push_back({Vec3d(-3, 0, 0), 0.5, {0}});
+  scene.lights = AreaLights();
+  scene.lights.push_back(Sky(0.3));
+  // The lamps that are surfaces make the scene one of triangles: once with, once without.
+  for (const bool visible : {true, false}) {
+    for (Light& light : scene.lights) {
+      if (auto* rectangle = std::get_if<RectangleAreaLight>(&light.kind)) {
+        rectangle->visible = visible;
+      } else if (auto* disk = std::get_if<DiskAreaLight>(&light.kind)) {
+        disk->visible = visible;
+      }
+    }
+    for (const double max_error : {0.0, 0.2}) {
+      CAPTURE(visible, max_error);
+      RenderSettings settings;
+      settings.max_error = max_error;
+      settings.max_samples = 64;
+      settings.threads = 1;
+      const Image one = RenderImage(scene, settings);
+      const auto check = [&](const RenderSettings& other) {
+        const Image image = RenderImage(scene, other);
+        for (const char* channel : {"R", "G", "B", "A"}) {
+          const std::vector<float>& a = image.Find(channel)->samples;
+          size_t i = 0, wrong = 0;
+          for (int y = image.data.y0; y < image.data.y1; ++y) {
+            for (int x = image.data.x0; x < image.data.x1; ++x, ++i) {
+              const auto at = static_cast<size_t>(y * 64 + x);
+              if (std::memcmp(&a[i], &one.Find(channel)->samples[at], 4) != 0) ++wrong;
+            }
+          }
+          CHECK(wrong == 0);
+        }
+      };
+      RenderSettings other = settings;
+      other.threads = 3;
+      other.tile_size = 7;
+      check(other);
+      other = settings;
+      other.region = {13, 5, 50, 37};
+      check(other);
+      other = settings;
+      other.intersector = IntersectorChoice::kEmbree;
+      check(other);
+      other.general_path = true;
+      check(other);
+    }
+  }
+}
+
+TEST_CASE("a visible light is seen on the side that it shines from") {
+  Scene scene;
+  scene.camera.position = Vec3d(0, 0, 10);
+  scene.image.width = scene.image.height = 16;
+  scene.image.spp = 1;
+  const auto middle = [&](const Light& light) {
+    scene.lights = {light};
+    const Image image = RenderImage(scene, {});
+    return image.Find("R")->samples[8 * 16 + 8];
+  };
+  RectangleAreaLight rectangle;
+  rectangle.facing = Vec3d(0, 0, 1);
+  rectangle.up = Vec3d(0, 1, 0);
+  rectangle.radiance = Rgb(3);
+  CHECK(middle(Named("front", rectangle)) == 3);
+  rectangle.facing = Vec3d(0, 0, -1);
+  CHECK(middle(Named("back", rectangle)) == 0);
+  rectangle.two_sided = true;
+  CHECK(middle(Named("both", rectangle)) == 3);
+  rectangle.visible = false;
+  CHECK(middle(Named("hidden", rectangle)) == 0);
+  DiskAreaLight disk;
+  disk.facing = Vec3d(0, 0, 1);
+  disk.radiance = Rgb(3);
+  CHECK(middle(Named("disk", disk)) == 3);
+  SphereAreaLight sphere;
+  sphere.radiance = Rgb(3);
+  CHECK(middle(Named("sphere", sphere)) == 3);
+  scene.camera.position = Vec3d(0, 0, 0.5);  // inside
+  CHECK(middle(Named("sphere", sphere)) == 0);
+}
+
+TEST_CASE("pairs of points are a net of every pixel") {
+  // 16 points of a (0,2)-sequence, or of any two dimensions of one that is scrambled: each
+  // sixteenth of either axis holds one.
+  const PairSampler sampler = MakePairSampler(16, 9, 7);
+  SampleNumbers numbers(16);
+  AlignedArray<uint32_t> entries(16);
+  for (const uint64_t pixel : {uint64_t{1}, uint64_t{0x123456789abcdef0}}) {
+    for (uint32_t i = 0; i < 16; ++i) {
+      numbers.number[i] = entries[i] = i;
+      numbers.pixel[i] = pixel;
+    }
+    float last_u = -1;
+    for (size_t pair = 0; pair < 9; ++pair) {
+      float u[16], v[16];
+      SamplePair(sampler, pair, numbers, entries.data(), 16, u, v);
+      uint32_t in_u = 0, in_v = 0;
+      for (int i = 0; i < 16; ++i) {
+        REQUIRE((u[i] >= 0 && u[i] < 1 && v[i] >= 0 && v[i] < 1));
+        in_u |= 1u << static_cast<int>(u[i] * 16);
+        in_v |= 1u << static_cast<int>(v[i] * 16);
+      }
+      CHECK(in_u == 0xffffu);
+      CHECK(in_v == 0xffffu);
+      CHECK(u[0] != last_u);  // shifts of pairs differ
+      last_u = u[0];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre

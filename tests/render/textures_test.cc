@@ -1,0 +1,475 @@
+// tests/render/textures_test.cc: whole pictures with textures: constant maps against constants, to
+// the bit, and what normals, bumps and coordinates do.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "catch.h"
+#include "render/render.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+ImageId AddImage(Scene* scene, MipChain chain, float middle = 128.0f / 255) {
+  scene->images.push_back({"image", std::make_shared<const MipChain>(std::move(chain)), middle});
+  return {static_cast<uint32_t>(scene->images.size() - 1)};
+}
+
+// A texture of spheres, width x height texels of `of(x, y)`.
+TextureId AddTexture(Scene* scene, int width, int height, const std::function<Rgb(int, int)>& of) {
+  std::vector<float> values;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Rgb value = of(x, y);
+      for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(value[c]));
+    }
+  }
+  Texture texture;
+  texture.image = AddImage(scene, MakeMipChain(width, height, 3, std::move(values)));
+  texture.mapping = MappingKind::kSpherical;
+  texture.sampling.wrap_v = Wrap::kClamp;
+  scene->textures.push_back(texture);
+  return {static_cast<uint32_t>(scene->textures.size() - 1)};
+}
+
+TextureId AddConstant(Scene* scene, const Rgb& value) {
+  return AddTexture(scene, 8, 4, [&](int, int) { return value; });
+}
+
+// A value that a texel can hold.
+double Held(double value) { return double{static_cast<float>(value)}; }
+Rgb Held(const Rgb& value) { return {Held(value.x), Held(value.y), Held(value.z)}; }
+
+// Three spheres of one material, one with the eye close to it and another behind it, under lights
+// of every kind, with shadows.
+Scene MakeScene(const Material& material) {
+  Scene scene;
+  scene.image.width = 48;
+  scene.image.height = 32;
+  scene.image.spp = 4;
+  scene.camera.position = Vec3d(0, 0, 6);
+  scene.materials = {material};
+  scene.spheres = {{{-0.9, 0, 0}, 0.8, {0}}, {{0.9, 0.2, 0.5}, 0.7, {0}}, {{0, 0, -3}, 2, {0}}};
+  Light key;
+  key.name = "key";
+  PointLight point;
+  point.position = Vec3d(3, 4, 5);
+  point.intensity = Rgb(90, 80, 70);
+  key.kind = point;
+  Light sun;
+  sun.name = "sun";
+  DirectionalLight directional;
+  directional.direction_of_travel = Vec3d(1, -1, -1);
+  directional.irradiance = Rgb(0.9, 1, 1.1);
+  sun.kind = directional;
+  sun.shadows = false;
+  Light lamp;
+  lamp.name = "lamp";
+  SpotLight spot;
+  spot.position = Vec3d(-3, 0, 5);
+  spot.direction_of_travel = Vec3d(3, 0, -5);
+  spot.intensity = Rgb(50, 50, 60);
+  lamp.kind = spot;
+  Light sky;
+  sky.name = "sky";
+  sky.kind = AmbientLight{Rgb(0.1, 0.2, 0.3)};
+  scene.lights = {key, sun, lamp, sky};
+  return scene;
+}
+
+Image Rendered(const Scene& scene) {
+  RenderSettings settings;
+  settings.threads = 1;
+  settings.layers = {"all"};
+  return RenderImage(scene, settings);
+}
+
+void CheckSameBits(const Image& got, const Image& expected) {
+  REQUIRE(got.channels.size() == expected.channels.size());
+  for (size_t i = 0; i < got.channels.size(); ++i) {
+    CAPTURE(expected.channels[i].name);
+    const auto& a = got.channels[i].samples;
+    const auto& b = expected.channels[i].samples;
+    const auto [first, second] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+    const auto differing = first - a.begin();
+    CHECK(first == a.end());
+    if (first != a.end()) {
+      CAPTURE(differing, *first, *second);
+      CHECK(*first == *second);
+    }
+  }
+}
+
+// Renders the material and the same with maps, which `add_maps` gives it and which multiply to it.
+template <class Model, class AddMaps>
+void CheckConstantMaps(const Model& constant, const Model& factors, const AddMaps& add_maps) {
+  ForEachTarget([&](Target) {
+    Material plain, mapped;
+    plain.model = constant;
+    mapped.model = factors;
+    Scene with_maps = MakeScene(mapped);
+    add_maps(&with_maps, &std::get<Model>(with_maps.materials[0].model));
+    const Image got = Rendered(with_maps), expected = Rendered(MakeScene(plain));
+    REQUIRE(*std::max_element(expected.channels[0].samples.begin(),
+                              expected.channels[0].samples.end()) > 0.1f);
+    CheckSameBits(got, expected);
+  });
+}
+
+TEST_CASE("constant maps have the bits of constants: metallic-roughness") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
+  const Rgb metallic_roughness = Held(Rgb(0, 0.7, 0.6));
+  for (const double roughness : {1.0, 0.1, 0.0}) {
+    for (const Compensation compensation :
+         {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+      for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect}) {
+        for (const double tint : {1.0, 0.7}) {
+          MetallicRoughnessMaterial factors;
+          factors.base_color = Rgb(0.5, 1, 0.75);
+          factors.metallic = 0.5;
+          factors.roughness = roughness;
+          factors.compensation = compensation;
+          factors.shadowing = shadowing;
+          factors.f82_tint = Rgb(tint);
+          if (compensation == Compensation::kNone) {
+            factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+          }
+          MetallicRoughnessMaterial constant = factors;
+          constant.base_color = factors.base_color * color;
+          constant.metallic = factors.metallic * metallic_roughness.z;
+          constant.roughness = factors.roughness * metallic_roughness.y;
+          CAPTURE(roughness, static_cast<int>(compensation), static_cast<int>(shadowing), tint);
+          CheckConstantMaps(
+              constant, factors, [&](Scene* scene, MetallicRoughnessMaterial* material) {
+                material->base_color_map = AddConstant(scene, color);
+                material->metallic_roughness_map = AddConstant(scene, metallic_roughness);
+              });
+          // Without a map of roughness the albedo fit is the material's.
+          MetallicRoughnessMaterial colored = factors;
+          colored.base_color = factors.base_color * color;
+          CheckConstantMaps(colored, factors,
+                            [&](Scene* scene, MetallicRoughnessMaterial* material) {
+                              material->base_color_map = AddConstant(scene, color);
+                            });
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("constant maps have the bits of constants: the Phong family and Lambert") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2)), gloss = Held(Rgb(0.3, 0.8, 0.6));
+  const double share = 0.5;
+  for (const PhongModel model :
+       {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
+    for (const PhongConvention convention :
+         {PhongConvention::kClassic, PhongConvention::kRadiometric}) {
+      for (const double shininess : {32.0, 2000.0}) {  // wide, and narrow
+        PhongMaterial factors;
+        factors.model = model;
+        factors.convention = convention;
+        factors.color = Rgb(0.5, 1, 0.75);
+        factors.shininess = shininess;
+        PhongMaterial constant = factors;
+        constant.color = factors.color * color;
+        constant.ks = factors.ks * gloss;
+        constant.shininess = shininess * share;
+        CAPTURE(static_cast<int>(model), static_cast<int>(convention), shininess);
+        CheckConstantMaps(constant, factors, [&](Scene* scene, PhongMaterial* material) {
+          material->diffuse_map = AddConstant(scene, color);
+          material->specular_map = AddConstant(scene, gloss);
+          material->shininess_map = AddConstant(scene, Rgb(share));
+        });
+      }
+    }
+  }
+  LambertMaterial factors, constant;
+  factors.albedo = Rgb(0.5, 0.6, 0.7);
+  constant.albedo = factors.albedo * color;
+  CheckConstantMaps(constant, factors, [&](Scene* scene, LambertMaterial* material) {
+    material->albedo_map = AddConstant(scene, color);
+  });
+}
+
+TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
+  ForEachTarget([&](Target) {
+    Material plain;
+    plain.model = MetallicRoughnessMaterial{.roughness = 0.05};
+    plain.emission = Rgb(0.2, 0.4, 0.8) * Held(0.3);
+    Scene scene = MakeScene(plain);
+    Material& material = scene.materials[0];
+    material.emission = Rgb(0.2, 0.4, 0.8);
+    material.emission_map = AddConstant(&scene, Rgb(Held(0.3)));
+    material.normal_map.texture = AddConstant(&scene, Rgb(128.0 / 255, 128.0 / 255, 1));
+    material.bump_map.texture = AddConstant(&scene, Rgb(0.4));
+    CheckSameBits(Rendered(scene), Rendered(MakeScene(plain)));
+    // Neither does one of length 0, which points nowhere.
+    material.normal_map.texture =
+        AddConstant(&scene, Rgb(double{128.0f / 255}, double{128.0f / 255}, double{128.0f / 255}));
+    CheckSameBits(Rendered(scene), Rendered(MakeScene(plain)));
+  });
+}
+
+// The normals that a picture of 16x16 pixels of a unit sphere has at its hits.
+Scene OneSphere(const Material& material) {
+  Scene scene;
+  scene.image.width = scene.image.height = 16;
+  scene.image.spp = 1;
+  scene.camera.position = Vec3d(0, 0, 4);
+  scene.materials = {material};
+  scene.spheres = {{{0, 0, 0}, 1, {0}}};
+  Light sun;
+  sun.name = "sun";
+  sun.kind = DirectionalLight{Vec3d(-1, -0.3, -1), Rgb(1)};
+  scene.lights = {sun};
+  return scene;
+}
+
+struct HitNormal {
+  Vec3d plain, turned;
+};
+std::vector<HitNormal> Normals(const Scene& plain, const Scene& turned) {
+  const Image a = Rendered(plain), b = Rendered(turned);
+  std::vector<HitNormal> normals;
+  const auto at = [](const Image& image, size_t i) {
+    const auto value = [&](const char* name) { return double{image.Find(name)->samples[i]}; };
+    return Vec3d(value("N.X"), value("N.Y"), value("N.Z"));
+  };
+  for (size_t i = 0; i < a.data.pixel_count(); ++i) {
+    if (a.Find("A")->samples[i] > 0) normals.push_back({at(a, i), at(b, i)});
+  }
+  return normals;
+}
+
+TEST_CASE("the literal convention tilts a level map by 0.318 degrees") {
+  Material material;
+  material.model = LambertMaterial{};
+  const Scene plain = OneSphere(material);
+  Scene scene = plain;
+  NormalMap& map = scene.materials[0].normal_map;
+  map.texture = AddConstant(&scene, Rgb(128.0 / 255, 128.0 / 255, 1));
+  map.convention = NormalMap::Convention::kLiteral;
+  // 2 * 128/255 - 1 = 1/255 in x and in y, against 1.
+  const double expected = std::atan(std::sqrt(2.0) / 255);
+  CHECK(expected * 180 / M_PI == Approx(0.3178).epsilon(1e-3));
+  const std::vector<HitNormal> normals = Normals(plain, scene);
+  REQUIRE(normals.size() > 20);
+  for (const HitNormal& n : normals) {
+    // Normals of floats: angles to 1e-7.
+    CHECK(std::asin(n.plain.cross(n.turned).length()) == Approx(expected).margin(3e-7));
+    CHECK(n.turned.length() == Approx(1).margin(2.4e-7));  // 4 u
+  }
+}
+
+TEST_CASE("a normal map's x leans along growing u and its y along growing v, mirrored or not") {
+  Material material;
+  material.model = LambertMaterial{};
+  const Scene plain = OneSphere(material);
+  const auto lean = [&](const Rgb& texel, const Vec2d& scale) {
+    Scene scene = plain;
+    const TextureId id = AddConstant(&scene, texel);
+    scene.textures[id.index].scale = scale;
+    scene.materials[0].normal_map.texture = id;
+    Vec3d sum(0, 0, 0);
+    for (const HitNormal& n : Normals(plain, scene)) sum += n.turned - n.plain;
+    return sum;
+  };
+  // Seen from +z, u grows to +x and v to +y.
+  const Rgb along_u(1, 128.0 / 255, 1), along_v(128.0 / 255, 1, 1);
+  CHECK(lean(along_u, {1, 1}).x > 1);
+  CHECK(lean(along_v, {1, 1}).y > 1);
+  CHECK(lean(along_u, {-1, 1}).x < -1);  // u grows to -x
+  CHECK(lean(along_v, {-1, 1}).y > 1);
+  CHECK(lean(along_u, {1, -1}).x > 1);
+  CHECK(lean(along_v, {1, -1}).y < -1);
+}
+
+TEST_CASE("a turned normal stays above its surface, and light from below stays out") {
+  Material material;
+  material.model = LambertMaterial{.albedo = Rgb(1)};
+  Scene scene = OneSphere(material);
+  scene.materials[0].normal_map.texture = AddConstant(&scene, Rgb(1, 128.0 / 255, 0.2));
+  const Scene plain = OneSphere(material);
+  size_t dark = 0;
+  for (const HitNormal& n : Normals(plain, scene)) CHECK(n.plain.dot(n.turned) >= -1e-6);
+  const Image a = Rendered(plain), b = Rendered(scene);
+  for (size_t i = 0; i < a.data.pixel_count(); ++i) {
+    if (!(a.Find("A")->samples[i] > 0) || a.Find("R")->samples[i] > 0) continue;
+    ++dark;
+    CHECK(b.Find("R")->samples[i] == 0);
+  }
+  CHECK(dark > 10);
+}
+
+TEST_CASE("bumps turn the normal as the displaced surface has it") {
+  // h = distance (1 + sin(2 pi u)) / 2 on the unit sphere: P' = (1 + h) P has a normal along
+  // P (1 + h) - grad h, with grad h = dh/du grad u. For small h: P - grad h.
+  Material material;
+  material.model = LambertMaterial{};
+  const Scene plain = OneSphere(material);
+  const int width = 2048;
+  double last = 0;
+  for (const double distance : {0.08, 0.02}) {
+    Scene scene = plain;
+    const TextureId id = AddTexture(&scene, width, 4, [&](int x, int) {
+      return Rgb(0.5 + 0.5 * std::sin(2 * M_PI * (x + 0.5) / width));
+    });
+    scene.textures[id.index].sampling.filter = TextureFilter::kBilinear;
+    scene.materials[0].bump_map = {id, distance};
+    double worst = 0;
+    const std::vector<HitNormal> normals = Normals(plain, scene);
+    for (const HitNormal& n : normals) {
+      // Longitude from -z through -x: u = phi / 2 pi, and its gradient is 1 / sin(theta).
+      const Vec3d p = n.plain;
+      const double phi = std::atan2(-p.x, -p.z);
+      const double ring = std::sqrt(p.x * p.x + p.z * p.z);
+      const double h = distance * (0.5 + 0.5 * std::sin(phi));
+      const Vec3d along = Vec3d(p.z, 0, -p.x) / ring;  // of growing phi
+      const Vec3d gradient = along * (distance * 0.5 * std::cos(phi) / ring);
+      const Vec3d displaced = (p * (1 + h) - gradient).normalized();
+      worst = std::max(worst, displaced.cross(n.turned).length());
+    }
+    // The neglected term is h times the tilt: second order.
+    if (last > 0) CHECK(worst < last / 12);
+    last = worst;
+  }
+  CHECK(last < 0.02 * 0.02);
+}
+
+TEST_CASE("nothing shows at the seam, at any level of detail") {
+  // A ramp in v alone: u must not count, and the seam of u, which faces the camera, not show.
+  Material material;
+  material.emission = Rgb(1);
+  material.model = LambertMaterial{.albedo = Rgb(0)};
+  Scene scene = OneSphere(material);
+  scene.camera.position = Vec3d(0, 0, -4);  // the seam is at -z
+  scene.image.width = scene.image.height = 33;
+  const TextureId id = AddTexture(&scene, 512, 256, [&](int x, int) {
+    return Rgb(0.5 + 0.4 * std::sin(2 * M_PI * (x + 0.5) / 512));
+  });
+  scene.materials[0].emission_map = id;
+  const Image image = Rendered(scene);
+  const auto& red = image.Find("R")->samples;
+  // Along the middle row the value is that of the sine within what filtering takes from it; a level
+  // chosen across the seam would be its mean, 0.5, there.
+  for (size_t x = 12; x < 21; ++x) {
+    const auto& px = image.Find("N.X")->samples;
+    const auto& pz = image.Find("N.Z")->samples;
+    const size_t i = 16 * 33 + x;
+    const double phi = std::atan2(-double{px[i]}, -double{pz[i]});
+    CHECK(double{red[i]} == Approx(0.5 + 0.4 * std::sin(phi)).margin(2e-3));
+  }
+}
+
+// A square of two triangles across the view, with texture coordinates.
+Scene Square(MappingKind mapping) {
+  Scene scene;
+  scene.image.width = scene.image.height = 16;
+  scene.image.spp = 1;
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.height = 2;
+  scene.camera.position = Vec3d(0, 0, 5);
+  Mesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.triangles = {0, 1, 2, 0, 2, 3};
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.material = {0};
+  scene.meshes = {mesh};
+  Material material;
+  material.emission = Rgb(1);
+  scene.materials = {material};
+  const TextureId id = AddTexture(
+      &scene, 16, 16, [](int x, int y) { return Rgb(x / 16.0, y / 16.0, (x ^ y) / 16.0); });
+  scene.textures[id.index].mapping = mapping;
+  scene.textures[id.index].axis = Vec3d(0, 0, 1);
+  scene.textures[id.index].sampling = {TextureFilter::kBilinear, Wrap::kRepeat, Wrap::kRepeat};
+  scene.materials[0].emission_map = id;
+  return scene;
+}
+
+TEST_CASE("an image on a square is that image, from its lower left corner") {
+  for (const MappingKind mapping : {MappingKind::kUv, MappingKind::kPlanar}) {
+    const Image image = Rendered(Square(mapping));
+    for (size_t y = 0; y < 16; ++y) {
+      for (size_t x = 0; x < 16; ++x) {
+        const size_t i = y * 16 + x;
+        // Coordinates in double: the centre of a texel to 1e-14 of a texel.
+        CHECK(double{image.Find("R")->samples[i]} == Approx(static_cast<double>(x) / 16));
+        CHECK(double{image.Find("G")->samples[i]} == Approx(static_cast<double>(15 - y) / 16));
+      }
+    }
+  }
+}
+
+TEST_CASE("texture coordinates are scaled, turned and moved, in this order") {
+  Scene scene = Square(MappingKind::kUv);
+  scene.textures[0].scale = Vec2d(1, 0.5);
+  scene.textures[0].uv_rotate_deg = 90;  // (u, v) becomes (-v, u)
+  scene.textures[0].offset = Vec2d(0.75, 0);
+  scene.textures[0].sampling.filter = TextureFilter::kNearest;
+  const Image image = Rendered(scene);
+  const auto at = [&](size_t x, size_t y, const char* name) {
+    return 16 * double{image.Find(name)->samples[(15 - y) * 16 + x]};
+  };
+  // u' = 0.75 - v / 2, v' = u at the centres of pixels.
+  CHECK(at(3, 0, "R") == std::floor(16 * (0.75 - 0.5 / 32)));
+  CHECK(at(3, 0, "G") == 3);
+  CHECK(at(9, 14, "R") == std::floor(16 * (0.75 - 14.5 / 32)));
+  CHECK(at(9, 14, "G") == 9);
+}
+
+TEST_CASE("a far surface shows its texture's mean") {
+  Scene scene = Square(MappingKind::kUv);
+  scene.textures[0].scale = Vec2d(500, 500);
+  scene.textures[0].sampling.filter = TextureFilter::kTrilinear;
+  const Image image = Rendered(scene);
+  for (const float red : image.Find("R")->samples) {
+    CHECK(double{red} == Approx(7.5 / 16).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("scenes with textures have the same bits by tiles, crops, layers and threads") {
+  Material material;
+  MetallicRoughnessMaterial metallic;
+  material.model = metallic;
+  Scene scene = MakeScene(material);
+  const auto noise = [](int x, int y) {
+    return Rgb((x * 7 + y * 3) % 16 / 16.0, (x * 5 + y) % 16 / 16.0, (x + y * 11) % 16 / 16.0);
+  };
+  const TextureId id = AddTexture(&scene, 32, 16, noise);
+  auto& model = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
+  model.base_color_map = model.metallic_roughness_map = id;
+  scene.materials[0].normal_map = {id, 0.3};
+  scene.materials[0].bump_map = {id, 0.02};
+  // Others between them, so that runs begin anywhere.
+  Material other;
+  other.model = LambertMaterial{};
+  scene.materials.push_back(other);
+  scene.spheres[1].material = {1};
+  RenderSettings settings;
+  settings.threads = 1;
+  const Image whole = RenderImage(scene, settings);
+  settings.threads = 3;
+  settings.tile_size = 5;
+  settings.layers = {"all"};
+  settings.intersector = IntersectorChoice::kEmbree;
+  const Image other_way = RenderImage(scene, settings);
+  for (size_t c = 0; c < whole.channels.size(); ++c) {
+    CHECK(whole.channels[c].samples == other_way.channels[c].samples);
+  }
+  settings.region = {11, 5, 30, 29};
+  settings.general_path = true;
+  const Image part = RenderImage(scene, settings);
+  for (int y = 5; y < 29; ++y) {
+    for (int x = 11; x < 30; ++x) {
+      const auto from = static_cast<size_t>((y - 5) * 19 + x - 11);
+      const auto to = static_cast<size_t>(y * 48 + x);
+      REQUIRE(part.Find("R")->samples[from] == whole.Find("R")->samples[to]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,263 @@
+// glTF files that must be refused, in one clear line, whatever is wrong with them.
+#include <random>
+
+#include <fmt/format.h>
+
+#include "catch.h"
+#include "scene_io/gltf_builder.h"
+
+namespace nacre {
+namespace {
+
+// The one line that the file is refused with; "fine" if it is not.
+std::string MessageOf(const std::string& name, const std::string& bytes) {
+  const ModelFolder folder;
+  try {
+    LoadScene(folder.Write(name, bytes));
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::kBadInput);
+    return error.what();
+  }
+  return "fine";
+}
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A square with everything that can be spoilt.
+GltfFile MakeRichFile() {
+  GltfFile file = MakeSquare();
+  file.json["materials"] = Json::parse(R"([{"pbrMetallicRoughness": {"metallicFactor": 0},
+      "extensions": {"KHR_materials_ior": {"ior": 1.4}}}])");
+  file.json["cameras"] = Json::parse(R"([{"type": "perspective", "perspective":
+      {"yfov": 1, "znear": 0.1}}])");
+  file.json["nodes"][0]["camera"] = 0;
+  file.json["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+  file.json["nodes"][0]["translation"] = {0, 0, 1};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([{"type": "spot",
+      "spot": {"outerConeAngle": 0.5}}])");
+  Json& primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["material"] = 0;
+  primitive["attributes"]["NORMAL"] = file.Accessor(kSquare, 5126, "VEC3", 3);
+  primitive["attributes"]["TEXCOORD_0"] =
+      file.Accessor(std::vector<float>{0, 0, 1, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  const int sparse = file.Accessor(kSquare, 5126, "VEC3", 3);
+  file.Accessor(std::vector<uint16_t>{1, 2}, 5123, "SCALAR", 1);
+  file.Accessor(std::vector<float>{1, 0, 0, 1, 1, 0}, 5126, "VEC3", 3);
+  file.json["accessors"][static_cast<size_t>(sparse)]["sparse"] = Json::parse(
+      R"({"count": 2, "indices": {"bufferView": 5, "componentType": 5123},
+          "values": {"bufferView": 6}})");
+  primitive["attributes"]["POSITION"] = sparse;
+  return file;
+}
+
+struct Case {
+  std::string pointer;
+  std::string value;  // JSON; empty: removed
+  std::string message;
+};
+
+TEST_CASE("the file that is spoilt below is fine") {
+  CHECK(MessageOf("a.glb", MakeRichFile().Binary()) == "fine");
+}
+
+TEST_CASE("what is wrong in a glTF file is told in its place") {
+  const Case cases[] = {
+      {"/asset/version", "\"1.0\"", "/asset/version: glTF 1.0"},
+      {"/asset/version", "2", "/asset/version: is not a string"},
+      {"/extensionsRequired", "[\"KHR_draco_mesh_compression\"]",
+       "/extensionsRequired: the extension KHR_draco_mesh_compression is required"},
+      {"/extensionsRequired", "[4]", "/extensionsRequired: is not an array of strings"},
+      {"/scene", "1", "/scene: there is no scene 1"},
+      {"/scene", "-1", "/scene: is not a whole number from 0 on"},
+      {"/scenes/0/nodes", "[7]", "/nodes/7: there is no such node"},
+      {"/scenes/0/nodes", "[0, 0]", "/nodes/0: is in the scene twice"},
+      {"/scenes/0/nodes", "[]", "has no triangles in its scene"},
+      {"/scenes", "5", "/scenes: is not an array of objects"},
+      {"/nodes/0/children", "[0]", "/nodes/0: is in the scene twice, or below itself"},
+      {"/nodes/0/children", "[-1]", "/nodes/0/children: is not an array of whole numbers"},
+      {"/nodes/0/mesh", "1", "/meshes/1: there is no such mesh"},
+      {"/nodes/0/mesh", "0.5", "/nodes/0/mesh: is not a whole number"},
+      {"/nodes/0/matrix", "[1, 2]", "/nodes/0/matrix: is not an array of 16 numbers"},
+      {"/nodes/0/matrix", "[1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1]", "is no matrix of translation"},
+      {"/nodes/0/rotation", "[0, 0, 0, 0]", "/nodes/0/rotation: is no rotation"},
+      {"/nodes/0/scale", "[1, 1, \"x\"]", "/nodes/0/scale: is not an array of 3 numbers"},
+      {"/nodes/0/scale", "[1e300, 1, 1]", "position 1 is out of range"},
+      {"/nodes/0/camera", "1", "/cameras/1: there is no such camera"},
+      {"/nodes/0/extensions/KHR_lights_punctual", "{}", "has no \"light\""},
+      {"/nodes/0/extensions/KHR_lights_punctual/light", "3", "lights/3: there is no such light"},
+      {"/nodes/0/extensions", "3", "/nodes/0/extensions: is not an object"},
+      {"/extensions/KHR_lights_punctual/lights/0/type", "\"laser\"", "unknown type \"laser\""},
+      {"/extensions/KHR_lights_punctual/lights/0/spot/outerConeAngle", "9", "its cone is from 0"},
+      {"/extensions/KHR_lights_punctual/lights/0/color", "[1]", "is not an array of 3 numbers"},
+      {"/extensions/KHR_lights_punctual/lights/0/intensity", "-1", "out of range"},
+      {"/cameras/0/perspective/yfov", "4", "/cameras/0/perspective/yfov: 4"},
+      {"/cameras/0/perspective/yfov", "\"1\"", "/cameras/0/perspective/yfov: is not a number"},
+      {"/materials/0/pbrMetallicRoughness/metallicFactor", "2", "metallic: 2 is out of range"},
+      {"/materials/0/pbrMetallicRoughness/metallicFactor", "\"0\"", "is not a number"},
+      {"/materials/0/pbrMetallicRoughness/baseColorFactor", "[1, 1]", "array of 4 numbers"},
+      {"/materials/0/extensions/KHR_materials_ior/ior", "\"x\"", "KHR_materials_ior/ior: is not"},
+      {"/meshes/0/primitives/0/material", "1", "/primitives/0/material: there is no material 1"},
+      {"/meshes/0/primitives/0/mode", "7", "/meshes/0/primitives/0/mode: 7 is none"},
+      {"/meshes/0/primitives/0/indices", "9", "primitive indices accessor out of bounds"},
+      {"/meshes/0/primitives/0/indices", "0", "accessors/0/type: is not the type"},
+      {"/meshes/0/primitives/0/attributes/POSITION", "9", "/accessors/9: there is no such"},
+      {"/meshes/0/primitives/0/attributes/POSITION", "1", "/accessors/1/type: is not the type"},
+      {"/meshes/0/primitives/0/attributes/POSITION", "\"0\"", "POSITION: is not a whole number"},
+      {"/meshes/0/primitives/0/attributes/NORMAL", "6", "6/count: 2 elements for 4 positions"},
+      {"/accessors/1/count", "5", "5 corners are no whole triangles"},
+      {"/accessors/1/count", "0", "/accessors/1/count: is 0"},
+      {"/accessors/1/count", "7", "/accessors/1: 7 elements reach beyond buffer view 1"},
+      {"/accessors/1/count", "4611686018427387904", "/accessors/1/count: is not a whole number"},
+      {"/accessors/1/count", "9007199254740991", "elements reach beyond buffer view 1"},
+      {"/accessors/1/componentType", "5126", "6 elements reach beyond buffer view 1"},
+      {"/accessors/1/componentType", "5124", "5124 is none"},
+      {"/accessors/2/byteOffset", "-4", "/accessors/2/byteOffset: is not a whole number"},
+      {"/accessors/2/byteOffset", "4", "/accessors/2: 4 elements reach beyond buffer view 2"},
+      {"/accessors/2/byteOffset", "9007199254740992", "elements reach beyond buffer view 2"},
+      {"/accessors/2/bufferView", "77", "/accessors/2: there is no buffer view 77"},
+      {"/accessors/2/type", "\"VEC9\"", "VEC9"},
+      {"/accessors/4/sparse/count", "5", "/accessors/4/sparse/count: 5 of 4 elements"},
+      {"/accessors/4/sparse/count", "0", "/accessors/4/sparse/count: 0 of 4"},
+      {"/accessors/4/sparse/indices/bufferView", "66", "there is no buffer view 66"},
+      {"/accessors/4/sparse/indices/componentType", "5126", "is not an unsigned type"},
+      {"/accessors/4/sparse/values/byteOffset", "8", "2 elements reach beyond buffer view 6"},
+      {"/accessors/4/sparse/values/byteOffset", "-8", "is not a whole number"},
+      {"/accessors/4/count", "2", "index 2 of element 1: not ascending below 2"},
+      {"/bufferViews/2/byteOffset", "9007199254740992", "/bufferViews/2: 48 bytes from byte"},
+      {"/bufferViews/2/byteLength", "9007199254740992", "/bufferViews/2: 9007199254740992 bytes"},
+      {"/bufferViews/2/byteStride", "4", "/bufferViews/2/byteStride: 4 is less than an element"},
+      {"/bufferViews/2/byteStride", "252", "4 elements reach beyond buffer view 2"},
+      {"/bufferViews/2/buffer", "1", "/bufferViews/2/buffer: there is no buffer 1"},
+      {"/buffers/0/byteLength", "100000", "byteLength"},
+      {"/buffers/0/byteLength", "9007199254740992", "byteLength"},
+      {"/buffers/0/uri", "\"missing.bin\"", "/buffers: there is no file \"missing.bin\""},
+      {"/buffers/0/uri", "\"../secret.bin\"", "/buffers: \"../secret.bin\" is outside"},
+      {"/buffers/0/uri", "\"/etc/passwd\"", "/buffers: \"/etc/passwd\" is outside"},
+      {"/buffers/0/uri", "\"https://example.com/a.bin\"", "only files are read, no URLs"},
+      {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAAA\"", "decode"},
+  };
+  for (const Case& test : cases) {
+    GltfFile file = MakeRichFile();
+    file.json[Json::json_pointer(test.pointer)] = Json::parse(test.value);
+    const std::string message = MessageOf("a.glb", file.Binary());
+    INFO(test.pointer << " = " << test.value << "\n" << message);
+    CHECK(Contains(message, test.message));
+    CHECK(Contains(message, "a.glb: "));
+  }
+}
+
+TEST_CASE("numbers in buffers are looked at, too") {
+  GltfFile file = MakeSquare();
+  Json& primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["indices"] = file.Accessor(std::vector<uint16_t>{0, 1, 4}, 5123, "SCALAR", 1);
+  CHECK(Contains(MessageOf("a.glb", file.Binary()),
+                 "/accessors/2: index 4 at 2\n  hint: there are 4"));
+  primitive["indices"] = file.Accessor(std::vector<float>{0, 1, 2}, 5126, "SCALAR", 1);
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), "indices are of an unsigned type"));
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float bad : {nan, std::numeric_limits<float>::infinity(), 1e30f}) {
+    file = MakeSquare();
+    std::vector<float> positions = kSquare;
+    positions[7] = bad;
+    file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+        file.Accessor(positions, 5126, "VEC3", 3);
+    CHECK(Contains(MessageOf("a.glb", file.Binary()), "position 2 is out of range"));
+  }
+  file = MakeSquare();
+  file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      file.Accessor(std::vector<float>{0, 0, nan, 0, 1, 1, 0, 1}, 5126, "VEC2", 2);
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), "texture coordinate 1 is out of range"));
+  // A normal that is no number is mended like one without a direction.
+  file.json["meshes"][0]["primitives"][0]["attributes"] = {
+      {"POSITION", 0}, {"NORMAL", file.Accessor(std::vector<float>(12, nan), 5126, "VEC3", 3)}};
+  CHECK(MessageOf("a.glb", file.Binary()) == "fine");
+}
+
+TEST_CASE("binary files that are cut or lie about their lengths") {
+  const std::string good = MakeRichFile().Binary();
+  for (size_t length = 0; length < good.size(); length += 7) {
+    CHECK(MessageOf("a.glb", good.substr(0, length)) != "fine");
+  }
+  const auto with_word = [&](size_t offset, uint32_t word) {
+    std::string bytes = good;
+    std::memcpy(bytes.data() + offset, &word, 4);
+    return MessageOf("a.glb", bytes);
+  };
+  CHECK(Contains(with_word(4, 1), "is glTF 1"));
+  CHECK(Contains(with_word(8, 0xffffffff), "says that it has 4294967295"));
+  CHECK(Contains(with_word(8, 12), "its first chunk is not JSON"));
+  CHECK(Contains(with_word(12, 0xfffffff0), "is longer than the file"));
+  CHECK(Contains(with_word(16, 0), "its first chunk is not JSON"));
+  const uint32_t json_length = [&] {
+    uint32_t word = 0;
+    std::memcpy(&word, good.data() + 12, 4);
+    return word;
+  }();
+  CHECK(Contains(with_word(20 + json_length, static_cast<uint32_t>(good.size())), "longer than"));
+  CHECK(Contains(MessageOf("a.gltf", ""), "not JSON"));
+  CHECK(Contains(MessageOf("a.gltf", "[]"), "is not a glTF file"));
+  CHECK(Contains(MessageOf("a.gltf", "{\"a\": 1}"), "\"asset\" object not found"));
+  CHECK(Contains(MessageOf("a.gltf", std::string(300000, '[')), "nested deeper than 100"));
+}
+
+TEST_CASE("few bytes cannot ask for much memory") {
+  // A billion elements that no buffer holds.
+  GltfFile file = MakeSquare();
+  Json& accessor = file.json["accessors"][0];
+  accessor.erase("bufferView");
+  accessor["count"] = 1000000000;
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), "elements without a buffer view"));
+  // A mesh of sixteen million triangles, shown a hundred times.
+  accessor["count"] = 1 << 24;
+  file.json["meshes"][0]["primitives"][0].erase("indices");
+  file.json["meshes"][0]["primitives"][0]["mode"] = 5;
+  Json children = Json::array();
+  for (int i = 1; i <= 100; ++i) {
+    children.push_back(i);
+    file.json["nodes"].push_back({{"mesh", 0}});
+  }
+  file.json["nodes"][0] = {{"children", children}};
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), "more than 100 million triangles"));
+}
+
+TEST_CASE("a chain of a hundred thousand nodes is no deep recursion") {
+  GltfFile file = MakeSquare();
+  Json nodes = Json::array();
+  constexpr int kNodes = 100000;
+  for (int i = 0; i < kNodes; ++i) nodes.push_back({{"children", {i + 1}}});
+  nodes.push_back({{"mesh", 0}});
+  file.json["nodes"] = nodes;
+  CHECK(MessageOf("a.glb", file.Binary()) == "fine");
+}
+
+// Whatever bytes are changed, a file is read or refused.
+TEST_CASE("spoilt bytes never do worse than be refused") {
+  const std::string good = MakeRichFile().Binary();
+  std::mt19937 random(1);
+  const ModelFolder folder;
+  int read = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::string bytes = good;
+    const size_t changes = 1 + random() % 3;
+    for (size_t k = 0; k < changes; ++k) {
+      // Digits and brackets find the weak places of JSON, any byte those of the rest.
+      constexpr std::string_view kBytes = "0123456789-.e[]{},:\" \xff";
+      bytes[random() % bytes.size()] =
+          random() % 4 == 0 ? static_cast<char>(random()) : kBytes[random() % kBytes.size()];
+    }
+    if (random() % 8 == 0) bytes.resize(random() % bytes.size());
+    try {
+      LoadScene(folder.Write("a.glb", bytes));
+      ++read;
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::kBadInput);
+    }
+  }
+  CHECK(read > 0);
+  CHECK(read < 4000);
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,397 @@
+// What glTF files say: nodes, meshes, materials, cameras and lights.
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "catch.h"
+#include "scene/mesh.h"
+#include "scene_io/gltf_builder.h"
+
+namespace nacre {
+namespace {
+
+// The area times the normal of the mesh's triangles, summed.
+Vec3d VectorArea(const Mesh& mesh) {
+  Vec3d sum(0, 0, 0);
+  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const Vec3d& a = mesh.positions[mesh.triangles[i]];
+    sum += (mesh.positions[mesh.triangles[i + 1]] - a)
+               .cross(mesh.positions[mesh.triangles[i + 2]] - a) /
+           2;
+  }
+  return sum;
+}
+
+Mesh MeshOf(const GltfFile& file) {
+  const Scene scene = LoadFile(file);
+  REQUIRE(scene.meshes.size() == 1);
+  return scene.meshes[0];
+}
+
+// The square with this node in the place of its own.
+Mesh MeshWithNode(const std::string& node) {
+  GltfFile file = MakeSquare();
+  file.json["nodes"][0] = Json::parse(node);
+  return MeshOf(file);
+}
+
+bool Near(const Vec3d& a, const Vec3d& b) { return (a - b).length() < 1e-12; }  // unit sizes
+
+TEST_CASE("a square") {
+  const Mesh mesh = MeshOf(MakeSquare());
+  CHECK(mesh.name == "square");
+  CHECK(mesh.positions == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
+  CHECK(mesh.normals.empty());  // the specification asks for flat ones then
+  CHECK(mesh.uvs.empty());
+}
+
+TEST_CASE("a file of text with a file of bytes, or with the bytes in it") {
+  const ModelFolder folder;
+  GltfFile file = MakeSquare();
+  folder.Write("data file.bin", file.bytes + "more");  // may be longer than it is said to be
+  file.json["buffers"][0]["uri"] = "data%20file.bin";
+  CHECK(LoadScene(folder.Write("model.gltf", file.json.dump())).meshes.size() == 1);
+
+  GltfFile inside;
+  inside.json = Json::parse(R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5121, "type": "VEC3", "count": 3}],
+      "bufferViews": [{"buffer": 0, "byteLength": 9}],
+      "buffers": [{"byteLength": 9, "uri": "data:application/octet-stream;base64,AAAAAQAAAAEA"}]})");
+  const Scene scene = LoadScene(folder.Write("inside.gltf", inside.json.dump()));
+  CHECK(scene.meshes.at(0).positions == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+}
+
+TEST_CASE("nodes scale, rotate and translate, parents after their children") {
+  const double s = std::sqrt(0.5);
+  CHECK(MeshWithNode(R"({"mesh": 0, "translation": [1, 2, 3], "scale": [2, 3, 4]})").positions[2] ==
+        Vec3d(3, 5, 3));
+  // A quarter turn about z: x to y.
+  Json turned = {{"mesh", 0}, {"rotation", {0, 0, s, s}}, {"scale", {2, 1, 1}}};
+  CHECK(Near(MeshWithNode(turned.dump()).positions[1], {0, 2, 0}));
+  // And about x: y to z. About y: z to x.
+  CHECK(Near(MeshWithNode(Json{{"mesh", 0}, {"rotation", {s, 0, 0, s}}}.dump()).positions[3],
+             {0, 0, 1}));
+  CHECK(Near(MeshWithNode(Json{{"mesh", 0}, {"rotation", {0, s, 0, s}}}.dump()).positions[1],
+             {0, 0, -1}));
+  // Stored by columns.
+  CHECK(MeshWithNode(R"({"mesh": 0, "matrix": [0,1,0,0, -1,0,0,0, 0,0,1,0, 5,6,7,1]})")
+            .positions[1] == Vec3d(5, 7, 7));
+
+  GltfFile file = MakeSquare();
+  file.json["nodes"] = Json::parse(R"([{"children": [1], "translation": [10, 0, 0]},
+      {"mesh": 0, "scale": [2, 2, 2], "children": [2]}, {"mesh": 0, "translation": [1, 0, 0]}])");
+  const Scene scene = LoadFile(file);
+  REQUIRE(scene.meshes.size() == 2);
+  CHECK(scene.meshes[0].positions[1] == Vec3d(12, 0, 0));
+  CHECK(scene.meshes[1].positions[1] == Vec3d(14, 0, 0));
+}
+
+TEST_CASE("a mirrored mesh keeps its outside outside") {
+  GltfFile file = MakeSquare();
+  file.json["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+      file.Accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0.6f, 0.8f, 0, 0, 1}, 5126, "VEC3", 3);
+  for (const std::array<int, 3> scale : {std::array{1, 1, 1}, {-1, 1, 1}, {1, -2, 1}, {1, 1, -3}}) {
+    file.json["nodes"][0]["scale"] = scale;
+    const Mesh mesh = MeshOf(file);
+    const double side = scale[2] < 0 ? -1 : 1;
+    CHECK(VectorArea(mesh).z * side > 0);
+    CHECK(mesh.normals[0] == Vec3d(0, 0, side));
+    // Perpendicular to (0, 4, -3) made (0, 4 sy, -3 sz).
+    CHECK(std::abs(mesh.normals[2].dot(Vec3d(0, 4.0 * scale[1], -3.0 * scale[2]))) < 1e-6);
+    CHECK(mesh.normals[2].z * side > 0);
+  }
+}
+
+TEST_CASE("strips and fans wind like lists, points and lines are left out") {
+  GltfFile file = MakeSquare();
+  Json& primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["mode"] = 5;
+  primitive["indices"] = file.Accessor(std::vector<uint8_t>{0, 1, 3, 2}, 5121, "SCALAR", 1);
+  CHECK(MeshOf(file).triangles == std::vector<uint32_t>{0, 1, 3, 1, 2, 3});
+  CHECK(VectorArea(MeshOf(file)) == Vec3d(0, 0, 1));
+  primitive["mode"] = 6;
+  primitive["indices"] = file.Accessor(std::vector<uint32_t>{0, 1, 2, 3}, 5125, "SCALAR", 1);
+  CHECK(VectorArea(MeshOf(file)) == Vec3d(0, 0, 1));
+  primitive.erase("indices");
+  CHECK(VectorArea(MeshOf(file)) == Vec3d(0, 0, 1));
+  for (const int mode : {0, 1, 2, 3}) {
+    GltfFile both = MakeSquare();
+    Json points = both.json["meshes"][0]["primitives"][0];
+    points["mode"] = mode;
+    both.json["meshes"][0]["primitives"].push_back(points);
+    both.json["meshes"][0]["primitives"].push_back(points);
+    std::vector<std::string> warnings;
+    CHECK(LoadFile(both, &warnings).meshes.size() == 1);
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find("points and lines are not shown") != std::string::npos);
+  }
+}
+
+TEST_CASE("accessors: strides, offsets, normalised integers and sparse ones") {
+  GltfFile file = MakeSquare();
+  Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  // Positions of shorts among other numbers, normalised: 32767 is 1.
+  const std::vector<int16_t> shorts = {9, 0,     0,     0, 9, 32767, 0,     0,
+                                       9, 32767, 32767, 0, 9, 0,     32767, 0};
+  attributes["POSITION"] = file.Accessor(shorts, 5122, "VEC3", 4);
+  Json& accessor = file.json["accessors"].back();
+  accessor["byteOffset"] = 2;
+  accessor["normalized"] = true;
+  file.json["bufferViews"].back()["byteStride"] = 8;
+  CHECK(VectorArea(MeshOf(file)) == Vec3d(0, 0, 1));
+  CHECK(MeshOf(file).positions[1] == Vec3d(1, 0, 0));
+  accessor["normalized"] = false;
+  CHECK(MeshOf(file).positions[1] == Vec3d(32767, 0, 0));
+
+  // Bytes: -128 and -127 are both -1.
+  attributes["POSITION"] = file.Accessor(
+      std::vector<int8_t>{-128, -127, 0, 127, -127, 0, 127, 127, 0, -127, 127, 0}, 5120, "VEC3", 3);
+  file.json["accessors"].back()["normalized"] = true;
+  CHECK(VectorArea(MeshOf(file)) == Vec3d(0, 0, 4));
+
+  // All zeros but two elements.
+  const size_t index_bytes = file.Append(std::vector<uint16_t>{1, 2});
+  const size_t value_bytes = file.Append(std::vector<float>{3, 0, 0, 3, 3, 0});
+  for (const auto& [offset, length] : {std::pair(index_bytes, 4), std::pair(value_bytes, 24)}) {
+    file.json["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}});
+  }
+  const size_t views = file.json["bufferViews"].size();
+  attributes["POSITION"] = file.json["accessors"].size();
+  file.json["accessors"].push_back(
+      {{"componentType", 5126},
+       {"type", "VEC3"},
+       {"count", 4},
+       {"sparse",
+        {{"count", 2},
+         {"indices", {{"bufferView", views - 2}, {"componentType", 5123}}},
+         {"values", {{"bufferView", views - 1}}}}}});
+  CHECK(MeshOf(file).positions == std::vector<Vec3d>{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 0, 0}});
+}
+
+TEST_CASE("texture coordinates have v up, normals without direction are mended") {
+  GltfFile file = MakeSquare();
+  Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_0"] =
+      file.Accessor(std::vector<uint8_t>{0, 255, 255, 255, 255, 0, 0, 0}, 5121, "VEC2", 2);
+  file.json["accessors"].back()["normalized"] = true;
+  attributes["NORMAL"] =
+      file.Accessor(std::vector<float>{0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 0, 0}, 5126, "VEC3", 3);
+  const Mesh mesh = MeshOf(file);
+  CHECK(mesh.uvs == std::vector<Vec2d>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  CHECK(mesh.normals == std::vector<Vec3d>{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, 1}});
+}
+
+TEST_CASE("primitives that share long accessors take what they use") {
+  GltfFile file = MakeSquare();
+  std::vector<float> many(3 * 10000);
+  for (size_t i = 0; i < many.size(); ++i) many[i] = static_cast<float>(i * i % 97);
+  Json& primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] = file.Accessor(many, 5126, "VEC3", 3);
+  primitive["indices"] = file.Accessor(std::vector<uint16_t>{9000, 17, 4000}, 5123, "SCALAR", 1);
+  const Mesh mesh = MeshOf(file);
+  REQUIRE(mesh.positions.size() == 3);
+  CHECK(mesh.positions[0].x == many[51]);
+  CHECK(mesh.triangles == std::vector<uint32_t>{2, 0, 1});
+}
+
+// The material of a square whose material has these members.
+Material MaterialOf(const std::string& members, std::vector<std::string>* warnings = nullptr) {
+  GltfFile file = MakeSquare();
+  file.json["materials"].push_back(Json::parse(members));
+  file.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Scene scene = LoadFile(file, warnings);
+  return scene.materials.at(scene.meshes.at(0).material.index);
+}
+
+TEST_CASE("metallic-roughness materials") {
+  const Material gold = MaterialOf(R"({"name": "gold", "emissiveFactor": [0, 0.5, 1],
+      "pbrMetallicRoughness": {"baseColorFactor": [1, 0.75, 0.25, 1], "roughnessFactor": 0.25},
+      "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}})");
+  CHECK(gold.name == "gold");
+  CHECK(gold.emission == Rgb(0, 2, 4));
+  const auto& model = std::get<MetallicRoughnessMaterial>(gold.model);
+  CHECK(model.base_color == Rgb(1, 0.75, 0.25));
+  CHECK(model.metallic == 1);
+  CHECK(model.roughness == 0.25);
+  // None at all: white, metallic and rough, by the specification.
+  const Scene scene = LoadFile(MakeSquare());
+  const auto& none =
+      std::get<MetallicRoughnessMaterial>(scene.materials.at(scene.meshes[0].material.index).model);
+  CHECK((none.base_color == Rgb(1) && none.metallic == 1 && none.roughness == 1));
+}
+
+TEST_CASE("extensions of materials") {
+  const auto plastic = [](const std::string& extensions, std::vector<std::string>* warnings) {
+    return MaterialOf(R"({"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.5},
+                          "extensions": {)" +
+                          extensions + "}}",
+                      warnings);
+  };
+  std::vector<std::string> warnings;
+  const Material unlit = plastic(R"("KHR_materials_unlit": {})", &warnings);
+  CHECK(unlit.emission == Rgb(1));
+  CHECK(std::get<LambertMaterial>(unlit.model).albedo == Rgb(0));
+  const Material coat = plastic(R"("KHR_materials_ior": {"ior": 1.8})", &warnings);
+  CHECK(std::get<DielectricMaterial>(coat.model).ior == Approx(1.8).epsilon(1e-14));
+  CHECK(std::get<DielectricMaterial>(coat.model).fresnel == DielectricFresnel::kSchlick);
+  CHECK(std::get<DielectricMaterial>(coat.model).roughness == 0.5);
+  // Half the reflectance at normal incidence, 0.02.
+  const Material half =
+      plastic(R"("KHR_materials_specular": {"specularColorFactor": [0.5, 0.5, 0.5]})", &warnings);
+  const double ior = std::get<DielectricMaterial>(half.model).ior;
+  CHECK((ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) == Approx(0.02).epsilon(1e-14));
+  const Material matte = plastic(R"("KHR_materials_specular": {"specularFactor": 0})", &warnings);
+  CHECK(std::get<LambertMaterial>(matte.model).albedo == Rgb(1));
+  CHECK(warnings.empty());
+  const Material tinted =
+      plastic(R"("KHR_materials_specular": {"specularColorFactor": [1, 0.5, 0.5]})", &warnings);
+  CHECK(std::holds_alternative<MetallicRoughnessMaterial>(tinted.model));
+  CHECK(warnings.size() == 1);
+  // White paint without gloss, and gold.
+  const Material paint = plastic(R"("KHR_materials_pbrSpecularGlossiness": {
+      "diffuseFactor": [0.5, 0.5, 0.5, 1], "specularFactor": [0.04, 0.04, 0.04],
+      "glossinessFactor": 0.25})",
+                                 &warnings);
+  const auto& painted = std::get<MetallicRoughnessMaterial>(paint.model);
+  CHECK(painted.metallic == Approx(0).margin(1e-12));
+  CHECK(painted.roughness == 0.75);
+  CHECK(painted.base_color.x == Approx(0.5).epsilon(1e-12));
+  const Material metal = plastic(R"("KHR_materials_pbrSpecularGlossiness": {
+      "diffuseFactor": [0, 0, 0, 1], "specularFactor": [1, 0.75, 0.3]})",
+                                 &warnings);
+  CHECK(std::get<MetallicRoughnessMaterial>(metal.model).metallic == Approx(1).epsilon(1e-6));
+  CHECK(std::get<MetallicRoughnessMaterial>(metal.model).base_color.y == Approx(0.75));
+}
+
+TEST_CASE("cameras: the first one in the scene is taken") {
+  GltfFile file = MakeSquare();
+  file.json["cameras"] = Json::parse(R"([
+      {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}},
+      {"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0, "zfar": 9}}])");
+  const double s = std::sqrt(0.5);
+  file.json["nodes"].push_back(
+      {{"camera", 0}, {"translation", {5, 0, 0}}, {"rotation", {0, s, 0, s}}});
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  const Camera camera = LoadFile(file).camera;
+  CHECK(camera.projection == Projection::kPerspective);
+  CHECK(camera.fov_y_deg == Approx(180 / std::numbers::pi));
+  CHECK(camera.position == Vec3d(5, 0, 0));
+  CHECK(Near((camera.look_at - camera.position).normalized(), {-1, 0, 0}));  // -z turned about y
+  CHECK(Near(camera.up, {0, 1, 0}));
+  file.json["nodes"][1]["camera"] = 1;
+  CHECK(LoadFile(file).camera.projection == Projection::kOrthographic);
+  CHECK(LoadFile(file).camera.height == 4);
+}
+
+TEST_CASE("lights") {
+  GltfFile file = MakeSquare();
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([
+      {"type": "directional", "intensity": 3, "color": [1, 0.5, 0.25]},
+      {"type": "point", "intensity": 40, "name": "bulb"},
+      {"type": "spot", "intensity": 2, "name": "bulb",
+       "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}}])");
+  for (int i = 0; i < 3; ++i) {
+    file.json["nodes"].push_back(
+        {{"translation", {0, i, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+  }
+  file.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  REQUIRE(scene.lights.size() == 3);
+  const auto& sun = std::get<DirectionalLight>(scene.lights[0].kind);
+  CHECK(sun.direction_of_travel == Vec3d(0, 0, -1));
+  CHECK(sun.irradiance == Rgb(3, 1.5, 0.75));
+  CHECK(std::get<PointLight>(scene.lights[1].kind).position == Vec3d(0, 1, 1));
+  CHECK(std::get<PointLight>(scene.lights[1].kind).intensity == Rgb(40));
+  CHECK(scene.lights[1].name == "bulb");
+  CHECK(scene.lights[2].name == "bulb 2");
+  const auto& spot = std::get<SpotLight>(scene.lights[2].kind);
+  CHECK(spot.cutoff_deg == Approx(90 / std::numbers::pi));
+  CHECK(spot.inner_deg == Approx(45 / std::numbers::pi));
+  CHECK(warnings.size() == 1);  // the penumbra
+}
+
+TEST_CASE("a model without camera and lights gets both") {
+  GltfFile file = MakeSquare();
+  file.json["nodes"][0]["scale"] = {40, 20, 1};
+  const Scene scene = LoadFile(file);
+  CHECK(scene.lights.size() == 4);
+  CHECK(scene.camera.look_at == Vec3d(20, 10, 0));
+  // All of it is in the view, and it fills one side.
+  const Vec3d back = (scene.camera.position - scene.camera.look_at).normalized();
+  const Vec3d right = scene.camera.up.cross(back).normalized();
+  CHECK(back.z > 0.5);
+  const double half = std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360);
+  double across = 0, up = 0;
+  for (const Vec3d& position : scene.meshes[0].positions) {
+    const Vec3d p = position - scene.camera.position;
+    across = std::max(across, std::abs(p.dot(right)) / -p.dot(back) / (half * 1280 / 720));
+    up = std::max(up, std::abs(p.dot(back.cross(right))) / -p.dot(back) / half);
+  }
+  CHECK(std::max(across, up) < 0.95);
+  CHECK(std::max(across, up) > 0.85);
+}
+
+TEST_CASE("--set reaches the camera, the image, the lights and the materials of a model") {
+  const ModelFolder folder;
+  GltfFile file = MakeSquare();
+  file.json["materials"] = Json::parse(R"([{"name": "m"}])");
+  const auto path = folder.Write("model.glb", file.Binary());
+  const auto load = [&](std::vector<std::pair<std::string, std::string>> overrides) {
+    LoadOptions options;
+    options.overrides = std::move(overrides);
+    return LoadScene(path, options);
+  };
+  const auto message = [&](const std::string& pointer, const std::string& value) -> std::string {
+    try {
+      load({{pointer, value}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  const Scene wide = load({{"/camera/fov_y_deg", "60"},
+                           {"/image/width", "100"},
+                           {"/image/height", "400"},
+                           {"/background", "0"}});
+  CHECK(wide.camera.fov_y_deg == 60);
+  CHECK(wide.image.width == 100);
+  CHECK(wide.background == Rgb(0));
+  const Scene narrow = load({{"/camera/fov_y_deg", "20"}});
+  CHECK((narrow.camera.position - narrow.camera.look_at).length() >
+        (load({}).camera.position - narrow.camera.look_at).length());
+  CHECK(load({{"/camera/position", "[1, 2, 30]"}}).camera.position == Vec3d(1, 2, 30));
+  const Scene rough = load({{"/materials/m/roughness", "0.25"}});
+  CHECK(std::get<MetallicRoughnessMaterial>(rough.materials[0].model).roughness == 0.25);
+  const Scene lit = load({{"/lights/key", R"({"type": "ambient", "radiance": 1})"},
+                          {"/lights/more", R"({"type": "ambient", "radiance": 1})"}});
+  CHECK(lit.lights.size() == 5);
+  CHECK(std::holds_alternative<AmbientLight>(lit.lights[0].kind));
+  CHECK(message("/materials/n/roughness", "1").find("unknown material \"n\"") != std::string::npos);
+  CHECK(message("/materials/m/rough", "1").find("unknown key \"rough\"") != std::string::npos);
+  CHECK(message("/image/spp", "0").find("/image/spp: 0 is out of range") != std::string::npos);
+  CHECK(message("/shapes/0", "1").find("unknown key \"shapes\"") != std::string::npos);
+}
+
+TEST_CASE("the model that ships") {
+  const Scene scene = LoadScene(std::string(NACRE_SOURCE_DIR) + "/scenes/models/pawns.glb");
+  CHECK(scene.meshes.size() == 1 + 25 + 9);
+  for (const Mesh& mesh : scene.meshes) {
+    const Vec3d area = VectorArea(mesh);
+    CHECK(area.length() < 1e-5);  // closed, to the float positions' rounding
+    double volume = 0;
+    for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
+      volume += mesh.positions[mesh.triangles[i]].dot(
+          mesh.positions[mesh.triangles[i + 1]].cross(mesh.positions[mesh.triangles[i + 2]]));
+    }
+    CHECK(volume > 0);  // right side out
+  }
+}
+
+}  // namespace
+}  // namespace nacre

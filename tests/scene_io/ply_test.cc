@@ -1,0 +1,234 @@
+// PLY files, good and bad: text, bytes of both orders, any order of properties.
+#include "scene_io/ply.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "catch.h"
+#include "color/transfer.h"
+#include "scene_io/gltf_builder.h"
+
+namespace nacre {
+namespace {
+
+Scene LoadPly(const std::string& bytes, std::vector<std::string>* warnings = nullptr) {
+  const ModelFolder folder;
+  LoadOptions options;
+  options.on_warning = [&](const std::string& text) {
+    if (warnings != nullptr) warnings->push_back(text);
+  };
+  return LoadScene(folder.Write("model.ply", bytes), options);
+}
+
+std::string MessageOf(const std::string& bytes) {
+  try {
+    LoadPly(bytes);
+  } catch (const Error& error) {
+    CHECK(error.code() == ExitCode::kBadInput);
+    return error.what();
+  }
+  return "fine";
+}
+
+bool Refused(const std::string& bytes, const std::string& part) {
+  const std::string message = MessageOf(bytes);
+  INFO(message);
+  const bool refused = message.find(part) != std::string::npos;
+  CHECK(refused);
+  return refused;
+}
+
+const std::string kVertices =
+    "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\n"
+    "property float x\nproperty float y\nproperty float z\n";
+const std::string kFaces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+const std::string kPoints = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+
+template <typename T>
+std::string Bytes(T value, bool big) {
+  std::string bytes(reinterpret_cast<const char*>(&value), sizeof(T));
+  if (big) std::reverse(bytes.begin(), bytes.end());
+  return bytes;
+}
+
+TEST_CASE("a square as text") {
+  const Scene scene = LoadPly(kVertices + kFaces + kPoints + "4 0 1 2 3\n");
+  REQUIRE(scene.meshes.size() == 1);
+  const Mesh& mesh = scene.meshes[0];
+  CHECK(mesh.name == "model");
+  CHECK(mesh.positions == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
+  CHECK(mesh.normals == std::vector<Vec3d>(4, Vec3d(0, 0, 1)));
+  CHECK(scene.lights.size() == 4);  // the studio's
+}
+
+TEST_CASE("bytes of both orders, properties in any order, of any type, and others between them") {
+  for (const bool big : {false, true}) {
+    std::string file = "ply\nformat binary_" + std::string(big ? "big" : "little") +
+                       "_endian 1.0\nelement face 2\nproperty uchar flags\n"
+                       "property list ushort uint vertex_index\n"
+                       "property list uchar float extra\nelement camera 1\nproperty double f\n"
+                       "element vertex 4\nproperty double z\nproperty list uchar short skip\n"
+                       "property short y\nproperty int x\nproperty float nx\nproperty float ny\n"
+                       "property float nz\nproperty float t\nproperty float s\nend_header\n";
+    for (const auto& face : {std::vector<uint32_t>{0, 1, 2}, {0, 2, 3}}) {
+      file += Bytes(uint8_t{7}, big) + Bytes(static_cast<uint16_t>(face.size()), big);
+      for (const uint32_t index : face) file += Bytes(index, big);
+      file += Bytes(uint8_t{1}, big) + Bytes(0.5f, big);
+    }
+    file += Bytes(1.5, big);
+    for (const auto& [x, y] : {std::pair(0, 0), {300, 0}, {300, -2}, {0, -2}}) {
+      file += Bytes(0.25, big) + Bytes(uint8_t{1}, big) + Bytes(int16_t{-1}, big);
+      file += Bytes(static_cast<int16_t>(y), big) + Bytes(static_cast<int32_t>(x), big);
+      file += Bytes(0.0f, big) + Bytes(0.0f, big) + Bytes(-2.0f, big);
+      file += Bytes(0.75f, big) + Bytes(0.5f, big);
+    }
+    const Mesh mesh = LoadPly(file).meshes.at(0);
+    CHECK(mesh.positions ==
+          std::vector<Vec3d>{{0, 0, 0.25}, {300, 0, 0.25}, {300, -2, 0.25}, {0, -2, 0.25}});
+    CHECK(mesh.triangles == std::vector<uint32_t>{0, 1, 2, 0, 2, 3});
+    CHECK(mesh.normals == std::vector<Vec3d>(4, Vec3d(0, 0, -1)));
+    CHECK(mesh.uvs == std::vector<Vec2d>(4, Vec2d(0.5, 0.75)));
+    CHECK(Refused(file.substr(0, file.size() - 1), "ends too early"));
+  }
+}
+
+TEST_CASE("triangle strips wind like faces") {
+  const Scene scene = LoadPly(kVertices +
+                              "element tristrips 1\nproperty list int int vertex_indices\n"
+                              "end_header\n" +
+                              kPoints + "8 0 1 3 2 -1 0 1 2\n");
+  CHECK(scene.meshes.at(0).triangles == std::vector<uint32_t>{0, 1, 3, 3, 1, 2, 0, 1, 2});
+}
+
+TEST_CASE("edges stay sharp where faces without normals meet at a right angle") {
+  const std::string file =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n" +
+      kPoints + "1 0 -1\n0 0 -1\n4 0 1 2 3\n4 0 5 4 1\n";
+  CHECK(LoadPly(file).meshes.at(0).positions.size() == 8);
+}
+
+TEST_CASE("points become spheres, with their colours and radii") {
+  const std::string points =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty float radius\nproperty uchar red\nproperty uchar green\n"
+      "property uchar blue\nend_header\n"
+      "0 0 0 0.5 255 0 0\n2 0 0 0.25 0 128 0\n4 0 0 1 255 0 0\n";
+  const Scene scene = LoadPly(points);
+  REQUIRE(scene.spheres.size() == 3);
+  CHECK(scene.spheres[1].center == Vec3d(2, 0, 0));
+  CHECK(scene.spheres[1].radius == 0.25);
+  REQUIRE(scene.materials.size() == 2);
+  CHECK(scene.spheres[0].material == scene.spheres[2].material);
+  const auto& green = std::get<MetallicRoughnessMaterial>(scene.materials[1].model);
+  CHECK(green.base_color == Rgb(0, SrgbEotf(128 / 255.0), 0));
+  CHECK(
+      Refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float radius\nend_header\n0 0 0 0\n",
+              "vertex 0 has radius 0"));
+  // Without radii: apart, and near enough to see a surface.
+  const Scene grid = LoadPly(kVertices + "end_header\n" + kPoints);
+  CHECK(grid.spheres.at(0).radius > 0.1);
+  CHECK(grid.spheres.at(0).radius < 0.5);
+}
+
+TEST_CASE("a cloud of many colours has few materials") {
+  std::string file =
+      "ply\nformat ascii 1.0\nelement vertex 20000\nproperty float x\n"
+      "property float y\nproperty float z\nproperty uchar red\n"
+      "property uchar green\nproperty uchar blue\nend_header\n";
+  std::mt19937 random(1);
+  for (int i = 0; i < 20000; ++i) {
+    file += fmt::format("{} {} 0 {} {} {}\n", i % 100, i / 100, random() % 256, random() % 256,
+                        random() % 256);
+  }
+  std::vector<std::string> warnings;
+  const Scene scene = LoadPly(file, &warnings);
+  CHECK(scene.spheres.size() == 20000);
+  CHECK(scene.materials.size() <= 4096);
+  CHECK(scene.materials.size() > 3000);
+  CHECK(warnings.size() == 1);
+}
+
+TEST_CASE("a PLY file can be a mesh of a scene") {
+  const ModelFolder folder;
+  folder.Write("square.ply", kVertices + kFaces + kPoints + "4 0 1 2 3\n");
+  const auto path = folder.Write("scene.json", R"({"nacre": 1, "shapes": [{"type": "mesh",
+      "file": "square.ply", "material": {"model": "lambert"}, "transform": {"scale": 2}}]})");
+  CHECK(LoadScene(path).meshes.at(0).positions[2] == Vec3d(2, 2, 0));
+}
+
+TEST_CASE("what is wrong with a PLY file is said") {
+  CHECK(Refused("", "is not a PLY file"));
+  CHECK(Refused("plyx\n", "is not a PLY file"));
+  CHECK(Refused("ply\nformat ascii 1.0\n", "ply:3: the header does not end"));
+  CHECK(Refused("ply\nend_header\n", "the header names no format"));
+  CHECK(Refused("ply\nformat ascii 2.0\nend_header\n", "ply:2: unknown format"));
+  CHECK(Refused("ply\nformat ascii 1.0\nend_header\n", "has no vertices"));
+  CHECK(Refused("ply\nformat ascii 1.0\nproperty float x\n", "ply:3: a property of no element"));
+  CHECK(Refused("ply\nformat ascii 1.0\nelement vertex -1\n", "element NAME COUNT"));
+  CHECK(Refused("ply\nformat ascii 1.0\nelement vertex 4x\n", "element NAME COUNT"));
+  CHECK(Refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n",
+                "unknown type \"quad\""));
+  CHECK(Refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty list float int x\n",
+                "whole numbers"));
+  CHECK(Refused(kVertices + "property float x\n", "a second property of this name"));
+  CHECK(Refused(kVertices + "element vertex 3\n", "a second element of this name"));
+  CHECK(
+      Refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+              "end_header\n0 0\n",
+              "its vertices have no x, y and z"));
+  CHECK(
+      Refused("ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n0\n",
+              "4000000000 elements \"vertex\" are more than the file holds"));
+  CHECK(Refused("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n",
+                "are more than the file holds"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2 4\n",
+                "face 0 has vertex 4\n  hint: there are 4"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2 -1\n", "face 0 has vertex -1"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "2 0 1\n", "face 0 has 2 corners"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "200 0 1\n", "a list of 200 is more than"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2\n", "ends too early"));
+  CHECK(Refused(kVertices + kFaces + kPoints + "300 0 1 2\n", "300 is not a number of its type"));
+  CHECK(Refused(kVertices + kFaces + "0 0 0\n1 x 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
+                "\"x\" is not a number"));
+  CHECK(Refused(kVertices + kFaces + "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n4 0 1 2 3\n",
+                "vertex 1 is at [1, nan, 0]"));
+  CHECK(
+      Refused(kVertices + kFaces + "0 0 0\n1 1e30 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "vertex 1 is at"));
+  CHECK(Refused(kVertices + kFaces + "0 0 0\n0 0 0\n0 0 0\n0 0 0\n4 0 1 2 3\n",
+                "has no face with an area"));
+}
+
+TEST_CASE("spoilt PLY files never do worse than be refused") {
+  const std::string text = kVertices + kFaces + kPoints + "4 0 1 2 3\n";
+  std::string binary =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\n"
+      "property float y\nproperty float z\n" +
+      kFaces;
+  for (const float number : kSquare) binary += Bytes(number, false);
+  binary += Bytes(uint8_t{4}, false);
+  for (int i = 0; i < 4; ++i) binary += Bytes(i, false);
+  CHECK(MessageOf(binary) == "fine");
+  std::mt19937 random(2);
+  int fine = 0;
+  for (int i = 0; i < 4000; ++i) {
+    std::string bytes = i % 2 == 0 ? text : binary;
+    for (size_t k = 0; k <= random() % 3; ++k) {
+      constexpr std::string_view kBytes = "0123456789-.e \n";
+      bytes[random() % bytes.size()] =
+          random() % 3 == 0 ? static_cast<char>(random()) : kBytes[random() % kBytes.size()];
+    }
+    if (random() % 8 == 0) bytes.resize(random() % bytes.size());
+    fine += MessageOf(bytes) == "fine" ? 1 : 0;
+  }
+  CHECK(fine > 0);
+  CHECK(fine < 4000);
+}
+
+}  // namespace
+}  // namespace nacre

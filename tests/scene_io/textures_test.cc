@@ -1,0 +1,178 @@
+// tests/scene_io/textures_test.cc: textures of scene files, from images written here (PPM, which
+// OpenImageIO reads).
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "base/error.h"
+#include "catch.h"
+#include "color/transfer.h"
+#include "scene/hash.h"
+#include "scene/validate.h"
+#include "scene_io/load_scene.h"
+#include "scene_io/texture_image.h"
+
+namespace nacre {
+namespace {
+
+// A folder of its own that is gone afterwards.
+class Folder {
+ public:
+  Folder()
+      : path_(std::filesystem::temp_directory_path() /
+              ("nacre_textures_" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(path_);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+  // `kind` is 6 for colours and 5 for greys.
+  void WritePnm(const std::string& name, int kind, int width, int height,
+                const std::vector<uint8_t>& bytes) const {
+    std::ofstream file(path_ / name, std::ios::binary);
+    file << 'P' << kind << '\n' << width << ' ' << height << "\n255\n";
+    file.write(reinterpret_cast<const char*>(bytes.data()),
+               static_cast<std::streamsize>(bytes.size()));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Scene Load(const Folder& folder, const std::string& textures, const std::string& material) {
+  return LoadSceneText(R"({"nacre": 1, "textures": )" + textures + R"(, "materials": {"m": )" +
+                           material + R"(}, "shapes": [
+      {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})",
+                       "t.json", folder.path());
+}
+
+TEST_CASE("an 8-bit image decodes exactly, row 0 at the bottom") {
+  const Folder folder;
+  // 2x2: the upper row first.
+  folder.WritePnm("a.ppm", 6, 2, 2, {0, 1, 2, 10, 11, 12, 100, 128, 255, 253, 254, 255});
+  const SceneImage srgb =
+      ReadTextureImage(folder.path() / "a.ppm", "a.ppm", TextureEncoding::kSrgb);
+  const SceneImage linear =
+      ReadTextureImage(folder.path() / "a.ppm", "a.ppm", TextureEncoding::kLinear);
+  REQUIRE(srgb.texels->channels == 3);
+  REQUIRE(srgb.texels->levels.size() == 2);
+  CHECK(srgb.texels->Value(0, 0, 0, 1) == static_cast<float>(SrgbEotf(128 / 255.0)));
+  CHECK(srgb.texels->Value(0, 1, 1, 0) == static_cast<float>(SrgbEotf(10 / 255.0)));
+  CHECK(srgb.texels->Value(0, 1, 0, 2) == 1);
+  CHECK(linear.texels->Value(0, 0, 0, 0) == static_cast<float>(100 / 255.0));
+  CHECK(linear.middle == 128.0f / 255);
+}
+
+TEST_CASE("a texture is decoded by its use, or as it says") {
+  const Folder folder;
+  folder.WritePnm("a.ppm", 6, 1, 1, {188, 100, 50});
+  const double srgb = double{static_cast<float>(SrgbEotf(100 / 255.0))};
+  const double linear = double{static_cast<float>(100 / 255.0)};
+  const auto green = [](const Scene& scene, TextureId id) {
+    REQUIRE(id.index < scene.textures.size());
+    const Texture& texture = scene.textures[id.index];
+    return double{scene.images[texture.image.index].texels->Value(0, 0, 0, 1)};
+  };
+  const std::string material = R"({"model": "metallic_roughness", "base_color_map": "a",
+                                   "metallic_roughness_map": "a", "normal_map": "a"})";
+  const Scene scene = Load(folder, R"({"a": {"file": "a.ppm"}})", material);
+  const auto& model = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
+  CHECK(green(scene, model.base_color_map) == srgb);
+  CHECK(green(scene, model.metallic_roughness_map) == linear);
+  CHECK(scene.materials[0].normal_map.texture == model.metallic_roughness_map);
+  CHECK(scene.images.size() == 2);
+
+  const Scene raw = Load(folder, R"({"a": {"file": "a.ppm", "encoding": "linear"}})", material);
+  CHECK(green(raw, std::get<MetallicRoughnessMaterial>(raw.materials[0].model).base_color_map) ==
+        linear);
+  CHECK(raw.images.size() == 1);
+}
+
+TEST_CASE("a texture's settings are read") {
+  const Folder folder;
+  folder.WritePnm("a.pgm", 5, 2, 1, {7, 9});
+  const Scene scene = Load(folder, R"({"a": {"file": "a.pgm", "filter": "bilinear",
+      "wrap_u": "mirror", "scale": [2, 3], "rotate_deg": 90, "offset": 0.5,
+      "mapping": {"kind": "cylindrical", "axis": [1, 0, 0], "rotate_deg": 30, "size": 4}}})",
+                           R"({"model": "phong", "shininess_map": "a", "bump_map":
+      {"texture": "a", "distance": 0.25}})");
+  REQUIRE(scene.textures.size() == 1);
+  const Texture& texture = scene.textures[0];
+  CHECK(texture.sampling.filter == TextureFilter::kBilinear);
+  CHECK(texture.sampling.wrap_u == Wrap::kMirror);
+  CHECK(texture.sampling.wrap_v == Wrap::kClamp);  // of a cylinder
+  CHECK(texture.mapping == MappingKind::kCylindrical);
+  CHECK(texture.axis == Vec3d(1, 0, 0));
+  CHECK(texture.rotate_deg == 30);
+  CHECK(texture.size == 4);
+  CHECK(texture.scale == Vec2d(2, 3));
+  CHECK(texture.uv_rotate_deg == 90);
+  CHECK(texture.offset == Vec2d(0.5, 0.5));
+  CHECK(scene.images[0].texels->channels == 1);
+  CHECK(scene.materials[0].bump_map.distance == 0.25);
+}
+
+TEST_CASE("the contents of an image are part of the scene's hash, its name is not") {
+  const Folder folder;
+  folder.WritePnm("a.pgm", 5, 2, 1, {7, 9});
+  folder.WritePnm("same.pgm", 5, 2, 1, {7, 9});
+  folder.WritePnm("other.pgm", 5, 2, 1, {7, 10});
+  const auto hash = [&](const std::string& file) {
+    return HashScene(Load(folder, R"({"a": {"file": ")" + file + R"("}})",
+                          R"({"model": "lambert", "albedo_map": "a"})"));
+  };
+  CHECK(hash("a.pgm") == hash("same.pgm"));
+  CHECK(hash("a.pgm") != hash("other.pgm"));
+}
+
+TEST_CASE("a grey image cannot hold normals, nor metallic and roughness") {
+  const Folder folder;
+  folder.WritePnm("a.pgm", 5, 1, 1, {128});
+  for (const std::string map : {"normal_map", "metallic_roughness_map"}) {
+    std::string message;
+    try {
+      Load(folder, R"({"a": {"file": "a.pgm"}})",
+           R"({"model": "metallic_roughness", ")" + map + R"(": "a"})");
+    } catch (const Error& error) {
+      message = error.what();
+    }
+    CHECK(message.find("/materials/m/" + map + ": a.pgm has no red, green and blue") !=
+          std::string::npos);
+  }
+}
+
+TEST_CASE("a mesh without texture coordinates needs a mapping") {
+  Scene scene;
+  scene.images.push_back({"a", std::make_shared<MipChain>(MakeMipChain(1, 1, 1, {0.5f})), 0.5f});
+  scene.textures.emplace_back().image = ImageId{0};
+  Material material;
+  material.model = LambertMaterial{.albedo_map = TextureId{0}};
+  scene.materials.push_back(material);
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {0, 1, 2};
+  mesh.material = MaterialId{0};
+  scene.meshes = {mesh};
+  REQUIRE(Validate(scene).size() == 1);
+  CHECK(Validate(scene)[0].where == "/meshes/0");
+  scene.meshes[0].uvs = {{0, 0}, {1, 0}, {0, 1}};
+  CHECK(Validate(scene).empty());
+  scene.meshes[0].uvs.pop_back();
+  CHECK(Validate(scene).size() == 1);
+  scene.meshes[0].uvs = {{0, 0}, {1, 0}, {0, std::numeric_limits<double>::infinity()}};
+  CHECK(Validate(scene).size() == 1);
+  scene.meshes[0].uvs.clear();
+  scene.textures[0].mapping = MappingKind::kPlanar;
+  CHECK(Validate(scene).empty());
+  scene.textures[0].image = ImageId{7};
+  CHECK(Validate(scene).size() == 1);
+}
+
+}  // namespace
+}  // namespace nacre
