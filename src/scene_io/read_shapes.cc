@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "scene/displace.h"
 #include "scene/mesh.h"
 #include "scene/validate.h"
 #include "scene_io/obj.h"
@@ -13,6 +14,24 @@
 namespace nacre {
 namespace {
 
+// The member "displacement"; false if there is none, or it has faults.
+bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
+                      Displacement* displacement) {
+  const Json* const json = shape->Find("displacement");
+  if (json == nullptr) return false;
+  const size_t before = shape->faults()->count();
+  JsonObject object({*json, shape->path().Member("displacement"), shape->faults()},
+                    R"({"texture": "hills", "distance": 0.1})");
+  if (const Json* texture = object.Require("texture", "the name of one in \"textures\"")) {
+    ReadTextureId({*texture, object.path().Member("texture"), object.faults()}, MapUse::kData,
+                  context, &displacement->texture);
+  }
+  object.Number("distance", limits::kCoordinate, &displacement->distance);
+  if (is_sphere) object.Whole("segments", limits::kSegments, &displacement->segments);
+  object.RefuseOthers();
+  return shape->faults()->count() == before && displacement->texture.valid();
+}
+
 void ReadSphere(JsonObject* shape, SceneContext* context) {
   Sphere sphere;
   shape->Require("center", "[x, y, z]");
@@ -20,7 +39,16 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
   shape->Require("radius", "a length greater than 0");
   shape->Number("radius", limits::kLength, &sphere.radius);
   ReadMaterialOf(shape, context, &sphere.material);
-  context->scene->spheres.push_back(sphere);
+  Displacement displacement;
+  if (!ReadDisplacement(shape, true, context, &displacement)) {
+    context->scene->spheres.push_back(sphere);
+    return;
+  }
+  displacement.center = sphere.center;
+  displacement.size = sphere.radius;
+  Mesh mesh = TessellateSphere(sphere, displacement.segments);
+  Displace(*context->scene, displacement, &mesh);
+  context->scene->meshes.push_back(std::move(mesh));
 }
 
 void ReadScale(const JsonValue& value, Vec3d* scale) {
@@ -47,9 +75,24 @@ void ReadTransform(const JsonValue& value, Transform* transform) {
   object.RefuseOthers();
 }
 
-// Adds the mesh in `file`, or a fault of `value`, where the scene names it.
+// Moves the surface, or faults if that takes texture coordinates that it has not.
+void DisplaceMesh(const JsonValue& value, Displacement displacement, const Scene& scene,
+                  Mesh* mesh) {
+  const Texture& texture = scene.textures[displacement.texture.index];
+  if (texture.mapping == MappingKind::kUv && mesh->uvs.empty()) {
+    value.AddFault("the mesh has no texture coordinates for its displacement",
+                   "give the texture a \"mapping\": spherical, cylindrical, planar or cube");
+    return;
+  }
+  displacement.center = texture.center;
+  displacement.size = texture.size;
+  Displace(scene, displacement, mesh);
+}
+
+// Adds the mesh in `file`, or a fault of `value`, where the scene names it. `displacement` may be
+// null.
 void LoadMesh(const JsonValue& value, const Transform& transform, bool smooth, MaterialId material,
-              SceneContext* context) {
+              const Displacement* displacement, SceneContext* context) {
   std::string file;
   if (!ReadText(value, &file)) return;
   try {
@@ -58,6 +101,7 @@ void LoadMesh(const JsonValue& value, const Transform& transform, bool smooth, M
     if (!smooth) mesh.normals.clear();
     ApplyTransform(transform, &mesh);
     if (smooth && mesh.normals.empty()) mesh.normals = AngleWeightedNormals(mesh);
+    if (displacement != nullptr) DisplaceMesh(value, *displacement, *context->scene, &mesh);
     context->scene->meshes.push_back(std::move(mesh));
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) {
@@ -76,9 +120,11 @@ void ReadMesh(JsonObject* shape, SceneContext* context) {
   }
   bool smooth = true;
   shape->Boolean("smooth", &smooth);
+  Displacement displacement;
+  const bool displaced = ReadDisplacement(shape, false, context, &displacement);
   if (const Json* file = shape->Require("file", "an OBJ file in the scene's folder")) {
     LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, smooth, material,
-             context);
+             displaced ? &displacement : nullptr, context);
   }
 }
 

@@ -2,6 +2,7 @@
 // from pixel to pixel: analytic, so that neither a seam nor a neighbour counts.
 #include <algorithm>
 
+#include "scene/texture_mapping.h"
 #include "shading/texture_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -101,12 +102,6 @@ void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures*
     Store(to_world(mapped.du), i, &t->gradient_u);
     Store(to_world(mapped.dv), i, &t->gradient_v);
   }
-}
-
-// Whether v grows downwards in what the mapping gives.
-bool IsUpsideDown(MappingKind mapping) {
-  return mapping == MappingKind::kSpherical || mapping == MappingKind::kCube ||
-         mapping == MappingKind::kUv;
 }
 
 // v made to point up, the texture's own transform, and footprints. `upside_down` is 1 or, where v

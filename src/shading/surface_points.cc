@@ -45,7 +45,7 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   t.any_mesh = false;
   uint32_t last = kNoPrimitive;  // of spheres: neighbours lie on the same one
-  Vec3d center;
+  Vec3d center(0, 0, 0);
   double inverse_radius = 1;
   for (size_t i = run.begin; i < run.end; ++i) {
     const uint32_t primitive = hits.primitive[i];
