@@ -1,10 +1,11 @@
 #include "scene/displace.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <numeric>
+#include <tuple>
+#include <vector>
 
 #include "scene/mesh.h"
 #include "scene/texture_mapping.h"
@@ -21,12 +22,16 @@ Vec3d SphereDirection(double u, double v) {
 
 // For each position the first one that lies at the same place.
 std::vector<uint32_t> FindTwins(const std::vector<Vec3d>& positions) {
-  std::map<std::array<double, 3>, uint32_t> first;
+  const auto key = [&](uint32_t i) {
+    return std::make_tuple(positions[i].x, positions[i].y, positions[i].z, i);
+  };
+  std::vector<uint32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
   std::vector<uint32_t> twins(positions.size());
-  for (size_t i = 0; i < positions.size(); ++i) {
-    const auto [place, is_new] = first.try_emplace({positions[i].x, positions[i].y, positions[i].z},
-                                                   static_cast<uint32_t>(i));
-    twins[i] = place->second;
+  for (size_t k = 0; k < order.size(); ++k) {
+    const bool same = k > 0 && positions[order[k]] == positions[order[k - 1]];
+    twins[order[k]] = same ? twins[order[k - 1]] : order[k];
   }
   return twins;
 }
