@@ -92,8 +92,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    Soa3<double>& values =
-        GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
+    Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       for (const Unit& unit : units) {
@@ -253,8 +252,7 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    Soa3<double>& values =
-        GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
+    Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
     if (layer.kind == LayerKind::kBeauty) {
       for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
         const uint32_t bit = 1u << pixels[i] / kBlockPixels;
