@@ -25,8 +25,8 @@ struct TextbookGgx {
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
     return {hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d))};
   }
-  HWY_INLINE void Add(FloatTag d, const View& view, const PacketV& p, const IncidentV& in, size_t,
-                      RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                               size_t) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
     const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
@@ -45,8 +45,7 @@ struct TextbookGgx {
     const TextbookGgxLight& light = *uniforms.light;
     const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, light.diffuse), left));
-    sum->specular = AddRgb(sum->specular, ScaleRgb(fresnel, lobe));
+    return {ScaleRgb(SetRgb(d, light.diffuse), left), ScaleRgb(fresnel, lobe)};
   }
 };
 
@@ -56,17 +55,16 @@ struct NaivePhong {
   const PhongUniforms& uniforms;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE void Add(FloatTag d, const View&, const PacketV& p, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
     const FloatV l_dot_v = FusedDot(in.to_light, p.to_view);
     const FloatV cosine = hn::MulSub(hn::Add(in.n_dot_l, in.n_dot_l), n_dot_v, l_dot_v);
     const FloatV log2 = Log2(d, hn::Max(cosine, hn::Set(d, 1e-30f)));
     const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
     const PhongLight& by = uniforms.lights[k];
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(SetRgb(d, by.diffuse), in.weight));
-    sum->specular =
-        AddRgb(sum->specular, ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance)));
+    return {ScaleRgb(SetRgb(d, by.diffuse), in.weight),
+            ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
   }
 };
 

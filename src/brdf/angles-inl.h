@@ -14,7 +14,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // |n x u|^2 is formed as |u - n (n.u)|^2: one fused step each way, and what |n| and n.u are off by
-// points along n, where it counts in the second order only. |u|^2 is then Pythagoras' sum.
+// points along n, where it counts in the second order only.
 template <class V>
 struct AnglesV {
   V n_dot_l, n_dot_v, n_dot_u, u_squared, nxu_squared, lv_squared;
@@ -32,9 +32,8 @@ HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, c
   const Vec3V<V> across{hn::NegMulAdd(n.x, n_dot_u, u.x), hn::NegMulAdd(n.y, n_dot_u, u.y),
                         hn::NegMulAdd(n.z, n_dot_u, u.z)};
   const V across_squared = FusedDot(across, across);
-  return {FusedDot(n, l), FusedDot(n, v),
-          n_dot_u,        hn::MulAdd(n_dot_u, n_dot_u, across_squared),
-          across_squared, FusedDot(l_minus_v, l_minus_v)};
+  return {FusedDot(n, l), FusedDot(n, v), n_dot_u,
+          FusedDot(u, u), across_squared, FusedDot(l_minus_v, l_minus_v)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -63,8 +63,9 @@ HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha) 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k) {
   const V one_minus_k = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), k);
-  return hn::Mul(hn::Set(d, hn::TFromD<D>(4)),
-                 hn::Mul(hn::MulAdd(n_dot_l, one_minus_k, k), hn::MulAdd(n_dot_v, one_minus_k, k)));
+  const V four = hn::Set(d, hn::TFromD<D>(4));  // exact wherever it is multiplied in
+  return hn::Mul(hn::MulAdd(n_dot_l, one_minus_k, k),
+                 hn::MulAdd(n_dot_v, hn::Mul(four, one_minus_k), hn::Mul(four, k)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/math-inl.h"
+#include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -55,7 +56,7 @@ HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const AnglesV<V>& a) {
   const V cos2 = hn::Mul(a.n_dot_u, a.n_dot_u);
   const V u_squared = hn::Add(cos2, a.nxu_squared);
   const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(u_squared, zero));
-  const V scale = hn::Div(one, hn::IfThenElse(above, u_squared, one));
+  const V scale = Reciprocal(d, hn::IfThenElse(above, u_squared, one));
   // Lanes below the surface get cos^2 = 0, the lobe's zero.
   return {hn::Mul(a.nxu_squared, scale), hn::IfThenElseZero(above, hn::Mul(cos2, scale))};
 }

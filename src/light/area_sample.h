@@ -9,7 +9,7 @@
 // Every light has
 //   AreaSample SampleLight(light, u0, u1)    for u0 and u1 in [0, 1)
 //   Real       LightPdf(light, direction)    the density of that sample: 0 if it misses the light
-//   Real       SolidAngle(light)             a disk excepted, which has no elementary one
+//   Real       SolidAngle(light)             a disk's by quadrature, in double only
 // Densities are per solid angle. Samples are uniform in solid angle, unless a light's file says
 // otherwise. What radiance leaves towards the point is the caller's to say; the sign of cos_light
 // tells the two sides apart.

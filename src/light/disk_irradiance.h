@@ -9,6 +9,7 @@
 // rho x_axis, and the surface's normal has the components n.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/trig.h"
@@ -80,9 +81,12 @@ RimPoint<Real> RimPointAt(const DiskAbove<Real>& disk, Real t) {
   const Real q = std::hypot(w, 2 * disk.z * disk.rho);
   RimPoint<Real> rim;
   rim.position = {disk.rho + disk.radius * std::cos(t), disk.radius * std::sin(t), disk.z};
-  rim.distance2 = a + b * std::cos(t);
+  // a - b + b (1 + cos(t)), which does not cancel where the rim passes by the point.
+  const Real cos_half = std::cos(t / 2);
+  rim.distance2 =
+      z2 + (disk.radius - disk.rho) * (disk.radius - disk.rho) + 2 * b * cos_half * cos_half;
   // The arc tangent over b, which has a limit at b = 0.
-  const Real slope = std::sin(t) / (a + q + b * std::cos(t));
+  const Real slope = std::sin(t) / (q + rim.distance2);
   const Real x = std::abs(b * slope);
   const Real angle_over_b = slope * (1 - x * x * AtanRemainder(x));
   rim.one = (t - 2 * b * angle_over_b) / q;
@@ -107,7 +111,7 @@ inline double IrradianceOfRisingDisk(const DiskAbove<double>& disk) {
                      disk.z * disk.n.y * (disk.rho > 1e-9 * distance ? sin_integral : sin_limit);
   const double chord =
       std::atan2(disk.n ^ (to.position % from.position), to.position ^ from.position);
-  return std::abs(disk.radius * arc + chord) / 2;
+  return std::min(std::abs(disk.radius * arc + chord) / 2, M_PI);
 }
 
 template <typename Real>

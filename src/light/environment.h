@@ -1,7 +1,7 @@
 // light/environment.h: light from all round, from a latitude-longitude image: look-up, importance
 // sampling and its density. SIMD twin: environment-inl.h. Skies by formula: light/sky.h.
 //
-// y is up. Row 0 of the image is +y, its middle column -z, and u runs towards +x:
+// y is up. Row 0 of the image is +y, its left edge -z, its middle +z, and u runs towards +x:
 //   direction(u, v) = (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v),   u, v in [0, 1].
 //
 // Every texel is one radiance over its own solid angle: piecewise constant, looked up by nearest.

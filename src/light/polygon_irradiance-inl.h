@@ -139,6 +139,7 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
                                const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
   const V half = hn::Set(d, 0.5f);
+  const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point is all rounding
   const Vec3V<V> pivot = Scale(corner, InverseIfPositive(d, Length(corner)));
   const V orientation = TripleProduct(corner, from_corner[1], from_corner[2]);
   std::array<Vec3V<V>, kCount> ways;
@@ -164,7 +165,7 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
     for (size_t i = 0; i < kCount; ++i) {
       sum = hn::Add(sum, EdgeIrradiance(d, pivot, ways[i], ways[(i + 1) % kCount], normal));
     }
-    return hn::IfThenElseZero(visible, hn::Mul(half, hn::Abs(sum)));
+    return hn::IfThenElseZero(visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
   }
   const Vec3V<V> none{zero, zero, zero};
   EdgeSumsV<V> sums{zero, zero, none, none};
@@ -174,7 +175,7 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
   const V closed = hn::Add(sums.chords, EdgeIrradiance(d, pivot, sums.leaves, sums.enters, normal));
   const auto by_sectors = hn::And(is_special, hn::Eq(around, zero));
   const V sum = hn::IfThenElse(by_sectors, sums.sectors, closed);
-  return hn::IfThenElseZero(visible, hn::Mul(half, hn::Abs(sum)));
+  return hn::IfThenElseZero(visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -133,8 +133,10 @@ Real PolygonIrradiance(const Imath::Vec3<Real>& corner,
   // Errors of chords are of the order of size^2, those of sectors of size highest^2. Overhead,
   // sectors leave out the zenith.
   const bool low = lowest < 0 || highest * highest * highest * highest < size2;
-  if (low && !overhead) return std::abs(sums.sectors) / 2;
-  return std::abs(sums.chords + EdgeIrradiance(pivot, leaves, enters, normal)) / 2;
+  const Real twice =
+      low && !overhead ? sums.sectors : sums.chords + EdgeIrradiance(pivot, leaves, enters, normal);
+  // A needle next to the point is all rounding: it gets no more than everything.
+  return std::min(std::abs(twice) / 2, static_cast<Real>(M_PI));
 }
 
 template <typename Real>

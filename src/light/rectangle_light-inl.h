@@ -126,7 +126,10 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const RectangleLightV<V>& light, V u0
   const V cos_light = hn::Neg(hn::Mul(view.z, inverse));
   const V area_pdf = hn::Mul(hn::Mul(view.width, view.height),
                              hn::Mul(hn::Abs(cos_light), hn::Mul(inverse, inverse)));
-  return SampleIf(d, hn::Gt(solid_angle, hn::Zero(d)),
+  // Nearer than 2^-62 the distance's square is no normal float.
+  const auto visible =
+      hn::And(hn::Gt(solid_angle, hn::Zero(d)), hn::Gt(distance, hn::Set(d, 0x1p-62f)));
+  return SampleIf(d, visible,
                   AreaSampleV<V>{Scale(point, inverse), distance,
                                  hn::IfThenElse(by_area, area_pdf, solid_angle), cos_light});
 }

@@ -118,6 +118,7 @@ AreaSample<Real> SampleLight(const RectangleLight<Real>& light, Real u0, Real u1
   const Real x = by_area ? view.x0 + u0 * view.width : SampleRectangleX(view, solid_angle, u0);
   const Real y = by_area ? view.y0 + u1 * view.height : SampleRectangleY(view, x, u1);
   const Real distance = std::hypot(std::hypot(x, y), view.z);
+  if (!(distance > 0)) return {};
   AreaSample<Real> sample;
   sample.to_light = (view.x_axis * x + view.y_axis * y + view.normal * view.z) / distance;
   sample.distance = distance;

@@ -16,7 +16,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Radiance(D d, const GradientSky<float>& sky, const Vec3V<V>& direction) {
+HWY_INLINE V Radiance(D d, const GradientSkyTerms<float>& sky, const Vec3V<V>& direction) {
   const V upper = hn::Set(d, sky.zenith - sky.horizon);
   const V lower = hn::Set(d, sky.ground - sky.horizon);
   const V slope = hn::IfThenElse(hn::Gt(direction.y, hn::Zero(d)), upper, lower);
@@ -24,7 +24,7 @@ HWY_INLINE V Radiance(D d, const GradientSky<float>& sky, const Vec3V<V>& direct
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Irradiance(D d, const GradientSky<float>& sky, const Vec3V<V>& normal) {
+HWY_INLINE V Irradiance(D d, const GradientSkyTerms<float>& sky, const Vec3V<V>& normal) {
   constexpr float kPi = 3.14159265f;
   const V sin = hn::Sqrt(hn::MulAdd(normal.x, normal.x, hn::Mul(normal.z, normal.z)));
   const V angle = Atan2Upper(d, sin, normal.y);
@@ -36,19 +36,19 @@ HWY_INLINE V Irradiance(D d, const GradientSky<float>& sky, const Vec3V<V>& norm
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CosineFromAxis(D d, const QuadraticSky<float>& sky, const Vec3V<V>& direction) {
+HWY_INLINE V CosineFromAxis(D d, const QuadraticSkyTerms<float>& sky, const Vec3V<V>& direction) {
   const Vec3V<V> axis{hn::Set(d, sky.axis.x), hn::Set(d, sky.axis.y), hn::Set(d, sky.axis.z)};
   return FusedDot(axis, direction);
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Radiance(D d, const QuadraticSky<float>& sky, const Vec3V<V>& direction) {
+HWY_INLINE V Radiance(D d, const QuadraticSkyTerms<float>& sky, const Vec3V<V>& direction) {
   const V c = CosineFromAxis(d, sky, direction);
   return hn::MulAdd(c, hn::MulAdd(c, hn::Set(d, sky.a2), hn::Set(d, sky.a1)), hn::Set(d, sky.a0));
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Irradiance(D d, const QuadraticSky<float>& sky, const Vec3V<V>& normal) {
+HWY_INLINE V Irradiance(D d, const QuadraticSkyTerms<float>& sky, const Vec3V<V>& normal) {
   constexpr float kPi = 3.14159265f;
   const V c = CosineFromAxis(d, sky, normal);
   const V slope = hn::MulAdd(c, hn::Set(d, kPi / 4 * sky.a2), hn::Set(d, 2 * kPi / 3 * sky.a1));

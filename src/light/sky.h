@@ -18,12 +18,12 @@ Real ConstantSkyIrradiance(Real radiance) {
 // From the horizon linearly in the height of the direction, up to the zenith and down to the
 // ground.
 template <typename Real>
-struct GradientSky {
+struct GradientSkyTerms {
   Real zenith, horizon, ground;
 };
 
 template <typename Real>
-Real Radiance(const GradientSky<Real>& sky, const Imath::Vec3<Real>& direction) {
+Real Radiance(const GradientSkyTerms<Real>& sky, const Imath::Vec3<Real>& direction) {
   const Real other = direction.y > 0 ? sky.zenith : sky.ground;
   return sky.horizon + (other - sky.horizon) * std::abs(direction.y);
 }
@@ -31,7 +31,7 @@ Real Radiance(const GradientSky<Real>& sky, const Imath::Vec3<Real>& direction) 
 // The integral of the product of two clamped cosines whose axes are at the angle t is
 // 2/3 (sin t + (pi - t) cos t).
 template <typename Real>
-Real Irradiance(const GradientSky<Real>& sky, const Imath::Vec3<Real>& normal) {
+Real Irradiance(const GradientSkyTerms<Real>& sky, const Imath::Vec3<Real>& normal) {
   const Real pi = static_cast<Real>(M_PI);
   const Real sin = std::hypot(normal.x, normal.z), cos = normal.y;
   const Real angle = std::atan2(sin, cos);
@@ -42,20 +42,20 @@ Real Irradiance(const GradientSky<Real>& sky, const Imath::Vec3<Real>& normal) {
 
 // a0 + a1 c + a2 c^2, c the cosine from an axis of unit length.
 template <typename Real>
-struct QuadraticSky {
+struct QuadraticSkyTerms {
   Imath::Vec3<Real> axis;
   Real a0, a1, a2;
 };
 
 template <typename Real>
-Real Radiance(const QuadraticSky<Real>& sky, const Imath::Vec3<Real>& direction) {
+Real Radiance(const QuadraticSkyTerms<Real>& sky, const Imath::Vec3<Real>& direction) {
   const Real c = sky.axis ^ direction;
   return sky.a0 + c * (sky.a1 + c * sky.a2);
 }
 
 // The clamped cosine's moments: pi, 2 pi / 3 c, pi / 4 (1 + c^2).
 template <typename Real>
-Real Irradiance(const QuadraticSky<Real>& sky, const Imath::Vec3<Real>& normal) {
+Real Irradiance(const QuadraticSkyTerms<Real>& sky, const Imath::Vec3<Real>& normal) {
   const Real c = sky.axis ^ normal;
   return static_cast<Real>(M_PI) * (sky.a0 + 2 * sky.a1 * c / 3 + sky.a2 * (1 + c * c) / 4);
 }

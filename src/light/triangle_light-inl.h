@@ -109,12 +109,13 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& light, V u0,
   const Vec3V<V> to_light = SampleSphericalTriangle(d, t, u0, u1);
   const V towards = FusedDot(to_light, cross);
   const V distance = hn::Div(FusedDot(light.corner, cross), towards);
-  const auto ahead = hn::Gt(distance, zero);
+  const auto ahead = hn::And(hn::Gt(distance, zero), hn::Gt(hn::Abs(towards), zero));
   const AreaSampleV<V> by_angle{to_light, distance, hn::IfThenElseZero(ahead, t.solid_angle),
                                 hn::Neg(hn::Mul(towards, InverseIfPositive(d, twice_area)))};
   const AreaSampleV<V> by_area = SampleTriangleByArea(d, light, cross, twice_area, u0, u1);
   const auto small = hn::Lt(t.solid_angle, hn::Set(d, kSmallSolidAngle<float>));
-  return SampleIf(d, hn::Gt(t.solid_angle, zero), Select(small, by_area, by_angle));
+  const AreaSampleV<V> sample = Select(small, by_area, by_angle);
+  return SampleIf(d, hn::Gt(hn::Min(t.solid_angle, sample.inverse_pdf), zero), sample);
 }
 
 template <class D, class V = hn::Vec<D>>

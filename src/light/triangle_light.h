@@ -102,8 +102,9 @@ AreaSample<Real> SampleLight(const TriangleLight<Real>& light, Real u0, Real u1)
   sample.to_light = SampleSphericalTriangle(t, u0, u1);
   const Real towards = sample.to_light ^ cross;
   sample.distance = (light.corner ^ cross) / towards;
+  if (!(sample.distance > 0) || towards == 0) return {};  // all but edge-on, by rounding
   sample.cos_light = -towards / twice_area;
-  sample.inverse_pdf = sample.distance > 0 ? t.solid_angle : 0;
+  sample.inverse_pdf = t.solid_angle;
   return sample;
 }
 

@@ -236,18 +236,18 @@ void AddClosedForm(const Lit& lit) {
 
 void ChoosePoints(const Lit& lit, size_t pair) {
   SamplePair(lit.plan.pairs, lit.planned.first_pair + pair, lit.c.numbers, lit.s.hits.ray.data(),
-             lit.count(), lit.c.u.data(), lit.c.v.data());
+             lit.count(), &lit.c.points);
 }
 
 void AddByLight(const Lit& lit, const Parts& parts) {
   ChoosePoints(lit, 0);
-  SampleLight(lit.planned.light, lit.s.hits, lit.c.u.data(), lit.c.v.data(), &lit.c.directions);
+  SampleLight(lit.planned.light, lit.s.hits, lit.c.points, &lit.c.directions);
   AddDirections(lit, {true, IsSky(lit.planned.light)}, parts);
 }
 
 void AddByCosine(const Lit& lit) {
   ChoosePoints(lit, 1);
-  SampleCosine(lit.s.surface, lit.count(), lit.c.u.data(), lit.c.v.data(),
+  SampleCosine(lit.s.surface, lit.count(), lit.c.points.u.data(), lit.c.points.v.data(),
                &lit.c.directions.to_light);
   FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
   AddDirections(lit, {HasSampler(lit.planned.light), true}, {true, false});
@@ -262,7 +262,8 @@ void AddByLobe(const Lit& lit) {
   std::copy_n(n.y.data(), lit.count(), to_light.y.data());
   std::copy_n(n.z.data(), lit.count(), to_light.z.data());
   for (const MaterialRun& run : lit.s.runs) {
-    SampleLobe(lit.MaterialOf(run), lit.RangeOf(run), lit.c.u.data(), lit.c.v.data(), &to_light);
+    SampleLobe(lit.MaterialOf(run), lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
+               &to_light);
   }
   FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
   AddDirections(lit, {HasSampler(lit.planned.light), false}, {false, true});

@@ -13,7 +13,7 @@ struct TileScratch;
 // Buffers for it.
 struct SampledScratch {
   SampleNumbers numbers{kBatchCapacity};  // of the batch's samples
-  AlignedArray<float> u{kBatchCapacity}, v{kBatchCapacity};
+  UnitPoints points{kBatchCapacity};
   LightDirections directions;
   AlignedArray<float> density{kBatchCapacity}, weight{kBatchCapacity};
   AlignedArray<uint8_t> flat{kBatchCapacity};  // 1: a hit's diffuse part is in closed form

@@ -21,7 +21,7 @@ PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed) {
 }
 
 void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& samples,
-                const uint32_t* entries, size_t count, float* u, float* v) {
+                const uint32_t* entries, size_t count, UnitPoints* points) {
   const uint32_t* const u_bits = sampler.u_bits.data() + pair * sampler.samples;
   const uint32_t* const v_bits = sampler.v_bits.data() + pair * sampler.samples;
   // Odd, and so a bijection of the seeds; the pixel sampler's own shift is pair 0's, unmixed.
@@ -30,10 +30,12 @@ void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& sa
     const uint32_t entry = entries[i];
     const uint32_t number = samples.number[entry];
     const uint64_t shift = Mix64(samples.pixel[entry] + key);
-    // The upper 24 bits: a float below 1.
-    u[i] = static_cast<float>((u_bits[number] ^ static_cast<uint32_t>(shift)) >> 8) * 0x1p-24f;
-    v[i] =
-        static_cast<float>((v_bits[number] ^ static_cast<uint32_t>(shift >> 32)) >> 8) * 0x1p-24f;
+    points->u_bits[i] = u_bits[number] ^ static_cast<uint32_t>(shift);
+    points->v_bits[i] = v_bits[number] ^ static_cast<uint32_t>(shift >> 32);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    points->u[i] = static_cast<float>(points->u_bits[i] >> 8) * 0x1p-24f;
+    points->v[i] = static_cast<float>(points->v_bits[i] >> 8) * 0x1p-24f;
   }
 }
 

@@ -28,8 +28,16 @@ struct SampleNumbers {
   AlignedArray<uint64_t> pixel;
 };
 
-// The pair of the samples entries[0..count), in [0, 1).
+// Points in [0, 1)^2: 32 bits after the point, and as floats, which have 24.
+struct UnitPoints {
+  explicit UnitPoints(size_t capacity)
+      : u_bits(capacity), v_bits(capacity), u(capacity), v(capacity) {}
+  AlignedArray<uint32_t> u_bits, v_bits;
+  AlignedArray<float> u, v;
+};
+
+// The pair's points of the samples entries[0..count).
 void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& samples,
-                const uint32_t* entries, size_t count, float* u, float* v);
+                const uint32_t* entries, size_t count, UnitPoints* points);
 
 }  // namespace nacre

@@ -56,6 +56,7 @@ inline constexpr Range kSplitAt{0, 1, true, true};
 // Texture coordinates: what they are scaled by and moved by. Far from 0 they lose their digits.
 inline constexpr Range kTextureScale{-1e6, 1e6};
 inline constexpr Range kAngleDeg{-36000, 36000};
+inline constexpr Range kDisplacedSegments{3, 4096};
 inline constexpr Range kNormalScale{-100, 100};
 
 // width x height x spp: about a day of rendering at 1e8 samples a second; more is a slip.

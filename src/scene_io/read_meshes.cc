@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "scene/displace.h"
 #include "scene/mesh.h"
 #include "scene/sphere_mesh.h"
 #include "scene_io/obj.h"
@@ -92,9 +93,23 @@ void PrepareNormals(const JsonValue& file, const NormalSettings& settings, Mesh*
   }
 }
 
+// Moves the surface, or faults if that takes texture coordinates that it has not.
+void DisplaceMesh(const JsonValue& value, Displacement displacement, const Scene& scene,
+                  Mesh* mesh) {
+  const Texture& texture = scene.textures[displacement.texture.index];
+  if (texture.mapping == MappingKind::kUv && mesh->uvs.empty()) {
+    value.AddFault("the mesh has no texture coordinates for its displacement",
+                   "give the texture a \"mapping\": spherical, cylindrical, planar or cube");
+    return;
+  }
+  displacement.center = texture.center;
+  displacement.size = texture.size;
+  Displace(scene, displacement, mesh);
+}
+
 // Adds the mesh in the file that `value` names, or a fault of it.
 void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
-              Mesh mesh, SceneContext* context) {
+              const std::optional<Displacement>& displacement, Mesh mesh, SceneContext* context) {
   std::string file;
   if (!ReadText(value, &file)) return;
   try {
@@ -105,6 +120,7 @@ void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSe
     loaded.smooth_terminator = mesh.smooth_terminator;
     ApplyTransform(transform, &loaded);
     PrepareNormals(value, normals, &loaded);
+    if (displacement) DisplaceMesh(value, *displacement, *context->scene, &loaded);
     context->scene->meshes.push_back(std::move(loaded));
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) {
@@ -137,6 +153,23 @@ void AddSphereMesh(const SphereMesh& sphere, const Mesh& settings, SceneContext*
 
 }  // namespace
 
+bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
+                      Displacement* displacement) {
+  const Json* const json = shape->Find("displacement");
+  if (json == nullptr) return false;
+  const size_t before = shape->faults()->count();
+  JsonObject object({*json, shape->path().Member("displacement"), shape->faults()},
+                    R"({"texture": "hills", "distance": 0.1})");
+  if (const Json* texture = object.Require("texture", "the name of one in \"textures\"")) {
+    ReadTextureId({*texture, object.path().Member("texture"), object.faults()}, MapUse::kData,
+                  context, &displacement->texture);
+  }
+  object.Number("distance", limits::kCoordinate, &displacement->distance);
+  if (is_sphere) object.Whole("segments", limits::kDisplacedSegments, &displacement->segments);
+  object.RefuseOthers();
+  return shape->faults()->count() == before && displacement->texture.valid();
+}
+
 void ReadMesh(JsonObject* shape, SceneContext* context) {
   Mesh mesh;
   ReadMaterialOf(shape, context, &mesh.material);
@@ -147,9 +180,11 @@ void ReadMesh(JsonObject* shape, SceneContext* context) {
   NormalSettings normals;
   ReadNormals(shape, &normals);
   ReadInterpolation(shape, &mesh);
+  std::optional<Displacement> displacement(std::in_place);
+  if (!ReadDisplacement(shape, false, context, &*displacement)) displacement.reset();
   if (const Json* file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
     LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, normals,
-             std::move(mesh), context);
+             displacement, std::move(mesh), context);
   }
 }
 

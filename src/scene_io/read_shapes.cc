@@ -1,8 +1,10 @@
 // scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
 // read_generators.cc.
 #include <array>
+#include <utility>
 
 #include "base/error.h"
+#include "scene/displace.h"
 #include "scene_io/readers.h"
 
 namespace nacre {
@@ -15,7 +17,16 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
   shape->Require("radius", "a length greater than 0");
   shape->Number("radius", limits::kLength, &sphere.radius);
   ReadMaterialOf(shape, context, &sphere.material);
-  context->scene->spheres.push_back(sphere);
+  Displacement displacement;
+  if (!ReadDisplacement(shape, true, context, &displacement)) {
+    context->scene->spheres.push_back(sphere);
+    return;
+  }
+  displacement.center = sphere.center;
+  displacement.size = sphere.radius;
+  Mesh mesh = TessellateSphere(sphere, displacement.segments);
+  Displace(*context->scene, displacement, &mesh);
+  context->scene->meshes.push_back(std::move(mesh));
 }
 
 struct ShapeType {

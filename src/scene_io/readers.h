@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "scene/displace.h"
 #include "scene/generators.h"
 #include "scene/material_parameters.h"
 #include "scene/scene.h"
@@ -100,5 +101,9 @@ void ReadUvSphere(JsonObject* shape, SceneContext* context);
 void ReadGrid(JsonObject* shape, SceneContext* context);
 void ReadPair(JsonObject* shape, SceneContext* context);
 void ReadCloud(JsonObject* shape, SceneContext* context);
+
+// The member "displacement" of a shape; false if there is none, or it has faults. In read_meshes.cc.
+bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
+                      Displacement* displacement);
 
 }  // namespace nacre

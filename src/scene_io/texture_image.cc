@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +15,7 @@
 #include "color/transfer.h"
 #include "image_io/exr_reader.h"
 #include "image_io/image_reader.h"
+#include "image_io/png_reader.h"
 #include "scene/limits.h"
 
 namespace nacre {
@@ -112,7 +115,10 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   int width = 0, height = 0;
   size_t channel_count = 0;
   {
-    const Image image = ReadImage(path.string());  // OpenImageIO's reader refuses over 2 GiB
+    // Plain PNG files need no library that takes longer to load than they do to read. The other
+    // readers refuse images over 2 GiB before they decode them, as this one does.
+    std::optional<Image> plain = ReadPlainPng(path.string(), kMaxTexelValues / 2);
+    const Image image = plain ? std::move(*plain) : ReadImage(path.string());
     const std::vector<const Channel*> channels = ChannelsOf(image);
     if (channels.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no colours");
     CheckSize(path, image.data, channels.size());

@@ -6,15 +6,20 @@
 namespace nacre {
 
 // As SampleLight, FindLight and LightIrradiance, of lights that are no skies.
-void SampleArea(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+void SampleArea(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                 LightDirections* directions);
 void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
 void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                     float* irradiance);
 
-// The radiance of a sky along unit vectors, as multiples of its colour.
+// The same of pictures: fills in to_light, radiance and density.
+void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
+               LightDirections* directions);
+
+// The radiance of a sky that has colours, along unit vectors, as multiples of its own; of pictures
+// also the density with which SampleSky chooses them, unless null.
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
-                 Soa3<float>* radiance);
+                 Soa3<float>* radiance, float* density);
 // A sky's irradiance, but of pictures.
 void SkyIrradiance(const SampledLight& light, const Surface& surface, size_t count,
                    Soa3<float>* irradiance);

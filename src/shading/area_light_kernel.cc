@@ -94,11 +94,12 @@ HWY_INLINE void Keep(const SampledLight& light, V distance, V density, V cos_lig
 
 // at(i): the light as seen from hits i...
 template <class At>
-void SampleShape(const SampledLight& light, size_t count, const float* u, const float* v,
+void SampleShape(const SampledLight& light, size_t count, const UnitPoints& points,
                  LightDirections* directions, const At& at) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const AreaSampleV<V> sample = SampleLight(d, at(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    const AreaSampleV<V> sample =
+        SampleLight(d, at(i), hn::LoadU(d, points.u.data() + i), hn::LoadU(d, points.v.data() + i));
     hn::StoreU(sample.to_light.x, d, directions->to_light.x.data() + i);
     hn::StoreU(sample.to_light.y, d, directions->to_light.y.data() + i);
     hn::StoreU(sample.to_light.z, d, directions->to_light.z.data() + i);
@@ -119,9 +120,11 @@ void FindShape(const SampledLight& light, size_t count, LightDirections* directi
   }
 }
 
-void SampleAreaT(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+void SampleAreaT(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                  LightDirections* directions) {
-  const auto sample = [&](const auto& at) { SampleShape(light, hits.count, u, v, directions, at); };
+  const auto sample = [&](const auto& at) {
+    SampleShape(light, hits.count, points, directions, at);
+  };
   if (light.form == SampledForm::kSphere) {
     return sample([&](size_t i) HWY_ATTR { return SphereAt(light, hits, i); });
   }
@@ -197,9 +200,9 @@ HWY_EXPORT(SampleAreaT);
 HWY_EXPORT(FindAreaT);
 HWY_EXPORT(AreaIrradianceT);
 
-void SampleArea(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+void SampleArea(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                 LightDirections* directions) {
-  HWY_DYNAMIC_DISPATCH(SampleAreaT)(light, hits, u, v, directions);
+  HWY_DYNAMIC_DISPATCH(SampleAreaT)(light, hits, points, directions);
 }
 
 void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {

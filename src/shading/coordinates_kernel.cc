@@ -2,6 +2,7 @@
 // from pixel to pixel: analytic, so that neither a seam nor a neighbour counts.
 #include <algorithm>
 
+#include "scene/texture_mapping.h"
 #include "shading/texture_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -46,8 +47,9 @@ HWY_INLINE Vec3V<V> Combine(V a, const Vec3V<V>& x, V b, const Vec3V<V>& y) {
 
 // Where the ray through the next pixel, `step` away on the film, meets the tangent plane: the ray
 // differentials of Igehy 1999.
-HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const Vec3V<V>& normal) {
-  const V back = hn::Div(FusedDot(step, normal), FusedDot(along, normal));
+// `scaled` is the normal over its product with `along`, the direction of the rays.
+HWY_INLINE Vec3V<V> NextPixel(const Vec3V<V>& step, const Vec3V<V>& along, const Vec3V<V>& scaled) {
+  const V back = FusedDot(step, scaled);
   return {hn::NegMulAdd(along.x, back, step.x), hn::NegMulAdd(along.y, back, step.y),
           hn::NegMulAdd(along.z, back, step.z)};
 }
@@ -64,8 +66,9 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
     // Perspective: steps grow with the depth, for `forward` and the film's rays have product 1.
     const V depth = perspective ? FusedDot(position, forward) : hn::Set(d, 1.0);
     const Vec3V<V> along = perspective ? position : forward;
-    Store(NextPixel(Scale(step_x, depth), along, normal), i, &t->dp_dx);
-    Store(NextPixel(Scale(step_y, depth), along, normal), i, &t->dp_dy);
+    const Vec3V<V> scaled = Scale(normal, hn::Div(hn::Set(d, 1.0), FusedDot(along, normal)));
+    Store(NextPixel(Scale(step_x, depth), along, scaled), i, &t->dp_dx);
+    Store(NextPixel(Scale(step_y, depth), along, scaled), i, &t->dp_dy);
   }
 }
 
@@ -99,12 +102,6 @@ void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures*
     Store(to_world(mapped.du), i, &t->gradient_u);
     Store(to_world(mapped.dv), i, &t->gradient_v);
   }
-}
-
-// Whether v grows downwards in what the mapping gives.
-bool IsUpsideDown(MappingKind mapping) {
-  return mapping == MappingKind::kSpherical || mapping == MappingKind::kCube ||
-         mapping == MappingKind::kUv;
 }
 
 // v made to point up, the texture's own transform, and footprints. `upside_down` is 1 or, where v
@@ -147,11 +144,15 @@ void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, co
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   const bool down = IsUpsideDown(texture.mapping);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    alignas(64) double is_down[8] = {};
-    for (size_t k = 0; k < hn::Lanes(d); ++k) {
-      is_down[k] = down && !(own && hits.primitive[i + k] >= sphere_count) ? 1 : 0;
+    auto upside_down = hn::FirstN(d, down ? hn::Lanes(d) : 0);
+    if (t->any_mesh && own) {
+      alignas(64) double is_sphere[8] = {};
+      for (size_t k = 0; k < hn::Lanes(d); ++k) {
+        is_sphere[k] = hits.primitive[i + k] < sphere_count ? 1 : 0;
+      }
+      upside_down = hn::Gt(hn::Load(d, is_sphere), hn::Zero(d));
     }
-    TransformHit(texture, hn::Gt(hn::Load(d, is_down), hn::Zero(d)), i, t);
+    TransformHit(texture, upside_down, i, t);
   }
 }
 

@@ -18,9 +18,10 @@ struct Lambert {
   const LambertLightOf<Number>* HWY_RESTRICT lights;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE void Add(FloatTag d, const View&, const PacketV& p, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(RgbAt(d, lights[k].diffuse, p.i), in.weight));
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
+    const FloatV zero = hn::Zero(d);
+    return {ScaleRgb(RgbAt(d, lights[k].diffuse, p.i), in.weight), {zero, zero, zero}};
   }
 };
 

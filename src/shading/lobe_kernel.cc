@@ -14,7 +14,7 @@
 
 #include "hwy/highway.h"
 
-#include "brdf/lobe_sample-inl.h"
+#include "brdf/lobe_sampling-inl.h"
 #include "shading/kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -48,7 +48,7 @@ void SampleCosineT(const Surface& surface, size_t count, const float* u, const f
                    Soa3<float>* to_light) {
   const D d;
   ForEachPacket(0, count, to_light, [&](size_t i) HWY_ATTR {
-    return SampleCosineLobe(d, Load(surface.normal, i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    return SampleCosine(d, Load(surface.normal, i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
   });
 }
 
@@ -72,8 +72,9 @@ void SampleGgxT(double alpha, const float* by_hit, const LobeRange& range, const
   const D d;
   const Width width = WidthOf(alpha, by_hit);
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    return SampleGgxLobe(d, Load(range.surface.normal, i), Load(range.surface.to_view, i),
-                         width.At(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    // Interpolated normals may lean away from the viewer: there is no lobe, and no density.
+    return SampleGgxVisible(d, Load(range.surface.normal, i), Load(range.surface.to_view, i),
+                            width.At(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
   });
 }
 
@@ -84,13 +85,21 @@ void SamplePhongT(const PhongFamilyModel& phong, const float* by_hit, const Lobe
   const Width width = WidthOf(phong.shininess, by_hit);
   const bool blinn = phong.model == PhongModel::kBlinnPhong;
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    const Vec3V<V> n = Load(range.surface.normal, i);
+    const Vec3V<V> normal = Load(range.surface.normal, i);
     const Vec3V<V> to_view = Load(range.surface.to_view, i);
-    const Vec3V<V> axis = blinn ? n : Mirror(to_view, n);
-    const Vec3V<V> chosen =
-        SamplePowerLobe(d, axis, width.At(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
-    return blinn ? Mirror(to_view, chosen) : chosen;
+    const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
+    return blinn ? SampleBlinnLobe(d, normal, to_view, width.At(i), u0, u1)
+                 : SamplePhongLobe(d, normal, to_view, width.At(i), u0, u1);
   });
+}
+
+// GgxVisiblePdf of any distribution.
+HWY_INLINE V VisibleDensity(V distribution, V n_dot_v, V alpha) {
+  const D d;
+  const auto above = hn::Gt(n_dot_v, hn::Zero(d));
+  const V sum = hn::Add(n_dot_v, SmithRoot(d, n_dot_v, alpha));
+  const V twice = hn::IfThenElse(above, hn::Add(sum, sum), hn::Set(d, 1.0f));
+  return hn::IfThenElseZero(above, hn::Div(distribution, twice));
 }
 
 void GgxDensityT(const MicrofacetModel& model, const float* by_hit, const LobeRange& range,
@@ -99,15 +108,14 @@ void GgxDensityT(const MicrofacetModel& model, const float* by_hit, const LobeRa
   const Width width = WidthOf(model.alpha, by_hit);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const V alpha = width.At(i);
-    const AnglesV<V> angles =
-        ComputeAngles(d, Load(range.surface.normal, i), Load(light.to_light, i),
-                      Load(range.surface.to_view, i));
+    const AnglesV<V> angles = ComputeAngles(
+        d, Load(range.surface.normal, i), Load(light.to_light, i), Load(range.surface.to_view, i));
     V distribution = GgxDistribution(d, angles, alpha);
     if (narrow != nullptr) {
       const V exact = hn::LoadU(d, narrow + i);
       distribution = hn::IfThenElse(hn::Ge(exact, hn::Zero(d)), exact, distribution);
     }
-    hn::BlendedStore(GgxLobeDensity(d, distribution, angles.n_dot_v, alpha),
+    hn::BlendedStore(VisibleDensity(distribution, angles.n_dot_v, alpha),
                      hn::FirstN(d, range.end - i), d, density + i);
   }
 }
@@ -144,7 +152,7 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
 
 void MirrorDirectionsT(const LobeRange& range, Soa3<float>* to_light) {
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    return Mirror(Load(range.surface.to_view, i), Load(range.surface.normal, i));
+    return Mirrored(D(), Load(range.surface.to_view, i), Load(range.surface.normal, i));
   });
 }
 

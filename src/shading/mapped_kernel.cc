@@ -251,9 +251,13 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
     hits.Fill(
         f0, [&](size_t i) { return kDielectricF0 * (1 - metallic[i]) + diffuse[i] * metallic[i]; });
     hits.Fill(diffuse, [&](size_t i) { return diffuse[i] * ((1 - metallic[i]) * M_1_PI); });
+    hits.Fill(Channel(t->f0, c), [&](size_t i) { return f0[i]; });
+    if (model.fresnel == FresnelForm::kSchlick) {
+      hits.Fill(slope, [](size_t) { return 0.0; });
+      continue;
+    }
     const double tint = material.f82_tint[c];
     hits.Fill(slope, [&](size_t i) { return metallic[i] * F82SlopeFromTint(f0[i], tint); });
-    hits.Fill(Channel(t->f0, c), [&](size_t i) { return f0[i]; });
     hits.Fill(Channel(t->f82_slope, c), [&](size_t i) { return slope[i]; });
   }
   for (size_t i = run.begin; i < run.end; ++i) {

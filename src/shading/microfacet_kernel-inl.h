@@ -90,7 +90,7 @@ template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared, class Numb
 struct Microfacet {
   static constexpr bool kHasSpecular = true;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
-  const MicrofacetUniformsOf<Number>& uniforms;
+  const MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
 
   struct View {
@@ -144,8 +144,8 @@ struct Microfacet {
     return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
   }
 
-  HWY_INLINE void Add(FloatTag d, const View& view, const PacketV& p, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
     const MicrofacetLightOf<Number>& light = uniforms.lights[k];
     const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, in.to_light, p.to_view);
     const FloatV u_squared =
@@ -157,8 +157,7 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(base, in.weight));
-    sum->specular = AddRgb(sum->specular, reflected);
+    return {ScaleRgb(base, in.weight), reflected};
   }
 
   HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {

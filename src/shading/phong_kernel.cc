@@ -50,8 +50,8 @@ struct PhongFamily {
     }
   }
 
-  HWY_INLINE void Add(FloatTag d, const View&, const PacketV& p, const IncidentV& in, size_t k,
-                      RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
     const LobeCosineV<FloatV> cosine = Cosine(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
@@ -59,9 +59,8 @@ struct PhongFamily {
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
     const PhongLightOf<Number>& by = uniforms.lights[k];
-    sum->diffuse = AddRgb(sum->diffuse, ScaleRgb(RgbAt(d, by.diffuse, p.i), in.weight));
-    sum->specular =
-        AddRgb(sum->specular, ScaleRgb(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light)));
+    return {ScaleRgb(RgbAt(d, by.diffuse, p.i), in.weight),
+            ScaleRgb(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light))};
   }
 };
 

@@ -7,6 +7,8 @@
 #define NACRE_SHADING_RANGE_INL_H_
 #endif
 
+#include <span>
+
 #include "shading/kernels.h"
 #include "shading/light_at-inl.h"
 
@@ -101,14 +103,8 @@ HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, 
   return LoadU3(d, from.x + i, from.y + i, from.z + i);
 }
 
-HWY_INLINE RgbV SumSoFar(FloatTag d, bool replace, const Pointers3<float>& sum, size_t i) {
-  FloatV r = hn::Zero(d), g = r, b = r;
-  if (!replace) {
-    r = hn::LoadU(d, sum.x + i);
-    g = hn::LoadU(d, sum.y + i);
-    b = hn::LoadU(d, sum.z + i);
-  }
-  return {r, g, b};
+HWY_INLINE RgbV LoadAsRgb(FloatTag d, const Pointers3<float>& from, size_t i) {
+  return {hn::LoadU(d, from.x + i), hn::LoadU(d, from.y + i), hn::LoadU(d, from.z + i)};
 }
 
 // Stores `count` lanes at most.
@@ -126,69 +122,117 @@ HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Poin
   }
 }
 
-// What packets reflect so far: sums stay in registers from light to light.
+// What packets reflect.
 struct RadianceV {
   RgbV diffuse, specular;
 };
 
-// The lights of a range. In the most frequent case it is one, without a choice inside the loop.
+// One light, in the most frequent case, known before the loop.
 struct OneLight {
   PointLightV light;
 
   template <class Model>
-  HWY_INLINE void Add(FloatTag d, const Model& model, const typename Model::View& view,
-                      const PacketV& packet, RadianceV* sum) const {
-    model.Add(d, view, packet, MakeIncident(d, light.At(d, packet.i), packet), 0, sum);
+  HWY_INLINE RadianceV Reflect(FloatTag d, const Model& model, const typename Model::View& view,
+                               const PacketV& packet) const {
+    return model.Reflect(d, view, packet, MakeIncident(d, light.At(d, packet.i), packet), 0);
   }
 };
 
+// Any lights. Their sum stays in registers from light to light.
 struct ManyLights {
   const HitBatch& hits;
   std::span<const LightOnBatch> lights;
 
   template <class Model>
-  HWY_INLINE void Add(FloatTag d, const Model& model, const typename Model::View& view,
-                      const PacketV& packet, RadianceV* sum) const {
+  HWY_INLINE RadianceV Reflect(FloatTag d, const Model& model, const typename Model::View& view,
+                               const PacketV& packet, RadianceV sum) const {
     for (size_t k = 0; k < lights.size(); ++k) {
       const LightV at = LightAt(d, lights[k], hits, packet.i);
-      model.Add(d, view, packet, MakeIncident(d, at, packet), k, sum);
+      const RadianceV of_light = model.Reflect(d, view, packet, MakeIncident(d, at, packet), k);
+      sum.diffuse = AddRgb(sum.diffuse, of_light.diffuse);
+      sum.specular = AddRgb(sum.specular, of_light.specular);
     }
+    return sum;
   }
 };
 
-// Arrays are padded to whole vectors and ranges of a batch follow one another, so a packet may
-// reach past its range: the lanes that do are not stored.
-template <class Model, class Lights>
-HWY_INLINE void ShadePacketsBy(FloatTag d, const Model& model, const Lights& lights,
-                               const ShadeRange& range) {
-  const Pointers3<const float> n = PointersTo(range.surface.normal);
-  const Pointers3<const float> v = PointersTo(range.surface.to_view);
-  const Pointers3<float> diffuse = PointersTo(&range.radiance->diffuse);
-  const Pointers3<float> specular = PointersTo(&range.radiance->specular);
-  const bool replace = range.replace;
-  const size_t end = range.end;
-  for (size_t i = range.begin; i < end; i += hn::Lanes(d)) {
-    const PacketV packet{i, LoadAt(d, n, i), LoadAt(d, v, i)};
-    const auto view = model.SeenBy(d, packet, range.surface);
-    RadianceV sum{SumSoFar(d, replace, diffuse, i), SumSoFar(d, replace, specular, i)};
-    lights.Add(d, model, view, packet, &sum);
+// A range's arrays. Arrays are padded to whole vectors and ranges of a batch follow one another, so
+// a packet may reach past its range: the lanes that do are not stored.
+struct RangeArrays {
+  Pointers3<const float> normal, to_view;
+  Pointers3<float> diffuse, specular;
+  size_t end;
+
+  explicit RangeArrays(const ShadeRange& range)
+      : normal(PointersTo(range.surface.normal)),
+        to_view(PointersTo(range.surface.to_view)),
+        diffuse(PointersTo(&range.radiance->diffuse)),
+        specular(PointersTo(&range.radiance->specular)),
+        end(range.end) {}
+
+  HWY_INLINE PacketV Packet(FloatTag d, size_t i) const {
+    return {i, LoadAt(d, normal, i), LoadAt(d, to_view, i)};
+  }
+
+  HWY_INLINE RadianceV Load(FloatTag d, size_t i) const {
+    return {LoadAsRgb(d, diffuse, i), LoadAsRgb(d, specular, i)};
+  }
+
+  template <bool kSpecular>
+  HWY_INLINE void Store(FloatTag d, const RadianceV& sum, size_t i) const {
     StoreRgb(d, end - i, sum.diffuse, diffuse, i);
-    if (Model::kHasSpecular || replace) StoreRgb(d, end - i, sum.specular, specular, i);
+    if constexpr (kSpecular) StoreRgb(d, end - i, sum.specular, specular, i);
+  }
+};
+
+// ShadePackets by one light.
+template <class Model>
+HWY_INLINE void ShadeByOne(FloatTag d, const Model& model, const OneLight& light,
+                           const ShadeRange& range) {
+  const RangeArrays arrays(range);
+  const bool replace = range.replace;
+  for (size_t i = range.begin; i < arrays.end; i += hn::Lanes(d)) {
+    const PacketV packet = arrays.Packet(d, i);
+    const auto view = model.SeenBy(d, packet, range.surface);
+    const RadianceV of_light = light.Reflect(d, model, view, packet);
+    if (replace) {
+      arrays.Store<true>(d, of_light, i);
+    } else {
+      const RadianceV sum = arrays.Load(d, i);
+      arrays.Store<Model::kHasSpecular>(
+          d, {AddRgb(sum.diffuse, of_light.diffuse), AddRgb(sum.specular, of_light.specular)}, i);
+    }
   }
 }
 
-// For each packet of the range: what `model` reflects of every light, in the order of the lights.
-//   view = model.SeenBy(packet, surface)              what does not depend on the light
-//   model.Add(view, packet, incident, k, &radiance)   adds what light k makes of it
+template <class Model>
+HWY_INLINE void ShadeByMany(FloatTag d, const Model& model, const ManyLights& lights,
+                            const ShadeRange& range) {
+  const RangeArrays arrays(range);
+  const FloatV zero = hn::Zero(d);
+  const RgbV black{zero, zero, zero};
+  const bool replace = range.replace;
+  for (size_t i = range.begin; i < arrays.end; i += hn::Lanes(d)) {
+    const PacketV packet = arrays.Packet(d, i);
+    const auto view = model.SeenBy(d, packet, range.surface);
+    const RadianceV before = replace ? RadianceV{black, black} : arrays.Load(d, i);
+    arrays.Store<true>(d, lights.Reflect(d, model, view, packet, before), i);
+  }
+}
+
+// For each packet of the range: what `model` reflects of every light, added in the order of the
+// lights.
+//   view = model.SeenBy(packet, surface)             what does not depend on the light
+//   model.Reflect(view, packet, incident, k)         what it makes of light k
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const LightOnBatch& first = range.lights[0];
   if (range.lights.size() == 1 && first.evaluated == nullptr &&
       first.light->form == LightForm::kInverseSquare) {
-    const OneLight one{PointLightV(d, *first.light, range.hits.position)};
-    return ShadePacketsBy(d, model, one, range);
+    ShadeByOne(d, model, OneLight{PointLightV(d, *first.light, range.hits.position)}, range);
+  } else {
+    ShadeByMany(d, model, ManyLights{range.hits, range.lights}, range);
   }
-  ShadePacketsBy(d, model, ManyLights{range.hits, range.lights}, range);
 }
 
 }  // namespace HWY_NAMESPACE

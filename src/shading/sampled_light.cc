@@ -40,8 +40,17 @@ void Prepare(const DiskAreaLight& disk, const Vec3d& camera, SampledLight* light
 }
 
 // A vector turned about +y, right-handed.
-Vec3d Rotate(const Vec3d& v, double cosine, double sine) {
+Vec3d Turn(const Vec3d& v, double cosine, double sine) {
   return {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};
+}
+
+std::shared_ptr<const EnvironmentMap> MakeMap(const SkyPicture& picture) {
+  std::vector<Vec3f> texels(picture.rgb.size() / 3);
+  for (size_t i = 0; i < texels.size(); ++i) {
+    texels[i] = Vec3f(picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]);
+  }
+  return std::make_shared<EnvironmentMap>(
+      MakeEnvironmentMap(picture.width, picture.height, texels));
 }
 
 void Prepare(const EnvironmentLight& environment, SampledLight* light) {
@@ -57,31 +66,35 @@ void Prepare(const EnvironmentLight& environment, SampledLight* light) {
                  [&](const GradientSky& sky) {
                    light->form = SampledForm::kGradientSky;
                    light->color = Rgb(1, 1, 1);
-                   to.zenith = Vec3f(sky.zenith);
-                   to.horizon = Vec3f(sky.horizon);
-                   to.ground = Vec3f(sky.ground);
+                   for (int c = 0; c < 3; ++c) {
+                     to.gradient[static_cast<size_t>(c)] = {static_cast<float>(sky.zenith[c]),
+                                                            static_cast<float>(sky.horizon[c]),
+                                                            static_cast<float>(sky.ground[c])};
+                   }
                  },
                  [&](const QuadraticSky& sky) {
                    light->form = SampledForm::kQuadraticSky;
                    light->color = sky.radiance;
-                   to.axis = Vec3f(Rotate(sky.axis.normalized(), to.cos_rotation, to.sin_rotation));
-                   to.constant = static_cast<float>(sky.constant);
-                   to.linear = static_cast<float>(sky.linear);
-                   to.quadratic = static_cast<float>(sky.quadratic);
+                   const Vec3d axis = sky.axis.normalized();
+                   to.quadratic = {Vec3f(Turn(axis, to.cos_rotation, to.sin_rotation)),
+                                   static_cast<float>(sky.constant), static_cast<float>(sky.linear),
+                                   static_cast<float>(sky.quadratic)};
                  },
                  [&](const PictureSky& sky) {
                    light->form = SampledForm::kPictureSky;
                    light->color = sky.scale;
-                   to.picture = sky.picture;
+                   to.picture = MakeMap(*sky.picture);
                  }},
       environment.sky);
 }
 
 }  // namespace
 
-void SampleLight(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+void SampleLight(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                  LightDirections* directions) {
-  SampleArea(light, hits, u, v, directions);
+  if (!IsSky(light)) return SampleArea(light, hits, points, directions);
+  SampleSky(light, points, hits.count, directions);
+  std::fill_n(directions->distance.data(), hits.count, std::numeric_limits<float>::infinity());
 }
 
 void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
@@ -89,7 +102,8 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
   std::fill_n(directions->distance.data(), hits.count, std::numeric_limits<float>::infinity());
   std::fill_n(directions->density.data(), hits.count, 0.0f);
   if (IsColored(light)) {
-    EvaluateSky(light, directions->to_light, hits.count, &directions->radiance);
+    EvaluateSky(light, directions->to_light, hits.count, &directions->radiance,
+                directions->density.data());
   }
 }
 
@@ -112,7 +126,7 @@ void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size
       unit.y[i] = static_cast<float>(normalized.y);
       unit.z[i] = static_cast<float>(normalized.z);
     }
-    EvaluateSky(light, unit, count, radiance);
+    EvaluateSky(light, unit, count, radiance, nullptr);
   }
   const auto scale = [&](float by, AlignedArray<float>* channel) {
     for (size_t i = 0; i < count; ++i) {

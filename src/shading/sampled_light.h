@@ -7,9 +7,13 @@
 // the balance heuristic, density(l) is the sum of both.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "hit/batch.h"
+#include "light/environment.h"
+#include "light/sky.h"
+#include "sampling/pair_sampler.h"
 #include "scene/scene.h"
 #include "shading/shade.h"
 
@@ -25,12 +29,11 @@ enum class SampledForm : uint8_t {
   kPictureSky,
 };
 
-// What a sky shows, in the order of the form's use.
+// What a sky shows: of its form, one of these.
 struct ShadingSky {
-  Vec3f zenith{0, 0, 0}, horizon{0, 0, 0}, ground{0, 0, 0};
-  Vec3f axis{0, 1, 0};  // unit
-  float constant = 1, linear = 0, quadratic = 0;
-  std::shared_ptr<const SkyPicture> picture;
+  std::array<GradientSkyTerms<float>, 3> gradient{};  // red, green, blue
+  QuadraticSkyTerms<float> quadratic{};
+  std::shared_ptr<const EnvironmentMap> picture;
   double cos_rotation = 1, sin_rotation = 0;  // of the picture, about +y
 };
 
@@ -54,7 +57,9 @@ inline bool IsSky(const SampledLight& light) { return light.form >= SampledForm:
 
 // Whether SampleLight is for it. Other skies are so smooth that directions chosen by what the
 // surface reflects serve as well.
-inline bool HasSampler(const SampledLight& light) { return !IsSky(light); }
+inline bool HasSampler(const SampledLight& light) {
+  return !IsSky(light) || light.form == SampledForm::kPictureSky;
+}
 
 // Whether its radiance depends on the direction.
 inline bool IsColored(const SampledLight& light) { return light.form > SampledForm::kConstantSky; }
@@ -72,8 +77,8 @@ struct LightDirections {
   Soa3<float> radiance;  // of coloured lights, as multiples of SampledLight::color
 };
 
-// Chooses directions by points (u, v) in [0, 1)^2. A hit that cannot see the light misses it.
-void SampleLight(const SampledLight& light, const HitBatch& hits, const float* u, const float* v,
+// Chooses directions by the points. A hit that cannot see the light misses it.
+void SampleLight(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                  LightDirections* directions);
 
 // Fills in all but to_light, which is given.

@@ -5,8 +5,8 @@
 
 #include "hwy/highway.h"
 
-#include "base/trig-inl.h"
-#include "base/vec3-inl.h"
+#include "light/environment-inl.h"
+#include "light/sky-inl.h"
 #include "shading/area_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,10 +17,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-
-HWY_INLINE V Set(double value) { return hn::Set(D(), static_cast<float>(value)); }
-
-HWY_INLINE Vec3V<V> Set3(const Vec3f& v) { return {Set(v.x), Set(v.y), Set(v.z)}; }
 
 HWY_INLINE Vec3V<V> Load(const Soa3<float>& soa, size_t i) {
   return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
@@ -33,66 +29,78 @@ HWY_INLINE void Store(const Vec3V<V>& v, size_t i, Soa3<float>* to) {
   hn::StoreU(v.z, d, to->z.data() + i);
 }
 
-// horizon + (zenith - horizon) up + (ground - horizon) down.
-HWY_INLINE Vec3V<V> Mix(const ShadingSky& sky, V horizon, V up, V down) {
-  const Vec3V<V> low = Set3(sky.horizon);
-  const Vec3V<V> to_zenith = Sub(Set3(sky.zenith), low), to_ground = Sub(Set3(sky.ground), low);
-  return Add(Scale(low, horizon), Add(Scale(to_zenith, up), Scale(to_ground, down)));
+// to[i] = of(from[i]), three channels.
+template <class Of>
+HWY_INLINE void ForEach(const Soa3<float>& from, size_t count, Soa3<float>* to, const Of& of) {
+  for (size_t i = 0; i < count; i += hn::Lanes(D())) Store(of(Load(from, i)), i, to);
 }
 
 void EvaluateGradientT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
                        Soa3<float>* radiance) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V y = hn::Min(hn::Max(hn::LoadU(d, directions.y.data() + i), hn::Neg(one)), one);
-    Store(Mix(sky, one, hn::Max(y, zero), hn::Max(hn::Neg(y), zero)), i, radiance);
-  }
+  const auto& [r, g, b] = sky.gradient;
+  ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
+    return Vec3V<V>{Radiance(d, r, l), Radiance(d, g, l), Radiance(d, b, l)};
+  });
 }
 
 void EvaluateQuadraticT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
                         Soa3<float>* radiance) {
   const D d;
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V c = FusedDot(Set3(sky.axis), Load(directions, i));
-    const V slope = hn::MulAdd(c, Set(sky.quadratic), Set(sky.linear));
+  ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
     // Rounding may leave a touch less than 0 where the quadratic has its root.
-    const V value = hn::Max(hn::MulAdd(slope, c, Set(sky.constant)), hn::Zero(d));
-    Store({value, value, value}, i, radiance);
+    const V value = hn::Max(Radiance(d, sky.quadratic, l), hn::Zero(d));
+    return Vec3V<V>{value, value, value};
+  });
+}
+
+// v turned about +y by the angle of that cosine and sine.
+HWY_INLINE Vec3V<V> Turn(const Vec3V<V>& v, double cosine, double sine) {
+  const D d;
+  const V c = hn::Set(d, static_cast<float>(cosine)), s = hn::Set(d, static_cast<float>(sine));
+  return {hn::MulAdd(v.x, c, hn::Mul(v.z, s)), v.y, hn::MulSub(v.z, c, hn::Mul(v.x, s))};
+}
+
+// Radiance, and the density of sampling if it is asked for.
+void EvaluatePictureT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
+                      Soa3<float>* radiance, float* density) {
+  const D d;
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const Vec3V<V> turned = Turn(Load(directions, i), sky.cos_rotation, -sky.sin_rotation);
+    const EnvironmentTexelV<V> texel = TexelAt(d, *sky.picture, turned);
+    Store({texel.red, texel.green, texel.blue}, i, radiance);
+    if (density != nullptr) hn::StoreU(texel.pdf, d, density + i);
   }
 }
 
-// The integral of max(y, 0) n.l over the hemisphere about n, y the height of l: of the cosine c
-// between n and +y, 2/3 (sin + (pi - angle) cos).
-HWY_INLINE V UpperIrradiance(V c) {
+void SamplePictureT(const ShadingSky& sky, const UnitPoints& points, size_t count,
+                    LightDirections* directions) {
   const D d;
-  const V one = hn::Set(d, 1.0f);
-  const V sin = hn::Sqrt(hn::Max(hn::Mul(hn::Sub(one, c), hn::Add(one, c)), hn::Zero(d)));
-  const V supplement = Atan2Upper(d, sin, hn::Neg(c));
-  return hn::Mul(Set(2.0 / 3), hn::MulAdd(supplement, c, sin));
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const EnvironmentSampleV<V> sample =
+        SampleEnvironment(d, *sky.picture, points.u_bits.data() + i, points.v_bits.data() + i);
+    Store(Turn(sample.to_light, sky.cos_rotation, sky.sin_rotation), i, &directions->to_light);
+    Store({sample.texel.red, sample.texel.green, sample.texel.blue}, i, &directions->radiance);
+    hn::StoreU(sample.texel.pdf, d, directions->density.data() + i);
+  }
 }
 
 void GradientIrradianceT(const ShadingSky& sky, const Surface& surface, size_t count,
                          Soa3<float>* irradiance) {
   const D d;
-  const V one = hn::Set(d, 1.0f);
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V c = hn::Min(hn::Max(hn::LoadU(d, surface.normal.y.data() + i), hn::Neg(one)), one);
-    Store(Mix(sky, Set(M_PI), UpperIrradiance(c), UpperIrradiance(hn::Neg(c))), i, irradiance);
-  }
+  const auto& [r, g, b] = sky.gradient;
+  ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
+    return Vec3V<V>{Irradiance(d, r, n), Irradiance(d, g, n), Irradiance(d, b, n)};
+  });
 }
 
-// Ramamoorthi and Hanrahan 2001: the cosine's weights pi, 2 pi/3 and pi/4 of degrees 0 to 2.
 void QuadraticIrradianceT(const ShadingSky& sky, const Surface& surface, size_t count,
                           Soa3<float>* irradiance) {
   const D d;
-  const V even = Set(M_PI * (sky.constant + sky.quadratic / 4.0));
-  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V c = FusedDot(Set3(sky.axis), Load(surface.normal, i));
-    const V slope = hn::MulAdd(c, Set(M_PI / 4 * sky.quadratic), Set(2 * M_PI / 3 * sky.linear));
-    const V value = hn::MulAdd(slope, c, even);
-    Store({value, value, value}, i, irradiance);
-  }
+  ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
+    const V value = Irradiance(d, sky.quadratic, n);
+    return Vec3V<V>{value, value, value};
+  });
 }
 
 }  // namespace
@@ -104,11 +112,21 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(EvaluateGradientT);
 HWY_EXPORT(EvaluateQuadraticT);
+HWY_EXPORT(EvaluatePictureT);
+HWY_EXPORT(SamplePictureT);
 HWY_EXPORT(GradientIrradianceT);
 HWY_EXPORT(QuadraticIrradianceT);
 
+void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
+               LightDirections* directions) {
+  HWY_DYNAMIC_DISPATCH(SamplePictureT)(light.sky, points, count, directions);
+}
+
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
-                 Soa3<float>* radiance) {
+                 Soa3<float>* radiance, float* density) {
+  if (light.form == SampledForm::kPictureSky) {
+    return HWY_DYNAMIC_DISPATCH(EvaluatePictureT)(light.sky, directions, count, radiance, density);
+  }
   if (light.form == SampledForm::kGradientSky) {
     return HWY_DYNAMIC_DISPATCH(EvaluateGradientT)(light.sky, directions, count, radiance);
   }

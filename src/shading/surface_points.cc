@@ -44,23 +44,28 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   t.any_mesh = false;
+  uint32_t last = kNoPrimitive;  // of spheres: neighbours lie on the same one
+  Vec3d center(0, 0, 0);
+  double inverse_radius = 1;
   for (size_t i = run.begin; i < run.end; ++i) {
     const uint32_t primitive = hits.primitive[i];
     const Vec3d normal = Get(hits.normal, i);
-    const Vec3d to_view = Get(hits.to_view, i);
     if (primitive < sphere_count) {
-      const Sphere& sphere = scene.spheres[primitive];
-      const Vec3d center = sphere.center - scene.camera.position;
+      if (primitive != last) {
+        last = primitive;
+        center = scene.spheres[primitive].center - scene.camera.position;
+        inverse_radius = 1 / scene.spheres[primitive].radius;
+      }
       // The normal is on the ray's side; from inside it points to the centre.
       const double side = (Get(hits.position, i) - center).dot(normal) < 0 ? -1 : 1;
       t.side[i] = side;
       Put(normal * side, i, &t.point);
-      t.inverse_size[i] = 1 / sphere.radius;
+      t.inverse_size[i] = inverse_radius;
       Put(normal, i, &t.geometric);
     } else {
       const Corners corners = CornersOf(run.scene, primitive - sphere_count);
       const Vec3d face = corners.e1.cross(corners.e2).normalized();
-      t.side[i] = face.dot(to_view) < 0 ? -1 : 1;
+      t.side[i] = face.dot(Get(hits.to_view, i)) < 0 ? -1 : 1;
       Put(face * t.side[i], i, &t.geometric);
       t.any_mesh = true;
     }

@@ -4,36 +4,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "scene/texture_mapping.h"
 #include "shading/texture_kernels.h"
 
 namespace nacre {
 namespace {
-
-// The axes of a mapping: z is its axis, and x points where longitudes begin or, seen along an axis
-// that is not vertical, to the right.
-void MakeFrame(const Texture& texture, Vec3d (&frame)[3]) {
-  const Vec3d z = texture.axis.normalized();
-  const Vec3d across = Vec3d(0, 1, 0).cross(z);
-  // Below this sine the axis counts as vertical.
-  constexpr double kUpright = 1e-9;
-  Vec3d x = across.length() > kUpright ? across.normalized() : Vec3d(0, 0, -1);
-  Vec3d y = z.cross(x).normalized();
-  const double angle = texture.rotate_deg * M_PI / 180;
-  const double c = std::cos(angle), s = std::sin(angle);
-  frame[0] = x * c + y * s;
-  frame[1] = y * c - x * s;
-  frame[2] = z;
-}
-
-// Scale, turn and offset, after what makes v point up.
-void MakeTransform(const Texture& texture, PreparedTexture* prepared) {
-  const double angle = texture.uv_rotate_deg * M_PI / 180;
-  const double c = texture.uv_rotate_deg == 0 ? 1 : std::cos(angle);
-  const double s = texture.uv_rotate_deg == 0 ? 0 : std::sin(angle);
-  prepared->u_row = Vec2d(c * texture.scale.x, -s * texture.scale.y);
-  prepared->v_row = Vec2d(s * texture.scale.x, c * texture.scale.y);
-  prepared->offset = texture.offset;
-}
 
 bool SameCoordinates(const Texture& a, const Texture& b) {
   const auto key = [](const Texture& t) {
@@ -151,10 +126,16 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
     to.sampling = texture.sampling;
     to.mapping = texture.mapping;
     to.middle = image.middle;
-    MakeFrame(texture, to.frame);
+    const MappingFrame frame = FrameOf(texture);
+    to.frame[0] = frame.x;
+    to.frame[1] = frame.y;
+    to.frame[2] = frame.z;
     to.center = texture.center - scene.camera.position;
     to.inverse_size = 1 / texture.size;
-    MakeTransform(texture, &to);
+    const UvTransform transform = TransformOf(texture);
+    to.u_row = transform.u_row;
+    to.v_row = transform.v_row;
+    to.offset = transform.offset;
     to.coordinates = 0;
     while (!SameCoordinates(scene.textures[to.coordinates], texture)) ++to.coordinates;
   }

@@ -54,11 +54,12 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE MappedV<V> MapSpherical(D d, const Vec3V<V>& p) {
   MappedV<V> mapped;
   const V axis2 = AxisDistance2(d, p);
-  MapLongitude(d, p, axis2, &mapped.u, &mapped.du);
   const V axis = hn::Sqrt(axis2);
+  MapLongitude(d, p, axis2, &mapped.u, &mapped.du);
   mapped.v = hn::Mul(AngleAbove(d, axis, p.z), hn::Set(d, M_1_PI));
   const V scale = hn::Div(hn::Set(d, M_1_PI), hn::MulAdd(p.z, p.z, axis2));
-  const V outward = hn::Div(hn::Mul(p.z, scale), axis);
+  const V inverse_axis = hn::Div(hn::Set(d, 1.0), axis);
+  const V outward = hn::Mul(hn::Mul(p.z, scale), inverse_axis);
   mapped.dv = {hn::Mul(p.x, outward), hn::Mul(p.y, outward), hn::Neg(hn::Mul(axis, scale))};
   return mapped;
 }

@@ -82,8 +82,7 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     extents[block] = extent;
   });
   for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
-  const bool with_normals =
-      std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
+  const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
   for (const Mesh& mesh : scene.meshes) AppendMesh(mesh, camera_position, with_normals, &geometry);
   return geometry;
 }

@@ -99,5 +99,24 @@ TEST_CASE("a sphere's cone integrates to 1 and knows what misses it") {
   }
 }
 
+TEST_CASE("a disk's solid angle is that on its axis, from afar, and the sum of its samples") {
+  for (const double z : {1e-2, 0.1, 1.0, 10.0, 1e4}) {
+    CAPTURE(z);
+    const double root = std::hypot(1.0, z);
+    const double exact = 2 * M_PI / (root * (root + z));
+    CHECK(std::abs(SolidAngle(DiskLight<double>{{0, 0, z}, {0, 0, 1}, 1}) / exact - 1) <= 1e-9);
+  }
+  for (const DiskLight<double>& light : DiskLights()) {
+    CAPTURE(light.centre, light.normal, light.radius);
+    constexpr int kSteps = 600;
+    double sum = 0;
+    for (int i = 0; i < kSteps * kSteps; ++i) {
+      const double u0 = (i / kSteps + 0.5) / kSteps, u1 = (i % kSteps + 0.5) / kSteps;
+      sum += SampleLight(light, u0, u1).inverse_pdf / (1.0 * kSteps * kSteps);
+    }
+    CHECK(std::abs(sum / SolidAngle(light) - 1) <= 3e-4);
+  }
+}
+
 }  // namespace
 }  // namespace nacre

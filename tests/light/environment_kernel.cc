@@ -87,11 +87,11 @@ void Evaluate(const Sky& sky, const std::vector<Vec3f>& directions, std::vector<
   }
 }
 
-void EvaluateGradientT(const GradientSky<float>& sky, const std::vector<Vec3f>& directions,
+void EvaluateGradientT(const GradientSkyTerms<float>& sky, const std::vector<Vec3f>& directions,
                        std::vector<Vec3f>* out) {
   Evaluate(sky, directions, out);
 }
-void EvaluateQuadraticT(const QuadraticSky<float>& sky, const std::vector<Vec3f>& directions,
+void EvaluateQuadraticT(const QuadraticSkyTerms<float>& sky, const std::vector<Vec3f>& directions,
                         std::vector<Vec3f>* out) {
   Evaluate(sky, directions, out);
 }
@@ -133,13 +133,13 @@ std::vector<EnvironmentSample<float>> SampleEnvironments(const EnvironmentMap& m
   HWY_DYNAMIC_DISPATCH(SampleEnvironmentsT)(map, bits0, bits1, &out);
   return out;
 }
-std::vector<Vec3f> EvaluateSky(const GradientSky<float>& sky,
+std::vector<Vec3f> EvaluateSky(const GradientSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions) {
   std::vector<Vec3f> out(directions.size());
   HWY_DYNAMIC_DISPATCH(EvaluateGradientT)(sky, directions, &out);
   return out;
 }
-std::vector<Vec3f> EvaluateSky(const QuadraticSky<float>& sky,
+std::vector<Vec3f> EvaluateSky(const QuadraticSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions) {
   std::vector<Vec3f> out(directions.size());
   HWY_DYNAMIC_DISPATCH(EvaluateQuadraticT)(sky, directions, &out);

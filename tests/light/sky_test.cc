@@ -65,12 +65,12 @@ TEST_CASE("quadratic skies match the table, in closed form and from harmonics", 
   size_t rows = 0;
   for (const auto& row : table.at("rows")) {
     const Vec3d normal = TableVector(row["n"]).normalized();
-    const QuadraticSky<double> sky{TableVector(row["s"]).normalized(), row["a0"].get<double>(),
+    const QuadraticSkyTerms<double> sky{TableVector(row["s"]).normalized(), row["a0"].get<double>(),
                                    row["a1"].get<double>(), row["a2"].get<double>()};
     const double reference = TableNumber(row["E"]);
     CAPTURE(rows, reference);
     CHECK(std::abs(Irradiance(sky, normal) / reference - 1) <= 1e-14);
-    const QuadraticSky<float> rounded{Vec3f(sky.axis), static_cast<float>(sky.a0),
+    const QuadraticSkyTerms<float> rounded{Vec3f(sky.axis), static_cast<float>(sky.a0),
                                       static_cast<float>(sky.a1), static_cast<float>(sky.a2)};
     ForEachTarget([&](Target) {
       const double got = EvaluateSky(rounded, {Vec3f(normal)})[0].y;
@@ -86,8 +86,8 @@ TEST_CASE("quadratic skies match the table, in closed form and from harmonics", 
 }
 
 TEST_CASE("gradient skies have their integral as irradiance") {
-  const GradientSky<double> sky{0.2, 1.5, 0.6};
-  const GradientSky<float> rounded{0.2f, 1.5f, 0.6f};
+  const GradientSkyTerms<double> sky{0.2, 1.5, 0.6};
+  const GradientSkyTerms<float> rounded{0.2f, 1.5f, 0.6f};
   for (const Vec3d& normal : SomeNormals()) {
     CAPTURE(normal);
     const double exact = Irradiance(sky, normal);
@@ -101,7 +101,7 @@ TEST_CASE("gradient skies have their integral as irradiance") {
       CHECK(std::abs(got.y / exact - 1) <= 1e-6);
     });
   }
-  CHECK(Irradiance(GradientSky<double>{2, 2, 2}, {0.6, 0, 0.8}) ==
+  CHECK(Irradiance(GradientSkyTerms<double>{2, 2, 2}, {0.6, 0, 0.8}) ==
         Approx(ConstantSkyIrradiance(2.0)).epsilon(1e-15));
 }
 
@@ -130,7 +130,7 @@ TEST_CASE("harmonics are orthonormal") {
 }
 
 TEST_CASE("harmonics miss little of a sky, and 0.094 of a sun at its terminator") {
-  const GradientSky<double> sky{0.2, 1.5, 0.6};
+  const GradientSkyTerms<double> sky{0.2, 1.5, 0.6};
   const IrradianceHarmonics<double> of_sky = ProjectIrradiance(
       MapOf(128, 64, [&](const Vec3d& direction) { return Radiance(sky, direction); }));
   const Vec3d sun = Vec3d(0.3, 0.4, -0.7).normalized();

@@ -381,10 +381,11 @@ TEST_CASE("pairs of points are a net of every pixel") {
     }
     float last_u = -1;
     for (size_t pair = 0; pair < 9; ++pair) {
-      float u[16], v[16];
-      SamplePair(sampler, pair, numbers, entries.data(), 16, u, v);
+      UnitPoints points(16);
+      SamplePair(sampler, pair, numbers, entries.data(), 16, &points);
+      const AlignedArray<float>&u = points.u, &v = points.v;
       uint32_t in_u = 0, in_v = 0;
-      for (int i = 0; i < 16; ++i) {
+      for (size_t i = 0; i < 16; ++i) {
         REQUIRE((u[i] >= 0 && u[i] < 1 && v[i] >= 0 && v[i] < 1));
         in_u |= 1u << static_cast<int>(u[i] * 16);
         in_v |= 1u << static_cast<int>(v[i] * 16);

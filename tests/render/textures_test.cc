@@ -420,6 +420,32 @@ TEST_CASE("texture coordinates are scaled, turned and moved, in this order") {
   CHECK(at(9, 14, "G") == 9);
 }
 
+TEST_CASE("seen from behind, a normal map is the front turned round") {
+  Scene plain = Square(MappingKind::kUv);
+  plain.camera.position = Vec3d(0, 0, -5);
+  plain.materials[0].emission_map = {};
+  for (const bool bump : {false, true}) {
+    Scene scene = plain;
+    TextureId id;
+    if (bump) {  // rises with u: the front's normal leans to -u
+      id = AddTexture(&scene, 16, 1, [](int x, int) { return Rgb(x / 16.0); });
+      scene.textures[id.index].sampling.wrap_u = Wrap::kClamp;
+      scene.materials[0].bump_map = {id, 0.5};
+    } else {  // the front's normal leans to +u
+      id = AddConstant(&scene, Rgb(1, 128.0 / 255, 1));
+      scene.materials[0].normal_map.texture = id;
+    }
+    scene.textures[id.index].mapping = MappingKind::kUv;
+    const Image image = Rendered(scene);
+    const size_t middle = 8 * 16 + 8;
+    CHECK(image.Find("N.Z")->samples[middle] < 0);
+    CHECK((bump ? 1 : -1) * image.Find("N.X")->samples[middle] > 0.1f);
+    scene.camera.position = Vec3d(0, 0, 5);
+    const Image front = Rendered(scene);
+    CHECK((bump ? -1 : 1) * front.Find("N.X")->samples[middle] > 0.1f);
+  }
+}
+
 TEST_CASE("a far surface shows its texture's mean") {
   Scene scene = Square(MappingKind::kUv);
   scene.textures[0].scale = Vec2d(500, 500);

@@ -105,6 +105,8 @@ TEST_CASE("the schema's ranges are those of scene/limits.h") {
   CHECK(RangeOf(definitions["radiance"]["anyOf"][0]) == limits::kRadiance);
   CHECK(RangeOf(definitions["axis_count"]) == limits::kGridCount);
   CHECK(RangeOf(definitions["texture_scale"]) == limits::kTextureScale);
+  CHECK(RangeOf(definitions["sphere"]["properties"]["displacement"]["properties"]["segments"]) ==
+        limits::kDisplacedSegments);
   CHECK(RangeOf(definitions["angle_deg"]) == limits::kAngleDeg);
   CHECK(RangeOf(definitions["normal_map"]["anyOf"][1]["properties"]["scale"]) ==
         limits::kNormalScale);

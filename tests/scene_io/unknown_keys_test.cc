@@ -18,8 +18,13 @@ constexpr const char* kScene = R"({
   "nacre": 1,
   "camera": {"type": "orthographic", "height": 2},
   "image": {"width": 8, "height": 8, "filter": {"type": "gaussian", "width": 3}},
+  "textures": {
+    "tiles": {"file": "textures/tiles_normal.png", "mapping": {"kind": "planar"}},
+    "waves": {"file": "textures/waves.png"}
+  },
   "materials": {
-    "lambert": {"model": "lambert"}, "phong": {"model": "phong"},
+    "lambert": {"model": "lambert", "normal_map": {"texture": "tiles"},
+                "bump_map": {"texture": "waves"}}, "phong": {"model": "phong"},
     "pbr": {"model": "metallic_roughness"}, "metal": {"model": "conductor"},
     "glass": {"model": "dielectric"},
     "split": {"model": "split", "at": [0.5], "materials": ["lambert", "phong"]}
@@ -34,6 +39,8 @@ constexpr const char* kScene = R"({
   },
   "shapes": [
     {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": {"model": "lambert"}},
+    {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "pbr",
+     "displacement": {"texture": "waves", "segments": 8}},
     {"type": "grid", "material": "pbr",
      "rows": {"parameter": "roughness", "from": 0.1, "to": 0.9, "count": 2},
      "columns": {"parameter": "metallic", "values": [0, 1]}},
@@ -49,7 +56,7 @@ constexpr const char* kScene = R"({
 // The message of the faults, or nothing.
 std::string Message(const Json& scene) {
   try {
-    LoadSceneText(scene.dump(), "a.json", ".", {});
+    LoadSceneText(scene.dump(), "a.json", NACRE_SOURCE_DIR "/scenes", {});
   } catch (const Error& error) {
     return error.what();
   }
@@ -72,7 +79,7 @@ TEST_CASE("an unknown key is refused in every object") {
   int objects = 0;
   ForEachObject(scene, Json::json_pointer(), [&](const Json::json_pointer& place) {
     const std::string text = place.to_string();
-    if (text == "/materials" || text == "/lights") return;  // their keys are names
+    if (text == "/materials" || text == "/lights" || text == "/textures") return;  // their keys are names
     ++objects;
     CAPTURE(text);
     Json changed = scene;
