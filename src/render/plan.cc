@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/target.h"
+#include "render/mesh_points.h"
 #include "render/sampled_plan.h"
 #include "render/shadow_cull.h"
 #include "scene/mesh.h"
@@ -220,6 +221,21 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan
                    count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
 }
 
+// What the triangles of meshes ask for, after all else.
+void PlanMeshes(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  if (scene.meshes.empty() || plan->intersector == nullptr) return;
+  const auto casts = [](const auto& light) { return light.shadow_rays; };
+  const bool shadows = std::any_of(plan->lights.begin(), plan->lights.end(), casts) ||
+                       std::any_of(plan->sampled_lights.begin(), plan->sampled_lights.end(), casts);
+  plan->lift_shadows = shadows && LiftsShadowOrigins(scene);
+  plan->items.push_back({"smooth terminator", plan->lift_shadows,
+                         plan->lift_shadows
+                             ? "shadow rays of smooth normals start on the curved surface"
+                         : shadows ? "no mesh has smooth normals and asks for it"
+                                   : "there are no shadow rays"});
+  ShadeMeshes(settings, plan);
+}
+
 // A perfect mirror shows only what has an extent; says so where no light has one.
 void NoteMirrors(const Scene& scene, RenderPlan* plan) {
   if (!plan->sampled_lights.empty()) return;
@@ -278,40 +294,27 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
                  ? "those on one smooth hit stop at their pixels' centres"
                  : "none is known to be smooth")});
   }
+  PlanMeshes(scene, settings, &plan);
   NoteMirrors(scene, &plan);
   return plan;
 }
 
-namespace {
-
-// The mesh that a triangle, numbered through all meshes, belongs to.
-size_t MeshOf(const RenderPlan& plan, uint32_t triangle) {
-  const auto& first = plan.mesh_first_triangle;
-  const auto after = std::upper_bound(first.begin(), first.end(), triangle);
-  return static_cast<size_t>(after - first.begin()) - 1;
-}
-
-}  // namespace
-
 Vec3d FaceNormalOf(const RenderPlan& plan, uint32_t primitive) {
-  const uint32_t triangle = primitive - static_cast<uint32_t>(plan.scene->spheres.size());
-  const size_t mesh = MeshOf(plan, triangle);
-  return FaceNormal(plan.scene->meshes[mesh], triangle - plan.mesh_first_triangle[mesh]);
+  const TriangleRef triangle = TriangleOf(plan, primitive);
+  return FaceNormal(*triangle.mesh, triangle.triangle);
 }
 
 uint32_t ObjectOf(const RenderPlan& plan, uint32_t primitive) {
   const auto spheres = static_cast<uint32_t>(plan.scene->spheres.size());
   if (primitive < spheres) return primitive;
-  return spheres + static_cast<uint32_t>(MeshOf(plan, primitive - spheres));
+  return spheres + static_cast<uint32_t>(TriangleOf(plan, primitive).number);
 }
 
 MaterialId MaterialAt(const RenderPlan& plan, uint32_t primitive, double film_x) {
   const Scene& scene = *plan.scene;
   const size_t spheres = scene.spheres.size();
-  const MaterialId id =
-      primitive < spheres
-          ? scene.spheres[primitive].material
-          : scene.meshes[MeshOf(plan, primitive - static_cast<uint32_t>(spheres))].material;
+  const MaterialId id = primitive < spheres ? scene.spheres[primitive].material
+                                            : TriangleOf(plan, primitive).mesh->material;
   if (!plan.splits) return id;
   const auto* split = std::get_if<SplitMaterial>(&scene.materials[id.index].model);
   if (split == nullptr) return id;

@@ -10,6 +10,7 @@
 #include "render/camera.h"
 #include "render/layers.h"
 #include "render/light_cull.h"
+#include "render/mesh_radiance.h"
 #include "render/settings.h"
 #include "render/stats.h"
 #include "sampling/pair_sampler.h"
@@ -76,10 +77,11 @@ struct RenderPlan {
   size_t light_layer_count = 0;
   std::vector<PlannedLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
-  PairSampler pairs;                          // their samples'; three pairs a light
-  const SampledLight* sky = nullptr;          // seen where nothing is hit, of sampled_lights
-  std::vector<ShadingMaterial> materials;     // one per material of the scene, and `black`
-  TextureScene textures;                      // empty if no shape has any
+  PairSampler pairs;                       // their samples'; three pairs a light
+  const SampledLight* sky = nullptr;       // seen where nothing is hit, of sampled_lights
+  std::vector<ShadingMaterial> materials;  // one per material of the scene, and `black`
+  TextureScene textures;                   // empty if no shape has any
+  std::vector<std::vector<MeshRadiance>> mesh_radiance;  // per mesh; empty if none has any
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
   bool cull_lights = false;                   // leave out those that cannot reach a batch
@@ -90,6 +92,7 @@ struct RenderPlan {
   bool one_sided = false;                     // some material emits in front only
   MaterialId black;                           // the back of those
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
+  bool lift_shadows = false;                  // some shadow rays do not start at their hits
   bool eye_outside = false;                   // no camera ray starts in a sphere
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch

@@ -1,6 +1,7 @@
 #include "render/sampled_lights.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/tile_layers.h"
 #include "shading/lobe_sample.h"
@@ -57,6 +58,24 @@ void FaceLight(const Lit& lit) {
   HideTurned(lit.plan, &lit.s);
 }
 
+// Lets the shadow ray of a hit start where those of its mesh do, and end at the same point.
+void LiftRay(const TileScratch& s, size_t hit, size_t ray, ShadowRayBatch* rays) {
+  const Soa3<double>& from = s.hits.position;
+  const Soa3<double>& origin = s.shadow_origin;
+  const Vec3d lift(origin.x[hit] - from.x[hit], origin.y[hit] - from.y[hit],
+                   origin.z[hit] - from.z[hit]);
+  if (lift == Vec3d(0, 0, 0)) return;
+  rays->origin.x[ray] = origin.x[hit];
+  rays->origin.y[ray] = origin.y[hit];
+  rays->origin.z[ray] = origin.z[hit];
+  const double distance = rays->t_max[ray];
+  if (std::isinf(distance)) return;
+  rays->direction.x[ray] = rays->direction.x[ray] * distance - lift.x;
+  rays->direction.y[ray] = rays->direction.y[ray] * distance - lift.y;
+  rays->direction.z[ray] = rays->direction.z[ray] * distance - lift.z;
+  rays->t_max[ray] = 1;
+}
+
 // Takes the light from the hits that something lies before it for.
 void CastShadows(const Lit& lit) {
   TileScratch& s = lit.s;
@@ -77,6 +96,7 @@ void CastShadows(const Lit& lit) {
     rays.direction.y[ray] = directions.to_light.y[i];
     rays.direction.z[ray] = directions.to_light.z[i];
     rays.t_max[ray] = directions.distance[i];
+    if (lit.plan.lift_shadows) LiftRay(s, i, ray, &rays);
   }
   lit.stats->shadow_rays += rays.count;
   if (rays.count == 0) return;

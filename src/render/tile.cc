@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "render/mesh_points.h"
 #include "render/tile_layers.h"
 #include "sampling/hash.h"
 
@@ -111,14 +112,20 @@ void PermuteHits(bool exact, TileScratch* s) {
 
 constexpr uint32_t kNoRun = std::numeric_limits<uint32_t>::max();
 
+uint32_t& RunOf(MaterialId material, bool interpolated, TileScratch* s) {
+  return s->run_of_material[interpolated ? s->run_of_material.size() / 2 + material.index
+                                         : material.index];
+}
+
 // Finds each hit's run, and with it how many hits a run has.
 void CountRuns(const RenderPlan& plan, TileScratch* s) {
   for (size_t i = 0; i < s->hits.count; ++i) {
     const MaterialId material = MaterialOfHit(plan, *s, i);
-    uint32_t& run = s->run_of_material[material.index];
+    const bool interpolated = IsInterpolated(plan, s->hits.primitive[i]);
+    uint32_t& run = RunOf(material, interpolated, s);
     if (run == kNoRun) {
       run = static_cast<uint32_t>(s->runs.size());
-      s->runs.push_back({material, 0, 0});
+      s->runs.push_back({material, 0, 0, interpolated});
     }
     s->run_of_hit[i] = run;
     ++s->runs[run].end;
@@ -128,19 +135,22 @@ void CountRuns(const RenderPlan& plan, TileScratch* s) {
 // Sorts the hits by material, within a run in the order of their rays, so that what a hit's lane
 // computes never depends on its neighbours.
 void SortHits(const RenderPlan& plan, TileScratch* s) {
-  s->run_of_material.resize(plan.materials.size(), kNoRun);
-  for (const MaterialRun& run : s->runs) s->run_of_material[run.material.index] = kNoRun;
+  s->run_of_material.resize(2 * plan.materials.size(), kNoRun);
+  for (const MaterialRun& run : s->runs) RunOf(run.material, run.interpolated, s) = kNoRun;
   s->runs.clear();
   if (s->hits.one_primitive && !plan.splits && !plan.one_sided) {
-    s->runs.push_back({MaterialOfHit(plan, *s, 0), 0, s->hits.count});
+    s->runs.push_back({MaterialOfHit(plan, *s, 0), 0, s->hits.count, false});
     return;
   }
   CountRuns(plan, s);
   size_t begin = 0;
-  for (MaterialRun& run : s->runs) {
-    const size_t count = run.end;
-    run.begin = run.end = begin;
-    begin += count;
+  for (const bool interpolated : {false, true}) {
+    for (MaterialRun& run : s->runs) {
+      if (run.interpolated != interpolated) continue;
+      const size_t count = run.end;
+      run.begin = run.end = begin;
+      begin += count;
+    }
   }
   for (size_t i = 0; i < s->hits.count; ++i) {
     s->order[s->runs[s->run_of_hit[i]].end++] = static_cast<uint32_t>(i);
@@ -177,6 +187,7 @@ namespace {
 void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                  RenderStats* stats) {
   const HitBatch& hits = s->hits;
+  const Soa3<double>& origin = plan.lift_shadows ? s->shadow_origin : hits.position;
   const LightBatch& light = s->light;
   const double t_max = planned.light.TMax();
   ShadowRayBatch& rays = s->shadow_rays;
@@ -189,11 +200,10 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
     const size_t ray = rays.count++;
     s->shadow_hits[ray] = static_cast<uint32_t>(i);
     rays.primitive[ray] = hits.primitive[i];
-    rays.origin.x[ray] = hits.position.x[i];
-    rays.origin.y[ray] = hits.position.y[i];
-    rays.origin.z[ray] = hits.position.z[i];
-    const Vec3d offset =
-        planned.light.OffsetFrom(Vec3d(hits.position.x[i], hits.position.y[i], hits.position.z[i]));
+    rays.origin.x[ray] = origin.x[i];
+    rays.origin.y[ray] = origin.y[i];
+    rays.origin.z[ray] = origin.z[i];
+    const Vec3d offset = planned.light.OffsetFrom(Vec3d(origin.x[i], origin.y[i], origin.z[i]));
     rays.direction.x[ray] = offset.x;
     rays.direction.y[ray] = offset.y;
     rays.direction.z[ray] = offset.z;
@@ -232,14 +242,14 @@ void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch
   if (apart) KeepLight(planned.layer, s);
 }
 
-// Adds up what the batch's hits reflect of every light, in the order of the lights. Those that
-// need nothing but their sum are taken together while they follow one another.
-void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
-  TextureRuns(plan, s);
+// In the order of the lights. Those that need nothing but their sum are taken together while they
+// follow one another.
+void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, RenderStats* stats) {
   for (const MaterialRun& run : s->runs) {
     PrepareRun(plan.materials[run.material.index], run.begin, run.end, &s->surface,
                s->textures.get());
   }
+  if (plan.lift_shadows) LiftShadowOrigins(plan, s);
   s->per_light.resize(plan.light_layer_count);
   for (Soa3<float>& layer : s->per_light) ClearSoa(s->hits.count, &layer);
   const BatchBounds bounds = plan.cull_lights ? BoundHits(s->hits, s->surface) : BatchBounds{};
@@ -279,7 +289,31 @@ void ShadeHits(const RenderPlan& plan, TileScratch* s, StageClock* clock, Render
   if (!plan.sampled_lights.empty()) ShadeBySampledLights(plan, s, clock, stats);
 }
 
+// Shades the hits that are not interpolated, which come first, and interpolates the rest.
+void ShadeAndInterpolate(const RenderPlan& plan, TileScratch* s, StageClock* clock,
+                         RenderStats* stats) {
+  TextureRuns(plan, s);
+  const size_t count = s->hits.count;
+  const auto rest = std::stable_partition(s->runs.begin(), s->runs.end(),
+                                          [](const MaterialRun& run) { return !run.interpolated; });
+  const std::vector<MaterialRun> interpolated(rest, s->runs.end());
+  s->runs.erase(rest, s->runs.end());
+  s->hits.count = s->runs.empty() ? 0 : s->runs.back().end;
+  s->per_light.resize(plan.light_layer_count);
+  if (s->hits.count > 0) ShadeByLights(plan, s, clock, stats);
+  s->hits.count = count;
+  s->runs.insert(s->runs.end(), interpolated.begin(), interpolated.end());
+  Interpolate(plan, s);
+  clock->Charge(Stage::kShade);
+}
+
 }  // namespace
+
+void ShadeHits(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,
+               RenderStats* stats) {
+  TextureRuns(plan, scratch);
+  ShadeByLights(plan, scratch, clock, stats);
+}
 
 bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch) {
   TileScratch& s = *scratch;
@@ -301,7 +335,11 @@ void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clo
   if (s.hits.count == 0) return;
   stats->hits += s.hits.count;
   SortHits(plan, &s);
-  ShadeHits(plan, &s, clock, stats);
+  if (plan.mesh_radiance.empty()) {
+    ShadeHits(plan, &s, clock, stats);
+  } else {
+    ShadeAndInterpolate(plan, &s, clock, stats);
+  }
 }
 
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,

@@ -15,6 +15,7 @@ namespace nacre {
 struct MaterialRun {
   MaterialId material;
   size_t begin, end;
+  bool interpolated;  // they reflect what is kept in RenderPlan::mesh_radiance
 };
 
 // Buffers of one worker, reused from tile to tile.
@@ -35,7 +36,8 @@ struct TileScratch {
   Surface surface;
   HitDirections unsorted_directions;
   std::vector<MaterialRun> runs;
-  std::vector<uint32_t> run_of_material;  // index into runs, or none, per material of the scene
+  // Index into runs, or none, per material of the scene; then the same of interpolated runs.
+  std::vector<uint32_t> run_of_material;
   AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
   AlignedArray<uint32_t> order{kBatchCapacity};
   std::unique_ptr<HitTextures> textures;  // made for the first hit on a material with maps
@@ -44,6 +46,7 @@ struct TileScratch {
   NarrowLobes narrow;
   std::vector<LightOnBatch> together;       // lights shaded by in one go
   std::unique_ptr<SampledScratch> sampled;  // where the plan has sampled lights
+  Soa3<double> shadow_origin;               // of the hits, where the plan lifts some
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
   ReflectedRadiance total;             // of all lights
@@ -61,6 +64,9 @@ bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch)
 
 // Takes scratch->light from the hits whose surface faces away, though their turned normals do not.
 void HideTurned(const RenderPlan& plan, TileScratch* scratch);
+
+// Adds up what the batch's hits, sorted into runs, reflect of every light; none is interpolated.
+void ShadeHits(const RenderPlan& plan, TileScratch* scratch, StageClock* clock, RenderStats* stats);
 
 // From scratch->samples to its hits and what they reflect.
 void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,

@@ -57,6 +57,11 @@ void MeanOfTwins(const std::vector<uint32_t>& twins, std::vector<T>* values) {
   for (size_t i = 0; i < values->size(); ++i) (*values)[i] = sums[twins[i]] / counts[twins[i]];
 }
 
+std::vector<Vec3d> NormalsOf(Mesh mesh) {
+  ComputeNormals(NormalWeighting::kAngle, 180, &mesh);
+  return std::move(mesh.normals);
+}
+
 }  // namespace
 
 Mesh TessellateSphere(const Sphere& sphere, int segments) {
@@ -98,7 +103,7 @@ void Displace(const Scene& scene, const Displacement& displacement, Mesh* mesh) 
   const UvTransform transform = TransformOf(texture);
   const bool smooth = !mesh->normals.empty();
   const std::vector<uint32_t> twins = FindTwins(mesh->positions);
-  std::vector<Vec3d> normals = smooth ? mesh->normals : AngleWeightedNormals(Welded(*mesh, twins));
+  std::vector<Vec3d> normals = smooth ? mesh->normals : NormalsOf(Welded(*mesh, twins));
   std::vector<double> heights(mesh->positions.size());
   for (size_t i = 0; i < heights.size(); ++i) {
     const Vec3d local = (mesh->positions[i] - displacement.center) / displacement.size;
@@ -112,7 +117,7 @@ void Displace(const Scene& scene, const Displacement& displacement, Mesh* mesh) 
     mesh->positions[i] += normals[i].normalized() * (displacement.distance * heights[i]);
   }
   if (!smooth) return;
-  mesh->normals = AngleWeightedNormals(Welded(*mesh, twins));
+  mesh->normals = NormalsOf(Welded(*mesh, twins));
   for (size_t i = 0; i < twins.size(); ++i) mesh->normals[i] = mesh->normals[twins[i]];
 }
 

@@ -71,12 +71,12 @@ void ReadNormals(JsonObject* shape, NormalSettings* normals) {
 
 // The members that all meshes share.
 void ReadInterpolation(JsonObject* shape, Mesh* mesh) {
-  constexpr std::array<std::string_view, 2> kNames = {"phong", "faceted"};
-  constexpr std::array<Interpolation, 2> kInterpolations = {Interpolation::kPhong,
-                                                            Interpolation::kFaceted};
+  // In the order of Interpolation.
+  constexpr std::array<std::string_view, 4> kNames = {"phong", "gouraud", "flat", "faceted"};
   size_t choice = 0;
   shape->Choice("interpolation", kNames, &choice);
-  mesh->interpolation = kInterpolations[choice];
+  mesh->interpolation = static_cast<Interpolation>(choice);
+  shape->Boolean("smooth_terminator", &mesh->smooth_terminator);
 }
 
 void PrepareNormals(const JsonValue& file, const NormalSettings& settings, Mesh* mesh) {

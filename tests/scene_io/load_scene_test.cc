@@ -271,12 +271,14 @@ TEST_CASE("normals come from where the mesh asks for them") {
 TEST_CASE("spheres of faces") {
   const Scene scene = Load(R"(, "shapes": [
       {"type": "icosphere", "center": [1, 2, 3], "radius": 2, "subdivisions": 1,
-       "material": {"model": "lambert"}, "interpolation": "faceted"},
+       "material": {"model": "lambert"}, "interpolation": "gouraud", "smooth_terminator": false},
       {"type": "uv_sphere", "center": [1, 2, 3], "radius": 2, "segments": 5, "rings": 3,
        "material": {"model": "lambert"}}])");
   REQUIRE(scene.meshes.size() == 2);
   CHECK(scene.meshes[0].triangles.size() == 3 * 80);
-  CHECK(scene.meshes[0].interpolation == Interpolation::kFaceted);
+  CHECK(scene.meshes[0].interpolation == Interpolation::kGouraud);
+  CHECK_FALSE(scene.meshes[0].smooth_terminator);
+  CHECK(scene.meshes[1].smooth_terminator);
   CHECK(scene.meshes[1].triangles.size() == 3 * 20);
   CHECK(scene.meshes[1].uvs.size() == scene.meshes[1].positions.size());
 }
