@@ -446,13 +446,19 @@ TEST_CASE("seen from behind, a normal map is the front turned round") {
   }
 }
 
-TEST_CASE("a far surface shows its texture's mean") {
-  Scene scene = Square(MappingKind::kUv);
-  scene.textures[0].scale = Vec2d(500, 500);
-  scene.textures[0].sampling.filter = TextureFilter::kTrilinear;
-  const Image image = Rendered(scene);
-  for (const float red : image.Find("R")->samples) {
-    CHECK(double{red} == Approx(7.5 / 16).epsilon(1e-6));
+TEST_CASE("a far surface shows its texture's mean, in both projections") {
+  for (const Projection projection : {Projection::kOrthographic, Projection::kPerspective}) {
+    Scene scene = Square(MappingKind::kUv);
+    scene.textures[0].scale = Vec2d(500, 500);
+    scene.textures[0].sampling.filter = TextureFilter::kTrilinear;
+    scene.camera.projection = projection;
+    // Perspective: the same part of the square, from so far that depth counts.
+    scene.camera.position = Vec3d(0, 0, 50);
+    scene.camera.fov_y_deg = 2 * std::atan(1.0 / 50) * 180 / M_PI;
+    const Image image = Rendered(scene);
+    for (const float red : image.Find("R")->samples) {
+      CHECK(double{red} == Approx(7.5 / 16).epsilon(1e-6));
+    }
   }
 }
 

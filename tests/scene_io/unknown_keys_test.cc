@@ -79,7 +79,8 @@ TEST_CASE("an unknown key is refused in every object") {
   int objects = 0;
   ForEachObject(scene, Json::json_pointer(), [&](const Json::json_pointer& place) {
     const std::string text = place.to_string();
-    if (text == "/materials" || text == "/lights" || text == "/textures") return;  // their keys are names
+    if (text == "/materials" || text == "/lights" || text == "/textures")
+      return;  // their keys are names
     ++objects;
     CAPTURE(text);
     Json changed = scene;
