@@ -59,10 +59,10 @@ QuadraticSky ReadQuadratic(const JsonValue& value) {
   return sky;
 }
 
-// Refuses what is no picture of light. `name` of the file is for the message.
-std::shared_ptr<const SkyPicture> MakePicture(const Image& image) {
-  const auto refuse = [](const std::string& what, const std::string& hint) {
-    throw Error(ExitCode::kBadInput, "", what, hint);
+// Throws Error (kBadInput) for what is no picture of light.
+std::shared_ptr<const SkyPicture> MakePicture(const Image& image, const std::string& file) {
+  const auto refuse = [&](const std::string& what, const std::string& hint) {
+    throw Error(ExitCode::kBadInput, file, what, hint);
   };
   const Window& window = image.data;
   if (window != image.display) {
@@ -99,10 +99,10 @@ void ReadPicture(const JsonValue& value, const SceneContext& context, PictureSky
   if (!ReadText(value, &file)) return;
   try {
     const auto path = ResolveReference(context.folder, file, context.allow_paths);
-    sky->picture = MakePicture(ReadImage(path.string()));
+    sky->picture = MakePicture(ReadImage(path.string()), file);
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) {
-      value.AddFault(fmt::format("{}: {}", fault.where.empty() ? file : fault.where, fault.what),
+      value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
                      fault.hint);
     }
   }

@@ -155,6 +155,112 @@ TEST_CASE("the sky stands behind the scene where it is asked to") {
   CHECK(image.Find("A")->samples[0] == 0);
 }
 
+// A dim sky with a sun of one texel that gives most of the light.
+std::shared_ptr<const SkyPicture> SunnyPicture() {
+  auto picture = std::make_shared<SkyPicture>();
+  picture->width = 64;
+  picture->height = 32;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const bool sun = x == 40 && y == 9;
+      const auto blue = static_cast<float>(0.2 + 0.01 * y);
+      for (const float value :
+           {sun ? 400.0f : 0.1f, sun ? 300.0f : 0.005f * static_cast<float>(x), blue}) {
+        picture->rgb.push_back(value);
+      }
+    }
+  }
+  return picture;
+}
+
+// Its texel in a direction, by the definition in scene.h; rotated.
+double RedOf(const SkyPicture& picture, const Vec3d& direction, double rotate_rad) {
+  const double c = std::cos(rotate_rad), s = std::sin(rotate_rad);
+  const Vec3d d(direction.x * c - direction.z * s, direction.y, direction.z * c + direction.x * s);
+  double u = std::atan2(d.x, -d.z) / (2 * M_PI);
+  if (u < 0) u += 1;
+  const double v = std::acos(std::clamp(d.y, -1.0, 1.0)) / M_PI;
+  const int x = std::min(static_cast<int>(u * picture.width), picture.width - 1);
+  const int y = std::min(static_cast<int>(v * picture.height), picture.height - 1);
+  return picture.rgb[static_cast<size_t>(3 * (y * picture.width + x))];
+}
+
+// Irradiance by the midpoints of 512 x 1024 cells.
+double RedIrradiance(const SkyPicture& picture, const Vec3d& normal, double rotate_rad) {
+  constexpr int kRows = 512;
+  double sum = 0;
+  for (int i = 0; i < kRows; ++i) {
+    const double theta = M_PI * (i + 0.5) / kRows;
+    for (int k = 0; k < 2 * kRows; ++k) {
+      const double phi = M_PI * (k + 0.5) / kRows;
+      const Vec3d l(std::sin(theta) * std::cos(phi), std::cos(theta),
+                    std::sin(theta) * std::sin(phi));
+      const double cosine = l.dot(normal);
+      if (cosine > 0) sum += RedOf(picture, l, rotate_rad) * cosine * std::sin(theta);
+    }
+  }
+  return sum * M_PI / kRows * M_PI / kRows;
+}
+
+TEST_CASE("a picture of the sky lights as its texels do") {
+  EnvironmentLight sky{
+      .sky = PictureSky{SunnyPicture(), Rgb(2)}, .rotate_deg = 30, .background = false};
+  Scene scene = OneSphere(LambertMaterial{Rgb(M_PI / 4)});
+  scene.lights = {Named("sky", sky)};
+  scene.image.width = scene.image.height = 48;
+  scene.image.spp = 1024;
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.height = 2.6;
+  RenderSettings settings;
+  settings.layers = {"N"};
+  settings.region = {24, 12, 35, 23};
+  const Image image = RenderImage(scene, settings);
+  const auto& picture = *std::get<PictureSky>(sky.sky).picture;
+  const auto ratio = [&](size_t i) {
+    const Vec3d n(image.Find("N.X")->samples[i], image.Find("N.Y")->samples[i],
+                  image.Find("N.Z")->samples[i]);
+    const double expected = 2 * RedIrradiance(picture, n.normalized(), M_PI / 6) / 4;
+    return image.Find("R")->samples[i] / expected;
+  };
+  const Mean mean = MeanOf(image, ratio);
+  CAPTURE(mean.value, mean.error);
+  // The quadrature is 0.1 % off at the edges of the sun's texel, and a pixel's mean normal stands
+  // for its normals, (1/18)^2 / 12 of a radian apart. Pixels' errors are independent.
+  CHECK(std::abs(mean.value - 1) <= 1.3e-3 + 4 * mean.error);
+  CHECK(mean.error < 2e-3);  // it says something
+}
+
+TEST_CASE("a perfect mirror shows the picture's texels") {
+  ConductorMaterial mirror;
+  mirror.roughness = 0;
+  mirror.fresnel = ConductorFresnel::kSchlick;
+  mirror.eta = Rgb(1e-3);
+  mirror.k = Rgb(100);  // F0 = 1 but for 4e-7
+  Scene scene = OneSphere(mirror);
+  EnvironmentLight sky{
+      .sky = PictureSky{SunnyPicture(), Rgb(1)}, .rotate_deg = -70, .background = true};
+  scene.lights = {Named("sky", sky)};
+  scene.image.spp = 1;
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.height = 3;
+  RenderSettings settings;
+  settings.layers = {"N"};
+  const Image image = RenderImage(scene, settings);
+  const auto& picture = *std::get<PictureSky>(sky.sky).picture;
+  size_t wrong = 0, seen = 0;
+  for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+    if (image.Find("A")->samples[i] < 1) continue;
+    ++seen;
+    const Vec3d n(image.Find("N.X")->samples[i], image.Find("N.Y")->samples[i],
+                  image.Find("N.Z")->samples[i]);
+    const Vec3d l = n * (2 * n.z) - Vec3d(0, 0, 1);
+    const double expected = RedOf(picture, l, -70 * M_PI / 180);
+    if (std::abs(image.Find("R")->samples[i] - expected) > 1e-5 * expected) ++wrong;
+  }
+  CHECK(seen > 1000);
+  CHECK(wrong <= seen / 500);  // at texels' edges the normal's rounding decides
+}
+
 // Lights near a sphere, each with all that can go wrong: near, large, partly below the horizon.
 std::vector<Light> AreaLights() {
   RectangleAreaLight rectangle;

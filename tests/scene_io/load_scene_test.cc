@@ -185,6 +185,34 @@ TEST_CASE("lights of every kind") {
   CHECK(lamp.exponent == 3);
 }
 
+TEST_CASE("lights with an extent and skies") {
+  const Scene scene = Load(R"(, "lights": {
+      "window": {"type": "rectangle", "center": [1, 2, 3], "facing": [0, -2, 0], "width": 2,
+                 "height": 0.5, "radiance": [3, 2, 1], "two_sided": true},
+      "panel": {"type": "disk", "center": [0, 1, 0], "facing": [0, 0, 1], "radius": 0.25,
+                "radiance": 2, "visible": false, "shadows": false},
+      "bulb": {"type": "sphere", "center": [0, 4, 0], "radius": 0.1, "radiance": 9},
+      "sky": {"type": "environment", "rotate_deg": 45, "background": false,
+              "quadratic": {"radiance": [1, 2, 3], "axis": [1, 0, 0], "constant": 1, "linear": -1,
+                            "quadratic": 0.5}}})");
+  REQUIRE(scene.lights.size() == 4);
+  const auto& bulb = std::get<SphereAreaLight>(scene.lights[2].kind);
+  CHECK(bulb.radius == 0.1);
+  CHECK(bulb.visible);
+  const auto& panel = std::get<DiskAreaLight>(scene.lights[1].kind);
+  CHECK(panel.facing == Vec3d(0, 0, 1));
+  CHECK(!panel.visible);
+  CHECK(!scene.lights[1].shadows);
+  const auto& sky = std::get<EnvironmentLight>(scene.lights[3].kind);
+  CHECK(sky.rotate_deg == 45);
+  CHECK(!sky.background);
+  CHECK(std::get<QuadraticSky>(sky.sky).linear == -1);
+  const auto& window = std::get<RectangleAreaLight>(scene.lights[0].kind);
+  CHECK(window.two_sided);
+  CHECK(window.up == Vec3d(0, 0, -1));  // a light that faces down has no other
+  CHECK(window.radiance == Rgb(3, 2, 1));
+}
+
 TEST_CASE("grids, pairs and clouds are made") {
   const Scene scene = Load(R"(, "materials": {"pbr": {"model": "metallic_roughness"}}, "shapes": [
       {"type": "grid", "material": "pbr", "spacing": [2, 1],

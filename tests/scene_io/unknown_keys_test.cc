@@ -87,7 +87,7 @@ TEST_CASE("an unknown key is refused in every object") {
     changed[place]["qqqqqqqq"] = 1;
     CHECK(Message(changed).find("unknown key \"qqqqqqqq\"") != std::string::npos);
   });
-  CHECK(objects == 26);
+  CHECK(objects == 33);
 }
 
 }  // namespace
