@@ -12,7 +12,8 @@ PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed) {
   sampler.v_bits.reserve(pairs * sampler.samples);
   for (size_t pair = 0; pair < pairs; ++pair) {
     for (uint32_t i = 0; i < sampler.samples; ++i) {
-      const Vec2d point = SobolSample2D(i, static_cast<uint32_t>(1 + pair), seed);
+      const auto first = static_cast<uint32_t>((1 + pair) * kSobolPairs);
+      const Vec2d point = SobolSample2D(i, first, seed);
       sampler.u_bits.push_back(static_cast<uint32_t>(point.x * 0x1p32));  // exact
       sampler.v_bits.push_back(static_cast<uint32_t>(point.y * 0x1p32));
     }

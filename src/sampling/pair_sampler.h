@@ -10,9 +10,11 @@
 
 namespace nacre {
 
-// Pair p of sample i is the pair of dimensions 2 (1 + p) of the point whose first two place the
-// sample in its pixel (PixelSampler), so that few samples of a pixel are well distributed over
-// all that they stand for. As there each pixel shifts the digits by random numbers of its own.
+// Each pair is a (0,2)-sequence of its own, scrambled and shuffled independently, so that few
+// samples of a pixel are well distributed over what each pair stands for. Later dimensions of the
+// sequence that places the sample in its pixel are not, by pairs, before there are hundreds: with
+// them the error under a constant sky was 1.5 to 2 times as large at 16 and 32 samples. As there
+// each pixel shifts the digits by random numbers of its own.
 struct PairSampler {
   size_t samples = 0;                    // a pixel
   std::vector<uint32_t> u_bits, v_bits;  // pair by pair, of each the points of all samples

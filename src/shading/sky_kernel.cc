@@ -38,7 +38,7 @@ HWY_INLINE void ForEach(const Soa3<float>& from, size_t count, Soa3<float>* to, 
 void EvaluateGradientT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
                        Soa3<float>* radiance) {
   const D d;
-  const auto& [r, g, b] = sky.gradient;
+  const GradientSkyTerms<float>&r = sky.gradient[0], &g = sky.gradient[1], &b = sky.gradient[2];
   ForEach(directions, count, radiance, [&](const Vec3V<V>& l) HWY_ATTR {
     return Vec3V<V>{Radiance(d, r, l), Radiance(d, g, l), Radiance(d, b, l)};
   });
@@ -88,7 +88,7 @@ void SamplePictureT(const ShadingSky& sky, const UnitPoints& points, size_t coun
 void GradientIrradianceT(const ShadingSky& sky, const Surface& surface, size_t count,
                          Soa3<float>* irradiance) {
   const D d;
-  const auto& [r, g, b] = sky.gradient;
+  const GradientSkyTerms<float>&r = sky.gradient[0], &g = sky.gradient[1], &b = sky.gradient[2];
   ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
     return Vec3V<V>{Irradiance(d, r, n), Irradiance(d, g, n), Irradiance(d, b, n)};
   });

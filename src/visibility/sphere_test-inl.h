@@ -56,11 +56,13 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   const V zero = hn::Zero(d);
   SphereHitV<D> result = TestLine(d, to_center, direction, inverse_dd, radius);
   const V closest = result.closest;
-  const V larger = hn::Add(closest, hn::CopySign(result.half_chord, closest));
+  // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
+  const auto ahead = hn::Gt(closest, zero);
+  const V half_chord = result.half_chord;
+  const V larger = hn::Add(closest, hn::IfThenElse(ahead, half_chord, hn::Neg(half_chord)));
   const V product =
       hn::Mul(hn::Sub(Dot(to_center, to_center), hn::Mul(radius, radius)), inverse_dd);
   const V smaller = hn::Div(product, larger);
-  const auto ahead = hn::Gt(closest, zero);
   const V near = hn::IfThenElse(ahead, smaller, larger);
   const V far = hn::IfThenElse(ahead, larger, smaller);
   const auto outside = hn::Gt(near, zero);

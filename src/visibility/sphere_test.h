@@ -52,7 +52,8 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
   const Real discriminant = radius2 - perpendicular.dot(perpendicular);
   if (!(discriminant >= 0 && radius > 0)) return result;
   const Real half_chord = std::sqrt(discriminant * inverse_dd);
-  const Real larger = closest + std::copysign(half_chord, closest);
+  // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
+  const Real larger = closest > 0 ? closest + half_chord : closest - half_chord;
   const Real product = (to_center.dot(to_center) - radius2) * inverse_dd;
   const Real smaller = product / larger;
   const Real near = closest > 0 ? smaller : larger;

@@ -346,6 +346,37 @@ TEST_CASE("geometry layers hold what is at the pixel's centre") {
   CHECK(image.Find("Z")->samples[0] == 0);
 }
 
+TEST_CASE("an eye in a sphere's very centre sees its inside all around") {
+  // Rays that are nearest to the centre at 0, of either sign, have no other case to fall into.
+  ForEachTarget([](Target) {
+    for (const IntersectorChoice intersector :
+         {IntersectorChoice::kTiles, IntersectorChoice::kEmbree}) {
+      Scene scene;
+      scene.spheres.push_back({Vec3d(1, 2, 3), 5, Add(&scene, Make(LambertMaterial{}))});
+      scene.camera.position = {1, 2, 3};
+      scene.camera.look_at = {1.5, 2.25, 2};
+      scene.camera.fov_y_deg = 150;
+      scene.image.width = scene.image.height = 33;
+      scene.image.spp = 1;
+      RenderSettings settings = Settings(1);
+      settings.intersector = intersector;
+      settings.layers = {"N", "Z"};
+      const Image image = RenderImage(scene, settings);
+      const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
+      size_t outward = 0, behind = 0;
+      for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+        const Vec3d n(image.Find("N.X")->samples[i], image.Find("N.Y")->samples[i],
+                      image.Find("N.Z")->samples[i]);
+        if (n.dot(forward) >= 0) ++outward;
+        // The hit is the radius away, along the normal turned round.
+        if (std::abs(image.Find("Z")->samples[i] + 5 * n.dot(forward)) > 1e-5) ++behind;
+      }
+      CHECK(outward == 0);
+      CHECK(behind == 0);
+    }
+  });
+}
+
 TEST_CASE("targets differ by no more than rounding") {
   // DESIGN's bound, on 99.9 % of this small picture's pixels: the rest lie on edges.
   const Scene scene = MakeScene();
