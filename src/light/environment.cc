@@ -42,13 +42,13 @@ EnvironmentMap MakeEnvironmentMap(int width, int height, const std::vector<Vec3f
       row_sum += luminances[x];
       map.texels.push_back({t.x, t.y, t.z, static_cast<float>(luminances[x])});
     }
-    const std::vector<AliasEntry> columns = MakeAliasTable(luminances);
+    const std::vector<CdfEntry> columns = MakeInverseCdf(luminances);
     map.column_tables.insert(map.column_tables.end(), columns.begin(), columns.end());
     map.rows.push_back(RowEdges(height, y));
     row_weights.push_back(row_sum * TexelSolidAngle(width, height, y));
     sum += row_weights.back();
   }
-  map.row_table = MakeAliasTable(row_weights);
+  map.row_table = MakeInverseCdf(row_weights);
   map.is_black = !(sum > 0);
   // Luminance times solid angle over its sum, per solid angle.
   for (EnvironmentTexel& texel : map.texels) {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "sampling/alias_table.h"
+#include "sampling/inverse_cdf.h"
 
 namespace nacre {
 
@@ -38,8 +38,8 @@ struct EnvironmentMap {
   int width = 0, height = 0;
   std::vector<EnvironmentTexel> texels;  // row by row
   std::vector<EnvironmentRow> rows;
-  std::vector<AliasEntry> row_table;
-  std::vector<AliasEntry> column_tables;  // `width` entries a row
+  std::vector<CdfEntry> row_table;
+  std::vector<CdfEntry> column_tables;  // `width` entries a row
   bool is_black = true;                   // nothing to sample
 };
 
@@ -88,9 +88,9 @@ struct EnvironmentPick {
 };
 
 inline EnvironmentPick PickTexel(const EnvironmentMap& map, double u0, double u1) {
-  const AliasPick row = PickAlias(map.row_table, u1);
+  const CdfPick row = PickIndex(map.row_table, u1);
   const auto width = static_cast<size_t>(map.width);
-  const AliasPick column = PickAlias({map.column_tables.data() + row.index * width, width}, u0);
+  const CdfPick column = PickIndex({map.column_tables.data() + row.index * width, width}, u0);
   const EnvironmentRow& edges = map.rows[row.index];
   return {map.texels[row.index * width + column.index],
           (column.index + column.rest) / static_cast<double>(width),

@@ -10,6 +10,7 @@
 #include "scene_io/gltf_lights.h"
 #include "scene_io/gltf_materials.h"
 #include "scene_io/gltf_meshes.h"
+#include "scene_io/model_scene.h"
 
 namespace nacre {
 namespace {
@@ -142,9 +143,12 @@ class NodeWalk {
 Scene ReadGltf(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera) {
   GltfDocument document = ReadGltfDocument(path, options);
   Scene scene;
-  scene.materials = MakeGltfMaterials(&document);
+  scene.materials = MakeGltfMaterials(&document, &scene);
   NodeWalk walk(&document, &scene);
   walk.Run();
+  if (CompleteCoordinates(&scene)) {
+    document.Warn("a mesh has images but no texture coordinates: it shows one texel of each");
+  }
   *has_camera = walk.has_camera();
   if (!document.model.animations.empty()) {
     document.Warn("animations are left out: nodes are where they are without them");

@@ -1,58 +1,44 @@
 #include "scene_io/gltf_materials.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene_io/gltf_extension.h"
+#include "scene_io/gltf_textures.h"
 #include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
 
-// Reads the members of one extension of a material.
-class Extension {
- public:
-  Extension(const GltfDocument& document, const tinygltf::Value& value, std::string place)
-      : document_(document), value_(value), place_(std::move(place)) {}
-
-  double Number(const char* name, double otherwise) const {
-    if (!value_.Has(name)) return otherwise;
-    if (!value_.Get(name).IsNumber()) Refuse(name, "is not a number");
-    return value_.Get(name).GetNumberAsDouble();
-  }
-  Rgb Color(const char* name, const Rgb& otherwise) const {
-    if (!value_.Has(name)) return otherwise;
-    const tinygltf::Value& array = value_.Get(name);
-    if (!array.IsArray() || array.ArrayLen() < 3) Refuse(name, "is not an array of numbers");
-    Rgb color;
-    for (int c = 0; c < 3; ++c) {
-      if (!array.Get(c).IsNumber()) Refuse(name, "is not an array of numbers");
-      color[c] = array.Get(c).GetNumberAsDouble();
+// A reference of a URI as the name of a file: RFC 3986, 2.1. What is no code stays.
+std::string PercentDecoded(std::string_view uri) {
+  std::string decoded;
+  for (size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    const char* const digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() &&
+        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      decoded += static_cast<char>(code);
+      i += 2;
+    } else {
+      decoded += uri[i];
     }
-    return color;
   }
-  bool Has(const char* name) const { return value_.Has(name); }
+  return decoded;
+}
 
- private:
-  [[noreturn]] void Refuse(const char* name, const char* what) const {
-    document_.Refuse(place_ + "/" + name, what);
-  }
-
-  const GltfDocument& document_;
-  const tinygltf::Value& value_;
-  std::string place_;
-};
-
-std::optional<Extension> FindExtension(const GltfDocument& document,
-                                       const tinygltf::Material& material, size_t index,
-                                       const char* name) {
+std::optional<GltfExtension> FindExtension(const GltfDocument& document,
+                                           const tinygltf::Material& material, size_t index,
+                                           const char* name) {
   const auto found = material.extensions.find(name);
   if (found == material.extensions.end()) return std::nullopt;
-  return Extension(document, found->second,
-                   fmt::format("/materials/{}/extensions/{}", index, name));
+  return GltfExtension(document, found->second,
+                       fmt::format("/materials/{}/extensions/{}", index, name));
 }
 
 Rgb ColorOf(const std::vector<double>& factor, const Rgb& otherwise) {
@@ -75,17 +61,19 @@ void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material
   const Rgb tint = specular ? specular->Color("specularColorFactor", Rgb(1)) : Rgb(1);
   const auto& base = std::get<MetallicRoughnessMaterial>(result->model);
   if (base.metallic == 1 || (n == 1.5 && weight == 1 && tint == Rgb(1))) return;
-  if (base.metallic == 0 && weight == 0) {
+  if (base.metallic == 0 && weight == 0 && !base.base_color_map.valid() &&
+      !base.metallic_roughness_map.valid()) {
     result->model = LambertMaterial{base.base_color};
     return;
   }
   const double f0 = std::min((n - 1) * (n - 1) / ((n + 1) * (n + 1)) * tint.x, 1.0);
   const bool is_grey = tint.x == tint.y && tint.y == tint.z;
   const double equivalent = IorOf(f0);
-  if (base.metallic != 0 || weight != 1 || !is_grey || !(n >= 1) || !(equivalent <= 10)) {
+  const bool mapped = base.base_color_map.valid() || base.metallic_roughness_map.valid();
+  if (mapped || base.metallic != 0 || weight != 1 || !is_grey || !(n >= 1) || !(equivalent <= 10)) {
     document->Warn(fmt::format(
         "material \"{}\": its ior or specular factors are left out (they are shown where metallic "
-        "is 0, specularFactor 0 or 1, and specularColorFactor grey)",
+        "is 0, specularFactor 0 or 1, specularColorFactor grey, and no image gives the colour)",
         result->name));
     return;
   }
@@ -100,7 +88,7 @@ void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material
 // Metallic and base colour with about the same diffuse and specular reflectances, after the
 // conversion in the appendix of KHR_materials_pbrSpecularGlossiness: equal brightness of the
 // specular reflectance decides the metallic.
-MetallicRoughnessMaterial FromSpecularGlossiness(const Extension& extension) {
+MetallicRoughnessMaterial FromSpecularGlossiness(const GltfExtension& extension) {
   const Rgb diffuse = extension.Color("diffuseFactor", Rgb(1));
   const Rgb specular = extension.Color("specularFactor", Rgb(1));
   const auto brightness = [](const Rgb& c) {
@@ -136,20 +124,46 @@ Rgb EmissionOf(const GltfDocument& document, const tinygltf::Material& material,
          (strength ? strength->Number("emissiveStrength", 1) : 1);
 }
 
-void WarnOfImages(const tinygltf::Material& material, GltfDocument* document) {
-  const auto& pbr = material.pbrMetallicRoughness;
-  for (const int index : {pbr.baseColorTexture.index, pbr.metallicRoughnessTexture.index,
-                          material.normalTexture.index, material.emissiveTexture.index}) {
-    if (index >= 0) document->Warn("images are not shown, only the factors of materials");
-  }
+// A texture of a material: its member `name` is a TextureInfo of some kind.
+template <class Info>
+TextureId AddTexture(const Info& info, const std::string& place, TextureEncoding encoding,
+                     bool needs_rgb, GltfTextures* textures) {
+  return textures->Add({info.index, info.texCoord, &info.extensions, encoding, needs_rgb}, place);
 }
 
-Material MakeMaterial(GltfDocument* document, size_t index, std::string name) {
+// The diffuse texture of KHR_materials_pbrSpecularGlossiness, which is the base colour where the
+// material is no metal.
+TextureId AddDiffuseTexture(const GltfDocument& document, const GltfExtension& extension,
+                            const std::string& place, GltfTextures* textures) {
+  if (!extension.Has("diffuseTexture")) return {};
+  const tinygltf::Value& info = extension.Get("diffuseTexture");
+  const GltfExtension reader(document, info, place);
+  const double index = reader.Number("index", -1), tex_coord = reader.Number("texCoord", 0);
+  if (!(index >= 0 && index < 1e9) || !(tex_coord >= 0 && tex_coord < 1e9)) {
+    document.Refuse(place, "has no texture's \"index\"");
+  }
+  static const tinygltf::ExtensionMap kNone;
+  return textures->Add(
+      {static_cast<int>(index), static_cast<int>(tex_coord), &kNone, TextureEncoding::kSrgb, false},
+      place);
+}
+
+void AddCommonTextures(const tinygltf::Material& material, const std::string& place,
+                       GltfTextures* textures, Material* result) {
+  result->emission_map = AddTexture(material.emissiveTexture, place + "/emissiveTexture",
+                                    TextureEncoding::kSrgb, false, textures);
+  result->normal_map.texture = AddTexture(material.normalTexture, place + "/normalTexture",
+                                          TextureEncoding::kLinear, true, textures);
+  result->normal_map.scale = material.normalTexture.scale;
+}
+
+Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
+                      GltfTextures* textures) {
   const tinygltf::Material& material = document->model.materials[index];
   const auto& pbr = material.pbrMetallicRoughness;
   Material result;
   result.name = std::move(name);
-  WarnOfImages(material, document);
+  const std::string place = fmt::format("/materials/{}", index);
   if (!material.alphaMode.empty() && material.alphaMode != "OPAQUE") {
     document->Warn("transparency is not shown: all materials are opaque");
   }
@@ -157,19 +171,31 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name) {
   if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
     result.model = LambertMaterial{Rgb(0)};
     result.emission = base_color;
+    result.emission_map = AddTexture(pbr.baseColorTexture, place + "/baseColorTexture",
+                                     TextureEncoding::kSrgb, false, textures);
     return result;
   }
   result.emission = EmissionOf(*document, material, index);
+  AddCommonTextures(material, place, textures, &result);
   if (const auto glossiness =
           FindExtension(*document, material, index, "KHR_materials_pbrSpecularGlossiness")) {
     document->Warn("specular-glossiness materials are shown as the nearest metallic-roughness");
-    result.model = FromSpecularGlossiness(*glossiness);
+    MetallicRoughnessMaterial nearest = FromSpecularGlossiness(*glossiness);
+    nearest.base_color_map =
+        AddDiffuseTexture(*document, *glossiness, place + "/diffuseTexture", textures);
+    result.model = nearest;
     return result;
   }
   MetallicRoughnessMaterial metallic_roughness;
   metallic_roughness.base_color = base_color;
   metallic_roughness.metallic = pbr.metallicFactor;
   metallic_roughness.roughness = pbr.roughnessFactor;
+  metallic_roughness.base_color_map =
+      AddTexture(pbr.baseColorTexture, place + "/pbrMetallicRoughness/baseColorTexture",
+                 TextureEncoding::kSrgb, false, textures);
+  metallic_roughness.metallic_roughness_map = AddTexture(
+      pbr.metallicRoughnessTexture, place + "/pbrMetallicRoughness/metallicRoughnessTexture",
+      TextureEncoding::kLinear, true, textures);
   result.model = metallic_roughness;
   ApplyReflectance(document, material, index, &result);
   return result;
@@ -188,7 +214,8 @@ GltfImage FindGltfImage(const GltfDocument& document, int image) {
   if (source.bufferView < 0 && source.uri.empty()) return {{}, source.image};  // of a data URI
   if (source.bufferView < 0) {
     try {
-      return {ResolveReference(document.folder, source.uri, document.allow_paths), {}};
+      const std::string name = PercentDecoded(source.uri);
+      return {ResolveReference(document.folder, name, document.allow_paths), {}};
     } catch (const Error& error) {
       document.Refuse(place, error.faults().front().what, error.faults().front().hint);
     }
@@ -208,7 +235,8 @@ GltfImage FindGltfImage(const GltfDocument& document, int image) {
   return {{}, {first, first + static_cast<std::ptrdiff_t>(view.byteLength)}};
 }
 
-std::vector<Material> MakeGltfMaterials(GltfDocument* document) {
+std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
+  GltfTextures textures(document, scene);
   std::vector<Material> materials;
   const size_t count = document->model.materials.size();
   materials.reserve(count + 1);
@@ -217,7 +245,7 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document) {
     std::string name = document->model.materials[i].name;
     if (name.empty() || !names.insert(name).second) name += fmt::format("#{}", i);
     names.insert(name);
-    materials.push_back(MakeMaterial(document, i, std::move(name)));
+    materials.push_back(MakeMaterial(document, i, std::move(name), &textures));
   }
   // The defaults of the specification: white, metallic 1, roughness 1, which few files mean.
   Material& otherwise = materials.emplace_back();

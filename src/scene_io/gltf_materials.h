@@ -19,7 +19,7 @@ struct GltfImage {
 GltfImage FindGltfImage(const GltfDocument& document, int image);
 
 // A material for each of the file's, by the same number, with unique names, and after them the one
-// of primitives that name none. Factors only: images are told to be left out, once.
-std::vector<Material> MakeGltfMaterials(GltfDocument* document);
+// of primitives that name none. Their textures and images go to the scene.
+std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene);
 
 }  // namespace nacre

@@ -89,7 +89,25 @@ void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene
   }
 }
 
+bool UsesTextures(const Material& material) {
+  if (material.normal_map.texture.valid() || material.bump_map.texture.valid()) return true;
+  const MaterialModel* const model = ModelOf(material);
+  return model != nullptr &&
+         std::any_of(model->maps.begin(), model->maps.end(),
+                     [&](const MaterialMap& map) { return map.get(material).valid(); });
+}
+
 }  // namespace
+
+bool CompleteCoordinates(Scene* scene) {
+  bool any = false;
+  for (Mesh& mesh : scene->meshes) {
+    if (!mesh.uvs.empty() || !UsesTextures(scene->materials[mesh.material.index])) continue;
+    mesh.uvs.assign(mesh.positions.size(), Vec2d(0, 0));
+    any = true;
+  }
+  return any;
+}
 
 void FrameScene(Scene* scene) {
   Imath::Box3d box;

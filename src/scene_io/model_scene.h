@@ -9,6 +9,10 @@
 
 namespace nacre {
 
+// Gives meshes of materials with maps texture coordinates where they have none: those of one texel,
+// as the usual viewers do. Returns whether there were any.
+bool CompleteCoordinates(Scene* scene);
+
 // Points the camera at all spheres and meshes, from the front, the right and above: three quarters.
 // Keeps its kind and field of view.
 void FrameScene(Scene* scene);

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "scene/mesh.h"
 #include "scene/polygon.h"
+#include "scene_io/model_scene.h"
 #include "scene_io/obj_file.h"
 #include "scene_io/obj_materials.h"
 
@@ -133,7 +134,7 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
   MtlReader reader(path, options);
   const ObjFile obj = ReadObjFile(path, &reader);
   Scene scene;
-  scene.materials = reader.MakeMaterials(obj.materials);
+  scene.materials = reader.MakeMaterials(obj.materials, &scene);
   const auto none = static_cast<int>(scene.materials.size()) - 1;
   std::map<int, MeshBuilder> builders;  // by material
   ForEachFace(obj, [&](int material, const tinyobj::index_t* corners, size_t count) {
@@ -150,6 +151,9 @@ Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options
   }
   DropMeshesWithoutArea(&scene);
   if (scene.meshes.empty()) throw Error(ExitCode::kBadInput, file, "has no face with an area");
+  if (CompleteCoordinates(&scene) && options.on_warning) {
+    options.on_warning(file + ": a mesh has images but no uvs: it shows one texel of each");
+  }
   return scene;
 }
 

@@ -85,15 +85,62 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
   return true;
 }
 
-Material MtlReader::MakeMaterial(const tinyobj::material_t& source) {
+// -s and -o: uv times the scale plus the offset.
+TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_option_t& options,
+                                TextureEncoding encoding, Scene* scene) {
+  if (name.empty()) return {};
+  auto image = images_.find({name, encoding});
+  if (image == images_.end()) {
+    try {
+      const auto path = ResolveReference(folder_, name, options_.allow_paths);
+      scene->images.push_back(ReadTextureImage(path, name, encoding));
+    } catch (const Error& error) {
+      const Fault& fault = error.faults().front();
+      if (fault.what.starts_with("there is no file")) {  // models often come without
+        Warn(fmt::format("an image is left out: {}", fault.what));
+        return {};
+      }
+      throw Error(error.code(), file_, fmt::format("its image \"{}\": {}", name, fault.what),
+                  fault.hint);
+    }
+    const ImageId id{static_cast<uint32_t>(scene->images.size() - 1)};
+    image = images_.emplace(std::make_pair(name, encoding), id).first;
+  }
+  Texture& texture = scene->textures.emplace_back();
+  texture.name = name;
+  texture.image = image->second;
+  texture.scale = {options.scale[0], options.scale[1]};
+  texture.offset = {options.origin_offset[0], options.origin_offset[1]};
+  if (options.clamp) texture.sampling.wrap_u = texture.sampling.wrap_v = Wrap::kClamp;
+  return {static_cast<uint32_t>(scene->textures.size() - 1)};
+}
+
+void MtlReader::AddMaps(const tinyobj::material_t& source, Scene* scene, Material* material) {
+  auto& phong = std::get<PhongMaterial>(material->model);
+  const auto add = [&](const std::string& name, const tinyobj::texture_option_t& options,
+                       TextureEncoding encoding) {
+    return AddTexture(name, options, encoding, scene);
+  };
+  phong.diffuse_map = add(source.diffuse_texname, source.diffuse_texopt, TextureEncoding::kSrgb);
+  phong.specular_map = add(source.specular_texname, source.specular_texopt, TextureEncoding::kSrgb);
+  phong.shininess_map = add(source.specular_highlight_texname, source.specular_highlight_texopt,
+                            TextureEncoding::kLinear);
+  material->emission_map =
+      add(source.emissive_texname, source.emissive_texopt, TextureEncoding::kSrgb);
+  material->normal_map.texture =
+      add(source.normal_texname, source.normal_texopt, TextureEncoding::kLinear);
+  // Exporters that write a map often leave its factor at 0.
+  if (phong.diffuse_map.valid() && phong.kd == Rgb(0)) phong.kd = Rgb(1);
+  if (material->emission_map.valid() && material->emission == Rgb(0)) material->emission = Rgb(1);
+  for (const std::string* image : {&source.ambient_texname, &source.bump_texname,
+                                   &source.displacement_texname, &source.alpha_texname}) {
+    if (!image->empty()) Warn("ambient, bump, displacement and alpha images are not shown");
+  }
+}
+
+Material MtlReader::MakeMaterial(const tinyobj::material_t& source, Scene* scene) {
   Material result;
   result.emission = ColorOf(source.emission);
-  for (const std::string* image :
-       {&source.diffuse_texname, &source.specular_texname, &source.ambient_texname,
-        &source.bump_texname, &source.normal_texname, &source.emissive_texname,
-        &source.alpha_texname, &source.specular_highlight_texname}) {
-    if (!image->empty()) Warn("images are not shown, only the numbers of materials");
-  }
   if (source.dissolve < 1) Warn("transparency is not shown: all materials are opaque");
   if (source.illum > 2) Warn("reflections and refraction (illum above 2) are not shown");
   PhongMaterial phong;
@@ -108,10 +155,12 @@ Material MtlReader::MakeMaterial(const tinyobj::material_t& source) {
     phong.ka = phong.kd = phong.ks = Rgb(0);
   }
   result.model = phong;
+  if (source.illum != 0) AddMaps(source, scene, &result);
   return result;
 }
 
-std::vector<Material> MtlReader::MakeMaterials(const std::vector<tinyobj::material_t>& sources) {
+std::vector<Material> MtlReader::MakeMaterials(const std::vector<tinyobj::material_t>& sources,
+                                               Scene* scene) {
   std::vector<Material> materials;
   materials.reserve(sources.size() + 1);
   std::unordered_set<std::string> names;
@@ -119,7 +168,7 @@ std::vector<Material> MtlReader::MakeMaterials(const std::vector<tinyobj::materi
     std::string name = sources[i].name;
     if (name.empty() || !names.insert(name).second) name += fmt::format("#{}", i);
     names.insert(name);
-    materials.push_back(MakeMaterial(sources[i]));
+    materials.push_back(MakeMaterial(sources[i], scene));
     materials.back().name = std::move(name);
   }
   materials.push_back(MakeClay());

@@ -4,12 +4,14 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tiny_obj_loader.h>
 
 #include "scene/scene.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/texture_image.h"
 
 namespace nacre {
 
@@ -26,16 +28,22 @@ class MtlReader : public tinyobj::MaterialReader {
 
   // One for each, by the same number, with unique names: Blinn-Phong in the classic reading, as the
   // format defines it (its H is the bisector of L and V). After them the one of faces without any.
-  std::vector<Material> MakeMaterials(const std::vector<tinyobj::material_t>& sources);
+  // Textures and images go to the scene.
+  std::vector<Material> MakeMaterials(const std::vector<tinyobj::material_t>& sources,
+                                      Scene* scene);
 
  private:
   void Warn(const std::string& text);
-  Material MakeMaterial(const tinyobj::material_t& source);
+  Material MakeMaterial(const tinyobj::material_t& source, Scene* scene);
+  void AddMaps(const tinyobj::material_t& source, Scene* scene, Material* material);
+  TextureId AddTexture(const std::string& name, const tinyobj::texture_option_t& options,
+                       TextureEncoding encoding, Scene* scene);
 
   std::filesystem::path folder_;
   std::string file_;
   const LoadOptions& options_;
   std::vector<std::string> told_;
+  std::map<std::pair<std::string, TextureEncoding>, ImageId> images_;  // by name
 };
 
 // What models without any material are made of: a light grey that is neither matt nor glossy.

@@ -1,5 +1,5 @@
-// tests/sampling/alias_table_test.cc: the alias table has the probabilities that it was made of.
-#include "sampling/alias_table.h"
+// tests/sampling/inverse_cdf_test.cc: indices have the probabilities that were asked for.
+#include "sampling/inverse_cdf.h"
 
 #include <cmath>
 #include <numeric>
@@ -11,88 +11,85 @@
 namespace nacre {
 namespace {
 
-// What the entries add up to for every index, and how many have to do with it.
-struct Shares {
-  std::vector<double> probability;
-  std::vector<int> entries;
-};
-
-Shares SharesOf(const std::vector<AliasEntry>& table) {
-  Shares shares{std::vector<double>(table.size()), std::vector<int>(table.size())};
-  for (size_t i = 0; i < table.size(); ++i) {
-    const auto n = static_cast<double>(table.size());
-    shares.probability[i] += table[i].threshold / n;
-    shares.probability[table[i].alias] += (1 - double{table[i].threshold}) / n;
-    ++shares.entries[i];
-    if (table[i].threshold < 1) ++shares.entries[table[i].alias];
-  }
-  return shares;
-}
-
 void CheckExact(const std::vector<double>& weights) {
-  const std::vector<AliasEntry> table = MakeAliasTable(weights);
+  const std::vector<CdfEntry> table = MakeInverseCdf(weights);
   REQUIRE(table.size() == weights.size());
-  const Shares shares = SharesOf(table);
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  const auto n = static_cast<double>(weights.size());
-  double worst = 0;
+  const auto count = static_cast<double>(weights.size());
+  size_t wrong = 0;
   for (size_t i = 0; i < weights.size(); ++i) {
-    // A float's half ulp a threshold, and the roundings of the sums in double.
-    const double tolerance = (0x1p-25 * shares.entries[i] + 1e-12) / n;
-    worst = std::max(worst, std::abs(shares.probability[i] - weights[i] / sum) / tolerance);
-    if (weights[i] == 0 && shares.probability[i] != 0) FAIL("an index of no weight");
+    const double lower = i > 0 ? table[i - 1].upper : 0;
+    // The roundings of two running sums, each of at most `count` terms.
+    const double tolerance = count * 0x1p-52;
+    if (!(std::abs(table[i].upper - lower - weights[i] / sum) <= tolerance)) ++wrong;
+    if (weights[i] == 0 && table[i].upper != lower) ++wrong;
   }
-  CHECK(worst <= 1);
+  CHECK(wrong == 0);
+  CHECK(table.back().upper == 1);
 }
 
-TEST_CASE("alias tables have exactly the probabilities asked for", "[sampling]") {
-  CheckExact({1});
-  CheckExact({0.5, 0.5});
-  CheckExact({3, 0, 0, 1});
-  CheckExact({0, 0, 7});
-  CheckExact({1e-30, 1, 1e30});
+std::vector<std::vector<double>> Distributions() {
+  std::vector<std::vector<double>> all = {{1},       {0.5, 0.5}, {3, 0, 0, 1},
+                                          {0, 0, 7}, {7, 0, 0},  {1e-30, 1, 1e30}};
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(0, 1);
   for (const size_t count : {10u, 1000u, 100000u}) {
-    std::vector<double> even(count, 0.1), random_weights(count), steep(count), sparse(count);
+    std::vector<double> even(count, 0.1), steep(count), sparse(count);
     for (size_t i = 0; i < count; ++i) {
-      random_weights[i] = unit(random);
       steep[i] = std::exp(40 * unit(random));
       sparse[i] = unit(random) < 0.01 ? 1 + unit(random) : 0;
     }
     sparse[count / 2] = 1e5;
-    CheckExact(even);
-    CheckExact(random_weights);
-    CheckExact(steep);
-    CheckExact(sparse);
+    all.insert(all.end(), {even, steep, sparse});
+  }
+  return all;
+}
+
+TEST_CASE("the parts of the interval have exactly the lengths asked for", "[sampling]") {
+  for (const std::vector<double>& weights : Distributions()) CheckExact(weights);
+}
+
+TEST_CASE("a number falls to the index in whose part it lies, wherever that is", "[sampling]") {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(0, 1);
+  for (const std::vector<double>& weights : Distributions()) {
+    const std::vector<CdfEntry> table = MakeInverseCdf(weights);
+    size_t wrong = 0;
+    const auto check = [&](double u) {
+      const CdfPick pick = PickIndex(table, u);
+      const double lower = pick.index > 0 ? table[pick.index - 1].upper : 0;
+      const bool inside = u >= lower && u < table[pick.index].upper;
+      const bool rest =
+          pick.rest >= 0 && pick.rest < 1 &&
+          std::abs(lower + pick.rest * (table[pick.index].upper - lower) - u) <= 0x1p-50;
+      if (!inside || !rest || weights[pick.index] == 0) ++wrong;
+    };
+    for (int i = 0; i < 20000; ++i) check(unit(random));
+    for (const double u : {0.0, 0x1p-53, 0.5, 1 - 0x1p-53}) check(u);
+    // The very ends of the parts.
+    for (size_t i = 0; i < std::min<size_t>(table.size(), 1000); ++i) {
+      if (table[i].upper < 1) check(table[i].upper);
+      if (table[i].upper > 0) check(std::nextafter(table[i].upper, 0));
+    }
+    CHECK(wrong == 0);
   }
 }
 
-TEST_CASE("a table of no weight has even probabilities", "[sampling]") {
-  const Shares shares = SharesOf(MakeAliasTable(std::vector<double>{0, 0, 0, 0}));
-  for (const double p : shares.probability) CHECK(p == 0.25);
-}
-
-TEST_CASE("picks follow the table, and what is left of the number is uniform", "[sampling]") {
+TEST_CASE("evenly spread numbers stay evenly spread", "[sampling]") {
+  // Of n numbers, one in each n-th of the interval, an index of probability p gets n p within 2.
   const std::vector<double> weights{5, 1, 0, 2, 0.01, 1.99};
-  const std::vector<AliasEntry> table = MakeAliasTable(weights);
-  std::vector<double> counts(weights.size()), rests(weights.size());
-  constexpr int kSteps = 1000000;
-  for (int i = 0; i < kSteps; ++i) {
-    const AliasPick pick = PickAlias(table, (i + 0.5) / kSteps);
-    REQUIRE(pick.rest >= 0);
-    REQUIRE(pick.rest < 1);
-    counts[pick.index] += 1.0 / kSteps;
-    rests[pick.index] += pick.rest / kSteps;
-  }
+  const std::vector<CdfEntry> table = MakeInverseCdf(weights);
+  constexpr int kCount = 4096;
+  std::vector<int> counts(weights.size());
+  for (int i = 0; i < kCount; ++i) ++counts[PickIndex(table, (i + 0.37) / kCount).index];
   for (size_t i = 0; i < weights.size(); ++i) {
-    CAPTURE(i);
-    // Even steps miss by less than one at both ends of each of at most 6 stretches.
-    CHECK(std::abs(counts[i] - weights[i] / 10) <= 12.0 / kSteps);
-    CHECK(std::abs(rests[i] - weights[i] / 20) <= 12.0 / kSteps);
+    CHECK(std::abs(counts[i] - kCount * weights[i] / 10) < 2);
   }
-  CHECK(PickAlias(table, 1 - 0x1p-53).index < weights.size());
-  CHECK(PickAlias(table, 0).index < weights.size());
+}
+
+TEST_CASE("no weight at all is even probabilities", "[sampling]") {
+  const std::vector<CdfEntry> table = MakeInverseCdf(std::vector<double>{0, 0, 0, 0});
+  for (uint32_t i = 0; i < 4; ++i) CHECK(PickIndex(table, 0.25 * i + 0.1).index == i);
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+// scene_io/gltf_extension.h: the members of an extension, whose types nobody has checked.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "base/vec.h"
+#include "scene_io/gltf_document.h"
+
+namespace nacre {
+
+// Each reads a member, or gives `otherwise` where there is none. Throws Error (kBadInput) for
+// members of wrong types.
+class GltfExtension {
+ public:
+  GltfExtension(const GltfDocument& document, const tinygltf::Value& value, std::string place)
+      : document_(document), value_(value), place_(std::move(place)) {}
+
+  bool Has(const char* name) const { return value_.Has(name); }
+  const tinygltf::Value& Get(const char* name) const { return value_.Get(name); }
+
+  double Number(const char* name, double otherwise) const {
+    return Has(name) ? NumberOf(Get(name), name) : otherwise;
+  }
+  Rgb Color(const char* name, const Rgb& otherwise) const {
+    if (!Has(name)) return otherwise;
+    const tinygltf::Value& array = ArrayOf(name, 3);
+    return {NumberOf(array.Get(0), name), NumberOf(array.Get(1), name),
+            NumberOf(array.Get(2), name)};
+  }
+  Vec2d Pair(const char* name, const Vec2d& otherwise) const {
+    if (!Has(name)) return otherwise;
+    const tinygltf::Value& array = ArrayOf(name, 2);
+    return {NumberOf(array.Get(0), name), NumberOf(array.Get(1), name)};
+  }
+
+ private:
+  const tinygltf::Value& ArrayOf(const char* name, size_t least) const {
+    const tinygltf::Value& array = Get(name);
+    if (!array.IsArray() || array.ArrayLen() < least) Refuse(name, "is not an array of numbers");
+    return array;
+  }
+  double NumberOf(const tinygltf::Value& value, const char* name) const {
+    if (!value.IsNumber()) Refuse(name, "is not a number");
+    return value.GetNumberAsDouble();
+  }
+  [[noreturn]] void Refuse(const char* name, const char* what) const {
+    document_.Refuse(place_ + "/" + name, what);
+  }
+
+  const GltfDocument& document_;
+  const tinygltf::Value& value_;
+  std::string place_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,124 @@
+#include "scene_io/gltf_textures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "scene_io/gltf_extension.h"
+#include "scene_io/gltf_materials.h"
+#include "scene_io/temporary_file.h"
+
+namespace nacre {
+namespace {
+
+// The suffix that decides who decodes the bytes.
+std::string SuffixOf(const std::vector<unsigned char>& bytes) {
+  const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
+                              std::min<size_t>(bytes.size(), 4));
+  if (head.starts_with("\x89PNG")) return ".png";
+  return head.starts_with("\xff\xd8") ? ".jpg" : ".image";
+}
+
+Wrap WrapOf(int gl_constant) {
+  if (gl_constant == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
+  return gl_constant == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::kMirror : Wrap::kRepeat;
+}
+
+// Nearest if it says so for large texels; without mip levels if it says so for small ones.
+TextureFilter FilterOf(const tinygltf::Sampler& sampler) {
+  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) return TextureFilter::kNearest;
+  return sampler.minFilter == TINYGLTF_TEXTURE_FILTER_LINEAR ? TextureFilter::kBilinear
+                                                             : TextureFilter::kTrilinear;
+}
+
+// KHR_texture_transform, whose v points down, in coordinates whose v points up:
+//   u' = ox + sx c u + sy s (1 - v)      c, s: of the rotation
+//   v' = 1 - (oy - sx s u + sy c (1 - v))
+struct UvChange {
+  Vec2d offset{0, 0}, scale{1, 1};
+  double rotation = 0;
+
+  void Apply(Texture* texture) const {
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    texture->scale = scale;
+    texture->uv_rotate_deg = rotation * 180 / M_PI;
+    texture->offset = {offset.x + scale.y * s, 1 - offset.y - scale.y * c};
+  }
+};
+
+}  // namespace
+
+ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
+  const auto known = images_.find({image, encoding});
+  if (known != images_.end()) return known->second;
+  const GltfImage source = FindGltfImage(document_, image);
+  const tinygltf::Image& named = document_.model.images[static_cast<size_t>(image)];
+  const std::string name = source.bytes.empty() ? named.uri : fmt::format("image {}", image);
+  try {
+    if (source.bytes.empty()) {
+      scene_.images.push_back(ReadTextureImage(source.file, name, encoding));
+    } else {
+      const TemporaryFile file(source.bytes, SuffixOf(source.bytes));
+      scene_.images.push_back(ReadTextureImage(file.path(), name, encoding));
+    }
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    document_.Refuse(fmt::format("/images/{}", image), error.faults().front().what,
+                     "save it again as PNG or JPEG");
+  }
+  const ImageId id{static_cast<uint32_t>(scene_.images.size() - 1)};
+  images_.emplace(std::make_pair(image, encoding), id);
+  return id;
+}
+
+TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {
+  if (use.texture < 0) return {};
+  const tinygltf::Model& model = document_.model;
+  if (static_cast<size_t>(use.texture) >= model.textures.size()) {
+    document_.Refuse(place, fmt::format("there is no texture {}", use.texture),
+                     fmt::format("the file has {}", model.textures.size()));
+  }
+  const tinygltf::Texture& source = model.textures[static_cast<size_t>(use.texture)];
+  if (source.source < 0) {
+    document_.Warn("textures whose images only an extension names are left out");
+    return {};
+  }
+  Texture texture;
+  texture.name = fmt::format("texture {} of {}", use.texture, place);
+  UvChange change;
+  int tex_coord = use.tex_coord;
+  const auto transform = use.extensions->find("KHR_texture_transform");
+  if (transform != use.extensions->end()) {
+    const GltfExtension reader(document_, transform->second,
+                               place + "/extensions/KHR_texture_transform");
+    change.offset = reader.Pair("offset", change.offset);
+    change.scale = reader.Pair("scale", change.scale);
+    change.rotation = reader.Number("rotation", 0);
+    tex_coord = static_cast<int>(reader.Number("texCoord", tex_coord));
+    change.Apply(&texture);
+  }
+  if (tex_coord != 0) {
+    document_.Warn("textures on other coordinates than TEXCOORD_0 are left out");
+    return {};
+  }
+  if (source.sampler >= 0) {
+    if (static_cast<size_t>(source.sampler) >= model.samplers.size()) {
+      document_.Refuse(fmt::format("/textures/{}/sampler", use.texture),
+                       fmt::format("there is no sampler {}", source.sampler));
+    }
+    const tinygltf::Sampler& sampler = model.samplers[static_cast<size_t>(source.sampler)];
+    texture.sampling = {FilterOf(sampler), WrapOf(sampler.wrapS), WrapOf(sampler.wrapT)};
+  }
+  texture.image = AddImage(source.source, use.encoding);
+  if (use.needs_rgb && scene_.images[texture.image.index].texels->channels < 3) {
+    document_.Warn("grey images are left out where red, green and blue mean different things");
+    return {};
+  }
+  scene_.textures.push_back(std::move(texture));
+  return {static_cast<uint32_t>(scene_.textures.size() - 1)};
+}
+
+}  // namespace nacre

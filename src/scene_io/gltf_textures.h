@@ -1,0 +1,40 @@
+// scene_io/gltf_textures.h: the textures of a glTF file.
+#pragma once
+
+#include <map>
+#include <utility>
+
+#include "scene/scene.h"
+#include "scene_io/gltf_document.h"
+#include "scene_io/texture_image.h"
+
+namespace nacre {
+
+// What a material says of one of its textures.
+struct GltfTextureUse {
+  int texture = -1;  // below 0: none
+  int tex_coord = 0;
+  const tinygltf::ExtensionMap* extensions = nullptr;
+  TextureEncoding encoding = TextureEncoding::kLinear;
+  bool needs_rgb = false;
+};
+
+// Adds textures and their images to a scene, each image once for each encoding.
+class GltfTextures {
+ public:
+  GltfTextures(GltfDocument* document, Scene* scene) : document_(*document), scene_(*scene) {}
+
+  // The texture as it is used, in nacre's coordinates: v up. None where `use` has none, and, with a
+  // warning, where nacre cannot show it. `place`: of the use, for errors. Throws Error (kBadInput)
+  // for images that are missing or broken.
+  TextureId Add(const GltfTextureUse& use, const std::string& place);
+
+ private:
+  ImageId AddImage(int image, TextureEncoding encoding);
+
+  GltfDocument& document_;
+  Scene& scene_;
+  std::map<std::pair<int, TextureEncoding>, ImageId> images_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,147 @@
+// The textures of glTF files: images inside and beside them, samplers, transforms.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "catch.h"
+#include "scene/texture_mapping.h"
+#include "scene_io/gltf_builder.h"
+
+namespace nacre {
+namespace {
+
+// A PNG file of 2 x 2 texels: red and green above blue and white.
+const std::vector<unsigned char> kPng = {
+    137, 80,  78,  71,  13,  10,  26,  10,  0,   0,   0,   13,  73,  72,  68,  82, 0,  0,  0,
+    2,   0,   0,   0,   2,   8,   2,   0,   0,   0,   253, 212, 154, 115, 0,   0,  0,  18, 73,
+    68,  65,  84,  120, 218, 99,  248, 207, 192, 192, 0,   194, 12,  255, 129, 0,  0,  31, 238,
+    5,   251, 241, 171, 186, 119, 0,   0,   0,   0,   73,  69,  78,  68,  174, 66, 96, 130};
+
+// The square with texture coordinates, and a material that the base colour's texture belongs to.
+GltfFile MakeTexturedSquare() {
+  GltfFile file = MakeSquare();
+  const size_t offset = file.Append(kPng);
+  file.json["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", kPng.size()}});
+  const size_t view = file.json["bufferViews"].size() - 1;
+  file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
+      file.Accessor(std::vector<float>{0, 1, 1, 1, 1, 0, 0, 0}, 5126, "VEC2", 2);
+  file.json["meshes"][0]["primitives"][0]["material"] = 0;
+  file.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}}};
+  file.json["textures"] = {{{"source", 0}}};
+  file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  return file;
+}
+
+const MetallicRoughnessMaterial& MaterialOf(const Scene& scene) {
+  return std::get<MetallicRoughnessMaterial>(scene.materials.at(0).model);
+}
+
+bool Mentions(const std::vector<std::string>& warnings, const std::string& what) {
+  return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+    return warning.find(what) != std::string::npos;
+  });
+}
+
+TEST_CASE("an image inside the file") {
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(MakeTexturedSquare(), &warnings);
+  CHECK(warnings.empty());
+  REQUIRE(scene.images.size() == 1);
+  const MipChain& texels = *scene.images[0].texels;
+  CHECK(texels.levels.at(0).width == 2);
+  CHECK(texels.levels.at(0).height == 2);
+  // Rows from the bottom, decoded from sRGB: blue first.
+  const std::vector<float> values(texels.values.begin(), texels.values.begin() + 12);
+  CHECK(values == std::vector<float>{0, 0, 1, 1, 1, 1, 1, 0, 0, 0, 1, 0});
+  REQUIRE(scene.textures.size() == 1);
+  CHECK(MaterialOf(scene).base_color_map == TextureId{0});
+  CHECK(scene.textures[0].sampling.filter == TextureFilter::kTrilinear);
+  CHECK(scene.textures[0].sampling.wrap_u == Wrap::kRepeat);
+  // The square's first corner is the image's lower left.
+  CHECK(scene.meshes.at(0).uvs.at(0) == Vec2d(0, 0));
+}
+
+TEST_CASE("an image beside the file, for two uses of two encodings") {
+  const ModelFolder folder;
+  GltfFile file = MakeTexturedSquare();
+  folder.Write("a b.png", std::string(kPng.begin(), kPng.end()));
+  file.json["images"] = {{{"uri", "a%20b.png"}}};
+  file.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
+  file.json["materials"][0]["emissiveFactor"] = {1, 1, 1};
+  file.json["materials"][0]["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+  const Scene scene = LoadScene(folder.Write("model.glb", file.Binary()));
+  CHECK(scene.images.size() == 2);
+  CHECK(scene.textures.size() == 3);
+  const Material& material = scene.materials.at(0);
+  CHECK(material.normal_map.scale == 0.5);
+  const auto image_of = [&](TextureId id) { return scene.textures.at(id.index).image; };
+  CHECK(image_of(material.emission_map) == image_of(MaterialOf(scene).base_color_map));
+  CHECK(image_of(material.normal_map.texture) != image_of(material.emission_map));
+}
+
+TEST_CASE("samplers and transforms") {
+  GltfFile file = MakeTexturedSquare();
+  file.json["samplers"] = {{{"magFilter", 9728}, {"wrapS", 33071}, {"wrapT", 33648}}};
+  file.json["textures"][0]["sampler"] = 0;
+  file.json["extensionsUsed"] = {"KHR_texture_transform"};
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"] = {
+      {"KHR_texture_transform", {{"offset", {0.25, -0.5}}, {"rotation", 0.3}, {"scale", {2, 3}}}}};
+  const Scene scene = LoadFile(file);
+  const Texture& texture = scene.textures.at(0);
+  CHECK(texture.sampling.filter == TextureFilter::kNearest);
+  CHECK(texture.sampling.wrap_u == Wrap::kClamp);
+  CHECK(texture.sampling.wrap_v == Wrap::kMirror);
+  // The extension's matrices translation x rotation x scale, on (u, v) with v down.
+  for (const Vec2d& uv : {Vec2d(0, 0), Vec2d(1, 0), Vec2d(0.3, 0.8)}) {
+    const double u = 2 * uv.x, v = 3 * uv.y;
+    const Vec2d expected(0.25 + std::cos(0.3) * u + std::sin(0.3) * v,
+                         -0.5 - std::sin(0.3) * u + std::cos(0.3) * v);
+    const Vec2d got = TransformOf(texture).Apply(Vec2d(uv.x, 1 - uv.y));
+    CHECK(std::abs(got.x - expected.x) < 1e-12);
+    CHECK(std::abs(1 - got.y - expected.y) < 1e-12);
+  }
+}
+
+TEST_CASE("what cannot be shown is told, and the rest is shown") {
+  std::vector<std::string> warnings;
+  GltfFile file = MakeTexturedSquare();
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
+  CHECK(!MaterialOf(LoadFile(file, &warnings)).base_color_map.valid());
+  CHECK(Mentions(warnings, "TEXCOORD_0"));
+
+  warnings.clear();
+  file = MakeTexturedSquare();
+  file.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(Mentions(warnings, "no texture coordinates"));
+  CHECK(scene.meshes.at(0).uvs.size() == scene.meshes[0].positions.size());
+}
+
+TEST_CASE("images that are not there, or are none, are refused") {
+  const auto message = [](const GltfFile& file) -> std::string {
+    try {
+      LoadFile(file);
+    } catch (const Error& error) {
+      return error.faults().front().where + " " + error.faults().front().what;
+    }
+    return "accepted";
+  };
+  GltfFile file = MakeTexturedSquare();
+  file.json["images"] = {{{"uri", "none.png"}}};
+  CHECK(message(file).find("/images/0") != std::string::npos);
+  file = MakeTexturedSquare();
+  file.json["textures"][0]["source"] = 7;
+  CHECK(message(file).find("there is no such image") != std::string::npos);
+  file = MakeTexturedSquare();
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 3;
+  CHECK(message(file).find("there is no texture 3") != std::string::npos);
+  file = MakeTexturedSquare();
+  const size_t start = file.bytes.find("IHDR");
+  REQUIRE(start != std::string::npos);
+  for (size_t i = 0; i < 30; ++i) file.bytes[start + i] = 'x';  // no PNG file any more
+  CHECK(message(file).find("/images/0") != std::string::npos);
+}
+
+}  // namespace
+}  // namespace nacre
