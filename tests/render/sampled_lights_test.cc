@@ -164,8 +164,8 @@ std::shared_ptr<const SkyPicture> SunnyPicture() {
     for (int x = 0; x < 64; ++x) {
       const bool sun = x == 40 && y == 9;
       const auto blue = static_cast<float>(0.2 + 0.01 * y);
-      for (const float value :
-           {sun ? 400.0f : 0.1f, sun ? 300.0f : 0.005f * static_cast<float>(x), blue}) {
+      const auto red = static_cast<float>(0.05 + 0.005 * x);  // tells longitudes apart
+      for (const float value : {sun ? 400.0f : red, sun ? 300.0f : 0.1f, blue}) {
         picture->rgb.push_back(value);
       }
     }
@@ -474,6 +474,41 @@ TEST_CASE("a visible light is seen on the side that it shines from") {
   CHECK(middle(Named("sphere", sphere)) == 0);
 }
 
+TEST_CASE("a light's own shape is not in its way") {
+  for (const Light& light : AreaLights()) {
+    CAPTURE(light.name);
+    Scene scene = OneSphere(LambertMaterial{Rgb(0.7)});
+    scene.camera.fov_y_deg = 40;  // sees the light
+    RenderSettings settings;
+    settings.closed_forms = false;  // every hit asks
+    settings.general_path = true;
+    settings.layers = {"id.object"};
+    scene.lights = {light};
+    const Image visible = RenderImage(scene, settings);
+    std::visit(
+        [](auto& kind) {
+          if constexpr (requires { kind.visible; }) kind.visible = false;
+        },
+        scene.lights[0].kind);
+    const Image hidden = RenderImage(scene, settings);
+    size_t on_sphere = 0, different = 0, seen = 0;
+    for (size_t i = 0; i < visible.data.pixel_count(); ++i) {
+      const auto at = [&](const Image& image, const char* name) {
+        return image.Find(name)->samples[i];
+      };
+      if (at(visible, "id.object") > 1) ++seen;
+      if (at(visible, "id.object") != 1 || at(visible, "A") != 1 || at(hidden, "A") != 1) continue;
+      // Pixels that hold some of the light's shape are left out.
+      if (at(visible, "R") > at(hidden, "R") + 1) continue;
+      ++on_sphere;
+      if (at(visible, "R") != at(hidden, "R")) ++different;
+    }
+    CHECK(seen > 10);
+    CHECK(on_sphere > 100);
+    CHECK(different == 0);
+  }
+}
+
 TEST_CASE("pairs of points are a net of every pixel") {
   // 16 points of a (0,2)-sequence, or of any two dimensions of one that is scrambled: each
   // sixteenth of either axis holds one.
@@ -485,7 +520,7 @@ TEST_CASE("pairs of points are a net of every pixel") {
       numbers.number[i] = entries[i] = i;
       numbers.pixel[i] = pixel;
     }
-    float last_u = -1;
+    uint32_t last_shift = 0;
     for (size_t pair = 0; pair < 9; ++pair) {
       UnitPoints points(16);
       SamplePair(sampler, pair, numbers, entries.data(), 16, &points);
@@ -498,8 +533,10 @@ TEST_CASE("pairs of points are a net of every pixel") {
       }
       CHECK(in_u == 0xffffu);
       CHECK(in_v == 0xffffu);
-      CHECK(u[0] != last_u);  // shifts of pairs differ
-      last_u = u[0];
+      // A pixel's shifts of its pairs differ.
+      const uint32_t shift = points.u_bits[0] ^ sampler.u_bits[pair * 16];
+      CHECK(shift != last_shift);
+      last_shift = shift;
     }
   }
 }
