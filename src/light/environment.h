@@ -40,7 +40,7 @@ struct EnvironmentMap {
   std::vector<EnvironmentRow> rows;
   std::vector<CdfEntry> row_table;
   std::vector<CdfEntry> column_tables;  // `width` entries a row
-  bool is_black = true;                   // nothing to sample
+  bool is_black = true;                 // nothing to sample
 };
 
 // Texels in rows from +y on; radiances >= 0 and finite.

@@ -56,6 +56,16 @@ std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scen
   return layers;
 }
 
+int LightLayer(const std::vector<Layer>& layers, size_t light) {
+  int number = 0;
+  for (const Layer& layer : layers) {
+    if (layer.kind != LayerKind::kLight) continue;
+    if (layer.light == light) return number;
+    ++number;
+  }
+  return -1;
+}
+
 bool IsAveraged(LayerKind kind) { return kind <= LayerKind::kNormal; }
 
 int FloatChannels(LayerKind kind) {

@@ -37,6 +37,9 @@ struct Layer {
 // Throws Error (usage) for a name the scene does not have.
 std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scene& scene);
 
+// The number of the light's layer among the light layers, or -1.
+int LightLayer(const std::vector<Layer>& layers, size_t light);
+
 // Whether the layer is averaged over a pixel's samples, or taken from one of them.
 bool IsAveraged(LayerKind kind);
 

@@ -39,17 +39,6 @@ Window PlanWindow(const Window& frame, const Window& region) {
   return window;
 }
 
-// The number of the light's layer among the light layers, or -1.
-int LightLayer(const std::vector<Layer>& layers, size_t light) {
-  int number = 0;
-  for (const Layer& layer : layers) {
-    if (layer.kind != LayerKind::kLight) continue;
-    if (layer.light == light) return number;
-    ++number;
-  }
-  return -1;
-}
-
 void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   for (const Layer& layer : plan->layers) {
     if (layer.kind == LayerKind::kLight) ++plan->light_layer_count;

@@ -12,16 +12,6 @@ namespace {
 // Pairs of points that a light has: on itself, for the diffuse part, and for the lobe.
 constexpr size_t kPairs = 3;
 
-int LightLayer(const std::vector<Layer>& layers, size_t light) {
-  int number = 0;
-  for (const Layer& layer : layers) {
-    if (layer.kind != LayerKind::kLight) continue;
-    if (layer.light == light) return number;
-    ++number;
-  }
-  return -1;
-}
-
 // The most samples that one sequence of a pixel has.
 int LongestSequence(const Scene& scene, const RenderSettings& settings) {
   if (!(settings.max_error > 0)) return scene.image.spp;

@@ -102,7 +102,8 @@ void ReadGrid(JsonObject* shape, SceneContext* context);
 void ReadPair(JsonObject* shape, SceneContext* context);
 void ReadCloud(JsonObject* shape, SceneContext* context);
 
-// The member "displacement" of a shape; false if there is none, or it has faults. In read_meshes.cc.
+// The member "displacement" of a shape; false if there is none, or it has faults. In
+// read_meshes.cc.
 bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
                       Displacement* displacement);
 

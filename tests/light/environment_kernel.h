@@ -18,7 +18,8 @@ std::vector<EnvironmentSample<float>> SampleEnvironments(const EnvironmentMap& m
                                                          const std::vector<uint32_t>& bits1);
 
 // Radiance in x, irradiance in y.
-std::vector<Vec3f> EvaluateSky(const GradientSkyTerms<float>& sky, const std::vector<Vec3f>& directions);
+std::vector<Vec3f> EvaluateSky(const GradientSkyTerms<float>& sky,
+                               const std::vector<Vec3f>& directions);
 std::vector<Vec3f> EvaluateSky(const QuadraticSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions);
 std::vector<Vec3f> EvaluateIrradiance(const IrradianceHarmonics<float>& harmonics,

@@ -66,12 +66,12 @@ TEST_CASE("quadratic skies match the table, in closed form and from harmonics", 
   for (const auto& row : table.at("rows")) {
     const Vec3d normal = TableVector(row["n"]).normalized();
     const QuadraticSkyTerms<double> sky{TableVector(row["s"]).normalized(), row["a0"].get<double>(),
-                                   row["a1"].get<double>(), row["a2"].get<double>()};
+                                        row["a1"].get<double>(), row["a2"].get<double>()};
     const double reference = TableNumber(row["E"]);
     CAPTURE(rows, reference);
     CHECK(std::abs(Irradiance(sky, normal) / reference - 1) <= 1e-14);
     const QuadraticSkyTerms<float> rounded{Vec3f(sky.axis), static_cast<float>(sky.a0),
-                                      static_cast<float>(sky.a1), static_cast<float>(sky.a2)};
+                                           static_cast<float>(sky.a1), static_cast<float>(sky.a2)};
     ForEachTarget([&](Target) {
       const double got = EvaluateSky(rounded, {Vec3f(normal)})[0].y;
       CHECK(std::abs(got / reference - 1) <= 1e-6);  // tables/README: 1e-5
