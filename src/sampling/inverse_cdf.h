@@ -1,8 +1,8 @@
 // sampling/inverse_cdf.h: an index drawn with given probabilities by inverting their running sum.
 //
-// The map from u to the index is monotone, so points that are evenly spread stay so: an alias table
-// (Walker 1977) is as fast, but cuts the interval into pieces that belong to anyone, and under a
-// sky with a small sun made low-discrepancy points no better than random ones.
+// The map from u to the index is monotone, so points that are evenly spread stay so. An alias table
+// (Walker 1977) takes constant time, too, but gives an index many pieces of the interval, one of
+// each index lighter than it, and what falls to all of them together is far less even.
 #pragma once
 
 #include <algorithm>

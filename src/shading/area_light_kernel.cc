@@ -9,6 +9,7 @@
 #include "base/target_ops-inl.h"
 #include "light/irradiance-inl.h"
 #include "shading/area_kernels.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -18,10 +19,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-
-HWY_INLINE Vec3V<V> Load(const Soa3<float>& soa, size_t i) {
-  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
 
 HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
   const D d;
@@ -100,9 +97,7 @@ void SampleShape(const SampledLight& light, size_t count, const UnitPoints& poin
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const AreaSampleV<V> sample =
         SampleLight(d, at(i), hn::LoadU(d, points.u.data() + i), hn::LoadU(d, points.v.data() + i));
-    hn::StoreU(sample.to_light.x, d, directions->to_light.x.data() + i);
-    hn::StoreU(sample.to_light.y, d, directions->to_light.y.data() + i);
-    hn::StoreU(sample.to_light.z, d, directions->to_light.z.data() + i);
+    StoreSoa(d, sample.to_light, i, &directions->to_light);
     Keep(light, sample.distance, InverseIfPositive(d, sample.inverse_pdf), sample.cos_light, i,
          directions);
   }
@@ -113,7 +108,7 @@ void FindShape(const SampledLight& light, size_t count, LightDirections* directi
                const MeetAt& meet) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Vec3V<V> to_light = Load(directions->to_light, i);
+    const Vec3V<V> to_light = LoadSoa(D(), directions->to_light, i);
     const auto shape = at(i);
     const MeetingV meeting = meet(shape, to_light);
     Keep(light, meeting.distance, LightPdf(d, shape, to_light), meeting.cos_light, i, directions);
@@ -162,7 +157,7 @@ void ShapeIrradiance(const SampledLight& light, const Surface& surface, size_t c
   const Soa3<float>& n = surface.normal;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto shape = at(i);
-    const V value = hn::Max(Irradiance(d, shape, Load(n, i)), hn::Zero(d));
+    const V value = hn::Max(Irradiance(d, shape, LoadSoa(D(), n, i)), hn::Zero(d));
     hn::StoreU(light.two_sided ? value : hn::IfThenElseZero(front(shape), value), d,
                irradiance + i);
   }

@@ -16,6 +16,7 @@
 
 #include "brdf/lobe_sampling-inl.h"
 #include "shading/kernels.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -25,10 +26,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-
-HWY_INLINE Vec3V<V> Load(const Soa3<float>& soa, size_t i) {
-  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
 
 // Calls at(i) for each packet of hits and stores the direction that it gives, in lanes of the
 // range only: a packet may reach into the next one.
@@ -48,7 +45,8 @@ void SampleCosineT(const Surface& surface, size_t count, const float* u, const f
                    Soa3<float>* to_light) {
   const D d;
   ForEachPacket(0, count, to_light, [&](size_t i) HWY_ATTR {
-    return SampleCosine(d, Load(surface.normal, i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    return SampleCosine(d, LoadSoa(D(), surface.normal, i), hn::LoadU(d, u + i),
+                        hn::LoadU(d, v + i));
   });
 }
 
@@ -73,8 +71,9 @@ void SampleGgxT(double alpha, const float* by_hit, const LobeRange& range, const
   const Width width = WidthOf(alpha, by_hit);
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
     // Interpolated normals may lean away from the viewer: there is no lobe, and no density.
-    return SampleGgxVisible(d, Load(range.surface.normal, i), Load(range.surface.to_view, i),
-                            width.At(i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    return SampleGgxVisible(d, LoadSoa(D(), range.surface.normal, i),
+                            LoadSoa(D(), range.surface.to_view, i), width.At(i),
+                            hn::LoadU(d, u + i), hn::LoadU(d, v + i));
   });
 }
 
@@ -85,8 +84,8 @@ void SamplePhongT(const PhongFamilyModel& phong, const float* by_hit, const Lobe
   const Width width = WidthOf(phong.shininess, by_hit);
   const bool blinn = phong.model == PhongModel::kBlinnPhong;
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    const Vec3V<V> normal = Load(range.surface.normal, i);
-    const Vec3V<V> to_view = Load(range.surface.to_view, i);
+    const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i);
+    const Vec3V<V> to_view = LoadSoa(D(), range.surface.to_view, i);
     const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
     return blinn ? SampleBlinnLobe(d, normal, to_view, width.At(i), u0, u1)
                  : SamplePhongLobe(d, normal, to_view, width.At(i), u0, u1);
@@ -108,8 +107,9 @@ void GgxDensityT(const MicrofacetModel& model, const float* by_hit, const LobeRa
   const Width width = WidthOf(model.alpha, by_hit);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const V alpha = width.At(i);
-    const AnglesV<V> angles = ComputeAngles(
-        d, Load(range.surface.normal, i), Load(light.to_light, i), Load(range.surface.to_view, i));
+    const AnglesV<V> angles =
+        ComputeAngles(d, LoadSoa(D(), range.surface.normal, i), LoadSoa(D(), light.to_light, i),
+                      LoadSoa(D(), range.surface.to_view, i));
     V distribution = GgxDistribution(d, angles, alpha);
     if (narrow != nullptr) {
       const V exact = hn::LoadU(d, narrow + i);
@@ -129,8 +129,9 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
   const V scale = hn::Set(d, static_cast<float>(M_1_PI / 2));
   const V smallest = hn::Set(d, 0x1p-60f);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const Vec3V<V> normal = Load(range.surface.normal, i), to_light = Load(light.to_light, i);
-    const Vec3V<V> to_view = Load(range.surface.to_view, i);
+    const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i),
+                   to_light = LoadSoa(D(), light.to_light, i);
+    const Vec3V<V> to_view = LoadSoa(D(), range.surface.to_view, i);
     const AnglesV<V> angles = ComputeAngles(d, normal, to_light, to_view);
     LobeCosineV<V> cosine =
         blinn ? BlinnSquaredCosine(d, angles) : PhongCosine(d, normal, to_light, to_view);
@@ -152,7 +153,8 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
 
 void MirrorDirectionsT(const LobeRange& range, Soa3<float>* to_light) {
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    return Mirrored(D(), Load(range.surface.to_view, i), Load(range.surface.normal, i));
+    return Mirrored(D(), LoadSoa(D(), range.surface.to_view, i),
+                    LoadSoa(D(), range.surface.normal, i));
   });
 }
 

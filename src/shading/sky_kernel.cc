@@ -8,6 +8,7 @@
 #include "light/environment-inl.h"
 #include "light/sky-inl.h"
 #include "shading/area_kernels.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -18,21 +19,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
-HWY_INLINE Vec3V<V> Load(const Soa3<float>& soa, size_t i) {
-  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
-
-HWY_INLINE void Store(const Vec3V<V>& v, size_t i, Soa3<float>* to) {
-  const D d;
-  hn::StoreU(v.x, d, to->x.data() + i);
-  hn::StoreU(v.y, d, to->y.data() + i);
-  hn::StoreU(v.z, d, to->z.data() + i);
-}
-
 // to[i] = of(from[i]), three channels.
 template <class Of>
 HWY_INLINE void ForEach(const Soa3<float>& from, size_t count, Soa3<float>* to, const Of& of) {
-  for (size_t i = 0; i < count; i += hn::Lanes(D())) Store(of(Load(from, i)), i, to);
+  for (size_t i = 0; i < count; i += hn::Lanes(D()))
+    StoreSoa(D(), of(LoadSoa(D(), from, i)), i, to);
 }
 
 void EvaluateGradientT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
@@ -66,9 +57,9 @@ void EvaluatePictureT(const ShadingSky& sky, const Soa3<float>& directions, size
                       Soa3<float>* radiance, float* density) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Vec3V<V> turned = Turn(Load(directions, i), sky.cos_rotation, -sky.sin_rotation);
+    const Vec3V<V> turned = Turn(LoadSoa(D(), directions, i), sky.cos_rotation, -sky.sin_rotation);
     const EnvironmentTexelV<V> texel = TexelAt(d, *sky.picture, turned);
-    Store({texel.red, texel.green, texel.blue}, i, radiance);
+    StoreSoa(D(), {texel.red, texel.green, texel.blue}, i, radiance);
     if (density != nullptr) hn::StoreU(texel.pdf, d, density + i);
   }
 }
@@ -79,8 +70,10 @@ void SamplePictureT(const ShadingSky& sky, const UnitPoints& points, size_t coun
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const EnvironmentSampleV<V> sample =
         SampleEnvironment(d, *sky.picture, points.u_bits.data() + i, points.v_bits.data() + i);
-    Store(Turn(sample.to_light, sky.cos_rotation, sky.sin_rotation), i, &directions->to_light);
-    Store({sample.texel.red, sample.texel.green, sample.texel.blue}, i, &directions->radiance);
+    StoreSoa(D(), Turn(sample.to_light, sky.cos_rotation, sky.sin_rotation), i,
+             &directions->to_light);
+    StoreSoa(D(), {sample.texel.red, sample.texel.green, sample.texel.blue}, i,
+             &directions->radiance);
     hn::StoreU(sample.texel.pdf, d, directions->density.data() + i);
   }
 }
