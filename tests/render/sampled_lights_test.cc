@@ -7,7 +7,6 @@
 
 #include "catch.h"
 #include "render/render.h"
-#include "sampling/pair_sampler.h"
 
 namespace nacre {
 namespace {
@@ -506,38 +505,6 @@ TEST_CASE("a light's own shape is not in its way") {
     CHECK(seen > 10);
     CHECK(on_sphere > 100);
     CHECK(different == 0);
-  }
-}
-
-TEST_CASE("pairs of points are a net of every pixel") {
-  // 16 points of a (0,2)-sequence, or of any two dimensions of one that is scrambled: each
-  // sixteenth of either axis holds one.
-  const PairSampler sampler = MakePairSampler(16, 9, 7);
-  SampleNumbers numbers(16);
-  AlignedArray<uint32_t> entries(16);
-  for (const uint64_t pixel : {uint64_t{1}, uint64_t{0x123456789abcdef0}}) {
-    for (uint32_t i = 0; i < 16; ++i) {
-      numbers.number[i] = entries[i] = i;
-      numbers.pixel[i] = pixel;
-    }
-    uint32_t last_shift = 0;
-    for (size_t pair = 0; pair < 9; ++pair) {
-      UnitPoints points(16);
-      SamplePair(sampler, pair, numbers, entries.data(), 16, &points);
-      const AlignedArray<float>&u = points.u, &v = points.v;
-      uint32_t in_u = 0, in_v = 0;
-      for (size_t i = 0; i < 16; ++i) {
-        REQUIRE((u[i] >= 0 && u[i] < 1 && v[i] >= 0 && v[i] < 1));
-        in_u |= 1u << static_cast<int>(u[i] * 16);
-        in_v |= 1u << static_cast<int>(v[i] * 16);
-      }
-      CHECK(in_u == 0xffffu);
-      CHECK(in_v == 0xffffu);
-      // A pixel's shifts of its pairs differ.
-      const uint32_t shift = points.u_bits[0] ^ sampler.u_bits[pair * 16];
-      CHECK(shift != last_shift);
-      last_shift = shift;
-    }
   }
 }
 
