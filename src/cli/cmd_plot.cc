@@ -71,14 +71,14 @@ std::vector<PlotItem> MaskingDefaults() {
 std::vector<PlotItem> AlbedoDefaults() {
   const std::string single = R"(, "compensation": "none")";
   return {
-      Metal(0.4, single, "white metal, roughness 0.4, one bounce"),
-      Metal(0.7, single, "roughness 0.7, one bounce"),
-      Metal(1, single, "roughness 1, one bounce"),
-      Metal(1, "", "roughness 1, with what bounces on"),
-      {"white dielectric, base scaled by 1 - F(v.h)",
+      Metal(0.4, single, "metal, roughness 0.4, one bounce"),
+      Metal(0.7, single, "metal, roughness 0.7, one bounce"),
+      Metal(1, single, "metal, roughness 1, one bounce"),
+      Metal(1, "", "metal, roughness 1, compensated"),
+      {"dielectric, base by 1 - F(v.h)",
        R"({"model": "metallic_roughness", "base_color": 1, "roughness": 0.3, )"
        R"("diffuse_coupling": "one_minus_fresnel"})"},
-      {"white dielectric, base scaled by albedo",
+      {"dielectric, base by albedo",
        R"({"model": "metallic_roughness", "base_color": 1, "roughness": 0.3})"},
   };
 }

@@ -196,9 +196,9 @@ Plot AlbedoPlot(const std::vector<NamedMaterial>& materials, ShareOf what, Color
             .low = 0,
             .high = 90,
             .step = 15};
-  plot.y = {.label = furnace ? "radiance seen (1: what comes from everywhere)"
-                             : "share of the light that is reflected",
-            .low = 0};
+  plot.y = {
+      .label = furnace ? "radiance over the furnace’s" : "share of the light that is reflected",
+      .low = 0};
   for (const NamedMaterial& named : materials) {
     plot.curves.push_back(MakeCurve(named.label, Steps(0, 89, 1), [&](double degrees) {
       return ValueOf(ReflectedShare(named.material, what, DirectionAt(degrees).z), channel);

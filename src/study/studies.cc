@@ -1,3 +1,4 @@
+// study/studies.cc: the list of the studies, with what each is asked.
 #include "study/study.h"
 
 namespace nacre {
