@@ -253,6 +253,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   plan.frame = {0, 0, scene.image.width, scene.image.height};
   plan.window = PlanWindow(plan.frame, settings.region);
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  plan.background = scene.background;
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
   PlanLights(scene, settings, &plan);

@@ -78,7 +78,8 @@ struct RenderPlan {
   std::vector<PlannedLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
   PairSampler pairs;                       // their samples'; three pairs a light
-  const SampledLight* sky = nullptr;       // seen where nothing is hit, of sampled_lights
+  Rgb background{0, 0, 0};                 // seen where nothing is hit: the scene's or a sky's, or
+  const SampledLight* sky = nullptr;       // a sky of many colours, of sampled_lights
   std::vector<ShadingMaterial> materials;  // one per material of the scene, and `black`
   TextureScene textures;                   // empty if no shape has any
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // per mesh; empty if none has any

@@ -126,7 +126,9 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings, Rende
                                 kPairs * plan->sampled_lights.size(), scene.image.seed);
   for (const PlannedSampledLight& planned : plan->sampled_lights) {
     const auto* sky = std::get_if<EnvironmentLight>(&scene.lights[planned.index].kind);
-    if (sky != nullptr && sky->background) plan->sky = &planned.light;
+    if (sky == nullptr || !sky->background) continue;
+    plan->sky = IsColored(planned.light) ? &planned.light : nullptr;
+    if (plan->sky == nullptr) plan->background = planned.light.color;
   }
 }
 

@@ -16,8 +16,11 @@ void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surfa
 void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
                LightDirections* directions);
 
+// Unit vectors along directions.
+void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<float>* unit);
+
 // The radiance of a sky that has colours, along unit vectors, as multiples of its own; of pictures
-// also the density with which SampleSky chooses them, unless null.
+// also the density with which SampleSky chooses them, unless null. `radiance` may be `directions`.
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
                  Soa3<float>* radiance, float* density);
 // A sky's irradiance, but of pictures.

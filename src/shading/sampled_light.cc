@@ -116,22 +116,11 @@ void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surf
 
 void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size_t count,
                  Soa3<float>* radiance) {
+  NormalizeDirections(directions, count, radiance);
+  EvaluateSky(light, *radiance, count, radiance, nullptr);
   const Vec3f color(light.color);
-  if (IsColored(light)) {
-    Soa3<float> unit;
-    for (size_t i = 0; i < count; ++i) {
-      const Vec3d direction(directions.x[i], directions.y[i], directions.z[i]);
-      const Vec3d normalized = direction / direction.length();
-      unit.x[i] = static_cast<float>(normalized.x);
-      unit.y[i] = static_cast<float>(normalized.y);
-      unit.z[i] = static_cast<float>(normalized.z);
-    }
-    EvaluateSky(light, unit, count, radiance, nullptr);
-  }
   const auto scale = [&](float by, AlignedArray<float>* channel) {
-    for (size_t i = 0; i < count; ++i) {
-      (*channel)[i] = IsColored(light) ? by * (*channel)[i] : by;
-    }
+    for (size_t i = 0; i < count; ++i) (*channel)[i] *= by;
   };
   scale(color.x, &radiance->x);
   scale(color.y, &radiance->y);

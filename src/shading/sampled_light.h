@@ -89,7 +89,7 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      Soa3<float>* irradiance);
 
-// What the sky shows along directions, which need not be unit vectors.
+// What a sky that has colours shows along directions, which need not be unit vectors.
 void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size_t count,
                  Soa3<float>* radiance);
 

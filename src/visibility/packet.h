@@ -12,9 +12,6 @@ namespace nacre {
 
 inline constexpr int kMaxPacketWidth = 16;
 
-// The relative rounding error of one operation on floats.
-inline constexpr double kFloatUnit = 0x1p-24;
-
 // Lanes are numbered as in the batch that the packet is a piece of; the pointers are to the
 // packet's piece of the batch's arrays. Embree's depths are t times t_scale.
 struct Packet {
