@@ -85,9 +85,10 @@ struct RenderPlan {
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // per mesh; empty if none has any
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
+  std::vector<Window> mesh_windows;           // pixels that triangles may be seen in
   bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool binned = false;                        // spheres are binned for the camera
-  bool tiles = false;                         // camera rays are traced by bins, not by Embree
+  bool tiles = false;                         // and camera rays find them there, not by Embree
   bool textured = false;                      // some hits may need textures
   bool splits = false;                        // some material depends on the film position
   bool one_sided = false;                     // some material emits in front only

@@ -22,8 +22,7 @@ int LongestSequence(const Scene& scene, const RenderSettings& settings) {
 // Whether the camera may see some of the ball: it reaches past the four planes around the picture,
 // its pixels' filters included. Those of a perspective camera meet in the eye.
 bool MayBeInView(const Scene& scene, const LightBall& ball) {
-  const CameraFrame frame =
-      MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  const CameraFrame frame = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   const bool perspective = frame.projection == Projection::kPerspective;
   const double reach = scene.image.filter.width;
   const Vec3d offset = ball.center - scene.camera.position;

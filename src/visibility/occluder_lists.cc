@@ -94,8 +94,8 @@ bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const L
 }
 
 // Centre and point are rounded by 2^-24 of themselves a coordinate, and so is their difference,
-// which is no longer than the two together: 4 2^-24 of that at most. Nothing is sure of spheres that
-// coincide: rays start on them.
+// which is no longer than the two together: 4 2^-24 of that at most. Nothing is sure of spheres
+// that coincide: rays start on them.
 OccluderProposal Propose(const TraceSphere& sphere, const TraceSphere& from) {
   const Vec3d offset = sphere.center - from.center;
   const double error = 5 * kFloatUnit * (offset.length() + from.radius);
@@ -103,11 +103,10 @@ OccluderProposal Propose(const TraceSphere& sphere, const TraceSphere& from) {
   const double inner = std::max(sphere.radius - error, 0.0);
   const bool coincide = Coincide(sphere, from);
   constexpr double kMore = 1 + 1e-6, kLess = 1 - 1e-6;
-  return {{static_cast<float>(offset.x), static_cast<float>(offset.y),
-           static_cast<float>(offset.z)},
-          coincide ? std::numeric_limits<float>::infinity()
-                   : static_cast<float>(outer * outer * kMore),
-          coincide ? 0 : static_cast<float>(inner * inner * kLess)};
+  return {
+      {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(offset.z)},
+      coincide ? std::numeric_limits<float>::infinity() : static_cast<float>(outer * outer * kMore),
+      coincide ? 0 : static_cast<float>(inner * inner * kLess)};
 }
 
 // The list of every sphere, of those spheres j for which may_block(i, j).

@@ -102,7 +102,8 @@ HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere
   return occluded;
 }
 
-// The rays `pending` of a block, which all start on sphere `start`, that something is in the way of.
+// The rays `pending` of a block, which all start on sphere `start`, that something is in the way
+// of.
 HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const OccluderLists& lists,
                                    uint32_t start, const ShadowRayBatch& rays, size_t first,
                                    uint32_t pending) {

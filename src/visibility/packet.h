@@ -39,12 +39,12 @@ struct Packet {
   alignas(64) float ray_inverse_length[kMaxPacketWidth];  // an upper bound
   alignas(64) float origin_error[kMaxPacketWidth];
 
-  // Closest queries: the best hit so far.
+  const double* t_max = nullptr;  // where the rays end
+  // Closest queries: the best hit so far, at t_max.
   double* best_t = nullptr;
   uint32_t* best_primitive = nullptr;
 
   // Occlusion queries.
-  const double* t_max = nullptr;
   bool outward = false;                         // ShadowRayBatch's
   PrimitiveRange target;                        // likewise
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on

@@ -74,7 +74,7 @@ TEST_CASE("shadow rays all over are brute force's, to the rims of spheres") {
   }
 }
 
-TEST_CASE("the same far from the eye, of all sizes at once, and of the same sphere twice") {
+TEST_CASE("shadow rays all over between spheres of all sizes far from the eye") {
   Random random(62);
   Scene scene;
   for (int i = 0; i < 50; ++i) {
