@@ -188,6 +188,10 @@ std::vector<ModelBench> MakeModels() {
   const baseline::MetallicRoughness scalar_ggx{
       {0.9f, 0.6f, 0.2f}, 0.5f, static_cast<float>(kRoughness)};
   const float shininess = static_cast<float>(kShininess);
+  Material rough, burley, rough_base = ggx(Shadowing::kHeightCorrelated);
+  rough.model = OrenNayarMaterial{.albedo = color};
+  burley.model = BurleyMaterial{.albedo = color};
+  std::get<MetallicRoughnessMaterial>(rough_base.model).diffuse = DiffuseForm::kOrenNayar;
   return {
       {"lambert",
        {.name = {}, .emission = {0, 0, 0}, .model = LambertMaterial{color}},
@@ -218,6 +222,9 @@ std::vector<ModelBench> MakeModels() {
       {"ggx_double_terms", smooth, nullptr},
       {"ggx_default", ggx(Shadowing::kHeightCorrelated), nullptr},
       {"ggx_plain_separable", plain_ggx(Shadowing::kSeparable), nullptr},
+      {"oren_nayar", rough, nullptr},
+      {"burley", burley, nullptr},
+      {"ggx_default_oren_nayar_base", rough_base, nullptr},
   };
 }
 

@@ -11,6 +11,7 @@
 #include "base/target.h"
 #include "render/mesh_points.h"
 #include "render/mesh_windows.h"
+#include "render/plan_notes.h"
 #include "render/sampled_plan.h"
 #include "render/shadow_cull.h"
 #include "scene/mesh.h"
@@ -175,19 +176,6 @@ void PlanLayers(const Scene& scene, const RenderSettings& settings, RenderPlan* 
       {"layers", !names.empty(), names.empty() ? "only colour and coverage are asked for" : names});
 }
 
-// Which of the scene's materials are on a shape, splits resolved.
-std::vector<bool> FindUsedMaterials(const Scene& scene) {
-  std::vector<bool> used(scene.materials.size());
-  for (const Sphere& sphere : scene.spheres) used[sphere.material.index] = true;
-  for (const Mesh& mesh : scene.meshes) used[mesh.material.index] = true;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const auto* split = std::get_if<SplitMaterial>(&scene.materials[i].model);
-    if (split == nullptr || !used[i]) continue;
-    for (const MaterialId id : split->materials) used[id.index] = true;
-  }
-  return used;
-}
-
 void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   const std::vector<bool> used = FindUsedMaterials(scene);
   size_t count = 0;
@@ -225,24 +213,6 @@ void PlanMeshes(const Scene& scene, const RenderSettings& settings, RenderPlan* 
                          : shadows ? "no mesh has smooth normals and asks for it"
                                    : "there are no shadow rays"});
   ShadeMeshes(settings, plan);
-}
-
-// A perfect mirror shows only what has an extent; says so where no light has one.
-void NoteMirrors(const Scene& scene, RenderPlan* plan) {
-  if (!plan->sampled_lights.empty()) return;
-  const std::vector<bool> used = FindUsedMaterials(scene);
-  std::string first;
-  size_t count = 0;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    if (!used[i] || !HasDeltaLobe(plan->materials[i])) continue;
-    if (count++ == 0) first = scene.materials[i].name;
-  }
-  if (count == 0) return;
-  const std::string others = count > 1 ? fmt::format(" and {} more", count - 1) : "";
-  plan->notes.push_back(fmt::format(
-      "material \"{}\"{}: roughness 0 is a perfect mirror, in which point, spot and directional "
-      "lights have no highlight; a roughness above 0 gives them one",
-      first, others));
 }
 
 }  // namespace
@@ -289,7 +259,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
                                       : "none is known to be smooth")});
   }
   PlanMeshes(scene, settings, &plan);
-  NoteMirrors(scene, &plan);
+  NoteMaterials(scene, &plan);
   return plan;
 }
 

@@ -293,7 +293,17 @@ std::vector<decltype(Material::model)> Models() {
   PhongMaterial blinn;
   blinn.model = PhongModel::kBlinnPhong;
   blinn.shininess = 500;  // its terms are formed in double
-  return {LambertMaterial{Rgb(0.7)}, metal, plastic, lesson, phong, blinn};
+  MetallicRoughnessMaterial clay;
+  clay.diffuse = DiffuseForm::kOrenNayar;
+  return {LambertMaterial{Rgb(0.7)},
+          metal,
+          plastic,
+          lesson,
+          phong,
+          blinn,
+          clay,
+          OrenNayarMaterial{Rgb(0.7)},
+          BurleyMaterial{Rgb(0.7)}};
 }
 
 TEST_CASE("area lights far away are point lights") {

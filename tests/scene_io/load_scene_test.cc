@@ -121,6 +121,24 @@ TEST_CASE("materials keep the order of the file") {
   CHECK(metal.shadowing == Shadowing::kSchlickDirect);
 }
 
+TEST_CASE("rough matte surfaces and bases") {
+  const Scene scene = Load(R"(, "materials": {
+      "a": {"model": "oren_nayar", "albedo": [0.25, 0.5, 1], "roughness": 0.75},
+      "b": {"model": "burley", "albedo": 0.25, "roughness": 0.125},
+      "c": {"model": "metallic_roughness", "diffuse": "oren_nayar"},
+      "d": {"model": "dielectric", "diffuse": "burley", "diffuse_roughness": 0.25}})");
+  const auto& rough = std::get<OrenNayarMaterial>(scene.materials.at(0).model);
+  CHECK(rough.albedo == Rgb(0.25, 0.5, 1));
+  CHECK(rough.roughness == 0.75);
+  CHECK(std::get<BurleyMaterial>(scene.materials[1].model).roughness == 0.125);
+  const auto& clay = std::get<MetallicRoughnessMaterial>(scene.materials[2].model);
+  CHECK(clay.diffuse == DiffuseForm::kOrenNayar);
+  CHECK(!clay.diffuse_roughness);
+  const auto& cloth = std::get<DielectricMaterial>(scene.materials[3].model);
+  CHECK(cloth.diffuse == DiffuseForm::kBurley);
+  CHECK(cloth.diffuse_roughness == 0.25);
+}
+
 TEST_CASE("every model name makes its model") {
   const auto phong_model = [](const char* name) {
     const Scene scene = Load(R"(, "materials": {"m": {"model": ")" + std::string(name) + "\"}}");
