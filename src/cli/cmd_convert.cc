@@ -50,7 +50,8 @@ std::string Table(const MaterialFit& fit) {
                       fit.residual.rms);
   text +=
       "lobe rms: of the difference of BRDF n.l over all directions of light, over the original's;\n"
-      "peak: the highlight's largest value, relative; albedo: of lobe and base, the worst channel\n";
+      "peak: the highlight's largest value, relative; albedo: of lobe and base, the worst "
+      "channel\n";
   for (const std::string& note : fit.notes) text += "not kept: " + note + "\n";
   return text;
 }
@@ -72,24 +73,23 @@ void RunConvert(const Arguments& arguments) {
       page.title = fmt::format("{} as {}", page.a_label, arguments.to);
     }
     if (page.title == "-") page.title.clear();
-    page.footer = {"A  " + DescribeMaterial(complete), "B  " + DescribeMaterial(fitted),
-                   fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
-                               fit.guess_residual.rms,
-                               MakeLighting(arguments.sheet.lighting, 0.5).label)};
-    difference =
-        DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
+    page.footer = {
+        "A  " + DescribeMaterial(complete), "B  " + DescribeMaterial(fitted),
+        fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
+                    fit.guess_residual.rms, MakeLighting(arguments.sheet.lighting, 0.5).label)};
+    difference = DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
   }
   if (!arguments.json) {
     PrintOut(fitted.dump() + "\n" + (arguments.options.quiet ? "" : Table(fit)));
     return;
   }
-  Json json = {{"original", complete},
-               {"material", fitted},
-               {"residual", ResidualJson(fit.residual)},
-               {"closed_form",
-                {{"material", MaterialJson(fit.guess)},
-                 {"residual", ResidualJson(fit.guess_residual)}}},
-               {"not_kept", fit.notes}};
+  Json json = {
+      {"original", complete},
+      {"material", fitted},
+      {"residual", ResidualJson(fit.residual)},
+      {"closed_form",
+       {{"material", MaterialJson(fit.guess)}, {"residual", ResidualJson(fit.guess_residual)}}},
+      {"not_kept", fit.notes}};
   if (!difference.is_null()) json["picture"] = difference;
   PrintOut(json.dump(2) + "\n");
 }
@@ -104,7 +104,8 @@ void AddConvertCommand(CLI::App* app, int*) {
       ->required();
   std::vector<std::string> targets(FitTargets().begin(), FitTargets().end());
   command
-      ->add_option("--to", arguments->to, fmt::format("The model wanted: {}", fmt::join(targets, ", ")))
+      ->add_option("--to", arguments->to,
+                   fmt::format("The model wanted: {}", fmt::join(targets, ", ")))
       ->check(CLI::IsMember(targets))
       ->capture_default_str();
   command->add_flag("--json", arguments->json,
@@ -113,7 +114,8 @@ void AddConvertCommand(CLI::App* app, int*) {
   command->get_option("--output")->required(false);
   command->footer(
       "Prints the material for a scene file, and how far it is from the original: by the closed\n"
-      "forms (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) and after the fit.\n"
+      "forms (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) and after the "
+      "fit.\n"
       "-o FILE.png draws original, conversion and difference.\n"
       "Examples:\n"
       "  nacre convert '{\"model\": \"phong\", \"kd\": [0.6,0.1,0.1], \"ks\": 0.04, "

@@ -128,15 +128,12 @@ void RunGrid(const Arguments& arguments) {
   const Axes axes = ParseAxes(arguments);
   const auto rows = static_cast<int>(axes.rows.values.size());
   const auto columns = static_cast<int>(axes.columns.values.size());
-  const Lighting lighting =
-      MakeLighting(arguments.sheet.lighting, std::max(rows, columns) / 2.0);
+  const Lighting lighting = MakeLighting(arguments.sheet.lighting, std::max(rows, columns) / 2.0);
   SheetRequest request = MakeSheetRequest(arguments.sheet, options, rows, columns);
   request.light_ground = IsLightGround(lighting, options);
-  const SheetText text =
-      options.labels ? MakeText(axes, arguments.sheet, lighting) : SheetText{};
+  const SheetText text = options.labels ? MakeText(axes, arguments.sheet, lighting) : SheetText{};
   const SheetPage page = LayOutSheet(text, request);
-  const std::string scene =
-      SheetScene(GridShapes(axes), Json::object(), request, page, lighting);
+  const std::string scene = SheetScene(GridShapes(axes), Json::object(), request, page, lighting);
   RunRenderJob(
       options, "",
       [&](const LoadOptions& load) {
@@ -169,7 +166,8 @@ void AddGridCommand(CLI::App* app, int*) {
       ->capture_default_str();
   AddSheetOptions(command, &arguments->sheet, &arguments->options);
   command->footer(
-      "1 to 64 spheres along each axis. Without --size the picture is as large as the sheet needs.\n"
+      "1 to 64 spheres along each axis. Without --size the picture is as large as the sheet "
+      "needs.\n"
       "Examples:\n"
       "  nacre grid -o grid.png\n"
       "  nacre grid --material phong --rows shininess=4:256:4:log --columns ks=0:1:6 -o phong.png\n"
@@ -180,7 +178,8 @@ void AddGridCommand(CLI::App* app, int*) {
       "  nacre grid --rows base_color=#c03020:#2040c0:3 --columns roughness=0.1:1:6 \\\n"
       "    --light sky --sphere-size 160 -o colours.png\n"
       "  nacre grid --rows compensation=turquin,kulla_conty,none --columns roughness=0:1:6 \\\n"
-      "    --material '{\"model\": \"metallic_roughness\", \"base_color\": 1, \"metallic\": 1}' \\\n"
+      "    --material '{\"model\": \"metallic_roughness\", \"base_color\": 1, \"metallic\": 1}' "
+      "\\\n"
       "    --light furnace -o energy.png");
   command->callback([arguments] { RunGrid(*arguments); });
 }

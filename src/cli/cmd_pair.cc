@@ -125,8 +125,8 @@ void RunPair(const Arguments& arguments) {
     Report(arguments, a, b, nullptr);
     return;
   }
-  DifferencePage page{a.json, b.json, a.label, b.label, Title(arguments, a, b),
-                      Footer(arguments, a, b)};
+  DifferencePage page{
+      a.json, b.json, a.label, b.label, Title(arguments, a, b), Footer(arguments, a, b)};
   const DifferenceMeasures measures =
       DrawDifference(page, arguments.sheet, arguments.options, "nacre pair");
   Report(arguments, a, b, &measures);

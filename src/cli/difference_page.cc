@@ -108,8 +108,7 @@ std::vector<uint8_t> HeatCodes(const Panel& a, const Panel& b, const HeatScale& 
                                        static_cast<double>(b.Channel(name)[i])));
     }
     const Rgb8 color = worst > 0 ? HeatColor(scale.Position(worst)) : kHeatEqual;
-    std::copy(color.begin(), color.end(),
-              codes.begin() + 3 * static_cast<std::ptrdiff_t>(i));
+    std::copy(color.begin(), color.end(), codes.begin() + 3 * static_cast<std::ptrdiff_t>(i));
   }
   return codes;
 }
@@ -124,7 +123,8 @@ void DrawScale(const SheetPage& page, const HeatScale& scale, bool light_ground,
   const int top = static_cast<int>(page.strip_top);
   canvas->Paste(HeatLegend(width, height).rgb8, width, left, top);
   const int low = static_cast<int>(std::lround(std::log10(scale.low)));
-  for (int power = low; power <= low + 4; ++power) {
+  const int step = width > 4 * 3.2 * 0.8 * em ? 1 : 2;  // where labels would touch
+  for (int power = low; power <= low + 4; power += step) {
     const double x = left + (power - low) / 4.0 * width;
     const AlignX align = power == low       ? AlignX::kLeft
                          : power == low + 4 ? AlignX::kRight

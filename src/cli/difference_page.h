@@ -18,7 +18,7 @@ struct DifferenceMeasures {
 };
 
 struct DifferencePage {
-  Json a, b;              // materials as in scene files
+  Json a, b;  // materials as in scene files
   std::string a_label, b_label;
   std::string title;
   std::vector<std::string> footer;

@@ -122,7 +122,8 @@ void AddLightingOptions(CLI::App* command, LightingOptions* options) {
   const std::string group = "Light";
   command
       ->add_option("--light", options->light,
-                   "point (one from the upper right; in split pairs from above), studio (key, fill and rim), sky (a gradient "
+                   "point (one from the upper right; in split pairs from above), studio (key, fill "
+                   "and rim), sky (a gradient "
                    "from ground to zenith), rectangle (a soft box) or furnace (radiance 1 from "
                    "everywhere: what a white surface reflects whole is as bright as its ground)")
       ->check(CLI::IsMember({"point", "studio", "sky", "rectangle", "furnace"}))
@@ -156,9 +157,8 @@ Lighting MakeLighting(const LightingOptions& options, double reach, bool centred
                              : std::string("lights given");
   }
   if (!options.environment.empty()) {
-    lighting.lights["environment"] = {{"type", "environment"},
-                                      {"image", options.environment},
-                                      {"background", false}};
+    lighting.lights["environment"] = {
+        {"type", "environment"}, {"image", options.environment}, {"background", false}};
     lighting.label = std::filesystem::path(options.environment).filename().string();
   }
   if (options.lights.empty() && options.environment.empty()) {

@@ -19,8 +19,9 @@ struct LightingOptions {
 // --light, --lights, --environment and --background.
 void AddLightingOptions(CLI::App* command, LightingOptions* options);
 
-// What MakeLighting makes of the options for a scene whose shapes lie within `reach` of the origin in the plane
-// z = 0, seen from +z. `centred`: "point" has its highlight on the vertical middle line.
+// What MakeLighting makes of the options for a scene whose shapes lie within `reach` of the origin
+// in the plane z = 0, seen from +z. `centred`: "point" has its highlight on the vertical middle
+// line.
 struct Lighting {
   Json lights = Json::object();
   Json background;       // a colour

@@ -13,7 +13,8 @@ std::string SheetScene(const Json& shapes, const Json& materials, const SheetReq
   const double x = (page.width / 2.0 - page.left) / page.cell - request.columns / 2.0;
   const double y = request.rows / 2.0 - (page.height / 2.0 - page.top) / page.cell;
   constexpr double kDistance = 100;
-  Json scene = {
+  // No shadows: each sphere is lit as if it were alone.
+  const Json scene = {
       {"nacre", 1},
       {"camera",
        {{"type", "orthographic"},
@@ -21,7 +22,10 @@ std::string SheetScene(const Json& shapes, const Json& materials, const SheetReq
         {"look_at", {x, y, 0}},
         {"height", page.height / page.cell}}},
       {"image",
-       {{"width", page.width}, {"height", page.height}, {"spp", lighting.sampled ? 64 : 16}}},
+       {{"width", page.width},
+        {"height", page.height},
+        {"spp", lighting.sampled ? 64 : 16},
+        {"shadows", false}}},
       {"lights", lighting.lights},
       {"materials", materials},
       {"shapes", shapes},
@@ -78,8 +82,8 @@ Scene LoadSheet(const std::string& text, const std::string& command, const Sheet
                 const SheetPage& page, LoadOptions load) {
   if (!options.lighting.environment.empty()) load.allow_paths = true;
   if (page.width > 65536 || page.height > 65536) {
-    throw Error(ExitCode::kUsage, "--sphere-size",
-                "the picture would be larger than 65536 pixels", "give smaller spheres");
+    throw Error(ExitCode::kUsage, "--sphere-size", "the picture would be larger than 65536 pixels",
+                "give smaller spheres");
   }
   Scene scene = LoadSceneText(text, command, ".", load);
   scene.labels.clear();  // the page has them

@@ -10,11 +10,12 @@ namespace nacre {
 namespace {
 
 // Sizes in units of the text's size.
-constexpr double kPad = 1.1;          // around everything
+constexpr double kPad = 1.1;  // around everything
 constexpr double kTitleSize = 1.25;
 constexpr double kFooterSize = 0.82;
-constexpr double kLine = 1.3;         // from line to line, of the line's own size
-constexpr double kGap = 0.55;         // between text and what it belongs to
+constexpr double kLine = 1.3;      // from line to line, of the line's own size
+constexpr double kRowLine = 1.15;  // from row to row, at least
+constexpr double kGap = 0.55;      // between text and what it belongs to
 
 struct Margins {
   double left = 0, right = 0, top = 0, bottom = 0;
@@ -43,7 +44,7 @@ Margins MeasureMargins(const SheetText& text, double em, double cell, double wid
   m.columns = FitLabels(text.column_labels, em, cell);
   m.top += m.columns.lines * LineHeight(m.columns.size);
   if (!text.column_labels.empty()) m.top += kGap * em / 2;
-  m.row_label_size = std::min(em, cell / 1.15);
+  m.row_label_size = std::clamp(cell / kRowLine, 0.7 * em, em);
   double widest = TextWidth(text.row_name, em);
   for (const std::string& label : text.row_labels) {
     widest = std::max(widest, TextWidth(label, m.row_label_size));
@@ -96,13 +97,18 @@ void WriteRows(const SheetText& text, const Margins& m, bool light, SheetPage* p
     Write(text.row_name, x, page->top - kGap * em / 2 - LineHeight(em), em, AlignX::kRight,
           FaintInkColor(light), page);
   }
-  // Where lines would touch, every second value is written, or every third, ...
-  const double line = 1.15 * std::max(m.row_label_size, 0.6 * em);
-  const auto stride = static_cast<size_t>(std::max(1.0, std::ceil(line / page->cell)));
-  for (size_t i = 0; i < text.row_labels.size(); i += stride) {
+  const size_t count = text.row_labels.size();
+  if (count == 0) return;
+  // Where lines would touch, not every value is written.
+  const double line = kRowLine * m.row_label_size;
+  const double most = std::floor(static_cast<double>(count - 1) * page->cell / line) + 1;
+  const size_t written = std::min(count, std::max(static_cast<size_t>(most), size_t{2}));
+  const std::vector<size_t> places =
+      count > 1 ? SpreadPlaces(count - 1, written) : std::vector<size_t>{0};
+  for (const size_t i : places) {
     const double y = page->top + (static_cast<double>(i) + 0.5) * page->cell;
-    Write(text.row_labels[i], x, y, std::max(m.row_label_size, 0.6 * em), AlignX::kRight,
-          InkColor(light), page, AlignY::kCenter);
+    Write(text.row_labels[i], x, y, m.row_label_size, AlignX::kRight, InkColor(light), page,
+          AlignY::kCenter);
   }
 }
 
@@ -138,8 +144,8 @@ Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* pag
   page->height = r.height;
   for (double em = std::min(std::min(r.width, r.height) / 32.0, 64.0); em >= kSmallestText;
        em *= 0.9) {
-    Margins m = MeasureMargins(text, em, std::min(r.width * 0.8 / r.columns, r.height * 0.8 / r.rows),
-                               r.width);
+    Margins m = MeasureMargins(
+        text, em, std::min(r.width * 0.8 / r.columns, r.height * 0.8 / r.rows), r.width);
     m.bottom += r.strip * em;
     m = [&] {  // again, now that the cells are known
       Margins again = MeasureMargins(text, em, std::max(CellThatFits(r, m), 1.0), r.width);
@@ -147,8 +153,7 @@ Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* pag
       return again;
     }();
     const double cell = CellThatFits(r, m);
-    const bool has_room =
-        cell * r.columns > 0.5 * r.width || cell * r.rows > 0.5 * r.height;
+    const bool has_room = cell * r.columns > 0.5 * r.width || cell * r.rows > 0.5 * r.height;
     if (!has_room) continue;
     page->text_px = em;
     page->cell = cell;
@@ -206,8 +211,7 @@ SheetPage LayOutSheet(const SheetText& text, const SheetRequest& request) {
   }
   WriteColumns(text, m, light, &page);
   WriteRows(text, m, light, &page);
-  y = page.height - kPad * em -
-      static_cast<double>(m.footer.size()) * LineHeight(kFooterSize * em);
+  y = page.height - kPad * em - static_cast<double>(m.footer.size()) * LineHeight(kFooterSize * em);
   for (const std::string& line : m.footer) {
     Write(line, kPad * em, y, kFooterSize * em, AlignX::kLeft, FaintInkColor(light), &page);
     y += LineHeight(kFooterSize * em);

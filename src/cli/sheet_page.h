@@ -29,10 +29,10 @@ struct SheetRequest {
 
 struct SheetPage {
   int width = 0, height = 0;
-  double cell = 0;            // side of a cell, a whole number unless the frame is tiny
-  double left = 0, top = 0;   // of the first cell
-  double text_px = 0;         // size of the text; 0: there is no room for any
-  double strip_top = 0;       // of the caller's strip
+  double cell = 0;           // side of a cell, a whole number unless the frame is tiny
+  double left = 0, top = 0;  // of the first cell
+  double text_px = 0;        // size of the text; 0: there is no room for any
+  double strip_top = 0;      // of the caller's strip
   std::vector<TextItem> text;
 };
 

@@ -38,12 +38,11 @@ bool Fits(const FittedLabels& fitted, double room) {
   return true;
 }
 
-// Labels of every `stride`-th place.
-FittedLabels Fit(const std::vector<std::string>& labels, double size_px, double room,
-                 size_t stride) {
+FittedLabels Fit(const std::vector<std::string>& labels, const std::vector<size_t>& places,
+                 double size_px, double room) {
   FittedLabels fitted;
   fitted.size = size_px;
-  for (size_t i = 0; i < labels.size(); i += stride) {
+  for (const size_t i : places) {
     fitted.labels.push_back({i, WrapText(labels[i], size_px, room - kBetween * size_px)});
     fitted.lines = std::max(fitted.lines, static_cast<double>(fitted.labels.back().lines.size()));
   }
@@ -66,15 +65,27 @@ std::vector<std::string> WrapText(const std::string& text, double size_px, doubl
   return lines;
 }
 
+std::vector<size_t> SpreadPlaces(size_t last, size_t count) {
+  std::vector<size_t> places;
+  places.reserve(count);
+  for (size_t i = 0; i < count; ++i) {
+    places.push_back((2 * i * last + count - 1) / (2 * (count - 1)));  // rounded
+  }
+  return places;
+}
+
 FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, double width) {
   FittedLabels fitted;
+  std::vector<size_t> places(labels.size());
+  for (size_t i = 0; i < places.size(); ++i) places[i] = i;
   for (const double scale : {1.0, 0.85, 0.7}) {
-    fitted = Fit(labels, scale * size_px, width, 1);
+    fitted = Fit(labels, places, scale * size_px, width);
     if (Fits(fitted, width)) return fitted;
   }
-  for (size_t stride = 2; stride < labels.size(); ++stride) {
-    const double room = static_cast<double>(stride) * width;
-    fitted = Fit(labels, 0.7 * size_px, room, stride);
+  for (size_t count = labels.size() - 1; labels.size() > 2 && count >= 2; --count) {
+    const size_t last = labels.size() - 1;
+    const double room = static_cast<double>(last / (count - 1)) * width;  // at least
+    fitted = Fit(labels, SpreadPlaces(last, count), 0.7 * size_px, room);
     if (Fits(fitted, room)) return fitted;
   }
   return fitted;

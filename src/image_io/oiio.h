@@ -32,7 +32,8 @@ struct TextItem {
   bool outline = true;  // a dark one, which reads on any background
 };
 
-// Draws text in DejaVu Sans into width * height RGB pixels of display codes. Throws Error (kInternal) if the module or a font is missing.
+// Draws text in DejaVu Sans into width * height RGB pixels of display codes. Throws Error
+// (kInternal) if the module or a font is missing.
 void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items);
 
 }  // namespace nacre

@@ -65,9 +65,10 @@ Json ParseValue(const std::string& text) {
   if (text.starts_with('#')) return HexColor(text);
   Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (value.is_number() || value.is_object() || IsColorArray(value)) return value;
-  const bool is_name = !text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyz"
-                                                               "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                               "0123456789_") == std::string::npos;
+  const bool is_name = !text.empty() && text.find_first_not_of(
+                                            "abcdefghijklmnopqrstuvwxyz"
+                                            "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                            "0123456789_") == std::string::npos;
   return is_name ? Json(text) : Json();
 }
 
@@ -81,12 +82,27 @@ Json FromRgb(const Rgb& rgb, bool is_number) {
   return is_number ? Json(rgb.x) : Json{rgb.x, rgb.y, rgb.z};
 }
 
-std::string Label(const Json& value, const std::string& text) {
-  if (value.is_number()) return fmt::format("{:.4g}", value.get<double>());
-  if (value.is_object()) return MaterialLabel(value);
-  if (value.is_string() || text.starts_with('#')) return text;
-  return fmt::format("{:.3g} {:.3g} {:.3g}", value[0].get<double>(), value[1].get<double>(),
-                     value[2].get<double>());
+// Components to two decimals.
+std::string ColorLabel(const Json& color) {
+  std::string text;
+  for (const Json& component : color) {
+    const double rounded = std::round(100 * component.get<double>()) / 100;
+    text += fmt::format("{}{:.4g}", text.empty() ? "" : " ", rounded);
+  }
+  return text;
+}
+
+// Of a value that was typed: as it was.
+std::string ItemLabel(const Json& value, const std::string& text) {
+  if (value.is_number()) return fmt::format("{:.6g}", value.get<double>());
+  return value.is_array() && !text.starts_with('#') ? ColorLabel(value) : text;
+}
+
+// Of a value between two ends: three digits, and all of whole numbers up to 9999.
+std::string RangeLabel(const Json& value) {
+  if (!value.is_number()) return ColorLabel(value);
+  const auto number = value.get<double>();
+  return fmt::format("{:.{}g}", number, number < 100 ? 3 : 4);
 }
 
 // FROM:TO:COUNT, or the same with ":log".
@@ -119,7 +135,7 @@ void ParseRange(const std::string& option, const std::vector<std::string>& parts
                                       : LinearAxis(axis->name, *from, *to, count);
   for (const Rgb& value : values.values) {
     axis->values.push_back(FromRgb(value, is_number));
-    axis->labels.push_back(Label(axis->values.back(), ""));
+    axis->labels.push_back(RangeLabel(axis->values.back()));
   }
 }
 
@@ -148,7 +164,7 @@ void ParseList(const std::string& option, const std::string& text, SheetAxis* ax
     const Json value = ParseValue(trimmed);
     if (value.is_null()) Refuse(option, fmt::format("\"{}\" is not a value", trimmed));
     axis->values.push_back(value);
-    axis->labels.push_back(Label(value, trimmed));
+    axis->labels.push_back(ItemLabel(value, trimmed));
   }
 }
 

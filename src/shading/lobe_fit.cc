@@ -52,8 +52,7 @@ Vec3d ViewOf(const LobeTable::Entry& entry) { return ViewDirection(kResidualView
 // The error of the best strengths in [0, 1], which minimise a quadratic each.
 FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess) {
   Material unit;
-  unit.model = PhongMaterial{
-      .model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
+  unit.model = PhongMaterial{.model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
   const ShadingMaterial prepared = PrepareMaterial(unit, Rgb(0));
   Rgb cross(0);
   Rgb squares(0);
@@ -69,7 +68,7 @@ FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess
   for (int c = 0; c < 3; ++c) {
     fit.strength[c] = own > 0 ? std::clamp(cross[c] / own, 0.0, 1.0) : 0;
     const double s = fit.strength[c];
-    fit.squared_error += squares[c] - 2 * s * cross[c] + s * s * own;
+    fit.error += squares[c] - 2 * s * cross[c] + s * s * own;
   }
   return fit;
 }
@@ -90,12 +89,28 @@ struct GgxMoments {
     }
     return error;
   }
+
+  // The same with the best scale in place of 1.
+  double ShapeError(int channel, double f0) const {
+    const std::array<double, 3> powers = {1, f0, f0 * f0};
+    double with_original = 0;
+    double with_itself = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      with_original += powers[i] * cross[i][channel];
+      for (size_t j = 0; j < 3; ++j) with_itself += powers[i] * powers[j] * own[i][j];
+    }
+    const double explained = with_itself > 0 ? with_original * with_original / with_itself : 0;
+    return squares[channel] - explained;
+  }
 };
 
-GgxMoments MakeMoments(const LobeTable& table, double alpha) {
+// Of one view, or with the sums of all.
+using ViewMoments = std::array<GgxMoments, kResidualViewsDeg.size()>;
+
+ViewMoments MakeMoments(const LobeTable& table, double alpha) {
   const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, std::sqrt(alpha));
   const Vec3d normal(0, 0, 1);
-  GgxMoments moments;
+  ViewMoments views;
   for (const LobeTable::Entry& entry : table.entries) {
     const Vec3d to_view = ViewOf(entry);
     const Vec3d& to_light = entry.sample.to_light;
@@ -108,23 +123,30 @@ GgxMoments MakeMoments(const LobeTable& table, double alpha) {
     const double head_on = lobe - grazing;
     const std::array<double, 3> terms = {grazing, head_on + more * grazing, more * head_on};
     const double weight = entry.sample.weight;
+    GgxMoments& moments = views[entry.view];
     for (size_t i = 0; i < 3; ++i) {
       moments.cross[i] += entry.lobe * (terms[i] * weight);
       for (size_t j = 0; j < 3; ++j) moments.own[i][j] += terms[i] * terms[j] * weight;
     }
     moments.squares += entry.lobe * entry.lobe * weight;
   }
-  return moments;
+  return views;
 }
 
-FittedLobe SolveGgx(const LobeTable& table, double alpha, const Rgb* f0) {
-  const GgxMoments moments = MakeMoments(table, alpha);
+// F0 by all views together. The error is that of the lobe's shape: each view may scale it, so that
+// Fresnel's growth towards grazing angles, which the original may lack, does not widen the lobe.
+FittedLobe SolveGgx(const LobeTable& table, double alpha) {
+  const ViewMoments views = MakeMoments(table, alpha);
   FittedLobe fit;
   fit.width = alpha;
   for (int c = 0; c < 3; ++c) {
-    const auto error = [&](double x) { return moments.Error(c, x); };
-    fit.strength[c] = f0 != nullptr ? (*f0)[c] : GoldenMinimum(error, 0, 1);
-    fit.squared_error += error(fit.strength[c]);
+    const auto error = [&](double f0) {
+      double sum = 0;
+      for (const GgxMoments& view : views) sum += view.Error(c, f0);
+      return sum;
+    };
+    fit.strength[c] = GoldenMinimum(error, 0, 1);
+    for (const GgxMoments& view : views) fit.error += view.ShapeError(c, fit.strength[c]);
   }
   return fit;
 }
@@ -134,15 +156,8 @@ FittedLobe SearchWidth(double start, double reach, double least, double most,
                        const std::function<FittedLobe(double)>& solve) {
   const double low = std::log(std::clamp(start / reach, least, most));
   const double high = std::log(std::clamp(start * reach, least, most));
-  const auto error = [&](double log_width) { return solve(std::exp(log_width)).squared_error; };
+  const auto error = [&](double log_width) { return solve(std::exp(log_width)).error; };
   return solve(std::exp(ScannedMinimum(error, low, high, 24)));
-}
-
-FittedLobe SearchGgx(const Material& original, const Rgb* f0) {
-  const LobeTable table = Tabulate(original);
-  const double least = 1e-5;  // Phong's exponents end at 1e9
-  return SearchWidth(table.alpha, 4, least, 1,
-                     [&](double alpha) { return SolveGgx(table, alpha, f0); });
 }
 
 }  // namespace
@@ -154,10 +169,11 @@ FittedLobe FitPhongLobe(const Material& original, PhongModel model) {
                      [&](double shininess) { return SolvePhong(table, model, shininess); });
 }
 
-FittedLobe FitGgxLobe(const Material& original) { return SearchGgx(original, nullptr); }
-
-FittedLobe FitGgxWidth(const Material& original, const Rgb& f0) {
-  return SearchGgx(original, &f0);
+FittedLobe FitGgxLobe(const Material& original) {
+  const LobeTable table = Tabulate(original);
+  constexpr double kLeast = 1e-5;  // Phong's exponents end at 1e9
+  return SearchWidth(table.alpha, 4, kLeast, 1,
+                     [&](double alpha) { return SolveGgx(table, alpha); });
 }
 
 }  // namespace nacre

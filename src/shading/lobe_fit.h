@@ -7,19 +7,17 @@
 namespace nacre {
 
 struct FittedLobe {
-  double width = 0;           // of Phong's family the exponent, of GGX alpha
-  Rgb strength{0, 0, 0};      // ks (radiometric), or F0; each in [0, 1]
-  double squared_error = 0;   // over all views
+  double width = 0;       // of Phong's family the exponent, of GGX alpha
+  Rgb strength{0, 0, 0};  // ks (radiometric), or F0; each in [0, 1]
+  double error = 0;       // what the search made small
 };
 
 // ks and shininess of a lobe of this model in radiometric units.
 FittedLobe FitPhongLobe(const Material& original, PhongModel model);
 
 // F0 and alpha of a metallic-roughness lobe with Schlick's Fresnel, height-correlated and
-// compensated as Turquin has it: the defaults.
+// compensated as Turquin has it: the defaults. Alpha is that of the nearest shape, whatever the
+// strength in each view; F0 is the best for it.
 FittedLobe FitGgxLobe(const Material& original);
-
-// The same where F0 is given.
-FittedLobe FitGgxWidth(const Material& original, const Rgb& f0);
 
 }  // namespace nacre

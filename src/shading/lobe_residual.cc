@@ -67,9 +67,7 @@ double RelativeRms(double difference2, double original2) {
 
 }  // namespace
 
-Vec3d ViewDirection(double view_deg) {
-  return Direction(std::cos(view_deg * M_PI / 180), 0);
-}
+Vec3d ViewDirection(double view_deg) { return Direction(std::cos(view_deg * M_PI / 180), 0); }
 
 double ViewWeight(double view_deg) { return std::cos(view_deg * M_PI / 180); }
 
@@ -94,8 +92,7 @@ std::vector<LobeSample> MakeLobeSamples(double alpha, double view_deg) {
       if (!(v_dot_h > 0)) continue;
       const Vec3d to_light = (half * (2 * v_dot_h) - to_view).normalized();
       if (!(to_light.z > 0)) continue;
-      samples.push_back(
-          {to_light, 4 * v_dot_h / (pdf_half * kRadialPoints * kAzimuthPoints)});
+      samples.push_back({to_light, 4 * v_dot_h / (pdf_half * kRadialPoints * kAzimuthPoints)});
     }
   }
   return samples;

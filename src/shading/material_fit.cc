@@ -125,12 +125,11 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   MetallicRoughnessMaterial material = GuessMetallic(summary, LobeAlpha(original));
   fit->guess.model = material;
   const FittedLobe free = FitGgxLobe(original);
-  const MetallicBase base =
-      SolveMetallic(free.strength, summary.base, std::sqrt(free.width));
+  const MetallicBase base = SolveMetallic(free.strength, summary.base, std::sqrt(free.width));
   material.base_color = base.base_color;
   material.metallic = base.metallic;
   const Rgb f0 = Rgb(kDielectricF0) * (1 - base.metallic) + base.base_color * base.metallic;
-  material.roughness = std::sqrt(FitGgxWidth(original, f0).width);
+  material.roughness = std::sqrt(free.width);
   fit->fitted.model = material;
   const Rgb gap = free.strength - f0;
   const double worst = std::max({std::abs(gap.x), std::abs(gap.y), std::abs(gap.z)});

@@ -17,7 +17,7 @@
 namespace nacre {
 
 struct MaterialFit {
-  Material guess;   // by the closed forms
+  Material guess;  // by the closed forms
   Material fitted;
   MaterialResidual guess_residual, residual;
   std::vector<std::string> notes;  // what is lost

@@ -16,7 +16,8 @@ Response Evaluate(const PhongFamilyModel& m, const Vec3d& l, const Vec3d& v) {
   const bool blinn = m.model == PhongModel::kBlinnPhong;
   const double lobe = blinn ? BlinnLobe(ComputeAngles(kNormal, l, v), m.shininess)
                             : PhongLobe(kNormal, l, v, m.shininess);
-  return {m.diffuse * l.z, m.specular * (m.model == PhongModel::kModifiedPhong ? lobe * l.z : lobe)};
+  return {m.diffuse * l.z,
+          m.specular * (m.model == PhongModel::kModifiedPhong ? lobe * l.z : lobe)};
 }
 
 double FresnelOf(const MicrofacetModel& m, const Angles<double>& a, int c) {
@@ -87,7 +88,9 @@ Response EvaluateResponse(const ShadingMaterial& material, const Vec3d& to_light
   if (!(to_light.z > 0 && to_view.z > 0)) return {};
   return std::visit(
       Overloaded{[](const std::monostate&) { return Response{}; },
-                 [&](const LambertModel& m) { return Response{m.diffuse * to_light.z, Rgb(0)}; },
+                 [&](const LambertModel& m) {
+                   return Response{m.diffuse * to_light.z, Rgb(0)};
+                 },
                  [&](const PhongFamilyModel& m) { return Evaluate(m, to_light, to_view); },
                  [&](const MicrofacetModel& m) { return Evaluate(m, to_light, to_view); }},
       material.model);

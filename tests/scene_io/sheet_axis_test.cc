@@ -99,16 +99,19 @@ TEST_CASE("values that the material cannot take are bad input") {
   check("shadowing=1,2", "no shadowing");
   check("material=fong,lambert", "did you mean \"phong\"");
   SheetAxis axis = Parse("shininess=1:2:2");
-  CHECK(CodeOf([&] { CheckSheetAxis("--rows", {Json{{"model", "phong"}}, metal[0]}, &axis); },
-               "metallic_roughness has no parameter") == ExitCode::kBadInput);
+  CHECK(CodeOf(
+            [&] {
+              CheckSheetAxis("--rows", {Json{{"model", "phong"}}, metal[0]}, &axis);
+            },
+            "metallic_roughness has no parameter") == ExitCode::kBadInput);
 }
 
 TEST_CASE("materials survive the way through JSON") {
-  const Json json = {{"model", "phong"}, {"color", {0.8, 0.2, 0.2}}, {"ka", 0.96},
-                     {"kd", 0.96},       {"ks", 0.04},               {"shininess", 19.0}};
+  const Json json = {{"model", "phong"}, {"color", {0.8, 0.2, 0.2}}, {"ka", 0.96}, {"kd", 0.96},
+                     {"ks", 0.04},       {"shininess", 19.0}};
   CHECK(MaterialJson(MaterialFromJson(json, "test")) == json);
-  const Json chosen = MaterialJson(MaterialFromJson(
-      {{"model", "metallic_roughness"}, {"shadowing", "separable"}}, "test"));
+  const Json chosen = MaterialJson(
+      MaterialFromJson({{"model", "metallic_roughness"}, {"shadowing", "separable"}}, "test"));
   CHECK(chosen["shadowing"] == "separable");
   CHECK_FALSE(chosen.contains("compensation"));  // the default
   CHECK(DescribeMaterial(json) ==
