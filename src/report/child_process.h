@@ -1,0 +1,21 @@
+// report/child_process.h: another program, run to its end: text in, bytes out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nacre {
+
+struct ChildResult {
+  bool found = true;  // false: there is no such program
+  int status = 0;     // its exit code; 128 and the signal's number if a signal ended it
+  std::string output;
+  std::string errors;
+};
+
+// Looks for arguments[0] in PATH and starts it with these arguments, without a shell. Its three
+// streams are files in memory: none can fill up, and none can break. Throws Error (kInternal) if
+// the system cannot start any program.
+ChildResult RunChild(const std::vector<std::string>& arguments, const std::string& input);
+
+}  // namespace nacre

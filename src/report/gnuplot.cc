@@ -1,0 +1,238 @@
+#include "report/gnuplot.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "report/axis_range.h"
+#include "report/layout.h"
+
+namespace nacre {
+namespace {
+
+// Okabe and Ito 2008, as the benchmarks' diagrams have them: no yellow, which is pale on white.
+constexpr std::array<std::string_view, 8> kColors = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                     "#000000", "#E69F00", "#56B4E9", "#999999"};
+// Lengths of strokes and gaps; no two neighbours look alike in grey.
+constexpr std::array<std::string_view, 8> kDashes = {
+    "solid", "(12,5)", "(3,4)", "(12,4,3,4)", "(20,5)", "(6,4)", "(3,3,3,8)", "(12,4,3,4,3,4)"};
+constexpr std::array<int, 8> kPoints = {7, 5, 9, 11, 13, 6, 4, 8};  // gnuplot's point types
+
+constexpr std::string_view kCommon = R"(set encoding utf8
+set border 3 lw 1.5 lc rgb '#555555'
+set tics nomirror out scale 0.6 textcolor rgb '#222222'
+set grid lw 1 lt 1 lc rgb '#dddddd'
+)";
+constexpr std::string_view kGrey = "rgb '#666666'";
+
+size_t LookOf(const Curve& curve, size_t place) {
+  const auto look = static_cast<size_t>(curve.look >= 0 ? curve.look : static_cast<int>(place));
+  return look % kColors.size();
+}
+
+std::string Number(double value) {
+  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "NaN";
+}
+
+std::string BlockName(size_t panel, size_t curve) { return fmt::format("$p{}c{}", panel, curve); }
+
+// A data block. What a logarithm cannot show is missing.
+std::string DataBlock(const std::string& name, const Plot& plot, const Curve& curve) {
+  std::string text = name + " << EOD\n";
+  for (size_t i = 0; i < curve.x.size(); ++i) {
+    double x = curve.x[i];
+    double y = curve.y[i];
+    if (plot.polar) {
+      const double angle = x * M_PI / 180;
+      x = y * std::sin(angle);
+      y = y * std::cos(angle);
+    } else if ((plot.x.log && !(x > 0)) || (plot.y.log && !(y > 0))) {
+      y = kFromData;
+    }
+    // A blank line breaks the curve.
+    text +=
+        std::isfinite(x) && std::isfinite(y) ? fmt::format("{} {}\n", Number(x), Number(y)) : "\n";
+  }
+  return text + "EOD\n";
+}
+
+std::string CurveStyleText(const Curve& curve, size_t place) {
+  const size_t look = LookOf(curve, place);
+  const std::string line = fmt::format("lc rgb '{}' lw 3", kColors[look]);
+  const std::string mark = fmt::format("pt {} ps 1.3", kPoints[look]);
+  switch (curve.style) {
+    case CurveStyle::kMarkedLine:
+      return fmt::format("with linespoints {} {}", line, mark);
+    case CurveStyle::kMarks:
+      return fmt::format("with points {} {}", line, mark);
+    case CurveStyle::kLine:
+      break;
+  }
+  return fmt::format("with lines {} dt {}", line, kDashes[look]);
+}
+
+std::string AxisText(char name, const Axis& axis, const Range& range) {
+  std::string text = fmt::format("set {}label {} noenhanced\n", name, GnuplotQuote(axis.label));
+  text += fmt::format("{} logscale {}\n", axis.log ? "set" : "unset", name);
+  text += fmt::format("set {}range [{}:{}]\n", name, Number(range.low), Number(range.high));
+  text += fmt::format("set {}tics autofreq\n", name);
+  if (!axis.log) {
+    text += fmt::format("set format {} '%h'\n", name);
+    if (std::isfinite(axis.step)) text += fmt::format("set {}tics {}\n", name, Number(axis.step));
+    return text;
+  }
+  if (IsManyDecades(range)) {
+    return text + fmt::format("set format {} '10^{{%T}}'\n", name);
+  }
+  text += fmt::format("set format {} '%h'\nset {}tics (", name, name);
+  const char* separator = "";
+  for (double decade = std::pow(10, std::floor(std::log10(range.low))); decade <= range.high;
+       decade *= 10) {
+    for (const int digit : {1, 2, 5}) {
+      text += fmt::format("{}{}", separator, Number(digit * decade));
+      separator = ", ";
+    }
+  }
+  return text + ")\n";
+}
+
+// `layout` knows of the rules' words by now.
+std::string KeyText(const Plot& plot, const PlotLayout& layout) {
+  const bool titled = std::any_of(plot.curves.begin(), plot.curves.end(),
+                                  [](const Curve& curve) { return !curve.title.empty(); });
+  if (!titled) return "unset key\n";
+  constexpr std::string_view kLook =
+      "Left reverse noenhanced textcolor rgb '#222222' samplen 3 spacing 1.15";
+  const std::optional<PlotBox> room = FindKeyRoom(plot, layout);
+  if (!room) return fmt::format("set key outside below center horizontal {}\n", kLook);
+  // The corner of the room that is nearest to one of the plot's stays where it is.
+  const bool right = room->x0 + room->x1 > 1;
+  const bool top = room->y0 + room->y1 > 1;
+  return fmt::format("set key at graph {},graph {} {} {} vertical {}\n",
+                     Number(right ? room->x1 : room->x0), Number(top ? room->y1 : room->y0),
+                     top ? "top" : "bottom", right ? "right" : "left", kLook);
+}
+
+// A line across the plot, and its word beside it where it hides no curve.
+std::string RuleText(const Plot& plot, const Rule& rule, PlotLayout* layout) {
+  const bool vertical = rule.across == Rule::Across::kX;
+  const std::string at = Number(rule.at);
+  const std::string look = fmt::format("nohead lw 1.5 dt (5,4) lc {} back\n", kGrey);
+  std::string text =
+      vertical ? fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 {1}", at, look)
+               : fmt::format("set arrow from graph 0,first {0} to graph 1,first {0} {1}", at, look);
+  if (rule.label.empty()) return text;
+  const double place = vertical ? PlaceOf(rule.at, plot.x, RangeOf(plot, Which::kX))
+                                : PlaceOf(rule.at, plot.y, RangeOf(plot, Which::kY));
+  const PlotBox box = vertical ? RoomBesideColumn(*layout, place, layout->TextWidth(rule.label))
+                               : RoomAboveRow(*layout, place, layout->TextWidth(rule.label));
+  layout->Occupy(box);
+  return text + fmt::format(
+                    "set label {} at graph {},graph {} center noenhanced textcolor {} font "
+                    "',16' front\n",
+                    GnuplotQuote(rule.label), Number((box.x0 + box.x1) / 2),
+                    Number((box.y0 + box.y1) / 2), kGrey);
+}
+
+// Circles and rays under the curves, in place of axes.
+std::string PolarText(const Plot& plot, const Range& radius) {
+  // The outermost circle is the first one around all curves.
+  const double step = std::isfinite(plot.y.step) ? plot.y.step : NiceStep(radius.high / 6);
+  const double end =
+      std::isfinite(plot.y.high) ? plot.y.high : step * std::ceil(radius.high / step - 1e-9);
+  std::string text = fmt::format(
+      "unset border\nunset tics\nunset grid\nunset logscale\nset size ratio -1\n"
+      "set xrange [{0}:{1}]\nset yrange [{2}:{1}]\nset xlabel {3} noenhanced\nset ylabel ''\n",
+      Number(-1.13 * end), Number(1.13 * end), Number(-0.12 * end), GnuplotQuote(plot.y.label));
+  for (int degrees = -90; degrees <= 90; degrees += 15) {
+    const double x = std::sin(degrees * M_PI / 180);
+    const double y = std::cos(degrees * M_PI / 180);
+    text += fmt::format("set arrow from 0,0 to {},{} nohead lw 1 lc rgb '#dddddd' back\n",
+                        Number(end * x), Number(end * y));
+    if (degrees % 30 != 0) continue;
+    text += fmt::format("set label '{}°' at {},{} center textcolor rgb '#222222'\n",
+                        std::abs(degrees), Number(1.07 * end * x), Number(1.06 * end * y));
+  }
+  for (int i = 1; i * step <= end * (1 + 1e-9); ++i) {
+    text += fmt::format(
+        "set object circle at 0,0 size first {0} arc [0:180] nowedge fs empty border lc "
+        "rgb '#cccccc' lw 1 back\n"
+        "set label '{0}' at {0},0 center offset 0,-0.8 textcolor rgb '#222222' font ',16'\n",
+        Number(i * step));
+  }
+  for (const Rule& rule : plot.rules) {
+    const double x = end * std::sin(rule.at * M_PI / 180);
+    const double y = end * std::cos(rule.at * M_PI / 180);
+    text +=
+        fmt::format("set arrow from {},{} to 0,0 lw 2 lc {} front\n", Number(x), Number(y), kGrey);
+    text += fmt::format("set label {} at {},{} center noenhanced textcolor {} font ',16' front\n",
+                        GnuplotQuote(rule.label), Number(1.02 * x), Number(1.02 * y + 0.05 * end),
+                        kGrey);
+  }
+  return text;
+}
+
+std::string PanelText(const Figure& figure, size_t index, int width, int height) {
+  const Plot& plot = figure.panels[index];
+  PlotLayout layout(plot, width, height);
+  std::string text = std::string(kCommon) + "unset label\nunset arrow\nunset object\n";
+  text += "set size noratio\n";
+  text += fmt::format("set title {} noenhanced offset 0,-0.4\n", GnuplotQuote(plot.title));
+  if (plot.polar) {
+    text += PolarText(plot, RangeOf(plot, Which::kY));
+  } else {
+    text += AxisText('x', plot.x, RangeOf(plot, Which::kX));
+    text += AxisText('y', plot.y, RangeOf(plot, Which::kY));
+    for (const Rule& rule : plot.rules) text += RuleText(plot, rule, &layout);
+  }
+  text += KeyText(plot, layout);
+  std::string curves;
+  for (size_t i = 0; i < plot.curves.size(); ++i) {
+    const Curve& curve = plot.curves[i];
+    const std::string title =
+        curve.title.empty() ? "notitle" : "title " + GnuplotQuote(curve.title);
+    curves += fmt::format("{}{} using 1:2 {} {}", i == 0 ? "" : ", ", BlockName(index, i),
+                          CurveStyleText(curve, i), title);
+  }
+  return text + "plot " + (curves.empty() ? "NaN notitle" : curves) + "\n";
+}
+
+}  // namespace
+
+std::string GnuplotQuote(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (c == '\'') {
+      quoted += "’";
+    } else {
+      quoted += c == '\n' || c == '\r' ? ' ' : c;
+    }
+  }
+  return quoted + "'";
+}
+
+std::string GnuplotScript(const Figure& figure, PictureFormat format) {
+  const int columns = std::max(figure.columns, 1);
+  const int count = static_cast<int>(figure.panels.size());
+  const int rows = std::max((count + columns - 1) / columns, 1);
+  std::string text =
+      fmt::format("set terminal {} size {},{} font 'DejaVu Sans,19' background rgb 'white'\n",
+                  format == PictureFormat::kSvg ? "svg" : "pngcairo", figure.width, figure.height);
+  for (size_t p = 0; p < figure.panels.size(); ++p) {
+    const Plot& plot = figure.panels[p];
+    for (size_t c = 0; c < plot.curves.size(); ++c) {
+      text += DataBlock(BlockName(p, c), plot, plot.curves[c]);
+    }
+  }
+  if (count > 1) text += fmt::format("set multiplot layout {},{}\n", rows, columns);
+  for (size_t p = 0; p < figure.panels.size(); ++p) {
+    text += PanelText(figure, p, figure.width / columns, figure.height / rows);
+  }
+  if (count > 1) text += "unset multiplot\n";
+  return text;
+}
+
+}  // namespace nacre

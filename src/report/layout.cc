@@ -1,0 +1,114 @@
+#include "report/layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/axis_range.h"
+
+namespace nacre {
+namespace {
+
+// Of the fonts that gnuplot draws with, in pixels, a little generous.
+constexpr double kGlyphWidth = 10.5;
+constexpr double kLineHeight = 31;
+constexpr double kAxesWidth = 170, kAxesHeight = 130;  // what axes and margins take
+
+size_t GlyphCount(const std::string& text) {
+  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // all but continuations of UTF-8
+  }));
+}
+
+// How far a box is from the nearest corner.
+double DistanceToCorner(const PlotBox& box) {
+  const double x = std::min(box.x0, 1 - box.x1);
+  const double y = std::min(box.y0, 1 - box.y1);
+  return x * x + y * y;
+}
+
+}  // namespace
+
+PlotLayout::PlotLayout(const Plot& plot, int width, int height)
+    : inner_width_(std::max(width - kAxesWidth, 50.0)),
+      inner_height_(std::max(height - kAxesHeight, 50.0)) {
+  if (plot.polar) return;
+  ForEachPlottedPoint(plot, [&](double x, double y) { points_.emplace_back(x, y); });
+}
+
+double PlotLayout::TextWidth(const std::string& text) const {
+  return kGlyphWidth * static_cast<double>(GlyphCount(text)) / inner_width_;
+}
+
+double PlotLayout::LineHeight() const { return kLineHeight / inner_height_; }
+
+bool PlotLayout::IsFree(const PlotBox& box) const {
+  const auto inside = [&](const std::pair<double, double>& point) {
+    return point.first > box.x0 && point.first < box.x1 && point.second > box.y0 &&
+           point.second < box.y1;
+  };
+  const auto overlaps = [&](const PlotBox& other) {
+    return other.x0 < box.x1 && box.x0 < other.x1 && other.y0 < box.y1 && box.y0 < other.y1;
+  };
+  return std::none_of(points_.begin(), points_.end(), inside) &&
+         std::none_of(boxes_.begin(), boxes_.end(), overlaps);
+}
+
+void PlotLayout::Occupy(const PlotBox& box) { boxes_.push_back(box); }
+
+std::optional<PlotBox> PlotLayout::FindRoom(double width, double height) const {
+  constexpr int kSteps = 24;
+  std::optional<PlotBox> best;
+  for (int i = kSteps; i >= 0; --i) {
+    const double y = (1 - height) * i / kSteps;
+    for (int j = 0; j <= kSteps; ++j) {
+      const double x = (1 - width) * j / kSteps;
+      const PlotBox box{x, y, x + width, y + height};
+      // Rounding decides nothing.
+      if (best && DistanceToCorner(box) > DistanceToCorner(*best) - 1e-9) continue;
+      if (IsFree(box)) best = box;
+    }
+  }
+  return best;
+}
+
+PlotBox RoomBesideColumn(const PlotLayout& layout, double x, double width) {
+  const double gap = 0.7 * layout.TextWidth("x");
+  const double height = layout.LineHeight();
+  std::optional<PlotBox> first;
+  for (double y = 0.99; y > height; y -= height / 2) {
+    for (const double x0 : {x + gap, x - gap - width}) {
+      const PlotBox box{x0, y - height, x0 + width, y};
+      if (x0 < 0 || x0 + width > 1) continue;
+      if (layout.IsFree(box)) return box;
+      if (!first) first = box;
+    }
+  }
+  return first.value_or(PlotBox{x, 0.99 - height, x + width, 0.99});
+}
+
+PlotBox RoomAboveRow(const PlotLayout& layout, double y, double width) {
+  const double height = layout.LineHeight();
+  const double y0 = y + height > 1 ? y - height : y;
+  for (double x = 0.99; x > width; x -= 0.02) {
+    const PlotBox box{x - width, y0, x, y0 + height};
+    // The line itself may be a curve's, too: what matters is above it.
+    if (layout.IsFree({box.x0, y0 + 0.1 * height, box.x1, box.y1})) return box;
+  }
+  return {0.99 - width, y0, 0.99, y0 + height};
+}
+
+std::optional<PlotBox> FindKeyRoom(const Plot& plot, const PlotLayout& layout) {
+  constexpr double kSample = 14;  // glyphs that a sample of the line and its margins take
+  double longest = 0;
+  int lines = 0;
+  for (const Curve& curve : plot.curves) {
+    longest = std::max(longest, layout.TextWidth(curve.title));
+    lines += !curve.title.empty();
+  }
+  const double width = longest + kSample * layout.TextWidth("x");
+  const double height = layout.LineHeight() * (lines + 0.5);
+  if (plot.polar || width > 0.95 || height > 0.95) return std::nullopt;
+  return layout.FindRoom(width, height);
+}
+
+}  // namespace nacre

@@ -1,0 +1,123 @@
+#include "report/plot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "image_io/output_file.h"
+#include "report/child_process.h"
+#include "report/gnuplot.h"
+
+namespace nacre {
+namespace {
+
+// A column of a table of numbers.
+struct Column {
+  std::string name;
+  const std::vector<double>* values;
+};
+
+// RFC 4180: quoted where it must be.
+std::string CsvText(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::vector<Column> ColumnsOf(const Figure& figure) {
+  std::vector<Column> columns;
+  for (const Plot& plot : figure.panels) {
+    const std::string prefix =
+        figure.panels.size() > 1 && !plot.title.empty() ? plot.title + ": " : "";
+    const std::vector<double>* x = nullptr;
+    for (const Curve& curve : plot.curves) {
+      if (x == nullptr || *x != curve.x) columns.push_back({prefix + plot.x.label, &curve.x});
+      x = &curve.x;
+      columns.push_back({prefix + (curve.title.empty() ? plot.y.label : curve.title), &curve.y});
+    }
+  }
+  return columns;
+}
+
+std::string Draw(const Figure& figure, PictureFormat format) {
+  // -d: the user's own settings for gnuplot stay out of it.
+  const ChildResult result = RunChild({"gnuplot", "-d"}, GnuplotScript(figure, format));
+  if (!result.found) {
+    throw Error(ExitCode::kInternal, "", "gnuplot is missing, and it draws the plots",
+                "install the package gnuplot-nox (scripts/setup does), or write .csv");
+  }
+  if (result.status != 0 || result.output.empty()) {
+    constexpr size_t kEnough = 500;  // the last lines say what is wrong
+    const size_t begin = result.errors.size() > kEnough ? result.errors.size() - kEnough : 0;
+    throw Error(
+        ExitCode::kInternal, "gnuplot",
+        fmt::format("ended with status {}: {}", result.status, result.errors.substr(begin)));
+  }
+  return result.output;
+}
+
+}  // namespace
+
+Figure MakeFigure(Plot plot) {
+  Figure figure;
+  figure.panels.push_back(std::move(plot));
+  return figure;
+}
+
+Figure MakeRow(std::vector<Plot> plots) {
+  Figure figure;
+  figure.panels = std::move(plots);
+  figure.columns = static_cast<int>(figure.panels.size());
+  figure.width = 1700;
+  figure.height = 760;
+  return figure;
+}
+
+std::string FigureCsv(const Figure& figure) {
+  const std::vector<Column> columns = ColumnsOf(figure);
+  std::string text;
+  size_t rows = 0;
+  for (size_t c = 0; c < columns.size(); ++c) {
+    if (c > 0) text += ",";
+    text += CsvText(columns[c].name);
+    rows = std::max(rows, columns[c].values->size());
+  }
+  text += "\n";
+  for (size_t row = 0; row < rows; ++row) {
+    for (size_t c = 0; c < columns.size(); ++c) {
+      const std::vector<double>& values = *columns[c].values;
+      if (c > 0) text += ",";
+      if (row < values.size() && std::isfinite(values[row])) text += fmt::format("{}", values[row]);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+void CheckFigurePath(const std::string& path) {
+  for (const char* extension : {".svg", ".png", ".csv"}) {
+    if (HasExtension(path, extension)) return;
+  }
+  throw Error(ExitCode::kUsage, path, "unknown output extension",
+              "plots are written as .svg, .png and .csv");
+}
+
+void WriteFigure(const std::string& path, const Figure& figure) {
+  CheckFigurePath(path);
+  OutputFile file(path);  // before gnuplot works for it
+  const std::string text = HasExtension(path, ".csv")   ? FigureCsv(figure)
+                           : HasExtension(path, ".svg") ? Draw(figure, PictureFormat::kSvg)
+                                                        : Draw(figure, PictureFormat::kPng);
+  file.Write(0, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+  file.Commit();
+}
+
+}  // namespace nacre
