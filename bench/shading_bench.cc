@@ -112,11 +112,13 @@ void BenchTextbookGgx(benchmark::State& state, Target target) {
   });
 }
 
-void BenchNaivePhong(benchmark::State& state, Target target) {
+using NaiveKernel = void (*)(const PhongUniforms&, const ShadeRange&);
+
+void BenchNaive(benchmark::State& state, NaiveKernel kernel, Target target) {
   const PhongLight light{{38, 25, 8}, {30, 30, 30}};
   const PhongUniforms uniforms{PhongModel::kPhong, static_cast<float>(kShininess), &light, nullptr};
   BenchShade(state, target, 1, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
-    ShadeNaivePhong(uniforms, RangeOf(lit, radiance));
+    kernel(uniforms, RangeOf(lit, radiance));
   });
 }
 
@@ -243,8 +245,10 @@ const bool kRegistered = [] {
   for (const Target target : SupportedTargets()) {
     benchmark::RegisterBenchmark(("shade/textbook_ggx/" + TargetName(target)).c_str(),
                                  BenchTextbookGgx, target);
-    benchmark::RegisterBenchmark(("shade/naive_phong/" + TargetName(target)).c_str(),
-                                 BenchNaivePhong, target);
+    benchmark::RegisterBenchmark(("shade/naive_phong/" + TargetName(target)).c_str(), BenchNaive,
+                                 &ShadeNaivePhong, target);
+    benchmark::RegisterBenchmark(("shade/naive_blinn_phong/" + TargetName(target)).c_str(),
+                                 BenchNaive, &ShadeNaiveBlinnPhong, target);
   }
   return true;
 }();
