@@ -45,7 +45,7 @@ LightBall BallAround(const SampledLight& light) {
     case SampledForm::kRectangle:
       return {light.place + (light.edge_x + light.edge_y) / 2,
               (light.edge_x + light.edge_y).length() / 2};
-    default:
+    default:  // of a mesh, the ball around it
       return {light.place, light.radius};
   }
 }

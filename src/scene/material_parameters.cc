@@ -56,13 +56,14 @@ constexpr MaterialMap Map(std::string_view name, MapUse use) {
           [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; }};
 }
 
-// The roughness of a base: the lobe's unless it is set.
+// The roughness of a base: the lobe's unless it is set. One out of range is the lobe's fault alone.
 template <class Struct>
 constexpr MaterialParameter BaseRoughness() {
   return {"diffuse_roughness", false, limits::kUnit,
           [](const Material& material) {
             const auto& model = std::get<Struct>(material.model);
-            return Rgb(model.diffuse_roughness.value_or(model.roughness));
+            const double lobe = limits::kUnit.Contains(model.roughness) ? model.roughness : 0;
+            return Rgb(model.diffuse_roughness.value_or(lobe));
           },
           [](Material& material, const Rgb& value) {
             std::get<Struct>(material.model).diffuse_roughness = value.x;

@@ -203,6 +203,24 @@ TEST_CASE("lights of every kind") {
   CHECK(lamp.exponent == 3);
 }
 
+TEST_CASE("lights that are meshes") {
+  const Scene scene = Load(R"(, "lights": {
+      "a": {"type": "mesh", "icosphere": {"center": [1, 2, 3], "radius": 0.5, "subdivisions": 1},
+            "radiance": [3, 2, 1], "two_sided": true, "visible": false},
+      "b": {"type": "mesh", "uv_sphere": {"center": [0, 0, 0], "radius": 1, "segments": 4,
+            "rings": 2}, "radiance": 2, "shadows": false}})");
+  REQUIRE(scene.lights.size() == 2);
+  const auto& lamp = std::get<MeshAreaLight>(scene.lights[0].kind);
+  CHECK(lamp.mesh->triangles.size() == 3 * 80);
+  CHECK((lamp.mesh->positions[0] - Vec3d(1, 2, 3)).length() == Approx(0.5));
+  CHECK(lamp.radiance == Rgb(3, 2, 1));
+  CHECK(lamp.two_sided);
+  CHECK(!lamp.visible);
+  CHECK(std::get<MeshAreaLight>(scene.lights[1].kind).mesh->triangles.size() == 3 * 8);
+  CHECK(std::get<MeshAreaLight>(scene.lights[1].kind).visible);
+  CHECK(!scene.lights[1].shadows);
+}
+
 TEST_CASE("lights with an extent and skies") {
   const Scene scene = Load(R"(, "lights": {
       "window": {"type": "rectangle", "center": [1, 2, 3], "facing": [0, -2, 0], "width": 2,
