@@ -1,5 +1,6 @@
 #include "scene_io/sheet_axis.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,6 @@
 // scene_io/sheet_axis_check.cc: what an axis of a sheet varies, and whether its values can be.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -104,7 +104,7 @@ struct GgxMoments {
   }
 };
 
-// Of one view, or with the sums of all.
+// One for each view.
 using ViewMoments = std::array<GgxMoments, kResidualViewsDeg.size()>;
 
 ViewMoments MakeMoments(const LobeTable& table, double alpha) {

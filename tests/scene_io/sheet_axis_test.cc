@@ -97,7 +97,7 @@ TEST_CASE("values that the material cannot take are bad input") {
   check("base_color=[0,0,7],1", "out of range");
   check("shadowing=smith", "no shadowing");
   check("shadowing=1,2", "no shadowing");
-  check("material=fong,lambert", "did you mean \"phong\"");
+  check("material=pong,lambert", "did you mean \"phong\"");
   SheetAxis axis = Parse("shininess=1:2:2");
   CHECK(CodeOf(
             [&] {
