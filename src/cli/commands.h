@@ -16,5 +16,7 @@ void AddTonemapCommand(CLI::App* app, int* exit_code);
 void AddInfoCommand(CLI::App* app, int* exit_code);
 void AddSchemaCommand(CLI::App* app, int* exit_code);
 void AddExplainCommand(CLI::App* app, int* exit_code);
+void AddPlotCommand(CLI::App* app, int* exit_code);
+void AddStudyCommand(CLI::App* app, int* exit_code);
 
 }  // namespace nacre

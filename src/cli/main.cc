@@ -49,6 +49,8 @@ int Run(int argc, char** argv) {
   nacre::AddInfoCommand(&app, &exit_code);
   nacre::AddSchemaCommand(&app, &exit_code);
   nacre::AddExplainCommand(&app, &exit_code);
+  nacre::AddPlotCommand(&app, &exit_code);
+  nacre::AddStudyCommand(&app, &exit_code);
   try {
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();

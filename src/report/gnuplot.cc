@@ -28,9 +28,14 @@ set grid lw 1 lt 1 lc rgb '#dddddd'
 )";
 constexpr std::string_view kGrey = "rgb '#666666'";
 
-size_t LookOf(const Curve& curve, size_t place) {
-  const auto look = static_cast<size_t>(curve.look >= 0 ? curve.look : static_cast<int>(place));
-  return look % kColors.size();
+// Colour, dash and mark are of a number each, so that 64 curves differ.
+struct Look {
+  size_t color, form;
+};
+
+Look LookOf(const Curve& curve, size_t place) {
+  const size_t look = curve.look >= 0 ? static_cast<size_t>(curve.look) : place;
+  return {look % kColors.size(), (look + look / kColors.size()) % kDashes.size()};
 }
 
 std::string Number(double value) {
@@ -60,9 +65,9 @@ std::string DataBlock(const std::string& name, const Plot& plot, const Curve& cu
 }
 
 std::string CurveStyleText(const Curve& curve, size_t place) {
-  const size_t look = LookOf(curve, place);
-  const std::string line = fmt::format("lc rgb '{}' lw 3", kColors[look]);
-  const std::string mark = fmt::format("pt {} ps 1.3", kPoints[look]);
+  const Look look = LookOf(curve, place);
+  const std::string line = fmt::format("lc rgb '{}' lw 3", kColors[look.color]);
+  const std::string mark = fmt::format("pt {} ps 1.3", kPoints[look.form]);
   switch (curve.style) {
     case CurveStyle::kMarkedLine:
       return fmt::format("with linespoints {} {}", line, mark);
@@ -71,7 +76,7 @@ std::string CurveStyleText(const Curve& curve, size_t place) {
     case CurveStyle::kLine:
       break;
   }
-  return fmt::format("with lines {} dt {}", line, kDashes[look]);
+  return fmt::format("with lines {} dt {}", line, kDashes[look.form]);
 }
 
 std::string AxisText(char name, const Axis& axis, const Range& range) {
@@ -99,6 +104,19 @@ std::string AxisText(char name, const Axis& axis, const Range& range) {
   return text + ")\n";
 }
 
+// Where a rule lies on the plot.
+double PlaceOf(const Plot& plot, const Rule& rule) {
+  return rule.across == Rule::Across::kX ? PlaceOf(rule.at, plot.x, RangeOf(plot, Which::kX))
+                                         : PlaceOf(rule.at, plot.y, RangeOf(plot, Which::kY));
+}
+
+PlotBox LineOf(const Plot& plot, const Rule& rule) {
+  constexpr double kHalfWidth = 1e-3;
+  const double place = PlaceOf(plot, rule);
+  if (rule.across == Rule::Across::kX) return {place - kHalfWidth, 0, place + kHalfWidth, 1};
+  return {0, place - kHalfWidth, 1, place + kHalfWidth};
+}
+
 // `layout` knows of the rules' words by now.
 std::string KeyText(const Plot& plot, const PlotLayout& layout) {
   const bool titled = std::any_of(plot.curves.begin(), plot.curves.end(),
@@ -106,8 +124,11 @@ std::string KeyText(const Plot& plot, const PlotLayout& layout) {
   if (!titled) return "unset key\n";
   constexpr std::string_view kLook =
       "Left reverse noenhanced textcolor rgb '#222222' samplen 3 spacing 1.15";
-  const std::optional<PlotBox> room = FindKeyRoom(plot, layout);
-  if (!room) return fmt::format("set key outside below center horizontal {}\n", kLook);
+  PlotLayout beside_rules = layout;
+  for (const Rule& rule : plot.rules) beside_rules.Occupy(LineOf(plot, rule));
+  std::optional<PlotBox> room = FindKeyRoom(plot, beside_rules);
+  if (!room) room = FindKeyRoom(plot, layout);
+  if (!room) return fmt::format("set key outside below center horizontal height 1.5 {}\n", kLook);
   // The corner of the room that is nearest to one of the plot's stays where it is.
   const bool right = room->x0 + room->x1 > 1;
   const bool top = room->y0 + room->y1 > 1;
@@ -125,8 +146,7 @@ std::string RuleText(const Plot& plot, const Rule& rule, PlotLayout* layout) {
       vertical ? fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 {1}", at, look)
                : fmt::format("set arrow from graph 0,first {0} to graph 1,first {0} {1}", at, look);
   if (rule.label.empty()) return text;
-  const double place = vertical ? PlaceOf(rule.at, plot.x, RangeOf(plot, Which::kX))
-                                : PlaceOf(rule.at, plot.y, RangeOf(plot, Which::kY));
+  const double place = PlaceOf(plot, rule);
   const PlotBox box = vertical ? RoomBesideColumn(*layout, place, layout->TextWidth(rule.label))
                                : RoomAboveRow(*layout, place, layout->TextWidth(rule.label));
   layout->Occupy(box);

@@ -9,7 +9,7 @@ namespace nacre {
 namespace {
 
 // Of the fonts that gnuplot draws with, in pixels, a little generous.
-constexpr double kGlyphWidth = 10.5;
+constexpr double kGlyphWidth = 11.5;
 constexpr double kLineHeight = 31;
 constexpr double kAxesWidth = 170, kAxesHeight = 130;  // what axes and margins take
 
@@ -98,7 +98,7 @@ PlotBox RoomAboveRow(const PlotLayout& layout, double y, double width) {
 }
 
 std::optional<PlotBox> FindKeyRoom(const Plot& plot, const PlotLayout& layout) {
-  constexpr double kSample = 14;  // glyphs that a sample of the line and its margins take
+  constexpr double kSample = 12;  // glyphs that a sample of the line and its margins take
   double longest = 0;
   int lines = 0;
   for (const Curve& curve : plot.curves) {

@@ -47,13 +47,15 @@ std::vector<Column> ColumnsOf(const Figure& figure) {
   return columns;
 }
 
+[[noreturn]] void FailMissing() {
+  throw Error(ExitCode::kInternal, "", "gnuplot is missing, and it draws the plots",
+              "install the package gnuplot-nox (scripts/setup does), or write .csv");
+}
+
 std::string Draw(const Figure& figure, PictureFormat format) {
   // -d: the user's own settings for gnuplot stay out of it.
   const ChildResult result = RunChild({"gnuplot", "-d"}, GnuplotScript(figure, format));
-  if (!result.found) {
-    throw Error(ExitCode::kInternal, "", "gnuplot is missing, and it draws the plots",
-                "install the package gnuplot-nox (scripts/setup does), or write .csv");
-  }
+  if (!result.found) FailMissing();
   if (result.status != 0 || result.output.empty()) {
     constexpr size_t kEnough = 500;  // the last lines say what is wrong
     const size_t begin = result.errors.size() > kEnough ? result.errors.size() - kEnough : 0;
@@ -108,6 +110,10 @@ void CheckFigurePath(const std::string& path) {
   }
   throw Error(ExitCode::kUsage, path, "unknown output extension",
               "plots are written as .svg, .png and .csv");
+}
+
+void CheckPlotter() {
+  if (!RunChild({"gnuplot", "--version"}, "").found) FailMissing();
 }
 
 void WriteFigure(const std::string& path, const Figure& figure) {

@@ -74,6 +74,9 @@ std::string FigureCsv(const Figure& figure);
 // ".svg", ".png" or ".csv". Throws Error (kUsage) for others.
 void CheckFigurePath(const std::string& path);
 
+// Throws Error (kInternal) if gnuplot is missing.
+void CheckPlotter();
+
 // Writes the figure, as its path's extension says, whole or not at all. Throws Error: kUsage for an
 // unknown extension, kCannotWrite, kInternal if gnuplot is missing or fails.
 void WriteFigure(const std::string& path, const Figure& figure);

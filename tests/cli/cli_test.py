@@ -6,6 +6,7 @@ Usage: cli_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
 import json
 import os
 import pathlib
+import re
 import signal
 import stat
 import subprocess
@@ -271,7 +272,8 @@ class CliTest(unittest.TestCase):
                          0)
 
     def test_help_teaches(self):
-        for command in ([], ['render'], ['grid'], ['pair'], ['convert'], ['compare'], ['explain']):
+        for command in ([], ['render'], ['grid'], ['pair'], ['convert'], ['compare'], ['explain'], ['plot'],
+                        ['study']):
             result = run(*command, '--help')
             self.assertEqual(result.returncode, 0)
             self.assertIn('xample' if command else 'Exit codes', result.stdout)
@@ -543,6 +545,101 @@ class CliTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0)
         self.assertIn('libembree', result.stderr)
         self.assertNotIn('OpenImageIO', result.stderr)
+
+    # ---- Plots and studies ----
+
+    def plot(self, *arguments):
+        result = run('plot', *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((result.stdout, result.stderr), ('', ''))
+
+    def rows(self, name):
+        lines = (self.out / name).read_text().splitlines()
+        return lines[0].split(','), [line.split(',') for line in lines[1:]]
+
+    def test_every_plot_is_drawn_without_any_option(self):
+        for kind in 'brdf', 'polar', 'ndf', 'masking', 'fresnel', 'albedo', 'tone', 'falloff':
+            with self.subTest(kind=kind):
+                files = [self.out / (kind + extension) for extension in ('.svg', '.png', '.csv')]
+                self.plot(kind, *[word for file in files for word in ('-o', file)])
+                self.assertIn('</svg>', files[0].read_text())
+                self.assertEqual(files[1].read_bytes()[:4], b'\x89PNG')
+                titles, rows = self.rows(kind + '.csv')
+                self.assertGreater(len(titles), 3)
+                self.assertGreater(len(rows), 80)
+
+    def test_a_plot_has_the_materials_that_it_is_told(self):
+        self.plot('brdf', '--scene', FIRST_SCENE, '--material', 'floor', '-o', self.out / 'a.csv')
+        titles, rows = self.rows('a.csv')
+        self.assertEqual(titles[1:], ['floor'])
+        for row in rows:  # Lambert of albedo 0.5
+            self.assertAlmostEqual(float(row[1]), 0.5 / 3.141592653589793, places=12)
+        self.plot('fresnel', '--material', '{"model": "dielectric", "ior": 2}', '--material',
+                  'metallic_roughness', '-o', self.out / 'b.csv')
+        titles, rows = self.rows('b.csv')
+        self.assertEqual(float(rows[0][1]), 1 / 9)
+        self.assertEqual(float(rows[0][-1]), 0.04)
+
+    def test_a_plot_shows_the_kernels_beside_the_twins(self):
+        self.plot('brdf', '--material', 'blinn_phong', '--angle', '30,60', '--cosine', '--kernel',
+                  '-o', self.out / 'a.csv')
+        titles, rows = self.rows('a.csv')
+        self.assertEqual(len([title for title in titles if 'SIMD kernel' in title]), 2)
+
+    def test_a_light_falls_off_as_the_scene_says(self):
+        self.plot('falloff', '--scene', FIRST_SCENE, '--light', 'key', '-o', self.out / 'a.csv')
+        _, rows = self.rows('a.csv')
+        distance, irradiance = map(float, rows[-1])
+        self.assertAlmostEqual(irradiance * distance**2, 140, places=9)
+
+    def test_bad_plots_are_refused_with_a_hint(self):
+        out = ['-o', self.out / 'a.png']
+        self.check_fails(64, 'did you mean "fresnel"', 'plot', 'fresnell', *out)
+        self.check_fails(64, '.svg, .png and .csv', 'plot', 'fresnel', '-o', self.out / 'a.pdf')
+        self.check_fails(64, '--output is required', 'plot', 'fresnel')
+        self.check_fails(64, 'is not a material', 'plot', 'brdf', '--material', '{"model"', *out)
+        self.check_fails(65, 'did you mean "phong"', 'plot', 'brdf', '--material', 'phon', *out)
+        self.check_fails(65, 'did you mean "floor"', 'plot', 'brdf', '--scene', FIRST_SCENE,
+                         '--material', 'flor', *out)
+        self.check_fails(65, 'has no Fresnel term', 'plot', 'fresnel', '--material', 'lambert',
+                         *out)
+        self.check_fails(65, 'is all around', 'plot', 'falloff', '--scene', FIRST_SCENE,
+                         '--light', 'sky', *out)
+        self.check_fails(65, 'missing.json', 'plot', 'brdf', '--scene', 'missing.json', *out)
+        self.check_fails(64, 'is not a number', 'plot', 'brdf', '--angle', '95', *out)
+        self.check_fails(74, 'no/a.png', 'plot', 'tone', '-o', self.out / 'no/a.png')
+
+    def test_without_gnuplot_there_is_csv_still(self):
+        bare = dict(os.environ, PATH=str(self.out))
+        result = run('plot', 'tone', '-o', self.out / 'a.svg', env=bare)
+        self.assertEqual(result.returncode, 70)
+        self.assertIn('gnuplot-nox', result.stderr)
+        self.assertEqual(run('plot', 'tone', '-o', self.out / 'a.csv', env=bare).returncode, 0)
+        self.assertEqual([file.name for file in self.out.iterdir()], ['a.csv'])
+
+    def test_a_study_answers_with_words_pictures_and_numbers(self):
+        folder = self.out / 'made/for it'
+        result = run('study', 'fresnel', '-o', folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, '')
+        answer = (folder / 'answer.md').read_text()
+        self.assertIn('82.136', answer)
+        named = set(re.findall(r'\]\(([^)]+)\)', answer))
+        for name in named:
+            self.assertTrue((folder / name).is_file(), name)
+        self.assertEqual({name for name in named if name.endswith('.svg')}, {'fresnel.svg'})
+        self.assertIn('"the angle",82.13565962', (folder / 'numbers.csv').read_text())
+
+    def test_studies_are_listed_and_slips_are_refused(self):
+        listed = run('study', 'list')
+        self.assertEqual(listed.returncode, 0)
+        for name in ('components', 'blinn-exponent', 'interpolation', 'grid', 'fresnel', 'energy',
+                     'precision', 'tonemap'):
+            self.assertIn(name, listed.stdout)
+        self.check_fails(64, 'did you mean "energy"', 'study', 'enery', '-o', self.out / 'a')
+        self.check_fails(64, 'needs a folder', 'study', 'energy')
+        (self.out / 'file').write_text('')
+        self.check_fails(74, 'file', 'study', 'energy', '-o', self.out / 'file')
 
     def test_an_old_file_survives_a_failed_render(self):
         self.render('-o', self.out / 'a.exr', *SMALL)

@@ -22,6 +22,7 @@ TRUNK = (
     ("visibility", "shading"),  # side by side: they meet in hit/ and never see each other
     ("render",),
 )
+TRUNK_FOLDERS = {folder for tier in TRUNK for folder in tier}
 # Side branches, and what each may depend on.
 BRANCHES = {
     "image_io": {"base", "color"},
@@ -29,12 +30,13 @@ BRANCHES = {
     "scene_io": {"base", "scene", "image_io"},
     "compare": {"base", "color"},
     "report": {"base", "image_io", "compare"},
+    # What the lesson's exercises ask: the renderer's terms and pictures as curves and numbers.
+    "study": TRUNK_FOLDERS | {"image_io", "report"},
     "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
 }
 # Depends on whatever it likes; nothing depends on it.
 TOP = "cli"
 
-TRUNK_FOLDERS = {folder for tier in TRUNK for folder in tier}
 FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 
 # SIMD code: these files are compiled once for every target.

@@ -1,0 +1,114 @@
+#include "study/light_curves.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/overloaded.h"
+#include "color/display.h"
+#include "color/luminance.h"
+#include "color/transfer.h"
+#include "light/irradiance.h"
+#include "light/punctual.h"
+#include "scene/light_shapes.h"
+
+namespace nacre {
+namespace {
+
+double FalloffOf(const Attenuation& a, double distance) {
+  return AttenuationFactor(AttenuationTerms<double>{a.constant, a.linear, a.quadratic}, distance);
+}
+
+// From the shaded point the light's centre is at distance times `up`, and the light faces down.
+const Vec3d kUp(0, 0, 1);
+
+double IrradianceOf(const SphereAreaLight& light, double distance) {
+  return Irradiance(SphereLight<double>{kUp * distance, light.radius}, kUp);
+}
+
+double IrradianceOf(const RectangleAreaLight& light, double distance) {
+  const Vec3d corner(-light.width / 2, -light.height / 2, distance);
+  return Irradiance(
+      RectangleLight<double>{corner, Vec3d(light.width, 0, 0), Vec3d(0, light.height, 0)}, kUp);
+}
+
+double IrradianceOf(const DiskAreaLight& light, double distance) {
+  return Irradiance(DiskLight<double>{kUp * distance, -kUp, light.radius}, kUp);
+}
+
+}  // namespace
+
+std::optional<double> IrradianceAt(const Light& light, double distance) {
+  using Result = std::optional<double>;
+  return std::visit(
+      Overloaded{[&](const DirectionalLight& sun) -> Result { return Luminance(sun.irradiance); },
+                 [&](const PointLight& point) -> Result {
+                   return Luminance(point.intensity) * FalloffOf(point.attenuation, distance);
+                 },
+                 // Along the axis the cone's factor is 1.
+                 [&](const SpotLight& spot) -> Result {
+                   return Luminance(spot.intensity) * FalloffOf(spot.attenuation, distance);
+                 },
+                 [&](const SphereAreaLight& sphere) -> Result {
+                   if (distance <= sphere.radius) return std::nullopt;
+                   return Luminance(sphere.radiance) * IrradianceOf(sphere, distance);
+                 },
+                 [&](const RectangleAreaLight& rectangle) -> Result {
+                   return Luminance(rectangle.radiance) * IrradianceOf(rectangle, distance);
+                 },
+                 [&](const DiskAreaLight& disk) -> Result {
+                   return Luminance(disk.radiance) * IrradianceOf(disk, distance);
+                 },
+                 [](const AmbientLight&) -> Result { return std::nullopt; },
+                 [](const EnvironmentLight&) -> Result { return std::nullopt; }},
+      light.kind);
+}
+
+bool HasFalloff(const Light& light) {
+  return !std::holds_alternative<AmbientLight>(light.kind) &&
+         !std::holds_alternative<EnvironmentLight>(light.kind);
+}
+
+Plot FalloffPlot(const std::vector<Light>& lights) {
+  constexpr int kPerDecade = 60;
+  constexpr double kNearest = 0.1;
+  constexpr int kDecades = 3;
+  Plot plot;
+  plot.x = {.label = "distance from the light's centre (world units)", .log = true};
+  plot.y = {.label = "irradiance of a surface that faces the light", .log = true};
+  for (const Light& light : lights) {
+    Curve curve;
+    curve.title = light.name;
+    for (int i = 0; i <= kDecades * kPerDecade; ++i) {
+      const double distance = kNearest * std::pow(10, static_cast<double>(i) / kPerDecade);
+      curve.x.push_back(distance);
+      curve.y.push_back(IrradianceAt(light, distance).value_or(kFromData));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  return plot;
+}
+
+Plot TonePlot(double exposure_ev) {
+  Plot plot;
+  plot.x = {.label = "scene radiance of a grey", .log = true, .low = 1e-3, .high = 100};
+  plot.y = {.label = "display value, sRGB encoded (1: white)", .low = 0, .high = 1};
+  for (const std::string& name : ToneOperatorNames()) {
+    DisplaySettings settings;
+    settings.tone = ParseToneOperator(name);
+    settings.exposure_ev = exposure_ev;
+    Curve curve;
+    curve.title =
+        name == "reinhard_extended" ? fmt::format("{}, white at {:g}", name, settings.white) : name;
+    for (int i = 0; i <= 500; ++i) {
+      const double radiance = std::pow(10, -3 + i / 100.0);
+      curve.x.push_back(radiance);
+      curve.y.push_back(SrgbOetf(DisplayLight(settings, Imath::Color3<double>(radiance)).y));
+    }
+    plot.curves.push_back(std::move(curve));
+  }
+  plot.rules.push_back({Rule::Across::kX, 0.18, "middle grey"});
+  return plot;
+}
+
+}  // namespace nacre

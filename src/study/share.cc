@@ -1,0 +1,156 @@
+#include "study/share.h"
+
+#include <cmath>
+
+#include "base/overloaded.h"
+#include "brdf/albedo_integral.h"
+#include "brdf/multi_scatter.h"
+#include "brdf/phong.h"
+#include "brdf/quadrature.h"
+#include "study/reflection.h"
+
+namespace nacre {
+namespace {
+
+// int f(direction) d(direction) over the hemisphere, for an f that is symmetric about the x-z plane
+// and may have a narrow lobe about `peak` in it (x >= 0): polar angles about the peak, out to where
+// circles reach the horizon, and on; panels halve towards both beginnings. Of each circle only what
+// is above the horizon is summed.
+template <class Function>
+double IntegrateAround(const Vec3d& peak, const Function& f) {
+  const Vec3d across(0, 1, 0);
+  const Vec3d along = across % peak;  // downwards
+  const QuadratureRule& rule = GaussLegendre(32);
+  const auto circle = [&](double angle) {
+    const double height = std::cos(angle) * peak.z;
+    const double swing = std::sin(angle) * peak.x;  // the circle's lowest point is that much lower
+    if (height <= -swing) return 0.0;
+    const double begin = height < swing ? std::acos(height / swing) : 0;
+    double sum = 0;
+    for (size_t i = 0; i < rule.x.size(); ++i) {
+      const double phi = begin + (M_PI - begin) * rule.x[i];
+      sum += rule.w[i] * f(peak * std::cos(angle) +
+                           (along * std::cos(phi) + across * std::sin(phi)) * std::sin(angle));
+    }
+    return 2 * (M_PI - begin) * sum * std::sin(angle);
+  };
+  const double touch = std::atan2(peak.z, peak.x);  // from the peak down to the horizon
+  const double rest = M_PI - 2 * touch;
+  return touch * IntegrateTowardsZero([&](double t) { return circle(touch * t); }, 20) +
+         rest * IntegrateTowardsZero([&](double t) { return circle(touch + rest * t); }, 20);
+}
+
+Vec3d InPlane(double cosine, double sign) {
+  return {sign * std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
+}
+
+Rgb ShareOfModel(const LambertModel& model, ShareOf, double) { return model.diffuse * M_PI; }
+
+Rgb ShareOfModel(const PhongFamilyModel& model, ShareOf what, double cosine) {
+  const Vec3d normal(0, 0, 1);
+  const Vec3d fixed = InPlane(cosine, -1);
+  const bool blinn = model.model == PhongModel::kBlinnPhong;
+  // f n.l without ks, with its other cosine.
+  const auto lobe = [&](const Vec3d& other) {
+    const double value = blinn ? BlinnLobe(ComputeAngles(normal, fixed, other), model.shininess)
+                               : PhongLobe(normal, fixed, other, model.shininess);
+    const Vec3d& to_light = what == ShareOf::kFurnace ? other : fixed;
+    const Vec3d& to_view = what == ShareOf::kFurnace ? fixed : other;
+    const double f_n_dot_l = model.model == PhongModel::kModifiedPhong ? value * to_light.z : value;
+    return what == ShareOf::kFurnace ? f_n_dot_l : f_n_dot_l * to_view.z / to_light.z;
+  };
+  const double specular = IntegrateAround(InPlane(cosine, 1), lobe);
+  return model.diffuse * M_PI + model.specular * specular;
+}
+
+// What is reflected of the lobe of channel c, compensation included.
+double LobeShare(const MicrofacetModel& model, ShareOf what, double cosine, int c) {
+  const double roughness = std::sqrt(model.alpha);
+  const auto fresnel = [&](double vh, double one_minus_vh) {
+    return FresnelOf(model, vh, one_minus_vh)[c];
+  };
+  const AlbedoFit& fit = model.albedo.lobe;
+  const bool turquin = model.compensation == Compensation::kTurquin;
+  const auto factor = [&](double n_dot_v) {
+    return turquin ? TurquinFactor(model.f0[c], 1 - AlbedoLoss(fit, n_dot_v)) : 1;
+  };
+  double share = 0;
+  if (what == ShareOf::kFurnace || !turquin || model.delta) {
+    share = AlbedoOf(model.shadowing, roughness, cosine, fresnel) * factor(cosine);
+  } else {
+    const AlbedoQuadrature rule;
+    for (const AlbedoNode& node : MakeAlbedoNodes(model.alpha, cosine, rule.points)) {
+      share += node.weight * VisibilityOf(model, node.n_dot_l, cosine) *
+               AzimuthIntegral(node, model.alpha, rule, fresnel) * factor(node.n_dot_l);
+    }
+  }
+  if (model.compensation == Compensation::kKullaConty) {
+    share += model.f_multiple[c] * AlbedoLoss(fit, cosine);
+  }
+  return share;
+}
+
+// 2 int (1 - albedo) mu dmu: what the lobe leaves on average.
+double MeanBaseShare(const MicrofacetModel& model, int c) {
+  return IntegrateTowardsZero([&](double mu) { return 2 * mu * (1 - LobeAlbedo(model, mu, c)); },
+                              20);
+}
+
+// int (1 - F(v.h)) cos / pi over the hemisphere.
+double CoupledShare(const MicrofacetModel& model, double cosine, int c) {
+  const Vec3d fixed = InPlane(cosine, -1);
+  return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
+    const Angles<double> a = ComputeAngles(Vec3d(0, 0, 1), other, fixed);
+    return (1 - FresnelOf(model, VDotH(a), OneMinusVDotH(a))[c]) * other.z / M_PI;
+  });
+}
+
+double BaseShareOf(const MicrofacetModel& model, ShareOf what, double cosine, int c) {
+  switch (model.coupling) {
+    case DiffuseCoupling::kAlbedoScaled: {
+      const double here = 1 - LobeAlbedo(model, cosine, c);
+      if (model.compensation == Compensation::kKullaConty) return here * MeanBaseShare(model, c);
+      return what == ShareOf::kFurnace ? here : MeanBaseShare(model, c);
+    }
+    case DiffuseCoupling::kOneMinusFresnel:
+      return CoupledShare(model, cosine, c);
+    case DiffuseCoupling::kNone:
+      break;
+  }
+  return 1;
+}
+
+Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
+  Rgb share;
+  for (int c = 0; c < 3; ++c) {
+    const auto same = [&](const Rgb& value) { return c > 0 && value[c] == value[c - 1]; };
+    if (same(model.f0) && same(model.diffuse) && same(model.eta) && same(model.k) &&
+        same(model.f82_slope)) {
+      share[c] = share[c - 1];
+      continue;
+    }
+    share[c] = LobeShare(model, what, cosine, c);
+    if (model.diffuse[c] > 0) {
+      share[c] += M_PI * model.diffuse[c] * BaseShareOf(model, what, cosine, c);
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine) {
+  return std::visit(
+      Overloaded{[](const std::monostate&) { return Rgb(0); },
+                 [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
+      material.model);
+}
+
+double PhongLobeIntegral(double shininess, double cosine) {
+  const Vec3d fixed = InPlane(cosine, -1);
+  return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
+    return PhongLobe(Vec3d(0, 0, 1), fixed, other, shininess) * other.z;
+  });
+}
+
+}  // namespace nacre

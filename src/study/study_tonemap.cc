@@ -1,0 +1,83 @@
+// study/study_tonemap.cc: one HDR picture under every tone operator.
+#include <fmt/format.h>
+
+#include "color/tone.h"
+#include "study/light_curves.h"
+#include "study/picture.h"
+#include "study/study.h"
+#include "study/tone_facts.h"
+
+namespace nacre {
+namespace {
+
+Image RenderHdr() {
+  Material material;
+  material.model = MetallicRoughnessMaterial{.base_color = Rgb(0.75, 0.12, 0.06), .roughness = 0.3};
+  Scene scene = SphereScene(material, 150);
+  scene.image.spp = 64;
+  Light sky;
+  sky.name = "sky";
+  sky.kind = EnvironmentLight{.sky = GradientSky{.zenith = Rgb(0.15, 0.3, 0.7),
+                                                 .horizon = Rgb(0.6, 0.6, 0.6),
+                                                 .ground = Rgb(0.08, 0.06, 0.05)}};
+  scene.lights = {SunTowards({-1, 1.2, 1}, Rgb(6, 5.6, 5)), sky};
+  return RenderLayers(scene);
+}
+
+float Brightest(const Image& image) {
+  float brightest = 0;
+  for (const float value : image.Find("R")->samples) brightest = std::max(brightest, value);
+  return brightest;
+}
+
+StudyPicture Operators(const Image& image) {
+  PaneSheet sheet;
+  for (const double ev : {-2.0, 0.0, 2.0, 4.0}) {
+    for (const std::string& name : ToneOperatorNames()) {
+      DisplaySettings display;
+      display.tone = ParseToneOperator(name);
+      display.exposure_ev = ev;
+      sheet.panes.push_back(ShowLayer(image, "", display));
+      if (ev == 0) sheet.columns.push_back(name == "reinhard_extended" ? "extended" : name);
+    }
+    sheet.rows.push_back(fmt::format("{:+g} EV", ev));
+  }
+  return MakeStudyPicture("operators",
+                          "One linear picture under every operator and four exposures.", sheet);
+}
+
+}  // namespace
+
+StudyResult StudyTonemap(const StudyProgress& progress) {
+  const Image image = RenderHdr();
+  progress(0.5);
+  StudyResult result;
+  result.pictures.push_back(Operators(image));
+  result.figures.push_back({"curves", "What becomes of greys.", MakeFigure(TonePlot(0))});
+  const double white = AcesReachesWhite();
+  const double grey = ToneAces(0.18);
+  const double reinhard = ToneReinhard(1.0);
+  const GammaGap gap = LargestGammaGap();
+  const double brightest = double{Brightest(image)};
+  result.numbers = {{"brightest red of the picture", brightest, ""},
+                    {"ACES of middle grey 0.18", grey, ""},
+                    {"ACES is white from", white, ""},
+                    {"Reinhard of 1", reinhard, ""},
+                    {"largest difference of x^(1/2.2) and sRGB, encoded", gap.difference, ""},
+                    {"at the linear value", gap.linear, ""}};
+  result.answer = fmt::format(
+      "The picture's radiance goes up to {:.1f}. Without an operator all above 1 is cut off, "
+      "channel "
+      "by channel, and the red turns to orange and yellow. Reinhard never reaches white (1 becomes "
+      "{:.2f}) and greys the rest; extended Reinhard is white where it is told. ACES (Narkowicz' "
+      "fit) is white from {:.4f} on and makes {:.4f} of middle grey. Khronos' Neutral keeps "
+      "colours "
+      "as they are until near white; AgX turns bright colours pale, as film does.\n\n"
+      "After the operator comes the transfer curve: sRGB's, not x^(1/2.2), which differs by up to "
+      "{:.4f} ({:.1f} codes of 255) at the linear value {:.5f}.",
+      brightest, reinhard, white, grey, gap.difference, 255 * gap.difference, gap.linear);
+  progress(1);
+  return result;
+}
+
+}  // namespace nacre
