@@ -112,11 +112,13 @@ void BenchTextbookGgx(benchmark::State& state, Target target) {
   });
 }
 
-void BenchNaivePhong(benchmark::State& state, Target target) {
+using NaiveKernel = void (*)(const PhongUniforms&, const ShadeRange&);
+
+void BenchNaive(benchmark::State& state, NaiveKernel kernel, Target target) {
   const PhongLight light{{38, 25, 8}, {30, 30, 30}};
   const PhongUniforms uniforms{PhongModel::kPhong, static_cast<float>(kShininess), &light, nullptr};
   BenchShade(state, target, 1, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
-    ShadeNaivePhong(uniforms, RangeOf(lit, radiance));
+    kernel(uniforms, RangeOf(lit, radiance));
   });
 }
 
@@ -188,6 +190,10 @@ std::vector<ModelBench> MakeModels() {
   const baseline::MetallicRoughness scalar_ggx{
       {0.9f, 0.6f, 0.2f}, 0.5f, static_cast<float>(kRoughness)};
   const float shininess = static_cast<float>(kShininess);
+  Material rough, burley, rough_base = ggx(Shadowing::kHeightCorrelated);
+  rough.model = OrenNayarMaterial{.albedo = color};
+  burley.model = BurleyMaterial{.albedo = color};
+  std::get<MetallicRoughnessMaterial>(rough_base.model).diffuse = DiffuseForm::kOrenNayar;
   return {
       {"lambert",
        {.name = {}, .emission = {0, 0, 0}, .model = LambertMaterial{color}},
@@ -218,6 +224,9 @@ std::vector<ModelBench> MakeModels() {
       {"ggx_double_terms", smooth, nullptr},
       {"ggx_default", ggx(Shadowing::kHeightCorrelated), nullptr},
       {"ggx_plain_separable", plain_ggx(Shadowing::kSeparable), nullptr},
+      {"oren_nayar", rough, nullptr},
+      {"burley", burley, nullptr},
+      {"ggx_default_oren_nayar_base", rough_base, nullptr},
   };
 }
 
@@ -236,8 +245,10 @@ const bool kRegistered = [] {
   for (const Target target : SupportedTargets()) {
     benchmark::RegisterBenchmark(("shade/textbook_ggx/" + TargetName(target)).c_str(),
                                  BenchTextbookGgx, target);
-    benchmark::RegisterBenchmark(("shade/naive_phong/" + TargetName(target)).c_str(),
-                                 BenchNaivePhong, target);
+    benchmark::RegisterBenchmark(("shade/naive_phong/" + TargetName(target)).c_str(), BenchNaive,
+                                 &ShadeNaivePhong, target);
+    benchmark::RegisterBenchmark(("shade/naive_blinn_phong/" + TargetName(target)).c_str(),
+                                 BenchNaive, &ShadeNaiveBlinnPhong, target);
   }
   return true;
 }();

@@ -68,12 +68,37 @@ struct NaivePhong {
   }
 };
 
+struct NaiveBlinnPhong {
+  static constexpr bool kHasSpecular = true;
+  struct View {};
+  const PhongUniforms& uniforms;
+
+  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
+    const FloatV smallest = hn::Set(d, 1e-30f);
+    const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
+                          hn::Add(in.to_light.z, p.to_view.z)};
+    const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), smallest));
+    const FloatV n_dot_h = hn::Mul(FusedDot(p.normal, u), scale);
+    const FloatV log2 = Log2(d, hn::Max(n_dot_h, smallest));
+    const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
+    const PhongLight& by = uniforms.lights[k];
+    return {ScaleRgb(SetRgb(d, by.diffuse), in.weight),
+            ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
+  }
+};
+
 void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
   ShadePackets(FloatTag(), TextbookGgx{uniforms}, range);
 }
 
 void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
   ShadePackets(FloatTag(), NaivePhong{uniforms}, range);
+}
+
+void ShadeNaiveBlinnPhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+  ShadePackets(FloatTag(), NaiveBlinnPhong{uniforms}, range);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -84,6 +109,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(ShadeTextbookGgxT);
 HWY_EXPORT(ShadeNaivePhongT);
+HWY_EXPORT(ShadeNaiveBlinnPhongT);
 
 void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeTextbookGgxT)(uniforms, range);
@@ -91,6 +117,10 @@ void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& ran
 
 void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeNaivePhongT)(uniforms, range);
+}
+
+void ShadeNaiveBlinnPhong(const PhongUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeNaiveBlinnPhongT)(uniforms, range);
 }
 }  // namespace nacre
 #endif

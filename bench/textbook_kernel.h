@@ -1,4 +1,4 @@
-// bench/textbook_kernel.h: the textbook's forms of two models as SIMD kernels, with nacre's light
+// bench/textbook_kernel.h: the textbook's forms of three models as SIMD kernels, with nacre's light
 // and loop around them: what the stable forms cost. Not for use in the renderer.
 #pragma once
 
@@ -18,5 +18,7 @@ struct TextbookGgxUniforms {
 void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range);
 // (r.v)^n as 2^(n log2(r.v)).
 void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range);
+// (n.h)^n likewise, of a normalised h.
+void ShadeNaiveBlinnPhong(const PhongUniforms& uniforms, const ShadeRange& range);
 
 }  // namespace nacre

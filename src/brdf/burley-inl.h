@@ -20,16 +20,22 @@ HWY_INLINE V BurleyGrazing(D d, V cos) {
   return hn::Mul(hn::Mul(x2, x2), x);
 }
 
+// pi times the term, of the square of u = l + v and BurleyGrazing of both cosines.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V BurleySpread(D d, V u_squared, V grazing_l, V grazing_v, V roughness) {
+  using T = hn::TFromD<D>;
+  const V one = hn::Set(d, T(1));
+  const V rise = hn::Mul(hn::Set(d, T(0.5)), hn::MulSub(roughness, u_squared, one));
+  return hn::Mul(hn::MulAdd(rise, grazing_l, one), hn::MulAdd(rise, grazing_v, one));
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V BurleyDiffuse(D d, const AnglesV<V>& a, V roughness) {
   using T = hn::TFromD<D>;
   const V zero = hn::Zero(d);
-  const V one = hn::Set(d, T(1));
-  const V half = hn::Set(d, T(0.5));
   const auto above = hn::And(hn::Gt(a.n_dot_l, zero), hn::Gt(a.n_dot_v, zero));
-  const V rise = hn::Mul(half, hn::MulSub(roughness, a.u_squared, one));
-  const V product = hn::Mul(hn::MulAdd(rise, BurleyGrazing(d, a.n_dot_l), one),
-                            hn::MulAdd(rise, BurleyGrazing(d, a.n_dot_v), one));
+  const V product = BurleySpread(d, a.u_squared, BurleyGrazing(d, a.n_dot_l),
+                                 BurleyGrazing(d, a.n_dot_v), roughness);
   return hn::IfThenElseZero(above, hn::Mul(product, hn::Set(d, T(0.31830988618379067))));
 }
 

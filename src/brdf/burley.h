@@ -28,4 +28,16 @@ Real BurleyDiffuse(const Angles<Real>& a, Real roughness) {
          static_cast<Real>(M_PI);
 }
 
+// The share of grazing light that a white surface gives back: above 1 from roughness 0.5 on. The
+// integral of the above over the directions of light, in Beta functions: the means over the azimuth
+// of rise and its square are a = roughness - 1/2 and a^2 + roughness^2 sin^2 / 2.
+template <typename Real>
+Real BurleyGrazingAlbedo(Real roughness) {
+  const Real a = roughness - static_cast<Real>(0.5);
+  const Real mean_weight = static_cast<Real>(1.0 / 21);  // of BurleyGrazing, by the cosine law
+  const Real mean_cos2 = static_cast<Real>(1.0 / 252);   // of it times cos^2
+  return 1 + a * (1 + mean_weight) + a * a * mean_weight +
+         roughness * roughness / 2 * (mean_weight - mean_cos2);
+}
+
 }  // namespace nacre

@@ -6,6 +6,8 @@
 #define NACRE_BRDF_EON_INL_H_
 #endif
 
+#include <limits>
+
 #include "base/trig-inl.h"
 #include "brdf/angles-inl.h"
 #include "brdf/eon.h"
@@ -35,24 +37,24 @@ HWY_INLINE V EonLoss(D d, V cos) {
   return hn::NegMulAdd(hn::Set(d, 0.318309886f), g, hn::Set(d, static_cast<float>(kEonAlbedo)));
 }
 
-// `scale` is EonScale(roughness).
+// pi times the single reflection. `scale` is EonScale(roughness), and one of both cosines is above
+// 0: the limit keeps the quotient finite where it is less than a normal number.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V EonSingle(D d, V n_dot_l, V n_dot_v, V l_dot_v, V roughness, V scale) {
-  const V zero = hn::Zero(d);
+HWY_INLINE V EonSingleSpread(D d, V n_dot_l, V n_dot_v, V l_dot_v, V roughness, V scale) {
   const V one = hn::Set(d, 1.0f);
   const V s = hn::NegMulAdd(n_dot_l, n_dot_v, l_dot_v);
-  const auto forward = hn::Gt(s, zero);
-  const V t = hn::IfThenElse(forward, hn::Max(n_dot_l, n_dot_v), one);
-  const V inverse_pi = hn::Set(d, 0.318309886f);
-  return hn::Mul(hn::Mul(inverse_pi, scale), hn::MulAdd(roughness, hn::Div(s, t), one));
+  const auto forward = hn::Gt(s, hn::Zero(d));
+  const V larger =
+      hn::Max(hn::Max(n_dot_l, n_dot_v), hn::Set(d, std::numeric_limits<float>::min()));
+  const V t = hn::IfThenElse(forward, larger, one);
+  return hn::Mul(scale, hn::MulAdd(roughness, hn::Div(s, t), one));
 }
 
+// pi times the multiple reflection, of EonLoss of both cosines.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V EonMultiple(D d, V n_dot_l, V n_dot_v, V roughness, V scale) {
-  const V inverse_mean =
-      hn::Set(d, static_cast<float>(1 / ((kEonAlbedo - kEonMeanAlbedo) * 3.14159265358979324)));
-  return hn::Mul(hn::Mul(hn::Mul(scale, roughness), inverse_mean),
-                 hn::Mul(EonLoss(d, n_dot_l), EonLoss(d, n_dot_v)));
+HWY_INLINE V EonMultipleSpread(D d, V loss_l, V loss_v, V roughness, V scale) {
+  const V inverse_mean = hn::Set(d, static_cast<float>(1 / (kEonAlbedo - kEonMeanAlbedo)));
+  return hn::Mul(hn::Mul(hn::Mul(scale, roughness), inverse_mean), hn::Mul(loss_l, loss_v));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -73,10 +75,12 @@ HWY_INLINE V Eon(D d, const AnglesV<V>& a, V albedo, V roughness) {
   const V n_dot_v = hn::IfThenElse(above, a.n_dot_v, one);
   const V l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), a.lv_squared, one);
   const V scale = EonScale(d, roughness);
-  const V single = EonSingle(d, n_dot_l, n_dot_v, l_dot_v, roughness, scale);
-  const V multiple = hn::Mul(EonMultipleAlbedo(d, albedo, roughness, scale),
-                             EonMultiple(d, n_dot_l, n_dot_v, roughness, scale));
-  return hn::IfThenElseZero(above, hn::MulAdd(albedo, single, multiple));
+  const V single = EonSingleSpread(d, n_dot_l, n_dot_v, l_dot_v, roughness, scale);
+  const V multiple =
+      hn::Mul(EonMultipleAlbedo(d, albedo, roughness, scale),
+              EonMultipleSpread(d, EonLoss(d, n_dot_l), EonLoss(d, n_dot_v), roughness, scale));
+  const V sum = hn::MulAdd(albedo, single, multiple);
+  return hn::IfThenElseZero(above, hn::Mul(sum, hn::Set(d, 0.318309886f)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -54,10 +54,16 @@ Real EonMultiple(Real n_dot_l, Real n_dot_v, Real roughness) {
          (mean_loss * static_cast<Real>(M_PI));
 }
 
+// EonMultipleAlbedo over the albedo.
+template <typename Real>
+Real EonMultipleRatio(Real albedo, Real roughness) {
+  const Real mean = EonScale(roughness) * (1 + static_cast<Real>(kEonMeanAlbedo) * roughness);
+  return albedo * mean / (1 - albedo * (1 - mean));
+}
+
 template <typename Real>
 Real EonMultipleAlbedo(Real albedo, Real roughness) {
-  const Real mean = EonScale(roughness) * (1 + static_cast<Real>(kEonMeanAlbedo) * roughness);
-  return albedo * albedo * mean / (1 - albedo * (1 - mean));
+  return albedo * EonMultipleRatio(albedo, roughness);
 }
 
 // The BRDF of one channel. 0 unless both are above the surface.

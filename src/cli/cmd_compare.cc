@@ -1,7 +1,6 @@
 // cli/cmd_compare.cc: nacre compare: metrics of an image against a reference, a verdict, a map.
-#include <algorithm>
-#include <cmath>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,9 +9,12 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/heat_picture.h"
+#include "cli/metrics_json.h"
 #include "cli/outputs.h"
+#include "cli/perceptual_options.h"
 #include "cli/print.h"
 #include "cli/render_options.h"
+#include "compare/perceptual.h"
 #include "compare/verdict.h"
 #include "image_io/image_reader.h"
 #include "image_io/output_file.h"
@@ -27,12 +29,10 @@ struct Arguments {
   std::string heat_map;
   std::string heat_layer;
   HeatScale heat_scale;
+  PerceptualArguments perceptual;
   bool absolute = false;
   bool json = false;
 };
-
-std::string LayerName(const std::string& layer) { return layer.empty() ? "beauty" : layer; }
-std::string LayerOfName(const std::string& name) { return name == "beauty" ? "" : name; }
 
 void PrintTable(const Verdict& verdict) {
   PrintOut(fmt::format("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE",
@@ -47,32 +47,24 @@ void PrintTable(const Verdict& verdict) {
                            m.nonfinite_mismatches));
     }
   }
-  PrintOut(fmt::format("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason));
 }
 
-nlohmann::ordered_json ToJson(const Verdict& verdict) {
-  nlohmann::ordered_json layers = nlohmann::ordered_json::array();
-  for (const LayerMetrics& m : verdict.layers) {
-    layers.push_back({{"layer", LayerName(m.layer)},
-                      {"samples", m.samples},
-                      {"rmse", m.rmse},
-                      {"rel_mse", m.rel_mse},
-                      // JSON has no infinity: equal images have no PSNR.
-                      {"psnr_db", std::isfinite(m.psnr_db) ? nlohmann::ordered_json(m.psnr_db)
-                                                           : nlohmann::ordered_json()},
-                      {"max_abs", m.max_abs},
-                      {"max_abs_at", {m.max_abs_at.x, m.max_abs_at.y}},
-                      {"max_rel", m.max_rel},
-                      {"p999_rel", m.p999_rel},
-                      {"mean", m.mean_got},
-                      {"mean_reference", m.mean_reference},
-                      {"nonfinite_mismatches", m.nonfinite_mismatches}});
+void PrintPerceptual(const std::vector<PerceptualMetrics>& all) {
+  const auto figure = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.6f}", *value) : std::string("-");
+  };
+  PrintOut(fmt::format("{:<14} {:>11} {:>11} {:>11} {:>13} {:>13}  exposures\n", "layer", "SSIM",
+                       "FLIP mean", "FLIP max", "HDR-FLIP mean", "HDR-FLIP max"));
+  for (const PerceptualMetrics& m : all) {
+    const ExposureRange& range = m.exposures;
+    PrintOut(fmt::format(
+        "{:<14} {:>11} {:>11} {:>11} {:>13} {:>13}  {}\n", LayerName(m.layer), figure(m.ssim),
+        figure(m.flip_mean), figure(m.flip_max), figure(m.hdr_flip_mean), figure(m.hdr_flip_max),
+        m.hdr_flip_mean
+            ? fmt::format("{} from {:.2f} to {:.2f}", range.count, range.start, range.stop)
+            : "-"));
+    for (const std::string& note : m.notes) PrintOut(fmt::format("{:<14} {}\n", "", note));
   }
-  return {{"match", verdict.match},
-          {"reason", verdict.reason},
-          {"pixels", verdict.pixels},
-          {"exceeding_pixels", verdict.exceeding_pixels},
-          {"layers", layers}};
 }
 
 int RunCompare(const Arguments& arguments) {
@@ -81,6 +73,7 @@ int RunCompare(const Arguments& arguments) {
     CheckPathsDiffer({arguments.image, arguments.heat_map});
     CheckPathsDiffer({arguments.reference, arguments.heat_map});
   }
+  const std::optional<PerceptualOptions> perceptual = MakePerceptualOptions(arguments.perceptual);
   const Image image = ReadImage(arguments.image);
   const Image reference = ReadImage(arguments.reference);
   CompareOptions options = arguments.options;
@@ -88,10 +81,14 @@ int RunCompare(const Arguments& arguments) {
   options.reference_name = arguments.reference;
   for (std::string& layer : options.layers) layer = LayerOfName(layer);
   const Verdict verdict = Judge(image, reference, arguments.tolerances, options);
+  std::vector<PerceptualMetrics> seen;
+  if (perceptual) seen = MeasurePerceptual(image, reference, *perceptual, options);
   if (arguments.json) {
-    PrintOut(fmt::format("{}\n", ToJson(verdict).dump(2)));
+    PrintOut(fmt::format("{}\n", VerdictJson(verdict, seen).dump(2)));
   } else {
     PrintTable(verdict);
+    if (!seen.empty()) PrintPerceptual(seen);
+    PrintOut(fmt::format("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason));
   }
   if (!arguments.heat_map.empty()) {
     const HeatQuantity quantity =
@@ -133,6 +130,7 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
   command->add_option("--rmse", a->tolerances.rmse, "Allowed RMSE of a layer")
       ->check(not_negative)
       ->group(tolerance);
+  AddPerceptualOptions(command, &a->perceptual);
   const std::string map = "Heat map";
   command->add_option("--heat-map", a->heat_map, "PNG of where and how much they differ")
       ->group(map);
@@ -151,8 +149,9 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
   command->add_flag("--json", a->json, "Print JSON");
   command->footer(
       "Exit code: 0 they match, 1 they differ, 2 they cannot be compared.\n"
-      "Example:\n"
-      "  nacre compare render.exr reference.exr --max-rel 1e-3 --heat-map error.png");
+      "Examples:\n"
+      "  nacre compare render.exr reference.exr --max-rel 1e-3 --heat-map error.png\n"
+      "  nacre compare render.exr reference.exr --metrics all --ppd 40");
   command->callback([a, exit_code] {
     try {
       *exit_code = RunCompare(*a);

@@ -1,86 +1,187 @@
-// cli/cmd_grid.cc: nacre grid: a sheet of spheres over two material parameters, without a file.
-#include <charconv>
+// cli/cmd_grid.cc: nacre grid: a sheet of spheres over two axes of materials, without a file.
+#include <algorithm>
 #include <memory>
 
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/render_job.h"
 #include "cli/sheet.h"
+#include "scene_io/sheet_axis.h"
 
 namespace nacre {
 namespace {
 
-using Json = nlohmann::json;
-
-// "PARAMETER=FROM:TO:COUNT" as an axis of the scene format's grid.
-Json ParseAxis(const std::string& option, const std::string& text) {
-  const size_t equals = text.find('=');
-  const size_t first = text.find(':', equals);
-  const size_t second = first == std::string::npos ? first : text.find(':', first + 1);
-  Json axis;
-  int count = 0;
-  if (equals != std::string::npos && second != std::string::npos) {
-    const char* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data() + second + 1, end, count);
-    const Json from = Json::parse(text.substr(equals + 1, first - equals - 1), nullptr, false);
-    const Json to = Json::parse(text.substr(first + 1, second - first - 1), nullptr, false);
-    if (error == std::errc() && rest == end && !from.is_discarded() && !to.is_discarded()) {
-      axis = {{"parameter", text.substr(0, equals)}, {"from", from}, {"to", to}, {"count", count}};
-    }
-  }
-  if (axis.is_null()) {
-    throw Error(ExitCode::kUsage, option, "\"" + text + "\" is not PARAMETER=FROM:TO:COUNT",
-                "for example roughness=0.1:0.9:5, or base_color=[1,0,0]:[0,0,1]:4");
-  }
-  return axis;
-}
+using Kind = SheetAxis::Kind;
 
 struct Arguments {
   std::string rows = "roughness=0.1:0.9:5";
   std::string columns = "metallic=0:1:5";
   std::string material = R"({"model": "metallic_roughness", "base_color": [0.9, 0.6, 0.2]})";
+  SheetOptions sheet;
   RenderOptions options;
 };
 
-std::string GridScene(const Arguments& arguments) {
-  const Json rows = ParseAxis("--rows", arguments.rows);
-  const Json columns = ParseAxis("--columns", arguments.columns);
-  const Json shapes = {{{"type", "grid"},
-                        {"material", ParseMaterialArgument("--material", arguments.material)},
-                        {"rows", rows},
-                        {"columns", columns}}};
-  // Half a sphere's room for the column labels, two for those of the rows.
-  return SheetScene(shapes, Json::object(), columns["count"].get<double>() + 4,
-                    rows["count"].get<double>() + 1);
+struct Axes {
+  SheetAxis rows, columns;
+  Json material;
+  std::string material_label;
+};
+
+Axes ParseAxes(const Arguments& arguments) {
+  Axes axes;
+  axes.rows = ParseSheetAxis("--rows", arguments.rows);
+  axes.columns = ParseSheetAxis("--columns", arguments.columns);
+  axes.material = ParseMaterialText("--material", arguments.material);
+  axes.material_label = MaterialLabel(axes.material);
+  axes.material.erase("name");
+  if (axes.rows.name == axes.columns.name) {
+    throw Error(ExitCode::kUsage, "--columns",
+                fmt::format("rows and columns both vary {}", axes.rows.name),
+                "name another parameter");
+  }
+  std::vector<Json> bases = {axes.material};
+  for (const SheetAxis* axis : {&axes.rows, &axes.columns}) {
+    if (axis->kind == Kind::kMaterial) bases = axis->values;
+  }
+  CheckSheetAxis("--rows", bases, &axes.rows);
+  CheckSheetAxis("--columns", bases, &axes.columns);
+  return axes;
 }
+
+// The axis as the scene format's grid has it.
+Json GridAxisJson(const SheetAxis& axis) {
+  if (axis.kind == Kind::kParameter) return {{"parameter", axis.name}, {"values", axis.values}};
+  return {{"count", 1}};
+}
+
+// The base of the spheres at place i of an axis that a grid of the scene format cannot vary.
+void ApplyPlace(const SheetAxis& axis, size_t i, Json* material) {
+  if (axis.kind == Kind::kMaterial) *material = axis.values[i];
+  if (axis.kind == Kind::kChoice) (*material)[axis.name] = axis.values[i];
+}
+
+size_t PlacesOf(const SheetAxis& axis) {
+  return axis.kind == Kind::kParameter ? 1 : axis.values.size();
+}
+
+// Parameters vary within a grid; choices and whole materials make grids of their own.
+Json GridShapes(const Axes& axes) {
+  const size_t row_places = PlacesOf(axes.rows);
+  const size_t column_places = PlacesOf(axes.columns);
+  const bool material_first = axes.rows.kind == Kind::kMaterial;
+  Json shapes = Json::array();
+  for (size_t row = 0; row < row_places; ++row) {
+    for (size_t column = 0; column < column_places; ++column) {
+      Json material = axes.material;
+      if (material_first) ApplyPlace(axes.rows, row, &material);
+      ApplyPlace(axes.columns, column, &material);
+      if (!material_first) ApplyPlace(axes.rows, row, &material);
+      const double x = static_cast<double>(column) - (static_cast<double>(column_places) - 1) / 2;
+      const double y = (static_cast<double>(row_places) - 1) / 2 - static_cast<double>(row);
+      shapes.push_back({{"type", "grid"},
+                        {"center", {x, y, 0}},
+                        {"radius", kSheetSphereRadius},
+                        {"material", material},
+                        {"rows", GridAxisJson(axes.rows)},
+                        {"columns", GridAxisJson(axes.columns)}});
+    }
+  }
+  return shapes;
+}
+
+// "base_color 0.9 0.6 0.2": what the base material says and no axis varies.
+std::string FixedParameters(const Axes& axes) {
+  std::vector<std::string> parts;
+  for (const auto& [key, value] : axes.material.items()) {
+    if (key == "model" || key == axes.rows.name || key == axes.columns.name) continue;
+    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
+    for (char& c : text) c = c == ',' ? ' ' : c;
+    parts.push_back(key + " " + text);
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+SheetText MakeText(const Axes& axes, const SheetOptions& sheet, const Lighting& lighting) {
+  const bool has_base = axes.rows.kind != Kind::kMaterial && axes.columns.kind != Kind::kMaterial;
+  SheetText text;
+  text.title = sheet.title;
+  if (text.title.empty()) {
+    text.title = fmt::format("{}{} by {}", has_base ? axes.material_label + ": " : "",
+                             axes.rows.name, axes.columns.name);
+  }
+  if (text.title == "-") text.title.clear();
+  text.row_name = axes.rows.name;
+  text.row_labels = axes.rows.labels;
+  text.column_name = axes.columns.name;
+  text.column_labels = axes.columns.labels;
+  const std::string fixed = has_base ? FixedParameters(axes) : "";
+  text.footer = {fixed + (fixed.empty() ? "" : "; ") + "light: " + lighting.label};
+  return text;
+}
+
+void RunGrid(const Arguments& arguments) {
+  const RenderOptions& options = arguments.options;
+  const Axes axes = ParseAxes(arguments);
+  const auto rows = static_cast<int>(axes.rows.values.size());
+  const auto columns = static_cast<int>(axes.columns.values.size());
+  const Lighting lighting = MakeLighting(arguments.sheet.lighting, std::max(rows, columns) / 2.0);
+  SheetRequest request = MakeSheetRequest(arguments.sheet, options, rows, columns);
+  request.light_ground = IsLightGround(lighting, options);
+  const SheetText text = options.labels ? MakeText(axes, arguments.sheet, lighting) : SheetText{};
+  const SheetPage page = LayOutSheet(text, request);
+  const std::string scene = SheetScene(GridShapes(axes), Json::object(), request, page, lighting);
+  RunRenderJob(
+      options, "",
+      [&](const LoadOptions& load) {
+        return LoadSheet(scene, "nacre grid", arguments.sheet, page, load);
+      },
+      page.text);
+}
+
+constexpr char kAxisHelp[] =
+    "What varies {}: PARAMETER=FROM:TO:COUNT (both ends included; :log for equal ratios) or "
+    "PARAMETER=A,B,C. A parameter is a number, a colour (#rrggbb or [r,g,b], mixed in linear "
+    "light), a choice (shadowing=height_correlated,separable) or material, for whole models by "
+    "name or as JSON";
 
 }  // namespace
 
 void AddGridCommand(CLI::App* app, int*) {
   CLI::App* command =
-      app->add_subcommand("grid", "Render a grid of spheres over two material parameters");
+      app->add_subcommand("grid", "Render a sheet of spheres over two parameters of a material");
   const auto arguments = std::make_shared<Arguments>();
-  command->add_option("--rows", arguments->rows, "Parameter that varies downwards")
-      ->type_name("PARAMETER=FROM:TO:COUNT")
+  command->add_option("--rows", arguments->rows, fmt::format(kAxisHelp, "downwards"))
+      ->type_name("AXIS")
       ->capture_default_str();
-  command->add_option("--columns", arguments->columns, "Parameter that varies to the right")
-      ->type_name("PARAMETER=FROM:TO:COUNT")
+  command->add_option("--columns", arguments->columns, fmt::format(kAxisHelp, "to the right"))
+      ->type_name("AXIS")
       ->capture_default_str();
-  command->add_option("--material", arguments->material, "Model's name or material as JSON")
+  command
+      ->add_option("--material", arguments->material,
+                   "What the axes do not vary: a model's name, or a material as JSON")
       ->capture_default_str();
-  AddRenderOptions(command, &arguments->options);
+  AddSheetOptions(command, &arguments->sheet, &arguments->options);
   command->footer(
+      "1 to 64 spheres along each axis. Without --size the picture is as large as the sheet "
+      "needs.\n"
       "Examples:\n"
-      "  nacre grid -o grid.png --labels\n"
-      "  nacre grid --material phong --rows shininess=4:256:4 --columns ks=0:1:6 -o phong.png");
-  command->callback([arguments] {
-    const std::string scene = GridScene(*arguments);
-    RunRenderJob(arguments->options, "", [&](const LoadOptions& load) {
-      return LoadSceneText(scene, "nacre grid", ".", load);
-    });
-  });
+      "  nacre grid -o grid.png\n"
+      "  nacre grid --material phong --rows shininess=4:256:4:log --columns ks=0:1:6 -o phong.png\n"
+      "  nacre grid --material conductor --rows preset=gold,copper,silver \\\n"
+      "    --columns roughness=0,0.1,0.3,0.6 --light studio --background '#ffffff' -o metals.png\n"
+      "  nacre grid --columns material=phong,blinn_phong,modified_phong \\\n"
+      "    --rows shininess=4,16,64,256 -o exponents.png\n"
+      "  nacre grid --rows base_color=#c03020:#2040c0:3 --columns roughness=0.1:1:6 \\\n"
+      "    --light sky --sphere-size 160 -o colours.png\n"
+      "  nacre grid --rows compensation=turquin,kulla_conty,none --columns roughness=0:1:6 \\\n"
+      "    --material '{\"model\": \"metallic_roughness\", \"base_color\": 1, \"metallic\": 1}' "
+      "\\\n"
+      "    --light furnace -o energy.png");
+  command->callback([arguments] { RunGrid(*arguments); });
 }
 
 }  // namespace nacre

@@ -1,17 +1,20 @@
-// cli/cmd_pair.cc: nacre pair: two materials side by side, or as halves of one sphere.
+// cli/cmd_pair.cc: nacre pair: two materials as halves of one sphere, side by side, or with their
+// difference.
 #include <memory>
 
 #include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <fmt/format.h>
 
+#include "base/error.h"
 #include "cli/commands.h"
+#include "cli/difference_page.h"
+#include "cli/print.h"
 #include "cli/render_job.h"
-#include "cli/sheet.h"
+#include "scene_io/material_json.h"
+#include "scene_io/sheet_axis.h"
 
 namespace nacre {
 namespace {
-
-using Json = nlohmann::json;
 
 struct Arguments {
   // The same red plastic twice: shininess 2 / alpha^2 - 2 for roughness 0.4, ks = F0.
@@ -20,21 +23,113 @@ struct Arguments {
   std::string b = R"({"model": "metallic_roughness", "base_color": [0.8, 0.2, 0.2], )"
                   R"("roughness": 0.4})";
   std::string layout = "split";
+  bool json = false;
+  SheetOptions sheet;
   RenderOptions options;
 };
 
-std::string PairScene(const Arguments& arguments) {
-  Json materials = {{"a", ParseMaterialArgument("--a", arguments.a)},
-                    {"b", ParseMaterialArgument("--b", arguments.b)}};
-  const auto sphere = [](double x, const char* material) -> Json {
-    return {{"type", "sphere"}, {"center", {x, 0, 0}}, {"radius", 1}, {"material", material}};
-  };
-  if (arguments.layout == "side") {
-    const Json shapes = Json::array({sphere(-1.15, "a"), sphere(1.15, "b")});
-    return SheetScene(shapes, materials, 5, 2.7);
+struct Side {
+  Json json;      // as given
+  Json complete;  // with every number
+  std::string label;
+};
+
+Side ReadSide(const std::string& option, const std::string& text) {
+  Side side;
+  side.json = ParseMaterialText(option, text);
+  side.label = MaterialLabel(side.json);
+  side.json.erase("name");
+  const Material material = MaterialFromJson(side.json, option);
+  if (std::holds_alternative<SplitMaterial>(material.model)) {
+    throw Error(ExitCode::kBadInput, option, "a split is not one material", "give --a and --b");
   }
-  materials["a | b"] = {{"model", "split"}, {"at", {0.5}}, {"materials", {"a", "b"}}};
-  return SheetScene(Json::array({sphere(0, "a | b")}), materials, 3, 2.7);
+  side.complete = MaterialJson(material);
+  return side;
+}
+
+std::string Title(const Arguments& arguments, const Side& a, const Side& b) {
+  if (arguments.sheet.title == "-") return {};
+  if (!arguments.sheet.title.empty()) return arguments.sheet.title;
+  return fmt::format("{} and {}", a.label, b.label);
+}
+
+std::vector<std::string> Footer(const Arguments& arguments, const Side& a, const Side& b) {
+  return {"A  " + DescribeMaterial(a.complete), "B  " + DescribeMaterial(b.complete),
+          "light: " + MakeLighting(arguments.sheet.lighting, 0.5).label};
+}
+
+// Both on one page, by the job behind all renders.
+void RenderBoth(const Arguments& arguments, const Side& a, const Side& b) {
+  const RenderOptions& options = arguments.options;
+  const bool split = arguments.layout == "split";
+  const Lighting lighting = MakeLighting(arguments.sheet.lighting, split ? 0.5 : 1, split);
+  SheetRequest request = MakeSheetRequest(arguments.sheet, options, 1, split ? 1 : 2);
+  request.light_ground = IsLightGround(lighting, options);
+  SheetText text;
+  if (options.labels) {
+    text.title = Title(arguments, a, b);
+    text.footer = Footer(arguments, a, b);
+    if (split) {
+      text.column_labels = {"A | B"};
+    } else {
+      text.column_labels = {"A: " + a.label, "B: " + b.label};
+    }
+  }
+  const SheetPage page = LayOutSheet(text, request);
+  const auto sphere = [](double x, const char* material) -> Json {
+    return {{"type", "sphere"},
+            {"center", {x, 0, 0}},
+            {"radius", kSheetSphereRadius},
+            {"material", material}};
+  };
+  Json materials = {{"a", a.json}, {"b", b.json}};
+  Json shapes = Json::array();
+  if (split) {
+    const double at = (page.left + page.cell / 2) / page.width;
+    materials["a | b"] = {{"model", "split"}, {"at", Json::array({at})}, {"materials", {"a", "b"}}};
+    shapes.push_back(sphere(0, "a | b"));
+  } else {
+    shapes.push_back(sphere(-0.5, "a"));
+    shapes.push_back(sphere(0.5, "b"));
+  }
+  const std::string scene = SheetScene(shapes, materials, request, page, lighting);
+  RunRenderJob(
+      options, "",
+      [&](const LoadOptions& load) {
+        return LoadSheet(scene, "nacre pair", arguments.sheet, page, load);
+      },
+      page.text);
+}
+
+void Report(const Arguments& arguments, const Side& a, const Side& b,
+            const DifferenceMeasures* measures) {
+  if (arguments.json) {
+    Json json = {{"a", a.complete}, {"b", b.complete}};
+    if (measures != nullptr) json["difference"] = measures->ToJson();
+    PrintOut(json.dump(2) + "\n");
+    return;
+  }
+  if (arguments.options.quiet) return;
+  PrintOut("A  " + DescribeMaterial(a.complete) + "\nB  " + DescribeMaterial(b.complete) + "\n");
+  if (measures != nullptr) {
+    PrintOut(fmt::format("A - B on the sphere, linear: RMSE {:.6g}, largest {:.6g}, mean {:+.6g}\n",
+                         measures->rmse, measures->max, measures->mean));
+  }
+}
+
+void RunPair(const Arguments& arguments) {
+  const Side a = ReadSide("--a", arguments.a);
+  const Side b = ReadSide("--b", arguments.b);
+  if (arguments.layout != "difference") {
+    RenderBoth(arguments, a, b);
+    Report(arguments, a, b, nullptr);
+    return;
+  }
+  DifferencePage page{
+      a.json, b.json, a.label, b.label, Title(arguments, a, b), Footer(arguments, a, b)};
+  const DifferenceMeasures measures =
+      DrawDifference(page, arguments.sheet, arguments.options, "nacre pair");
+  Report(arguments, a, b, &measures);
 }
 
 }  // namespace
@@ -46,20 +141,21 @@ void AddPairCommand(CLI::App* app, int*) {
       ->capture_default_str();
   command->add_option("--b", arguments->b, "Right material: a model's name or JSON")
       ->capture_default_str();
-  command->add_option("--layout", arguments->layout, "split (halves of one sphere) or side")
-      ->check(CLI::IsMember({"split", "side"}))
+  command
+      ->add_option("--layout", arguments->layout,
+                   "split (halves of one sphere), side (by side) or difference (A, B and where "
+                   "they differ, with RMSE, largest and mean difference; PNG only)")
+      ->check(CLI::IsMember({"split", "side", "difference"}))
       ->capture_default_str();
-  AddRenderOptions(command, &arguments->options);
+  command->add_flag("--json", arguments->json, "Print both materials and the measures as JSON");
+  AddSheetOptions(command, &arguments->sheet, &arguments->options);
   command->footer(
+      "Prints both materials with all their numbers.\n"
       "Examples:\n"
       "  nacre pair -o phong_vs_pbr.png\n"
-      "  nacre pair --a blinn_phong --b phong --layout side -o lobes.png --spp 64");
-  command->callback([arguments] {
-    const std::string scene = PairScene(*arguments);
-    RunRenderJob(arguments->options, "", [&](const LoadOptions& load) {
-      return LoadSceneText(scene, "nacre pair", ".", load);
-    });
-  });
+      "  nacre pair --a blinn_phong --b phong --layout side -o lobes.png --spp 64\n"
+      "  nacre pair --layout difference --light studio -o difference.png --json");
+  command->callback([arguments] { RunPair(*arguments); });
 }
 
 }  // namespace nacre

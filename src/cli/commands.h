@@ -9,6 +9,7 @@ namespace nacre {
 void AddRenderCommand(CLI::App* app, int* exit_code);
 void AddGridCommand(CLI::App* app, int* exit_code);
 void AddPairCommand(CLI::App* app, int* exit_code);
+void AddConvertCommand(CLI::App* app, int* exit_code);
 void AddCompareCommand(CLI::App* app, int* exit_code);
 void AddValidateCommand(CLI::App* app, int* exit_code);
 void AddTonemapCommand(CLI::App* app, int* exit_code);

@@ -42,6 +42,7 @@ int Run(int argc, char** argv) {
   nacre::AddRenderCommand(&app, &exit_code);
   nacre::AddGridCommand(&app, &exit_code);
   nacre::AddPairCommand(&app, &exit_code);
+  nacre::AddConvertCommand(&app, &exit_code);
   nacre::AddCompareCommand(&app, &exit_code);
   nacre::AddValidateCommand(&app, &exit_code);
   nacre::AddTonemapCommand(&app, &exit_code);

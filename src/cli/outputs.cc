@@ -55,8 +55,9 @@ void CheckPathsDiffer(const std::vector<std::string>& paths) {
   }
 }
 
-Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan)
-    : options_(options), plan_(plan) {
+Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan,
+                 const std::vector<TextItem>& captions)
+    : options_(options), plan_(plan), captions_(captions) {
   display_.tone = ParseToneOperator(options.tonemap);
   display_.exposure_ev = options.exposure;
   ExrHeader header = MakeExrHeader(plan, options.reproducible);
@@ -107,9 +108,20 @@ void Outputs::WritePng(const Strip& strip) {
   for (const auto& png : png_) png->WriteStrip(row, strip.window.height(), rgb8);
 }
 
+void Outputs::DrawTexts() {
+  const Window& window = plan_.window;
+  if (captions_.empty()) return DrawLabels(*plan_.scene, window, picture_);
+  std::vector<TextItem> items = captions_;
+  for (TextItem& item : items) {
+    item.x -= window.x0;
+    item.y -= window.y0;
+  }
+  DrawText(picture_, window.width(), window.height(), items);
+}
+
 OutputCounts Outputs::Finish(const RenderStats& stats) {
   if (!picture_.empty()) {
-    DrawLabels(*plan_.scene, plan_.window, picture_);
+    DrawTexts();
     for (const auto& png : png_) {
       for (int row = 0; row < plan_.window.height(); row += kStripRows) {
         const size_t offset =

@@ -9,6 +9,7 @@
 
 #include "cli/render_options.h"
 #include "image_io/exr_writer.h"
+#include "image_io/oiio.h"
 #include "image_io/png_writer.h"
 #include "render/film.h"
 #include "render/plan.h"
@@ -34,8 +35,9 @@ struct OutputCounts {
 
 class Outputs {
  public:
-  // Opens all files. `plan` and its scene must outlive this.
-  Outputs(const RenderOptions& options, const RenderPlan& plan);
+  // Opens all files. What it is given must outlive this. `captions`: as RunRenderJob's.
+  Outputs(const RenderOptions& options, const RenderPlan& plan,
+          const std::vector<TextItem>& captions);
 
   // From any thread, in any order.
   void WriteStrip(const Strip& strip);
@@ -45,9 +47,11 @@ class Outputs {
 
  private:
   void WritePng(const Strip& strip);
+  void DrawTexts();
 
   const RenderOptions& options_;
   const RenderPlan& plan_;
+  const std::vector<TextItem>& captions_;
   DisplaySettings display_;
   std::vector<std::unique_ptr<ExrWriter>> exr_;
   std::vector<std::unique_ptr<PngWriter>> png_;

@@ -71,7 +71,8 @@ void Summarize(const RenderOptions& options, const RenderPlan& plan, const Rende
 }  // namespace
 
 void RunRenderJob(const RenderOptions& options, const std::string& input,
-                  const std::function<Scene(const LoadOptions&)>& load) {
+                  const std::function<Scene(const LoadOptions&)>& load,
+                  const std::vector<TextItem>& captions) {
   const Clock::time_point start = Clock::now();
   JobTimes times;
   LoadOptions load_options = MakeLoadOptions(options);
@@ -114,7 +115,7 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
     return MakePlan(scene, settings);
   }();
   const double plan_seconds = SecondsSince(plan_start);
-  Outputs outputs(options, plan);
+  Outputs outputs(options, plan, captions);
   RenderStats stats;
   {
     const double samples = static_cast<double>(plan.window.pixel_count()) * scene.image.spp;

@@ -2,14 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "cli/render_options.h"
+#include "image_io/oiio.h"
 
 namespace nacre {
 
 // Checks the outputs (`input` is the scene's file, or empty), calls `load`, renders and writes.
-// `load` gets what scene_io is to be told. Throws Error.
+// `load` gets what scene_io is to be told. `captions`, if any, are drawn into PNG files in place of
+// the scene's labels; they are in pixels of the whole frame. Throws Error.
 void RunRenderJob(const RenderOptions& options, const std::string& input,
-                  const std::function<Scene(const LoadOptions&)>& load);
+                  const std::function<Scene(const LoadOptions&)>& load,
+                  const std::vector<TextItem>& captions = {});
 
 }  // namespace nacre

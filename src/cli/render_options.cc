@@ -161,8 +161,8 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   AddDisplayOptions(command, &o->tonemap, &o->exposure);
-  command->add_flag("--labels", o->labels,
-                    "Write the scene's row and column labels into PNG files");
+  command->add_flag("--labels,!--no-labels", o->labels,
+                    "Write titles and labels of rows and columns into PNG files, or do not");
   AddPictureOptions(command, o);
   AddExrOptions(command, o);
   AddMachineOptions(command, o);

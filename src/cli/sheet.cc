@@ -1,48 +1,93 @@
 #include "cli/sheet.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/error.h"
+#include "color/display.h"
+#include "color/luminance.h"
+#include "scene_io/sheet_axis.h"
 
 namespace nacre {
 
-using Json = nlohmann::json;
-
-std::string SheetScene(const Json& shapes, const Json& materials, double width, double height) {
-  constexpr double kFovYDeg = 20;
-  constexpr double kAspect = 16.0 / 9;  // of the default image; wider images show more margin
-  const double view = std::max(height, width / kAspect);
-  const double distance = view / (2 * std::tan(kFovYDeg / 2 * M_PI / 180));
-  // The key light keeps its direction and its irradiance at the centre whatever the size.
-  const Json light_position = {0.71 * distance, 0.79 * distance, 0.97 * distance};
-  const double light_distance_squared =
-      (0.71 * 0.71 + 0.79 * 0.79 + 0.97 * 0.97) * distance * distance;
-  constexpr double kKeyIrradiance = 2.9;
+std::string SheetScene(const Json& shapes, const Json& materials, const SheetRequest& request,
+                       const SheetPage& page, const Lighting& lighting) {
+  // The origin is the block's middle; the camera looks at what is the picture's.
+  const double x = (page.width / 2.0 - page.left) / page.cell - request.columns / 2.0;
+  const double y = request.rows / 2.0 - (page.height / 2.0 - page.top) / page.cell;
+  constexpr double kDistance = 100;
+  // No shadows: each sphere is lit as if it were alone.
   const Json scene = {
       {"nacre", 1},
-      {"camera", {{"position", {0, 0, distance}}, {"look_at", {0, 0, 0}}, {"fov_y_deg", kFovYDeg}}},
-      {"lights",
-       {{"key",
-         {{"type", "point"},
-          {"position", light_position},
-          {"intensity", kKeyIrradiance * light_distance_squared}}},
-        {"sky", {{"type", "ambient"}, {"radiance", 0.06}}}}},
+      {"camera",
+       {{"type", "orthographic"},
+        {"position", {x, y, kDistance}},
+        {"look_at", {x, y, 0}},
+        {"height", page.height / page.cell}}},
+      {"image",
+       {{"width", page.width},
+        {"height", page.height},
+        {"spp", lighting.sampled ? 64 : 16},
+        {"shadows", false}}},
+      {"lights", lighting.lights},
       {"materials", materials},
       {"shapes", shapes},
-      {"background", {0.05, 0.05, 0.08}},
+      {"background", lighting.background},
   };
   return scene.dump();
 }
 
-Json ParseMaterialArgument(const std::string& option, const std::string& text) {
-  if (text.find('{') == std::string::npos) return {{"model", text}};
-  Json material = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!material.is_object()) {
-    throw Error(ExitCode::kUsage, option, "\"" + text + "\" is not a material",
-                "give a model's name or JSON, e.g. '{\"model\": \"phong\", \"shininess\": 64}'");
+void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* render) {
+  command
+      ->add_option("--sphere-size", options->sphere_size,
+                   "Diameter of the spheres in pixels; the picture grows with them")
+      ->check(InRange(1, 8192))
+      ->type_name("PX")
+      ->group("Sheet");
+  command->add_option("--title", options->title, "Written above; - for none")->group("Sheet");
+  AddLightingOptions(command, &options->lighting);
+  render->labels = true;
+  AddRenderOptions(command, render);
+}
+
+SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render, int rows,
+                              int columns) {
+  SheetRequest request;
+  request.rows = rows;
+  request.columns = columns;
+  if (options.sphere_size > 0) request.cell = options.sphere_size / (2 * kSheetSphereRadius);
+  if (!render.size.empty()) {
+    if (options.sphere_size > 0) {
+      throw Error(ExitCode::kUsage, "--sphere-size", "the picture's size is given as well",
+                  "give --size for the whole picture or --sphere-size for each sphere");
+    }
+    ParseSize(render.size, &request.width, &request.height);
   }
-  return material;
+  return request;
+}
+
+bool IsLightGround(const Lighting& lighting, const RenderOptions& render) {
+  const Json& background = lighting.background;
+  Imath::Color3<double> rgb;
+  for (int c = 0; c < 3; ++c) {
+    const auto i = static_cast<size_t>(c);
+    rgb[c] = background.is_array() ? background[i].get<double>() : background.get<double>();
+  }
+  DisplaySettings display;
+  display.tone = ParseToneOperator(render.tonemap);
+  display.exposure_ev = render.exposure;
+  const auto light = DisplayLight(display, rgb);
+  // Contrast with black and with white is equal at luminance 0.18 (WCAG 2.1).
+  return Luminance(light) > 0.18;
+}
+
+Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
+                const SheetPage& page, LoadOptions load) {
+  if (!options.lighting.environment.empty()) load.allow_paths = true;
+  if (page.width > 65536 || page.height > 65536) {
+    throw Error(ExitCode::kUsage, "--sphere-size", "the picture would be larger than 65536 pixels",
+                "give smaller spheres");
+  }
+  Scene scene = LoadSceneText(text, command, ".", load);
+  scene.labels.clear();  // the page has them
+  return scene;
 }
 
 }  // namespace nacre

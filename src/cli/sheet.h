@@ -1,20 +1,39 @@
-// cli/sheet.h: scenes that the commands grid and pair build from their arguments: shapes before a
-// plain background, framed to fit, under a key light and a weak sky.
+// cli/sheet.h: scenes that the commands grid and pair build from their arguments: spheres in the
+// cells of a page, before a plain ground.
 #pragma once
 
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include "cli/lighting.h"
+#include "cli/render_options.h"
+#include "cli/sheet_page.h"
 
 namespace nacre {
 
-// A scene file's text around `shapes` and `materials`, with a view of `width` x `height` world
-// units around the origin, seen from far enough away that spheres look round.
-std::string SheetScene(const nlohmann::json& shapes, const nlohmann::json& materials, double width,
-                       double height);
+inline constexpr double kSheetSphereRadius = 0.44;  // of a cell
 
-// A material given on the command line: JSON, or the name of a model with its defaults. Throws
-// Error (usage) if it is neither.
-nlohmann::json ParseMaterialArgument(const std::string& option, const std::string& text);
+// A scene file's text. World units are cells; the block of rows by columns has its centre at the
+// origin and is seen in parallel projection along -z, so that every sphere is seen alike.
+std::string SheetScene(const Json& shapes, const Json& materials, const SheetRequest& request,
+                       const SheetPage& page, const Lighting& lighting);
+
+// The options of size that sheets share: --sphere-size, --title.
+struct SheetOptions {
+  double sphere_size = 0;  // pixels; 0: what fits
+  std::string title;
+  LightingOptions lighting;
+};
+void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* render);
+
+// What they and --size ask for. Throws Error (usage).
+SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render, int rows,
+                              int columns);
+
+// Whether the ground looks light in a PNG.
+bool IsLightGround(const Lighting& lighting, const RenderOptions& render);
+
+// Loads a sheet's scene; images that the command line names may be anywhere.
+Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
+                const SheetPage& page, LoadOptions load);
 
 }  // namespace nacre

@@ -118,7 +118,8 @@ void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<
                      item.size_px,
                      static_cast<int32_t>(item.align_x) - 1,
                      static_cast<int32_t>(item.align_y) - 1,
-                     {item.color[0], item.color[1], item.color[2]}});
+                     {item.color[0], item.color[1], item.color[2]},
+                     static_cast<uint8_t>(item.outline ? 1 : 0)});
   }
   const char* const failure = GetModule().draw_text(rgb8.data(), width, height, texts.data(),
                                                     static_cast<int32_t>(texts.size()));

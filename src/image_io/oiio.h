@@ -29,10 +29,11 @@ struct TextItem {
   AlignX align_x = AlignX::kLeft;  // which point of the text (x, y) is
   AlignY align_y = AlignY::kTop;   // top and centre of capital letters, bottom of descenders
   std::array<uint8_t, 3> color = {255, 255, 255};
+  bool outline = true;  // a dark one, which reads on any background
 };
 
-// Draws text in DejaVu Sans with a dark outline, which reads on any background, into width *
-// height RGB pixels of display codes. Throws Error (kInternal) if the module or a font is missing.
+// Draws text in DejaVu Sans into width * height RGB pixels of display codes. Throws Error
+// (kInternal) if the module or a font is missing.
 void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items);
 
 }  // namespace nacre

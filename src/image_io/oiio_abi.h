@@ -29,6 +29,7 @@ struct NacreOiioText {
   int32_t align_x;  // x is the text's: -1 left end, 0 middle, 1 right end
   int32_t align_y;  // y is: -1 top, 0 middle of capital letters, 1 bottom of descenders
   uint8_t color[3];
+  uint8_t outline;  // 1: a dark outline
 };
 
 // Both return null, or the reason for failing, valid until the thread's next call. Neither lets an

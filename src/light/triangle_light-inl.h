@@ -118,6 +118,21 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& light, V u0,
   return SampleIf(d, hn::Gt(hn::Min(t.solid_angle, sample.inverse_pdf), zero), sample);
 }
 
+// LightPdf of a direction that is known to meet the triangle.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V DensityInside(D d, const TriangleLightV<V>& light, const Vec3V<V>& direction) {
+  const V zero = hn::Zero(d);
+  const V solid_angle = SolidAngle(d, light);
+  const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);
+  const V towards = FusedDot(direction, cross);
+  const V inverse = InverseIfPositive(d, hn::Abs(towards));
+  const V t = hn::Mul(FusedDot(light.corner, cross), inverse);
+  const V by_area = hn::Mul(hn::Mul(hn::Add(t, t), t), inverse);
+  const auto small = hn::Lt(solid_angle, hn::Set(d, kSmallSolidAngle<float>));
+  const V density = hn::IfThenElse(small, by_area, InverseIfPositive(d, solid_angle));
+  return hn::IfThenElseZero(hn::Gt(solid_angle, zero), density);
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LightPdf(D d, const TriangleLightV<V>& light, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);

@@ -118,7 +118,7 @@ std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
   const float color[] = {static_cast<float>(item.color[0]) / kCodes,
                          static_cast<float>(item.color[1]) / kCodes,
                          static_cast<float>(item.color[2]) / kCodes};
-  const int outline_px = std::max(1, item.size_px / 12);
+  const int outline_px = item.outline != 0 ? std::max(1, item.size_px / 12) : 0;
   const Offset offset = AlignmentOffset(item);
   using OIIO::ImageBufAlgo::TextAlignX;
   using OIIO::ImageBufAlgo::TextAlignY;

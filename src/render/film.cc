@@ -80,7 +80,7 @@ bool ShowsBackground(const Layer& layer) {
 
 Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan) {
   const bool shows = ShowsBackground(layer) && plan.sky == nullptr;
-  return shows ? RoundToFloat(plan.scene->background) : Rgb(0, 0, 0);
+  return shows ? RoundToFloat(plan.background) : Rgb(0, 0, 0);
 }
 
 void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {

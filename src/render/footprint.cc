@@ -140,8 +140,7 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 
 uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
                          TileScratch* scratch, CellScratch* cell_scratch) {
-  // A texture may hold anything between pixel centres.
-  if (!plan.adaptive.footprints || !plan.binned || plan.splits || plan.textured) return 0;
+  if (!plan.adaptive.footprints) return 0;
   const std::vector<Picture> pictures = PicturesOf(plan, scratch->candidates);
   if (pictures.size() > kMostCandidates) return 0;
   int corners[kCellBlocks] = {};

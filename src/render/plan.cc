@@ -10,6 +10,8 @@
 #include "base/parallel.h"
 #include "base/target.h"
 #include "render/mesh_points.h"
+#include "render/mesh_windows.h"
+#include "render/plan_notes.h"
 #include "render/sampled_plan.h"
 #include "render/shadow_cull.h"
 #include "scene/mesh.h"
@@ -97,13 +99,8 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   const std::string shapes =
       fmt::format("{} spheres, {} triangles; exact hits in double on {}", scene.spheres.size(),
                   triangles, TargetName(ActiveTarget()));
-  const IntersectorChoice choice = settings.intersector;
-  if (choice == IntersectorChoice::kTiles && triangles > 0) {
-    throw Error(ExitCode::kUsage, "--intersector",
-                "tiles hold spheres only, and the scene has triangles",
-                "leave the choice to nacre");
-  }
-  const bool want_tiles = choice != IntersectorChoice::kEmbree && triangles == 0;
+  const bool want_tiles =
+      settings.intersector != IntersectorChoice::kEmbree && !scene.spheres.empty();
   plan->eye_outside = EyeIsOutside(scene, settings.threads);
   plan->intersector = std::make_unique<Intersector>(
       scene, scene.camera.position,
@@ -112,26 +109,32 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
   tell(0.15);
+  const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
+  plan->mesh_windows = FindMeshWindows(scene, plan->camera, reach);
   // Footprints are looked for in the bins, whoever traces: the bits must not depend on that.
-  if (want_tiles || (settings.max_error > 0 && triangles == 0)) {
-    const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
+  if (want_tiles || settings.max_error > 0) {
     const Window binned = settings.max_error > 0 ? WholeCells(plan->window) : plan->window;
     plan->binned = plan->intersector->BinForCamera(plan->camera, binned, reach);
     plan->tiles = want_tiles && plan->binned;
   }
   plan->items.push_back({"intersector tiles, for camera rays", plan->tiles,
-                         plan->tiles     ? "spheres binned to 16x16 pixels need no tree: " + shapes
-                         : triangles > 0 ? "there are triangles"
-                         : want_tiles    ? "the bins would not fit 256 MiB"
-                                         : "--intersector embree"});
+                         plan->tiles  ? "spheres binned to 16x16 pixels need no tree: " + shapes
+                         : want_tiles ? "the bins would not fit 256 MiB"
+                         : scene.spheres.empty() ? "there are no spheres"
+                                                 : "--intersector embree"});
   tell(0.4);
   const bool tree_for_punctual = PlanShadows(scene, settings, plan);
   const bool tree_for_sampled = PlanSampledShadows(scene, settings, plan);
   const bool tree_for_shadows = tree_for_punctual || tree_for_sampled;
   tell(0.8);
+  const bool triangles_apart = plan->tiles && triangles > 0;
   if (!plan->tiles || tree_for_shadows) plan->intersector->BuildTree();
-  plan->items.push_back({"intersector embree", !plan->tiles || tree_for_shadows,
-                         !plan->tiles       ? "for all rays: " + shapes
+  if (triangles_apart) plan->intersector->BuildTriangleTree();
+  plan->items.push_back({"intersector embree", !plan->tiles || triangles_apart || tree_for_shadows,
+                         !plan->tiles ? "for all rays: " + shapes
+                         : triangles_apart && tree_for_shadows
+                             ? "for camera rays to triangles, and for shadow rays"
+                         : triangles_apart  ? "for camera rays to triangles"
                          : tree_for_shadows ? "for shadow rays"
                                             : "nothing is left for it: no tree is built"});
 }
@@ -173,19 +176,6 @@ void PlanLayers(const Scene& scene, const RenderSettings& settings, RenderPlan* 
       {"layers", !names.empty(), names.empty() ? "only colour and coverage are asked for" : names});
 }
 
-// Which of the scene's materials are on a shape, splits resolved.
-std::vector<bool> FindUsedMaterials(const Scene& scene) {
-  std::vector<bool> used(scene.materials.size());
-  for (const Sphere& sphere : scene.spheres) used[sphere.material.index] = true;
-  for (const Mesh& mesh : scene.meshes) used[mesh.material.index] = true;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const auto* split = std::get_if<SplitMaterial>(&scene.materials[i].model);
-    if (split == nullptr || !used[i]) continue;
-    for (const MaterialId id : split->materials) used[id.index] = true;
-  }
-  return used;
-}
-
 void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   const std::vector<bool> used = FindUsedMaterials(scene);
   size_t count = 0;
@@ -225,24 +215,6 @@ void PlanMeshes(const Scene& scene, const RenderSettings& settings, RenderPlan* 
   ShadeMeshes(settings, plan);
 }
 
-// A perfect mirror shows only what has an extent; says so where no light has one.
-void NoteMirrors(const Scene& scene, RenderPlan* plan) {
-  if (!plan->sampled_lights.empty()) return;
-  const std::vector<bool> used = FindUsedMaterials(scene);
-  std::string first;
-  size_t count = 0;
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    if (!used[i] || !HasDeltaLobe(plan->materials[i])) continue;
-    if (count++ == 0) first = scene.materials[i].name;
-  }
-  if (count == 0) return;
-  const std::string others = count > 1 ? fmt::format(" and {} more", count - 1) : "";
-  plan->notes.push_back(fmt::format(
-      "material \"{}\"{}: roughness 0 is a perfect mirror, in which point, spot and directional "
-      "lights have no highlight; a roughness above 0 gives them one",
-      first, others));
-}
-
 }  // namespace
 
 RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
@@ -253,6 +225,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   plan.frame = {0, 0, scene.image.width, scene.image.height};
   plan.window = PlanWindow(plan.frame, settings.region);
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  plan.background = scene.background;
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);
   PlanLights(scene, settings, &plan);
@@ -273,18 +246,20 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
   if (settings.max_error > 0) {
     plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
+    // A texture may hold anything between pixel centres, and triangles are not binned.
+    plan.adaptive.footprints = plan.adaptive.footprints && plan.binned && scene.meshes.empty() &&
+                               !plan.splits && !plan.textured;
     plan.substitutions.push_back(
         {"adaptive sampling", true,
          fmt::format(
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
              "of max(|L|, 0.05); {}",
              settings.max_error,
-             plan.adaptive.footprints && plan.binned && !plan.textured
-                 ? "those on one smooth hit stop at their pixels' centres"
-                 : "none is known to be smooth")});
+             plan.adaptive.footprints ? "those on one smooth hit stop at their pixels' centres"
+                                      : "none is known to be smooth")});
   }
   PlanMeshes(scene, settings, &plan);
-  NoteMirrors(scene, &plan);
+  NoteMaterials(scene, &plan);
   return plan;
 }
 

@@ -78,15 +78,17 @@ struct RenderPlan {
   std::vector<PlannedLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
   PairSampler pairs;                       // their samples'; three pairs a light
-  const SampledLight* sky = nullptr;       // seen where nothing is hit, of sampled_lights
+  Rgb background{0, 0, 0};                 // seen where nothing is hit: the scene's or a sky's, or
+  const SampledLight* sky = nullptr;       // a sky of many colours, of sampled_lights
   std::vector<ShadingMaterial> materials;  // one per material of the scene, and `black`
   TextureScene textures;                   // empty if no shape has any
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // per mesh; empty if none has any
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::unique_ptr<Intersector> intersector;   // null: there is nothing to hit
+  std::vector<Window> mesh_windows;           // pixels that triangles may be seen in
   bool cull_lights = false;                   // leave out those that cannot reach a batch
   bool binned = false;                        // spheres are binned for the camera
-  bool tiles = false;                         // camera rays are traced by bins, not by Embree
+  bool tiles = false;                         // and camera rays find them there, not by Embree
   bool textured = false;                      // some hits may need textures
   bool splits = false;                        // some material depends on the film position
   bool one_sided = false;                     // some material emits in front only

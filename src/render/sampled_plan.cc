@@ -19,24 +19,25 @@ int LongestSequence(const Scene& scene, const RenderSettings& settings) {
   return std::min(settings.max_samples, kMost);
 }
 
-// Whether the camera may see some of the ball: it reaches into the cone, or cylinder, around the
-// picture, its pixels' filters included.
+// Whether the camera may see some of the ball: it reaches past the four planes around the picture,
+// its pixels' filters included. Those of a perspective camera meet in the eye.
 bool MayBeInView(const Scene& scene, const LightBall& ball) {
-  const Camera& camera = scene.camera;
-  const double height = scene.image.height, width = scene.image.width;
-  const double filter = scene.image.filter.width;
-  const double corner = std::hypot(width + filter, height + filter) / height * (1 + 1e-9);
-  const Vec3d forward = (camera.look_at - camera.position).normalized();
-  const Vec3d offset = ball.center - camera.position;
-  const double along = offset.dot(forward);
-  if (camera.projection == Projection::kOrthographic) {
-    return (offset - forward * along).length() <= corner * camera.height / 2 + ball.radius;
-  }
-  const double distance = offset.length();
-  if (distance <= ball.radius * (1 + 1e-9)) return true;
-  const double half_view = std::atan(corner * std::tan(camera.fov_y_deg * M_PI / 360));
-  const double angle = std::acos(std::clamp(along / distance, -1.0, 1.0));
-  return angle <= half_view + std::asin(ball.radius / distance) + 1e-9;
+  const CameraFrame frame = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  const bool perspective = frame.projection == Projection::kPerspective;
+  const double reach = scene.image.filter.width;
+  const Vec3d offset = ball.center - scene.camera.position;
+  const double along = offset.dot(frame.forward);
+  if (along < -ball.radius) return false;
+  const auto beyond = [&](const Vec3d& step, int pixels) {
+    const double pixel = step.length();
+    const double across = std::abs(offset.dot(step)) / pixel;
+    const double half = pixel * (pixels / 2.0 + reach);
+    // The distance of the centre from the plane.
+    const double outside =
+        perspective ? (across - along * half) / std::hypot(1.0, half) : across - half;
+    return outside > ball.radius + 1e-9 * (offset.length() + half);
+  };
+  return !beyond(frame.step_x, scene.image.width) && !beyond(frame.step_y, scene.image.height);
 }
 
 LightBall BallAround(const SampledLight& light) {
@@ -44,7 +45,7 @@ LightBall BallAround(const SampledLight& light) {
     case SampledForm::kRectangle:
       return {light.place + (light.edge_x + light.edge_y) / 2,
               (light.edge_x + light.edge_y).length() / 2};
-    default:
+    default:  // of a mesh, the ball around it
       return {light.place, light.radius};
   }
 }
@@ -126,7 +127,9 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings, Rende
                                 kPairs * plan->sampled_lights.size(), scene.image.seed);
   for (const PlannedSampledLight& planned : plan->sampled_lights) {
     const auto* sky = std::get_if<EnvironmentLight>(&scene.lights[planned.index].kind);
-    if (sky != nullptr && sky->background) plan->sky = &planned.light;
+    if (sky == nullptr || !sky->background) continue;
+    plan->sky = IsColored(planned.light) ? &planned.light : nullptr;
+    if (plan->sky == nullptr) plan->background = planned.light.color;
   }
 }
 

@@ -8,6 +8,7 @@
 #include "render/plan.h"
 #include "render/sampled_lights.h"
 #include "render/stage_clock.h"
+#include "render/tile_hits.h"
 
 namespace nacre {
 
@@ -27,6 +28,7 @@ struct TileScratch {
   std::vector<double> weights;
   bool in_sight = true;  // some of the scene's shapes may be behind the samples
   // Camera rays: by bins, or by Embree.
+  bool triangles_in_sight = true;  // likewise, of meshes
   TileCandidates candidates;
   RayBatch rays;
   ClosestHits closest;
@@ -35,6 +37,7 @@ struct TileScratch {
   HitBatch hits, unsorted_hits;
   Surface surface;
   HitDirections unsorted_directions;
+  std::unique_ptr<TriangleHits> triangle_hits;  // made for the first tile with triangles and bins
   std::vector<MaterialRun> runs;
   // Index into runs, or none, per material of the scene; then the same of interpolated runs.
   std::vector<uint32_t> run_of_material;

@@ -1,6 +1,7 @@
 // scene/generators.cc: grids and rows of pairs. Clouds: cloud.cc.
 #include "scene/generators.h"
 
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -118,6 +119,16 @@ GridAxis LinearAxis(std::string parameter, const Rgb& from, const Rgb& to, int c
   for (int i = 0; i < count; ++i) {
     const double t = count > 1 ? static_cast<double>(i) / (count - 1) : 0;
     axis.values.push_back(from * (1 - t) + to * t);  // exact at both ends
+  }
+  return axis;
+}
+
+GridAxis LogarithmicAxis(std::string parameter, const Rgb& from, const Rgb& to, int count) {
+  GridAxis axis = LinearAxis(std::move(parameter), from, to, count);
+  for (int i = 1; i + 1 < count; ++i) {  // the ends stay exact
+    const double t = static_cast<double>(i) / (count - 1);
+    Rgb& value = axis.values[static_cast<size_t>(i)];
+    for (int c = 0; c < 3; ++c) value[c] = from[c] * std::pow(to[c] / from[c], t);
   }
   return axis;
 }

@@ -26,6 +26,9 @@ struct GridAxis {
 // `count` values from `from` to `to`, both included, at equal distances.
 GridAxis LinearAxis(std::string parameter, const Rgb& from, const Rgb& to, int count);
 
+// The same at equal ratios; all components of both ends are above 0.
+GridAxis LogarithmicAxis(std::string parameter, const Rgb& from, const Rgb& to, int count);
+
 // Spheres in a plane of constant z: rows downwards from the top, columns from left to right.
 struct Grid {
   Vec3d center{0, 0, 0};

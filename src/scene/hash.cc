@@ -114,7 +114,20 @@ struct AddModel {
     hash->Word(static_cast<uint64_t>(m.shadowing));
     hash->Word(static_cast<uint64_t>(m.compensation));
   }
+  template <class RoughMatte>
+  void Matte(const RoughMatte& m) const {
+    hash->Add(m.albedo);
+    hash->Add(m.roughness);
+  }
+  template <class Microfacet>
+  void Base(const Microfacet& m) const {
+    hash->Word(static_cast<uint64_t>(m.diffuse_coupling));
+    hash->Word(static_cast<uint64_t>(m.diffuse));
+    hash->Add(m.diffuse_roughness.value_or(-1));
+  }
   void operator()(const LambertMaterial& m) const { hash->Add(m.albedo); }
+  void operator()(const OrenNayarMaterial& m) const { Matte(m); }
+  void operator()(const BurleyMaterial& m) const { Matte(m); }
   void operator()(const PhongMaterial& m) const {
     hash->Word(static_cast<uint64_t>(m.model));
     hash->Word(static_cast<uint64_t>(m.convention));
@@ -128,7 +141,7 @@ struct AddModel {
     hash->Add(m.base_color);
     hash->Add(m.metallic);
     hash->Add(m.f82_tint);
-    hash->Word(static_cast<uint64_t>(m.diffuse_coupling));
+    Base(m);
     Lobe(m);
   }
   void operator()(const ConductorMaterial& m) const {
@@ -141,7 +154,7 @@ struct AddModel {
     hash->Add(m.base_color);
     hash->Add(m.ior);
     hash->Word(static_cast<uint64_t>(m.fresnel));
-    hash->Word(static_cast<uint64_t>(m.diffuse_coupling));
+    Base(m);
     Lobe(m);
   }
   void operator()(const SplitMaterial& m) const {
@@ -196,6 +209,13 @@ struct AddLightKind {
     hash->Add(light.center);
     hash->Add(light.facing);
     hash->Add(light.radius);
+    Surface(light);
+  }
+  void operator()(const MeshAreaLight& light) const {
+    hash->Word(light.mesh->positions.size());
+    hash->Word(light.mesh->triangles.size());
+    for (const Vec3d& position : light.mesh->positions) hash->Add(position);
+    for (const uint32_t index : light.mesh->triangles) hash->Word(index);
     Surface(light);
   }
   void operator()(const EnvironmentLight& light) const {

@@ -1,5 +1,6 @@
 #include "scene/light_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -49,6 +50,13 @@ Mesh MakeMesh(const DiskAreaLight& light) {
   return mesh;
 }
 
+Mesh MakeMesh(const MeshAreaLight& light) {
+  Mesh mesh;
+  mesh.positions = light.mesh->positions;
+  mesh.triangles = light.mesh->triangles;
+  return mesh;
+}
+
 }  // namespace
 
 RectangleCorners CornersOf(const RectangleAreaLight& light) {
@@ -66,6 +74,17 @@ void MakeTangents(const Vec3d& normal, Vec3d* tangent_x, Vec3d* tangent_y) {
   *tangent_y = n.cross(*tangent_x);
 }
 
+LightBall BallAround(const std::vector<Vec3d>& positions) {
+  Vec3d low = positions[0], high = positions[0];
+  for (const Vec3d& p : positions) {
+    low = Vec3d(std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z));
+    high = Vec3d(std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z));
+  }
+  LightBall ball{(low + high) / 2, 0};
+  for (const Vec3d& p : positions) ball.radius = std::max(ball.radius, (p - ball.center).length());
+  return ball;
+}
+
 std::optional<LightBall> VisibleBall(const Light& light) {
   if (const auto* sphere = std::get_if<SphereAreaLight>(&light.kind)) {
     if (sphere->visible) return LightBall{sphere->center, sphere->radius};
@@ -75,6 +94,8 @@ std::optional<LightBall> VisibleBall(const Light& light) {
     }
   } else if (const auto* disk = std::get_if<DiskAreaLight>(&light.kind)) {
     if (disk->visible) return LightBall{disk->center, disk->radius};
+  } else if (const auto* mesh = std::get_if<MeshAreaLight>(&light.kind)) {
+    if (mesh->visible) return BallAround(mesh->mesh->positions);
   }
   return std::nullopt;
 }
@@ -107,6 +128,7 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
     if (const auto* rectangle = std::get_if<RectangleAreaLight>(&scene.lights[i].kind))
       add(*rectangle);
     if (const auto* disk = std::get_if<DiskAreaLight>(&scene.lights[i].kind)) add(*disk);
+    if (const auto* mesh = std::get_if<MeshAreaLight>(&scene.lights[i].kind)) add(*mesh);
   }
   return result;
 }

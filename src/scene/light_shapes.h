@@ -19,11 +19,13 @@ RectangleCorners CornersOf(const RectangleAreaLight& light);
 // Two unit vectors perpendicular to each other and to `normal`, which need not be a unit vector.
 void MakeTangents(const Vec3d& normal, Vec3d* tangent_x, Vec3d* tangent_y);
 
-// A ball around a light, if it is a visible surface.
 struct LightBall {
   Vec3d center;
   double radius;
 };
+// Around a mesh that has positions.
+LightBall BallAround(const std::vector<Vec3d>& positions);
+// Around a light, if it is a visible surface.
 std::optional<LightBall> VisibleBall(const Light& light);
 
 // Primitives [begin, end), as Scene numbers them: spheres first, then the meshes' triangles.

@@ -56,10 +56,36 @@ constexpr MaterialMap Map(std::string_view name, MapUse use) {
           [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; }};
 }
 
+// The roughness of a base: the lobe's unless it is set. One out of range is the lobe's fault alone.
+template <class Struct>
+constexpr MaterialParameter BaseRoughness() {
+  return {"diffuse_roughness", false, limits::kUnit,
+          [](const Material& material) {
+            const auto& model = std::get<Struct>(material.model);
+            const double lobe = limits::kUnit.Contains(model.roughness) ? model.roughness : 0;
+            return Rgb(model.diffuse_roughness.value_or(lobe));
+          },
+          [](Material& material, const Rgb& value) {
+            std::get<Struct>(material.model).diffuse_roughness = value.x;
+          }};
+}
+
 constexpr MaterialParameter kEmission = Color<&Material::emission>("emission", limits::kRadiance);
 
 constexpr std::array kLambertParameters = {
     Color<&LambertMaterial::albedo>("albedo", limits::kUnit),
+    kEmission,
+};
+
+constexpr std::array kOrenNayarParameters = {
+    Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit),
+    Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit),
+    kEmission,
+};
+
+constexpr std::array kBurleyParameters = {
+    Color<&BurleyMaterial::albedo>("albedo", limits::kUnit),
+    Number<&BurleyMaterial::roughness>("roughness", limits::kUnit),
     kEmission,
 };
 
@@ -77,6 +103,7 @@ constexpr std::array kMetallicRoughnessParameters = {
     Number<&MetallicRoughnessMaterial::metallic>("metallic", limits::kUnit),
     Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit),
     Color<&MetallicRoughnessMaterial::f82_tint>("f82_tint", limits::kUnit),
+    BaseRoughness<MetallicRoughnessMaterial>(),
     kEmission,
 };
 
@@ -91,6 +118,7 @@ constexpr std::array kDielectricParameters = {
     Color<&DielectricMaterial::base_color>("base_color", limits::kUnit),
     Number<&DielectricMaterial::ior>("ior", limits::kIor),
     Number<&DielectricMaterial::roughness>("roughness", limits::kUnit),
+    BaseRoughness<DielectricMaterial>(),
     kEmission,
 };
 
@@ -100,6 +128,7 @@ constexpr std::array<std::string_view, 3> kShadowings = {"height_correlated", "s
 constexpr std::array<std::string_view, 3> kCompensations = {"turquin", "kulla_conty", "none"};
 constexpr std::array<std::string_view, 3> kCouplings = {"albedo_scaled", "one_minus_fresnel",
                                                         "none"};
+constexpr std::array<std::string_view, 3> kDiffuseForms = {"lambert", "oren_nayar", "burley"};
 constexpr std::array<std::string_view, 3> kConductorFresnels = {"exact", "f82_tint", "schlick"};
 constexpr std::array<std::string_view, 2> kDielectricFresnels = {"exact", "schlick"};
 
@@ -128,20 +157,27 @@ constexpr std::array kPhongChoices = {
 constexpr std::array kMetallicRoughnessChoices = {
     Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings),
     Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations),
-    Choice<&MetallicRoughnessMaterial::diffuse_coupling>("diffuse_coupling", kCouplings)};
+    Choice<&MetallicRoughnessMaterial::diffuse_coupling>("diffuse_coupling", kCouplings),
+    Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms)};
 constexpr std::array kConductorChoices = {
     kConductorPreset, Choice<&ConductorMaterial::shadowing>("shadowing", kShadowings),
     Choice<&ConductorMaterial::compensation>("compensation", kCompensations),
     Choice<&ConductorMaterial::fresnel>("fresnel", kConductorFresnels)};
 constexpr std::array kDielectricChoices = {
-    kDielectricPreset, Choice<&DielectricMaterial::shadowing>("shadowing", kShadowings),
+    kDielectricPreset,
+    Choice<&DielectricMaterial::shadowing>("shadowing", kShadowings),
     Choice<&DielectricMaterial::compensation>("compensation", kCompensations),
     Choice<&DielectricMaterial::diffuse_coupling>("diffuse_coupling", kCouplings),
+    Choice<&DielectricMaterial::diffuse>("diffuse", kDiffuseForms),
     Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels)};
 
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>("emission_map", MapUse::kColor);
 constexpr std::array kLambertMaps = {
     Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap};
+constexpr std::array kOrenNayarMaps = {
+    Map<&OrenNayarMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap};
+constexpr std::array kBurleyMaps = {Map<&BurleyMaterial::albedo_map>("albedo_map", MapUse::kColor),
+                                    kEmissionMap};
 constexpr std::array kPhongMaps = {
     Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor),
     Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor),
@@ -168,13 +204,15 @@ Material MakePhong() {
 }
 
 // The Phong family first and in the order of its enumeration: see ModelOf.
-constexpr std::array<MaterialModel, 7> kModels = {{
+constexpr std::array<MaterialModel, 9> kModels = {{
     {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps},
     {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices,
      kPhongMaps},
     {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices,
      kPhongMaps},
     {"lambert", Make<LambertMaterial>, kLambertParameters, {}, kLambertMaps},
+    {"oren_nayar", Make<OrenNayarMaterial>, kOrenNayarParameters, {}, kOrenNayarMaps},
+    {"burley", Make<BurleyMaterial>, kBurleyParameters, {}, kBurleyMaps},
     {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
      kMetallicRoughnessChoices, kMetallicRoughnessMaps},
     {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kOtherMaps},
@@ -197,9 +235,11 @@ const MaterialModel* ModelOf(const Material& material) {
     return &kModels[static_cast<size_t>(phong->model)];
   }
   if (std::holds_alternative<LambertMaterial>(material.model)) return &kModels[3];
-  if (std::holds_alternative<MetallicRoughnessMaterial>(material.model)) return &kModels[4];
-  if (std::holds_alternative<ConductorMaterial>(material.model)) return &kModels[5];
-  if (std::holds_alternative<DielectricMaterial>(material.model)) return &kModels[6];
+  if (std::holds_alternative<OrenNayarMaterial>(material.model)) return &kModels[4];
+  if (std::holds_alternative<BurleyMaterial>(material.model)) return &kModels[5];
+  if (std::holds_alternative<MetallicRoughnessMaterial>(material.model)) return &kModels[6];
+  if (std::holds_alternative<ConductorMaterial>(material.model)) return &kModels[7];
+  if (std::holds_alternative<DielectricMaterial>(material.model)) return &kModels[8];
   return nullptr;
 }
 

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -121,8 +122,24 @@ enum class PhongModel : uint8_t {
   kBlinnPhong,     // ks (n.h)^n where n.l > 0 (Blinn 1977), without n.l
 };
 
+// Matte surfaces.
+
 struct LambertMaterial {
   Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
+  TextureId albedo_map{};
+};
+
+// Rough clay, plaster, the moon: as bright at its edge as in its middle. Keeps energy (brdf/eon.h).
+struct OrenNayarMaterial {
+  Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
+  double roughness = 0.5;     // the model's own, in [0, 1]; 0: Lambert's
+  TextureId albedo_map{};
+};
+
+// Disney's diffuse term (brdf/burley.h), fitted to measurements. Makes light at grazing angles.
+struct BurleyMaterial {
+  Rgb albedo{0.5, 0.5, 0.5};  // each in [0, 1]
+  double roughness = 0.5;     // perceptual, in [0, 1]
   TextureId albedo_map{};
 };
 
@@ -154,6 +171,9 @@ enum class DiffuseCoupling : uint8_t {
   kNone,             // all of it
 };
 
+// How the diffuse base of a microfacet model reflects.
+enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
+
 // The microfacet models have a GGX lobe each. Roughness is perceptual, in [0, 1]:
 // alpha = roughness^2; 0 is a perfect mirror.
 
@@ -169,6 +189,8 @@ struct MetallicRoughnessMaterial {
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kTurquin;
   DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
+  DiffuseForm diffuse = DiffuseForm::kLambert;
+  std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; none: the lobe's
   TextureId base_color_map{};
   TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
 };
@@ -187,6 +209,7 @@ struct ConductorMaterial {
   ConductorFresnel fresnel = ConductorFresnel::kExact;
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kTurquin;
+  TextureId roughness_map{};
 };
 
 enum class DielectricFresnel : uint8_t { kExact, kSchlick };
@@ -201,6 +224,10 @@ struct DielectricMaterial {
   Shadowing shadowing = Shadowing::kHeightCorrelated;
   Compensation compensation = Compensation::kTurquin;
   DiffuseCoupling diffuse_coupling = DiffuseCoupling::kAlbedoScaled;
+  DiffuseForm diffuse = DiffuseForm::kLambert;
+  std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; none: the lobe's
+  TextureId base_color_map{};
+  TextureId roughness_map{};
 };
 
 // Not a model of its own: chooses among other materials by where the sample lies on screen, in
@@ -218,7 +245,7 @@ struct Material {
   // counter-clockwise).
   bool emits_in_front_only = false;
   std::variant<LambertMaterial, PhongMaterial, MetallicRoughnessMaterial, ConductorMaterial,
-               DielectricMaterial, SplitMaterial>
+               DielectricMaterial, SplitMaterial, OrenNayarMaterial, BurleyMaterial>
       model;
   // Maps multiply the numbers beside them.
   TextureId emission_map{};
@@ -297,6 +324,18 @@ struct DiskAreaLight {
   bool visible = true;
 };
 
+struct Mesh;
+
+// Triangles that emit on the side where their corners run counter-clockwise. Along a direction the
+// nearest of them is seen, by the camera and by what it shines on.
+struct MeshAreaLight {
+  // Its positions and triangles count. Shared by copies of the scene, never changed.
+  std::shared_ptr<const Mesh> mesh;
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
 // What an environment looks like. Directions are unit vectors; +y is up.
 struct ConstantSky {
   Rgb radiance{1, 1, 1};
@@ -340,7 +379,7 @@ struct Light {
   std::string name;  // unique; names the layer light.<name>
   bool shadows = true;
   std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
-               RectangleAreaLight, DiskAreaLight, EnvironmentLight>
+               RectangleAreaLight, DiskAreaLight, EnvironmentLight, MeshAreaLight>
       kind;
 };
 

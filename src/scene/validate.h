@@ -26,6 +26,9 @@ void ValidateSphere(const Sphere& sphere, size_t material_count, const std::stri
 void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& where,
                   FaultList* faults);
 
+// Those of a mesh's positions and indices alone.
+void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults);
+
 // True if `name` can stand in a layer's name: 1 to 64 of letters, digits, '_', '-' and ' '.
 bool IsLayerName(const std::string& name);
 

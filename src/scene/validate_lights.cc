@@ -90,6 +90,14 @@ struct LightChecker {
     Flat(light);
     CheckNumber(light.radius, limits::kLength, where + "/radius", faults);
   }
+  void operator()(const MeshAreaLight& light) const {
+    if (light.mesh == nullptr) {
+      faults->Add(where, "has no mesh", "triangles that emit");
+    } else {
+      ValidateTriangles(*light.mesh, where, faults);
+    }
+    CheckColor(light.radiance, limits::kRadiance, where + "/radiance", faults);
+  }
   void operator()(const EnvironmentLight& light) const {
     std::visit(*this, light.sky);
     CheckNumber(light.rotate_deg, limits::kCoordinate, where + "/rotate_deg", faults);

@@ -56,7 +56,7 @@ void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) 
   }
 }
 
-void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults) {
+void ValidateIndices(const Mesh& mesh, const std::string& where, FaultList* faults) {
   if (mesh.triangles.empty() || mesh.triangles.size() % 3 != 0) {
     faults->Add(where + "/triangles", fmt::format("{} indices", mesh.triangles.size()),
                 "three for each triangle, and at least one triangle");
@@ -88,6 +88,12 @@ void ValidateSphere(const Sphere& sphere, size_t material_count, const std::stri
   CheckMaterial(sphere.material, material_count, where + "/material", faults);
 }
 
+void ValidateTriangles(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  const size_t before = faults->count();
+  ValidatePositions(mesh, where, faults);
+  if (faults->count() == before) ValidateIndices(mesh, where, faults);
+}
+
 void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& where,
                   FaultList* faults) {
   const size_t before = faults->count();
@@ -98,7 +104,7 @@ void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& wh
     faults->Add(where + "/interpolation", "Gouraud's needs a normal at each vertex",
                 "give the mesh normals, or choose another interpolation");
   }
-  if (faults->count() == before) ValidateTriangles(mesh, where, faults);
+  if (faults->count() == before) ValidateIndices(mesh, where, faults);
   CheckMaterial(mesh.material, material_count, where + "/material", faults);
 }
 
@@ -112,6 +118,10 @@ void ValidateShapes(const Scene& scene, FaultList* faults) {
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     ValidateMesh(scene.meshes[i], material_count, fmt::format("/meshes/{}", i), faults);
     primitives += scene.meshes[i].triangles.size() / 3;
+  }
+  for (const Light& light : scene.lights) {
+    const auto* area = std::get_if<MeshAreaLight>(&light.kind);
+    if (area != nullptr && area->mesh != nullptr) primitives += area->mesh->triangles.size() / 3;
   }
   if (primitives > limits::kMaxPrimitives) {
     faults->Add("/shapes", fmt::format("{} spheres and triangles", primitives),

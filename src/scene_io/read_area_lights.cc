@@ -135,6 +135,15 @@ DiskAreaLight ReadDiskArea(JsonObject* object) {
   return light;
 }
 
+MeshAreaLight ReadMeshArea(JsonObject* object, const SceneContext& context) {
+  MeshAreaLight light;
+  light.mesh = ReadLightMesh(object, context);
+  ReadRadiance(object, "radiance", kRadianceHint, &light.radiance);
+  object->Boolean("two_sided", &light.two_sided);
+  object->Boolean("visible", &light.visible);
+  return light;
+}
+
 EnvironmentLight ReadEnvironment(JsonObject* object, const SceneContext& context) {
   EnvironmentLight light;
   const Json* const radiance = object->Find("radiance");

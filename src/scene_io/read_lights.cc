@@ -14,10 +14,12 @@ enum class LightType {
   kSphere,
   kRectangle,
   kDisk,
+  kMesh,
   kEnvironment
 };
-constexpr std::array<std::string_view, 8> kLightTypes = {
-    "ambient", "directional", "point", "spot", "sphere", "rectangle", "disk", "environment"};
+constexpr std::array<std::string_view, 9> kLightTypes = {"ambient", "directional", "point",
+                                                         "spot",    "sphere",      "rectangle",
+                                                         "disk",    "mesh",        "environment"};
 
 void ReadAttenuation(const JsonValue& value, Attenuation* attenuation) {
   constexpr std::string_view kHint =
@@ -87,8 +89,9 @@ SpotLight ReadSpot(JsonObject* object) {
 
 void ReadLight(const JsonValue& value, const SceneContext& context, Light* light) {
   JsonObject object(value);
-  object.Require("type",
-                 "one of: ambient, directional, point, spot, sphere, rectangle, disk, environment");
+  object.Require(
+      "type",
+      "one of: ambient, directional, point, spot, sphere, rectangle, disk, mesh, environment");
   size_t type = 0;
   if (!object.Choice("type", kLightTypes, &type)) return;
   switch (static_cast<LightType>(type)) {
@@ -112,6 +115,9 @@ void ReadLight(const JsonValue& value, const SceneContext& context, Light* light
       break;
     case LightType::kDisk:
       light->kind = ReadDiskArea(&object);
+      break;
+    case LightType::kMesh:
+      light->kind = ReadMeshArea(&object, context);
       break;
     case LightType::kEnvironment:
       light->kind = ReadEnvironment(&object, context);

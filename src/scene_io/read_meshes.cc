@@ -1,6 +1,7 @@
 // scene_io/read_meshes.cc: the shapes "mesh", "icosphere" and "uv_sphere".
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -107,36 +108,73 @@ void DisplaceMesh(const JsonValue& value, Displacement displacement, const Scene
   Displace(scene, displacement, mesh);
 }
 
-// Adds the mesh in the file that `value` names, or a fault of it.
-void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
-              const std::optional<Displacement>& displacement, Mesh mesh, SceneContext* context) {
+// The mesh in the file that `value` names, in its place; or faults and nothing.
+std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transform,
+                                 const SceneContext& context) {
   std::string file;
-  if (!ReadText(value, &file)) return;
+  if (!ReadText(value, &file)) return std::nullopt;
   try {
-    const auto path = ResolveReference(context->folder, file, context->allow_paths);
-    Mesh loaded = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
-    loaded.material = mesh.material;
-    loaded.interpolation = mesh.interpolation;
-    loaded.smooth_terminator = mesh.smooth_terminator;
-    ApplyTransform(transform, &loaded);
-    PrepareNormals(value, normals, &loaded);
-    if (displacement) DisplaceMesh(value, *displacement, *context->scene, &loaded);
-    context->scene->meshes.push_back(std::move(loaded));
+    const auto path = ResolveReference(context.folder, file, context.allow_paths);
+    Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
+    ApplyTransform(transform, &mesh);
+    return mesh;
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) {
       value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
                      fault.hint);
     }
   }
+  return std::nullopt;
+}
+
+// Adds the mesh in the file that `value` names, unless there are faults.
+void LoadMesh(const JsonValue& value, const Transform& transform, const NormalSettings& normals,
+              const std::optional<Displacement>& displacement, const Mesh& settings,
+              SceneContext* context) {
+  std::optional<Mesh> mesh = ReadMeshFile(value, transform, *context);
+  if (!mesh) return;
+  mesh->material = settings.material;
+  mesh->interpolation = settings.interpolation;
+  mesh->smooth_terminator = settings.smooth_terminator;
+  PrepareNormals(value, normals, &*mesh);
+  if (displacement) DisplaceMesh(value, *displacement, *context->scene, &*mesh);
+  context->scene->meshes.push_back(std::move(*mesh));
+}
+
+template <typename SphereMesh>
+void ReadPlace(JsonObject* shape, SphereMesh* sphere) {
+  shape->Require("center", "[x, y, z]");
+  shape->Point("center", &sphere->center);
+  shape->Require("radius", "a length greater than 0");
+  shape->Number("radius", limits::kLength, &sphere->radius);
+}
+
+void ReadFineness(JsonObject* shape, Icosphere* sphere) {
+  shape->Whole("subdivisions", limits::kSubdivisions, &sphere->subdivisions);
+}
+
+void ReadFineness(JsonObject* shape, UvSphere* sphere) {
+  shape->Whole("segments", limits::kSegments, &sphere->segments);
+  shape->Whole("rings", limits::kRings, &sphere->rings);
+}
+
+// All that makes a sphere of faces; nothing if there are faults.
+template <typename SphereMesh>
+std::optional<Mesh> ReadFaces(const JsonValue& value) {
+  const size_t before = value.faults->count();
+  JsonObject object(value);
+  SphereMesh sphere;
+  ReadPlace(&object, &sphere);
+  ReadFineness(&object, &sphere);
+  object.RefuseOthers();
+  if (value.faults->count() != before) return std::nullopt;
+  return MakeMesh(sphere);
 }
 
 // The members center, radius, material and those of all meshes; true if there are no faults.
 template <typename SphereMesh>
 bool ReadSphereMesh(JsonObject* shape, SceneContext* context, SphereMesh* sphere, Mesh* mesh) {
-  shape->Require("center", "[x, y, z]");
-  shape->Point("center", &sphere->center);
-  shape->Require("radius", "a length greater than 0");
-  shape->Number("radius", limits::kLength, &sphere->radius);
+  ReadPlace(shape, sphere);
   ReadMaterialOf(shape, context, &mesh->material);
   ReadInterpolation(shape, mesh);
   return shape->faults()->count() == 0;
@@ -184,22 +222,50 @@ void ReadMesh(JsonObject* shape, SceneContext* context) {
   if (!ReadDisplacement(shape, false, context, &*displacement)) displacement.reset();
   if (const Json* file = shape->Require("file", "an OBJ or PLY file in the scene's folder")) {
     LoadMesh({*file, shape->path().Member("file"), shape->faults()}, transform, normals,
-             displacement, std::move(mesh), context);
+             displacement, mesh, context);
   }
+}
+
+std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext& context) {
+  const Json* const file = light->Find("file");
+  const Json* const icosphere = light->Find("icosphere");
+  const Json* const uv_sphere = light->Find("uv_sphere");
+  const Json* const transform_json = light->Find("transform");
+  if ((file != nullptr) + (icosphere != nullptr) + (uv_sphere != nullptr) != 1) {
+    light->value().AddFault("a mesh light has one mesh",
+                            R"(give one of "file", "icosphere" and "uv_sphere")");
+    return nullptr;
+  }
+  const auto value = [&](std::string_view name, const Json* json) {
+    return JsonValue{*json, light->path().Member(name), light->faults()};
+  };
+  Transform transform;
+  if (transform_json != nullptr) {
+    ReadTransform(value("transform", transform_json), &transform);
+    if (file == nullptr) {
+      value("transform", transform_json)
+          .AddFault("is for meshes in files", "a sphere has \"center\" and \"radius\"");
+    }
+  }
+  std::optional<Mesh> mesh = file != nullptr ? ReadMeshFile(value("file", file), transform, context)
+                             : icosphere != nullptr
+                                 ? ReadFaces<Icosphere>(value("icosphere", icosphere))
+                                 : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere));
+  if (!mesh) return nullptr;
+  return std::make_shared<const Mesh>(std::move(*mesh));
 }
 
 void ReadIcosphere(JsonObject* shape, SceneContext* context) {
   Icosphere sphere;
   Mesh mesh;
-  shape->Whole("subdivisions", limits::kSubdivisions, &sphere.subdivisions);
+  ReadFineness(shape, &sphere);
   if (ReadSphereMesh(shape, context, &sphere, &mesh)) AddSphereMesh(sphere, mesh, context);
 }
 
 void ReadUvSphere(JsonObject* shape, SceneContext* context) {
   UvSphere sphere;
   Mesh mesh;
-  shape->Whole("segments", limits::kSegments, &sphere.segments);
-  shape->Whole("rings", limits::kRings, &sphere.rings);
+  ReadFineness(shape, &sphere);
   if (ReadSphereMesh(shape, context, &sphere, &mesh)) AddSphereMesh(sphere, mesh, context);
 }
 

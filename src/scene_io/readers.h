@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,7 +51,10 @@ void ReadLights(const JsonValue& value, const SceneContext& context, std::vector
 SphereAreaLight ReadSphereArea(JsonObject* light);
 RectangleAreaLight ReadRectangleArea(JsonObject* light);
 DiskAreaLight ReadDiskArea(JsonObject* light);
+MeshAreaLight ReadMeshArea(JsonObject* light, const SceneContext& context);
 EnvironmentLight ReadEnvironment(JsonObject* light, const SceneContext& context);
+// The members of a light that name its mesh; null if there are faults. In read_meshes.cc.
+std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext& context);
 
 // Members that a light must have.
 inline void ReadRequiredPoint(JsonObject* object, std::string_view name, std::string_view hint,

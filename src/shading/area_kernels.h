@@ -1,23 +1,34 @@
-// shading/area_kernels.h: the SIMD kernels behind sampled_light.h, for area lights and for skies.
+// shading/area_kernels.h: the SIMD kernels behind sampled_light.h, for area lights, meshes
+// and skies.
 #pragma once
 
 #include "shading/sampled_light.h"
 
 namespace nacre {
 
-// As SampleLight, FindLight and LightIrradiance, of lights that are no skies.
+// As SampleLight, FindLight and LightIrradiance, of lights that are neither skies nor meshes.
 void SampleArea(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                 LightDirections* directions);
 void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
 void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                     float* irradiance);
 
+// The same of meshes.
+void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
+                LightDirections* directions);
+void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
+void MeshIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
+                    float* irradiance);
+
 // The same of pictures: fills in to_light, radiance and density.
 void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
                LightDirections* directions);
 
+// Unit vectors along directions.
+void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<float>* unit);
+
 // The radiance of a sky that has colours, along unit vectors, as multiples of its own; of pictures
-// also the density with which SampleSky chooses them, unless null.
+// also the density with which SampleSky chooses them, unless null. `radiance` may be `directions`.
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
                  Soa3<float>* radiance, float* density);
 // A sky's irradiance, but of pictures.

@@ -19,6 +19,15 @@ struct LambertLightOf {
 using LambertLight = LambertLightOf<float>;
 
 template <class Number>
+struct RoughMatteUniformsOf {
+  DiffuseForm form;  // not Lambert's
+  float roughness;
+  const LambertLightOf<Number>* lights;
+  Number ratio[3];  // kOrenNayar: EonMultipleRatio of the albedo
+};
+using RoughMatteUniforms = RoughMatteUniformsOf<float>;
+
+template <class Number>
 struct PhongLightOf {
   Number diffuse[3], specular[3];  // PhongFamilyModel's constants times light
 };
@@ -61,6 +70,9 @@ struct MicrofacetUniformsOf {
   // all have the model's.
   const float* fit = nullptr;
   size_t fit_stride = 0;
+  // How a rough base spreads the light, under one light; or null: as Lambert's.
+  const BaseSpread* spread = nullptr;
+  Number base_ratio[3] = {};  // with it: EonMultipleRatio of the base's colour
 };
 using MicrofacetUniforms = MicrofacetUniformsOf<float>;
 
@@ -92,7 +104,14 @@ void NarrowGgxMaps(const double* alphas, const ShadeRange& range, NarrowLobes* l
 void NarrowPhongMaps(PhongModel model, const double* exponents, const ShadeRange& range,
                      NarrowLobes* lobes);
 
+// How a rough base spreads the first light of a range, at every hit.
+void SpreadBase(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to);
+// The same, of hits with a roughness each.
+void SpreadBaseMaps(DiffuseForm form, const float* roughness, const ShadeRange& range,
+                    BaseSpread* to);
+
 void ShadeLambert(const LambertLight* lights, const ShadeRange& range);
+void ShadeRoughMatte(const RoughMatteUniforms& uniforms, const ShadeRange& range);
 void ShadePhong(const PhongUniforms& uniforms, const ShadeRange& range);
 // By the curve of the model's Fresnel term.
 void ShadeSchlick(const MicrofacetUniforms& uniforms, const ShadeRange& range);
@@ -102,6 +121,8 @@ void ShadeConductor(const MicrofacetUniforms& uniforms, const ShadeRange& range)
 
 // Of materials with maps.
 void ShadeLambertMaps(const LambertLightOf<const float*>& light, const ShadeRange& range);
+void ShadeRoughMatteMaps(const RoughMatteUniformsOf<const float*>& uniforms,
+                         const ShadeRange& range);
 void ShadePhongMaps(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range);
 void ShadeSchlickMaps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range);
 void ShadeF82Maps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range);

@@ -254,8 +254,10 @@ bool HasSampledLobe(const ShadingMaterial& material) {
 
 bool DiffuseIsFlat(const ShadingMaterial& material) {
   if (material.turned) return false;  // the surface's own horizon cuts the light
+  if (std::holds_alternative<RoughMatteModel>(material.model)) return false;
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr) return true;
+  if (model->base_form != DiffuseForm::kLambert) return false;
   return model->coupling == DiffuseCoupling::kNone ||
          (model->coupling == DiffuseCoupling::kAlbedoScaled &&
           model->compensation != Compensation::kKullaConty);

@@ -13,7 +13,7 @@ namespace nacre {
 bool HasSampledLobe(const ShadingMaterial& material);
 
 // Whether its diffuse reflection of a light is a function of the viewer's direction times the
-// light's irradiance.
+// light's irradiance: Lambert's, under nothing that asks for the light's direction.
 bool DiffuseIsFlat(const ShadingMaterial& material);
 
 // Directions by the cosine law about the normals, with density n.l / pi, by points (u, v) in

@@ -28,6 +28,15 @@ void Shade(const LambertModel&, const ShadeRange& range, bool, NarrowLobes*, con
   ShadeLambertMaps(light, range);
 }
 
+void Shade(const RoughMatteModel& model, const ShadeRange& range, bool, NarrowLobes*,
+           const HitTextures& t) {
+  LambertLightOf<ByHit> light;
+  Assign(t.by_diffuse, light.diffuse);
+  RoughMatteUniformsOf<ByHit> uniforms{model.form, static_cast<float>(model.roughness), &light, {}};
+  Assign(t.base_ratio, uniforms.ratio);
+  ShadeRoughMatteMaps(uniforms, range);
+}
+
 void Shade(const PhongFamilyModel& phong, const ShadeRange& range, bool, NarrowLobes* scratch,
            const HitTextures& t) {
   PhongLightOf<ByHit> light;
@@ -65,6 +74,11 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   if (AnyOf(t.double_alpha, range, [](double alpha) { return alpha >= 0; })) {
     NarrowGgxMaps(t.double_alpha.data(), range, scratch);
     uniforms.narrow = scratch->first.data();
+  }
+  if (model.base_form != DiffuseForm::kLambert) {
+    SpreadBaseMaps(model.base_form, t.base_roughness.data(), range, &scratch->base);
+    uniforms.spread = &scratch->base;
+    Assign(t.base_ratio, uniforms.base_ratio);
   }
   if (model.fresnel == FresnelForm::kSchlick) return ShadeSchlickMaps(uniforms, range);
   ShadeF82Maps(uniforms, range);

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "brdf/albedo_table.h"
+#include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/fresnel_average.h"
 #include "brdf/multi_scatter.h"
@@ -76,6 +77,10 @@ void StartMaterialT(const TexturedRun& run, HitTextures* t) {
   }
   if (const auto* lambert = std::get_if<LambertMaterial>(&material.model)) {
     FillRgb(hits, lambert->albedo, &t->diffuse);
+  } else if (const auto* rough = std::get_if<OrenNayarMaterial>(&material.model)) {
+    FillRgb(hits, rough->albedo, &t->diffuse);
+  } else if (const auto* burley = std::get_if<BurleyMaterial>(&material.model)) {
+    FillRgb(hits, burley->albedo, &t->diffuse);
   } else if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
     FillRgb(hits, phong->color, &t->diffuse);
     FillRgb(hits, phong->ks, &t->specular);
@@ -128,8 +133,24 @@ void FinishLayers(const TexturedRun& run, const Rgb& of_albedo, const Rgb& of_am
   }
 }
 
-void FinishLambert(const TexturedRun& run, HitTextures* t) {
+// EonMultipleRatio of the colours; roughness(i) is that of a hit.
+template <class Roughness>
+void FinishRatio(const TexturedRun& run, const Roughness& roughness, HitTextures* t) {
+  for (int c = 0; c < 3; ++c) {
+    const double* const color = Channel(t->diffuse, c);
+    Hits{run.begin, run.end}.Fill(Channel(t->base_ratio, c), [&](size_t i) {
+      return EonMultipleRatio(color[i], roughness(i));
+    });
+  }
+}
+
+// Lambert's, and the rough ones.
+void FinishMatte(const TexturedRun& run, HitTextures* t) {
   FinishLayers(run, Rgb(1), Rgb(1), t);
+  if (const auto* rough = std::get_if<RoughMatteModel>(&run.material.model)) {
+    FinishRatio(
+        run, [&](size_t) { return rough->roughness; }, t);
+  }
   for (int c = 0; c < 3; ++c) {
     double* const diffuse = Channel(t->diffuse, c);
     Hits{run.begin, run.end}.Fill(diffuse, [&](size_t i) { return diffuse[i] * M_1_PI; });
@@ -237,6 +258,15 @@ void FinishAlbedo(const TexturedRun& run, const MicrofacetModel& model, HitTextu
   }
 }
 
+// Bases that are not Lambert's.
+void FinishBase(const TexturedRun& run, const MicrofacetModel& model,
+                const std::optional<double>& roughness, HitTextures* t) {
+  if (model.base_form == DiffuseForm::kLambert) return;
+  const auto at = [&](size_t i) { return roughness.value_or(t->width[i]); };
+  Hits{run.begin, run.end}.Fill(t->base_roughness.data(), at);
+  FinishRatio(run, at, t);
+}
+
 void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMaterial& material,
                              HitTextures* t) {
   FinishLayers(run, Rgb(1), Rgb(1), t);
@@ -244,6 +274,7 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
   const Hits hits{run.begin, run.end};
   const double* const roughness = t->width.data();
   const double* const metallic = t->metallic.data();
+  FinishBase(run, model, material.diffuse_roughness, t);
   for (int c = 0; c < 3; ++c) {
     double* const diffuse = Channel(t->diffuse, c);
     double* const f0 = Channel(t->specular, c);
@@ -276,12 +307,12 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
 void FinishMaterialT(const TexturedRun& run, HitTextures* t) {
   if (!HasMappedModel(run.material)) return;
   const Material& material = *run.material.textured;
-  if (std::holds_alternative<LambertMaterial>(material.model)) {
-    FinishLambert(run, t);
-  } else if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
+  if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
     FinishPhong(run, *phong, t);
   } else if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
     FinishMetallicRoughness(run, *metallic, t);
+  } else {
+    FinishMatte(run, t);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/overloaded.h"
+#include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/fresnel_average.h"
 #include "brdf/ggx.h"
@@ -21,6 +22,23 @@ Rgb EachChannel(const OfChannel& of_channel) {
 }
 
 LambertModel MakeModel(const LambertMaterial& material) { return {material.albedo * M_1_PI}; }
+
+Rgb EonRatio(const Rgb& albedo, double roughness) {
+  return EachChannel([&](int c) { return EonMultipleRatio(albedo[c], roughness); });
+}
+
+RoughMatteModel MakeModel(const OrenNayarMaterial& material) {
+  return {.form = DiffuseForm::kOrenNayar,
+          .diffuse = material.albedo * M_1_PI,
+          .ratio = EonRatio(material.albedo, material.roughness),
+          .roughness = material.roughness};
+}
+
+RoughMatteModel MakeModel(const BurleyMaterial& material) {
+  return {.form = DiffuseForm::kBurley,
+          .diffuse = material.albedo * M_1_PI,
+          .roughness = material.roughness};
+}
 
 PhongFamilyModel MakeModel(const PhongMaterial& material) {
   double diffuse_scale = 1;
@@ -53,6 +71,16 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   return model;
 }
 
+// A base that is not Lambert's. EON at roughness 0 is.
+template <class Microfacet>
+void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
+  model->base_roughness = material.diffuse_roughness.value_or(material.roughness);
+  model->base_form = material.diffuse;
+  if (model->base_form != DiffuseForm::kOrenNayar) return;
+  model->base_ratio = EonRatio(material.base_color, model->base_roughness);
+  if (model->base_roughness == 0) model->base_form = DiffuseForm::kLambert;
+}
+
 // Kulla and Conty 2017: the lobe of what bounced more than once, and, for a reciprocal base, the
 // mean albedo that its scale is divided by.
 void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
@@ -76,6 +104,7 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.coupling = material.diffuse_coupling;
   model.diffuse = material.base_color * ((1 - material.metallic) * M_1_PI);
+  PrepareBase(material, &model);
   model.f0 = Rgb(kDielectricF0) * (1 - material.metallic) + material.base_color * material.metallic;
   // The tint is the metal's.
   model.f82_slope = EachChannel([&](int c) {
@@ -121,6 +150,7 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   const bool exact = material.fresnel == DielectricFresnel::kExact;
   model.coupling = material.diffuse_coupling;
   model.diffuse = material.base_color * M_1_PI;
+  PrepareBase(material, &model);
   model.eta = Rgb(material.ior);
   model.f0 = Rgb(FresnelF0(material.ior, 0.0));
   model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
@@ -164,6 +194,14 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
   std::visit(Overloaded{[&](const LambertMaterial& lambert) {
                           prepared.model = MakeModel(lambert);
                           prepared.albedo = of_ambient = lambert.albedo;
+                        },
+                        [&](const OrenNayarMaterial& rough) {
+                          prepared.model = MakeModel(rough);
+                          prepared.albedo = of_ambient = rough.albedo;
+                        },
+                        [&](const BurleyMaterial& burley) {
+                          prepared.model = MakeModel(burley);
+                          prepared.albedo = of_ambient = burley.albedo;
                         },
                         [&](const PhongMaterial& phong) {
                           prepared.model = MakeModel(phong);

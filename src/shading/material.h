@@ -22,6 +22,14 @@ struct LambertModel {
   Rgb diffuse;  // albedo / pi
 };
 
+// Oren-Nayar (EON) or Burley's.
+struct RoughMatteModel {
+  DiffuseForm form;
+  Rgb diffuse;         // albedo / pi
+  Rgb ratio{0, 0, 0};  // kOrenNayar: EonMultipleRatio of the albedo
+  double roughness;
+};
+
 struct PhongFamilyModel {
   PhongModel model;
   Rgb diffuse;   // kd color, over pi if radiometric
@@ -39,7 +47,10 @@ struct MicrofacetModel {
   Compensation compensation;
   DiffuseCoupling coupling;
   Rgb diffuse{0, 0, 0};  // of the base, over pi; with reciprocal scaling also over 1 - mean albedo
-  Rgb f0{0, 0, 0};       // reflectance at normal incidence
+  DiffuseForm base_form = DiffuseForm::kLambert;
+  double base_roughness = 0;     // of other forms
+  Rgb base_ratio{0, 0, 0};       // kOrenNayar: EonMultipleRatio of the base's colour
+  Rgb f0{0, 0, 0};               // reflectance at normal incidence
   Rgb f82_slope{0, 0, 0};        // kF82
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta), kConductor
   Rgb f_multiple{0, 0, 0};  // kKullaConty: what light that bounced more than once has left, F_ms
@@ -64,7 +75,8 @@ struct ShadingMaterial {
   bool mapped = false;  // maps give each hit numbers of its own
   bool turned = false;  // maps turn the normal
   Rgb ambient_radiance{0, 0, 0};
-  std::variant<std::monostate, LambertModel, PhongFamilyModel, MicrofacetModel> model;
+  std::variant<std::monostate, LambertModel, RoughMatteModel, PhongFamilyModel, MicrofacetModel>
+      model;
 };
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);

@@ -157,7 +157,16 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
+    if (kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
+      base = MulRgb(base, SpreadAt(d, p.i));
+    }
     return {ScaleRgb(base, in.weight), reflected};
+  }
+
+  HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
+    const FloatV single = hn::LoadU(d, uniforms.spread->single.data() + i);
+    const FloatV multiple = hn::LoadU(d, uniforms.spread->multiple.data() + i);
+    return MulAddRgb(RgbAt(d, uniforms.base_ratio, i), multiple, {single, single, single});
   }
 
   HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {

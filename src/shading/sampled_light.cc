@@ -30,6 +30,17 @@ void Prepare(const RectangleAreaLight& rectangle, const Vec3d& camera, SampledLi
   light->two_sided = rectangle.two_sided;
 }
 
+void Prepare(const MeshAreaLight& area, const Vec3d& camera, SampledLight* light) {
+  const LightBall ball = BallAround(area.mesh->positions);
+  light->form = SampledForm::kMesh;
+  light->color = area.radiance;
+  light->place = ball.center - camera;
+  light->radius = ball.radius;
+  light->two_sided = area.two_sided;
+  light->mesh = std::make_shared<MeshLight>(
+      MakeMeshLight(area.mesh->positions, area.mesh->triangles, ball.center));
+}
+
 void Prepare(const DiskAreaLight& disk, const Vec3d& camera, SampledLight* light) {
   light->form = SampledForm::kDisk;
   light->color = disk.radiance;
@@ -92,12 +103,14 @@ void Prepare(const EnvironmentLight& environment, SampledLight* light) {
 
 void SampleLight(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                  LightDirections* directions) {
+  if (light.form == SampledForm::kMesh) return SampleMesh(light, hits, points, directions);
   if (!IsSky(light)) return SampleArea(light, hits, points, directions);
   SampleSky(light, points, hits.count, directions);
   std::fill_n(directions->distance.data(), hits.count, std::numeric_limits<float>::infinity());
 }
 
 void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
+  if (light.form == SampledForm::kMesh) return FindMesh(light, hits, directions);
   if (!IsSky(light)) return FindArea(light, hits, directions);
   std::fill_n(directions->distance.data(), hits.count, std::numeric_limits<float>::infinity());
   std::fill_n(directions->density.data(), hits.count, 0.0f);
@@ -109,6 +122,9 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
 
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      Soa3<float>* irradiance) {
+  if (light.form == SampledForm::kMesh) {
+    return MeshIrradiance(light, hits, surface, irradiance->x.data());
+  }
   if (!IsSky(light)) return AreaIrradiance(light, hits, surface, irradiance->x.data());
   if (IsColored(light)) return SkyIrradiance(light, surface, hits.count, irradiance);
   std::fill_n(irradiance->x.data(), hits.count, static_cast<float>(M_PI));
@@ -116,22 +132,11 @@ void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surf
 
 void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size_t count,
                  Soa3<float>* radiance) {
+  NormalizeDirections(directions, count, radiance);
+  EvaluateSky(light, *radiance, count, radiance, nullptr);
   const Vec3f color(light.color);
-  if (IsColored(light)) {
-    Soa3<float> unit;
-    for (size_t i = 0; i < count; ++i) {
-      const Vec3d direction(directions.x[i], directions.y[i], directions.z[i]);
-      const Vec3d normalized = direction / direction.length();
-      unit.x[i] = static_cast<float>(normalized.x);
-      unit.y[i] = static_cast<float>(normalized.y);
-      unit.z[i] = static_cast<float>(normalized.z);
-    }
-    EvaluateSky(light, unit, count, radiance, nullptr);
-  }
   const auto scale = [&](float by, AlignedArray<float>* channel) {
-    for (size_t i = 0; i < count; ++i) {
-      (*channel)[i] = IsColored(light) ? by * (*channel)[i] : by;
-    }
+    for (size_t i = 0; i < count; ++i) (*channel)[i] *= by;
   };
   scale(color.x, &radiance->x);
   scale(color.y, &radiance->y);
@@ -145,6 +150,7 @@ SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_positio
                  [&](const SphereAreaLight& area) { Prepare(area, camera_position, &prepared); },
                  [&](const RectangleAreaLight& area) { Prepare(area, camera_position, &prepared); },
                  [&](const DiskAreaLight& area) { Prepare(area, camera_position, &prepared); },
+                 [&](const MeshAreaLight& area) { Prepare(area, camera_position, &prepared); },
                  [](const auto&) {}},
       light.kind);
   return prepared;

@@ -12,6 +12,7 @@
 
 #include "hit/batch.h"
 #include "light/environment.h"
+#include "light/mesh_light.h"
 #include "light/sky.h"
 #include "sampling/pair_sampler.h"
 #include "scene/scene.h"
@@ -23,6 +24,7 @@ enum class SampledForm : uint8_t {
   kSphere,
   kRectangle,
   kDisk,
+  kMesh,
   kConstantSky,
   kGradientSky,
   kQuadraticSky,
@@ -47,6 +49,7 @@ struct SampledLight {
   Vec3d normal{0, 0, 0};  // of rectangles and disks: unit, to the side that emits
   double radius = 0;
   bool two_sided = false;
+  std::shared_ptr<const MeshLight> mesh;  // relative to `place`
   ShadingSky sky;
 };
 
@@ -64,8 +67,12 @@ inline bool HasSampler(const SampledLight& light) {
 // Whether its radiance depends on the direction.
 inline bool IsColored(const SampledLight& light) { return light.form > SampledForm::kConstantSky; }
 
-// Whether LightIrradiance is for it: not for pictures.
+// Whether LightIrradiance is for it: not for pictures, nor for meshes that hide parts of themselves
+// or are of many triangles.
 inline bool HasIrradiance(const SampledLight& light) {
+  if (light.form == SampledForm::kMesh) {
+    return light.two_sided ? light.mesh->is_flat : light.mesh->is_convex;
+  }
   return light.form != SampledForm::kPictureSky;
 }
 
@@ -89,7 +96,7 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      Soa3<float>* irradiance);
 
-// What the sky shows along directions, which need not be unit vectors.
+// What a sky that has colours shows along directions, which need not be unit vectors.
 void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size_t count,
                  Soa3<float>* radiance);
 

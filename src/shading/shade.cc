@@ -26,6 +26,10 @@ LambertLight MakeLight(const LambertModel& model, const Rgb& color) {
   return light;
 }
 
+LambertLight MakeLight(const RoughMatteModel& model, const Rgb& color) {
+  return MakeLight(LambertModel{model.diffuse}, color);
+}
+
 PhongLight MakeLight(const PhongFamilyModel& model, const Rgb& color) {
   PhongLight light;
   Assign(model.diffuse * color, light.diffuse);
@@ -59,6 +63,7 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLi
   Assign(model.eta, uniforms.eta);
   Assign(model.k, uniforms.k);
   Assign(model.f_multiple, uniforms.f_multiple);
+  Assign(model.base_ratio, uniforms.base_ratio);
   uniforms.narrow = nullptr;
   return uniforms;
 }
@@ -97,6 +102,15 @@ void Shade(const LambertModel& lambert, const ShadeRange& range) {
   ForEachGroup(lambert, range, kLightsAtOnce, ShadeLambert);
 }
 
+void Shade(const RoughMatteModel& model, const ShadeRange& range) {
+  ForEachGroup(
+      model, range, kLightsAtOnce, [&](const LambertLight* lights, const ShadeRange& group) {
+        RoughMatteUniforms uniforms{model.form, static_cast<float>(model.roughness), lights, {}};
+        Assign(model.ratio, uniforms.ratio);
+        ShadeRoughMatte(uniforms, group);
+      });
+}
+
 void Shade(const PhongFamilyModel& phong, const ShadeRange& range, NarrowLobes* scratch) {
   const size_t at_once = phong.double_terms ? 1 : kLightsAtOnce;
   ForEachGroup(phong, range, at_once, [&](const PhongLight* lights, const ShadeRange& group) {
@@ -110,12 +124,17 @@ void Shade(const PhongFamilyModel& phong, const ShadeRange& range, NarrowLobes* 
 }
 
 void Shade(const MicrofacetModel& model, const ShadeRange& range, NarrowLobes* scratch) {
-  const size_t at_once = model.double_terms ? 1 : kLightsAtOnce;
+  const bool rough_base = model.base_form != DiffuseForm::kLambert;
+  const size_t at_once = model.double_terms || rough_base ? 1 : kLightsAtOnce;
   ForEachGroup(model, range, at_once, [&](const MicrofacetLight* lights, const ShadeRange& group) {
     MicrofacetUniforms uniforms = MakeUniforms(model, lights);
     if (model.double_terms) {
       NarrowGgx(model.alpha, group, scratch);
       uniforms.narrow = scratch->first.data();
+    }
+    if (rough_base) {
+      SpreadBase(model.base_form, static_cast<float>(model.base_roughness), group, &scratch->base);
+      uniforms.spread = &scratch->base;
     }
     ShadeByCurve(uniforms, group);
   });
@@ -144,6 +163,7 @@ void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin,
   if (HasMappedModel(material)) return ShadeMapped(material, range, scratch, lit.textures);
   std::visit(
       Overloaded{[](std::monostate) {}, [&](const LambertModel& lambert) { Shade(lambert, range); },
+                 [&](const RoughMatteModel& matte) { Shade(matte, range); },
                  [&](const auto& model) { Shade(model, range, scratch); }},
       material.model);
 }

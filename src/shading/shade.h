@@ -44,9 +44,16 @@ struct ReflectedRadiance {
   Soa3<float> diffuse, specular;
 };
 
-// Room for the terms of lobes that are formed in double.
+// How rough bases spread a light: what their Lambertian reflection is multiplied by, single + ratio
+// multiple.
+struct BaseSpread {
+  AlignedArray<float> single{kBatchCapacity}, multiple{kBatchCapacity};
+};
+
+// Room for the terms of lobes that are formed in double, and for what bases make of a light.
 struct NarrowLobes {
   AlignedArray<float> first{kBatchCapacity}, second{kBatchCapacity};
+  BaseSpread base;
 };
 
 struct HitTextures;

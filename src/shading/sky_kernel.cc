@@ -26,6 +26,19 @@ HWY_INLINE void ForEach(const Soa3<float>& from, size_t count, Soa3<float>* to, 
     StoreSoa(D(), of(LoadSoa(D(), from, i)), i, to);
 }
 
+void NormalizeDirectionsT(const Soa3<double>& directions, size_t count, Soa3<float>* unit) {
+  const hn::ScalableTag<double> dd;
+  const hn::Rebind<float, decltype(dd)> d;
+  for (size_t i = 0; i < count; i += hn::Lanes(dd)) {
+    const auto from = LoadU3(dd, directions.x.data() + i, directions.y.data() + i,
+                             directions.z.data() + i);
+    const Vec3V<hn::Vec<decltype(d)>> v{hn::DemoteTo(d, from.x), hn::DemoteTo(d, from.y),
+                                        hn::DemoteTo(d, from.z)};
+    const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(v, v)));
+    StoreSoa(d, Scale(v, inverse), i, unit);
+  }
+}
+
 void EvaluateGradientT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
                        Soa3<float>* radiance) {
   const D d;
@@ -103,12 +116,17 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
+HWY_EXPORT(NormalizeDirectionsT);
 HWY_EXPORT(EvaluateGradientT);
 HWY_EXPORT(EvaluateQuadraticT);
 HWY_EXPORT(EvaluatePictureT);
 HWY_EXPORT(SamplePictureT);
 HWY_EXPORT(GradientIrradianceT);
 HWY_EXPORT(QuadraticIrradianceT);
+
+void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<float>* unit) {
+  HWY_DYNAMIC_DISPATCH(NormalizeDirectionsT)(directions, count, unit);
+}
 
 void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
                LightDirections* directions) {

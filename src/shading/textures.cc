@@ -98,6 +98,12 @@ TextureId MapOf(const Material& material, MapRole role) {
   if (const auto* lambert = std::get_if<LambertMaterial>(&material.model)) {
     return role == MapRole::kDiffuse ? lambert->albedo_map : TextureId{};
   }
+  if (const auto* rough = std::get_if<OrenNayarMaterial>(&material.model)) {
+    return role == MapRole::kDiffuse ? rough->albedo_map : TextureId{};
+  }
+  if (const auto* burley = std::get_if<BurleyMaterial>(&material.model)) {
+    return role == MapRole::kDiffuse ? burley->albedo_map : TextureId{};
+  }
   if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
     return role == MapRole::kDiffuse    ? phong->diffuse_map
            : role == MapRole::kSpecular ? phong->specular_map

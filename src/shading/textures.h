@@ -73,6 +73,9 @@ struct HitTextures {
   AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
   AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
   Soa3<float> f0, f82_slope, f_multiple;
+  // Of rough matte surfaces and bases: EonMultipleRatio of their colour; a base's roughness.
+  Soa3<float> base_ratio;
+  AlignedArray<float> base_roughness{kBatchCapacity};
   AlignedArray<float> multiple_scale{kBatchCapacity};  // kKullaConty: MicrofacetModel::multiple
   // Coefficients of albedo fits, hit by hit: entry k of hit i is at [k * kFitStride + i].
   static constexpr size_t kFitEntries = 4 + 2 * kAlbedoTerms;

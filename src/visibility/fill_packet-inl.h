@@ -84,10 +84,7 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < packet->width; lane += step) {
-    const auto t_max = packet->t_max != nullptr
-                           ? hn::Load(d, packet->t_max + lane)
-                           : hn::Set(d, std::numeric_limits<double>::infinity());
-    FillLanes(d, t_max, lane, packet);
+    FillLanes(d, hn::Load(d, packet->t_max + lane), lane, packet);
   }
   for (int lane = 0; lane < packet->width; ++lane) {
     packet->valid[lane] = first + static_cast<size_t>(lane) < batch.count ? -1 : 0;

@@ -12,6 +12,9 @@
 
 namespace nacre {
 
+// The relative rounding error of one operation on floats.
+inline constexpr double kFloatUnit = 0x1p-24;
+
 struct TraceSphere {
   Vec3d center;
   double radius = 0;

@@ -15,6 +15,7 @@
 #include "visibility/packet.h"
 #include "visibility/refine_kernel.h"
 #include "visibility/sphere_kernel.h"
+#include "visibility/sphere_test.h"
 #include "visibility/trace_kernel.h"
 #include "visibility/triangle_kernel.h"
 
@@ -166,11 +167,34 @@ struct Intersector::State {
   SphereBins bins;
   ErrorRecord errors;
   DevicePointer device;
-  ScenePointer scene;
+  ScenePointer scene, triangle_scene;
   int packet_width = 0;
 
   TraceScene Traced() const { return {scene.get(), packet_width, &geometry}; }
+
+  // A committed scene of the spheres, if they are asked for, and of the triangles.
+  ScenePointer Build(bool with_spheres);
 };
+
+ScenePointer Intersector::State::Build(bool with_spheres) {
+  if (!device) {
+    device = MakeDevice(ActiveTarget());
+    packet_width = EmbreeTargetFor(ActiveTarget()).packet_width;
+    rtcSetDeviceErrorFunction(device.get(), &ErrorRecord::Report, &errors);
+  }
+  ScenePointer built(rtcNewScene(device.get()));
+  errors.ThrowIfAny();
+  rtcSetSceneFlags(built.get(), RTC_SCENE_FLAG_ROBUST);
+  if (with_spheres) {
+    Attach(device.get(), built.get(), &geometry, geometry.spheres.size(), &SphereBounds,
+           SphereCallbacks());
+  }
+  Attach(device.get(), built.get(), &geometry, geometry.triangles.size(), &TriangleBounds,
+         TriangleCallbacks());
+  WithThreads(settings.threads, [&] { rtcJoinCommitScene(built.get()); });
+  errors.ThrowIfAny();
+  return built;
+}
 
 Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
                          const IntersectorSettings& settings)
@@ -183,20 +207,11 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
 }
 
 void Intersector::BuildTree() {
-  State& s = *state_;
-  if (s.scene) return;
-  s.device = MakeDevice(ActiveTarget());
-  s.packet_width = EmbreeTargetFor(ActiveTarget()).packet_width;
-  rtcSetDeviceErrorFunction(s.device.get(), &ErrorRecord::Report, &s.errors);
-  s.scene.reset(rtcNewScene(s.device.get()));
-  s.errors.ThrowIfAny();
-  rtcSetSceneFlags(s.scene.get(), RTC_SCENE_FLAG_ROBUST);
-  Attach(s.device.get(), s.scene.get(), &s.geometry, s.geometry.spheres.size(), &SphereBounds,
-         SphereCallbacks());
-  Attach(s.device.get(), s.scene.get(), &s.geometry, s.geometry.triangles.size(), &TriangleBounds,
-         TriangleCallbacks());
-  WithThreads(s.settings.threads, [&] { rtcJoinCommitScene(s.scene.get()); });
-  s.errors.ThrowIfAny();
+  if (!state_->scene) state_->scene = state_->Build(true);
+}
+
+void Intersector::BuildTriangleTree() {
+  if (!state_->triangle_scene) state_->triangle_scene = state_->Build(false);
 }
 
 Intersector::~Intersector() = default;
@@ -205,6 +220,17 @@ Intersector& Intersector::operator=(Intersector&&) noexcept = default;
 
 void Intersector::Closest(const RayBatch& rays, ClosestHits* hits) const {
   TraceClosest(state_->Traced(), rays, hits);
+}
+
+void Intersector::NearerTriangles(const RayBatch& rays, ClosestHits* hits) const {
+  const State& s = *state_;
+  TraceNearer({s.triangle_scene.get(), s.packet_width, &s.geometry}, rays, hits);
+}
+
+bool Intersector::SphereIsFirst(uint32_t sphere, const Vec3d& origin, const Vec3d& direction,
+                                double t) const {
+  const TraceSphere& tested = state_->geometry.spheres[sphere];
+  return TestSphere(tested.center - origin, direction, tested.radius).t <= t;
 }
 
 bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, double reach) {

@@ -53,18 +53,28 @@ class Intersector {
   // Makes what Closest and Occluded need, if it is not there.
   void BuildTree();
 
+  // Makes what NearerTriangles needs: a tree of the triangles alone.
+  void BuildTriangleTree();
+
   // The first hit with t > 0 of each ray; kNoPrimitive and t = infinity where there is none.
   // Inside a sphere that is its far side. Fills whole vectors past rays.count with misses.
   void Closest(const RayBatch& rays, ClosestHits* hits) const;
 
+  // The first hit on a triangle with t > 0 nearer than hits->t of each ray; where there is none,
+  // kNoPrimitive, and t stays.
+  void NearerTriangles(const RayBatch& rays, ClosestHits* hits) const;
+
+  // Whether the sphere of a camera ray's hit lies before t on the ray, or at t.
+  bool SphereIsFirst(uint32_t sphere, const Vec3d& origin, const Vec3d& direction, double t) const;
+
   // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most `reach`
   // pixels outside them. False, and no bins, if that would take too much room. Triangles are not
-  // binned: with any in the scene this must not be called.
+  // binned.
   bool BinForCamera(const CameraFrame& frame, const Window& window, double reach);
 
   // Then, instead of Closest and Refine, for a tile that lies within one row of cells
   // (sphere_bins.h): the spheres that its rays may hit, false if none; and the hits of the rays
-  // through `film`, in their order. The same bits as Closest's and Refine's.
+  // through `film` on spheres, in their order. The same bits as Closest's and Refine's.
   bool EnterTile(const Window& tile, TileCandidates* candidates) const;
   void HitsInTile(const TileCandidates& candidates, const FilmBatch& film, const HitsTo& to) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nacre {
 namespace {
@@ -92,14 +93,33 @@ bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const L
                       BoundMargin(blocker.radius + sphere.radius, reach + blocker.center.length());
 }
 
+// Centre and point are rounded by 2^-24 of themselves a coordinate, and so is their difference,
+// which is no longer than the two together: 4 2^-24 of that at most. Nothing is sure of spheres
+// that coincide: rays start on them.
+OccluderProposal Propose(const TraceSphere& sphere, const TraceSphere& from) {
+  const Vec3d offset = sphere.center - from.center;
+  const double error = 5 * kFloatUnit * (offset.length() + from.radius);
+  const double outer = sphere.radius + error;
+  const double inner = std::max(sphere.radius - error, 0.0);
+  const bool coincide = Coincide(sphere, from);
+  constexpr double kMore = 1 + 1e-6, kLess = 1 - 1e-6;
+  return {
+      {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(offset.z)},
+      coincide ? std::numeric_limits<float>::infinity() : static_cast<float>(outer * outer * kMore),
+      coincide ? 0 : static_cast<float>(inner * inner * kLess)};
+}
+
 // The list of every sphere, of those spheres j for which may_block(i, j).
 template <class MayBlock>
-OccluderLists MakeLists(size_t count, const MayBlock& may_block) {
+OccluderLists MakeLists(const HugeArray<TraceSphere>& spheres, const MayBlock& may_block) {
+  const size_t count = spheres.size();
   OccluderLists lists;
   lists.end.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     for (size_t j = 0; j < count; ++j) {
-      if (may_block(i, j)) lists.spheres.push_back(static_cast<uint32_t>(j));
+      if (!may_block(i, j)) continue;
+      lists.spheres.push_back(static_cast<uint32_t>(j));
+      lists.proposals.push_back(Propose(spheres[j], spheres[i]));
     }
     lists.end.push_back(static_cast<uint32_t>(lists.spheres.size()));
     lists.longest = std::max<size_t>(lists.longest, lists.end[i] - lists.Begin(i));
@@ -113,7 +133,7 @@ OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
                                   const std::optional<LightBall>& ball,
                                   const PrimitiveRange& target, bool outward) {
   const HugeArray<TraceSphere>& spheres = geometry.spheres;
-  return MakeLists(spheres.size(), [&](size_t i, size_t j) {
+  return MakeLists(spheres, [&](size_t i, size_t j) {
     if (target.Contains(static_cast<uint32_t>(j))) return false;
     if (Coincide(spheres[i], spheres[j])) return !outward;
     return !ball || MayBlockBall(spheres[j], spheres[i], *ball);
@@ -128,7 +148,7 @@ OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& li
     seen.push_back(light.positional ? SeeFrom(light.place, sphere, outward)
                                     : SeeAlong(sphere, outward));
   }
-  return MakeLists(spheres.size(), [&](size_t i, size_t j) {
+  return MakeLists(spheres, [&](size_t i, size_t j) {
     const bool may = light.positional
                          ? MayBlockFrom(seen[j], seen[i])
                          : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.place);

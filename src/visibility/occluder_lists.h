@@ -19,9 +19,18 @@ inline constexpr size_t kMaxListedSpheres = 256;
 inline constexpr size_t kMaxListed = 8;        // longer lists take rays longer than bins do
 inline constexpr size_t kMaxSampledList = 64;  // and these, of rays all over, longer than a tree
 
+// A listed sphere as floats tell of it, relative to the centre of the sphere whose list it is in: a
+// line whose squared distance from its centre is above `outer2` misses it, and below `inner2` meets
+// it, whatever the rounding of such centres and of points on that sphere.
+struct OccluderProposal {
+  float center[3];
+  float outer2, inner2;
+};
+
 struct OccluderLists {
   std::vector<uint32_t> end;      // of each sphere's list
   std::vector<uint32_t> spheres;  // those that may hide the light from it, in ascending order
+  std::vector<OccluderProposal> proposals;  // of these
 
   size_t longest = 0;
 

@@ -77,7 +77,10 @@ HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const Shado
                         hn::Set(d, sphere.center.z)};
   const Vec3V<V> to_center = Sub(center, rays.origin);
   const V radius = hn::Set(d, sphere.radius);
-  if (SurelyMissed(d, to_center, rays, lanes, radius)) return hn::Lt(radius, radius);
+  // Rays that start on the sphere may be further from it than that, by the rounding of a distant
+  // origin.
+  const bool leaves_it = !outward && !hn::AllFalse(d, own);
+  if (!leaves_it && SurelyMissed(d, to_center, rays, lanes, radius)) return hn::Lt(radius, radius);
   const auto hit = TestSphere(d, to_center, rays.direction, rays.inverse_dd, radius);
   return hn::And(lanes, InTheWay(d, hit, own, outward, rays.t_max));
 }

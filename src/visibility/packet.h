@@ -12,9 +12,6 @@ namespace nacre {
 
 inline constexpr int kMaxPacketWidth = 16;
 
-// The relative rounding error of one operation on floats.
-inline constexpr double kFloatUnit = 0x1p-24;
-
 // Lanes are numbered as in the batch that the packet is a piece of; the pointers are to the
 // packet's piece of the batch's arrays. Embree's depths are t times t_scale.
 struct Packet {
@@ -42,12 +39,12 @@ struct Packet {
   alignas(64) float ray_inverse_length[kMaxPacketWidth];  // an upper bound
   alignas(64) float origin_error[kMaxPacketWidth];
 
-  // Closest queries: the best hit so far.
+  const double* t_max = nullptr;  // where the rays end
+  // Closest queries: the best hit so far, at t_max.
   double* best_t = nullptr;
   uint32_t* best_primitive = nullptr;
 
   // Occlusion queries.
-  const double* t_max = nullptr;
   bool outward = false;                         // ShadowRayBatch's
   PrimitiveRange target;                        // likewise
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on

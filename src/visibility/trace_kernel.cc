@@ -35,14 +35,14 @@ HWY_INLINE void InitPacket(const TraceScene& scene, Packet* packet) {
   }
 }
 
-void Closest(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
+void Nearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
   Packet packet;
   InitPacket(scene, &packet);
   const size_t width = packet.Width();
   for (size_t first = 0; first < rays.count; first += width) {
     packet.best_t = hits->t.data() + first;
     packet.best_primitive = hits->primitive.data() + first;
-    std::fill_n(packet.best_t, width, std::numeric_limits<double>::infinity());
+    packet.t_max = packet.best_t;
     std::fill_n(packet.best_primitive, width, kNoPrimitive);
     FillPacket(rays, first, &packet);
     IntersectPacket(packet.width, packet.valid, packet.scene, &packet.context, &packet.rays);
@@ -110,11 +110,16 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(Closest);
+HWY_EXPORT(Nearer);
 HWY_EXPORT(Occluded);
 
 void TraceClosest(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
-  HWY_DYNAMIC_DISPATCH(Closest)(scene, rays, hits);
+  std::fill(hits->t.begin(), hits->t.end(), std::numeric_limits<double>::infinity());
+  TraceNearer(scene, rays, hits);
+}
+
+void TraceNearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
+  HWY_DYNAMIC_DISPATCH(Nearer)(scene, rays, hits);
 }
 
 void TraceOccluded(const TraceScene& scene, ShadowRayBatch* rays) {

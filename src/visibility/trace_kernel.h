@@ -15,6 +15,8 @@ struct TraceScene {
 };
 
 void TraceClosest(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits);
+// The same, but for hits nearer than hits->t; where there are none that stays.
+void TraceNearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits);
 void TraceOccluded(const TraceScene& scene, ShadowRayBatch* rays);
 
 }  // namespace nacre

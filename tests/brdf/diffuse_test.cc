@@ -97,6 +97,11 @@ TEST_CASE(
   const double b26 = 1.0 / 42, b46 = 6.0 * 120 / 362880;
   CHECK(std::abs(albedo(0, 1e-7) - (1 - b26) / 2) <= 1e-4);
   CHECK(std::abs(albedo(1, 1e-7) - (1.5 + 1.5 * b26 + b26 - b46)) <= 1e-4);
+  for (const double roughness : kRoughnesses) {
+    CHECK(std::abs(albedo(roughness, 1e-7) - BurleyGrazingAlbedo(roughness)) <= 1e-4);
+  }
+  CHECK(BurleyGrazingAlbedo(0.49) < 1);
+  CHECK(BurleyGrazingAlbedo(0.5) > 1);
 }
 
 TEST_CASE("diffuse models are reciprocal, positive and dark below the surface") {

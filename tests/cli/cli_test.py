@@ -159,6 +159,95 @@ class CliTest(unittest.TestCase):
             result = run(*command, '-o', self.out / 'a.png', *SMALL)
             self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_grid_takes_every_kind_of_axis(self):
+        for arguments in (
+                ['--rows', 'shininess=1:1024:6:log', '--columns', 'ks=0,0.5,1',
+                 '--material', 'phong'],
+                ['--rows', 'base_color=#ff0000,[0.8,0.2,0.1]', '--columns', 'roughness=0.1:1:5'],
+                ['--rows', 'shadowing=height_correlated,separable',
+                 '--columns', 'compensation=turquin,none'],
+                ['--columns', 'material=phong,blinn_phong', '--rows', 'shininess=4,64'],
+                ['--rows', 'material=[{"model": "lambert", "name": "matte"}, "dielectric"]',
+                 '--columns', 'emission=0:1:2'],
+                ['--rows', 'preset=gold,copper', '--columns', 'roughness=0.2:0.2:1',
+                 '--material', 'conductor'],
+                ['--rows', 'roughness=0.5', '--columns', 'metallic=0:1:64']):
+            with self.subTest(arguments=arguments):
+                result = run('grid', *arguments, '-o', self.out / 'a.png', '--spp', '1',
+                             '--sphere-size', '20')
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(result.stdout, '')
+
+    def test_grid_spheres_lie_in_their_cells(self):
+        """The EXR has the PNG's size, and as many spheres as asked for, of the size asked for."""
+        result = run('grid', '--rows', 'roughness=0.1:1:2', '--columns', 'metallic=0:1:3',
+                     '-o', self.out / 'a.exr', '-o', self.out / 'a.png', '--sphere-size', '88',
+                     '--spp', '1', '--no-labels')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn('300x200', run('info', self.out / 'a.exr').stdout)
+        labelled = run('grid', '--rows', 'roughness=0.1:1:2', '--columns', 'metallic=0:1:3',
+                       '-o', self.out / 'b.exr', '--sphere-size', '88', '--spp', '1')
+        self.assertEqual(labelled.returncode, 0, labelled.stderr)
+        self.assertNotIn('300x200', run('info', self.out / 'b.exr').stdout)
+
+    def test_sheets_take_every_light(self):
+        lights = self.out / 'lights.json'
+        lights.write_text('{"sun": {"type": "directional", "direction_of_travel": [0, -1, -1], '
+                          '"irradiance": 3}}')
+        self.render('-o', self.out / 'sky.exr', *SMALL)
+        for light in (['--light', 'point'], ['--light', 'studio'], ['--light', 'sky'],
+                      ['--light', 'rectangle'], ['--light', 'furnace', '--background', '#fff'],
+                      ['--lights', lights], ['--lights', lights.read_text()],
+                      ['--lights', FIRST_SCENE], ['--environment', self.out / 'sky.exr']):
+            for command in (['grid'], ['pair', '--layout', 'side'],
+                            ['pair', '--layout', 'difference']):
+                with self.subTest(command=command, light=light):
+                    result = run(*command, '-o', self.out / 'a.png', *SMALL, *light)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_pair_prints_both_materials_and_measures_the_difference(self):
+        out = ['-o', self.out / 'a.png', *SMALL]
+        self.assertIn('shininess 19', run('pair', *out).stdout)
+        given = json.loads(run('pair', '--json', *out).stdout)
+        self.assertEqual(given['b']['roughness'], 0.4)
+        self.assertNotIn('difference', given)
+        measured = json.loads(run('pair', '--json', '--layout', 'difference', *out).stdout)
+        self.assertGreater(measured['difference']['rmse'], 0)
+        self.assertGreaterEqual(measured['difference']['max'], measured['difference']['rmse'])
+        same = json.loads(run('pair', '--json', '--layout', 'difference', '--a', 'phong', '--b',
+                              'phong', *out).stdout)
+        self.assertEqual(same['difference'], {'rmse': 0, 'max': 0, 'mean': 0})
+
+    def test_pair_difference_is_that_of_constant_spheres(self):
+        """White light from everywhere on matte spheres: radiance is the albedo."""
+        result = run('pair', '--json', '--layout', 'difference', '--light', 'furnace',
+                     '--a', '{"model": "lambert", "albedo": 0.75}',
+                     '--b', '{"model": "lambert", "albedo": [0.5, 0.25, 0.75]}',
+                     '-o', self.out / 'a.png', '--sphere-size', '64', '--spp', '1')
+        measures = json.loads(result.stdout)['difference']
+        # Floats, and the closed form of a constant sky.
+        self.assertAlmostEqual(measures['mean'], 0.25, delta=1e-5)
+        self.assertAlmostEqual(measures['max'], 0.5, delta=1e-5)
+        self.assertAlmostEqual(measures['rmse'], (0.3125 / 3) ** 0.5, delta=1e-5)
+
+    def test_convert_prints_a_material_that_renders(self):
+        for source, target in (('phong', 'metallic_roughness'), ('metallic_roughness', 'phong'),
+                               ('{"model": "conductor", "preset": "gold", "roughness": 0.3}',
+                                'blinn_phong'), ('dielectric', 'modified_phong'),
+                               ('phong', 'dielectric'), ('lambert', 'phong')):
+            with self.subTest(source=source, target=target):
+                result = run('convert', source, '--to', target)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                material = result.stdout.splitlines()[0]
+                self.assertEqual(json.loads(material)['model'], target)
+                self.render('-o', self.out / 'a.png', *SMALL, '--set',
+                            '/materials/red=' + material)
+        told = json.loads(run('convert', 'phong', '--json', '-o', self.out / 'fit.png', *SMALL).stdout)
+        self.assertEqual(told['material']['model'], 'metallic_roughness')
+        self.assertEqual(len(told['residual']['views']), 4)
+        self.assertGreater(told['picture']['rmse'], 0)
+        self.assertTrue((self.out / 'fit.png').exists())
+
     def test_tonemap_makes_what_render_makes(self):
         self.render('-o', self.out / 'a.exr', '-o', self.out / 'a.png', '--depth', 'float',
                     '--tonemap', 'aces', '--exposure', '0.5', *SMALL)
@@ -183,7 +272,8 @@ class CliTest(unittest.TestCase):
                          0)
 
     def test_help_teaches(self):
-        for command in ([], ['render'], ['grid'], ['compare'], ['explain'], ['plot'], ['study']):
+        for command in ([], ['render'], ['grid'], ['pair'], ['convert'], ['compare'], ['explain'], ['plot'],
+                        ['study']):
             result = run(*command, '--help')
             self.assertEqual(result.returncode, 0)
             self.assertIn('xample' if command else 'Exit codes', result.stdout)
@@ -315,6 +405,21 @@ class CliTest(unittest.TestCase):
             ('--set', ['render', scene, *out, '--set', '/image/spp={']),
             ('--rows', ['grid', *out, '--rows', 'roughness']),
             ('--material', ['grid', *out, '--material', '{broken']),
+            ('--rows', ['grid', *out, '--rows', 'roughness=0:1:65']),
+            ('--columns', ['grid', *out, '--columns', 'roughness=0:1:2']),
+            ('--light', ['grid', *out, '--light', 'moon']),
+            ('--lights', ['grid', *out, '--lights', '{broken']),
+            ('--background', ['grid', *out, '--background', 'reddish']),
+            ('--sphere-size', ['grid', *out, '--sphere-size', '0']),
+            ('--sphere-size', ['grid', *out, '--sphere-size', '20', '--size', '64x64']),
+            ('--sphere-size', ['grid', *out, '--sphere-size', '8000', '--rows', 'roughness=0:1:9']),
+            ('--layout', ['pair', *out, '--layout', 'above']),
+            ('--a', ['pair', *out, '--a', '{broken']),
+            ('.png', ['pair', *out, '--layout', 'difference']),
+            ('.png', ['convert', 'phong', *out]),
+            ('--to', ['convert', 'phong', '--to', 'wood']),
+            ('MATERIAL', ['convert', '{broken']),
+            ('MATERIAL', ['convert']),
         ]
         for message, arguments in cases:
             with self.subTest(arguments=arguments):
@@ -328,6 +433,14 @@ class CliTest(unittest.TestCase):
                          '/materials/x={"model":"metallic_roughness","roughnes":1}')
         self.check_fails(65, 'spp', 'render', FIRST_SCENE, *out, '--set', '/image/spp=-1')
         self.check_fails(65, 'shininess', 'grid', *out, '--rows', 'shininess=1:2:2')
+        self.check_fails(65, 'did you mean "roughness"', 'grid', *out, '--rows', 'roughnes=0:1:2')
+        self.check_fails(65, 'range', 'grid', *out, '--rows', 'roughness=0:2:3')
+        self.check_fails(65, 'smith', 'grid', *out, '--rows', 'shadowing=smith')
+        self.check_fails(65, 'fong', 'grid', *out, '--columns', 'material=fong,lambert')
+        self.check_fails(65, 'missing.json', 'grid', *out, '--lights', 'missing.json')
+        self.check_fails(65, 'missing.exr', 'grid', *out, '--environment', 'missing.exr')
+        self.check_fails(65, '--b', 'pair', *out, '--b', 'fong')
+        self.check_fails(65, 'MATERIAL', 'convert', 'fong')
         (self.out / 'bad.json').write_text('{"nacre": 1,')
         self.check_fails(65, 'bad.json', 'render', self.out / 'bad.json', *out)
         (self.out / 'bad.exr').write_bytes(b'\x76\x2f\x31\x01 not really')

@@ -193,6 +193,40 @@ TEST_CASE("constant maps have the bits of constants: the Phong family and Lamber
   });
 }
 
+TEST_CASE("constant maps have the bits of constants: rough matte surfaces and bases") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
+  const Rgb metallic_roughness = Held(Rgb(0, 0.7, 0.6));
+  const auto matte = [&](auto factors) {
+    factors.albedo = Rgb(0.5, 1, 0.75);
+    factors.roughness = 0.6;
+    auto constant = factors;
+    constant.albedo = factors.albedo * color;
+    CheckConstantMaps(constant, factors, [&](Scene* scene, auto* material) {
+      material->albedo_map = AddConstant(scene, color);
+    });
+  };
+  matte(OrenNayarMaterial{});
+  matte(BurleyMaterial{});
+  for (const DiffuseForm form : {DiffuseForm::kOrenNayar, DiffuseForm::kBurley}) {
+    for (const bool own : {true, false}) {
+      MetallicRoughnessMaterial factors;
+      factors.base_color = Rgb(0.5, 1, 0.75);
+      factors.metallic = 0.5;
+      factors.diffuse = form;
+      if (own) factors.diffuse_roughness = 0.8;
+      MetallicRoughnessMaterial constant = factors;
+      constant.base_color = factors.base_color * color;
+      constant.metallic = factors.metallic * metallic_roughness.z;
+      constant.roughness = factors.roughness * metallic_roughness.y;
+      CAPTURE(static_cast<int>(form), own);
+      CheckConstantMaps(constant, factors, [&](Scene* scene, MetallicRoughnessMaterial* material) {
+        material->base_color_map = AddConstant(scene, color);
+        material->metallic_roughness_map = AddConstant(scene, metallic_roughness);
+      });
+    }
+  }
+}
+
 TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
   ForEachTarget([&](Target) {
     Material plain;

@@ -47,6 +47,19 @@ TEST_CASE("a linear axis includes both of its ends exactly") {
   CHECK(LinearAxis("metallic", Grey(0.3), Grey(1), 1).values == std::vector<Rgb>{Grey(0.3)});
 }
 
+TEST_CASE("a logarithmic axis has equal ratios and exact ends") {
+  const GridAxis axis = LogarithmicAxis("shininess", Grey(0.1), Grey(300), 5);
+  REQUIRE(axis.values.size() == 5);
+  CHECK(axis.values.front() == Grey(0.1));
+  CHECK(axis.values.back() == Grey(300));
+  for (size_t i = 1; i < 5; ++i) {
+    // A power and a product, a few roundings of double.
+    CHECK(axis.values[i].x / axis.values[i - 1].x ==
+          Approx(std::pow(3000, 0.25)).epsilon(1e-14).margin(0));
+  }
+  CHECK(LogarithmicAxis("shininess", Grey(4), Grey(8), 1).values == std::vector<Rgb>{Grey(4)});
+}
+
 TEST_CASE("a grid runs downwards from the top and from left to right") {
   Scene scene;
   scene.materials.push_back(Phong());  // what is there already stays in front

@@ -10,13 +10,15 @@ namespace {
 
 Scene MakeScene() {
   Scene scene;
-  Material lambert, phong, ggx, conductor, dielectric;
+  Material lambert, phong, ggx, conductor, dielectric, rough, burley;
+  rough.model = OrenNayarMaterial{};
+  burley.model = BurleyMaterial{};
   conductor.model = ConductorMaterial{};
   dielectric.model = DielectricMaterial{};
   lambert.model = LambertMaterial{};
   phong.model = PhongMaterial{};
   ggx.model = MetallicRoughnessMaterial{};
-  scene.materials = {lambert, phong, ggx, conductor, dielectric};
+  scene.materials = {lambert, phong, ggx, conductor, dielectric, rough, burley};
   scene.spheres = {{{0, 0, 0}, 1, {0}}, {{1, 0, 0}, 1, {1}}};
   Light key;
   key.name = "key";

@@ -39,7 +39,9 @@ TEST_CASE("what is set is got, and nothing else changes") {
       parameter.set(material, value);
       CHECK(parameter.get(material) == value);
       for (const MaterialParameter& other : model.parameters) {
-        if (&other != &parameter) CHECK(other.get(material) == other.get(model.make()));
+        if (&other == &parameter) continue;
+        const bool follows = other.name == "diffuse_roughness" && parameter.name == "roughness";
+        CHECK(other.get(material) == (follows ? value : other.get(model.make())));
       }
       CHECK(ModelOf(material) == &model);
     }

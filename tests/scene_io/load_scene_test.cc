@@ -121,6 +121,24 @@ TEST_CASE("materials keep the order of the file") {
   CHECK(metal.shadowing == Shadowing::kSchlickDirect);
 }
 
+TEST_CASE("rough matte surfaces and bases") {
+  const Scene scene = Load(R"(, "materials": {
+      "a": {"model": "oren_nayar", "albedo": [0.25, 0.5, 1], "roughness": 0.75},
+      "b": {"model": "burley", "albedo": 0.25, "roughness": 0.125},
+      "c": {"model": "metallic_roughness", "diffuse": "oren_nayar"},
+      "d": {"model": "dielectric", "diffuse": "burley", "diffuse_roughness": 0.25}})");
+  const auto& rough = std::get<OrenNayarMaterial>(scene.materials.at(0).model);
+  CHECK(rough.albedo == Rgb(0.25, 0.5, 1));
+  CHECK(rough.roughness == 0.75);
+  CHECK(std::get<BurleyMaterial>(scene.materials[1].model).roughness == 0.125);
+  const auto& clay = std::get<MetallicRoughnessMaterial>(scene.materials[2].model);
+  CHECK(clay.diffuse == DiffuseForm::kOrenNayar);
+  CHECK(!clay.diffuse_roughness);
+  const auto& cloth = std::get<DielectricMaterial>(scene.materials[3].model);
+  CHECK(cloth.diffuse == DiffuseForm::kBurley);
+  CHECK(cloth.diffuse_roughness == 0.25);
+}
+
 TEST_CASE("every model name makes its model") {
   const auto phong_model = [](const char* name) {
     const Scene scene = Load(R"(, "materials": {"m": {"model": ")" + std::string(name) + "\"}}");
@@ -183,6 +201,24 @@ TEST_CASE("lights of every kind") {
   CHECK(lamp.cutoff_deg == 12);
   CHECK(lamp.inner_deg == 12);  // a hard edge unless the file says otherwise
   CHECK(lamp.exponent == 3);
+}
+
+TEST_CASE("lights that are meshes") {
+  const Scene scene = Load(R"(, "lights": {
+      "a": {"type": "mesh", "icosphere": {"center": [1, 2, 3], "radius": 0.5, "subdivisions": 1},
+            "radiance": [3, 2, 1], "two_sided": true, "visible": false},
+      "b": {"type": "mesh", "uv_sphere": {"center": [0, 0, 0], "radius": 1, "segments": 4,
+            "rings": 2}, "radiance": 2, "shadows": false}})");
+  REQUIRE(scene.lights.size() == 2);
+  const auto& lamp = std::get<MeshAreaLight>(scene.lights[0].kind);
+  CHECK(lamp.mesh->triangles.size() == 3 * 80);
+  CHECK((lamp.mesh->positions[0] - Vec3d(1, 2, 3)).length() == Approx(0.5));
+  CHECK(lamp.radiance == Rgb(3, 2, 1));
+  CHECK(lamp.two_sided);
+  CHECK(!lamp.visible);
+  CHECK(std::get<MeshAreaLight>(scene.lights[1].kind).mesh->triangles.size() == 3 * 8);
+  CHECK(std::get<MeshAreaLight>(scene.lights[1].kind).visible);
+  CHECK(!scene.lights[1].shadows);
 }
 
 TEST_CASE("lights with an extent and skies") {

@@ -31,6 +31,8 @@ constexpr const char* kScene = R"({
   },
   "lights": {
     "sky": {"type": "ambient", "radiance": 1},
+    "lamp": {"type": "mesh", "radiance": 1, "icosphere": {"center": [0, 0, 0], "radius": 1}},
+    "globe": {"type": "mesh", "radiance": 1, "uv_sphere": {"center": [0, 0, 0], "radius": 1}},
     "sun": {"type": "directional", "direction_of_travel": [0, -1, 0], "irradiance": 1},
     "point": {"type": "point", "position": [0, 9, 0], "intensity": 1,
               "attenuation": {"constant": 1}},
@@ -87,7 +89,7 @@ TEST_CASE("an unknown key is refused in every object") {
     changed[place]["qqqqqqqq"] = 1;
     CHECK(Message(changed).find("unknown key \"qqqqqqqq\"") != std::string::npos);
   });
-  CHECK(objects == 33);
+  CHECK(objects == 37);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "brdf/burley.h"
 #include "brdf/ggx.h"
 #include "catch.h"
 #include "sampling/sobol.h"
@@ -172,6 +173,33 @@ TEST_CASE("a white furnace stays white at every roughness and angle") {
     }
   }
   WARN("metals within " << metal_error << " of 1, dielectrics from " << least << " to " << most);
+}
+
+// Rough diffuse surfaces, alone and as the base under a lobe. The bounds are those of the
+// quadrature, whose cosine-distributed third sees the peak of EON's single reflection at the
+// horizon least.
+TEST_CASE("white Oren-Nayar surfaces reflect all light, and Burley's what is known of it") {
+  const FlushDenormals flush;
+  const auto furnace = [](decltype(Material::model) model, double n_dot_v) {
+    Material material;
+    material.model = std::move(model);
+    const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
+    return Furnace(material, to_view, SampleDirections(to_view, 1)).y;
+  };
+  for (const double roughness : {0.0, 0.2, 0.5, 1.0}) {
+    for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0}) {
+      CAPTURE(roughness, n_dot_v);
+      CHECK(std::abs(furnace(OrenNayarMaterial{Rgb(1), roughness}, n_dot_v) - 1) <= 1e-3);
+      DielectricMaterial coat;
+      coat.base_color = Rgb(1);
+      coat.roughness = 1;
+      coat.diffuse = DiffuseForm::kOrenNayar;
+      coat.diffuse_roughness = roughness;
+      CHECK(std::abs(furnace(coat, n_dot_v) - 1) <= 1e-3);
+    }
+    CHECK(std::abs(furnace(BurleyMaterial{Rgb(1), roughness}, 1e-4) -
+                   BurleyGrazingAlbedo(roughness)) <= 1e-3);
+  }
 }
 
 // A perfect mirror shows no punctual light, and the base below it takes what the mirror leaves.

@@ -9,6 +9,7 @@
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "brdf/quadrature.h"
+#include "shading/lobe_sample.h"
 #include "shading/prepare.h"
 #include "shading/shade.h"
 #include "targets.h"
@@ -51,6 +52,37 @@ TEST_CASE("radiometric Phong is normalised, classic Phong is not") {
   const auto model = std::get<PhongFamilyModel>(Prepare(phong).model);
   CheckEqual(model.diffuse * M_PI, {0.25, 0.25, 0.25});
   CheckEqual(model.specular * M_PI, {1.25, 1.25, 1.25});  // (8 + 2) / 2 pi
+}
+
+TEST_CASE("a base has the roughness that it is given, or else the lobe's") {
+  DielectricMaterial coat;
+  coat.base_color = {1, 0.5, 0};
+  coat.roughness = 0.25;
+  CHECK(PrepareModel(coat).base_form == DiffuseForm::kLambert);
+  coat.diffuse = DiffuseForm::kOrenNayar;
+  CHECK(PrepareModel(coat).base_roughness == 0.25);
+  CHECK(PrepareModel(coat).base_ratio.x == Approx(1));  // a white one gives all of it back
+  CHECK(PrepareModel(coat).base_ratio.z == 0);
+  coat.diffuse_roughness = 0.75;
+  CHECK(PrepareModel(coat).base_roughness == 0.75);
+  coat.diffuse_roughness = 0;
+  CHECK(PrepareModel(coat).base_form == DiffuseForm::kLambert);  // the same, and in closed form
+  coat.diffuse = DiffuseForm::kBurley;
+  CHECK(PrepareModel(coat).base_form == DiffuseForm::kBurley);
+}
+
+TEST_CASE("closed forms are for Lambert's diffuse reflection alone") {
+  CHECK(DiffuseIsFlat(Prepare(LambertMaterial{})));
+  CHECK(!DiffuseIsFlat(Prepare(OrenNayarMaterial{})));
+  CHECK(!DiffuseIsFlat(Prepare(BurleyMaterial{})));
+  MetallicRoughnessMaterial plastic;
+  CHECK(DiffuseIsFlat(Prepare(plastic)));
+  plastic.diffuse = DiffuseForm::kOrenNayar;
+  CHECK(!DiffuseIsFlat(Prepare(plastic)));
+  plastic.diffuse_roughness = 0;
+  CHECK(DiffuseIsFlat(Prepare(plastic)));
+  plastic.diffuse = DiffuseForm::kBurley;
+  CHECK(!DiffuseIsFlat(Prepare(plastic)));
 }
 
 TEST_CASE("what materials reflect of light from everywhere") {

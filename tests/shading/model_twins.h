@@ -5,6 +5,8 @@
 #include <cmath>
 #include <variant>
 
+#include "brdf/burley.h"
+#include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
@@ -51,6 +53,23 @@ struct Reflected {
 inline Reflected Reflect(const LambertMaterial& m, const Vec3d& n, const Vec3d&,
                          const Incident& in) {
   return {m.albedo * kLightColor * (M_1_PI * (n ^ in.to_light) * in.irradiance), Rgb(0, 0, 0)};
+}
+
+inline Reflected Reflect(const OrenNayarMaterial& m, const Vec3d& n, const Vec3d& v,
+                         const Incident& in) {
+  const Angles<double> a = ComputeAngles(n, in.to_light, v);
+  Reflected out;
+  for (int c = 0; c < 3; ++c) {
+    out.diffuse[c] = Eon(a, m.albedo[c], m.roughness) * kLightColor[c] * a.n_dot_l * in.irradiance;
+  }
+  return out;
+}
+
+inline Reflected Reflect(const BurleyMaterial& m, const Vec3d& n, const Vec3d& v,
+                         const Incident& in) {
+  const Angles<double> a = ComputeAngles(n, in.to_light, v);
+  return {m.albedo * kLightColor * (BurleyDiffuse(a, m.roughness) * a.n_dot_l * in.irradiance),
+          Rgb(0, 0, 0)};
 }
 
 inline Reflected Reflect(const PhongMaterial& m, const Vec3d& n, const Vec3d& v,
@@ -118,6 +137,22 @@ inline double BaseShare(const MicrofacetModel& m, const Angles<double>& a, doubl
   return 1;
 }
 
+// What a base reflects over what Lambert's does.
+inline double BaseSpreadOf(const MicrofacetModel& m, const Angles<double>& a, int c) {
+  switch (m.base_form) {
+    case DiffuseForm::kOrenNayar: {
+      const double l_dot_v = 1 - a.lv_squared / 2, r = m.base_roughness;
+      return M_PI * (EonSingle(a.n_dot_l, a.n_dot_v, l_dot_v, r) +
+                     m.base_ratio[c] * EonMultiple(a.n_dot_l, a.n_dot_v, r));
+    }
+    case DiffuseForm::kBurley:
+      return M_PI * BurleyDiffuse(a, m.base_roughness);
+    case DiffuseForm::kLambert:
+      break;
+  }
+  return 1;
+}
+
 inline Reflected Reflect(const MicrofacetModel& m, const Vec3d& n, const Vec3d& v,
                          const Incident& in) {
   const Angles<double> a = ComputeAngles(n, in.to_light, v);
@@ -134,7 +169,8 @@ inline Reflected Reflect(const MicrofacetModel& m, const Vec3d& n, const Vec3d& 
       specular += m.f_multiple[c] * m.multiple * loss_v * loss_l;
     }
     out.specular[c] = specular * kLightColor[c] * weight;
-    out.diffuse[c] = BaseShare(m, a, fresnel[c], c) * m.diffuse[c] * kLightColor[c] * weight;
+    const double base = BaseShare(m, a, fresnel[c], c) * BaseSpreadOf(m, a, c);
+    out.diffuse[c] = base * m.diffuse[c] * kLightColor[c] * weight;
   }
   return out;
 }

@@ -139,6 +139,10 @@ TEST_CASE("kernels agree with the models in double on every target and under eve
   ForEachTarget([](Target) {
     for (const char* light : {"point", "polynomial", "directional", "spot"}) {
       CheckPlain(LambertMaterial{Rgb(0.9, 0.5, 0.1)}, light, 0);
+      for (const double roughness : {0.0, 0.3, 1.0}) {
+        CheckPlain(OrenNayarMaterial{Rgb(1, 0.5, 0.1), roughness}, light, 0);
+        CheckPlain(BurleyMaterial{Rgb(1, 0.5, 0.1), roughness}, light, 0);
+      }
       for (const PhongModel model :
            {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
         for (const PhongConvention convention :

@@ -1,0 +1,129 @@
+// cli/cmd_convert.cc: nacre convert: a material of one model as the nearest one of another.
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "cli/commands.h"
+#include "cli/difference_page.h"
+#include "cli/print.h"
+#include "scene_io/material_json.h"
+#include "scene_io/sheet_axis.h"
+#include "shading/material_fit.h"
+
+namespace nacre {
+namespace {
+
+struct Arguments {
+  std::string material;
+  std::string to = "metallic_roughness";
+  bool json = false;
+  SheetOptions sheet;
+  RenderOptions options;
+};
+
+Json ResidualJson(const MaterialResidual& residual) {
+  Json views = Json::array();
+  for (const LobeResidual& view : residual.views) {
+    views.push_back({{"view_deg", view.view_deg},
+                     {"rms", view.rms},
+                     {"peak", view.peak},
+                     {"albedo", view.albedo}});
+  }
+  return {{"rms", residual.rms}, {"views", views}};
+}
+
+std::string Table(const MaterialFit& fit) {
+  std::string text =
+      "                closed form               fit\n"
+      "view  lobe rms    peak  albedo  lobe rms    peak  albedo\n";
+  const auto row = [](const LobeResidual& r) {
+    return fmt::format("{:>9.3f} {:>+7.3f} {:>7.4f}", r.rms, r.peak, r.albedo);
+  };
+  for (size_t i = 0; i < fit.residual.views.size(); ++i) {
+    text += fmt::format("{:>3.0f}  {} {}\n", fit.residual.views[i].view_deg,
+                        row(fit.guess_residual.views[i]), row(fit.residual.views[i]));
+  }
+  text += fmt::format("all  {:>9.3f}                 {:>9.3f}\n", fit.guess_residual.rms,
+                      fit.residual.rms);
+  text +=
+      "lobe rms: of the difference of BRDF n.l over all directions of light, over the original's;\n"
+      "peak: the highlight's largest value, relative; albedo: of lobe and base, the worst "
+      "channel\n";
+  for (const std::string& note : fit.notes) text += "not kept: " + note + "\n";
+  return text;
+}
+
+void RunConvert(const Arguments& arguments) {
+  const Json given = ParseMaterialText("MATERIAL", arguments.material);
+  Json source = given;
+  source.erase("name");
+  const Material original = MaterialFromJson(source, "MATERIAL");
+  const MaterialFit fit = FitMaterial(original, arguments.to);
+  const Json fitted = MaterialJson(fit.fitted);
+  const Json complete = MaterialJson(original);
+
+  Json difference;
+  if (!arguments.options.outputs.empty()) {
+    DifferencePage page{source, fitted, MaterialLabel(given), arguments.to, arguments.sheet.title,
+                        {}};
+    if (page.title.empty()) {
+      page.title = fmt::format("{} as {}", page.a_label, arguments.to);
+    }
+    if (page.title == "-") page.title.clear();
+    page.footer = {
+        "A  " + DescribeMaterial(complete), "B  " + DescribeMaterial(fitted),
+        fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
+                    fit.guess_residual.rms, MakeLighting(arguments.sheet.lighting, 0.5).label)};
+    difference = DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
+  }
+  if (!arguments.json) {
+    PrintOut(fitted.dump() + "\n" + (arguments.options.quiet ? "" : Table(fit)));
+    return;
+  }
+  Json json = {
+      {"original", complete},
+      {"material", fitted},
+      {"residual", ResidualJson(fit.residual)},
+      {"closed_form",
+       {{"material", MaterialJson(fit.guess)}, {"residual", ResidualJson(fit.guess_residual)}}},
+      {"not_kept", fit.notes}};
+  if (!difference.is_null()) json["picture"] = difference;
+  PrintOut(json.dump(2) + "\n");
+}
+
+}  // namespace
+
+void AddConvertCommand(CLI::App* app, int*) {
+  CLI::App* command =
+      app->add_subcommand("convert", "Find the nearest material of another model: Phong <-> PBR");
+  const auto arguments = std::make_shared<Arguments>();
+  command->add_option("MATERIAL", arguments->material, "A model's name, or a material as JSON")
+      ->required();
+  std::vector<std::string> targets(FitTargets().begin(), FitTargets().end());
+  command
+      ->add_option("--to", arguments->to,
+                   fmt::format("The model wanted: {}", fmt::join(targets, ", ")))
+      ->check(CLI::IsMember(targets))
+      ->capture_default_str();
+  command->add_flag("--json", arguments->json,
+                    "Print materials, residuals and what is lost as JSON");
+  AddSheetOptions(command, &arguments->sheet, &arguments->options);
+  command->get_option("--output")->required(false);
+  command->footer(
+      "Prints the material for a scene file, and how far it is from the original: by the closed\n"
+      "forms (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) and after the "
+      "fit.\n"
+      "-o FILE.png draws original, conversion and difference.\n"
+      "Examples:\n"
+      "  nacre convert '{\"model\": \"phong\", \"kd\": [0.6,0.1,0.1], \"ks\": 0.04, "
+      "\"shininess\": 50}'\n"
+      "  nacre convert '{\"model\": \"metallic_roughness\", \"base_color\": [1,0.77,0.34], "
+      "\"metallic\": 1}' \\\n"
+      "    --to blinn_phong -o gold.png --light studio");
+  command->callback([arguments] { RunConvert(*arguments); });
+}
+
+}  // namespace nacre

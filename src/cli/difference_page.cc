@@ -1,0 +1,197 @@
+#include "cli/difference_page.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/canvas.h"
+#include "cli/outputs.h"
+#include "cli/progress.h"
+#include "color/display.h"
+#include "compare/heat_map.h"
+#include "render/render.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kStrip = 4.6;  // below the cells, in sizes of the text: scale and measures
+
+struct Panel {
+  Image image;
+  const std::vector<float>& Channel(const char* name) const { return image.Find(name)->samples; }
+};
+
+RenderSettings MakeSettings(const RenderOptions& options) {
+  RenderSettings settings;
+  settings.threads = options.threads;
+  settings.tile_size = options.tile_size;
+  settings.max_error = options.max_error;
+  if (options.spp) settings.max_samples = *options.spp;
+  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
+  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  settings.on_progress = [](double) { ThrowIfStopped(); };
+  return settings;
+}
+
+// One sphere in a square of `side` pixels.
+Panel RenderPanel(const Json& material, int side, const SheetOptions& sheet,
+                  const RenderOptions& options, const Lighting& lighting,
+                  const std::string& command) {
+  SheetPage page;
+  page.width = page.height = side;
+  page.cell = side;
+  const Json shapes = Json::array({{{"type", "sphere"},
+                                    {"center", {0, 0, 0}},
+                                    {"radius", kSheetSphereRadius},
+                                    {"material", material}}});
+  RenderOptions alone = options;
+  alone.size.clear();
+  const std::string text = SheetScene(shapes, Json::object(), SheetRequest{}, page, lighting);
+  const Scene scene = LoadSheet(text, command, sheet, page, MakeLoadOptions(alone));
+  return {RenderImage(scene, MakeSettings(options))};
+}
+
+DifferenceMeasures Measure(const Panel& a, const Panel& b) {
+  DifferenceMeasures measures;
+  const std::vector<float>& alpha = a.Channel("A");
+  double squares = 0;
+  double sum = 0;
+  size_t count = 0;
+  for (const char* name : {"R", "G", "B"}) {
+    const std::vector<float>& x = a.Channel(name);
+    const std::vector<float>& y = b.Channel(name);
+    for (size_t i = 0; i < x.size(); ++i) {
+      if (!(alpha[i] > 0)) continue;
+      const double difference = static_cast<double>(x[i]) - static_cast<double>(y[i]);
+      squares += difference * difference;
+      sum += difference;
+      measures.max = std::max(measures.max, std::abs(difference));
+      ++count;
+    }
+  }
+  if (count > 0) {
+    measures.rmse = std::sqrt(squares / static_cast<double>(count));
+    measures.mean = sum / static_cast<double>(count);
+  }
+  return measures;
+}
+
+// Four decades below the power of ten that holds the largest difference.
+HeatScale ScaleFor(double max) {
+  HeatScale scale;
+  scale.high = max > 0 ? std::pow(10, std::ceil(std::log10(max))) : 1;
+  scale.low = 1e-4 * scale.high;
+  return scale;
+}
+
+std::vector<uint8_t> Encode(const Panel& panel, const RenderOptions& options) {
+  DisplaySettings display;
+  display.tone = ParseToneOperator(options.tonemap);
+  display.exposure_ev = options.exposure;
+  const size_t count = panel.Channel("R").size();
+  std::vector<uint8_t> codes(3 * count);
+  EncodeDisplay(display, panel.Channel("R").data(), panel.Channel("G").data(),
+                panel.Channel("B").data(), count, codes.data());
+  return codes;
+}
+
+// The largest difference of each pixel's channels; the ground where there is no sphere.
+std::vector<uint8_t> HeatCodes(const Panel& a, const Panel& b, const HeatScale& scale,
+                               const std::vector<uint8_t>& ground) {
+  std::vector<uint8_t> codes = ground;
+  for (size_t i = 0; 3 * i < codes.size(); ++i) {
+    if (!(a.Channel("A")[i] > 0.5f)) continue;
+    double worst = 0;
+    for (const char* name : {"R", "G", "B"}) {
+      worst = std::max(worst, std::abs(static_cast<double>(a.Channel(name)[i]) -
+                                       static_cast<double>(b.Channel(name)[i])));
+    }
+    const Rgb8 color = worst > 0 ? HeatColor(scale.Position(worst)) : kHeatEqual;
+    std::copy(color.begin(), color.end(), codes.begin() + 3 * static_cast<std::ptrdiff_t>(i));
+  }
+  return codes;
+}
+
+// The scale below the third cell: a bar with a tick at each power of ten.
+void DrawScale(const SheetPage& page, const HeatScale& scale, bool light_ground, Canvas* canvas) {
+  const double em = page.text_px;
+  const double inset = (0.5 - kSheetSphereRadius) * page.cell;
+  const int left = static_cast<int>(page.left + 2 * page.cell + inset);
+  const int width = static_cast<int>(page.cell - 2 * inset);
+  const int height = std::max(static_cast<int>(0.6 * em), 2);
+  const int top = static_cast<int>(page.strip_top);
+  canvas->Paste(HeatLegend(width, height).rgb8, width, left, top);
+  const int low = static_cast<int>(std::lround(std::log10(scale.low)));
+  const int step = width > 4 * 3.2 * 0.8 * em ? 1 : 2;  // where labels would touch
+  for (int power = low; power <= low + 4; power += step) {
+    const double x = left + (power - low) / 4.0 * width;
+    const AlignX align = power == low       ? AlignX::kLeft
+                         : power == low + 4 ? AlignX::kRight
+                                            : AlignX::kCenter;
+    canvas->Write(fmt::format("1e{}", power), x, top + height + 0.35 * em, 0.8 * em, align,
+                  InkColor(light_ground));
+  }
+  canvas->Write("largest of the channels, linear", left + width / 2.0, top + height + 1.6 * em,
+                0.8 * em, AlignX::kCenter, FaintInkColor(light_ground));
+}
+
+void WriteMeasures(const SheetPage& page, const DifferenceMeasures& m, bool light_ground,
+                   Canvas* canvas) {
+  const double em = page.text_px;
+  const double x = page.left + (0.5 - kSheetSphereRadius) * page.cell;
+  const std::string lines[] = {fmt::format("RMSE {:.4g}", m.rmse),
+                               fmt::format("largest {:.4g}", m.max),
+                               fmt::format("mean of A - B {:+.4g}", m.mean)};
+  double y = page.strip_top;
+  for (const std::string& line : lines) {
+    canvas->Write(line, x, y, em, AlignX::kLeft, InkColor(light_ground));
+    y += 1.35 * em;
+  }
+}
+
+}  // namespace
+
+Json DifferenceMeasures::ToJson() const { return {{"rmse", rmse}, {"max", max}, {"mean", mean}}; }
+
+DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetOptions& sheet,
+                                  const RenderOptions& options, const std::string& command) {
+  for (const std::string& path : options.outputs) CheckPngPath(path);
+  CheckPathsDiffer(options.outputs);
+  ApplyTarget(options.target);
+  const Lighting lighting = MakeLighting(sheet.lighting, 0.5);
+  SheetRequest request = MakeSheetRequest(sheet, options, 1, 3);
+  request.light_ground = IsLightGround(lighting, options);
+  request.strip = kStrip;
+  SheetText text;
+  if (options.labels) {
+    text.title = difference.title;
+    text.column_labels = {"A: " + difference.a_label, "B: " + difference.b_label, "|A - B|"};
+    text.footer = difference.footer;
+  }
+  const SheetPage page = LayOutSheet(text, request);
+  const int side = static_cast<int>(std::max(page.cell, 1.0));
+  const Panel a = RenderPanel(difference.a, side, sheet, options, lighting, command);
+  const Panel b = RenderPanel(difference.b, side, sheet, options, lighting, command);
+  const DifferenceMeasures measures = Measure(a, b);
+  if (options.outputs.empty()) return measures;
+
+  const std::vector<uint8_t> a_codes = Encode(a, options);
+  Canvas canvas(page.width, page.height, {a_codes[0], a_codes[1], a_codes[2]});
+  const int top = static_cast<int>(page.top);
+  const auto left = [&](int i) { return static_cast<int>(page.left) + i * side; };
+  canvas.Paste(a_codes, side, left(0), top);
+  canvas.Paste(Encode(b, options), side, left(1), top);
+  const HeatScale scale = ScaleFor(measures.max);
+  canvas.Paste(HeatCodes(a, b, scale, a_codes), side, left(2), top);
+  if (page.text_px > 0) {
+    DrawScale(page, scale, request.light_ground, &canvas);
+    WriteMeasures(page, measures, request.light_ground, &canvas);
+  }
+  canvas.AddText(page.text);
+  canvas.DrawText();
+  for (const std::string& path : options.outputs) canvas.WritePng(path, options.small);
+  return measures;
+}
+
+}  // namespace nacre

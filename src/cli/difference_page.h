@@ -1,0 +1,32 @@
+// cli/difference_page.h: two materials and their difference side by side: A | B | |A - B|, with
+// the difference's scale and its measures, as a PNG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/sheet.h"
+
+namespace nacre {
+
+// Of linear radiance, over the pixels of the sphere and their three channels.
+struct DifferenceMeasures {
+  double rmse = 0;
+  double max = 0;   // of |A - B|
+  double mean = 0;  // of A - B
+  Json ToJson() const;
+};
+
+struct DifferencePage {
+  Json a, b;  // materials as in scene files
+  std::string a_label, b_label;
+  std::string title;
+  std::vector<std::string> footer;
+};
+
+// Renders both on the same sphere under the same light and writes the page to the outputs, PNG
+// files all of them; with no outputs it only measures. Throws Error.
+DifferenceMeasures DrawDifference(const DifferencePage& page, const SheetOptions& sheet,
+                                  const RenderOptions& options, const std::string& command);
+
+}  // namespace nacre

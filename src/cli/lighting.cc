@@ -1,0 +1,177 @@
+#include "cli/lighting.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "scene_io/sheet_axis.h"
+#include "scene_io/text_file.h"
+
+namespace nacre {
+namespace {
+
+// A light whose irradiance is the same on every sphere of a sheet.
+Json Directional(const Json& direction_of_travel, double irradiance) {
+  return {{"type", "directional"},
+          {"direction_of_travel", direction_of_travel},
+          {"irradiance", irradiance}};
+}
+
+// From the upper right before the sheet, as far as makes shadows and highlights of all spheres
+// much alike.
+constexpr std::array<double, 3> kKeyDirection = {0.71, 0.79, 0.97};
+constexpr double kKeyIrradiance = 2.9;
+constexpr double kKeyDistance = 5.7;  // in reaches, along each component
+
+Json KeyPosition(double reach) {
+  Json position = Json::array();
+  for (const double component : kKeyDirection) {
+    position.push_back(component * kKeyDistance * reach);
+  }
+  return position;
+}
+
+double KeyDistanceSquared(double reach) {
+  double sum = 0;
+  for (const double component : kKeyDirection) sum += component * component;
+  return sum * kKeyDistance * kKeyDistance * reach * reach;
+}
+
+// `centred`: from straight above, so that the middle of a sphere's picture parts the highlight.
+Json PointLights(double reach, bool centred) {
+  const double height = std::hypot(kKeyDirection[0], kKeyDirection[1]) * kKeyDistance * reach;
+  Json position = KeyPosition(reach);
+  if (centred) position = {0, height, position[2]};
+  return {{"key",
+           {{"type", "point"},
+            {"position", position},
+            {"intensity", kKeyIrradiance * KeyDistanceSquared(reach)}}},
+          {"sky", {{"type", "ambient"}, {"radiance", 0.06}}}};
+}
+
+Json StudioLights() {
+  return {{"key", Directional({-0.71, -0.79, -0.97}, 2.4)},
+          {"fill", Directional({1.0, -0.15, -1.1}, 0.7)},
+          {"rim", Directional({0.55, -0.6, 0.9}, 2.6)},
+          {"sky", {{"type", "ambient"}, {"radiance", 0.04}}}};
+}
+
+Json SkyLights() {
+  return {{"sky",
+           {{"type", "environment"},
+            {"gradient",
+             {{"zenith", {0.35, 0.6, 1.2}},
+              {"horizon", {1.1, 1.05, 1.0}},
+              {"ground", {0.16, 0.13, 0.1}}}},
+            {"background", false}}}};
+}
+
+// A soft box at the key light's place that is seen as large from a sheet of any size.
+Json RectangleLights(double reach) {
+  const double side = 4.6 * reach;
+  const double radiance = kKeyIrradiance * KeyDistanceSquared(reach) / (side * side);
+  return {{"box",
+           {{"type", "rectangle"},
+            {"center", KeyPosition(reach)},
+            {"facing", {-0.71, -0.79, -0.97}},
+            {"up", {0, 1, 0}},
+            {"width", side},
+            {"height", side},
+            {"radiance", radiance},
+            {"visible", false}}},
+          {"sky", {{"type", "ambient"}, {"radiance", 0.06}}}};
+}
+
+Json FurnaceLights() {
+  return {{"furnace", {{"type", "environment"}, {"radiance", 1}, {"background", false}}}};
+}
+
+Json ReadLightsText(const std::string& text) {
+  constexpr uint64_t kMaxBytes = uint64_t{1} << 20;
+  const bool is_json = text.find('{') != std::string::npos;
+  const std::string json = is_json ? text : ReadTextFile(text, kMaxBytes);
+  Json lights = Json::parse(json, nullptr, /*allow_exceptions=*/false);
+  if (lights.is_object() && lights.contains("lights")) lights = lights["lights"];  // of a scene
+  if (lights.is_object()) return lights;
+  throw Error(is_json ? ExitCode::kUsage : ExitCode::kBadInput, "--lights",
+              is_json ? "this is not JSON of lights" : text + " holds no JSON of lights",
+              R"(for example '{"sun": {"type": "directional", "direction_of_travel": [0,-1,-1], )"
+              R"("irradiance": 3}}')");
+}
+
+bool HasExtent(const Json& light) {
+  const auto type = light.find("type");
+  if (type == light.end()) return false;
+  return *type == "environment" || *type == "rectangle" || *type == "disk" || *type == "sphere";
+}
+
+Json LightsOf(const std::string& set_up, double reach, bool centred) {
+  if (set_up == "studio") return StudioLights();
+  if (set_up == "sky") return SkyLights();
+  if (set_up == "rectangle") return RectangleLights(reach);
+  if (set_up == "furnace") return FurnaceLights();
+  return PointLights(reach, centred);
+}
+
+}  // namespace
+
+void AddLightingOptions(CLI::App* command, LightingOptions* options) {
+  const std::string group = "Light";
+  command
+      ->add_option("--light", options->light,
+                   "point (one from the upper right; in split pairs from above), studio (key, fill "
+                   "and rim), sky (a gradient "
+                   "from ground to zenith), rectangle (a soft box) or furnace (radiance 1 from "
+                   "everywhere: what a white surface reflects whole is as bright as its ground)")
+      ->check(CLI::IsMember({"point", "studio", "sky", "rectangle", "furnace"}))
+      ->capture_default_str()
+      ->group(group);
+  command
+      ->add_option("--lights", options->lights,
+                   "Other lights instead, as in scene files, or a scene whose lights to take")
+      ->type_name("JSON|FILE")
+      ->group(group);
+  command
+      ->add_option("--environment", options->environment,
+                   "An image of the surroundings (latitude and longitude, EXR or HDR) instead")
+      ->type_name("FILE")
+      ->group(group);
+  command
+      ->add_option("--background", options->background,
+                   "What is behind the spheres: #rrggbb, [r,g,b] or one number, linear")
+      ->type_name("COLOR")
+      ->group(group);
+}
+
+Lighting MakeLighting(const LightingOptions& options, double reach, bool centred) {
+  Lighting lighting;
+  lighting.background = {0.05, 0.05, 0.08};
+  if (options.light == "furnace") lighting.background = 1;
+  if (!options.lights.empty()) {
+    lighting.lights = ReadLightsText(options.lights);
+    const bool is_file = options.lights.find('{') == std::string::npos;
+    lighting.label = is_file ? std::filesystem::path(options.lights).filename().string()
+                             : std::string("lights given");
+  }
+  if (!options.environment.empty()) {
+    lighting.lights["environment"] = {
+        {"type", "environment"}, {"image", options.environment}, {"background", false}};
+    lighting.label = std::filesystem::path(options.environment).filename().string();
+  }
+  if (options.lights.empty() && options.environment.empty()) {
+    lighting.lights = LightsOf(options.light, reach, centred);
+    lighting.label = options.light;
+  }
+  if (!options.background.empty()) {
+    lighting.background = ParseColorText("--background", options.background);
+  }
+  for (const Json& light : lighting.lights) {
+    if (light.is_object() && HasExtent(light)) lighting.sampled = true;
+  }
+  return lighting;
+}
+
+}  // namespace nacre

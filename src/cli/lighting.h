@@ -1,0 +1,35 @@
+// cli/lighting.h: the lights of sheets, by the name of a set-up or given as JSON.
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+#include "scene_io/json_text.h"
+
+namespace nacre {
+
+struct LightingOptions {
+  std::string light = "point";  // a set-up's name
+  std::string lights;           // JSON, or the path of a file that holds it
+  std::string environment;      // an image's path
+  std::string background;       // a colour; empty: the set-up's
+};
+
+// --light, --lights, --environment and --background.
+void AddLightingOptions(CLI::App* command, LightingOptions* options);
+
+// What MakeLighting makes of the options for a scene whose shapes lie within `reach` of the origin
+// in the plane z = 0, seen from +z. `centred`: "point" has its highlight on the vertical middle
+// line.
+struct Lighting {
+  Json lights = Json::object();
+  Json background;       // a colour
+  bool sampled = false;  // some light has an extent, and so noise
+  std::string label;     // "light: studio"
+};
+
+// Throws Error for what is no light.
+Lighting MakeLighting(const LightingOptions& options, double reach, bool centred = false);
+
+}  // namespace nacre

@@ -1,0 +1,99 @@
+#include "cli/perceptual_options.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+#include "cli/render_options.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kMaxExposures = 64;
+
+[[noreturn]] void FailExposures(const std::string& text) {
+  throw Error(ExitCode::kUsage, "--flip-exposures", "\"" + text + "\" is not a range of exposures",
+              "give START,STOP in stops, from -60 to 60, and, if you like, how many: -4,4,9");
+}
+
+void ParseExposures(const std::string& text, PerceptualOptions* options) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    double number = 0;
+    const auto [rest, error] = std::from_chars(at, end, number);
+    if (error != std::errc() || !(number >= -60 && number <= 60)) FailExposures(text);
+    numbers.push_back(number);
+    if (rest == end) break;
+    if (*rest != ',') FailExposures(text);
+    at = rest + 1;
+  }
+  if (numbers.size() < 2 || numbers.size() > 3 || numbers[1] < numbers[0]) FailExposures(text);
+  options->start_exposure = numbers[0];
+  options->stop_exposure = numbers[1];
+  if (numbers.size() < 3) return;
+  options->exposures = static_cast<int>(numbers[2]);
+  if (*options->exposures != numbers[2] || *options->exposures < 1) FailExposures(text);
+}
+
+}  // namespace
+
+void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
+  const std::string group = "Metrics of what is seen (layers with R, G and B)";
+  command
+      ->add_option(
+          "--metrics", a->metrics,
+          "Besides those of numbers: ssim (structural similarity, 1: equal), flip (what is "
+          "seen to change when the pictures alternate, 0: nothing, 1: all), hdr_flip (the "
+          "same at every exposure; linear images), all or none")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"ssim", "flip", "hdr_flip", "all", "none"}))
+      ->group(group);
+  command
+      ->add_option("--ppd", a->pixels_per_degree,
+                   "FLIP: pixels per degree of vision. 67 is a display 0.7 m wide with 3840 "
+                   "pixels, 0.7 m away")
+      ->check(InRange(1, 1000))
+      ->group(group);
+  command
+      ->add_option("--flip-exposures", a->exposures,
+                   "HDR-FLIP: from START to STOP stops in COUNT steps; without it from where the "
+                   "reference's brightest pixel is nearly white to where its median is")
+      ->type_name("START,STOP[,COUNT]")
+      ->group(group);
+  command
+      ->add_option("--tonemap", a->tonemap,
+                   "SSIM and FLIP: how linear images are shown, as nacre tonemap has it")
+      ->check(CLI::IsMember(ToneOperatorNames()))
+      ->capture_default_str()
+      ->group(group);
+  command->add_option("--exposure", a->exposure, "SSIM and FLIP: in stops")
+      ->check(InRange(-60, 60))
+      ->capture_default_str()
+      ->group(group);
+}
+
+std::optional<PerceptualOptions> MakePerceptualOptions(const PerceptualArguments& arguments) {
+  PerceptualOptions options;
+  // Also where it is not used: a wrong range is told.
+  if (!arguments.exposures.empty()) ParseExposures(arguments.exposures, &options);
+  if (options.exposures.value_or(1) > kMaxExposures) FailExposures(arguments.exposures);
+  const auto asked = [&](const std::string& name) {
+    const auto& names = arguments.metrics;
+    return std::find(names.begin(), names.end(), name) != names.end() ||
+           std::find(names.begin(), names.end(), "all") != names.end();
+  };
+  options.ssim = asked("ssim");
+  options.flip = asked("flip");
+  options.hdr_flip = asked("hdr_flip");
+  if (!options.ssim && !options.flip && !options.hdr_flip) return std::nullopt;
+  options.display.tone = ParseToneOperator(arguments.tonemap);
+  options.display.exposure_ev = arguments.exposure;
+  options.pixels_per_degree = arguments.pixels_per_degree;
+  return options;
+}
+
+}  // namespace nacre

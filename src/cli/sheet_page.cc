@@ -1,0 +1,222 @@
+#include "cli/sheet_page.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cli/text_width.h"
+#include "cli/wrap_text.h"
+
+namespace nacre {
+namespace {
+
+// Sizes in units of the text's size.
+constexpr double kPad = 1.1;  // around everything
+constexpr double kTitleSize = 1.25;
+constexpr double kFooterSize = 0.82;
+constexpr double kLine = 1.3;      // from line to line, of the line's own size
+constexpr double kRowLine = 1.15;  // from row to row, at least
+constexpr double kGap = 0.55;      // between text and what it belongs to
+
+struct Margins {
+  double left = 0, right = 0, top = 0, bottom = 0;
+  FittedLabels columns;
+  double row_label_size = 0;
+  std::vector<std::string> title, footer;  // lines
+};
+
+double LineHeight(double size) { return kLine * size; }
+
+// What the text needs when its size is `em`, cells are `cell` wide and the page `width`.
+Margins MeasureMargins(const SheetText& text, double em, double cell, double width) {
+  Margins m;
+  m.left = m.right = m.top = m.bottom = kPad * em;
+  const double text_width = width - 2 * kPad * em;
+  m.title = WrapText(text.title, kTitleSize * em, text_width);
+  for (const std::string& paragraph : text.footer) {
+    for (std::string& line : WrapText(paragraph, kFooterSize * em, text_width)) {
+      m.footer.push_back(std::move(line));
+    }
+  }
+  if (!m.title.empty()) {
+    m.top += static_cast<double>(m.title.size()) * LineHeight(kTitleSize * em) + kGap * em;
+  }
+  if (!text.column_name.empty()) m.top += LineHeight(em);
+  m.columns = FitLabels(text.column_labels, em, cell);
+  m.top += m.columns.lines * LineHeight(m.columns.size);
+  if (!text.column_labels.empty()) m.top += kGap * em / 2;
+  m.row_label_size = std::clamp(cell / kRowLine, 0.7 * em, em);
+  double widest = TextWidth(text.row_name, em);
+  for (const std::string& label : text.row_labels) {
+    widest = std::max(widest, TextWidth(label, m.row_label_size));
+  }
+  if (widest > 0) m.left += widest + kGap * em;
+  if (!m.footer.empty()) {
+    m.bottom += static_cast<double>(m.footer.size()) * LineHeight(kFooterSize * em) + kGap * em;
+  }
+  return m;
+}
+
+void Write(const std::string& text, double x, double y, double size, AlignX align,
+           const std::array<uint8_t, 3>& ink, SheetPage* page, AlignY align_y = AlignY::kTop) {
+  TextItem item;
+  item.text = text;
+  item.x = static_cast<int>(std::lround(x));
+  item.y = static_cast<int>(std::lround(y));
+  item.size_px = std::max(static_cast<int>(std::lround(size)), 1);
+  item.align_x = align;
+  item.align_y = align_y;
+  item.color = ink;
+  item.outline = false;
+  page->text.push_back(std::move(item));
+}
+
+void WriteColumns(const SheetText& text, const Margins& m, bool light, SheetPage* page) {
+  const double em = page->text_px;
+  const double size = m.columns.size;
+  const double bottom = page->top - kGap * em / 2;  // of the last line's box
+  const double columns = static_cast<double>(text.column_labels.size());
+  if (!text.column_name.empty()) {
+    const double y = bottom - m.columns.lines * LineHeight(size) - LineHeight(em);
+    Write(text.column_name, page->left + columns * page->cell / 2, y, em, AlignX::kCenter,
+          FaintInkColor(light), page);
+  }
+  for (const FittedLabels::Label& label : m.columns.labels) {
+    const double x = page->left + (static_cast<double>(label.place) + 0.5) * page->cell;
+    double y = bottom - static_cast<double>(label.lines.size()) * LineHeight(size);
+    for (const std::string& line : label.lines) {
+      Write(line, x, y, size, AlignX::kCenter, InkColor(light), page);
+      y += LineHeight(size);
+    }
+  }
+}
+
+void WriteRows(const SheetText& text, const Margins& m, bool light, SheetPage* page) {
+  const double em = page->text_px;
+  const double x = page->left - kGap * em;
+  if (!text.row_name.empty()) {
+    Write(text.row_name, x, page->top - kGap * em / 2 - LineHeight(em), em, AlignX::kRight,
+          FaintInkColor(light), page);
+  }
+  const size_t count = text.row_labels.size();
+  if (count == 0) return;
+  // Where lines would touch, not every value is written.
+  const double line = kRowLine * m.row_label_size;
+  const double most = std::floor(static_cast<double>(count - 1) * page->cell / line) + 1;
+  const size_t written = std::min(count, std::max(static_cast<size_t>(most), size_t{2}));
+  const std::vector<size_t> places =
+      count > 1 ? SpreadPlaces(count - 1, written) : std::vector<size_t>{0};
+  for (const size_t i : places) {
+    const double y = page->top + (static_cast<double>(i) + 0.5) * page->cell;
+    Write(text.row_labels[i], x, y, m.row_label_size, AlignX::kRight, InkColor(light), page,
+          AlignY::kCenter);
+  }
+}
+
+// The size of cells that leave the margins their room.
+double CellThatFits(const SheetRequest& r, const Margins& m) {
+  const double x = (r.width - m.left - m.right) / r.columns;
+  const double y = (r.height - m.top - m.bottom) / r.rows;
+  const double cell = std::min(x, y);
+  return cell > 4 ? std::floor(cell) : cell;
+}
+
+bool HasText(const SheetText& text) {
+  return !text.title.empty() || !text.row_labels.empty() || !text.column_labels.empty() ||
+         !text.footer.empty();
+}
+
+// Fills in the page's sizes from what the request leaves open.
+Margins ChooseSizes(const SheetText& text, const SheetRequest& r, SheetPage* page) {
+  constexpr double kSmallestText = 6;
+  if (r.width == 0) {  // the cells say how large the page is
+    const double extent = (r.columns + r.rows) * page->cell / 2;
+    page->text_px = std::round(std::clamp(extent / 36, 18.0, 48.0));
+    const double narrowest = 26 * page->text_px;
+    Margins m = MeasureMargins(text, page->text_px, page->cell, narrowest);
+    const double width = std::max(m.left + r.columns * page->cell + m.right, narrowest);
+    m = MeasureMargins(text, page->text_px, page->cell, width);
+    m.bottom += r.strip * page->text_px;
+    page->width = static_cast<int>(std::ceil(width));
+    page->height = static_cast<int>(std::ceil(m.top + r.rows * page->cell + m.bottom));
+    return m;
+  }
+  page->width = r.width;
+  page->height = r.height;
+  for (double em = std::min(std::min(r.width, r.height) / 32.0, 64.0); em >= kSmallestText;
+       em *= 0.9) {
+    Margins m = MeasureMargins(
+        text, em, std::min(r.width * 0.8 / r.columns, r.height * 0.8 / r.rows), r.width);
+    m.bottom += r.strip * em;
+    m = [&] {  // again, now that the cells are known
+      Margins again = MeasureMargins(text, em, std::max(CellThatFits(r, m), 1.0), r.width);
+      again.bottom += r.strip * em;
+      return again;
+    }();
+    const double cell = CellThatFits(r, m);
+    const bool has_room = cell * r.columns > 0.5 * r.width || cell * r.rows > 0.5 * r.height;
+    if (!has_room) continue;
+    page->text_px = em;
+    page->cell = cell;
+    return m;
+  }
+  Margins none;
+  page->cell = CellThatFits(r, none);
+  return none;
+}
+
+double DefaultCell(const SheetRequest& r) {
+  return std::floor(std::clamp(std::min(1200.0 / r.columns, 900.0 / r.rows), 24.0, 420.0));
+}
+
+}  // namespace
+
+std::array<uint8_t, 3> InkColor(bool light_ground) {
+  if (light_ground) return {20, 20, 24};
+  return {240, 240, 240};
+}
+
+std::array<uint8_t, 3> FaintInkColor(bool light_ground) {
+  if (light_ground) return {80, 80, 88};
+  return {176, 178, 184};
+}
+
+SheetPage LayOutSheet(const SheetText& text, const SheetRequest& request) {
+  SheetPage page;
+  page.cell = request.cell > 0 ? request.cell : DefaultCell(request);
+  Margins m;
+  if (HasText(text) || request.strip > 0) {
+    m = ChooseSizes(text, request, &page);
+  } else if (request.width > 0) {
+    page.width = request.width;
+    page.height = request.height;
+    page.cell = CellThatFits(request, m);
+  } else {
+    page.width = static_cast<int>(std::ceil(request.columns * page.cell));
+    page.height = static_cast<int>(std::ceil(request.rows * page.cell));
+  }
+  // What is left over goes to both sides.
+  const double spare_x = page.width - m.left - m.right - request.columns * page.cell;
+  const double spare_y = page.height - m.top - m.bottom - request.rows * page.cell;
+  page.left = std::floor(m.left + spare_x / 2);
+  page.top = std::floor(m.top + spare_y / 2);
+  page.strip_top = page.top + request.rows * page.cell + kGap * page.text_px;
+  if (page.text_px == 0) return page;
+
+  const bool light = request.light_ground;
+  const double em = page.text_px;
+  double y = kPad * em;
+  for (const std::string& line : m.title) {
+    Write(line, kPad * em, y, kTitleSize * em, AlignX::kLeft, InkColor(light), &page);
+    y += LineHeight(kTitleSize * em);
+  }
+  WriteColumns(text, m, light, &page);
+  WriteRows(text, m, light, &page);
+  y = page.height - kPad * em - static_cast<double>(m.footer.size()) * LineHeight(kFooterSize * em);
+  for (const std::string& line : m.footer) {
+    Write(line, kPad * em, y, kFooterSize * em, AlignX::kLeft, FaintInkColor(light), &page);
+    y += LineHeight(kFooterSize * em);
+  }
+  return page;
+}
+
+}  // namespace nacre

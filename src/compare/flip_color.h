@@ -1,0 +1,80 @@
+// compare/flip_color.h: the colour spaces of FLIP (Andersson et al. 2020, its colour pipeline), in
+// double.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+namespace nacre::flip {
+
+using Triple = std::array<double, 3>;
+using Matrix = std::array<Triple, 3>;
+
+// Linear sRGB to XYZ under D65, in the fractions that the primaries' and the white's chromaticities
+// of IEC 61966-2-1 give; the authors' own program has the same.
+inline constexpr Matrix kXyzFromRgb = {{
+    {10135552.0 / 24577794, 8788810.0 / 24577794, 4435075.0 / 24577794},
+    {2613072.0 / 12288897, 8788810.0 / 12288897, 887015.0 / 12288897},
+    {1425312.0 / 73733382, 8788810.0 / 73733382, 70074185.0 / 73733382},
+}};
+
+constexpr Triple Multiply(const Matrix& m, const Triple& v) {
+  Triple out{};
+  for (size_t i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
+  return out;
+}
+
+// XYZ of white, (1, 1, 1).
+inline constexpr Triple kWhite = Multiply(kXyzFromRgb, {1, 1, 1});
+
+// By cofactors.
+constexpr Matrix Inverse(const Matrix& m) {
+  Matrix out{};
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t j = 0; j < 3; ++j) {
+      const size_t r0 = (j + 1) % 3, r1 = (j + 2) % 3, c0 = (i + 1) % 3, c1 = (i + 2) % 3;
+      out[i][j] = m[r0][c0] * m[r1][c1] - m[r0][c1] * m[r1][c0];
+    }
+  }
+  const double determinant = m[0][0] * out[0][0] + m[0][1] * out[1][0] + m[0][2] * out[2][0];
+  for (Triple& row : out) {
+    for (double& value : row) value /= determinant;
+  }
+  return out;
+}
+inline constexpr Matrix kRgbFromXyz = Inverse(kXyzFromRgb);
+
+// The opponent space YyCxCz that is filtered in: CIELAB's form without its cube root, so that it is
+// linear. Y is -16 for black and 100 for white.
+inline Triple YccFromRgb(const Triple& rgb) {
+  Triple xyz = Multiply(kXyzFromRgb, rgb);
+  for (size_t i = 0; i < 3; ++i) xyz[i] /= kWhite[i];
+  return {116 * xyz[1] - 16, 500 * (xyz[0] - xyz[1]), 200 * (xyz[1] - xyz[2])};
+}
+
+inline Triple RgbFromYcc(const Triple& ycc) {
+  const double y = (ycc[0] + 16) / 116;
+  const Triple xyz = {(y + ycc[1] / 500) * kWhite[0], y * kWhite[1],
+                      (y - ycc[2] / 200) * kWhite[2]};
+  return Multiply(kRgbFromXyz, xyz);
+}
+
+// CIELAB with the Hunt effect: chroma times L* / 100, as colours fade in the dark.
+inline Triple HuntLabFromRgb(const Triple& rgb) {
+  constexpr double kDelta = 6.0 / 29;
+  Triple f = Multiply(kXyzFromRgb, rgb);
+  for (size_t i = 0; i < 3; ++i) {
+    const double t = f[i] / kWhite[i];
+    f[i] = t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
+  }
+  const double lightness = 116 * f[1] - 16;
+  return {lightness, 0.01 * lightness * 500 * (f[0] - f[1]),
+          0.01 * lightness * 200 * (f[1] - f[2])};
+}
+
+// Abasi et al. 2020, for large differences: |dL| + sqrt(da^2 + db^2).
+inline double HyabDistance(const Triple& a, const Triple& b) {
+  return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
+}
+
+}  // namespace nacre::flip

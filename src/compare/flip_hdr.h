@@ -1,0 +1,32 @@
+// compare/flip_hdr.h: FLIP of linear pictures over a range of exposures: Andersson, Nilsson,
+// Shirley and Akenine-Moeller 2021, "Visualizing Errors in Rendered High Dynamic Range Images".
+#pragma once
+
+#include "compare/flip.h"
+
+namespace nacre {
+
+// `count` exposures from `start` to `stop` stops, in equal steps; one: `start` alone.
+struct ExposureRange {
+  double start = 0, stop = 0;
+  int count = 1;
+};
+
+// The paper's automatic choice: at `start` the reference's brightest luminance is shown at 0.85 of
+// white, at `stop` its median is, and there are as many exposures as stops between, at least 2.
+//
+// Where more than half of the reference is black, as behind a lone object, the paper's `stop` is
+// infinite; the median is then that of the rest. All black: 0 and 0, one exposure.
+ExposureRange FlipExposures(const Planes& reference);
+
+struct HdrFlip {
+  Plane error;     // the largest FLIP of each pixel over the exposures
+  Plane exposure;  // the first exposure that shows it, in stops
+};
+
+// Linear radiance, not negative and finite. Each exposure is shown through their tone curve,
+// Narkowicz's ACES at 0.6 of the radiance.
+HdrFlip HdrFlipMap(const Planes& reference, const Planes& test, const ExposureRange& range,
+                   double pixels_per_degree);
+
+}  // namespace nacre

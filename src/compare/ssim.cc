@@ -1,0 +1,51 @@
+#include "compare/ssim.h"
+
+#include <numeric>
+
+namespace nacre {
+namespace {
+
+Plane Product(const Plane& a, const Plane& b) {
+  Plane product = a;
+  for (size_t i = 0; i < a.size(); ++i) product.values[i] *= b.values[i];
+  return product;
+}
+
+// Eqs. 14 to 16: weighted means, and variances and covariance as E[ab] - E[a] E[b].
+double SsimAt(double mean_a, double mean_b, double aa, double bb, double ab) {
+  const double variance_a = aa - mean_a * mean_a;
+  const double variance_b = bb - mean_b * mean_b;
+  const double covariance = ab - mean_a * mean_b;
+  return (2 * mean_a * mean_b + kSsimC1) * (2 * covariance + kSsimC2) /
+         ((mean_a * mean_a + mean_b * mean_b + kSsimC1) * (variance_a + variance_b + kSsimC2));
+}
+
+}  // namespace
+
+Plane SsimMap(const Plane& a, const Plane& b) {
+  const Kernel window = GaussianKernel(kSsimSigma, kSsimRadius);
+  const auto mean = [&](const Plane& plane) { return Filter(plane, window, window); };
+  const Plane mean_a = mean(a);
+  const Plane mean_b = mean(b);
+  const Plane aa = mean(Product(a, a));
+  const Plane bb = mean(Product(b, b));
+  const Plane ab = mean(Product(a, b));
+  Plane map(a.width - 2 * kSsimRadius, a.height - 2 * kSsimRadius);
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      const int u = x + kSsimRadius;
+      const int v = y + kSsimRadius;
+      map.at(x, y) =
+          SsimAt(mean_a.at(u, v), mean_b.at(u, v), aa.at(u, v), bb.at(u, v), ab.at(u, v));
+    }
+  }
+  return map;
+}
+
+double Ssim(const Plane& a, const Plane& b) {
+  const Plane map = SsimMap(a, b);
+  return std::accumulate(map.values.begin(), map.values.end(), 0.0) /
+         static_cast<double>(map.size());
+}
+
+}  // namespace nacre

@@ -1,0 +1,94 @@
+#include "render/plan_notes.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/overloaded.h"
+#include "brdf/burley.h"
+
+namespace nacre {
+namespace {
+
+// The first of the used materials for which `test` holds, and how many more: `material "red" and 2
+// more`; nothing if there is none.
+template <class Test>
+std::string NameThose(const Scene& scene, const Test& test) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  std::string first;
+  size_t count = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (!used[i] || !test(i)) continue;
+    if (count++ == 0) first = scene.materials[i].name;
+  }
+  if (count == 0) return {};
+  const std::string others = count > 1 ? fmt::format(" and {} more", count - 1) : "";
+  return fmt::format("material \"{}\"{}", first, others);
+}
+
+// A perfect mirror shows only what has an extent; says so where no light has one.
+void NoteMirrors(const Scene& scene, RenderPlan* plan) {
+  if (!plan->sampled_lights.empty()) return;
+  const std::string names =
+      NameThose(scene, [&](size_t i) { return HasDeltaLobe(plan->materials[i]); });
+  if (names.empty()) return;
+  plan->notes.push_back(
+      names +
+      ": roughness 0 is a perfect mirror, in which point, spot and directional lights have no "
+      "highlight; a roughness above 0 gives them one");
+}
+
+// What Burley's term gives back of grazing light, of the brightest channel; else 0.
+double BurleyGain(const ShadingMaterial& material) {
+  const auto gain = [](const Rgb& diffuse, double roughness) {
+    return std::max({diffuse.x, diffuse.y, diffuse.z}) * M_PI * BurleyGrazingAlbedo(roughness);
+  };
+  return std::visit(Overloaded{[&](const RoughMatteModel& matte) {
+                                 const bool burley = matte.form == DiffuseForm::kBurley;
+                                 return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
+                               },
+                               [&](const MicrofacetModel& model) {
+                                 // Under what the lobe's albedo leaves, which is nothing of grazing
+                                 // light, it cannot.
+                                 const bool burley = model.base_form == DiffuseForm::kBurley &&
+                                                     model.coupling == DiffuseCoupling::kNone;
+                                 return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
+                               },
+                               [](const auto&) { return 0.0; }},
+                    material.model);
+}
+
+void NoteGain(const Scene& scene, RenderPlan* plan) {
+  double most = 1;
+  const std::string names = NameThose(scene, [&](size_t i) {
+    const double gain = BurleyGain(plan->materials[i]);
+    most = std::max(most, gain);
+    return gain > 1;
+  });
+  if (names.empty()) return;
+  plan->notes.push_back(
+      fmt::format("{}: burley reflects up to {:.2f} times the light that grazes it; oren_nayar "
+                  "keeps energy",
+                  names, most));
+}
+
+}  // namespace
+
+std::vector<bool> FindUsedMaterials(const Scene& scene) {
+  std::vector<bool> used(scene.materials.size());
+  for (const Sphere& sphere : scene.spheres) used[sphere.material.index] = true;
+  for (const Mesh& mesh : scene.meshes) used[mesh.material.index] = true;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const auto* split = std::get_if<SplitMaterial>(&scene.materials[i].model);
+    if (split == nullptr || !used[i]) continue;
+    for (const MaterialId id : split->materials) used[id.index] = true;
+  }
+  return used;
+}
+
+void NoteMaterials(const Scene& scene, RenderPlan* plan) {
+  NoteMirrors(scene, plan);
+  NoteGain(scene, plan);
+}
+
+}  // namespace nacre

@@ -1,0 +1,69 @@
+#include "scene_io/material_json.h"
+
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "scene/material_parameters.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+namespace {
+
+double Rounded(double value) { return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr); }
+
+Json ColorJson(const Rgb& rgb) {
+  const Json color = {Rounded(rgb.x), Rounded(rgb.y), Rounded(rgb.z)};
+  return color[0] == color[1] && color[1] == color[2] ? color[0] : color;
+}
+
+bool DoesNothing(const MaterialParameter& parameter, const Rgb& value) {
+  return (parameter.name == "emission" && value == Rgb(0)) ||
+         (parameter.name == "f82_tint" && value == Rgb(1));
+}
+
+}  // namespace
+
+Json MaterialJson(const Material& material) {
+  const MaterialModel& model = *ModelOf(material);
+  Json json = {{"model", model.name}};
+  for (const MaterialParameter& parameter : model.parameters) {
+    const Rgb value = parameter.get(material);
+    if (!DoesNothing(parameter, value)) json[std::string(parameter.name)] = ColorJson(value);
+  }
+  const Material defaults = model.make();
+  for (const MaterialChoice& choice : model.choices) {
+    if (choice.get == nullptr || choice.get(material) == choice.get(defaults)) continue;
+    json[std::string(choice.name)] = choice.options[choice.get(material)];
+  }
+  return json;
+}
+
+std::string DescribeMaterial(const Json& material) {
+  std::string text;
+  for (const auto& [key, value] : material.items()) {
+    if (key == "model") continue;
+    text += text.empty() ? "" : ", ";
+    text += key + " ";
+    if (value.is_array()) {
+      for (size_t i = 0; i < value.size(); ++i) {
+        text += fmt::format("{}{:.4g}", i > 0 ? " " : "", value[i].get<double>());
+      }
+    } else {
+      text += value.is_number()   ? fmt::format("{:.4g}", value.get<double>())
+              : value.is_string() ? value.get<std::string>()
+                                  : value.dump();
+    }
+  }
+  const std::string model = material.value("model", "material");
+  return text.empty() ? model : model + ": " + text;
+}
+
+Material MaterialFromJson(const Json& json, const std::string& file) {
+  const Json scene = {{"nacre", 1}, {"materials", {{"material", json}}}};
+  Material material = LoadSceneText(scene.dump(), file, ".").materials.front();
+  material.name.clear();
+  return material;
+}
+
+}  // namespace nacre

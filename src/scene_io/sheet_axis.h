@@ -1,0 +1,49 @@
+// scene_io/sheet_axis.h: an axis of a sheet of spheres as people type it:
+//   roughness=0.1:1:5             five numbers, both ends included
+//   shininess=1:1024:6:log        at equal ratios
+//   shininess=4,8,16,64           a list
+//   base_color=#ff0000,[0.8,0.2,0.1]    colours, sRGB codes or linear; or two ends and a count
+//   shadowing=height_correlated,separable    options of a choice
+//   material=phong,blinn_phong    whole models, by name or as JSON objects
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene_io/json_text.h"
+
+namespace nacre {
+
+inline constexpr int kMaxSheetCount = 64;  // spheres along an axis of a sheet
+
+struct SheetAxis {
+  enum class Kind : uint8_t {
+    kParameter,  // a number or a colour
+    kChoice,     // one of several named options
+    kMaterial,   // takes the place of the base material
+  };
+  Kind kind = Kind::kParameter;
+  std::string name;                 // "roughness", "shadowing", "material"
+  std::vector<Json> values;         // as in scene files, at least one
+  std::vector<std::string> labels;  // one for each value, short enough for a picture
+};
+
+// Reads `text`; `option` ("--rows") is where errors are. Throws Error: kUsage for what is no axis.
+// The kind is known to CheckSheetAxis only, but for materials.
+SheetAxis ParseSheetAxis(const std::string& option, const std::string& text);
+
+// Finds out what the axis varies in each of the materials, objects as in scene files. Throws Error
+// (kBadInput) if one has no such parameter, or a value is none of its values.
+void CheckSheetAxis(const std::string& option, const std::vector<Json>& materials, SheetAxis* axis);
+
+// A material as people type it: the name of a model or a JSON object. Throws Error (kUsage).
+Json ParseMaterialText(const std::string& option, const std::string& text);
+
+// A colour as people type it: "#ff8000" (sRGB codes), "[r,g,b]" or "0.5" (linear). Throws Error
+// (kUsage).
+Json ParseColorText(const std::string& option, const std::string& text);
+
+// What a material is called in a picture: its "name" (which no scene file has), preset or model.
+std::string MaterialLabel(const Json& material);
+
+}  // namespace nacre

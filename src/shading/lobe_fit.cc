@@ -1,0 +1,179 @@
+#include "shading/lobe_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "brdf/albedo.h"
+#include "brdf/phong.h"
+#include "scene/limits.h"
+#include "shading/golden.h"
+#include "shading/lobe_residual.h"
+
+namespace nacre {
+namespace {
+
+// The original's lobe at the samples of all views. The weights of a view's samples are such that
+// squared differences add up to that of MaterialResidual::rms, but for its denominator.
+struct LobeTable {
+  struct Entry {
+    size_t view;
+    LobeSample sample;
+    Rgb lobe;  // BRDF n.l
+  };
+  std::vector<Entry> entries;
+  double alpha = 1;
+};
+
+LobeTable Tabulate(const Material& original) {
+  const ShadingMaterial prepared = PrepareMaterial(original, Rgb(0));
+  LobeTable table;
+  table.alpha = LobeAlpha(original);
+  for (size_t view = 0; view < kResidualViewsDeg.size(); ++view) {
+    const Vec3d to_view = ViewDirection(kResidualViewsDeg[view]);
+    const size_t first = table.entries.size();
+    double energy = 0;
+    for (const LobeSample& sample : MakeLobeSamples(1.5 * table.alpha, kResidualViewsDeg[view])) {
+      const Rgb lobe = EvaluateResponse(prepared, sample.to_light, to_view).specular;
+      table.entries.push_back({view, sample, lobe});
+      energy += (lobe ^ lobe) * sample.weight;
+    }
+    if (energy == 0) continue;
+    const double scale = ViewWeight(kResidualViewsDeg[view]) / energy;
+    for (size_t i = first; i < table.entries.size(); ++i) table.entries[i].sample.weight *= scale;
+  }
+  return table;
+}
+
+Vec3d ViewOf(const LobeTable::Entry& entry) { return ViewDirection(kResidualViewsDeg[entry.view]); }
+
+// The error of the best strengths in [0, 1], which minimise a quadratic each.
+FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess) {
+  Material unit;
+  unit.model = PhongMaterial{.model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
+  const ShadingMaterial prepared = PrepareMaterial(unit, Rgb(0));
+  Rgb cross(0);
+  Rgb squares(0);
+  double own = 0;
+  for (const LobeTable::Entry& entry : table.entries) {
+    const double g = EvaluateResponse(prepared, entry.sample.to_light, ViewOf(entry)).specular.x;
+    cross += entry.lobe * (g * entry.sample.weight);
+    squares += entry.lobe * entry.lobe * entry.sample.weight;
+    own += g * g * entry.sample.weight;
+  }
+  FittedLobe fit;
+  fit.width = shininess;
+  for (int c = 0; c < 3; ++c) {
+    fit.strength[c] = own > 0 ? std::clamp(cross[c] / own, 0.0, 1.0) : 0;
+    const double s = fit.strength[c];
+    fit.error += squares[c] - 2 * s * cross[c] + s * s * own;
+  }
+  return fit;
+}
+
+// The GGX lobe is a polynomial of F0: terms[0] + F0 terms[1] + F0^2 terms[2]. These are the
+// products of the terms with one another and with the original.
+struct GgxMoments {
+  std::array<std::array<double, 3>, 3> own{};
+  std::array<Rgb, 3> cross{Rgb(0), Rgb(0), Rgb(0)};
+  Rgb squares{0, 0, 0};
+
+  double Error(int channel, double f0) const {
+    const std::array<double, 3> powers = {1, f0, f0 * f0};
+    double error = squares[channel];
+    for (size_t i = 0; i < 3; ++i) {
+      error -= 2 * powers[i] * cross[i][channel];
+      for (size_t j = 0; j < 3; ++j) error += powers[i] * powers[j] * own[i][j];
+    }
+    return error;
+  }
+
+  // The same with the best scale in place of 1.
+  double ShapeError(int channel, double f0) const {
+    const std::array<double, 3> powers = {1, f0, f0 * f0};
+    double with_original = 0;
+    double with_itself = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      with_original += powers[i] * cross[i][channel];
+      for (size_t j = 0; j < 3; ++j) with_itself += powers[i] * powers[j] * own[i][j];
+    }
+    const double explained = with_itself > 0 ? with_original * with_original / with_itself : 0;
+    return squares[channel] - explained;
+  }
+};
+
+// One for each view.
+using ViewMoments = std::array<GgxMoments, kResidualViewsDeg.size()>;
+
+ViewMoments MakeMoments(const LobeTable& table, double alpha) {
+  const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, std::sqrt(alpha));
+  const Vec3d normal(0, 0, 1);
+  ViewMoments views;
+  for (const LobeTable::Entry& entry : table.entries) {
+    const Vec3d to_view = ViewOf(entry);
+    const Vec3d& to_light = entry.sample.to_light;
+    const Angles<double> a = ComputeAngles(normal, to_light, to_view);
+    const double lobe = GgxDistribution(a, alpha) *
+                        VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, alpha) * to_light.z;
+    const double one = AlbedoOne(albedo, to_view.z);
+    const double more = AlbedoLoss(albedo, to_view.z) / one;  // Turquin: times 1 + F0 more
+    const double grazing = lobe * SchlickWeight(a);
+    const double head_on = lobe - grazing;
+    const std::array<double, 3> terms = {grazing, head_on + more * grazing, more * head_on};
+    const double weight = entry.sample.weight;
+    GgxMoments& moments = views[entry.view];
+    for (size_t i = 0; i < 3; ++i) {
+      moments.cross[i] += entry.lobe * (terms[i] * weight);
+      for (size_t j = 0; j < 3; ++j) moments.own[i][j] += terms[i] * terms[j] * weight;
+    }
+    moments.squares += entry.lobe * entry.lobe * weight;
+  }
+  return views;
+}
+
+// F0 by all views together. The error is that of the lobe's shape: each view may scale it, so that
+// Fresnel's growth towards grazing angles, which the original may lack, does not widen the lobe.
+FittedLobe SolveGgx(const LobeTable& table, double alpha) {
+  const ViewMoments views = MakeMoments(table, alpha);
+  FittedLobe fit;
+  fit.width = alpha;
+  for (int c = 0; c < 3; ++c) {
+    const auto error = [&](double f0) {
+      double sum = 0;
+      for (const GgxMoments& view : views) sum += view.Error(c, f0);
+      return sum;
+    };
+    fit.strength[c] = GoldenMinimum(error, 0, 1);
+    for (const GgxMoments& view : views) fit.error += view.ShapeError(c, fit.strength[c]);
+  }
+  return fit;
+}
+
+// The best of solve(width) for widths within a factor of `reach` around `start`, in [least, most].
+FittedLobe SearchWidth(double start, double reach, double least, double most,
+                       const std::function<FittedLobe(double)>& solve) {
+  const double low = std::log(std::clamp(start / reach, least, most));
+  const double high = std::log(std::clamp(start * reach, least, most));
+  const auto error = [&](double log_width) { return solve(std::exp(log_width)).error; };
+  return solve(std::exp(ScannedMinimum(error, low, high, 24)));
+}
+
+}  // namespace
+
+FittedLobe FitPhongLobe(const Material& original, PhongModel model) {
+  const LobeTable table = Tabulate(original);
+  const double start = std::max(ExponentFromAlpha(model, table.alpha), 0.05);
+  return SearchWidth(start, 16, 0.01, limits::kExponent.max,
+                     [&](double shininess) { return SolvePhong(table, model, shininess); });
+}
+
+FittedLobe FitGgxLobe(const Material& original) {
+  const LobeTable table = Tabulate(original);
+  constexpr double kLeast = 1e-5;  // Phong's exponents end at 1e9
+  return SearchWidth(table.alpha, 4, kLeast, 1,
+                     [&](double alpha) { return SolveGgx(table, alpha); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,236 @@
+#include "shading/material_fit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "brdf/fresnel.h"
+#include "brdf/quadrature.h"
+#include "scene/limits.h"
+#include "scene/material_parameters.h"
+#include "shading/golden.h"
+#include "shading/lobe_fit.h"
+
+namespace nacre {
+namespace {
+
+constexpr std::array<std::string_view, 5> kTargets = {"phong", "modified_phong", "blinn_phong",
+                                                      "metallic_roughness", "dielectric"};
+
+// Perfect mirrors have no lobe to fit: this is the roughness that the largest exponent stands for.
+constexpr double kLeastRoughness = 0.007;
+
+template <class Function>
+Rgb EachChannel(const Function& of_channel) {
+  return {of_channel(0), of_channel(1), of_channel(2)};
+}
+
+Rgb ClampUnit(const Rgb& rgb) {
+  return EachChannel([&](int c) { return std::clamp(rgb[c], 0.0, 1.0); });
+}
+
+double Mean(const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
+
+// What the closed forms start from: reflectance of the lobe at normal incidence, of the base, and
+// of light from everywhere by the model's own ambient term.
+struct Summary {
+  Rgb lobe, base, ambient;
+};
+
+Summary Summarize(const Material& material) {
+  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(1));
+  Summary summary{Rgb(0), DiffuseAlbedo(material), prepared.ambient};
+  if (const auto* microfacet = std::get_if<MicrofacetModel>(&prepared.model)) {
+    summary.lobe = microfacet->f0;
+  } else if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
+    summary.lobe = phong->ks;
+  }
+  return summary;
+}
+
+// The part of the light that a base under a lobe of this F0 gets, averaged over all views: what is
+// left of the lobe's albedo, compensated as Turquin has it.
+double BaseShare(const AlbedoFit& albedo, double f0) {
+  const QuadratureRule& rule = GaussLegendre(8);
+  double sum = 0;
+  for (size_t i = 0; i < rule.x.size(); ++i) {
+    const double one = AlbedoOne(albedo, rule.x[i]);
+    const double schlick = AlbedoSchlick(albedo, rule.x[i]);
+    const double lobe = (f0 * (one - schlick) + schlick) * (1 + f0 * (1 / one - 1));
+    sum += 2 * rule.w[i] * rule.x[i] * (1 - lobe);
+  }
+  return sum;
+}
+
+// The base colour and metallic whose F0 and diffuse albedo are nearest to those wanted.
+struct MetallicBase {
+  Rgb base_color;
+  double metallic = 0;
+};
+
+MetallicBase SolveMetallic(const Rgb& f0, const Rgb& diffuse, double roughness) {
+  const AlbedoFit albedo = MakeAlbedoFit(Shadowing::kHeightCorrelated, roughness);
+  const auto channel_error = [&](double metallic, double base, int c) {
+    const double own_f0 = kDielectricF0 * (1 - metallic) + base * metallic;
+    const double own_diffuse = (1 - metallic) * base * BaseShare(albedo, own_f0);
+    return (own_f0 - f0[c]) * (own_f0 - f0[c]) +
+           (own_diffuse - diffuse[c]) * (own_diffuse - diffuse[c]);
+  };
+  const auto best_base = [&](double metallic, int c) {
+    return GoldenMinimum([&](double base) { return channel_error(metallic, base, c); }, 0, 1);
+  };
+  const auto error = [&](double metallic) {
+    double sum = 0;
+    for (int c = 0; c < 3; ++c) sum += channel_error(metallic, best_base(metallic, c), c);
+    return sum;
+  };
+  MetallicBase best;
+  best.metallic = ScannedMinimum(error, 0, 1, 20);
+  best.base_color = EachChannel([&](int c) { return best_base(best.metallic, c); });
+  return best;
+}
+
+PhongModel PhongModelOf(std::string_view target) {
+  return std::get<PhongMaterial>(FindModel(target)->make().model).model;
+}
+
+void FitPhong(const Material& original, std::string_view target, MaterialFit* fit) {
+  const Summary summary = Summarize(original);
+  PhongMaterial phong;
+  phong.model = PhongModelOf(target);
+  phong.ka = ClampUnit(summary.ambient);
+  phong.kd = ClampUnit(summary.base);
+  phong.ks = ClampUnit(summary.lobe);
+  phong.shininess = ExponentFromAlpha(phong.model, LobeAlpha(original));
+  fit->guess.model = phong;
+  const FittedLobe lobe = FitPhongLobe(original, phong.model);
+  phong.ks = lobe.strength;
+  phong.shininess = lobe.width;
+  fit->fitted.model = phong;
+}
+
+MetallicRoughnessMaterial GuessMetallic(const Summary& summary, double alpha) {
+  MetallicRoughnessMaterial guess;
+  guess.metallic = Mean(summary.lobe) > Mean(summary.base) ? 1 : 0;
+  guess.base_color = ClampUnit(guess.metallic > 0 ? summary.lobe : summary.base);
+  guess.roughness = std::sqrt(std::min(alpha, 1.0));
+  return guess;
+}
+
+void FitMetallic(const Material& original, MaterialFit* fit) {
+  const Summary summary = Summarize(original);
+  MetallicRoughnessMaterial material = GuessMetallic(summary, LobeAlpha(original));
+  fit->guess.model = material;
+  const FittedLobe free = FitGgxLobe(original);
+  const MetallicBase base = SolveMetallic(free.strength, summary.base, std::sqrt(free.width));
+  material.base_color = base.base_color;
+  material.metallic = base.metallic;
+  const Rgb f0 = Rgb(kDielectricF0) * (1 - base.metallic) + base.base_color * base.metallic;
+  material.roughness = std::sqrt(free.width);
+  fit->fitted.model = material;
+  const Rgb gap = free.strength - f0;
+  const double worst = std::max({std::abs(gap.x), std::abs(gap.y), std::abs(gap.z)});
+  if (worst > 0.005) {
+    fit->notes.push_back(fmt::format(
+        "the lobe asks for F0 {:.3f} {:.3f} {:.3f}, one base colour for both lobe and base allows "
+        "{:.3f} {:.3f} {:.3f}{}",
+        free.strength.x, free.strength.y, free.strength.z, f0.x, f0.y, f0.z,
+        base.metallic < 0.5 ? "; --to dielectric has an index of its own" : ""));
+  }
+}
+
+double IndexFromF0(double f0) {
+  const double root = std::sqrt(std::clamp(f0, 0.0, 0.999));
+  return std::clamp((1 + root) / (1 - root), limits::kIor.min, limits::kIor.max);
+}
+
+void FitDielectric(const Material& original, MaterialFit* fit) {
+  const Summary summary = Summarize(original);
+  DielectricMaterial material;
+  material.ior = IndexFromF0(Mean(summary.lobe));
+  material.base_color = ClampUnit(summary.base);
+  material.roughness = std::sqrt(std::min(LobeAlpha(original), 1.0));
+  fit->guess.model = material;
+  const FittedLobe lobe = FitGgxLobe(original);
+  material.ior = IndexFromF0(Mean(lobe.strength));
+  material.roughness = std::sqrt(lobe.width);
+  Material white = fit->guess;
+  material.base_color = Rgb(1);
+  white.model = material;
+  const Rgb share = DiffuseAlbedo(white);
+  material.base_color = ClampUnit(
+      EachChannel([&](int c) { return share[c] > 0 ? summary.base[c] / share[c] : 0.0; }));
+  fit->fitted.model = material;
+  const Rgb& f0 = lobe.strength;
+  if (std::max({f0.x, f0.y, f0.z}) - std::min({f0.x, f0.y, f0.z}) > 0.005) {
+    fit->notes.emplace_back("the lobe is coloured; a dielectric's is grey");
+  }
+}
+
+// What no fit of these models keeps.
+void NoteLosses(const Material& original, bool to_phong, MaterialFit* fit) {
+  const bool from_phong = std::holds_alternative<PhongMaterial>(original.model);
+  if (to_phong && !from_phong) {
+    fit->notes.emplace_back(
+        "Fresnel: the lobe's strength is the same from everywhere, where the original's grows "
+        "towards grazing angles");
+    fit->notes.emplace_back("GGX's long tail: an exponential lobe ends sooner");
+  }
+  if (from_phong && !to_phong) {
+    fit->notes.emplace_back("the lobe grows towards grazing angles and has a longer tail");
+    fit->notes.emplace_back("ka: ambient light reflects as much as the model's own colours say");
+  }
+  const MaterialModel* const model = ModelOf(original);
+  const bool has_maps =
+      original.emission_map.valid() || original.normal_map.texture.valid() ||
+      original.bump_map.texture.valid() ||
+      std::any_of(model->maps.begin(), model->maps.end(),
+                  [&](const MaterialMap& map) { return map.get(original).valid(); });
+  if (has_maps) fit->notes.emplace_back("maps are not converted");
+}
+
+// The original with a lobe that can be looked at.
+Material WithLobe(Material material, std::vector<std::string>* notes) {
+  const auto raise = [&](double* roughness) {
+    if (*roughness >= kLeastRoughness) return;
+    *roughness = kLeastRoughness;
+    notes->push_back(
+        fmt::format("fitted as if its roughness were {}: mirrors have no lobe", kLeastRoughness));
+  };
+  if (auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) raise(&m->roughness);
+  if (auto* m = std::get_if<ConductorMaterial>(&material.model)) raise(&m->roughness);
+  if (auto* m = std::get_if<DielectricMaterial>(&material.model)) raise(&m->roughness);
+  return material;
+}
+
+}  // namespace
+
+std::span<const std::string_view> FitTargets() { return kTargets; }
+
+MaterialFit FitMaterial(const Material& original, std::string_view target) {
+  if (ModelOf(original) == nullptr) {
+    throw Error(ExitCode::kBadInput, original.name, "a split is not one material",
+                "convert those that it is made of");
+  }
+  MaterialFit fit;
+  const Material material = WithLobe(original, &fit.notes);
+  fit.guess.name = fit.fitted.name = original.name;
+  fit.guess.emission = fit.fitted.emission = original.emission;
+  const bool to_phong = target.ends_with("phong");
+  if (to_phong) {
+    FitPhong(material, target, &fit);
+  } else if (target == "dielectric") {
+    FitDielectric(material, &fit);
+  } else {
+    FitMetallic(material, &fit);
+  }
+  NoteLosses(original, to_phong, &fit);
+  fit.guess_residual = MeasureResidual(material, fit.guess);
+  fit.residual = MeasureResidual(material, fit.fitted);
+  return fit;
+}
+
+}  // namespace nacre

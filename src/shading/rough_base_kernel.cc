@@ -1,0 +1,67 @@
+// shading/rough_base_kernel.cc: how the rough diffuse bases of microfacet materials spread a light,
+// ahead of the kernel of the lobe: few bases are rough, and the kernels of the others stay as they
+// are.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/rough_base_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "shading/rough_diffuse-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+
+template <DiffuseForm kForm, class Number>
+void SpreadOf(Number roughness, const ShadeRange& range, BaseSpread* to) {
+  const FloatTag d;
+  const RangeArrays arrays(range);
+  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
+    const PacketV packet = arrays.Packet(d, i);
+    const auto view = RoughDiffuse<kForm>::SeenBy(d, packet);
+    const IncidentV in = MakeIncident(d, LightAt(d, range.lights[0], range.hits, i), packet);
+    const SpreadV spread =
+        RoughDiffuse<kForm>::Spread(d, view, packet, in, NumberAt(d, roughness, i));
+    hn::StoreU(spread.single, d, to->single.data() + i);
+    hn::StoreU(spread.multiple, d, to->multiple.data() + i);
+  }
+}
+
+template <class Number>
+void SpreadOf(DiffuseForm form, Number roughness, const ShadeRange& range, BaseSpread* to) {
+  if (form == DiffuseForm::kBurley) {
+    SpreadOf<DiffuseForm::kBurley>(roughness, range, to);
+  } else {
+    SpreadOf<DiffuseForm::kOrenNayar>(roughness, range, to);
+  }
+}
+
+void SpreadBaseT(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to) {
+  SpreadOf(form, roughness, range, to);
+}
+
+void SpreadBaseMapsT(DiffuseForm form, const float* roughness, const ShadeRange& range,
+                     BaseSpread* to) {
+  SpreadOf(form, roughness, range, to);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(SpreadBaseT);
+HWY_EXPORT(SpreadBaseMapsT);
+void SpreadBase(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to) {
+  HWY_DYNAMIC_DISPATCH(SpreadBaseT)(form, roughness, range, to);
+}
+void SpreadBaseMaps(DiffuseForm form, const float* roughness, const ShadeRange& range,
+                    BaseSpread* to) {
+  HWY_DYNAMIC_DISPATCH(SpreadBaseMapsT)(form, roughness, range, to);
+}
+}  // namespace nacre
+#endif

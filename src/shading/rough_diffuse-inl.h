@@ -1,0 +1,81 @@
+// shading/rough_diffuse-inl.h: how rough diffuse surfaces spread light, apart from their colour: of
+// matte materials (rough_matte_kernel.cc) and of bases under a lobe (rough_base_kernel.cc).
+#if defined(NACRE_SHADING_ROUGH_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_ROUGH_DIFFUSE_INL_H_
+#undef NACRE_SHADING_ROUGH_DIFFUSE_INL_H_
+#else
+#define NACRE_SHADING_ROUGH_DIFFUSE_INL_H_
+#endif
+
+#include "brdf/burley-inl.h"
+#include "brdf/eon-inl.h"
+#include "shading/range-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+// What Lambert's reflection is multiplied by: single + ratio multiple, with EonMultipleRatio of
+// each channel's albedo.
+struct SpreadV {
+  FloatV single, multiple;
+};
+
+HWY_INLINE RgbV SpreadRgb(const SpreadV& spread, const RgbV& ratio) {
+  return MulAddRgb(ratio, spread.multiple, {spread.single, spread.single, spread.single});
+}
+
+// Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
+HWY_INLINE FloatV CosineToView(FloatTag d, const PacketV& p) {
+  return hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
+}
+
+template <DiffuseForm kForm>
+struct RoughDiffuse;
+
+template <>
+struct RoughDiffuse<DiffuseForm::kOrenNayar> {
+  struct View {
+    FloatV n_dot_v, loss;
+  };
+
+  static HWY_INLINE View SeenBy(FloatTag d, const PacketV& p) {
+    const FloatV n_dot_v = CosineToView(d, p);
+    return {n_dot_v, EonLoss(d, n_dot_v)};
+  }
+
+  static HWY_INLINE SpreadV Spread(FloatTag d, const View& view, const PacketV& p,
+                                   const IncidentV& in, FloatV roughness) {
+    const FloatV one = hn::Set(d, 1.0f);
+    const FloatV scale = EonScale(d, roughness);
+    const FloatV n_dot_l = hn::IfThenElse(in.lit, in.n_dot_l, one);
+    const Vec3V<FloatV> l_minus_v = Sub(in.to_light, p.to_view);
+    const FloatV l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), FusedDot(l_minus_v, l_minus_v), one);
+    return {EonSingleSpread(d, n_dot_l, view.n_dot_v, l_dot_v, roughness, scale),
+            EonMultipleSpread(d, EonLoss(d, n_dot_l), view.loss, roughness, scale)};
+  }
+};
+
+template <>
+struct RoughDiffuse<DiffuseForm::kBurley> {
+  struct View {
+    FloatV grazing;
+  };
+
+  static HWY_INLINE View SeenBy(FloatTag d, const PacketV& p) {
+    return {BurleyGrazing(d, CosineToView(d, p))};
+  }
+
+  static HWY_INLINE SpreadV Spread(FloatTag d, const View& view, const PacketV& p,
+                                   const IncidentV& in, FloatV roughness) {
+    const FloatV n_dot_l = hn::Max(in.n_dot_l, hn::Zero(d));
+    const Vec3V<FloatV> u = Add(in.to_light, p.to_view);
+    return {BurleySpread(d, FusedDot(u, u), BurleyGrazing(d, n_dot_l), view.grazing, roughness),
+            hn::Zero(d)};
+  }
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,72 @@
+// shading/rough_matte_kernel.cc: rough matte surfaces: Oren-Nayar (EON) and Burley's.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/rough_matte_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "shading/rough_diffuse-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+template <DiffuseForm kForm, class Number>
+struct RoughMatte {
+  static constexpr bool kHasSpecular = false;
+  using View = typename RoughDiffuse<kForm>::View;
+  const RoughMatteUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
+
+  HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
+    return RoughDiffuse<kForm>::SeenBy(d, p);
+  }
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                               size_t k) const {
+    const FloatV zero = hn::Zero(d);
+    const FloatV roughness = hn::Set(d, uniforms.roughness);
+    const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, roughness);
+    const RgbV lambert = ScaleRgb(RgbAt(d, uniforms.lights[k].diffuse, p.i), in.weight);
+    if constexpr (kForm == DiffuseForm::kBurley) {
+      return {ScaleRgb(lambert, spread.single), {zero, zero, zero}};
+    } else {
+      return {MulRgb(lambert, SpreadRgb(spread, RgbAt(d, uniforms.ratio, p.i))),
+              {zero, zero, zero}};
+    }
+  }
+};
+
+template <class Number>
+void ShadeRoughMatteOf(const RoughMatteUniformsOf<Number>& uniforms, const ShadeRange& range) {
+  if (uniforms.form == DiffuseForm::kBurley) {
+    ShadePackets(FloatTag(), RoughMatte<DiffuseForm::kBurley, Number>{uniforms}, range);
+  } else {
+    ShadePackets(FloatTag(), RoughMatte<DiffuseForm::kOrenNayar, Number>{uniforms}, range);
+  }
+}
+
+void ShadeRoughMatteT(const RoughMatteUniforms& uniforms, const ShadeRange& range) {
+  ShadeRoughMatteOf(uniforms, range);
+}
+
+void ShadeRoughMatteMapsT(const RoughMatteUniformsOf<const float*>& uniforms,
+                          const ShadeRange& range) {
+  ShadeRoughMatteOf(uniforms, range);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(ShadeRoughMatteT);
+HWY_EXPORT(ShadeRoughMatteMapsT);
+void ShadeRoughMatte(const RoughMatteUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeRoughMatteT)(uniforms, range);
+}
+void ShadeRoughMatteMaps(const RoughMatteUniformsOf<const float*>& uniforms,
+                         const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeRoughMatteMapsT)(uniforms, range);
+}
+}  // namespace nacre
+#endif

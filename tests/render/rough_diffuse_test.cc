@@ -1,0 +1,118 @@
+// tests/render/rough_diffuse_test.cc: pictures of rough matte spheres, against the scalar twins of
+// their models and against what is known of light from everywhere.
+#include <cmath>
+
+#include "brdf/burley.h"
+#include "brdf/eon.h"
+#include "catch.h"
+#include "render/plan.h"
+#include "render/render.h"
+
+namespace nacre {
+namespace {
+
+// A unit sphere before an orthographic camera far off: the view direction is +z.
+Scene OneSphere(decltype(Material::model) model) {
+  Scene scene;
+  scene.materials.emplace_back().model = std::move(model);
+  scene.materials[0].name = "clay";
+  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.position = Vec3d(0, 0, 10);
+  scene.camera.height = 2.2;
+  scene.image.width = scene.image.height = 64;
+  scene.image.spp = 1;
+  return scene;
+}
+
+// Whether a picture under a distant light is that of brdf(angles), up to floats' rounding: n.l and
+// n.v to 2^-24 each, and 0.02 at least.
+template <class Brdf>
+void CheckPicture(const Scene& scene, const Vec3d& to_light, const Brdf& brdf) {
+  RenderSettings settings;
+  settings.layers = {"N"};
+  const Image image = RenderImage(scene, settings);
+  size_t lit = 0;
+  for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+    if (image.Find("A")->samples[i] < 1) continue;
+    const int x = static_cast<int>(i) % 64, y = static_cast<int>(i) / 64;
+    const double px = (x + 0.5 - 32) / 64 * 2.2, py = (32 - y - 0.5) / 64 * 2.2;
+    const double z2 = 1 - px * px - py * py;
+    if (z2 < 0.02 * 0.02) continue;
+    const Vec3d normal(px, py, std::sqrt(z2));
+    const Angles<double> a = ComputeAngles(normal, to_light, Vec3d(0, 0, 1));
+    if (a.n_dot_l < 0.02) continue;
+    ++lit;
+    const double expected = 3 * a.n_dot_l * brdf(a);
+    REQUIRE(std::abs(image.Find("R")->samples[i] - expected) <= 16 * 0x1p-24 / 0.02 * expected);
+  }
+  CHECK(lit > 500);
+}
+
+TEST_CASE("pictures of rough matte spheres are those of the scalar models") {
+  for (const Vec3d& to_light : {Vec3d(0, 0, 1), Vec3d(2, 1, 1), Vec3d(-1, 0, -0.5)}) {
+    Light sun;
+    sun.name = "sun";
+    sun.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = Rgb(3)};
+    const Vec3d l = to_light.normalized();
+    for (const double roughness : {0.0, 0.4, 1.0}) {
+      CAPTURE(to_light.x, roughness);
+      Scene scene = OneSphere(OrenNayarMaterial{Rgb(0.8), roughness});
+      scene.lights = {sun};
+      CheckPicture(scene, l, [&](const Angles<double>& a) { return Eon(a, 0.8, roughness); });
+      scene = OneSphere(BurleyMaterial{Rgb(0.8), roughness});
+      scene.lights = {sun};
+      CheckPicture(scene, l,
+                   [&](const Angles<double>& a) { return 0.8 * BurleyDiffuse(a, roughness); });
+    }
+  }
+}
+
+TEST_CASE("a white Oren-Nayar sphere cannot be told from a white sky") {
+  EnvironmentLight sky{.sky = ConstantSky{Rgb(1)}, .rotate_deg = 0, .background = false};
+  for (const double roughness : {0.3, 1.0}) {
+    Scene scene = OneSphere(OrenNayarMaterial{Rgb(1), roughness});
+    scene.lights.emplace_back().kind = sky;
+    scene.lights[0].name = "sky";
+    scene.image.spp = 256;
+    const Image image = RenderImage(scene, {});
+    double sum = 0, squares = 0, count = 0;
+    for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+      if (image.Find("A")->samples[i] < 1) continue;
+      const double x = image.Find("R")->samples[i];
+      sum += x;
+      squares += x * x;
+      count += 1;
+    }
+    const double mean = sum / count;
+    const double error = std::sqrt(std::max(squares / count - mean * mean, 0.0) / count);
+    CAPTURE(roughness, mean, error);
+    CHECK(std::abs(mean - 1) <= 4 * error + 1e-6);
+    CHECK(error < 1e-3);  // the check above could fail
+  }
+}
+
+TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
+  const auto notes = [](const decltype(Material::model)& model) {
+    const Scene scene = OneSphere(model);
+    return MakePlan(scene, {}).notes;
+  };
+  CHECK(notes(BurleyMaterial{Rgb(0.5), 1}).empty());
+  CHECK(notes(BurleyMaterial{Rgb(1), 0.4}).empty());
+  CHECK(notes(OrenNayarMaterial{Rgb(1), 1}).empty());
+  const std::vector<std::string> burley = notes(BurleyMaterial{Rgb(0.2, 1, 0.2), 1});
+  REQUIRE(burley.size() == 1);
+  CHECK(burley[0] ==
+        "material \"clay\": burley reflects up to 1.56 times the light that grazes it; oren_nayar "
+        "keeps energy");
+  MetallicRoughnessMaterial base;
+  base.base_color = Rgb(1);
+  base.diffuse = DiffuseForm::kBurley;
+  base.diffuse_roughness = 1;
+  CHECK(notes(base).empty());
+  base.diffuse_coupling = DiffuseCoupling::kNone;
+  CHECK(notes(base).size() == 1);
+}
+
+}  // namespace
+}  // namespace nacre

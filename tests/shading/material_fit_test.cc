@@ -1,0 +1,195 @@
+// Materials as others: the closed forms, what a fit gains on them, and the way back.
+#include "shading/material_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "brdf/albedo_integral.h"
+#include "brdf/fresnel.h"
+#include "catch.h"
+#include "scene/limits.h"
+#include "scene/validate.h"
+#include "shading/golden.h"
+
+namespace nacre {
+namespace {
+
+Material Metal(const Rgb& color, double metallic, double roughness) {
+  Material material;
+  material.model =
+      MetallicRoughnessMaterial{.base_color = color, .metallic = metallic, .roughness = roughness};
+  return material;
+}
+
+Material Phong(PhongModel model, const Rgb& kd, const Rgb& ks, double shininess) {
+  Material material;
+  material.model =
+      PhongMaterial{.model = model, .ka = kd, .kd = kd, .ks = ks, .shininess = shininess};
+  return material;
+}
+
+const PhongMaterial& PhongOf(const Material& material) {
+  return std::get<PhongMaterial>(material.model);
+}
+const MetallicRoughnessMaterial& MetalOf(const Material& material) {
+  return std::get<MetallicRoughnessMaterial>(material.model);
+}
+
+double LargestDifference(const Rgb& a, const Rgb& b) {
+  const Rgb d = a - b;
+  return std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
+}
+
+TEST_CASE("searches find minima inside and at the ends") {
+  // The square root of double's rounding, times the size of the numbers.
+  CHECK(std::abs(GoldenMinimum([](double x) { return (x - 0.3) * (x - 0.3); }, 0, 1) - 0.3) < 1e-7);
+  CHECK(GoldenMinimum([](double x) { return x; }, 2, 5) == 2);
+  CHECK(GoldenMinimum([](double x) { return -x; }, 2, 5) == 5);
+  // Two minima: -0.95 at x = 1, less at x = 3.
+  const auto two = [](double x) { return std::min((x - 1) * (x - 1), (x - 3) * (x - 3) - 0.5); };
+  CHECK(std::abs(ScannedMinimum(two, 0, 4, 8) - 3) < 1e-7);
+}
+
+TEST_CASE("the closed forms are each other's inverse and those of the lessons") {
+  CHECK(ExponentFromAlpha(PhongModel::kBlinnPhong, 0.16) == Approx(2 / (0.16 * 0.16) - 2));
+  CHECK(ExponentFromAlpha(PhongModel::kPhong, 0.16) ==
+        Approx(ExponentFromAlpha(PhongModel::kBlinnPhong, 0.16) / 4));
+  for (const PhongModel model :
+       {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
+    for (const double alpha : {0.001, 0.1, 0.7}) {
+      CHECK(AlphaFromExponent(model, ExponentFromAlpha(model, alpha)) == Approx(alpha));
+    }
+  }
+  CHECK(ExponentFromAlpha(PhongModel::kPhong, 0) == limits::kExponent.max);
+}
+
+// The quadrature under all of it, held against the albedo that brdf/albedo_integral.h has in
+// another way.
+TEST_CASE("the samples of a lobe integrate to its albedo") {
+  for (const double roughness : {0.05, 0.2, 0.5, 0.8}) {
+    Material material = Metal(Rgb(0.9, 0.5, 0.2), 1, roughness);
+    std::get<MetallicRoughnessMaterial>(material.model).compensation = Compensation::kNone;
+    const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+    for (const double view_deg : kResidualViewsDeg) {
+      const Vec3d to_view = ViewDirection(view_deg);
+      Rgb sum(0);
+      for (const LobeSample& sample : MakeLobeSamples(1.5 * roughness * roughness, view_deg)) {
+        sum += EvaluateResponse(prepared, sample.to_light, to_view).specular * sample.weight;
+      }
+      const double exact = AlbedoOf(
+          Shadowing::kHeightCorrelated, roughness, to_view.z,
+          [](double, double one_minus_vh) { return FresnelSchlick(0.5, Power5(one_minus_vh)); });
+      INFO("roughness " << roughness << ", view " << view_deg);
+      // 48 x 32 midpoints of an integrand that the horizon cuts off.
+      CHECK(sum.y == Approx(exact).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("a material is no distance from itself") {
+  const Material material = Metal(Rgb(0.8, 0.3, 0.1), 0.3, 0.4);
+  const MaterialResidual residual = MeasureResidual(material, material);
+  CHECK(residual.rms == 0);
+  for (const LobeResidual& view : residual.views) {
+    CHECK(view.peak == 0);
+    CHECK(view.albedo == 0);
+  }
+}
+
+TEST_CASE("a fit is nearer than the closed form") {
+  for (const std::string_view target : {"phong", "modified_phong", "blinn_phong"}) {
+    for (const double roughness : {0.1, 0.3, 0.6}) {
+      const MaterialFit fit = FitMaterial(Metal(Rgb(0.9, 0.6, 0.2), 1, roughness), target);
+      INFO(target << " for roughness " << roughness);
+      CHECK(fit.residual.rms < fit.guess_residual.rms);
+      // Better by more than the rounding of a search: nudged either way, the exponent is worse.
+      for (const double factor : {0.95, 1.05}) {
+        Material nudged = fit.fitted;
+        std::get<PhongMaterial>(nudged.model).shininess *= factor;
+        CHECK(MeasureResidual(Metal(Rgb(0.9, 0.6, 0.2), 1, roughness), nudged).rms >
+              fit.residual.rms);
+      }
+      Scene scene;
+      scene.materials.push_back(fit.fitted);
+      CHECK(Validate(scene).empty());
+    }
+  }
+  const Material blinn = Phong(PhongModel::kBlinnPhong, Rgb(0.1), Rgb(0.6, 0.5, 0.4), 60);
+  const MaterialFit fit = FitMaterial(blinn, "metallic_roughness");
+  CHECK(fit.residual.rms < fit.guess_residual.rms);
+}
+
+TEST_CASE("a lobe of the family itself is found again exactly") {
+  const Material blinn = Phong(PhongModel::kBlinnPhong, Rgb(0.5, 0.2, 0.1), Rgb(0.3, 0.2, 0.1), 37);
+  const MaterialFit fit = FitMaterial(blinn, "blinn_phong");
+  // A search in the logarithm of the exponent, to the square root of double's rounding.
+  CHECK(PhongOf(fit.fitted).shininess == Approx(37).epsilon(1e-6));
+  CHECK(LargestDifference(PhongOf(fit.fitted).ks, Rgb(0.3, 0.2, 0.1)) < 1e-6);
+  CHECK(LargestDifference(PhongOf(fit.fitted).kd, Rgb(0.5, 0.2, 0.1)) < 1e-12);
+  CHECK(fit.residual.rms < 1e-6);
+
+  const Material metal = Metal(Rgb(0.9, 0.6, 0.2), 1, 0.35);
+  const MaterialFit same = FitMaterial(metal, "metallic_roughness");
+  CHECK(MetalOf(same.fitted).roughness == Approx(0.35).epsilon(1e-5));
+  CHECK(MetalOf(same.fitted).metallic > 0.99);
+  CHECK(LargestDifference(MetalOf(same.fitted).base_color, Rgb(0.9, 0.6, 0.2)) < 0.01);
+}
+
+TEST_CASE("there and back comes within what the residual says") {
+  for (const double roughness : {0.15, 0.3, 0.5}) {
+    for (const double metallic : {0.0, 1.0}) {
+      const Material original = Metal(Rgb(0.8, 0.5, 0.2), metallic, roughness);
+      const MaterialFit there = FitMaterial(original, "blinn_phong");
+      const MaterialFit back = FitMaterial(there.fitted, "metallic_roughness");
+      INFO("roughness " << roughness << ", metallic " << metallic);
+      const double rms = MeasureResidual(original, back.fitted).rms;
+      // The triangle inequality; the second fit's error is relative to the first fit's lobe.
+      const double bound = there.residual.rms + (1 + there.residual.rms) * back.residual.rms;
+      CHECK(rms <= bound);
+      CHECK(rms < 1);
+      // GGX and Blinn's lobe have no common shape: metals come back within 9 %, dielectrics, whose
+      // Fresnel curve bends the lobe, within 25 %.
+      const double largest = metallic > 0 ? 0.1 : 0.26;
+      CHECK(std::abs(MetalOf(back.fitted).roughness - roughness) < largest * roughness);
+      CHECK(std::abs(MetalOf(back.fitted).metallic - metallic) < 0.15);
+    }
+  }
+}
+
+TEST_CASE("the base keeps its albedo") {
+  const Material plastic = Metal(Rgb(0.7, 0.2, 0.1), 0, 0.4);
+  const MaterialFit phong = FitMaterial(plastic, "phong");
+  CHECK(LargestDifference(DiffuseAlbedo(phong.fitted), DiffuseAlbedo(plastic)) < 1e-12);
+  const MaterialFit dielectric = FitMaterial(phong.fitted, "dielectric");
+  CHECK(LargestDifference(DiffuseAlbedo(dielectric.fitted), DiffuseAlbedo(plastic)) < 1e-9);
+}
+
+TEST_CASE("what cannot be said is told") {
+  // Grey gloss of 30 % over red: neither a metal nor a dielectric of index 1.5.
+  const Material strong = Phong(PhongModel::kPhong, Rgb(0.6, 0.1, 0.1), Rgb(0.3), 40);
+  const MaterialFit metallic = FitMaterial(strong, "metallic_roughness");
+  const bool tells =
+      std::any_of(metallic.notes.begin(), metallic.notes.end(),
+                  [](const std::string& note) { return note.find("F0") != std::string::npos; });
+  CHECK(tells);
+  // An index of its own says it.
+  const MaterialFit dielectric = FitMaterial(strong, "dielectric");
+  CHECK(dielectric.residual.rms < metallic.residual.rms);
+
+  CHECK_FALSE(FitMaterial(Metal(Rgb(0.5), 0, 0), "phong").notes.empty());
+  Material split;
+  split.model = SplitMaterial{};
+  CHECK_THROWS_AS(FitMaterial(split, "phong"), Error);
+}
+
+TEST_CASE("a fit is the same every time") {
+  const Material material = Metal(Rgb(0.9, 0.6, 0.2), 0.4, 0.3);
+  const MaterialFit a = FitMaterial(material, "phong");
+  const MaterialFit b = FitMaterial(material, "phong");
+  CHECK(PhongOf(a.fitted).shininess == PhongOf(b.fitted).shininess);
+  CHECK(PhongOf(a.fitted).ks == PhongOf(b.fitted).ks);
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,153 @@
+// tests/shading/mesh_light_test.cc: directions to lights made of triangles, and their densities, on
+// every target.
+#include "light/mesh_light.h"
+
+#include <cmath>
+#include <memory>
+
+#include "scene/sphere_mesh.h"
+#include "shading/sampled_light.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+SampledLight Prepare(const Mesh& mesh, bool two_sided = false) {
+  Light light;
+  light.kind = MeshAreaLight{
+      .mesh = std::make_shared<const Mesh>(mesh), .radiance = Rgb(1), .two_sided = two_sided};
+  return PrepareSampledLight(light, Vec3d(0, 0, 0));
+}
+
+// Hits in one place.
+HitBatch Hits(const Vec3d& position) {
+  HitBatch hits;
+  hits.count = kBatchCapacity;
+  for (size_t i = 0; i < hits.count; ++i) {
+    hits.position.x[i] = position.x;
+    hits.position.y[i] = position.y;
+    hits.position.z[i] = position.z;
+  }
+  return hits;
+}
+
+UnitPoints Points() {
+  const PairSampler sampler = MakePairSampler(kBatchCapacity, 1, 3);
+  SampleNumbers numbers(kBatchCapacity);
+  AlignedArray<uint32_t> entries(kBatchCapacity);
+  for (uint32_t i = 0; i < kBatchCapacity; ++i) entries[i] = numbers.number[i] = i;
+  UnitPoints points(kBatchCapacity);
+  SamplePair(sampler, 0, numbers, entries.data(), kBatchCapacity, &points);
+  return points;
+}
+
+// The solid angle of the triangles that face the point, of a convex mesh: that of the mesh.
+double FrontSolidAngle(const SampledLight& light, const Vec3d& point) {
+  double sum = 0;
+  for (TriangleLight<double> triangle : light.mesh->triangles) {
+    triangle.corner += light.place - point;
+    if ((triangle.corner ^ (triangle.edge_x % triangle.edge_y)) < 0) sum += SolidAngle(triangle);
+  }
+  return sum;
+}
+
+TEST_CASE("directions to a mesh have the densities that it finds along them") {
+  const SampledLight light =
+      Prepare(MakeMesh(Icosphere{.center = {1, 2, -3}, .radius = 0.8, .subdivisions = 2}));
+  const UnitPoints points = Points();
+  ForEachTarget([&](Target) {
+    for (const Vec3d& point : {Vec3d(0, 0, 0), Vec3d(1, 1.1, -3), Vec3d(-40, 3, 20)}) {
+      const HitBatch hits = Hits(point);
+      LightDirections sampled, found;
+      SampleLight(light, hits, points, &sampled);
+      for (size_t i = 0; i < hits.count; ++i) {
+        found.to_light.x[i] = sampled.to_light.x[i];
+        found.to_light.y[i] = sampled.to_light.y[i];
+        found.to_light.z[i] = sampled.to_light.z[i];
+      }
+      FindLight(light, hits, &found);
+      double sum = 0, squares = 0;
+      size_t lost = 0;
+      for (size_t i = 0; i < hits.count; ++i) {
+        REQUIRE(sampled.density[i] == found.density[i]);
+        REQUIRE(sampled.distance[i] == found.distance[i]);
+        if (!(sampled.density[i] > 0)) {
+          ++lost;  // at the silhouette, by the rounding of the direction to float
+          continue;
+        }
+        const Vec3d end =
+            point + Vec3d(sampled.to_light.x[i], sampled.to_light.y[i], sampled.to_light.z[i]) *
+                        double{sampled.distance[i]};
+        // On a face, which is up to 1 - cos of the sphere's radius below the sphere.
+        const double height = (end - Vec3d(1, 2, -3)).length() / 0.8;
+        REQUIRE(height <= 1 + 1e-5);
+        REQUIRE(height >= 0.95);
+        const double inverse = 1 / double{sampled.density[i]};
+        sum += inverse;
+        squares += inverse * inverse;
+      }
+      CHECK(lost <= 2);
+      // The mean of 1 / density is the solid angle that is seen.
+      const double count = static_cast<double>(hits.count), mean = sum / count;
+      const double error = std::sqrt(std::max(squares / count - mean * mean, 0.0) / count);
+      const double expected = FrontSolidAngle(light, point);
+      CAPTURE(point.x, mean, error, expected);
+      CHECK(std::abs(mean - expected) <= 4 * error + 1e-5 * expected);
+      CHECK(error <= 0.05 * expected);  // the check above could fail
+    }
+  });
+}
+
+TEST_CASE("what hides behind the nearest triangle is not seen, and counts for its density") {
+  // Two squares behind one another, both facing +z; the first is seen from its back from z < 0.
+  Mesh mesh;
+  for (const double z : {0.0, 1.0}) {
+    const auto first = static_cast<uint32_t>(mesh.positions.size());
+    for (const Vec3d& corner :
+         {Vec3d(-1, -1, z), Vec3d(1, -1, z), Vec3d(1, 1, z), Vec3d(-1, 1, z)}) {
+      mesh.positions.push_back(corner);
+    }
+    for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) mesh.triangles.push_back(first + i);
+  }
+  const auto find = [&](bool two_sided, const Vec3d& point, const Vec3d& to_light) {
+    const SampledLight light = Prepare(mesh, two_sided);
+    HitBatch hits = Hits(point);
+    hits.count = 1;
+    LightDirections directions;
+    directions.to_light.x[0] = static_cast<float>(to_light.x);
+    directions.to_light.y[0] = static_cast<float>(to_light.y);
+    directions.to_light.z[0] = static_cast<float>(to_light.z);
+    FindLight(light, hits, &directions);
+    return std::pair(directions.distance[0], directions.density[0]);
+  };
+  const auto density = [](double distance) {  // of the triangle through (0.3, 0.2, z), half of it
+    const TriangleLight<double> half{{-1.3, -1.2, distance}, {2, 0, 0}, {2, 2, 0}};
+    return 0.25 / SolidAngle(half);
+  };
+  const Vec3d before(0.3, 0.2, 4), behind(0.3, 0.2, -2), between(0.3, 0.2, 0.5);
+  const double both = density(3) + density(4);
+  CHECK(find(false, before, {0, 0, -1}).first == 3);
+  CHECK(find(false, before, {0, 0, -1}).second == Approx(both).epsilon(1e-6));
+  CHECK(find(false, behind, {0, 0, 1}) == std::pair(0.0f, 0.0f));
+  CHECK(find(true, behind, {0, 0, 1}).first == 2);
+  CHECK(find(false, between, {0, 0, -1}).first == 0.5);
+  CHECK(find(false, between, {0, 0, 1}).first == 0);
+  // In the plane of a square, and past both.
+  CHECK(find(true, {3, 0.2, 1}, {-1, 0, 0}) == std::pair(0.0f, 0.0f));
+  CHECK(find(true, {3, 0.2, 4}, {0, 0, -1}) == std::pair(0.0f, 0.0f));
+}
+
+TEST_CASE("closed forms are for meshes that hide nothing of themselves") {
+  Mesh quad;
+  quad.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  quad.triangles = {0, 1, 2, 0, 2, 3};
+  CHECK(HasIrradiance(Prepare(quad)));
+  CHECK(HasIrradiance(Prepare(quad, true)));
+  const Mesh ball = MakeMesh(Icosphere{.subdivisions = 0});
+  CHECK(HasIrradiance(Prepare(ball)));
+  CHECK(!HasIrradiance(Prepare(ball, true)));  // its far inside would shine through
+  CHECK(!HasIrradiance(Prepare(MakeMesh(Icosphere{.subdivisions = 1}))));  // 80 triangles
+}
+
+}  // namespace
+}  // namespace nacre
