@@ -14,6 +14,7 @@ void AddValidateCommand(CLI::App* app, int* exit_code);
 void AddTonemapCommand(CLI::App* app, int* exit_code);
 void AddInfoCommand(CLI::App* app, int* exit_code);
 void AddSchemaCommand(CLI::App* app, int* exit_code);
+void AddReportCommand(CLI::App* app, int* exit_code);
 void AddExplainCommand(CLI::App* app, int* exit_code);
 
 }  // namespace nacre

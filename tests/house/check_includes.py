@@ -28,7 +28,7 @@ BRANCHES = {
     "oiio_module": {"image_io"},  # loaded by it; they share one header
     "scene_io": {"base", "scene", "image_io"},
     "compare": {"base", "color"},
-    "report": {"base", "compare"},
+    "report": {"base", "color", "compare", "image_io"},
     "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
 }
 # Depends on whatever it likes; nothing depends on it.
