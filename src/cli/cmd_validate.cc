@@ -1,94 +1,23 @@
 // cli/cmd_validate.cc: nacre validate: renders scenes that have a reference image and compares.
-//
-// A folder of references holds, for each, NAME.reference.json:
-//   {"scene": "x.json", "image": "x.exr", "layers": [""],
-//    "tolerances": {"max_abs": 0, "max_rel": 1e-5, "exceeding_fraction": 0}, "reason": "..."}
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/print.h"
-#include "cli/progress.h"
+#include "cli/references.h"
 #include "cli/render_options.h"
-#include "compare/verdict.h"
-#include "image_io/exr_reader.h"
-#include "render/render.h"
-#include "scene_io/load_scene.h"
 
 namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Reference {
-  std::string name;
-  fs::path scene, image;
-  std::vector<std::string> layers;
-  Tolerances tolerances;
-  std::string reason;  // why these tolerances
-};
-
-Reference ReadReference(const fs::path& path) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(ExitCode::kCannotCompare, path.string(), what,
-                "a reference names a scene, an image, tolerances and their reason");
-  };
-  std::ifstream file(path);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) fail("not a JSON object");
-  Reference reference;
-  try {
-    reference.name = path.stem().stem().string();
-    reference.scene = path.parent_path() / json.at("scene").get<std::string>();
-    reference.image = path.parent_path() / json.at("image").get<std::string>();
-    reference.layers = json.value("layers", std::vector<std::string>{});
-    reference.reason = json.at("reason").get<std::string>();
-    const nlohmann::json& tolerances = json.at("tolerances");
-    reference.tolerances.max_abs = tolerances.value("max_abs", 0.0);
-    reference.tolerances.max_rel = tolerances.value("max_rel", 0.0);
-    reference.tolerances.exceeding_fraction = tolerances.value("exceeding_fraction", 0.0);
-    reference.tolerances.rmse = tolerances.value("rmse", std::numeric_limits<double>::infinity());
-  } catch (const nlohmann::json::exception& error) {
-    fail(error.what());
-  }
-  return reference;
-}
-
-std::vector<fs::path> FindReferences(const std::string& folder) {
-  std::error_code error;
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().filename().string().ends_with(".reference.json"))
-      paths.push_back(entry.path());
-  }
-  if (error || paths.empty()) {
-    throw Error(ExitCode::kCannotCompare, folder,
-                error ? error.message() : "no *.reference.json in this folder",
-                "nacre validate DIR takes a folder of references, e.g. tests/references");
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
 bool ValidateOne(const fs::path& path, int threads) {
   const Reference reference = ReadReference(path);
-  const Scene scene = LoadScene(reference.scene, {});
-  RenderSettings settings;
-  settings.threads = threads;
-  settings.on_progress = [](double) { ThrowIfStopped(); };
-  const Image got = RenderImage(scene, settings);
-  const Image expected = ReadExr(reference.image.string());
-  CompareOptions options;
-  options.layers = reference.layers;
-  options.got_name = reference.scene.string();
-  options.reference_name = reference.image.string();
-  const Verdict verdict = Judge(got, expected, reference.tolerances, options);
+  const Verdict verdict = RunReference(reference, threads).verdict;
   const LayerMetrics& m = verdict.layers.front();
   PrintOut(fmt::format("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", reference.name,
                        verdict.match ? "match" : "DIFFER", m.rmse, m.max_rel, m.p999_rel,

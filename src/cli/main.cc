@@ -48,6 +48,7 @@ int Run(int argc, char** argv) {
   nacre::AddTonemapCommand(&app, &exit_code);
   nacre::AddInfoCommand(&app, &exit_code);
   nacre::AddSchemaCommand(&app, &exit_code);
+  nacre::AddReportCommand(&app, &exit_code);
   nacre::AddExplainCommand(&app, &exit_code);
   nacre::AddPlotCommand(&app, &exit_code);
   nacre::AddStudyCommand(&app, &exit_code);

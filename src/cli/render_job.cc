@@ -76,15 +76,7 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   const Clock::time_point start = Clock::now();
   JobTimes times;
   LoadOptions load_options = MakeLoadOptions(options);
-  RenderSettings settings;
-  settings.threads = options.threads;
-  settings.region = ParseRegion(options.region);
-  settings.layers = options.layers;
-  settings.tile_size = options.tile_size;
-  settings.max_error = options.max_error;
-  if (options.spp) settings.max_samples = *options.spp;
-  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
-  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  RenderSettings settings = MakeRenderSettings(options);
   ApplyTarget(options.target);
   CheckPicturePaths(options.outputs);
   std::vector<std::string> paths = options.outputs;

@@ -53,8 +53,6 @@ void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure
       ->capture_default_str();
 }
 
-namespace {
-
 void AddPictureOptions(CLI::App* command, RenderOptions* o) {
   const std::string picture = "Picture";
   command->add_option("--size", o->size, "Width and height in pixels")
@@ -87,6 +85,8 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->group(picture);
 }
 
+namespace {
+
 void AddExrOptions(CLI::App* command, RenderOptions* o) {
   const std::string exr = "EXR files";
   command
@@ -111,6 +111,8 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
       ->group(exr);
 }
 
+}  // namespace
+
 void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   const std::string machine = "Machine";
   command->add_option("--threads", o->threads, "Threads to use; 0: as many as the machine has")
@@ -134,6 +136,8 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
                  "Let the scene refer to files outside its own folder")
       ->group(machine);
 }
+
+namespace {
 
 void AddTellingOptions(CLI::App* command, RenderOptions* o) {
   const std::string telling = "What it tells";
@@ -223,6 +227,19 @@ Compression ParseCompression(const std::string& name) {
   if (name == "piz") return Compression::kPiz;
   if (name == "dwaa") return Compression::kDwaa;
   return Compression::kZip;
+}
+
+RenderSettings MakeRenderSettings(const RenderOptions& options) {
+  RenderSettings settings;
+  settings.threads = options.threads;
+  settings.region = ParseRegion(options.region);
+  settings.layers = options.layers;
+  settings.tile_size = options.tile_size;
+  settings.max_error = options.max_error;
+  if (options.spp) settings.max_samples = *options.spp;
+  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
+  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  return settings;
 }
 
 void ApplyTarget(const std::string& name) {

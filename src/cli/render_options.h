@@ -10,6 +10,7 @@
 
 #include "color/display.h"
 #include "image_io/exr_header.h"
+#include "render/settings.h"
 #include "scene_io/load_scene.h"
 
 namespace nacre {
@@ -47,6 +48,10 @@ void AddRenderOptions(CLI::App* command, RenderOptions* options);
 // The options that say how a PNG looks, for `tonemap` as well.
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure);
 
+// Those of the scene's picture, and of how the machine renders it.
+void AddPictureOptions(CLI::App* command, RenderOptions* options);
+void AddMachineOptions(CLI::App* command, RenderOptions* options);
+
 // What the options ask of scene_io; --size, --spp and --seed are settings of the scene's image
 // like any that --set makes. Throws Error (usage).
 LoadOptions MakeLoadOptions(const RenderOptions& options);
@@ -62,6 +67,9 @@ void ParseSize(const std::string& text, int* width, int* height);
 
 // "none", "zip", "zips", "piz" or "dwaa".
 Compression ParseCompression(const std::string& name);
+
+// What the options ask of the renderer. Throws Error (usage).
+RenderSettings MakeRenderSettings(const RenderOptions& options);
 
 // Pins the SIMD target. Throws Error (usage) for one that this machine lacks.
 void ApplyTarget(const std::string& name);

@@ -95,10 +95,7 @@ RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const
   return total;
 }
 
-Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
-  const auto start = std::chrono::steady_clock::now();
-  const RenderPlan plan = MakePlan(scene, settings);
-  const double plan_seconds = SecondsSince(start);
+Image RenderImage(const RenderPlan& plan, const RenderSettings& settings, RenderStats* stats) {
   Image image;
   image.display = plan.frame;
   image.data = plan.window;
@@ -119,10 +116,16 @@ Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStat
                      [](uint32_t id) { return static_cast<float>(id); });
     }
   });
-  if (stats != nullptr) {
-    *stats = rendered;
-    stats->plan_seconds = plan_seconds;
-  }
+  if (stats != nullptr) *stats = rendered;
+  return image;
+}
+
+Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
+  const auto start = std::chrono::steady_clock::now();
+  const RenderPlan plan = MakePlan(scene, settings);
+  const double plan_seconds = SecondsSince(start);
+  Image image = RenderImage(plan, settings, stats);
+  if (stats != nullptr) stats->plan_seconds = plan_seconds;
   return image;
 }
 

@@ -20,5 +20,6 @@ RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const
 // The whole picture in memory, channels as StripChannels has them, all in float. For tests,
 // comparisons and labels; `stats` may be null.
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
+Image RenderImage(const RenderPlan& plan, const RenderSettings& settings, RenderStats* stats);
 
 }  // namespace nacre

@@ -372,6 +372,105 @@ class CliTest(unittest.TestCase):
         (self.out / 'file').write_text('')
         self.check_fails(74, str(self.out / 'file'), 'explain', 'textbook', '-o', self.out / 'file')
 
+    # ---- Metrics and reports ----
+
+    def test_compare_measures_what_is_seen_when_asked(self):
+        a, b = self.out / 'a.exr', self.out / 'b.exr'
+        self.render('-o', a, *SMALL)
+        self.render('-o', b, *SMALL, '--set', '/lights/key/intensity=500')
+        plain = json.loads(run('compare', a, b, '--json').stdout)['layers'][-1]
+        self.assertNotIn('ssim', plain)
+        result = run('compare', a, b, '--json', '--metrics', 'all', '--flip-exposures', '-2,3,4')
+        self.assertEqual(result.returncode, 1)
+        layer = next(m for m in json.loads(result.stdout)['layers'] if m['layer'] == 'beauty')
+        self.assertLess(layer['ssim'], 1)
+        self.assertLess(0, layer['flip']['mean'])
+        self.assertLess(layer['flip']['mean'], layer['flip']['max'])
+        flip = layer['hdr_flip']
+        self.assertEqual((flip['start_exposure'], flip['stop_exposure'], flip['exposures']), (-2, 3, 4))
+        text = run('compare', a, a, '--metrics', 'ssim,flip')
+        self.assertEqual(text.returncode, 0)
+        self.assertIn('FLIP mean', text.stdout)
+        self.assertIn('1.000000    0.000000    0.000000', text.stdout)
+
+    def test_bad_metrics_are_named(self):
+        image = self.out / 'a.exr'
+        self.render('-o', image, *SMALL)
+        self.check_fails(64, 'psnr', 'compare', image, image, '--metrics', 'psnr')
+        for exposures in '1', '3,1', '1,2,0', '1,2,3,4', '1,nan', '0,1,65', '1,2,2.5':
+            self.check_fails(64, 'range of exposures', 'compare', image, image, '--flip-exposures',
+                             exposures)
+        self.check_fails(64, '--ppd', 'compare', image, image, '--ppd', '0')
+
+    def test_pictures_of_different_sizes_have_no_metrics(self):
+        a, b = self.out / 'a.exr', self.out / 'b.exr'
+        self.render('-o', a, *SMALL)
+        self.render('-o', b, '--size', '32x18', '--spp', '1')
+        self.check_fails(2, 'is 64x36', 'compare', a, b, '--metrics', 'all')
+        self.check_fails(2, 'is 64x36', 'report', self.out / 'r.html', a, b)
+
+    def report(self, *arguments):
+        page = self.out / 'r.html'
+        result = run('report', page, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stdout, '')
+        return page.read_text()
+
+    def report_data(self, page):
+        text = page.split('id="report">')[1].split('</script>')[0]
+        return json.loads(text)
+
+    def test_report_of_a_scene_has_its_plan_and_needs_no_network(self):
+        page = self.report(FIRST_SCENE, *SMALL, '--layers', 'N')
+        image = self.report_data(page)['sections'][0]['sets'][0]['images'][0]
+        self.assertTrue(any(item['used'] for item in image['stats']['plan']))
+        self.assertEqual([layer['name'] for layer in image['layers']], ['', 'A', 'N'])
+        self.assertIn("default-src 'none'", page)
+        self.assertNotIn('src=', page.replace("img-src=", ''))
+
+    def test_report_takes_the_stats_of_a_render(self):
+        self.render('-o', self.out / 'a.exr', '--stats', self.out / 's.json', *SMALL)
+        page = self.report(self.out / 'a.exr', self.out / 's.json')
+        image = self.report_data(page)['sections'][0]['sets'][0]['images'][0]
+        self.assertEqual(image['stats'], json.loads((self.out / 's.json').read_text()))
+        self.check_fails(64, 'counts and times', 'report', self.out / 'q.html', self.out / 's.json')
+
+    def test_report_compares_with_the_reference_named(self):
+        a, b, c = (self.out / name for name in ('a.exr', 'b.exr', 'c.exr'))
+        for path in a, b, c:
+            self.render('-o', path, *SMALL)
+        for options, reference in ([], 1), (['--reference', c], 2), (['--reference', a], 0):
+            data = self.report_data(self.report(a, b, c, '--metrics', 'none', *options))
+            shown = data['sections'][0]['sets'][0]
+            self.assertEqual(shown['reference'], reference)
+            self.assertEqual([m['image'] for m in shown['comparisons']],
+                             [i for i in range(3) if i != reference])
+            self.assertTrue(all(m['verdict']['match'] for m in shown['comparisons']))
+        self.check_fails(64, 'not one of the pictures', 'report', self.out / 'r2.html', a, b,
+                         '--reference', self.out / 'd.exr')
+
+    def test_report_refuses_what_it_cannot_show(self):
+        image = self.out / 'a.exr'
+        self.render('-o', image, *SMALL)
+        out = self.out / 'r.html'
+        self.check_fails(64, 'unknown output extension', 'report', self.out / 'r.htm', image)
+        self.check_fails(64, 'INPUT', 'report', out)
+        self.check_fails(74, 'r.html', 'report', self.out / 'none' / 'r.html', image)
+        self.check_fails(65, 'none.exr', 'report', out, self.out / 'none.exr')
+        self.check_fails(65, 'none.json', 'report', out, self.out / 'none.json')
+        self.check_fails(2, 'no *.reference.json', 'report', out, self.out)
+        (self.out / 'bench.json').write_text('{"benchmarks": {}, "machine": {}}')
+        self.check_fails(65, 'has no "targets"', 'report', out, self.out / 'bench.json')
+        (self.out / 'bad.exr').write_bytes(image.read_bytes()[:200])
+        self.check_fails(65, 'bad.exr', 'report', out, image, self.out / 'bad.exr')
+
+    def test_a_report_that_fails_leaves_the_old_one(self):
+        out, image = self.out / 'r.html', self.out / 'a.exr'
+        self.render('-o', image, *SMALL)
+        out.write_text('old')
+        self.check_fails(65, 'none.exr', 'report', out, image, self.out / 'none.exr')
+        self.assertEqual(out.read_text(), 'old')
+
     # ---- What it refuses ----
 
     def test_usage_errors(self):

@@ -29,7 +29,7 @@ BRANCHES = {
     "oiio_module": {"image_io"},  # loaded by it; they share one header
     "scene_io": {"base", "scene", "image_io"},
     "compare": {"base", "color"},
-    "report": {"base", "image_io", "compare"},
+    "report": {"base", "color", "compare", "image_io"},
     # What the lesson's exercises ask: the renderer's terms and pictures as curves and numbers.
     "study": TRUNK_FOLDERS | {"image_io", "report"},
     "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it

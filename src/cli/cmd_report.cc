@@ -1,0 +1,187 @@
+// cli/cmd_report.cc: nacre report: pictures, comparisons, validations and benchmarks as one HTML
+// file.
+#include <algorithm>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "base/target.h"
+#include "base/version.h"
+#include "cli/commands.h"
+#include "cli/outputs.h"
+#include "cli/perceptual_options.h"
+#include "cli/print.h"
+#include "cli/render_options.h"
+#include "cli/report_sections.h"
+#include "cli/text_output.h"
+
+namespace nacre {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string output;
+  std::vector<std::string> inputs;
+  std::string reference;
+  std::string title;
+  double limit_mib = 64;
+  RenderOptions render;
+  PerceptualArguments perceptual;
+};
+
+// The pictures of the inputs, each with its stats, and which of them the others are compared with.
+struct Pictures {
+  std::vector<ReportPicture> all;
+  size_t reference = 0;
+};
+
+Pictures ReadPictures(const Arguments& arguments) {
+  Pictures pictures;
+  std::vector<std::string> paths;
+  for (const std::string& path : arguments.inputs) {
+    const ReportInput kind = KindOfInput(path);
+    if (kind == ReportInput::kImage) {
+      pictures.all.push_back(ReadPicture(path));
+    } else if (kind == ReportInput::kScene) {
+      pictures.all.push_back(RenderPicture(path, arguments.render));
+    } else if (kind == ReportInput::kStats) {
+      if (pictures.all.empty()) {
+        throw Error(ExitCode::kUsage, path, "these are the counts and times of a render",
+                    "name them after its picture");
+      }
+      pictures.all.back().stats = ReadJson(path);
+      continue;
+    } else {
+      continue;
+    }
+    paths.push_back(path);
+  }
+  // As in `nacre compare IMAGE REFERENCE`.
+  pictures.reference = pictures.all.size() > 1 ? 1 : 0;
+  if (!arguments.reference.empty()) {
+    const auto found = std::find(paths.begin(), paths.end(), arguments.reference);
+    if (found == paths.end()) {
+      throw Error(ExitCode::kUsage, "--reference",
+                  "\"" + arguments.reference + "\" is not one of the pictures",
+                  "name it as it is named among the inputs");
+    }
+    pictures.reference = static_cast<size_t>(found - paths.begin());
+  }
+  return pictures;
+}
+
+void CheckOutput(const Arguments& arguments) {
+  if (!HasExtension(arguments.output, ".html")) {
+    throw Error(ExitCode::kUsage, arguments.output, "unknown output extension",
+                "the report is a .html file, and comes before the inputs");
+  }
+  CheckTextOutput(arguments.output);
+  for (const std::string& input : arguments.inputs) {
+    CheckPathsDiffer({arguments.output, input});
+  }
+}
+
+std::string DefaultTitle(const Pictures& pictures, const Json& sections) {
+  if (pictures.all.size() == 1) return pictures.all[0].name;
+  if (pictures.all.size() > 1) {
+    return pictures.all[pictures.reference == 0 ? 1 : 0].name + " against " +
+           pictures.all[pictures.reference].name;
+  }
+  return sections[0]["title"];
+}
+
+std::string Summary(const Arguments& arguments, const Json& sections) {
+  const bool pictures = std::any_of(sections.begin(), sections.end(),
+                                    [](const Json& s) { return s["kind"] == "images"; });
+  if (!pictures) return fmt::format("By nacre {}.", kVersion);
+  return fmt::format(
+      "By nacre {}, SIMD target {}. Pictures open with the tone operator {} at {} "
+      "stops; what they hold is linear.",
+      kVersion, TargetName(ActiveTarget()), arguments.perceptual.tonemap,
+      arguments.perceptual.exposure);
+}
+
+void RunReport(const Arguments& arguments) {
+  CheckOutput(arguments);
+  ApplyTarget(arguments.render.target);
+  const std::optional<PerceptualOptions> perceptual = MakePerceptualOptions(arguments.perceptual);
+  const auto limit = static_cast<size_t>(arguments.limit_mib * 1024 * 1024);
+  Page page;
+  Json sections = Json::array();
+  const Pictures pictures = ReadPictures(arguments);
+  if (!pictures.all.empty()) {
+    sections.push_back(PictureSection(pictures.all, pictures.reference, perceptual, limit, &page));
+  }
+  for (const std::string& path : arguments.inputs) {
+    const ReportInput kind = KindOfInput(path);
+    if (kind == ReportInput::kBench) sections.push_back(BenchSection(path));
+    if (kind == ReportInput::kReferences) {
+      sections.push_back(
+          ValidationSection(path, arguments.render.threads, perceptual, limit, &page));
+    }
+  }
+  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
+  const std::string title =
+      arguments.title.empty() ? DefaultTitle(pictures, sections) : arguments.title;
+  const std::string html = page.Html(title, generator,
+                                     {{"generator", generator},
+                                      {"summary", Summary(arguments, sections)},
+                                      {"notes", Json::array()},
+                                      {"tone", arguments.perceptual.tonemap},
+                                      {"exposure", arguments.perceptual.exposure},
+                                      {"sections", sections}});
+  WriteText(arguments.output, html);
+  PrintError(fmt::format("{}: {:.1f} MiB\n", arguments.output,
+                         static_cast<double>(html.size()) / (1024 * 1024)));
+}
+
+}  // namespace
+
+void AddReportCommand(CLI::App* app, int*) {
+  CLI::App* command = app->add_subcommand(
+      "report", "One HTML file to look at and pass on: pictures, comparisons, measurements");
+  const auto a = std::make_shared<Arguments>();
+  a->perceptual.metrics = {"all"};
+  command->add_option("OUT.html", a->output, "File to write; nothing else is needed to read it")
+      ->required();
+  command
+      ->add_option("INPUT", a->inputs,
+                   "Images (EXR, PNG, ...); scenes and models, which are rendered; the JSON of "
+                   "render --stats after its image; a folder of references, which is validated; "
+                   "the bench.json of scripts/bench")
+      ->required();
+  command->add_option("--reference", a->reference,
+                      "Which of several pictures the others are compared with (the second)");
+  command->add_option("--title", a->title, "Title of the page");
+  command
+      ->add_option("--limit", a->limit_mib,
+                   "MiB of samples, before they are compressed. Pictures that have more are shown "
+                   "in half floats, then smaller, and the page says so")
+      ->check(InRange(0.01, 2048))
+      ->capture_default_str();
+  AddPerceptualOptions(command, &a->perceptual);
+  AddPictureOptions(command, &a->render);
+  command
+      ->add_option("--layers", a->render.layers,
+                   "Layers of scenes to render besides R G B A, or all")
+      ->delimiter(',')
+      ->group("Picture");
+  AddMachineOptions(command, &a->render);
+  command->footer(
+      "Pictures keep their samples, so that the page has an exposure slider, nacre's tone "
+      "operators\n"
+      "and the linear values of every pixel. Press ? in the page for its keys.\n"
+      "Examples:\n"
+      "  nacre report look.html scenes/material_grid.json --layers all\n"
+      "  nacre report diff.html render.exr reference.exr --ppd 40\n"
+      "  nacre report three.html a.exr b.exr truth.exr --reference truth.exr\n"
+      "  nacre report checks.html tests/references\n"
+      "  nacre report speed.html out/bench/bench.json");
+  command->callback([a] { RunReport(*a); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,42 @@
+// cli/references.h: scenes that have a reference image.
+//
+// A folder of references holds, for each, NAME.reference.json:
+//   {"scene": "x.json", "image": "x.exr", "layers": [""],
+//    "tolerances": {"max_abs": 0, "max_rel": 1e-5, "exceeding_fraction": 0}, "reason": "..."}
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "compare/verdict.h"
+
+namespace nacre {
+
+struct Reference {
+  std::string name;
+  std::filesystem::path scene, image;
+  std::vector<std::string> layers;
+  Tolerances tolerances;
+  std::string reason;  // why these tolerances
+};
+
+// The *.reference.json files of the folder, by name. Throws Error (kCannotCompare) if there is
+// none.
+std::vector<std::filesystem::path> FindReferences(const std::string& folder);
+
+// Throws Error (kCannotCompare) for a file that is not what is described above.
+Reference ReadReference(const std::filesystem::path& path);
+
+// What a reference's scene renders to, beside its image.
+struct ReferenceRun {
+  Image got, expected;
+  Verdict verdict;
+};
+
+CompareOptions OptionsOf(const Reference& reference);
+
+// Throws Error for a scene or image that cannot be read or that do not belong together.
+ReferenceRun RunReference(const Reference& reference, int threads);
+
+}  // namespace nacre

@@ -1,0 +1,101 @@
+#include "cli/report_inputs.h"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "cli/metadata.h"
+#include "cli/progress.h"
+#include "cli/stats_json.h"
+#include "image_io/image_reader.h"
+#include "render/render.h"
+
+namespace nacre {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+double SecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The path without its folder: what a page that is passed on should show.
+std::string NameOf(const std::string& path) { return fs::path(path).filename().string(); }
+
+// Halves, as files of renders hold colours unless they are told otherwise.
+void TakeFileTypes(const RenderPlan& plan, Image* image) {
+  for (const ChannelSpec& spec : StripChannels(plan.layers, PixelType::kHalf)) {
+    for (Channel& channel : image->channels) {
+      if (channel.name == spec.name) channel.type = spec.type;
+    }
+  }
+}
+
+void AddMetadata(const RenderPlan& plan, Image* image) {
+  for (const auto& [name, value] : MakeExrHeader(plan, /*reproducible=*/true).attributes) {
+    image->metadata[name] = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+  }
+  image->metadata["transfer"] = "linear";
+}
+
+}  // namespace
+
+Json ReadJson(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw Error(ExitCode::kBadInput, path, "cannot be read");
+  Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (json.is_discarded()) throw Error(ExitCode::kBadInput, path, "not JSON");
+  return json;
+}
+
+ReportInput KindOfInput(const std::string& path) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return ReportInput::kReferences;
+  if (IsModelFile(path)) return ReportInput::kScene;
+  if (!HasExtension(path, ".json")) return ReportInput::kImage;
+  // A scene's own reader tells what is wrong with it, and where.
+  std::ifstream file(path);
+  const Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (json.is_object() && json.contains("benchmarks") && json.contains("machine")) {
+    return ReportInput::kBench;
+  }
+  if (json.is_object() && json.contains("time_ms") && json.contains("plan")) {
+    return ReportInput::kStats;
+  }
+  return ReportInput::kScene;
+}
+
+ReportPicture ReadPicture(const std::string& path) {
+  return {NameOf(path), ReadImage(path), std::nullopt};
+}
+
+ReportPicture RenderPicture(const std::string& path, const RenderOptions& options) {
+  const Clock::time_point start = Clock::now();
+  JobTimes times;
+  const Scene scene = LoadScene(path, MakeLoadOptions(options));
+  times.load_seconds = SecondsSince(start);
+  RenderSettings settings = MakeRenderSettings(options);
+  settings.on_progress = [](double) { ThrowIfStopped(); };
+  const Clock::time_point plan_start = Clock::now();
+  const RenderPlan plan = MakePlan(scene, settings);
+  const double plan_seconds = SecondsSince(plan_start);
+  ReportPicture picture;
+  picture.name = NameOf(path);
+  RenderStats stats;
+  picture.image = RenderImage(plan, settings, &stats);
+  stats.plan_seconds = plan_seconds;
+  times.total_seconds = SecondsSince(start);
+  TakeFileTypes(plan, &picture.image);
+  AddMetadata(plan, &picture.image);
+  picture.stats = Json::parse(StatsJson(plan, stats, times, {}));
+  picture.stats->erase("samples_not_as_computed");  // no file was written
+  return picture;
+}
+
+}  // namespace nacre

@@ -1,0 +1,186 @@
+#include "cli/report_sections.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "cli/metrics_json.h"
+
+namespace nacre {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json FrameOf(const Image& image) {
+  return {{"width", image.display.width()}, {"height", image.display.height()}};
+}
+
+// The window in coordinates that begin at the frame's corner.
+Window FromCorner(const Window& window, const Window& display) {
+  return {window.x0 - display.x0, window.y0 - display.y0, window.x1 - display.x0,
+          window.y1 - display.y0};
+}
+
+void AddNote(const Packing& packing, const std::vector<const Image*>& images, Json* section) {
+  const std::string words = packing.InWords();
+  if (words.empty()) return;
+  (*section)["notes"].push_back(
+      fmt::format("So that {} fit into this page, {}. All figures are of the files themselves.",
+                  images.size() == 1 ? "the picture would" : "the pictures would", words));
+}
+
+// The figures of a picture against its reference, and FLIP's maps.
+Json Compare(const Image& got, const Image& reference, const CompareOptions& options,
+             const Verdict& verdict, const std::optional<PerceptualOptions>& perceptual,
+             const Packing& packing, size_t index, Page* page) {
+  std::vector<PerceptualMetrics> seen;
+  if (perceptual) seen = MeasurePerceptual(got, reference, *perceptual, options);
+  const Window window = FromCorner(Intersect(got.data, reference.data), reference.display);
+  Json maps = Json::array();
+  for (const PerceptualMetrics& metrics : seen) {
+    if (metrics.flip_map.size() > 0) {
+      maps.push_back(PackMap(metrics.flip_map, window, "flip", metrics.layer, packing, page));
+    }
+    if (metrics.hdr_flip_map.size() > 0) {
+      maps.push_back(
+          PackMap(metrics.hdr_flip_map, window, "hdr_flip", metrics.layer, packing, page));
+    }
+  }
+  return {{"image", index}, {"verdict", VerdictJson(verdict, seen)}, {"maps", maps}};
+}
+
+// The layers that both have: pictures of other renderers have fewer.
+std::vector<std::string> CommonLayers(const Image& a, const Image& b) {
+  std::vector<std::string> common;
+  const auto has_all = [](const Image& image, const Image& other, const std::string& layer) {
+    bool any = false;
+    for (const Channel& channel : other.channels) {
+      if (LayerOfChannel(channel.name) != layer) continue;
+      any = true;
+      if (image.Find(channel.name) == nullptr) return false;
+    }
+    return any;
+  };
+  for (const Channel& channel : b.channels) {
+    const std::string layer = LayerOfChannel(channel.name);
+    if (!common.empty() && common.back() == layer) continue;
+    if (has_all(a, b, layer) && has_all(b, a, layer)) common.push_back(layer);
+  }
+  std::sort(common.begin(), common.end());
+  common.erase(std::unique(common.begin(), common.end()), common.end());
+  return common;
+}
+
+Json CompareWith(const ReportPicture& got, const ReportPicture& reference,
+                 const std::optional<PerceptualOptions>& perceptual, const Packing& packing,
+                 size_t index, Page* page) {
+  CompareOptions options;
+  options.got_name = got.name;
+  options.reference_name = reference.name;
+  options.layers = CommonLayers(got.image, reference.image);
+  if (options.layers.empty()) {
+    throw Error(ExitCode::kCannotCompare, got.name,
+                "has no layer that " + reference.name + " has too");
+  }
+  const Verdict verdict = Judge(got.image, reference.image, {}, options);
+  return Compare(got.image, reference.image, options, verdict, perceptual, packing, index, page);
+}
+
+}  // namespace
+
+Json PictureSection(const std::vector<ReportPicture>& pictures, size_t reference,
+                    const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page) {
+  std::vector<const Image*> images;
+  images.reserve(pictures.size());
+  for (const ReportPicture& picture : pictures) images.push_back(&picture.image);
+  const Packing packing = ChoosePacking(images, limit);
+  Json set = {{"name", pictures[0].name},
+              {"frame", FrameOf(pictures[reference].image)},
+              {"reference", reference},
+              {"images", Json::array()},
+              {"comparisons", Json::array()}};
+  for (const ReportPicture& picture : pictures) {
+    Json image = PackImage(picture.image, picture.name, packing, page);
+    if (picture.stats) image["stats"] = *picture.stats;
+    set["images"].push_back(image);
+  }
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    if (i == reference) continue;
+    set["comparisons"].push_back(
+        CompareWith(pictures[i], pictures[reference], perceptual, packing, i, page));
+  }
+  Json section = {{"kind", "images"},
+                  {"title", pictures.size() == 1 ? "Picture" : "Comparison"},
+                  {"notes", Json::array()},
+                  {"sets", {set}}};
+  AddNote(packing, images, &section);
+  return section;
+}
+
+namespace {
+
+// A reference that could be compared: its row, and its two pictures as a set of the viewer.
+void AddRun(const Reference& reference, const ReferenceRun& run,
+            const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page,
+            Json* section) {
+  const std::vector<const Image*> images = {&run.got, &run.expected};
+  const Packing packing = ChoosePacking(images, limit);
+  const Json comparison = Compare(run.got, run.expected, OptionsOf(reference), run.verdict,
+                                  perceptual, packing, 0, page);
+  Json row = comparison["verdict"];
+  row["name"] = reference.name;
+  row["outcome"] = run.verdict.match ? "match" : "differ";
+  if (run.verdict.match) row["reason"] = reference.reason;
+  row["set"] = (*section)["sets"].size();
+  (*section)["cases"].push_back(row);
+  (*section)["sets"].push_back(
+      {{"name", reference.name},
+       {"frame", FrameOf(run.expected)},
+       {"reference", 1},
+       {"images",
+        {PackImage(run.got, "nacre", packing, page),
+         PackImage(run.expected, reference.image.filename().string(), packing, page)}},
+       {"comparisons", {comparison}}});
+  AddNote(packing, images, section);
+}
+
+}  // namespace
+
+Json ValidationSection(const std::string& folder, int threads,
+                       const std::optional<PerceptualOptions>& perceptual, size_t limit,
+                       Page* page) {
+  const std::vector<std::filesystem::path> paths = FindReferences(folder);
+  Json section = {{"kind", "images"},
+                  {"title", "Validation against references"},
+                  {"notes", Json::array()},
+                  {"cases", Json::array()},
+                  {"sets", Json::array()}};
+  for (const std::filesystem::path& path : paths) {
+    try {
+      const Reference reference = ReadReference(path);
+      AddRun(reference, RunReference(reference, threads), perceptual, limit / paths.size(), page,
+             &section);
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
+      section["cases"].push_back({{"name", path.stem().stem().string()},
+                                  {"outcome", "error"},
+                                  {"reason", error.faults().front().what}});
+    }
+  }
+  return section;
+}
+
+Json BenchSection(const std::string& path) {
+  const Json data = ReadJson(path);
+  for (const char* key : {"machine", "benchmarks", "targets", "best_target"}) {
+    if (!data.contains(key)) {
+      throw Error(ExitCode::kBadInput, path, fmt::format("has no \"{}\"", key),
+                  "scripts/bench writes out/bench/bench.json");
+    }
+  }
+  return {{"kind", "bench"}, {"title", "Benchmark"}, {"data", data}};
+}
+
+}  // namespace nacre

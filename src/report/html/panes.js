@@ -1,0 +1,134 @@
+// report/html/panes.js: canvases that look at the same part of the frame.
+
+// What is seen: the frame's point at the middle of each pane, and how many CSS pixels a pixel takes.
+class Camera {
+  constructor(frame) {
+    this.frame = frame;
+    this.scale = 0;  // 0: as large as fits
+    this.x = frame.width / 2;
+    this.y = frame.height / 2;
+  }
+  fitting(width, height) { return Math.min(width / this.frame.width, height / this.frame.height); }
+  scaleIn(width, height) { return this.scale || this.fitting(width, height); }
+  pan(dx, dy) {
+    this.x = Math.min(Math.max(this.x + dx, 0), this.frame.width);
+    this.y = Math.min(Math.max(this.y + dy, 0), this.frame.height);
+  }
+  fit() {
+    this.scale = 0;
+    this.x = this.frame.width / 2;
+    this.y = this.frame.height / 2;
+  }
+  // About a point of the frame, which stays where it is.
+  zoom(scale, x, y, width, height) {
+    const old = this.scaleIn(width, height), fit = this.fitting(width, height);
+    this.scale = Math.min(Math.max(scale, fit / 4), 64);
+    const kept = old / this.scale;
+    this.x = x + (this.x - x) * kept;
+    this.y = y + (this.y - y) * kept;
+  }
+}
+
+class Pane {
+  constructor(viewer) {
+    this.viewer = viewer;
+    this.canvas = el('canvas', {});
+    this.label = el('span', {class: 'name'});
+    this.second = el('span', {class: 'name right', hidden: true});
+    this.element = el('div', {class: 'pane', tabindex: 0, role: 'application'}, this.canvas, this.label,
+                      this.second);
+    this.fingers = new Map();
+    this.listen();
+  }
+
+  size() { return [this.canvas.clientWidth || 1, this.canvas.clientHeight || 1]; }
+
+  // From a point of the canvas to the frame.
+  frameAt(event) {
+    const box = this.canvas.getBoundingClientRect(), [w, h] = this.size();
+    const camera = this.viewer.camera, scale = camera.scaleIn(w, h);
+    return [camera.x + (event.clientX - box.left - w / 2) / scale,
+            camera.y + (event.clientY - box.top - h / 2) / scale];
+  }
+
+  listen() {
+    const {canvas, viewer, fingers} = this;
+    canvas.addEventListener('wheel', event => {
+      event.preventDefault();
+      this.zoomBy(Math.exp(-event.deltaY * (event.deltaMode ? 0.05 : 0.0016)), ...this.frameAt(event));
+    }, {passive: false});
+    canvas.addEventListener('pointerdown', event => {
+      canvas.setPointerCapture(event.pointerId);
+      fingers.set(event.pointerId, event);
+      viewer.inspect(...this.frameAt(event));
+    });
+    canvas.addEventListener('pointermove', event => this.moved(event));
+    for (const end of ['pointerup', 'pointercancel']) {
+      canvas.addEventListener(end, event => fingers.delete(event.pointerId));
+    }
+    canvas.addEventListener('dblclick', () => { viewer.camera.fit(); viewer.draw(); });
+  }
+
+  zoomBy(factor, x, y) {
+    const camera = this.viewer.camera, [w, h] = this.size();
+    camera.zoom(camera.scaleIn(w, h) * factor, x, y, w, h);
+    this.viewer.draw();
+  }
+
+  moved(event) {
+    const last = this.fingers.get(event.pointerId);
+    if (!last) {
+      if (event.pointerType === 'mouse') this.viewer.inspect(...this.frameAt(event));
+      return;
+    }
+    const [w, h] = this.size(), scale = this.viewer.camera.scaleIn(w, h);
+    const other = [...this.fingers.values()].find(f => f.pointerId !== event.pointerId);
+    if (other) {
+      const span = e => Math.hypot(e.clientX - other.clientX, e.clientY - other.clientY) || 1;
+      this.zoomBy(span(event) / span(last), ...this.frameAt(other));
+    } else {
+      this.viewer.camera.pan((last.clientX - event.clientX) / scale, (last.clientY - event.clientY) / scale);
+      this.viewer.draw();
+    }
+    this.fingers.set(event.pointerId, event);
+  }
+
+  // `pictures`: [{canvas, x0, y0, cell, from, to}], each shown between two parts of the width.
+  draw(pictures, mark, divider) {
+    const [w, h] = this.size(), ratio = window.devicePixelRatio || 1, {canvas} = this;
+    if (canvas.width !== Math.round(w * ratio) || canvas.height !== Math.round(h * ratio)) {
+      canvas.width = Math.round(w * ratio);
+      canvas.height = Math.round(h * ratio);
+    }
+    const context = canvas.getContext('2d'), camera = this.viewer.camera, scale = camera.scaleIn(w, h);
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, w, h);
+    for (const picture of pictures) {
+      context.save();
+      context.beginPath();
+      context.rect(picture.from * w, 0, (picture.to - picture.from) * w, h);
+      context.clip();
+      context.translate(w / 2 - camera.x * scale, h / 2 - camera.y * scale);
+      context.scale(scale * picture.cell, scale * picture.cell);
+      context.imageSmoothingEnabled = scale * picture.cell * ratio < 1;
+      context.imageSmoothingQuality = 'high';
+      context.drawImage(picture.canvas, picture.x0, picture.y0);
+      context.restore();
+    }
+    if (divider !== null) {
+      context.fillStyle = 'rgb(0 0 0 / .6)';
+      context.fillRect(divider * w - 1.5, 0, 3, h);
+      context.fillStyle = '#fff';
+      context.fillRect(divider * w - 0.5, 0, 1, h);
+    }
+    if (mark && scale >= 2) {
+      const x = w / 2 + (mark.x - camera.x) * scale, y = h / 2 + (mark.y - camera.y) * scale;
+      const side = scale * mark.cell;
+      context.lineWidth = 1;
+      context.strokeStyle = '#000';
+      context.strokeRect(x - 1.5, y - 1.5, side + 3, side + 3);
+      context.strokeStyle = '#fff';
+      context.strokeRect(x - 0.5, y - 0.5, side + 1, side + 1);
+    }
+  }
+}

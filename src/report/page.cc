@@ -1,0 +1,129 @@
+#include "report/page.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "image_io/deflate.h"
+#include "report/page_parts.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kDeflateLevel = 6;  // written once, mailed and kept: zlib's default
+
+// A digest as Content-Security-Policy writes it.
+std::string HashSource(std::string_view hex) {
+  std::vector<uint8_t> bytes;
+  bytes.reserve(hex.size() / 2);
+  for (size_t i = 0; i + 1 < hex.size(); i += 2) {
+    bytes.push_back(static_cast<uint8_t>(std::stoi(std::string(hex.substr(i, 2)), nullptr, 16)));
+  }
+  return Base64(bytes);
+}
+
+// JSON inside a <script>: "</script" and "<!--" would end it or change how it is read.
+std::string EscapeJson(const std::string& json) {
+  std::string out;
+  out.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<') {
+      out += "\\u003c";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+using Values = std::vector<std::pair<std::string_view, std::string_view>>;
+
+// Puts values in the place of {{names}}; what they hold is not looked at again.
+std::string Fill(std::string_view text, const Values& values) {
+  std::string out;
+  while (true) {
+    const size_t open = text.find("{{");
+    out += text.substr(0, open);
+    if (open == std::string_view::npos) return out;
+    const size_t close = text.find("}}", open);
+    const std::string_view name = text.substr(open + 2, close - open - 2);
+    for (const auto& [key, value] : values) {
+      if (key == name) out += value;
+    }
+    text.remove_prefix(close + 2);
+  }
+}
+
+}  // namespace
+
+std::string Base64(std::span<const uint8_t> bytes) {
+  constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (size_t i = 0; i < bytes.size(); i += 3) {
+    const size_t count = std::min<size_t>(3, bytes.size() - i);
+    uint32_t group = 0;
+    for (size_t b = 0; b < 3; ++b) group = group << 8 | (b < count ? bytes[i + b] : 0u);
+    for (size_t d = 0; d < 4; ++d) {
+      out += d <= count ? kDigits[group >> (18 - 6 * d) & 63] : '=';
+    }
+  }
+  return out;
+}
+
+std::string EscapeHtml(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+int Page::AddBlob(std::span<const uint8_t> bytes) {
+  blobs_.push_back(Base64(Deflate(bytes, DeflateForm::kZlib, kDeflateLevel)));
+  return static_cast<int>(blobs_.size()) - 1;
+}
+
+std::string Page::Html(const std::string& title, const std::string& generator,
+                       const nlohmann::ordered_json& data) const {
+  std::string blobs;
+  for (size_t i = 0; i < blobs_.size(); ++i) {
+    blobs += fmt::format("<script type=\"application/octet-stream\" id=\"blob{}\">", i);
+    blobs += blobs_[i];
+    blobs += "</script>\n";
+  }
+  // File names need not be UTF-8: what is not becomes the mark for that.
+  const std::string json =
+      EscapeJson(data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  const std::string script_hash = HashSource(PageScriptSha256());
+  const std::string style_hash = HashSource(PageStyleSha256());
+  const std::string safe_title = EscapeHtml(title);
+  const std::string safe_generator = EscapeHtml(generator);
+  return Fill(PageTemplate(), {{"title", safe_title},
+                               {"generator", safe_generator},
+                               {"style_hash", style_hash},
+                               {"script_hash", script_hash},
+                               {"style", PageStyle()},
+                               {"script", PageScript()},
+                               {"data", json},
+                               {"blobs", blobs}});
+}
+
+}  // namespace nacre

@@ -1,0 +1,16 @@
+// report/page_parts.h: the sources of the page, compiled in: report/html.
+#pragma once
+
+#include <string_view>
+
+namespace nacre {
+
+std::string_view PageTemplate();  // with {{names}} of what goes in
+std::string_view PageStyle();
+std::string_view PageScript();
+
+// Hexadecimal digests, by which the page's policy allows these and no other style and script.
+std::string_view PageStyleSha256();
+std::string_view PageScriptSha256();
+
+}  // namespace nacre
