@@ -123,7 +123,7 @@ void DrawScale(const SheetPage& page, const HeatScale& scale, bool light_ground,
   const int top = static_cast<int>(page.strip_top);
   canvas->Paste(HeatLegend(width, height).rgb8, width, left, top);
   const int low = static_cast<int>(std::lround(std::log10(scale.low)));
-  const int step = width > 4 * 3.2 * 0.8 * em ? 1 : 2;  // where labels would touch
+  const int step = width > 4 * 4.4 * 0.8 * em ? 1 : 2;  // where labels would touch
   for (int power = low; power <= low + 4; power += step) {
     const double x = left + (power - low) / 4.0 * width;
     const AlignX align = power == low       ? AlignX::kLeft

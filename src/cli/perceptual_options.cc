@@ -43,19 +43,20 @@ void ParseExposures(const std::string& text, PerceptualOptions* options) {
 
 void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
   const std::string group = "Metrics of what is seen (layers with R, G and B)";
-  command
-      ->add_option(
-          "--metrics", a->metrics,
-          "Besides those of numbers: ssim (structural similarity, 1: equal), flip (what is "
-          "seen to change when the pictures alternate, 0: nothing, 1: all), hdr_flip (the "
-          "same at every exposure; linear images), all or none")
-      ->delimiter(',')
+  CLI::Option* const metrics = command->add_option(
+      "--metrics", a->metrics,
+      "Besides those of numbers: ssim (structural similarity, 1: equal), flip (what is "
+      "seen to change when the pictures alternate, 0: nothing, 1: all), hdr_flip (the "
+      "same at every exposure; linear images), all or none");
+  metrics->delimiter(',')
       ->check(CLI::IsMember({"ssim", "flip", "hdr_flip", "all", "none"}))
       ->group(group);
+  if (!a->metrics.empty()) metrics->capture_default_str();
   command
-      ->add_option("--ppd", a->pixels_per_degree,
-                   "FLIP: pixels per degree of vision. 67 is a display 0.7 m wide with 3840 "
-                   "pixels, 0.7 m away")
+      ->add_option(
+          "--ppd", a->pixels_per_degree,
+          "FLIP: pixels per degree of vision. 67, without it, is a display 0.7 m wide with 3840 "
+          "pixels, 0.7 m away")
       ->check(InRange(1, 1000))
       ->group(group);
   command
@@ -66,11 +67,11 @@ void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
       ->group(group);
   command
       ->add_option("--tonemap", a->tonemap,
-                   "SSIM and FLIP: how linear images are shown, as nacre tonemap has it")
+                   "How linear images are shown, for SSIM and FLIP, as nacre tonemap has it")
       ->check(CLI::IsMember(ToneOperatorNames()))
       ->capture_default_str()
       ->group(group);
-  command->add_option("--exposure", a->exposure, "SSIM and FLIP: in stops")
+  command->add_option("--exposure", a->exposure, "Exposure in stops, likewise")
       ->check(InRange(-60, 60))
       ->capture_default_str()
       ->group(group);

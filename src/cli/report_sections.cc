@@ -27,7 +27,7 @@ void AddNote(const Packing& packing, const std::vector<const Image*>& images, Js
   const std::string words = packing.InWords();
   if (words.empty()) return;
   (*section)["notes"].push_back(
-      fmt::format("So that {} fit into this page, {}. All figures are of the files themselves.",
+      fmt::format("So that {} fit into this page, {}. All figures are of the whole pictures.",
                   images.size() == 1 ? "the picture would" : "the pictures would", words));
 }
 

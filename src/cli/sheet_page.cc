@@ -101,8 +101,8 @@ void WriteRows(const SheetText& text, const Margins& m, bool light, SheetPage* p
   if (count == 0) return;
   // Where lines would touch, not every value is written.
   const double line = kRowLine * m.row_label_size;
-  const double most = std::floor(static_cast<double>(count - 1) * page->cell / line) + 1;
-  const size_t written = std::min(count, std::max(static_cast<size_t>(most), size_t{2}));
+  const auto apart = static_cast<size_t>(std::ceil(line / page->cell));  // places
+  const size_t written = std::max((count - 1) / apart + 1, size_t{2});
   const std::vector<size_t> places =
       count > 1 ? SpreadPlaces(count - 1, written) : std::vector<size_t>{0};
   for (const size_t i : places) {

@@ -126,7 +126,7 @@ GridAxis LinearAxis(std::string parameter, const Rgb& from, const Rgb& to, int c
 GridAxis LogarithmicAxis(std::string parameter, const Rgb& from, const Rgb& to, int count) {
   GridAxis axis = LinearAxis(std::move(parameter), from, to, count);
   for (int i = 1; i + 1 < count; ++i) {  // the ends stay exact
-    const double t = static_cast<double>(i) / (count - 1);
+    const double t = i / (count - 1.0);
     Rgb& value = axis.values[static_cast<size_t>(i)];
     for (int c = 0; c < 3; ++c) value[c] = from[c] * std::pow(to[c] / from[c], t);
   }

@@ -36,7 +36,7 @@ LobeTable Tabulate(const Material& original) {
     const size_t first = table.entries.size();
     double energy = 0;
     for (const LobeSample& sample : MakeLobeSamples(1.5 * table.alpha, kResidualViewsDeg[view])) {
-      const Rgb lobe = EvaluateResponse(prepared, sample.to_light, to_view).specular;
+      const Rgb lobe = Reflect(prepared, Vec3d(0, 0, 1), sample.to_light, to_view).specular;
       table.entries.push_back({view, sample, lobe});
       energy += (lobe ^ lobe) * sample.weight;
     }
@@ -58,7 +58,8 @@ FittedLobe SolvePhong(const LobeTable& table, PhongModel model, double shininess
   Rgb squares(0);
   double own = 0;
   for (const LobeTable::Entry& entry : table.entries) {
-    const double g = EvaluateResponse(prepared, entry.sample.to_light, ViewOf(entry)).specular.x;
+    const double g =
+        Reflect(prepared, Vec3d(0, 0, 1), entry.sample.to_light, ViewOf(entry)).specular.x;
     cross += entry.lobe * (g * entry.sample.weight);
     squares += entry.lobe * entry.lobe * entry.sample.weight;
     own += g * g * entry.sample.weight;

@@ -28,8 +28,8 @@ Rgb DiffuseAlbedoAt(const ShadingMaterial& material, double n_dot_v) {
   const QuadratureRule& rule = GaussLegendre(12);
   Rgb sum(0);
   for (size_t i = 0; i < rule.x.size(); ++i) {
-    const Response response =
-        EvaluateResponse(material, Direction(rule.x[i], M_PI / 2), Direction(n_dot_v, 0));
+    const Reflection response =
+        Reflect(material, Vec3d(0, 0, 1), Direction(rule.x[i], M_PI / 2), Direction(n_dot_v, 0));
     sum += response.diffuse * (rule.w[i] * 2 * M_PI);
   }
   return sum;
@@ -47,8 +47,8 @@ ViewSums SumView(const ShadingMaterial& original, const ShadingMaterial& other, 
   const Vec3d to_view = ViewDirection(view_deg);
   ViewSums sums;
   for (const LobeSample& sample : MakeLobeSamples(alpha, view_deg)) {
-    const Rgb a = EvaluateResponse(original, sample.to_light, to_view).specular;
-    const Rgb b = EvaluateResponse(other, sample.to_light, to_view).specular;
+    const Rgb a = Reflect(original, Vec3d(0, 0, 1), sample.to_light, to_view).specular;
+    const Rgb b = Reflect(other, Vec3d(0, 0, 1), sample.to_light, to_view).specular;
     const Rgb difference = b - a;
     sums.difference2 += (difference ^ difference) * sample.weight;
     sums.original2 += (a ^ a) * sample.weight;

@@ -3,56 +3,62 @@
 #include <cmath>
 
 #include "base/overloaded.h"
+#include "brdf/burley.h"
+#include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
+#include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 
 namespace nacre {
 namespace {
 
-constexpr Vec3d kNormal(0, 0, 1);
-
-Response Evaluate(const PhongFamilyModel& m, const Vec3d& l, const Vec3d& v) {
-  const bool blinn = m.model == PhongModel::kBlinnPhong;
-  const double lobe = blinn ? BlinnLobe(ComputeAngles(kNormal, l, v), m.shininess)
-                            : PhongLobe(kNormal, l, v, m.shininess);
-  return {m.diffuse * l.z,
-          m.specular * (m.model == PhongModel::kModifiedPhong ? lobe * l.z : lobe)};
+Reflection ReflectModel(const LambertModel& model, const Vec3d& n, const Vec3d& l, const Vec3d&) {
+  return {model.diffuse * (n ^ l), Rgb(0)};
 }
 
-double FresnelOf(const MicrofacetModel& m, const Angles<double>& a, int c) {
-  switch (m.fresnel) {
-    case FresnelForm::kSchlick:
-      return FresnelSchlick(m.f0[c], SchlickWeight(a));
-    case FresnelForm::kF82:
-      return FresnelF82(VDotH(a), OneMinusVDotH(a), m.f0[c], m.f82_slope[c]);
-    case FresnelForm::kDielectric:
-      return FresnelDielectric(VDotH(a), OneMinusVDotH(a), m.eta[c]);
-    case FresnelForm::kConductor:
-      return FresnelConductor(VDotH(a), OneMinusVDotH(a), m.eta[c], m.k[c]);
-  }
-  return 0;
-}
-
-double VisibilityOf(const MicrofacetModel& m, const Angles<double>& a) {
-  switch (m.shadowing) {
-    case Shadowing::kHeightCorrelated:
-      return VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, m.alpha);
-    case Shadowing::kSeparable:
-      return VisibilitySeparable(a.n_dot_l, a.n_dot_v, m.alpha);
-    case Shadowing::kSchlickDirect:
+// A diffuse model's share of Lambert's: of channel c, with EonMultipleRatio of its colour.
+double SpreadOf(DiffuseForm form, const Angles<double>& a, double roughness, double ratio) {
+  switch (form) {
+    case DiffuseForm::kOrenNayar:
+      return M_PI * (EonSingle(a.n_dot_l, a.n_dot_v, 1 - a.lv_squared / 2, roughness) +
+                     ratio * EonMultiple(a.n_dot_l, a.n_dot_v, roughness));
+    case DiffuseForm::kBurley:
+      return M_PI * BurleyDiffuse(a, roughness);
+    case DiffuseForm::kLambert:
       break;
   }
-  return VisibilitySchlickDirect(a.n_dot_l, a.n_dot_v, std::sqrt(m.alpha));
+  return 1;
 }
 
-// What reaches the base and leaves it again.
-double BaseShareOf(const MicrofacetModel& m, const Angles<double>& a, double fresnel, int c) {
-  switch (m.coupling) {
+Reflection ReflectModel(const RoughMatteModel& model, const Vec3d& n, const Vec3d& l,
+                        const Vec3d& v) {
+  const Angles<double> a = ComputeAngles(n, l, v);
+  Reflection out;
+  for (int c = 0; c < 3; ++c) {
+    out.diffuse[c] =
+        model.diffuse[c] * a.n_dot_l * SpreadOf(model.form, a, model.roughness, model.ratio[c]);
+  }
+  return out;
+}
+
+Reflection ReflectModel(const PhongFamilyModel& model, const Vec3d& n, const Vec3d& l,
+                        const Vec3d& v) {
+  const double n_dot_l = n ^ l;
+  const double lobe = model.model == PhongModel::kBlinnPhong
+                          ? BlinnLobe(ComputeAngles(n, l, v), model.shininess)
+                          : PhongLobe(n, l, v, model.shininess);
+  const double weight = model.model == PhongModel::kModifiedPhong ? n_dot_l : 1;
+  return {model.diffuse * n_dot_l, model.specular * (lobe * weight)};
+}
+
+// What reaches the base and leaves it again, of channel c.
+double BaseShare(const MicrofacetModel& model, const Angles<double>& a, double fresnel, int c) {
+  switch (model.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {
-      const double out = 1 - LobeAlbedo(m, a.n_dot_v, c);
-      const bool reciprocal = m.compensation == Compensation::kKullaConty;
-      return reciprocal ? out * (1 - LobeAlbedo(m, a.n_dot_l, c)) : out;
+      const double out = 1 - LobeAlbedo(model, a.n_dot_v, c);
+      const bool reciprocal = model.compensation == Compensation::kKullaConty;
+      return reciprocal ? out * (1 - LobeAlbedo(model, a.n_dot_l, c)) : out;
     }
     case DiffuseCoupling::kOneMinusFresnel:
       return 1 - fresnel;
@@ -62,38 +68,70 @@ double BaseShareOf(const MicrofacetModel& m, const Angles<double>& a, double fre
   return 1;
 }
 
-Response Evaluate(const MicrofacetModel& m, const Vec3d& l, const Vec3d& v) {
-  const Angles<double> a = ComputeAngles(kNormal, l, v);
-  const double lobe = GgxDistribution(a, m.alpha) * VisibilityOf(m, a);
-  const double loss_v = AlbedoLoss(m.albedo.lobe, a.n_dot_v);
-  const double loss_l = AlbedoLoss(m.albedo.lobe, a.n_dot_l);
-  Response out;
+Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3d& l,
+                        const Vec3d& v) {
+  const Angles<double> a = ComputeAngles(n, l, v);
+  const Rgb fresnel = FresnelOf(model, VDotH(a), OneMinusVDotH(a));
+  const double lobe = GgxDistribution(a, model.alpha) * VisibilityOf(model, a.n_dot_l, a.n_dot_v);
+  const double loss_v = AlbedoLoss(model.albedo.lobe, a.n_dot_v);
+  const double loss_l = AlbedoLoss(model.albedo.lobe, a.n_dot_l);
+  Reflection out;
   for (int c = 0; c < 3; ++c) {
-    const double fresnel = FresnelOf(m, a, c);
-    double specular = fresnel * lobe;
-    if (m.compensation == Compensation::kTurquin) specular *= 1 + m.f0[c] * loss_v / (1 - loss_v);
-    if (m.compensation == Compensation::kKullaConty) {
-      specular += m.f_multiple[c] * m.multiple * loss_v * loss_l;
+    double specular = fresnel[c] * lobe;
+    if (model.compensation == Compensation::kTurquin) {
+      specular *= TurquinFactor(model.f0[c], 1 - loss_v);
+    } else if (model.compensation == Compensation::kKullaConty) {
+      specular += model.f_multiple[c] * model.multiple * loss_v * loss_l;
     }
-    out.specular[c] = specular * l.z;
-    out.diffuse[c] = BaseShareOf(m, a, fresnel, c) * m.diffuse[c] * l.z;
+    out.specular[c] = specular * a.n_dot_l;
+    const double spread = SpreadOf(model.base_form, a, model.base_roughness, model.base_ratio[c]);
+    out.diffuse[c] = BaseShare(model, a, fresnel[c], c) * model.diffuse[c] * spread * a.n_dot_l;
   }
   return out;
 }
 
 }  // namespace
 
-Response EvaluateResponse(const ShadingMaterial& material, const Vec3d& to_light,
-                          const Vec3d& to_view) {
-  if (!(to_light.z > 0 && to_view.z > 0)) return {};
+Reflection Reflect(const ShadingMaterial& material, const Vec3d& normal, const Vec3d& to_light,
+                   const Vec3d& to_view) {
+  if (!((normal ^ to_light) > 0) || !((normal ^ to_view) > 0)) return {};
   return std::visit(
-      Overloaded{[](const std::monostate&) { return Response{}; },
-                 [&](const LambertModel& m) {
-                   return Response{m.diffuse * to_light.z, Rgb(0)};
-                 },
-                 [&](const PhongFamilyModel& m) { return Evaluate(m, to_light, to_view); },
-                 [&](const MicrofacetModel& m) { return Evaluate(m, to_light, to_view); }},
+      Overloaded{[](const std::monostate&) { return Reflection{}; },
+                 [&](const auto& model) { return ReflectModel(model, normal, to_light, to_view); }},
       material.model);
+}
+
+Rgb FresnelOf(const MicrofacetModel& model, double v_dot_h, double one_minus_vh) {
+  Rgb fresnel;
+  for (int c = 0; c < 3; ++c) {
+    switch (model.fresnel) {
+      case FresnelForm::kSchlick:
+        fresnel[c] = FresnelSchlick(model.f0[c], Power5(one_minus_vh));
+        break;
+      case FresnelForm::kF82:
+        fresnel[c] = FresnelF82(v_dot_h, one_minus_vh, model.f0[c], model.f82_slope[c]);
+        break;
+      case FresnelForm::kDielectric:
+        fresnel[c] = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c]);
+        break;
+      case FresnelForm::kConductor:
+        fresnel[c] = FresnelConductor(v_dot_h, one_minus_vh, model.eta[c], model.k[c]);
+        break;
+    }
+  }
+  return fresnel;
+}
+
+double VisibilityOf(const MicrofacetModel& model, double n_dot_l, double n_dot_v) {
+  switch (model.shadowing) {
+    case Shadowing::kHeightCorrelated:
+      return VisibilityHeightCorrelated(n_dot_l, n_dot_v, model.alpha);
+    case Shadowing::kSeparable:
+      return VisibilitySeparable(n_dot_l, n_dot_v, model.alpha);
+    case Shadowing::kSchlickDirect:
+      break;
+  }
+  return VisibilitySchlickDirect(n_dot_l, n_dot_v, std::sqrt(model.alpha));
 }
 
 }  // namespace nacre

@@ -60,12 +60,15 @@ std::optional<double> IrradianceAt(const Light& light, double distance) {
                    return Luminance(disk.radiance) * IrradianceOf(disk, distance);
                  },
                  [](const AmbientLight&) -> Result { return std::nullopt; },
+                 // Triangles have no axis to move away along.
+                 [](const MeshAreaLight&) -> Result { return std::nullopt; },
                  [](const EnvironmentLight&) -> Result { return std::nullopt; }},
       light.kind);
 }
 
 bool HasFalloff(const Light& light) {
   return !std::holds_alternative<AmbientLight>(light.kind) &&
+         !std::holds_alternative<MeshAreaLight>(light.kind) &&
          !std::holds_alternative<EnvironmentLight>(light.kind);
 }
 

@@ -15,7 +15,8 @@ import pathlib
 import re
 
 # ctests that are no folder of tests/ with a program of its own, and what to build for them.
-OTHER_TESTS = {"cli": "nacre", "references": "nacre", "scene_schema": None}
+OTHER_TESTS = {"cli": "nacre", "references": "nacre", "report_browser": "nacre",
+               "scene_schema": None}
 
 
 class ListError(Exception):
