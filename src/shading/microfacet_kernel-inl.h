@@ -174,8 +174,8 @@ struct Microfacet {
       return EvaluateAlbedo(d, model, cosine);
     } else {
       if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, cosine);
-      return EvaluateSchlickAlbedo(d, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
-                                   cosine);
+      return EvaluateAlbedo(d, model, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
+                            cosine);
     }
   }
 
