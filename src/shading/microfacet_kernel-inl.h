@@ -157,10 +157,12 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
+    const RgbV lambert = ScaleRgb(base, in.weight);
+    // Grazing light spreads by as much more as its weight is less: in this order nothing overflows.
     if (kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
-      base = MulRgb(base, SpreadAt(d, p.i));
+      return {MulRgb(lambert, SpreadAt(d, p.i)), reflected};
     }
-    return {ScaleRgb(base, in.weight), reflected};
+    return {lambert, reflected};
   }
 
   HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
