@@ -157,12 +157,11 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
-    const RgbV lambert = ScaleRgb(base, in.weight);
-    // Grazing light spreads by as much more as its weight is less: in this order nothing overflows.
+    // Grazing light spreads by as much more as its weight is less: their product stays in range.
     if (kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
-      return {MulRgb(lambert, SpreadAt(d, p.i)), reflected};
+      return {MulRgb(base, ScaleRgb(SpreadAt(d, p.i), in.weight)), reflected};
     }
-    return {lambert, reflected};
+    return {ScaleRgb(base, in.weight), reflected};
   }
 
   HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
