@@ -59,54 +59,67 @@ void FaceLight(const Lit& lit) {
 }
 
 // Lets the shadow ray of a hit start where those of its mesh do, and end at the same point.
-void LiftRay(const TileScratch& s, size_t hit, size_t ray, ShadowRayBatch* rays) {
+void LiftRay(const TileScratch& s, size_t i, ShadowRayBatch* rays) {
   const Soa3<double>& from = s.hits.position;
   const Soa3<double>& origin = s.shadow_origin;
-  const Vec3d lift(origin.x[hit] - from.x[hit], origin.y[hit] - from.y[hit],
-                   origin.z[hit] - from.z[hit]);
-  if (lift == Vec3d(0, 0, 0)) return;
-  rays->origin.x[ray] = origin.x[hit];
-  rays->origin.y[ray] = origin.y[hit];
-  rays->origin.z[ray] = origin.z[hit];
-  const double distance = rays->t_max[ray];
+  const Vec3d lift(origin.x[i] - from.x[i], origin.y[i] - from.y[i], origin.z[i] - from.z[i]);
+  if (lift == Vec3d(0, 0, 0) || rays->t_max[i] == 0) return;
+  rays->origin.x[i] = origin.x[i];
+  rays->origin.y[i] = origin.y[i];
+  rays->origin.z[i] = origin.z[i];
+  const double distance = rays->t_max[i];
   if (std::isinf(distance)) return;
-  rays->direction.x[ray] = rays->direction.x[ray] * distance - lift.x;
-  rays->direction.y[ray] = rays->direction.y[ray] * distance - lift.y;
-  rays->direction.z[ray] = rays->direction.z[ray] * distance - lift.z;
-  rays->t_max[ray] = 1;
+  rays->direction.x[i] = rays->direction.x[i] * distance - lift.x;
+  rays->direction.y[i] = rays->direction.y[i] * distance - lift.y;
+  rays->direction.z[i] = rays->direction.z[i] * distance - lift.z;
+  rays->t_max[i] = 1;
+}
+
+void CopySoa(const Soa3<double>& from, size_t count, Soa3<double>* to) {
+  std::copy_n(from.x.data(), count, to->x.data());
+  std::copy_n(from.y.data(), count, to->y.data());
+  std::copy_n(from.z.data(), count, to->z.data());
+}
+
+// One ray a hit, most of which need one; the others end where they start. Returns how many do not.
+size_t MakeShadowRays(const Lit& lit) {
+  TileScratch& s = lit.s;
+  const HitBatch& hits = s.hits;
+  ShadowRayBatch& rays = s.shadow_rays;
+  const Soa3<float>& l = lit.c.directions.to_light;
+  rays.count = hits.count;
+  std::copy_n(hits.primitive.data(), hits.count, rays.primitive.data());
+  CopySoa(hits.position, hits.count, &rays.origin);
+  std::copy_n(l.x.data(), hits.count, rays.direction.x.data());
+  std::copy_n(l.y.data(), hits.count, rays.direction.y.data());
+  std::copy_n(l.z.data(), hits.count, rays.direction.z.data());
+  const bool all = lit.planned.trace_all || lit.planned.shadowed.empty();
+  size_t asked = 0;
+  for (size_t i = 0; i < hits.count; ++i) {
+    const bool asks =
+        s.light.irradiance[i] > 0 && (all || !NeverShadowed(lit.planned, hits.primitive[i]));
+    rays.t_max[i] = asks ? lit.c.directions.distance[i] : 0.0;
+    asked += asks ? 1 : 0;
+  }
+  if (!lit.plan.lift_shadows) return asked;
+  for (size_t i = 0; i < hits.count; ++i) LiftRay(s, i, &rays);
+  return asked;
 }
 
 // Takes the light from the hits that something lies before it for.
 void CastShadows(const Lit& lit) {
   TileScratch& s = lit.s;
-  const HitBatch& hits = s.hits;
-  const LightDirections& directions = lit.c.directions;
+  const size_t asked = MakeShadowRays(lit);
+  lit.stats->shadow_rays += asked;
+  if (asked == 0) return;
   ShadowRayBatch& rays = s.shadow_rays;
-  rays.count = 0;
-  for (size_t i = 0; i < hits.count; ++i) {
-    if (!(s.light.irradiance[i] > 0)) continue;
-    if (!lit.planned.trace_all && NeverShadowed(lit.planned, hits.primitive[i])) continue;
-    const size_t ray = rays.count++;
-    s.shadow_hits[ray] = static_cast<uint32_t>(i);
-    rays.primitive[ray] = hits.primitive[i];
-    rays.origin.x[ray] = hits.position.x[i];
-    rays.origin.y[ray] = hits.position.y[i];
-    rays.origin.z[ray] = hits.position.z[i];
-    rays.direction.x[ray] = directions.to_light.x[i];
-    rays.direction.y[ray] = directions.to_light.y[i];
-    rays.direction.z[ray] = directions.to_light.z[i];
-    rays.t_max[ray] = directions.distance[i];
-    if (lit.plan.lift_shadows) LiftRay(s, i, ray, &rays);
-  }
-  lit.stats->shadow_rays += rays.count;
-  if (rays.count == 0) return;
   rays.light = lit.planned.occluders;
   rays.outward = lit.plan.eye_outside;
   rays.target = lit.planned.primitives;
   lit.plan.intersector->Occluded(&rays);
   rays.target = {};
-  for (size_t ray = 0; ray < rays.count; ++ray) {
-    if (rays.occluded[ray] != 0) s.light.irradiance[s.shadow_hits[ray]] = 0;
+  for (size_t i = 0; i < rays.count; ++i) {
+    s.light.irradiance[i] = rays.occluded[i] != 0 ? 0.0f : s.light.irradiance[i];
   }
 }
 
