@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/sampled_kernel.h"
 #include "render/tile_layers.h"
 #include "shading/lobe_sample.h"
 
@@ -38,23 +39,9 @@ struct Ways {
   bool cosine;  // SampleCosine, for the diffuse part; SampleLobe always is, for the specular part
 };
 
-float NDotL(const Surface& surface, const Soa3<float>& l, size_t i) {
-  const Soa3<float>& n = surface.normal;
-  return n.x[i] * l.x[i] + n.y[i] * l.y[i] + n.z[i] * l.z[i];
-}
-
 // Lets a unit light shine on the hits that face it along the directions and do not miss it.
 void FaceLight(const Lit& lit) {
-  const LightDirections& directions = lit.c.directions;
-  LightBatch& light = lit.s.light;
-  const Soa3<float>& l = directions.to_light;
-  for (size_t i = 0; i < lit.count(); ++i) {
-    light.to_light.x[i] = l.x[i];
-    light.to_light.y[i] = l.y[i];
-    light.to_light.z[i] = l.z[i];
-    const bool shines = directions.distance[i] > 0 && NDotL(lit.s.surface, l, i) > 0;
-    light.irradiance[i] = shines ? 1.0f : 0.0f;
-  }
+  ShineAlong(lit.c.directions, lit.s.surface, lit.count(), &lit.s.light);
   HideTurned(lit.plan, &lit.s);
 }
 
@@ -146,42 +133,21 @@ void ShadeUnit(const Lit& lit) {
 }
 
 // sum += part x c.weight x the radiance that is seen.
-void AddWeighted(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
+void AddSeen(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
   const SampledLight& light = lit.planned.light;
-  const bool colored = IsColored(light);
-  const auto add = [&](const AlignedArray<float>& from, const AlignedArray<float>& radiance,
-                       double color, AlignedArray<float>* to) {
-    const auto scale = static_cast<float>(color);
-    const float* const weight = lit.c.weight.data();
-    for (size_t i = 0; i < lit.count(); ++i) {
-      const float seen = colored ? radiance[i] * scale : scale;
-      (*to)[i] += from[i] * weight[i] * seen;
-    }
-  };
-  const Soa3<float>& radiance = lit.c.directions.radiance;
-  add(part.x, radiance.x, light.color.x, &sum->x);
-  add(part.y, radiance.y, light.color.y, &sum->y);
-  add(part.z, radiance.z, light.color.z, &sum->z);
+  const Soa3<float>* radiance = IsColored(light) ? &lit.c.directions.radiance : nullptr;
+  AddWeighted(part, lit.c.weight.data(), radiance, light.color, lit.count(), sum);
 }
 
-// c.weight = 1 / c.density; 0 where no light comes from, or no direction is chosen.
 void WeighByDensity(const Lit& lit) {
-  const float* const irradiance = lit.s.light.irradiance.data();
-  for (size_t i = 0; i < lit.count(); ++i) {
-    const bool counts = irradiance[i] > 0 && lit.c.density[i] > 0;
-    lit.c.weight[i] = counts ? 1 / lit.c.density[i] : 0.0f;
-  }
+  FindWeights(lit.s.light.irradiance.data(), lit.c.density.data(), lit.count(),
+              lit.c.weight.data());
 }
 
 void WeighDiffuse(const Lit& lit, const Ways& ways) {
-  const LightDirections& directions = lit.c.directions;
-  for (size_t i = 0; i < lit.count(); ++i) {
-    float density = ways.light ? directions.density[i] : 0.0f;
-    if (ways.cosine) {
-      density += NDotL(lit.s.surface, directions.to_light, i) * static_cast<float>(M_1_PI);
-    }
-    lit.c.density[i] = lit.planned.closed_form && lit.c.flat[i] != 0 ? 0 : density;
-  }
+  const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
+  FindDiffuseDensity({ways.light, ways.cosine}, lit.c.directions, lit.s.surface, flat, lit.count(),
+                     lit.c.density.data());
   WeighByDensity(lit);
 }
 
@@ -204,11 +170,11 @@ void AddDirections(const Lit& lit, const Ways& ways, const Parts& parts) {
   ShadeUnit(lit);
   if (parts.diffuse) {
     WeighDiffuse(lit, ways);
-    AddWeighted(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+    AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   }
   if (parts.specular) {
     WeighSpecular(lit, ways);
-    AddWeighted(lit, lit.c.unit.specular, &lit.s.single.specular);
+    AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
   }
   lit.stats->shades += lit.count();
   lit.clock->Charge(Stage::kShade);
@@ -243,7 +209,7 @@ void AddClosedForm(const Lit& lit) {
     lit.c.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
   ShadeUnit(lit);
-  AddWeighted(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+  AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   lit.clock->Charge(Stage::kLight);
 }
 
@@ -298,7 +264,7 @@ void AddByMirror(const Lit& lit) {
   }
   Shadow(lit);
   std::copy_n(s.light.irradiance.data(), lit.count(), lit.c.weight.data());
-  AddWeighted(lit, lit.c.unit.specular, &s.single.specular);
+  AddSeen(lit, lit.c.unit.specular, &s.single.specular);
   lit.clock->Charge(Stage::kShade);
 }
 
