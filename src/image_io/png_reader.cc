@@ -109,6 +109,9 @@ bool Unfilter(int filter, const uint8_t* above, size_t step, size_t size, uint8_
 // The file's samples, row by row, a byte of filter before each row.
 bool Decompress(const Png& png, std::vector<uint8_t>* rows) {
   const size_t stride = png.row_bytes() + 1;
+  // Deflate makes 1032 bytes of one at most: what promises more would only cost memory.
+  constexpr size_t kMaxRatio = 1032;
+  if (stride * png.height / kMaxRatio > png.compressed.size()) return false;
   rows->resize(stride * png.height);
   uLongf size = rows->size();
   const int status = uncompress(rows->data(), &size, png.compressed.data(), png.compressed.size());

@@ -59,10 +59,10 @@ ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   const std::string name = source.bytes.empty() ? named.uri : fmt::format("image {}", image);
   try {
     if (source.bytes.empty()) {
-      scene_.images.push_back(ReadTextureImage(source.file, name, encoding));
+      AddTextureImage(source.file, name, encoding, &scene_);
     } else {
       const TemporaryFile file(source.bytes, SuffixOf(source.bytes));
-      scene_.images.push_back(ReadTextureImage(file.path(), name, encoding));
+      AddTextureImage(file.path(), name, encoding, &scene_);
     }
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;

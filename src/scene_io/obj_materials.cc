@@ -93,7 +93,7 @@ TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_
   if (image == images_.end()) {
     try {
       const auto path = ResolveReference(folder_, name, options_.allow_paths);
-      scene->images.push_back(ReadTextureImage(path, name, encoding));
+      AddTextureImage(path, name, encoding, scene);
     } catch (const Error& error) {
       const Fault& fault = error.faults().front();
       if (fault.what.starts_with("there is no file")) {  // models often come without

@@ -75,9 +75,7 @@ ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneCo
   const std::string key = path.string() + (encoding == TextureEncoding::kSrgb ? ":s" : ":l");
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
-  std::vector<SceneImage>& images = context->scene->images;
-  images.push_back(ReadTextureImage(path, source.file, encoding));
-  const ImageId id{static_cast<uint32_t>(images.size() - 1)};
+  const ImageId id = AddTextureImage(path, source.file, encoding, context->scene);
   context->images.emplace(key, id);
   return id;
 }
