@@ -1,4 +1,6 @@
 // tests/fuzz/set_path_fuzz.cc: what follows --set, on a scene and on a model.
+#include <algorithm>
+
 #include "fuzz/fuzz_input.h"
 #include "fuzz/targets.h"
 
