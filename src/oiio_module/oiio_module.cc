@@ -96,7 +96,7 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
   const std::string format = FormatOf(path);
-  if (format.empty()) return "is not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA";
+  if (format.empty()) return "not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA";
   const auto input = OIIO::ImageInput::create(format);
   if (!input) return OIIO::geterror();
   OIIO::ImageSpec spec;

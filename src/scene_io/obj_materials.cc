@@ -60,8 +60,7 @@ MtlReader::MtlReader(const std::filesystem::path& obj, const LoadOptions& option
     : folder_(obj.parent_path()), file_(obj.string()), options_(options) {}
 
 void MtlReader::Warn(const std::string& text) {
-  if (std::find(told_.begin(), told_.end(), text) != told_.end()) return;
-  told_.push_back(text);
+  if (!told_.insert(text).second) return;
   if (options_.on_warning) options_.on_warning(file_ + ": " + text);
 }
 
@@ -80,6 +79,7 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
     }
     throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
   }
+  if (!libraries_.insert(path.string()).second) return true;  // a file may name it a million times
   std::istringstream stream(Prepare(ReadTextFile(path, kMaxBytes), path.string()));
   tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
   return true;

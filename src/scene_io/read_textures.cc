@@ -163,7 +163,9 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   if (found == context->textures.end()) {
     std::vector<std::string> names;
     names.reserve(context->textures.size());
-    for (const auto& [known, source] : context->textures) names.push_back(known);
+    if (value.faults->count() < FaultList::kMaxKept) {  // others are only counted
+      for (const auto& [known, source] : context->textures) names.push_back(known);
+    }
     std::sort(names.begin(), names.end());
     FaultUnknownName(value, "texture", name, names);
     return;

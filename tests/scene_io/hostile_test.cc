@@ -117,6 +117,43 @@ TEST_CASE("all textures of a scene share one bound") {
                  "4 x 2 texels are too many"));
 }
 
+// Edit distances of these would take hours; a test that never ends would be seen.
+TEST_CASE("slips are looked for in short names, and for faults that are told") {
+  const std::string mega_a(1'000'000, 'a'), mega_b = mega_a + 'b';
+  const std::string sphere = fmt::format(
+      R"({{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "{}"}})", mega_b);
+  const std::string message = MessageOf([&] {
+    LoadSceneText(fmt::format(R"({{"nacre": 1, "materials": {{"{}": {{"model": "lambert"}}}},
+                                  "shapes": [{}]}})",
+                              mega_a, sphere),
+                  "test.json", {});
+  });
+  CHECK(Contains(message, "unknown material"));
+  std::string materials = R"("m": {"model": "lambert"})", shapes = "{}";
+  for (int i = 0; i < 20'000; ++i) {
+    materials += fmt::format(R"(, "m{}": {{"model": "lambert"}})", i);
+    shapes += R"(, {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "n"})";
+  }
+  const std::string many = MessageOf([&] {
+    LoadSceneText(
+        fmt::format(R"({{"nacre": 1, "materials": {{{}}}, "shapes": [{}]}})", materials, shapes),
+        "test.json", {});
+  });
+  CHECK(Contains(many, "did you mean \"m\"?"));
+  CHECK(Contains(many, "more faults"));
+}
+
+TEST_CASE("a material library is read once, however often a file names it") {
+  const HostileFolder folder;
+  std::string mtl = "newmtl a\nKd 1 1 1\n", obj;
+  for (int i = 0; i < 20'000; ++i) mtl += "# a comment that takes its time\n";
+  for (int i = 0; i < 20'000; ++i) obj += "mtllib a.mtl\n";
+  folder.Write("a.mtl", mtl);
+  const Scene scene =
+      LoadScene(folder.Write("a.obj", obj + "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  CHECK(scene.materials.size() == 2);  // with the one of faces without any
+}
+
 TEST_CASE("--set reaches as deep as a file does, and no deeper") {
   const auto set = [](const std::string& pointer, const std::string& value) {
     LoadOptions options;
