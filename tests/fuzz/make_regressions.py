@@ -30,13 +30,13 @@ def scenes():
     write('scene_json', 'long_names', json.dumps({'nacre': 1, 'materials': {'a' * 9000: {'model': 'lambert'}},
                                                   'shapes': [{'type': 'sphere', 'center': [0, 0, 0],
                                                               'radius': 1, 'material': 'a' * 9001}]}))
-    write('scene_json', 'deep', '[' * 50_000)
-    write('scene_json', 'deep_objects', '{"nacre":' * 20_000)
+    write('scene_json', 'deep', '[' * 5000)
+    write('scene_json', 'deep_objects', '{"nacre":' * 2000)
     write('scene_json', 'overflow', '{"nacre": 1e999}')
     write('scene_json', 'half_a_surrogate', '{"nacre": 1, "background": "\\ud800"}')
     write('scene_json', 'grids', json.dumps({**scene, 'shapes': [
         {'type': 'grid', 'material': 'a', 'rows': {'count': 1000}, 'columns': {'count': 1000}}] * 9}))
-    write('set_path', 'deep', '/a' * 30_000 + '=1\n')
+    write('set_path', 'deep', '/a' * 3000 + '=1\n')
     write('set_path', 'no_pointer', 'a=1\n/~2=1\n/shapes/99999999999999999999=1\n/shapes/-=1\n')
 
 
