@@ -108,13 +108,14 @@ class FaultsTest(unittest.TestCase):
         (folder / 'old.png').write_bytes(b'old')
         folder.chmod(0o500)
         self.addCleanup(folder.chmod, 0o700)
-        # Root may write anywhere, so it becomes somebody else.
-        def drop():
+
+        def drop():  # root may write anywhere, so it becomes somebody else
             if IS_ROOT:
                 os.setgid(65534)
                 os.setuid(65534)
         if IS_ROOT:
-            os.chown(folder, 65534, 65534)
+            for path in folder, folder / 'old.png':
+                os.chown(path, 65534, 65534)
             self.out.chmod(0o755)
         if IS_ROOT and subprocess.run([PROGRAM, '--version'], capture_output=True, preexec_fn=drop,
                                       check=False).returncode != 0:
