@@ -159,7 +159,10 @@ std::optional<Image> ReadPlainPng(const std::string& path, uint64_t max_samples)
   stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
   if (!stream || std::memcmp(file.data(), kSignature.data(), kSignature.size()) != 0) return {};
   stream.seekg(0, std::ios::end);
-  file.resize(static_cast<size_t>(stream.tellg()));
+  const std::streamoff length = stream.tellg();
+  constexpr std::streamoff kLongest = std::streamoff{1} << 31;  // chunks have 31 bits for theirs
+  if (length < static_cast<std::streamoff>(kSignature.size()) || length > kLongest) return {};
+  file.resize(static_cast<size_t>(length));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
   Png png;
