@@ -104,6 +104,14 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
     return "not a flat picture";
   }
+  constexpr int kFar = 1 << 30;  // sums of two of these stay in range
+  for (const int number : {spec.x, spec.y, spec.width, spec.height, spec.full_x, spec.full_y,
+                           spec.full_width, spec.full_height}) {
+    if (number < -kFar || number > kFar) return "its size or place is out of range";
+  }
+  const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) *
+                        static_cast<uint64_t>(std::max(spec.tile_height, 0));
+  if (tile > max_samples / static_cast<uint64_t>(spec.nchannels)) return "its tiles are too large";
   const uint64_t samples = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
   if (samples > max_samples) return "too large";
   DescribeImage(spec, image);
