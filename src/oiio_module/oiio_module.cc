@@ -111,9 +111,11 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
   }
   const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) *
                         static_cast<uint64_t>(std::max(spec.tile_height, 0));
-  if (tile > max_samples / static_cast<uint64_t>(spec.nchannels)) return "its tiles are too large";
-  const uint64_t samples = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
-  if (samples > max_samples) return "too large";
+  // Divided, because the product may wrap around.
+  const auto channels = static_cast<uint64_t>(spec.nchannels);
+  if (tile > max_samples / channels) return "its tiles are too large";
+  if (spec.image_pixels() > max_samples / channels) return "too large";
+  const uint64_t samples = spec.image_pixels() * channels;
   DescribeImage(spec, image);
   image->samples = static_cast<float*>(std::malloc(samples * sizeof(float)));
   if (image->samples == nullptr) return "out of memory";
