@@ -109,6 +109,9 @@ bool Unfilter(int filter, const uint8_t* above, size_t step, size_t size, uint8_
 // The file's samples, row by row, a byte of filter before each row.
 bool Decompress(const Png& png, std::vector<uint8_t>* rows) {
   const size_t stride = png.row_bytes() + 1;
+  // Deflate makes 1032 bytes of one at most: what promises more would only cost memory.
+  constexpr size_t kMaxRatio = 1032;
+  if (stride * png.height / kMaxRatio > png.compressed.size()) return false;
   rows->resize(stride * png.height);
   uLongf size = rows->size();
   const int status = uncompress(rows->data(), &size, png.compressed.data(), png.compressed.size());
@@ -156,7 +159,10 @@ std::optional<Image> ReadPlainPng(const std::string& path, uint64_t max_samples)
   stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
   if (!stream || std::memcmp(file.data(), kSignature.data(), kSignature.size()) != 0) return {};
   stream.seekg(0, std::ios::end);
-  file.resize(static_cast<size_t>(stream.tellg()));
+  const std::streamoff length = stream.tellg();
+  constexpr std::streamoff kLongest = std::streamoff{1} << 31;  // chunks have 31 bits for theirs
+  if (length < static_cast<std::streamoff>(kSignature.size()) || length > kLongest) return {};
+  file.resize(static_cast<size_t>(length));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
   Png png;

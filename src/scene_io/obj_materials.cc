@@ -60,8 +60,7 @@ MtlReader::MtlReader(const std::filesystem::path& obj, const LoadOptions& option
     : folder_(obj.parent_path()), file_(obj.string()), options_(options) {}
 
 void MtlReader::Warn(const std::string& text) {
-  if (std::find(told_.begin(), told_.end(), text) != told_.end()) return;
-  told_.push_back(text);
+  if (!told_.insert(text).second) return;
   if (options_.on_warning) options_.on_warning(file_ + ": " + text);
 }
 
@@ -80,6 +79,7 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
     }
     throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
   }
+  if (!libraries_.insert(path.string()).second) return true;  // a file may name it a million times
   std::istringstream stream(Prepare(ReadTextFile(path, kMaxBytes), path.string()));
   tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
   return true;
@@ -93,7 +93,7 @@ TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_
   if (image == images_.end()) {
     try {
       const auto path = ResolveReference(folder_, name, options_.allow_paths);
-      scene->images.push_back(ReadTextureImage(path, name, encoding));
+      AddTextureImage(path, name, encoding, scene);
     } catch (const Error& error) {
       const Fault& fault = error.faults().front();
       if (fault.what.starts_with("there is no file")) {  // models often come without
