@@ -5,6 +5,7 @@ import pathlib
 import shutil
 import socket
 import subprocess
+import sys
 import time
 
 PROGRAMS = ('munged', 'slurmctld', 'slurmd', 'sbatch', 'squeue')
@@ -46,6 +47,15 @@ PartitionName=all Nodes=node Default=YES MaxTime=INFINITE State=UP
 def missing_programs():
     path = os.environ.get('PATH', '') + ':/usr/sbin:/sbin'
     return [name for name in PROGRAMS if shutil.which(name, path=path) is None]
+
+
+def skip_unless_possible():
+    """Ends the process with code 77, and says why, where no cluster can be started."""
+    missing = missing_programs()
+    if missing or os.geteuid() != 0:
+        print(f'skipped: needs root and Slurm; not here: {", ".join(missing) or "root"}\n'
+              '  hint: apt-get install slurmctld slurmd slurm-client munge')
+        sys.exit(77)
 
 
 def free_port():

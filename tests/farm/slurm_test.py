@@ -72,9 +72,5 @@ class SlurmTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    missing = cluster.missing_programs()
-    if missing or os.geteuid() != 0:
-        print(f'skipped: needs root and Slurm; not here: {", ".join(missing) or "root"}\n'
-              '  hint: apt-get install slurmctld slurmd slurm-client munge')
-        sys.exit(77)
+    cluster.skip_unless_possible()
     unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)
