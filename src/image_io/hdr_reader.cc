@@ -106,12 +106,27 @@ bool ReadRow(Bytes* bytes, Row* row) {
   return bytes->ok;
 }
 
+// The whole file if it begins as these do, and is not far longer than pictures are.
+std::string ReadText(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::array<char, 2> sign{};
+  stream.read(sign.data(), sign.size());
+  if (!stream || sign[0] != '#' || sign[1] != '?') return {};
+  stream.seekg(0, std::ios::end);
+  const std::streamoff length = stream.tellg();
+  constexpr std::streamoff kLongest = std::streamoff{1} << 32;
+  if (length < 2 || length > kLongest) return {};
+  std::string text(static_cast<size_t>(length), '\0');
+  stream.seekg(0);
+  stream.read(text.data(), length);
+  if (!stream) return {};
+  return text;
+}
+
 }  // namespace
 
 std::optional<Image> ReadPlainHdr(const std::string& path, uint64_t max_samples) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return {};
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const std::string text = ReadText(path);
   Bytes bytes{text};
   const std::optional<Size> size = ParseHeader(&bytes);
   if (!size) return {};

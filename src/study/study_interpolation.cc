@@ -1,5 +1,6 @@
 // study/study_interpolation.cc: exercise 3: flat, Gouraud and Phong over the number of faces.
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
