@@ -155,14 +155,14 @@ bool FillChannels(const Png& png, const std::vector<uint8_t>& rows, Image* image
 
 std::optional<Image> ReadPlainPng(const std::string& path, uint64_t max_samples) {
   std::ifstream stream(path, std::ios::binary);
-  std::vector<uint8_t> file(kSignature.size());
-  stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
-  if (!stream || std::memcmp(file.data(), kSignature.data(), kSignature.size()) != 0) return {};
+  std::array<uint8_t, kSignature.size()> head = {};
+  stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+  if (!stream || head != kSignature) return {};
   stream.seekg(0, std::ios::end);
   const std::streamoff length = stream.tellg();
   constexpr std::streamoff kLongest = std::streamoff{1} << 31;  // chunks have 31 bits for theirs
   if (length < static_cast<std::streamoff>(kSignature.size()) || length > kLongest) return {};
-  file.resize(static_cast<size_t>(length));
+  std::vector<uint8_t> file(static_cast<size_t>(length));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
   Png png;
