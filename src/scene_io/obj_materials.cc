@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <sstream>
 #include <string_view>
 #include <unordered_set>
@@ -18,12 +19,26 @@ namespace {
 
 constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
 
+// Of an image: tinyobjloader lets the exponents of its options overflow.
+void CheckOptions(std::string_view line, const std::string& place) {
+  for (auto word = NextObjWord(&line); !word.empty(); word = NextObjWord(&line)) {
+    double number = 0;
+    const auto sign = static_cast<size_t>(word.starts_with('+'));
+    const auto read = std::from_chars(word.data() + sign, word.data() + word.size(), number);
+    if (read.ec != std::errc::result_out_of_range) continue;
+    throw Error(ExitCode::kBadInput, place, fmt::format("\"{}\" is not a finite number", word));
+  }
+}
+
 // tinyobjloader takes numbers that it cannot read as 0, and materials that name no illumination
 // for those of illumination 0, which is none. They get 2 at first, ambient, diffuse and specular.
 std::string Prepare(const std::string& text, const std::string& file) {
   std::string prepared;
   constexpr std::array<std::string_view, 4> kColors = {"Ka", "Kd", "Ks", "Ke"};
   constexpr std::array<std::string_view, 4> kNumbers = {"Ns", "d", "Tr", "illum"};
+  constexpr std::array<std::string_view, 4> kImages = {"norm", "bump", "disp", "refl"};
+  constexpr std::array<std::string_view, 10> kUnused = {"Kt", "Tf", "Ni",  "Pr",    "Pm",
+                                                        "Ps", "Pc", "Pcr", "aniso", "anisor"};
   const auto is_one_of = [](const auto& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
@@ -36,6 +51,8 @@ std::string Prepare(const std::string& text, const std::string& file) {
     std::string_view rest = line;
     const std::string_view first = NextObjWord(&rest);
     start = end + 1;
+    if (is_one_of(kUnused, keyword)) continue;
+    if (keyword.starts_with("map_") || is_one_of(kImages, keyword)) CheckOptions(line, place);
     prepared.append(text, static_cast<size_t>(keyword.data() - text.data()),
                     end - static_cast<size_t>(keyword.data() - text.data()));
     prepared += keyword == "newmtl" ? "\nillum 2\n" : "\n";
