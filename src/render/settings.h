@@ -34,6 +34,9 @@ struct RenderSettings {
   // Reflect lights with an extent in closed form where that can be; false: only by samples. For
   // tests that hold the two together.
   bool closed_forms = true;
+  // Put approximations in the place of samples of the lights that have a fast mode; how far off
+  // they are is measured while planning.
+  bool fast_lights = false;
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;
