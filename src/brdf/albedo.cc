@@ -1,5 +1,7 @@
 #include "brdf/albedo.h"
 
+#include <algorithm>
+
 #include "brdf/albedo_integral.h"
 #include "brdf/albedo_table.h"
 #include "brdf/quadrature.h"
@@ -49,6 +51,20 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, 
   for (size_t i = 0; i < kAlbedoTerms; ++i) fit.fresnel[i] = static_cast<float>(polynomial[i]);
   fit.average = IntegrateTowardsZero([&](double mu) { return 2 * mu * AlbedoFresnel(fit, mu); });
   return fit;
+}
+
+DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta) {
+  DielectricCurves curves;
+  curves.fresnel.reserve(kAlbedoIntervals + 1);
+  curves.average.reserve(kAlbedoIntervals + 1);
+  for (int i = 0; i <= kAlbedoIntervals; ++i) {
+    // A mirror has no curve: its neighbour's is near the limit.
+    const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);
+    const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(shadowing, root * root, eta);
+    curves.fresnel.push_back(fit.fresnel);
+    curves.average.push_back(fit.average);
+  }
+  return curves;
 }
 
 }  // namespace nacre

@@ -7,6 +7,8 @@
 // that kSchlickDirect's E, there next to 0, is off by up to 0.7 % of itself.
 #pragma once
 
+#include <vector>
+
 #include "brdf/albedo_curve.h"
 #include "brdf/fresnel.h"
 
@@ -35,6 +37,14 @@ struct FresnelAlbedoFit {
 // eta >= 1: light from the thinner side. (From the denser side, total reflection sets in at a
 // corner that a polynomial cannot follow.) A quadrature: about half a millisecond.
 FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, double eta);
+
+// The third curves of an index at the roughnesses of brdf/albedo_table.h, and their averages: for
+// hits with a roughness each, whose curve is blended of four of them. Some tens of milliseconds.
+struct DielectricCurves {
+  std::vector<AlbedoPolynomial> fresnel;
+  std::vector<double> average;
+};
+DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta);
 
 // 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. Of Smith's forms
 // to a relative precision: for smooth surfaces it is far below the rounding of E.

@@ -171,7 +171,8 @@ Plot DrawFalloff(const Arguments& a) {
   const std::vector<Light> lights = ReadPlotLights(a.inputs, kLights);
   for (const Light& light : lights) {
     if (!HasFalloff(light)) {
-      throw Error(ExitCode::kBadInput, light.name, "is all around and has no distance",
+      throw Error(ExitCode::kBadInput, light.name,
+                  "is all around, or has no centre to measure a distance from",
                   "name a light with a position, a centre or a direction");
     }
   }

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "cli/sheet.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/sheet_axis.h"
 
 namespace nacre {
 namespace {
@@ -68,9 +68,11 @@ std::vector<std::string> NamesOf(const std::vector<Item>& items) {
   return names;
 }
 
-// A material's kernels and twins know one set of numbers: no maps, no split.
+// Curves are of one set of numbers: those that maps multiply.
 NamedMaterial Prepare(const std::string& label, const Material& material) {
   NamedMaterial named{label, PrepareMaterial(material, Rgb(0))};
+  named.material.textured = nullptr;
+  named.material.mapped = named.material.turned = false;
   if (std::holds_alternative<std::monostate>(named.material.model)) {
     throw Error(ExitCode::kBadInput, label, "a split has no reflection model of its own",
                 "name one of its materials");
@@ -126,7 +128,7 @@ std::vector<NamedMaterial> ReadPlotMaterials(const PlotInputs& inputs,
   for (const auto& [label, material] :
        Collect(inputs, "materials", "material", "model", Wanted(inputs, inputs.materials, defaults),
                &Scene::materials,
-               [](const std::string& text) { return ParseMaterialArgument("--material", text); })) {
+               [](const std::string& text) { return ParseMaterialText("--material", text); })) {
     // Of all, those that have a model.
     if (all && std::holds_alternative<SplitMaterial>(material.model)) continue;
     materials.push_back(Prepare(label, material));

@@ -187,7 +187,11 @@ constexpr std::array kMetallicRoughnessMaps = {
     Map<&MetallicRoughnessMaterial::metallic_roughness_map>("metallic_roughness_map",
                                                             MapUse::kTwoData),
     kEmissionMap};
-constexpr std::array kOtherMaps = {kEmissionMap};
+constexpr std::array kConductorMaps = {
+    Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap};
+constexpr std::array kDielectricMaps = {
+    Map<&DielectricMaterial::base_color_map>("base_color_map", MapUse::kColor),
+    Map<&DielectricMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap};
 
 template <typename Model>
 Material Make() {
@@ -215,8 +219,9 @@ constexpr std::array<MaterialModel, 9> kModels = {{
     {"burley", Make<BurleyMaterial>, kBurleyParameters, {}, kBurleyMaps},
     {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
      kMetallicRoughnessChoices, kMetallicRoughnessMaps},
-    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kOtherMaps},
-    {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices, kOtherMaps},
+    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kConductorMaps},
+    {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
+     kDielectricMaps},
 }};
 
 }  // namespace

@@ -15,6 +15,12 @@ void ShadeConductorT(const MicrofacetUniforms& uniforms, const ShadeRange& range
   ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
 }
 
+// Of materials with maps.
+void ShadeConductorMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
+                         const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -22,9 +28,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShadeConductorT);
+HWY_EXPORT(ShadeConductorMapsT);
 
 void ShadeConductor(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeConductorT)(uniforms, range);
+}
+
+void ShadeConductorMaps(const MicrofacetUniformsOf<const float*>& uniforms,
+                        const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeConductorMapsT)(uniforms, range);
 }
 }  // namespace nacre
 #endif

@@ -15,6 +15,12 @@ void ShadeDielectricT(const MicrofacetUniforms& uniforms, const ShadeRange& rang
   ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
 }
 
+// Of materials with maps.
+void ShadeDielectricMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
+                          const ShadeRange& range) {
+  ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -22,9 +28,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShadeDielectricT);
+HWY_EXPORT(ShadeDielectricMapsT);
 
 void ShadeDielectric(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeDielectricT)(uniforms, range);
+}
+
+void ShadeDielectricMaps(const MicrofacetUniformsOf<const float*>& uniforms,
+                         const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeDielectricMapsT)(uniforms, range);
 }
 }  // namespace nacre
 #endif

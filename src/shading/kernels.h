@@ -126,5 +126,9 @@ void ShadeRoughMatteMaps(const RoughMatteUniformsOf<const float*>& uniforms,
 void ShadePhongMaps(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range);
 void ShadeSchlickMaps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range);
 void ShadeF82Maps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range);
+void ShadeDielectricMaps(const MicrofacetUniformsOf<const float*>& uniforms,
+                         const ShadeRange& range);
+void ShadeConductorMaps(const MicrofacetUniformsOf<const float*>& uniforms,
+                        const ShadeRange& range);
 
 }  // namespace nacre

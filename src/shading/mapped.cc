@@ -51,6 +51,19 @@ void Shade(const PhongFamilyModel& phong, const ShadeRange& range, bool, NarrowL
   ShadePhongMaps(uniforms, range);
 }
 
+void ShadeByCurve(const MicrofacetUniformsOf<ByHit>& uniforms, const ShadeRange& range) {
+  switch (uniforms.model->fresnel) {
+    case FresnelForm::kSchlick:
+      return ShadeSchlickMaps(uniforms, range);
+    case FresnelForm::kF82:
+      return ShadeF82Maps(uniforms, range);
+    case FresnelForm::kDielectric:
+      return ShadeDielectricMaps(uniforms, range);
+    case FresnelForm::kConductor:
+      return ShadeConductorMaps(uniforms, range);
+  }
+}
+
 void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
            NarrowLobes* scratch, const HitTextures& t) {
   MicrofacetLightOf<ByHit> light;
@@ -69,6 +82,10 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   Assign(t.f0, uniforms.f0);
   Assign(t.f82_slope, uniforms.f82_slope);
   Assign(t.f_multiple, uniforms.f_multiple);
+  for (int c = 0; c < 3; ++c) {
+    uniforms.eta[c] = static_cast<float>(model.eta[c]);
+    uniforms.k[c] = static_cast<float>(model.k[c]);
+  }
   uniforms.fit = own_fits ? t.fit.data() : nullptr;
   uniforms.fit_stride = HitTextures::kFitStride;
   if (AnyOf(t.double_alpha, range, [](double alpha) { return alpha >= 0; })) {
@@ -80,8 +97,7 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
     uniforms.spread = &scratch->base;
     Assign(t.base_ratio, uniforms.base_ratio);
   }
-  if (model.fresnel == FresnelForm::kSchlick) return ShadeSchlickMaps(uniforms, range);
-  ShadeF82Maps(uniforms, range);
+  ShadeByCurve(uniforms, range);
 }
 
 }  // namespace
@@ -96,7 +112,9 @@ bool HasMappedModel(const ShadingMaterial& material) {
 }
 
 bool HasOwnFits(const ShadingMaterial& material) {
-  return MapOf(*material.textured, MapRole::kMetallicRoughness).valid();
+  const bool by_roughness = std::holds_alternative<MicrofacetModel>(material.model) &&
+                            MapOf(*material.textured, MapRole::kWidth).valid();
+  return by_roughness || MapOf(*material.textured, MapRole::kMetallicRoughness).valid();
 }
 
 void ShadeMapped(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,

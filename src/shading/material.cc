@@ -85,6 +85,7 @@ void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
 // mean albedo that its scale is divided by.
 void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
   const double e_average = model->albedo.lobe.e_average;
+  model->f_average = f_average;
   model->f_multiple =
       EachChannel([&](int c) { return KullaContyFresnel(f_average[c], e_average); });
   model->multiple = KullaContyScale(e_average);
@@ -156,6 +157,10 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
   if (exact) {
     model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, material.ior);
+    if (material.roughness_map.valid()) {
+      model.curves = std::make_shared<const DielectricCurves>(
+          MakeDielectricCurves(material.shadowing, material.ior));
+    }
   }
   if (model.compensation == Compensation::kKullaConty) {
     PrepareKullaConty(Rgb(exact ? AverageDielectric(material.ior) : AverageSchlick(model.f0.x)),

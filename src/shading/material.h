@@ -2,6 +2,7 @@
 // constants of each reflection model, once per scene and in double.
 #pragma once
 
+#include <memory>
 #include <variant>
 
 #include "brdf/albedo.h"
@@ -53,6 +54,7 @@ struct MicrofacetModel {
   Rgb f0{0, 0, 0};               // reflectance at normal incidence
   Rgb f82_slope{0, 0, 0};        // kF82
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta), kConductor
+  Rgb f_average{0, 0, 0};        // kKullaConty: the Fresnel curve's mean
   Rgb f_multiple{0, 0, 0};  // kKullaConty: what light that bounced more than once has left, F_ms
   double multiple;          // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
   double alpha;             // of the lobe
@@ -61,6 +63,8 @@ struct MicrofacetModel {
   bool double_terms;
   bool prepared;            // shading needs what PrepareRun computes
   FresnelAlbedoFit albedo;  // kDielectric: with the curve of its index
+  // kDielectric with a roughness for each hit: those curves of all roughnesses; else null.
+  std::shared_ptr<const DielectricCurves> curves;
 };
 
 // A material prepared for shading; a split has no model of its own.

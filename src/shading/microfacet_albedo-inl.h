@@ -37,12 +37,23 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
   return {one, loss, scale, bias};
 }
 
-// Of Schlick's curve, from the fit of each hit.
-HWY_INLINE AlbedoV EvaluateSchlickAlbedo(FloatTag d, const AlbedoFitLanes& fit, FloatV cosine) {
+// From the fit of each hit, whose second curve is Schlick's, or that of the dielectric.
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
+                                  const AlbedoFitLanes& fit, FloatV cosine) {
+  const FloatV unit = hn::Set(d, 1.0f);
   const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
   const FloatV one = AlbedoOne(d, fit, x);
-  const FloatV schlick = AlbedoSchlick(d, fit, one, x);
-  return {one, AlbedoLoss(d, fit, x), hn::Sub(one, schlick), schlick};
+  FloatV scale, bias;
+  if (model.fresnel == FresnelForm::kDielectric) {
+    const FloatV eta = hn::Set(d, static_cast<float>(model.eta.x));
+    const FloatV mirror = FresnelDielectric(d, x.n_dot_v, hn::Sub(unit, x.n_dot_v), eta);
+    scale = hn::Zero(d);
+    bias = AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x);
+  } else {
+    bias = AlbedoSchlick(d, fit, one, x);
+    scale = hn::Sub(one, bias);
+  }
+  return {one, AlbedoLoss(d, fit, x), scale, bias};
 }
 
 // The fits of hits from `fit` on, whose entries are `stride` apart.

@@ -157,8 +157,9 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
+    // Grazing light spreads by as much more as its weight is less: their product stays in range.
     if (kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
-      base = MulRgb(base, SpreadAt(d, p.i));
+      return {MulRgb(base, ScaleRgb(SpreadAt(d, p.i), in.weight)), reflected};
     }
     return {ScaleRgb(base, in.weight), reflected};
   }
@@ -174,8 +175,8 @@ struct Microfacet {
       return EvaluateAlbedo(d, model, cosine);
     } else {
       if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, cosine);
-      return EvaluateSchlickAlbedo(d, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
-                                   cosine);
+      return EvaluateAlbedo(d, model, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
+                            cosine);
     }
   }
 

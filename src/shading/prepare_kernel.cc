@@ -57,8 +57,8 @@ struct ByHit {
   bool own_fits;
   HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, FloatV n_dot_v) const {
     if (!own_fits) return EvaluateAlbedo(d, model, n_dot_v);
-    return EvaluateSchlickAlbedo(
-        d, FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing), n_dot_v);
+    return EvaluateAlbedo(
+        d, model, FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing), n_dot_v);
   }
   HWY_INLINE FloatV MultipleScale(FloatTag d, size_t i) const {
     return hn::LoadU(d, t.multiple_scale.data() + i);

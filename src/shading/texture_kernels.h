@@ -11,7 +11,7 @@ namespace nacre {
 enum class MapRole : uint8_t {
   kDiffuse,            // albedo, the Phong family's color, base_color
   kSpecular,           // ks
-  kWidth,              // shininess
+  kWidth,              // shininess; roughness of conductors and dielectrics
   kMetallicRoughness,  // green: roughness, blue: metallic
   kEmission,
 };
@@ -41,5 +41,7 @@ void RoundGeometric(const TexturedRun& run, HitTextures* textures);
 void StartMaterial(const TexturedRun& run, HitTextures* textures);
 void ApplyMap(const TexturedRun& run, MapRole role, HitTextures* textures);
 void FinishMaterial(const TexturedRun& run, HitTextures* textures);
+// Of microfacet materials (mapped_microfacet_kernel.cc).
+void FinishMicrofacet(const TexturedRun& run, HitTextures* textures);
 
 }  // namespace nacre

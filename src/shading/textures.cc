@@ -115,6 +115,14 @@ TextureId MapOf(const Material& material, MapRole role) {
            : role == MapRole::kMetallicRoughness ? m->metallic_roughness_map
                                                  : TextureId{};
   }
+  if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
+    return role == MapRole::kWidth ? conductor->roughness_map : TextureId{};
+  }
+  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
+    return role == MapRole::kDiffuse ? dielectric->base_color_map
+           : role == MapRole::kWidth ? dielectric->roughness_map
+                                     : TextureId{};
+  }
   return {};
 }
 

@@ -7,7 +7,7 @@
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 #include "brdf/quadrature.h"
-#include "study/reflection.h"
+#include "shading/scalar_material.h"
 
 namespace nacre {
 namespace {
@@ -45,6 +45,25 @@ Vec3d InPlane(double cosine, double sign) {
 }
 
 Rgb ShareOfModel(const LambertModel& model, ShareOf, double) { return model.diffuse * M_PI; }
+
+// Of channel c of the diffuse part, which has no narrow lobe.
+double DiffuseShare(const ShadingMaterial& material, ShareOf what, double cosine, int c) {
+  const Vec3d normal(0, 0, 1);
+  const Vec3d fixed = InPlane(cosine, -1);
+  return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
+    return what == ShareOf::kFurnace
+               ? Reflect(material, normal, other, fixed).diffuse[c]
+               : Reflect(material, normal, fixed, other).diffuse[c] * other.z / fixed.z;
+  });
+}
+
+Rgb ShareOfModel(const RoughMatteModel& model, ShareOf what, double cosine) {
+  ShadingMaterial material;
+  material.model = model;
+  Rgb share;
+  for (int c = 0; c < 3; ++c) share[c] = DiffuseShare(material, what, cosine, c);
+  return share;
+}
 
 Rgb ShareOfModel(const PhongFamilyModel& model, ShareOf what, double cosine) {
   const Vec3d normal(0, 0, 1);
@@ -125,12 +144,16 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   for (int c = 0; c < 3; ++c) {
     const auto same = [&](const Rgb& value) { return c > 0 && value[c] == value[c - 1]; };
     if (same(model.f0) && same(model.diffuse) && same(model.eta) && same(model.k) &&
-        same(model.f82_slope)) {
+        same(model.f82_slope) && same(model.base_ratio)) {
       share[c] = share[c - 1];
       continue;
     }
     share[c] = LobeShare(model, what, cosine, c);
-    if (model.diffuse[c] > 0) {
+    if (model.diffuse[c] > 0 && model.base_form != DiffuseForm::kLambert) {
+      ShadingMaterial material;
+      material.model = model;
+      share[c] += DiffuseShare(material, what, cosine, c);
+    } else if (model.diffuse[c] > 0) {
       share[c] += M_PI * model.diffuse[c] * BaseShareOf(model, what, cosine, c);
     }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "brdf/albedo_integral.h"
+#include "brdf/albedo_table.h"
 #include "brdf/energy_kernel.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/quadrature.h"
@@ -182,6 +183,37 @@ TEST_CASE("white furnace: dielectrics over a white diffuse base") {
       }
     }
   }
+}
+
+TEST_CASE("curves of an index blended by roughness are near those of the roughness") {
+  double worst = 0, worst_average = 0;
+  for (const Shadowing form :
+       {Shadowing::kHeightCorrelated, Shadowing::kSeparable, Shadowing::kSchlickDirect}) {
+    for (const double eta : {1.1, 1.5, 2.4}) {
+      const DielectricCurves curves = MakeDielectricCurves(form, eta);
+      for (const double roughness : {0.004, 0.02, 0.09, 0.3, 0.47, 0.81, 1.0}) {
+        const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, eta);
+        FresnelAlbedoFit blend = fit;
+        const AlbedoWeights at = FindAlbedoWeights(roughness);
+        blend.fresnel = {};
+        double average = 0;
+        for (size_t i = 0; i < 4; ++i) {
+          const size_t node = static_cast<size_t>(at.first) + i;
+          for (size_t k = 0; k < kAlbedoTerms; ++k) {
+            blend.fresnel[k] += static_cast<float>(at.weights[i]) * curves.fresnel[node][k];
+          }
+          average += at.weights[i] * curves.average[node];
+        }
+        for (const double mu : {1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0}) {
+          worst = std::max(worst, std::abs(AlbedoFresnel(fit, mu) - AlbedoFresnel(blend, mu)));
+        }
+        worst_average = std::max(worst_average, std::abs(average - fit.average));
+      }
+    }
+  }
+  CAPTURE(worst, worst_average);
+  CHECK(worst <= 3e-5);
+  CHECK(worst_average <= 3e-5);
 }
 
 }  // namespace

@@ -227,6 +227,80 @@ TEST_CASE("constant maps have the bits of constants: rough matte surfaces and ba
   }
 }
 
+TEST_CASE("constant maps have the bits of constants: conductors and dielectrics") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
+  const double share = Held(0.7);
+  for (const Compensation compensation :
+       {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+    CAPTURE(static_cast<int>(compensation));
+    for (const ConductorFresnel fresnel :
+         {ConductorFresnel::kExact, ConductorFresnel::kF82Tint, ConductorFresnel::kSchlick}) {
+      for (const double roughness : {1.0, 0.1}) {
+        ConductorMaterial factors;
+        factors.roughness = roughness;
+        factors.compensation = compensation;
+        factors.fresnel = fresnel;
+        ConductorMaterial constant = factors;
+        constant.roughness = roughness * share;
+        CAPTURE(static_cast<int>(fresnel), roughness);
+        CheckConstantMaps(constant, factors, [&](Scene* scene, ConductorMaterial* material) {
+          material->roughness_map = AddConstant(scene, Rgb(share));
+        });
+      }
+    }
+    for (const DielectricFresnel fresnel :
+         {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
+      for (const DiffuseForm form : {DiffuseForm::kLambert, DiffuseForm::kOrenNayar}) {
+        DielectricMaterial factors;
+        factors.base_color = Rgb(0.5, 1, 0.75);
+        factors.compensation = compensation;
+        factors.fresnel = fresnel;
+        factors.diffuse = form;
+        if (compensation == Compensation::kNone) {
+          factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+        }
+        DielectricMaterial constant = factors;
+        constant.base_color = factors.base_color * color;
+        // Of the exact curve's albedo, a roughness each has a blend: below.
+        const bool rough = fresnel == DielectricFresnel::kSchlick;
+        if (rough) constant.roughness = factors.roughness * share;
+        CAPTURE(static_cast<int>(fresnel), static_cast<int>(form));
+        CheckConstantMaps(constant, factors, [&](Scene* scene, DielectricMaterial* material) {
+          material->base_color_map = AddConstant(scene, color);
+          if (rough) material->roughness_map = AddConstant(scene, Rgb(share));
+        });
+      }
+    }
+  }
+}
+
+TEST_CASE("a dielectric's roughness map is within its albedo's error of the constant") {
+  for (const Compensation compensation : {Compensation::kTurquin, Compensation::kKullaConty}) {
+    for (const double share : {Held(0.9), Held(0.37), Held(0.12)}) {
+      Material plain, mapped;
+      DielectricMaterial coat;
+      coat.compensation = compensation;
+      coat.roughness = share;
+      plain.model = coat;
+      coat.roughness = 1;
+      mapped.model = coat;
+      Scene with_map = MakeScene(mapped);
+      std::get<DielectricMaterial>(with_map.materials[0].model).roughness_map =
+          AddConstant(&with_map, Rgb(share));
+      const Image got = Rendered(with_map), expected = Rendered(MakeScene(plain));
+      const std::vector<float>& a = got.Find("R")->samples;
+      const std::vector<float>& b = expected.Find("R")->samples;
+      double worst = 0;
+      for (size_t i = 0; i < a.size(); ++i) {
+        worst = std::max(worst, std::abs(double{a[i]} - b[i]) / std::max(double{b[i]}, 1e-3));
+      }
+      CAPTURE(static_cast<int>(compensation), share, worst);
+      // tests/brdf/albedo_test.cc: 3e-5 of albedo, of a base that gets at least some tenths.
+      CHECK(worst <= 3e-4);
+    }
+  }
+}
+
 TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
   ForEachTarget([&](Target) {
     Material plain;

@@ -10,7 +10,7 @@ import urllib.request
 ELEMENT = 'element-6066-11e4-a52e-4f735466cecf'
 KEYS = {'shift': '\ue008', 'left': '\ue012', 'up': '\ue013', 'right': '\ue014', 'down': '\ue015',
         'tab': '\ue004', 'enter': '\ue007', 'escape': '\ue00c'}
-SECONDS = 30  # for the browser to start, and for a page to show something: machines may be busy
+SECONDS = 60  # for the browser to start, and for a page to show something: machines may be busy
 
 
 def missing():

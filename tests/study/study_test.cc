@@ -25,6 +25,14 @@ std::vector<NamedMaterial> AllModels() {
       {"lambert", Prepare(LambertMaterial{Rgb(0.2, 0.5, 0.8)})},
       {"conductor", Prepare(ConductorMaterial{.eta = {0.2, 0.9, 1.4}, .k = {3.9, 2.4, 1.6}})},
       {"dielectric", Prepare(DielectricMaterial{.roughness = 0.3})},
+      {"oren_nayar", Prepare(OrenNayarMaterial{.albedo = {0.2, 0.5, 0.9}, .roughness = 0.7})},
+      {"burley", Prepare(BurleyMaterial{.albedo = {0.2, 0.5, 0.9}, .roughness = 0.7})},
+      {"oren_nayar base", Prepare(MetallicRoughnessMaterial{.base_color = {0.9, 0.5, 0.1},
+                                                            .roughness = 0.4,
+                                                            .diffuse = DiffuseForm::kOrenNayar,
+                                                            .diffuse_roughness = 0.8})},
+      {"burley base",
+       Prepare(DielectricMaterial{.roughness = 0.3, .diffuse = DiffuseForm::kBurley})},
   };
   for (const PhongModel model :
        {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
