@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/labels.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 #include "image_io/output_file.h"
 
 namespace nacre {

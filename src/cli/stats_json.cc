@@ -4,7 +4,7 @@
 
 #include "base/target.h"
 #include "base/version.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 
 namespace nacre {
 

@@ -1,4 +1,4 @@
-// cli/metadata.h: what the files of a render say about it.
+// api/metadata.h: what the files of a render say about it.
 #pragma once
 
 #include "image_io/exr_header.h"

@@ -1,4 +1,4 @@
-#include "cli/metadata.h"
+#include "api/metadata.h"
 
 #include <set>
 
