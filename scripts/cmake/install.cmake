@@ -30,6 +30,21 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/nacre.pc.in ${CMAKE_BINARY_DIR}/nacre.p
 install(FILES ${CMAKE_BINARY_DIR}/nacre.pc
   DESTINATION ${pkgconfig_folder} COMPONENT development)
 
+# The manual page and the shell's completion, which the program writes itself.
+set(docs_folder ${CMAKE_BINARY_DIR}/docs)
+file(MAKE_DIRECTORY ${docs_folder})
+add_custom_command(OUTPUT ${docs_folder}/nacre.1.gz ${docs_folder}/nacre
+  COMMAND nacre docs man > ${docs_folder}/nacre.1
+  COMMAND gzip -9nc ${docs_folder}/nacre.1 > ${docs_folder}/nacre.1.gz
+  COMMAND nacre docs bash > ${docs_folder}/nacre
+  DEPENDS nacre
+  COMMENT "Writing the manual page")
+add_custom_target(nacre_docs ALL DEPENDS ${docs_folder}/nacre.1.gz ${docs_folder}/nacre)
+install(FILES ${docs_folder}/nacre.1.gz
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
+install(FILES ${docs_folder}/nacre
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
+
 # Scenes with their schema and files, and what to read.
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre COMPONENT runtime
   PATTERN gallery EXCLUDE)

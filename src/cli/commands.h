@@ -20,5 +20,6 @@ void AddReportCommand(CLI::App* app, int* exit_code);
 void AddExplainCommand(CLI::App* app, int* exit_code);
 void AddPlotCommand(CLI::App* app, int* exit_code);
 void AddStudyCommand(CLI::App* app, int* exit_code);
+void AddDocsCommand(CLI::App* app, int* exit_code);
 
 }  // namespace nacre

@@ -53,6 +53,7 @@ int Run(int argc, char** argv) {
   nacre::AddExplainCommand(&app, &exit_code);
   nacre::AddPlotCommand(&app, &exit_code);
   nacre::AddStudyCommand(&app, &exit_code);
+  nacre::AddDocsCommand(&app, &exit_code);
   try {
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 #include "image_io/exr_compress.h"
 
 namespace nacre {
