@@ -39,8 +39,9 @@ void AppendChunk(const std::string& name, const std::vector<uint8_t>& data,
   body.insert(body.end(), data.begin(), data.end());
   const std::vector<uint8_t> size = Big32(data.size());
   const std::vector<uint8_t> crc = Big32(crc32(0, body.data(), static_cast<uInt>(body.size())));
-  for (const std::vector<uint8_t>& part : {size, body, crc})
+  for (const std::vector<uint8_t>& part : {size, body, crc}) {
     file->insert(file->end(), part.begin(), part.end());
+  }
 }
 
 // An RGB file of 8 bits that holds `bytes` zeros, compressed.
