@@ -34,7 +34,9 @@ HWY_INLINE V EonLoss(D d, V cos) {
       hn::Sub(hn::Div(hn::Mul(cos, hn::Add(one_plus_sin, sin2)), one_plus_sin), one);
   const V sum = hn::MulAdd(hn::Set(d, 2.0f / 3), tangential, hn::NegMulAdd(sin, cos, angle));
   const V g = hn::Mul(sin, sum);
-  return hn::NegMulAdd(hn::Set(d, 0.318309886f), g, hn::Set(d, static_cast<float>(kEonAlbedo)));
+  const V loss =
+      hn::NegMulAdd(hn::Set(d, 0.318309886f), g, hn::Set(d, static_cast<float>(kEonAlbedo)));
+  return hn::Max(loss, hn::Zero(d));  // 0 at grazing angles, which rounding may undercut
 }
 
 // pi times the single reflection. `scale` is EonScale(roughness), and one of both cosines is above
@@ -47,7 +49,8 @@ HWY_INLINE V EonSingleSpread(D d, V n_dot_l, V n_dot_v, V l_dot_v, V roughness, 
   const V larger =
       hn::Max(hn::Max(n_dot_l, n_dot_v), hn::Set(d, std::numeric_limits<float>::min()));
   const V t = hn::IfThenElse(forward, larger, one);
-  return hn::Mul(scale, hn::MulAdd(roughness, hn::Div(s, t), one));
+  // Opposite directions of roughness 1 give 0, which rounding may undercut.
+  return hn::Mul(scale, hn::Max(hn::MulAdd(roughness, hn::Div(s, t), one), hn::Zero(d)));
 }
 
 // pi times the multiple reflection, of EonLoss of both cosines.

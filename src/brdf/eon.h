@@ -34,7 +34,8 @@ Real EonLoss(Real cos) {
   const Real angle = std::atan2(sin, cos);
   const Real tangential = cos * (1 + sin + sin * sin) / (1 + sin) - 1;
   const Real g = sin * (angle - sin * cos + 2 * tangential / 3);
-  return static_cast<Real>(kEonAlbedo) - g / static_cast<Real>(M_PI);
+  // 0 at grazing angles, which rounding may undercut.
+  return std::max<Real>(static_cast<Real>(kEonAlbedo) - g / static_cast<Real>(M_PI), 0);
 }
 
 // Single reflection, per unit of albedo. l_dot_v is the cosine between light and viewer.
@@ -42,7 +43,9 @@ template <typename Real>
 Real EonSingle(Real n_dot_l, Real n_dot_v, Real l_dot_v, Real roughness) {
   const Real s = l_dot_v - n_dot_l * n_dot_v;
   const Real s_over_t = s > 0 ? s / std::max(n_dot_l, n_dot_v) : s;
-  return EonScale(roughness) * (1 + roughness * s_over_t) / static_cast<Real>(M_PI);
+  // Opposite directions of roughness 1 give 0, which rounding may undercut.
+  const Real spread = std::max<Real>(1 + roughness * s_over_t, 0);
+  return EonScale(roughness) * spread / static_cast<Real>(M_PI);
 }
 
 // Multiple reflection, per unit of EonMultipleAlbedo: the product of both losses over their mean,

@@ -155,9 +155,9 @@ bool FillChannels(const Png& png, const std::vector<uint8_t>& rows, Image* image
 
 std::optional<Image> ReadPlainPng(const std::string& path, uint64_t max_samples) {
   std::ifstream stream(path, std::ios::binary);
-  std::array<uint8_t, kSignature.size()> head = {};
-  stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
-  if (!stream || head != kSignature) return {};
+  std::array<uint8_t, kSignature.size()> signature{};
+  stream.read(reinterpret_cast<char*>(signature.data()), signature.size());
+  if (!stream || signature != kSignature) return {};
   stream.seekg(0, std::ios::end);
   const std::streamoff length = stream.tellg();
   constexpr std::streamoff kLongest = std::streamoff{1} << 31;  // chunks have 31 bits for theirs

@@ -44,7 +44,8 @@ struct IrradianceHarmonics {
   std::array<Imath::Vec3<Real>, kHarmonics> coefficients;  // of red, green and blue
 };
 
-IrradianceHarmonics<double> ProjectIrradiance(const EnvironmentMap& map);
+// The same on any number of threads.
+IrradianceHarmonics<double> ProjectIrradiance(const EnvironmentMap& map, int threads = 1);
 
 // Not below 0, where a bright light's ringing would take it.
 template <typename Real>

@@ -157,8 +157,9 @@ struct Microfacet {
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
+    // Grazing light spreads by as much more as its weight is less: their product stays in range.
     if (kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
-      base = MulRgb(base, SpreadAt(d, p.i));
+      return {MulRgb(base, ScaleRgb(SpreadAt(d, p.i), in.weight)), reflected};
     }
     return {ScaleRgb(base, in.weight), reflected};
   }

@@ -25,12 +25,13 @@ struct RoughMatte {
     const FloatV zero = hn::Zero(d);
     const FloatV roughness = hn::Set(d, uniforms.roughness);
     const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, roughness);
-    const RgbV lambert = ScaleRgb(RgbAt(d, uniforms.lights[k].diffuse, p.i), in.weight);
+    // Grazing light spreads by as much more as its weight is less: their product stays in range.
+    const RgbV lambert = RgbAt(d, uniforms.lights[k].diffuse, p.i);
     if constexpr (kForm == DiffuseForm::kBurley) {
-      return {ScaleRgb(lambert, spread.single), {zero, zero, zero}};
+      return {ScaleRgb(lambert, hn::Mul(spread.single, in.weight)), {zero, zero, zero}};
     } else {
-      return {MulRgb(lambert, SpreadRgb(spread, RgbAt(d, uniforms.ratio, p.i))),
-              {zero, zero, zero}};
+      const RgbV by_color = SpreadRgb(spread, RgbAt(d, uniforms.ratio, p.i));
+      return {MulRgb(lambert, ScaleRgb(by_color, in.weight)), {zero, zero, zero}};
     }
   }
 };
