@@ -85,6 +85,12 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
           "nacre merge puts the bands' EXR files together")
       ->type_name("i/N")
       ->group(picture);
+  command
+      ->add_flag("--fast", o->fast,
+                 "Put approximations in the place of samples of lights: of an environment's image, "
+                 "where all of it is seen, its spherical harmonics; --explain tells how far off "
+                 "they are")
+      ->group(picture);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command
       ->add_option("--set", o->sets,
@@ -269,6 +275,7 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
   settings.max_error = options.max_error;
+  settings.fast_lights = options.fast;
   if (options.spp) settings.max_samples = *options.spp;
   if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
   if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;

@@ -40,6 +40,7 @@ struct RenderOptions {
   bool reproducible = false;
   bool quiet = false;
   std::string progress = "auto";
+  bool fast = false;
   std::string intersector = "auto";
   int tile_size = 0;  // 0: chosen by the plan
 };

@@ -26,6 +26,18 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
   for (const PlanItem& item : plan.items) {
     items.push_back({{"what", item.what}, {"used", item.used}, {"reason", item.reason}});
   }
+  Json substitutions = Json::array();
+  for (const PlanItem& item : plan.substitutions) {
+    substitutions.push_back({{"what", item.what}, {"reason", item.reason}});
+  }
+  Json fast_lights = Json::array();
+  for (const FastLight& light : plan.fast_lights) {
+    fast_lights.push_back({{"light", light.light},
+                           {"method", light.method},
+                           {"points", light.points},
+                           {"rms_error", light.rms},
+                           {"worst_error", light.worst}});
+  }
   const Json json = {
       {"nacre", {{"version", std::string(kVersion)}, {"commit", std::string(kCommit)}}},
       {"target", TargetName(ActiveTarget())},
@@ -62,6 +74,8 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
         {"shadow_rays", rate(stats.shadow_rays)},
         {"shades", rate(stats.shades)}}},
       {"plan", items},
+      {"substitutions", substitutions},
+      {"fast_lights", fast_lights},
       {"samples_not_as_computed",
        {{"clamped", counts.exr.clamped},
         {"infinite", counts.exr.infinite},
