@@ -13,6 +13,7 @@ import against
 import cases
 import figures
 import google
+import lights
 import machine
 import precision
 import readme
@@ -74,6 +75,8 @@ def measure(build, sizes, summary_only):
             say("run time against error")
             results["precision"] = precision.measure(runner, ROOT / "scenes", folder, sizes,
                                                      results["benchmarks"], targets)
+            say("run time against error under lights that are sampled")
+            results["lights"] = lights.measure(runner, ROOT / "scenes", folder, sizes)
     return results
 
 

@@ -1,5 +1,6 @@
 """The diagrams: what is on which axis."""
 import estimates
+import lights
 import plots
 import report
 from processes import say
@@ -203,9 +204,19 @@ def process_error(results, path):
                "top left", path)
 
 
+def lights_error(results, path):
+    lines = [(f"under a {name}", [(p["error"], p["seconds"]) for p in points])
+             for name, points in results["lights"].items()]
+    options = ("set logscale xy\nset xlabel 'relative RMSE over the spheres'\n"
+               "set format x '10^{%T}'\nset key bottom left Left reverse\n"
+               f"set ylabel 'seconds per process, {lights.SIZE}, one thread'\n")
+    plots.draw(path, plots.curves(lines, options), 1280, 800)
+
+
 ALL = {"bench_kernels": kernels, "bench_visibility": visibility, "bench_frame": frame_stages,
        "bench_process": processes, "bench_scaling": scaling, "bench_error_math": math_error,
-       "bench_error_frame": frame_error, "bench_error_process": process_error}
+       "bench_error_frame": frame_error, "bench_error_process": process_error,
+       "bench_error_lights": lights_error}
 
 
 def draw_all(results, folder):

@@ -135,6 +135,12 @@ def _precision(precision):
     return "\n\n".join(parts)
 
 
+def _lights(series):
+    rows = [(f"under a {name}", p["what"], f"{1e3 * p['seconds']:.1f}", f"{100 * p['error']:.2f} %")
+            for name, points in series.items() for p in points]
+    return table(("error, one thread", "samples", "ms", "relative RMSE"), rows)
+
+
 def text(results):
     """All tables."""
     benchmarks = results["benchmarks"]
@@ -144,5 +150,6 @@ def text(results):
              _kernels(benchmarks), _plain(benchmarks, "visibility/", "ms", 1e-6),
              _frames(benchmarks), math, _processes(results["processes"]),
              _scaling(results.get("scaling", {})) or None,
-             _precision(results["precision"]) if "precision" in results else None]
+             _precision(results["precision"]) if "precision" in results else None,
+             _lights(results["lights"]) if "lights" in results else None]
     return "\n\n".join(part for part in parts if part) + "\n"

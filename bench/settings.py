@@ -23,6 +23,9 @@ class Settings:
     precision_rounds: int = 7
     truth_spp: int = 16384
     max_errors: tuple = (0.03, 0.01, 0.003, 0.001, 0.0003)
+    # The same under lights that are sampled.
+    lights_spp: tuple = (1, 4, 16, 64, 256, 1024)
+    lights_truth_spp: int = 16384
     # Other renderers, where installed: antialiasing depths of POV-Ray, samples of Blender.
     povray_depths: tuple = (1, 2, 3, 4, 5)
     povray_truth_depth: int = 9
@@ -49,6 +52,8 @@ QUICK = Settings(
     precision_rounds=3,
     truth_spp=4096,
     max_errors=(0.03, 0.01, 0.003),
+    lights_spp=(4, 16, 64, 256),
+    lights_truth_spp=2048,
     povray_depths=(1, 2, 3),
     povray_truth_depth=7,
     blender_spp=(1, 4),

@@ -4,6 +4,7 @@
 in _time, _ms, _s or _mib are what they say.
 """
 import estimates
+import lights
 
 # Headline name: benchmarks of ours, and of the plain scalar baseline; the first one there counts.
 _KERNELS = {
@@ -124,7 +125,8 @@ def headlines(results):
     times = _Times(results.get("benchmarks", {}))
     best = results.get("best_target", "avx3")
     pairs = [*_kernels(times, best), *_visibility(times), *_frames(times, best),
-             *_processes(results.get("processes", {})), *_scaling(results.get("scaling", {}))]
+             *_processes(results.get("processes", {})), *lights.headlines(results.get("lights", {})),
+             *_scaling(results.get("scaling", {}))]
     return ({name: value for name, value in pairs if value is not None},
             [name for name, value in pairs if value is None])
 

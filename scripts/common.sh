@@ -30,7 +30,7 @@ help_if_asked() {
 
 # install_packages PRESET: what a build with that preset needs.
 install_packages() {
-  if [[ $1 == clang ]]; then
+  if [[ $1 == clang || $1 == fuzz ]]; then
     scripts/setup --dev
   else
     scripts/setup

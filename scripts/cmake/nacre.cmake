@@ -33,6 +33,15 @@ function(nacre_library name)
   endif()
 endfunction()
 
+# nacre_fuzzed(TARGET): with NACRE_FUZZ, compiles TARGET with libFuzzer's counters and sanitizers.
+function(nacre_fuzzed target)
+  if(NACRE_FUZZ)
+    # vptr checks would need the type information of libraries that were built without it.
+    target_compile_options(${target} PRIVATE -O1 -gline-tables-only -fno-omit-frame-pointer
+      -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize=vptr -fno-sanitize-recover=all)
+  endif()
+endfunction()
+
 # nacre_test(FOLDER [TABLES] DEPENDS...): one Catch2 program from tests/<FOLDER>/*_test.cc.
 # TABLES: its cases tagged [table] read reference tables and make a ctest of their own,
 # <FOLDER>_table, which can be run on other tables of the same form (tests/tables.h).

@@ -38,9 +38,13 @@ Error::Error(ExitCode code, std::string where, std::string what, std::string hin
     : Error(code, {Fault{std::move(where), std::move(what), std::move(hint)}}) {}
 
 std::string NearestName(const std::string& word, const std::vector<std::string>& candidates) {
+  // A stranger's names may be megabytes long, and the time goes with the product of two.
+  constexpr size_t kLongest = 100;
   std::string nearest;
+  if (word.size() > kLongest) return nearest;
   size_t best = std::max<size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
+    if (candidate.size() >= word.size() + best || word.size() >= candidate.size() + best) continue;
     const size_t distance = EditDistance(word, candidate);
     if (distance < best) {
       best = distance;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <memory>
 #include <mutex>
+#include <set>
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
@@ -17,11 +19,46 @@
 namespace nacre {
 namespace {
 
-// Left alone, TBB starts no more workers than the machine has cores, and prints a warning.
-tbb::global_control AllowThreads(int threads) {
-  const int count = std::max(ThreadCount(threads), tbb::info::default_concurrency());
-  return {tbb::global_control::max_allowed_parallelism, static_cast<size_t>(count)};
-}
+// Left alone, TBB starts no more workers than the machine has cores, and prints a warning. While
+// alive, it may start as many as this and all others alive ask for: the smallest of several
+// controls counts, so there is one for all.
+class AllowThreads {
+ public:
+  explicit AllowThreads(int threads) : count_(ThreadCount(threads)) {
+    if (count_ <= tbb::info::default_concurrency()) return;
+    const std::lock_guard lock(Mutex());
+    Asked().insert(count_);
+    Renew();
+  }
+  ~AllowThreads() {
+    if (count_ <= tbb::info::default_concurrency()) return;
+    const std::lock_guard lock(Mutex());
+    Asked().erase(Asked().find(count_));
+    Renew();
+  }
+  AllowThreads(const AllowThreads&) = delete;
+  AllowThreads& operator=(const AllowThreads&) = delete;
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  static std::multiset<int>& Asked() {
+    static std::multiset<int> asked;
+    return asked;
+  }
+  static void Renew() {
+    static std::unique_ptr<tbb::global_control> control;
+    // The new one is there before the old one goes: others run meanwhile.
+    control = Asked().empty() ? nullptr
+                              : std::make_unique<tbb::global_control>(
+                                    tbb::global_control::max_allowed_parallelism,
+                                    static_cast<size_t>(*Asked().rbegin()));
+  }
+
+  int count_;
+};
 
 // One arena for each number of threads, kept: an arena that goes leaves 7 KB behind in TBB 2021.8,
 // and a program that renders thousands of pictures would feel it.
@@ -42,7 +79,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     for (size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  const tbb::global_control allow = AllowThreads(threads);
+  const AllowThreads allow(threads);
   // Workers take indices in order, one after the other: what is finished early is then needed
   // early, and a consumer that wants them in order has little to keep.
   std::atomic<size_t> next{0};
@@ -65,7 +102,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
 }
 
 void WithThreads(int threads, const std::function<void()>& body) {
-  const tbb::global_control allow = AllowThreads(threads);
+  const AllowThreads allow(threads);
   ArenaOf(ThreadCount(threads)).execute(body);
 }
 

@@ -10,7 +10,7 @@
 #include "base/target.h"
 #include "base/version.h"
 #include "cli/commands.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 #include "cli/print.h"
 #include "image_io/exr_reader.h"
 #include "image_io/image_reader.h"

@@ -36,6 +36,10 @@ void AddRenderCommand(CLI::App* app, int*) {
       "  nacre render scenes/material_grid.json -o grid.exr -o grid.png --labels\n"
       "  nacre render scenes/phong_vs_pbr.json -o half.png --spp 64 --set /image/width=800\n"
       "  nacre render scene.json -o all.exr --layers all --depth float --explain\n"
+      "  nacre render scene.json -o top.exr --tile 0/2 && nacre render scene.json -o low.exr "
+      "--tile "
+      "1/2\n"
+      "  nacre merge -o all.exr top.exr low.exr\n"
       "  nacre render scenes/phong_vs_pbr.json --preset textbook -o lesson.exr -o lesson.png");
   command->callback([arguments, command] {
     if (!arguments->preset.empty()) {

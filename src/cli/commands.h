@@ -13,11 +13,13 @@ void AddConvertCommand(CLI::App* app, int* exit_code);
 void AddCompareCommand(CLI::App* app, int* exit_code);
 void AddValidateCommand(CLI::App* app, int* exit_code);
 void AddTonemapCommand(CLI::App* app, int* exit_code);
+void AddMergeCommand(CLI::App* app, int* exit_code);
 void AddInfoCommand(CLI::App* app, int* exit_code);
 void AddSchemaCommand(CLI::App* app, int* exit_code);
 void AddReportCommand(CLI::App* app, int* exit_code);
 void AddExplainCommand(CLI::App* app, int* exit_code);
 void AddPlotCommand(CLI::App* app, int* exit_code);
 void AddStudyCommand(CLI::App* app, int* exit_code);
+void AddDocsCommand(CLI::App* app, int* exit_code);
 
 }  // namespace nacre

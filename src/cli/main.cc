@@ -45,6 +45,7 @@ int Run(int argc, char** argv) {
   nacre::AddConvertCommand(&app, &exit_code);
   nacre::AddCompareCommand(&app, &exit_code);
   nacre::AddValidateCommand(&app, &exit_code);
+  nacre::AddMergeCommand(&app, &exit_code);
   nacre::AddTonemapCommand(&app, &exit_code);
   nacre::AddInfoCommand(&app, &exit_code);
   nacre::AddSchemaCommand(&app, &exit_code);
@@ -52,6 +53,7 @@ int Run(int argc, char** argv) {
   nacre::AddExplainCommand(&app, &exit_code);
   nacre::AddPlotCommand(&app, &exit_code);
   nacre::AddStudyCommand(&app, &exit_code);
+  nacre::AddDocsCommand(&app, &exit_code);
   try {
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();

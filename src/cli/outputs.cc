@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/labels.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 #include "image_io/output_file.h"
 
 namespace nacre {
@@ -55,16 +55,21 @@ void CheckPathsDiffer(const std::vector<std::string>& paths) {
   }
 }
 
+ExrHeader MakeOutputHeader(const RenderOptions& options, const RenderPlan& plan) {
+  ExrHeader header = MakeExrHeader(plan, options.reproducible, options.tile);
+  const PixelType color_type = options.depth == "float" ? PixelType::kFloat : PixelType::kHalf;
+  for (const ChannelSpec& channel : StripChannels(plan.layers, color_type)) {
+    header.channels.push_back({channel.name, channel.type});
+  }
+  return header;
+}
+
 Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan,
                  const std::vector<TextItem>& captions)
     : options_(options), plan_(plan), captions_(captions) {
   display_.tone = ParseToneOperator(options.tonemap);
   display_.exposure_ev = options.exposure;
-  ExrHeader header = MakeExrHeader(plan, options.reproducible);
-  const PixelType color_type = options.depth == "float" ? PixelType::kFloat : PixelType::kHalf;
-  for (const ChannelSpec& channel : StripChannels(plan.layers, color_type)) {
-    header.channels.push_back({channel.name, channel.type});
-  }
+  const ExrHeader header = MakeOutputHeader(options, plan);
   const ExrOptions exr_options{.compression = ParseCompression(options.compression),
                                .small = options.small};
   PngHeader png_header;

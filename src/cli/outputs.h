@@ -27,6 +27,9 @@ void CheckPngPath(const std::string& path);
 // Throws Error (kUsage) if two of the paths, inputs and outputs of a command, are the same file.
 void CheckPathsDiffer(const std::vector<std::string>& paths);
 
+// The header of the EXR files of a render.
+ExrHeader MakeOutputHeader(const RenderOptions& options, const RenderPlan& plan);
+
 // Samples that the files do not hold as they were computed.
 struct OutputCounts {
   SampleCounts exr;

@@ -87,6 +87,8 @@ void CatchStopSignals() {
   sigaction(SIGTERM, &action, nullptr);
   // A file size limit then is an error of the write, with its message and exit code.
   std::signal(SIGXFSZ, SIG_IGN);
+  // Nor does a reader who goes away end a render: FinishOutput tells.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 void ThrowIfStopped() {

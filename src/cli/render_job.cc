@@ -9,6 +9,7 @@
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "cli/text_output.h"
+#include "render/frame_window.h"
 #include "render/render.h"
 
 namespace nacre {
@@ -107,6 +108,11 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
     return MakePlan(scene, settings);
   }();
   const double plan_seconds = SecondsSince(plan_start);
+  if (options.dry_run) {
+    PrintOut(DryRunJson(MakeOutputHeader(options, plan), options,
+                        MostBands(plan.frame, settings.band_rows)));
+    return;
+  }
   Outputs outputs(options, plan, captions);
   RenderStats stats;
   {

@@ -1,5 +1,6 @@
 #include "cli/render_options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstdlib>
 
@@ -10,6 +11,8 @@
 #include "base/error.h"
 #include "base/target.h"
 #include "color/tone.h"
+#include "image_io/exr_compress.h"
+#include "image_io/exr_writer.h"
 
 namespace nacre {
 namespace {
@@ -81,6 +84,13 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
                  "where all of it is seen, its spherical harmonics; --explain tells how far off "
                  "they are")
       ->group(picture);
+  command
+      ->add_option(
+          "--tile", o->tile,
+          "Render band i = 0 .. N-1 of N from the top: the same bits as in the full frame. "
+          "nacre merge puts the bands' EXR files together")
+      ->type_name("i/N")
+      ->group(picture);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command
       ->add_option("--set", o->sets,
@@ -147,6 +157,11 @@ namespace {
 
 void AddTellingOptions(CLI::App* command, RenderOptions* o) {
   const std::string telling = "What it tells";
+  command
+      ->add_flag("--dry-run", o->dry_run,
+                 "Check everything and print what the EXR file's header would say, as JSON, and "
+                 "into how many tiles the picture can be cut; render nothing")
+      ->group(telling);
   command
       ->add_flag("--explain", o->explain,
                  "Print the plan: what is used, what is skipped and why, and where time went")
@@ -227,6 +242,16 @@ Window ParseRegion(const std::string& text) {
   return {edges[0], edges[1], edges[2], edges[3]};
 }
 
+FrameBand ParseTile(const std::string& text) {
+  if (text.empty()) return {};
+  std::vector<int> numbers;
+  if (!ParseIntegers(text, '/', 2, &numbers) || numbers[0] < 0 || numbers[0] >= numbers[1]) {
+    throw Error(ExitCode::kUsage, "--tile", "\"" + text + "\" is not a tile",
+                "give i/N with i from 0 to N-1: --tile 0/4 is the top quarter of the rows");
+  }
+  return {numbers[0], numbers[1]};
+}
+
 Compression ParseCompression(const std::string& name) {
   if (name == "none") return Compression::kNone;
   if (name == "zips") return Compression::kZips;
@@ -239,6 +264,14 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
   RenderSettings settings;
   settings.threads = options.threads;
   settings.region = ParseRegion(options.region);
+  settings.band = ParseTile(options.tile);
+  if (!options.tile.empty() && !options.region.empty()) {
+    throw Error(ExitCode::kUsage, "--tile", "cannot be used with --region",
+                "a tile spans the frame's width; leave one of them out");
+  }
+  // So that a tile's chunks are those of the whole picture's file.
+  settings.band_rows =
+      std::max(ExrWriter::kStripRows, RowsPerChunk(ParseCompression(options.compression)));
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
   settings.max_error = options.max_error;

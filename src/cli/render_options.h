@@ -24,6 +24,7 @@ struct RenderOptions {
   int threads = 0;
   std::string target = "auto";
   std::string region;  // "x0,y0,x1,y1"; empty: all
+  std::string tile;    // "i/N"; empty: all
   std::vector<std::string> layers;
   std::string depth = "half";
   std::string compression = "zip";
@@ -33,6 +34,7 @@ struct RenderOptions {
   bool labels = false;
   std::vector<std::string> sets;  // "/json/pointer=value"
   bool allow_paths = false;
+  bool dry_run = false;
   bool explain = false;
   std::string stats;  // path; empty: none
   bool reproducible = false;
@@ -59,6 +61,9 @@ LoadOptions MakeLoadOptions(const RenderOptions& options);
 
 // "x0,y0,x1,y1" as a window; empty text gives an empty one. Throws Error (usage).
 Window ParseRegion(const std::string& text);
+
+// "i/N" with 0 <= i < N as a band; empty text gives none. Throws Error (usage).
+FrameBand ParseTile(const std::string& text);
 
 // A check for numbers in [low, high]; CLI11's own lets NaN pass.
 std::function<std::string(const std::string&)> InRange(double low, double high);

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/path.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "image_io/image_reader.h"

@@ -4,7 +4,7 @@
 
 #include "base/target.h"
 #include "base/version.h"
-#include "cli/metadata.h"
+#include "api/metadata.h"
 
 namespace nacre {
 
@@ -82,6 +82,29 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
         {"nan", counts.exr.nan},
         {"png_nan_pixels", counts.nan_pixels}}},
   };
+  return json.dump(2) + "\n";
+}
+
+std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, int most_tiles) {
+  using Json = nlohmann::ordered_json;
+  Json attributes = Json::object();
+  for (const auto& [name, value] : header.attributes) {
+    std::visit([&](const auto& plain) { attributes[name] = plain; }, value);
+  }
+  const auto type_name = [](PixelType type) {
+    return type == PixelType::kHalf ? "half" : type == PixelType::kFloat ? "float" : "uint";
+  };
+  Json channels = Json::object();
+  for (const ExrChannel& channel : header.channels) {
+    channels[channel.name] = type_name(channel.type);
+  }
+  const Window& data = header.data;
+  const Json json = {{"display_window", {header.display.x1, header.display.y1}},
+                     {"data_window", {data.x0, data.y0, data.x1, data.y1}},
+                     {"most_tiles", most_tiles},
+                     {"compression", options.compression},
+                     {"channels", channels},
+                     {"attributes", attributes}};
   return json.dump(2) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// cli/stats_json.h: times and counts of a render for programs (--stats).
+// cli/stats_json.h: times and counts of a render for programs (--stats, --dry-run).
 #pragma once
 
 #include <string>
@@ -18,5 +18,8 @@ struct JobTimes {
 
 std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const JobTimes& times,
                       const OutputCounts& counts);
+
+// What --dry-run prints: all that decides the picture's bits, as its header has it.
+std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, int most_tiles);
 
 }  // namespace nacre

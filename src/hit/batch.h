@@ -84,9 +84,10 @@ struct ShadowRayBatch {
   bool outward = false;
   // Primitives of the light itself, which are never in the way of rays to it.
   PrimitiveRange target;
-  Soa3<double> origin;                         // HitBatch::position
-  Soa3<double> direction;                      // towards the light, not normalised
-  AlignedArray<double> t_max{kBatchCapacity};  // 1: a light at origin + direction; or infinity
+  Soa3<double> origin;     // HitBatch::position
+  Soa3<double> direction;  // towards the light, not normalised
+  // 1: a light at origin + direction; or infinity. 0: nobody asks, and nothing is in the way.
+  AlignedArray<double> t_max{kBatchCapacity};
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
   AlignedArray<uint8_t> occluded{kBatchCapacity};    // result: 1 if anything is in the way
 };

@@ -48,6 +48,20 @@ std::span<const uint8_t> Bytes(std::span<const uint16_t> words) {
 
 }  // namespace
 
+int RowsPerChunk(Compression compression) {
+  switch (compression) {
+    case Compression::kNone:
+    case Compression::kZips:
+      return 1;
+    case Compression::kZip:
+      return 16;
+    case Compression::kPiz:
+    case Compression::kDwaa:
+      return 32;
+  }
+  return 1;
+}
+
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level) {
   thread_local std::vector<uint8_t> predicted;
   const size_t size = words.size_bytes();

@@ -1,5 +1,6 @@
 #include "image_io/exr_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -150,7 +151,7 @@ void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* 
   }
   Imf::FrameBuffer frame;
   for (Channel& channel : image->channels) {
-    channel.samples.resize(width * height);
+    channel.samples.reserve(width * height);
     frame.insert(channel.name,
                  Imf::Slice::Make(Imf::FLOAT, channel.samples.data(), Imath::V2i(data.x0, data.y0),
                                   static_cast<int64_t>(width), static_cast<int64_t>(height),
@@ -158,7 +159,15 @@ void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* 
   }
   Imf::InputPart part(file, 0);
   part.setFrameBuffer(frame);
-  part.readPixels(data.y0, data.y1 - 1);
+  // In bands, and memory is touched only for those that are there: a header costs a liar nothing.
+  constexpr int64_t kBand = 256;  // rows: the most that any compression takes together
+  for (int64_t y = data.y0; y < data.y1; y += kBand) {
+    const int64_t end = std::min<int64_t>(y + kBand, data.y1);
+    for (Channel& channel : image->channels) {
+      channel.samples.resize(static_cast<uint64_t>(end - data.y0) * width);
+    }
+    part.readPixels(static_cast<int>(y), static_cast<int>(end - 1));
+  }
 }
 
 Image Read(const std::string& path, bool with_samples) {

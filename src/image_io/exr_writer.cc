@@ -36,20 +36,6 @@ struct Gathered {
   int rows = 0;
 };
 
-int RowsPerChunk(Compression compression) {
-  switch (compression) {
-    case Compression::kNone:
-    case Compression::kZips:
-      return 1;
-    case Compression::kZip:
-      return 16;
-    case Compression::kPiz:
-    case Compression::kDwaa:
-      return 32;
-  }
-  return 1;
-}
-
 std::vector<uint8_t> ToBytes(std::span<const uint16_t> words) {
   const auto* bytes = reinterpret_cast<const uint8_t*>(words.data());
   return {bytes, bytes + words.size_bytes()};

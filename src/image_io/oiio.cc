@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 #include <dlfcn.h>
 
@@ -29,11 +30,32 @@ Function Find(void* library, const char* name) {
   return reinterpret_cast<Function>(symbol);
 }
 
+// The folder of the file that this code is in: libnacre.so, or the program; and the program's.
+std::vector<fs::path> StartFolders() {
+  std::error_code error;
+  std::vector<fs::path> folders = {fs::read_symlink("/proc/self/exe", error).parent_path()};
+  Dl_info info{};
+  // Of a program this is how it was called, which need not be a path.
+  if (dladdr(reinterpret_cast<const void*>(&StartFolders), &info) == 0) return folders;
+  const fs::path file = fs::canonical(info.dli_fname, error);
+  if (!error) folders.insert(folders.begin(), file.parent_path());
+  return folders;
+}
+
+// Where the module may be: everything is relative, so that an installation can be moved.
+std::vector<fs::path> ModulePaths() {
+  std::vector<fs::path> paths;
+  for (const fs::path& start : StartFolders()) {
+    for (const char* folder : {".", "nacre", NACRE_MODULE_FROM_PROGRAM, ".."}) {
+      paths.push_back(start / folder / kModuleName);
+    }
+  }
+  return paths;
+}
+
 Module LoadModule() {
   std::error_code error;
-  const fs::path program_folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const char* folder : {".", "../lib/nacre", ".."}) {
-    const fs::path path = program_folder / folder / kModuleName;
+  for (const fs::path& path : ModulePaths()) {
     if (!fs::exists(path, error)) continue;
     // Never closed: OpenImageIO's libraries do not survive it.
     void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -42,7 +64,8 @@ Module LoadModule() {
             Find<decltype(Module::free_image)>(library, "NacreOiioFreeImage"),
             Find<decltype(Module::draw_text)>(library, "NacreOiioDrawText")};
   }
-  throw Error(ExitCode::kInternal, kModuleName, "is neither beside the program nor in ../lib/nacre",
+  throw Error(ExitCode::kInternal, kModuleName,
+              "is neither beside the program nor in " NACRE_MODULE_FROM_PROGRAM,
               "EXR files need no module; for other formats and labels build or install it");
 }
 

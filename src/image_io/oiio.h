@@ -1,7 +1,8 @@
 // image_io/oiio.h: OpenImageIO, loaded when first used.
 //
-// It is in a module of its own, nacre_oiio.so, looked for beside the program, then in
-// ../lib/nacre from there, then (programs of a build tree's subfolders) one folder up.
+// It is in a module of its own, nacre_oiio.so, looked for beside libnacre.so and the program; in
+// nacre/ beside the library and where it is installed as seen from the program (../lib/nacre); and
+// (programs of a build tree's subfolders) one folder up.
 #pragma once
 
 #include <array>

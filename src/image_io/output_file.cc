@@ -85,6 +85,7 @@ constexpr int kNameAttempts = 100;
 }  // namespace
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(FollowLinks(path)) {
+  CheckTarget(path_, path_);  // /dev/stdout leads to what no link names
   CheckTarget(path_, target_);
   const std::string folder = Folder(target_);
   descriptor_ = OpenAnonymous(folder);

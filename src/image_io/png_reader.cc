@@ -109,6 +109,9 @@ bool Unfilter(int filter, const uint8_t* above, size_t step, size_t size, uint8_
 // The file's samples, row by row, a byte of filter before each row.
 bool Decompress(const Png& png, std::vector<uint8_t>* rows) {
   const size_t stride = png.row_bytes() + 1;
+  // Deflate makes 1032 bytes of one at most: what promises more would only cost memory.
+  constexpr size_t kMaxRatio = 1032;
+  if (stride * png.height / kMaxRatio > png.compressed.size()) return false;
   rows->resize(stride * png.height);
   uLongf size = rows->size();
   const int status = uncompress(rows->data(), &size, png.compressed.data(), png.compressed.size());
@@ -152,11 +155,14 @@ bool FillChannels(const Png& png, const std::vector<uint8_t>& rows, Image* image
 
 std::optional<Image> ReadPlainPng(const std::string& path, uint64_t max_samples) {
   std::ifstream stream(path, std::ios::binary);
-  std::vector<uint8_t> file(kSignature.size());
-  stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
-  if (!stream || std::memcmp(file.data(), kSignature.data(), kSignature.size()) != 0) return {};
+  std::array<uint8_t, kSignature.size()> signature{};
+  stream.read(reinterpret_cast<char*>(signature.data()), signature.size());
+  if (!stream || signature != kSignature) return {};
   stream.seekg(0, std::ios::end);
-  file.resize(static_cast<size_t>(stream.tellg()));
+  const std::streamoff length = stream.tellg();
+  constexpr std::streamoff kLongest = std::streamoff{1} << 31;  // chunks have 31 bits for theirs
+  if (length < static_cast<std::streamoff>(kSignature.size()) || length > kLongest) return {};
+  std::vector<uint8_t> file(static_cast<size_t>(length));
   stream.seekg(0);
   stream.read(reinterpret_cast<char*>(file.data()), static_cast<std::streamsize>(file.size()));
   Png png;

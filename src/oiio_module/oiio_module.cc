@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <OpenImageIO/imagebuf.h>
@@ -69,17 +71,51 @@ bool ReadIds(OIIO::ImageInput* input, NacreOiioImage* image) {
   return true;
 }
 
+// The reader that a file's first bytes ask for, or "" for a format that is left to nobody: a
+// stranger's file must not choose among the forty readers that OpenImageIO brings.
+std::string FormatOf(const std::string& path) {
+  std::array<char, 4> bytes = {};
+  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+  const std::string_view head(bytes.data(), bytes.size());
+  if (head == "\x89PNG") return "png";
+  if (head.starts_with("\xff\xd8")) return "jpeg";
+  if (head.starts_with("#?")) return "hdr";
+  if (head == "\x76\x2f\x31\x01") return "openexr";
+  if (head.starts_with("II*") || head.starts_with("II+") || head.starts_with("MM")) return "tiff";
+  if (head[0] == 'P' && std::string_view("1234567Ff").find(head[1]) != std::string_view::npos) {
+    return "pnm";
+  }
+  const std::string_view end = ".tga";  // these have no first bytes of their own
+  const bool is_tga = path.size() > end.size() &&
+                      std::equal(end.begin(), end.end(), path.end() - 4,
+                                 [](char a, char b) { return a == (b | 0x20) || a == b; });
+  return is_tga ? "targa" : "";
+}
+
 std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
-  const auto input = OIIO::ImageInput::open(path, &config);
+  const std::string format = FormatOf(path);
+  if (format.empty()) return "not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA";
+  const auto input = OIIO::ImageInput::create(format);
   if (!input) return OIIO::geterror();
-  const OIIO::ImageSpec& spec = input->spec();
+  OIIO::ImageSpec spec;
+  if (!input->open(path, spec, config)) return input->geterror();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1) {
     return "not a flat picture";
   }
-  const uint64_t samples = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
-  if (samples > max_samples) return "too large";
+  constexpr int kFar = 1 << 30;  // sums of two of these stay in range
+  for (const int number : {spec.x, spec.y, spec.width, spec.height, spec.full_x, spec.full_y,
+                           spec.full_width, spec.full_height}) {
+    if (number < -kFar || number > kFar) return "its size or place is out of range";
+  }
+  const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) *
+                        static_cast<uint64_t>(std::max(spec.tile_height, 0));
+  // Divided, because the product may wrap around.
+  const auto channels = static_cast<uint64_t>(spec.nchannels);
+  if (tile > max_samples / channels) return "its tiles are too large";
+  if (spec.image_pixels() > max_samples / channels) return "too large";
+  const uint64_t samples = spec.image_pixels() * channels;
   DescribeImage(spec, image);
   image->samples = static_cast<float*>(std::malloc(samples * sizeof(float)));
   if (image->samples == nullptr) return "out of memory";

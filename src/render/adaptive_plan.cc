@@ -53,6 +53,7 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
                           double max_error, int max_samples) {
   AdaptivePlan plan;
   plan.max_error = max_error;
+  plan.max_samples = max_samples;
   const PixelFilter& filter = scene.image.filter;
   const bool both_signs = !MakeFilterSampler(filter).negative.empty();
   // Few samples cannot hold a negative lobe's share.

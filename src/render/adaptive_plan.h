@@ -15,6 +15,7 @@ inline constexpr int kReplicates = 4;
 
 struct AdaptivePlan {
   double max_error = 0;  // 0: every pixel takes the same samples
+  int max_samples = 0;   // about, of a pixel
   // Samples are added level by level: as many again as there are, in each replicate.
   std::vector<std::array<PixelSampler, kReplicates>> levels;
   // Where the footprint test may stop a block at the pixels' centres:

@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "base/target.h"
+#include "render/frame_window.h"
 #include "render/mesh_points.h"
 #include "render/mesh_windows.h"
 #include "render/plan_notes.h"
@@ -27,18 +27,6 @@ Rgb SumAmbient(const Scene& scene) {
     if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) sum += ambient->radiance;
   }
   return sum;
-}
-
-Window PlanWindow(const Window& frame, const Window& region) {
-  if (region == Window{}) return frame;
-  const Window window = Intersect(frame, region);
-  if (window.empty()) {
-    throw Error(ExitCode::kUsage, "--region",
-                fmt::format("{},{},{},{} holds no pixel of the {}x{} frame", region.x0, region.y0,
-                            region.x1, region.y1, frame.x1, frame.y1),
-                "give x0,y0,x1,y1 in pixels from the top left, x1 and y1 not included");
-  }
-  return window;
 }
 
 void PlanLights(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
@@ -223,7 +211,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   const Scene& scene = plan.with_lights ? plan.with_lights->scene : given;
   plan.scene = &scene;
   plan.frame = {0, 0, scene.image.width, scene.image.height};
-  plan.window = PlanWindow(plan.frame, settings.region);
+  plan.window = FrameWindow(plan.frame, settings);
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   plan.background = scene.background;
   PlanLayers(scene, settings, &plan);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/sampled_kernel.h"
 #include "render/tile_layers.h"
 #include "shading/lobe_sample.h"
 
@@ -38,75 +39,74 @@ struct Ways {
   bool cosine;  // SampleCosine, for the diffuse part; SampleLobe always is, for the specular part
 };
 
-float NDotL(const Surface& surface, const Soa3<float>& l, size_t i) {
-  const Soa3<float>& n = surface.normal;
-  return n.x[i] * l.x[i] + n.y[i] * l.y[i] + n.z[i] * l.z[i];
-}
-
 // Lets a unit light shine on the hits that face it along the directions and do not miss it.
 void FaceLight(const Lit& lit) {
-  const LightDirections& directions = lit.c.directions;
-  LightBatch& light = lit.s.light;
-  const Soa3<float>& l = directions.to_light;
-  for (size_t i = 0; i < lit.count(); ++i) {
-    light.to_light.x[i] = l.x[i];
-    light.to_light.y[i] = l.y[i];
-    light.to_light.z[i] = l.z[i];
-    const bool shines = directions.distance[i] > 0 && NDotL(lit.s.surface, l, i) > 0;
-    light.irradiance[i] = shines ? 1.0f : 0.0f;
-  }
+  ShineAlong(lit.c.directions, lit.s.surface, lit.count(), &lit.s.light);
   HideTurned(lit.plan, &lit.s);
 }
 
 // Lets the shadow ray of a hit start where those of its mesh do, and end at the same point.
-void LiftRay(const TileScratch& s, size_t hit, size_t ray, ShadowRayBatch* rays) {
+void LiftRay(const TileScratch& s, size_t i, ShadowRayBatch* rays) {
   const Soa3<double>& from = s.hits.position;
   const Soa3<double>& origin = s.shadow_origin;
-  const Vec3d lift(origin.x[hit] - from.x[hit], origin.y[hit] - from.y[hit],
-                   origin.z[hit] - from.z[hit]);
-  if (lift == Vec3d(0, 0, 0)) return;
-  rays->origin.x[ray] = origin.x[hit];
-  rays->origin.y[ray] = origin.y[hit];
-  rays->origin.z[ray] = origin.z[hit];
-  const double distance = rays->t_max[ray];
+  const Vec3d lift(origin.x[i] - from.x[i], origin.y[i] - from.y[i], origin.z[i] - from.z[i]);
+  if (lift == Vec3d(0, 0, 0) || rays->t_max[i] == 0) return;
+  rays->origin.x[i] = origin.x[i];
+  rays->origin.y[i] = origin.y[i];
+  rays->origin.z[i] = origin.z[i];
+  const double distance = rays->t_max[i];
   if (std::isinf(distance)) return;
-  rays->direction.x[ray] = rays->direction.x[ray] * distance - lift.x;
-  rays->direction.y[ray] = rays->direction.y[ray] * distance - lift.y;
-  rays->direction.z[ray] = rays->direction.z[ray] * distance - lift.z;
-  rays->t_max[ray] = 1;
+  rays->direction.x[i] = rays->direction.x[i] * distance - lift.x;
+  rays->direction.y[i] = rays->direction.y[i] * distance - lift.y;
+  rays->direction.z[i] = rays->direction.z[i] * distance - lift.z;
+  rays->t_max[i] = 1;
+}
+
+void CopySoa(const Soa3<double>& from, size_t count, Soa3<double>* to) {
+  std::copy_n(from.x.data(), count, to->x.data());
+  std::copy_n(from.y.data(), count, to->y.data());
+  std::copy_n(from.z.data(), count, to->z.data());
+}
+
+// One ray a hit, most of which need one; the others end where they start. Returns how many do not.
+size_t MakeShadowRays(const Lit& lit) {
+  TileScratch& s = lit.s;
+  const HitBatch& hits = s.hits;
+  ShadowRayBatch& rays = s.shadow_rays;
+  const Soa3<float>& l = lit.c.directions.to_light;
+  rays.count = hits.count;
+  std::copy_n(hits.primitive.data(), hits.count, rays.primitive.data());
+  CopySoa(hits.position, hits.count, &rays.origin);
+  std::copy_n(l.x.data(), hits.count, rays.direction.x.data());
+  std::copy_n(l.y.data(), hits.count, rays.direction.y.data());
+  std::copy_n(l.z.data(), hits.count, rays.direction.z.data());
+  const bool all = lit.planned.trace_all || lit.planned.shadowed.empty();
+  size_t asked = 0;
+  for (size_t i = 0; i < hits.count; ++i) {
+    const bool asks =
+        s.light.irradiance[i] > 0 && (all || !NeverShadowed(lit.planned, hits.primitive[i]));
+    rays.t_max[i] = asks ? lit.c.directions.distance[i] : 0.0;
+    asked += asks ? 1 : 0;
+  }
+  if (!lit.plan.lift_shadows) return asked;
+  for (size_t i = 0; i < hits.count; ++i) LiftRay(s, i, &rays);
+  return asked;
 }
 
 // Takes the light from the hits that something lies before it for.
 void CastShadows(const Lit& lit) {
   TileScratch& s = lit.s;
-  const HitBatch& hits = s.hits;
-  const LightDirections& directions = lit.c.directions;
+  const size_t asked = MakeShadowRays(lit);
+  lit.stats->shadow_rays += asked;
+  if (asked == 0) return;
   ShadowRayBatch& rays = s.shadow_rays;
-  rays.count = 0;
-  for (size_t i = 0; i < hits.count; ++i) {
-    if (!(s.light.irradiance[i] > 0)) continue;
-    if (!lit.planned.trace_all && NeverShadowed(lit.planned, hits.primitive[i])) continue;
-    const size_t ray = rays.count++;
-    s.shadow_hits[ray] = static_cast<uint32_t>(i);
-    rays.primitive[ray] = hits.primitive[i];
-    rays.origin.x[ray] = hits.position.x[i];
-    rays.origin.y[ray] = hits.position.y[i];
-    rays.origin.z[ray] = hits.position.z[i];
-    rays.direction.x[ray] = directions.to_light.x[i];
-    rays.direction.y[ray] = directions.to_light.y[i];
-    rays.direction.z[ray] = directions.to_light.z[i];
-    rays.t_max[ray] = directions.distance[i];
-    if (lit.plan.lift_shadows) LiftRay(s, i, ray, &rays);
-  }
-  lit.stats->shadow_rays += rays.count;
-  if (rays.count == 0) return;
   rays.light = lit.planned.occluders;
   rays.outward = lit.plan.eye_outside;
   rays.target = lit.planned.primitives;
   lit.plan.intersector->Occluded(&rays);
   rays.target = {};
-  for (size_t ray = 0; ray < rays.count; ++ray) {
-    if (rays.occluded[ray] != 0) s.light.irradiance[s.shadow_hits[ray]] = 0;
+  for (size_t i = 0; i < rays.count; ++i) {
+    s.light.irradiance[i] = rays.occluded[i] != 0 ? 0.0f : s.light.irradiance[i];
   }
 }
 
@@ -133,42 +133,21 @@ void ShadeUnit(const Lit& lit) {
 }
 
 // sum += part x c.weight x the radiance that is seen.
-void AddWeighted(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
+void AddSeen(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
   const SampledLight& light = lit.planned.light;
-  const bool colored = IsColored(light);
-  const auto add = [&](const AlignedArray<float>& from, const AlignedArray<float>& radiance,
-                       double color, AlignedArray<float>* to) {
-    const auto scale = static_cast<float>(color);
-    const float* const weight = lit.c.weight.data();
-    for (size_t i = 0; i < lit.count(); ++i) {
-      const float seen = colored ? radiance[i] * scale : scale;
-      (*to)[i] += from[i] * weight[i] * seen;
-    }
-  };
-  const Soa3<float>& radiance = lit.c.directions.radiance;
-  add(part.x, radiance.x, light.color.x, &sum->x);
-  add(part.y, radiance.y, light.color.y, &sum->y);
-  add(part.z, radiance.z, light.color.z, &sum->z);
+  const Soa3<float>* radiance = IsColored(light) ? &lit.c.directions.radiance : nullptr;
+  AddWeighted(part, lit.c.weight.data(), radiance, light.color, lit.count(), sum);
 }
 
-// c.weight = 1 / c.density; 0 where no light comes from, or no direction is chosen.
 void WeighByDensity(const Lit& lit) {
-  const float* const irradiance = lit.s.light.irradiance.data();
-  for (size_t i = 0; i < lit.count(); ++i) {
-    const bool counts = irradiance[i] > 0 && lit.c.density[i] > 0;
-    lit.c.weight[i] = counts ? 1 / lit.c.density[i] : 0.0f;
-  }
+  FindWeights(lit.s.light.irradiance.data(), lit.c.density.data(), lit.count(),
+              lit.c.weight.data());
 }
 
 void WeighDiffuse(const Lit& lit, const Ways& ways) {
-  const LightDirections& directions = lit.c.directions;
-  for (size_t i = 0; i < lit.count(); ++i) {
-    float density = ways.light ? directions.density[i] : 0.0f;
-    if (ways.cosine) {
-      density += NDotL(lit.s.surface, directions.to_light, i) * static_cast<float>(M_1_PI);
-    }
-    lit.c.density[i] = lit.planned.closed_form && lit.c.flat[i] != 0 ? 0 : density;
-  }
+  const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
+  FindDiffuseDensity({ways.light, ways.cosine}, lit.c.directions, lit.s.surface, flat, lit.count(),
+                     lit.c.density.data());
   WeighByDensity(lit);
 }
 
@@ -191,11 +170,11 @@ void AddDirections(const Lit& lit, const Ways& ways, const Parts& parts) {
   ShadeUnit(lit);
   if (parts.diffuse) {
     WeighDiffuse(lit, ways);
-    AddWeighted(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+    AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   }
   if (parts.specular) {
     WeighSpecular(lit, ways);
-    AddWeighted(lit, lit.c.unit.specular, &lit.s.single.specular);
+    AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
   }
   lit.stats->shades += lit.count();
   lit.clock->Charge(Stage::kShade);
@@ -230,7 +209,7 @@ void AddClosedForm(const Lit& lit) {
     lit.c.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
   ShadeUnit(lit);
-  AddWeighted(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+  AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   lit.clock->Charge(Stage::kLight);
 }
 
@@ -285,7 +264,7 @@ void AddByMirror(const Lit& lit) {
   }
   Shadow(lit);
   std::copy_n(s.light.irradiance.data(), lit.count(), lit.c.weight.data());
-  AddWeighted(lit, lit.c.unit.specular, &s.single.specular);
+  AddSeen(lit, lit.c.unit.specular, &s.single.specular);
   lit.clock->Charge(Stage::kShade);
 }
 

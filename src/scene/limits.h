@@ -65,6 +65,10 @@ inline constexpr double kMaxSamples = 1e13;
 // Spheres and triangles together: ids are 32 bits wide and the last one means none.
 inline constexpr uint64_t kMaxPrimitives = 0xfffffffeu;
 
+// Those that a file may be made into: 100 bytes of text can ask for a cloud of 1e8 spheres, and a
+// file can do so many times. 8 GB of spheres.
+inline constexpr uint64_t kMaxPrimitivesMade = 200'000'000;
+
 inline constexpr Range kCloudCount{1, 1e8};
 inline constexpr Range kGridCount{1, 1000};
 

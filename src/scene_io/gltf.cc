@@ -1,5 +1,6 @@
 #include "scene_io/gltf.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -77,7 +78,8 @@ std::vector<int> RootsOf(const GltfDocument& document) {
 // Walks the nodes from the roots, parents first, in the order of the file.
 class NodeWalk {
  public:
-  NodeWalk(GltfDocument* document, Scene* scene) : document_(*document), scene_(*scene) {}
+  NodeWalk(uint64_t max_triangles, GltfDocument* document, Scene* scene)
+      : document_(*document), scene_(*scene), budget_{max_triangles} {}
 
   bool has_camera() const { return has_camera_; }
 
@@ -144,7 +146,7 @@ Scene ReadGltf(const std::filesystem::path& path, const LoadOptions& options, bo
   GltfDocument document = ReadGltfDocument(path, options);
   Scene scene;
   scene.materials = MakeGltfMaterials(&document, &scene);
-  NodeWalk walk(&document, &scene);
+  NodeWalk walk(std::min(GltfBudget().max_triangles, options.max_primitives), &document, &scene);
   walk.Run();
   if (CompleteCoordinates(&scene)) {
     document.Warn("a mesh has images but no texture coordinates: it shows one texel of each");

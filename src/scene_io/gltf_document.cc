@@ -117,6 +117,23 @@ bool KeepImage(tinygltf::Image* image, const int, std::string*, std::string*, in
   return true;
 }
 
+// tinygltf forms a pointer to an image in a buffer view before anybody has looked at its offset.
+void CheckImageOffsets(const Json& root, const GltfDocument& document) {
+  const auto element = [&](const char* array, uint64_t index) {
+    const auto found = root.find(array);
+    return found != root.end() && index < found->size() ? (*found)[index] : Json::object();
+  };
+  const Json images = root.value("images", Json::array());
+  for (size_t i = 0; i < images.size(); ++i) {
+    if (!images[i].contains("bufferView")) continue;
+    const Json view = element("bufferViews", images[i]["bufferView"].get<uint64_t>());
+    const Json buffer = element("buffers", view.value("buffer", uint64_t{0}));
+    if (view.value("byteOffset", uint64_t{0}) > buffer.value("byteLength", uint64_t{0})) {
+      document.Refuse(fmt::format("/images/{}", i), "reaches beyond its buffer");
+    }
+  }
+}
+
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 void Parse(const std::string& bytes, bool is_binary, const Json& root, GltfDocument* document) {
@@ -194,6 +211,7 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
     for (Fault& fault : all) fault.where = PlaceInFile(document.file, fault.where);
     throw Error(ExitCode::kBadInput, std::move(all));
   }
+  CheckImageOffsets(root, document);
   Parse(bytes, is_binary, root, &document);
   CheckVersionAndExtensions(&document);
   return document;

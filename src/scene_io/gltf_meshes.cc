@@ -46,10 +46,12 @@ size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, s
 }
 
 void Spend(uint64_t corners, const GltfDocument& document, GltfBudget* budget) {
-  if (corners > budget->corners) {
-    document.Refuse({}, "has more than 100 million triangles, counted as often as nodes show them");
+  if (corners > budget->corners_left) {
+    document.Refuse({},
+                    fmt::format("has more than {} triangles, counted as often as nodes show them",
+                                budget->max_triangles));
   }
-  budget->corners -= corners;
+  budget->corners_left -= corners;
 }
 
 // Indices into the accessors, three a triangle.

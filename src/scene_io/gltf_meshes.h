@@ -9,7 +9,8 @@ namespace nacre {
 
 // How much more may be made of a file, whose nodes can use the same mesh many times.
 struct GltfBudget {
-  uint64_t corners = 300'000'000;  // of triangles
+  uint64_t max_triangles = 100'000'000;
+  uint64_t corners_left = 3 * max_triangles;
 };
 
 // Adds the primitives of a mesh that have triangles, in the world. `name` is the node's. Throws

@@ -59,10 +59,10 @@ ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   const std::string name = source.bytes.empty() ? named.uri : fmt::format("image {}", image);
   try {
     if (source.bytes.empty()) {
-      scene_.images.push_back(ReadTextureImage(source.file, name, encoding));
+      AddTextureImage(source.file, name, encoding, &scene_);
     } else {
       const TemporaryFile file(source.bytes, SuffixOf(source.bytes));
-      scene_.images.push_back(ReadTextureImage(file.path(), name, encoding));
+      AddTextureImage(file.path(), name, encoding, &scene_);
     }
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;
@@ -89,7 +89,7 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
   Texture texture;
   texture.name = fmt::format("texture {} of {}", use.texture, place);
   UvChange change;
-  int tex_coord = use.tex_coord;
+  double tex_coord = use.tex_coord;
   const auto transform = use.extensions->find("KHR_texture_transform");
   if (transform != use.extensions->end()) {
     const GltfExtension reader(document_, transform->second,
@@ -97,7 +97,7 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
     change.offset = reader.Pair("offset", change.offset);
     change.scale = reader.Pair("scale", change.scale);
     change.rotation = reader.Number("rotation", 0);
-    tex_coord = static_cast<int>(reader.Number("texCoord", tex_coord));
+    tex_coord = reader.Number("texCoord", tex_coord);
     change.Apply(&texture);
   }
   if (tex_coord != 0) {

@@ -117,12 +117,17 @@ bool ReadText(const JsonValue& value, std::string* out) {
 
 void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,
                       const std::vector<std::string>& names) {
-  const std::string nearest = NearestName(word, names);
+  // No hint for what is only counted: there may be a million, of a million names.
+  const bool is_kept = value.faults->count() < FaultList::kMaxKept;
+  const std::string nearest = is_kept ? NearestName(word, names) : std::string();
   std::string hint;
+  constexpr ptrdiff_t kMaxNames = 100;
+  const auto count = std::min(static_cast<ptrdiff_t>(names.size()), kMaxNames);
   if (!nearest.empty()) {
     hint = fmt::format("did you mean \"{}\"?", nearest);
-  } else if (!names.empty()) {
-    hint = fmt::format("one of: {}", fmt::join(names, ", "));
+  } else if (is_kept && count > 0) {
+    hint = fmt::format("one of: {}{}", fmt::join(names.begin(), names.begin() + count, ", "),
+                       count == kMaxNames ? ", ..." : "");
   }
   value.AddFault(fmt::format("unknown {} \"{}\"", kind, word), hint);
 }

@@ -14,9 +14,6 @@
 namespace nacre {
 namespace {
 
-// Deeper than any scene; a guard for whatever walks the tree recursively.
-constexpr size_t kMaxDepth = 100;
-
 // "3:14", counted from 1, of the last of the first `bytes_read` bytes of the text.
 std::string LineAndColumn(std::string_view text, size_t bytes_read) {
   const size_t offset = bytes_read > 0 ? bytes_read - 1 : 0;
@@ -161,9 +158,9 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   }
 
   bool Open(Json value) {
-    if (levels_.size() >= kMaxDepth) {
+    if (levels_.size() >= kMaxJsonDepth) {
       throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
-                  fmt::format("nested deeper than {} levels", kMaxDepth));
+                  fmt::format("nested deeper than {} levels", kMaxJsonDepth));
     }
     Json* const inserted = Insert(std::move(value));
     levels_.push_back({inserted, {}, {}});

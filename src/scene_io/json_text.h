@@ -1,6 +1,7 @@
 // scene_io/json_text.h: JSON text to a tree, with the strictness that scene files want.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ namespace nacre {
 
 // Keeps the order of the file: lights are added up and materials are numbered in it.
 using Json = nlohmann::ordered_json;
+
+// Deeper than any scene; a guard for whatever walks the tree recursively.
+inline constexpr size_t kMaxJsonDepth = 100;
 
 // What `text` says. Names that an object has twice are added to `faults` by JSON pointer. Throws
 // Error (kBadInput) with `file` in its place for text that is not JSON (line and column), numbers

@@ -99,6 +99,8 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   context.folder = folder;
   context.allow_paths = options.allow_paths;
   context.scene = &scene;
+  SceneBudget budget(options.max_primitives);
+  context.budget = &budget;
   ReadRoot(root, &faults, &context);
   AddValidation(scene, &faults);
   if (faults.count() > 0) {

@@ -2,6 +2,7 @@
 // down in scenes/nacre.schema.json, which SceneSchema() returns.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/limits.h"
 #include "scene/scene.h"
 
 namespace nacre {
@@ -20,6 +22,10 @@ struct LoadOptions {
 
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;
+
+  // How many spheres and triangles the file may be made into, all shapes and lights together. A
+  // sphere with a material of its own, as grids have them, counts as 16.
+  uint64_t max_primitives = limits::kMaxPrimitivesMade;
 
   // Told now and then which share of the file has been read. Throwing from it stops the reading.
   std::function<void(double)> on_progress = {};

@@ -182,6 +182,8 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   SceneContext context;
   context.folder = std::filesystem::path(file).parent_path();
   context.allow_paths = options.allow_paths;
+  SceneBudget budget(options.max_primitives);
+  context.budget = &budget;
   overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });
   overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, scene); });
   overrides.root().Color("background", limits::kRadiance, &scene->background);

@@ -30,8 +30,16 @@ bool IsFiniteNumber(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
 }
 
+// What is not used of a line: tinyobjloader would read its numbers, whose exponents it lets
+// overflow.
+void BlankAfter(size_t words, std::string_view line, std::string* text) {
+  for (size_t i = 0; i < words; ++i) NextObjWord(&line);
+  std::fill_n(text->begin() + (line.data() - text->data()), line.size(), ' ');
+}
+
 // What tinyobjloader would not survive or not tell: it takes numbers that it cannot read as 0, and
-// makes room for as many tags (t) as the file says there are. Tags become comments.
+// makes room for as many tags (t) as the file says there are. Tags and weights (vw) become
+// comments.
 void Prepare(const std::string& file, std::string* text) {
   size_t start = 0;
   for (size_t line_number = 1; start < text->size(); ++line_number) {
@@ -40,9 +48,10 @@ void Prepare(const std::string& file, std::string* text) {
     const std::string_view keyword = NextObjWord(&line);
     if (keyword == "v" || keyword == "vn") {
       CheckObjNumbers(line, keyword, 3, 3, fmt::format("{}:{}", file, line_number));
+      BlankAfter(3, line, text);
     } else if (keyword == "vt") {
       CheckObjNumbers(line, keyword, 1, 2, fmt::format("{}:{}", file, line_number));
-    } else if (keyword == "t") {
+    } else if (keyword == "t" || keyword == "vw") {
       (*text)[static_cast<size_t>(keyword.data() - text->data())] = '#';
     }
     start = end + 1;

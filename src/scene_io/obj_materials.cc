@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <sstream>
 #include <string_view>
 #include <unordered_set>
@@ -18,12 +19,26 @@ namespace {
 
 constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
 
+// Of an image: tinyobjloader lets the exponents of its options overflow.
+void CheckOptions(std::string_view line, const std::string& place) {
+  for (auto word = NextObjWord(&line); !word.empty(); word = NextObjWord(&line)) {
+    double number = 0;
+    const auto sign = static_cast<size_t>(word.starts_with('+'));
+    const auto read = std::from_chars(word.data() + sign, word.data() + word.size(), number);
+    if (read.ec != std::errc::result_out_of_range) continue;
+    throw Error(ExitCode::kBadInput, place, fmt::format("\"{}\" is not a finite number", word));
+  }
+}
+
 // tinyobjloader takes numbers that it cannot read as 0, and materials that name no illumination
 // for those of illumination 0, which is none. They get 2 at first, ambient, diffuse and specular.
 std::string Prepare(const std::string& text, const std::string& file) {
   std::string prepared;
   constexpr std::array<std::string_view, 4> kColors = {"Ka", "Kd", "Ks", "Ke"};
   constexpr std::array<std::string_view, 4> kNumbers = {"Ns", "d", "Tr", "illum"};
+  constexpr std::array<std::string_view, 4> kImages = {"norm", "bump", "disp", "refl"};
+  constexpr std::array<std::string_view, 10> kUnused = {"Kt", "Tf", "Ni",  "Pr",    "Pm",
+                                                        "Ps", "Pc", "Pcr", "aniso", "anisor"};
   const auto is_one_of = [](const auto& words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
@@ -36,6 +51,8 @@ std::string Prepare(const std::string& text, const std::string& file) {
     std::string_view rest = line;
     const std::string_view first = NextObjWord(&rest);
     start = end + 1;
+    if (is_one_of(kUnused, keyword)) continue;
+    if (keyword.starts_with("map_") || is_one_of(kImages, keyword)) CheckOptions(line, place);
     prepared.append(text, static_cast<size_t>(keyword.data() - text.data()),
                     end - static_cast<size_t>(keyword.data() - text.data()));
     prepared += keyword == "newmtl" ? "\nillum 2\n" : "\n";
@@ -60,8 +77,7 @@ MtlReader::MtlReader(const std::filesystem::path& obj, const LoadOptions& option
     : folder_(obj.parent_path()), file_(obj.string()), options_(options) {}
 
 void MtlReader::Warn(const std::string& text) {
-  if (std::find(told_.begin(), told_.end(), text) != told_.end()) return;
-  told_.push_back(text);
+  if (!told_.insert(text).second) return;
   if (options_.on_warning) options_.on_warning(file_ + ": " + text);
 }
 
@@ -80,6 +96,7 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
     }
     throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
   }
+  if (!libraries_.insert(path.string()).second) return true;  // a file may name it a million times
   std::istringstream stream(Prepare(ReadTextFile(path, kMaxBytes), path.string()));
   tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
   return true;
@@ -93,7 +110,7 @@ TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_
   if (image == images_.end()) {
     try {
       const auto path = ResolveReference(folder_, name, options_.allow_paths);
-      scene->images.push_back(ReadTextureImage(path, name, encoding));
+      AddTextureImage(path, name, encoding, scene);
     } catch (const Error& error) {
       const Fault& fault = error.faults().front();
       if (fault.what.starts_with("there is no file")) {  // models often come without

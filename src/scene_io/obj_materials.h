@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -42,7 +43,7 @@ class MtlReader : public tinyobj::MaterialReader {
   std::filesystem::path folder_;
   std::string file_;
   const LoadOptions& options_;
-  std::vector<std::string> told_;
+  std::unordered_set<std::string> told_, libraries_;
   std::map<std::pair<std::string, TextureEncoding>, ImageId> images_;  // by name
 };
 

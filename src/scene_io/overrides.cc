@@ -1,5 +1,6 @@
 #include "scene_io/overrides.h"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 #include <vector>
@@ -20,11 +21,13 @@ std::vector<std::string> Split(const std::string& pointer) {
   try {
     Json::json_pointer rest(pointer);
     std::vector<std::string> tokens;
-    for (; !rest.empty(); rest.pop_back()) tokens.insert(tokens.begin(), rest.back());
-    return tokens;
+    for (; !rest.empty(); rest.pop_back()) tokens.push_back(rest.back());
+    std::reverse(tokens.begin(), tokens.end());
+    if (tokens.size() <= kMaxJsonDepth) return tokens;
   } catch (const Json::exception&) {
     Refuse(pointer, "is not a JSON pointer", "for example /image/spp or /materials/gold/roughness");
   }
+  Refuse(pointer.substr(0, 40) + "...", fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
 }
 
 Json ParseValue(const std::string& pointer, const std::string& text) {

@@ -97,6 +97,10 @@ std::shared_ptr<const SkyPicture> MakePicture(const Image& image, const std::str
 void ReadPicture(const JsonValue& value, const SceneContext& context, PictureSky* sky) {
   std::string file;
   if (!ReadText(value, &file)) return;
+  if (!context.budget->TakeSkyPicture()) {
+    value.AddFault("a second environment", "one picture holds all directions: add them up");
+    return;
+  }
   try {
     const auto path = ResolveReference(context.folder, file, context.allow_paths);
     sky->picture = MakePicture(ReadImage(path.string()), file);

@@ -168,7 +168,10 @@ void ReadGrid(JsonObject* shape, SceneContext* context) {
   const Material* const base = ReadBase(shape, context, &grid.material);
   ReadGridAxis(shape, "rows", base, &grid.rows);
   ReadGridAxis(shape, "columns", base, &grid.columns);
-  if (shape->faults()->count() == 0) AddGrid(grid, context->scene);
+  if (shape->faults()->count() != 0) return;
+  context->budget->Spend(SceneBudget::kWithMaterial * static_cast<uint64_t>(grid.rows.count) *
+                         static_cast<uint64_t>(grid.columns.count));
+  AddGrid(grid, context->scene);
 }
 
 void ReadPair(JsonObject* shape, SceneContext* context) {
@@ -183,7 +186,10 @@ void ReadPair(JsonObject* shape, SceneContext* context) {
   shape->Number("radius", limits::kLength, &row.radius);
   ReadPairSide(shape, "a", context, &row.a);
   ReadPairSide(shape, "b", context, &row.b);
-  if (shape->faults()->count() == 0) AddPair(row, context->scene);
+  if (shape->faults()->count() != 0) return;
+  context->budget->Spend(2 * SceneBudget::kWithMaterial *
+                         static_cast<uint64_t>(row.a.values.count));
+  AddPair(row, context->scene);
 }
 
 void ReadCloud(JsonObject* shape, SceneContext* context) {
@@ -202,7 +208,9 @@ void ReadCloud(JsonObject* shape, SceneContext* context) {
     ReadCloudMaterials({*materials, shape->path().Member("materials"), shape->faults()}, context,
                        &cloud);
   }
-  if (shape->faults()->count() == 0) AddCloud(cloud, context->scene);
+  if (shape->faults()->count() != 0) return;
+  context->budget->Spend(cloud.count);
+  AddCloud(cloud, context->scene);
 }
 
 }  // namespace nacre

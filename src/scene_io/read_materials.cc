@@ -84,7 +84,9 @@ MaterialId FindMaterial(const JsonValue& value, const SceneContext& context) {
   if (found != context.materials.end()) return found->second;
   if (!context.has_materials) return {};
   std::vector<std::string> names;
-  for (const auto& [known, id] : context.materials) names.push_back(known);
+  if (value.faults->count() < FaultList::kMaxKept) {  // others are only counted
+    for (const auto& [known, id] : context.materials) names.push_back(known);
+  }
   std::sort(names.begin(), names.end());
   FaultUnknownName(value, "material", name, names);
   return {};

@@ -116,6 +116,7 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
   try {
     const auto path = ResolveReference(context.folder, file, context.allow_paths);
     Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
+    context.budget->Spend(mesh.triangles.size() / 3);
     ApplyTransform(transform, &mesh);
     return mesh;
   } catch (const Error& error) {
@@ -158,9 +159,17 @@ void ReadFineness(JsonObject* shape, UvSphere* sphere) {
   shape->Whole("rings", limits::kRings, &sphere->rings);
 }
 
+// How many triangles it will have.
+uint64_t TriangleCount(const Icosphere& sphere) {
+  return uint64_t{20} << (2 * sphere.subdivisions);
+}
+uint64_t TriangleCount(const UvSphere& sphere) {
+  return 2 * static_cast<uint64_t>(sphere.segments) * static_cast<uint64_t>(sphere.rings);
+}
+
 // All that makes a sphere of faces; nothing if there are faults.
 template <typename SphereMesh>
-std::optional<Mesh> ReadFaces(const JsonValue& value) {
+std::optional<Mesh> ReadFaces(const JsonValue& value, const SceneContext& context) {
   const size_t before = value.faults->count();
   JsonObject object(value);
   SphereMesh sphere;
@@ -168,7 +177,13 @@ std::optional<Mesh> ReadFaces(const JsonValue& value) {
   ReadFineness(&object, &sphere);
   object.RefuseOthers();
   if (value.faults->count() != before) return std::nullopt;
-  return MakeMesh(sphere);
+  try {
+    context.budget->Spend(TriangleCount(sphere));
+    return MakeMesh(sphere);
+  } catch (const Error& error) {
+    for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);
+  }
+  return std::nullopt;
 }
 
 // The members center, radius, material and those of all meshes; true if there are no faults.
@@ -182,6 +197,7 @@ bool ReadSphereMesh(JsonObject* shape, SceneContext* context, SphereMesh* sphere
 
 template <typename SphereMesh>
 void AddSphereMesh(const SphereMesh& sphere, const Mesh& settings, SceneContext* context) {
+  context->budget->Spend(TriangleCount(sphere));
   Mesh mesh = MakeMesh(sphere);
   mesh.material = settings.material;
   mesh.interpolation = settings.interpolation;
@@ -249,8 +265,8 @@ std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext&
   }
   std::optional<Mesh> mesh = file != nullptr ? ReadMeshFile(value("file", file), transform, context)
                              : icosphere != nullptr
-                                 ? ReadFaces<Icosphere>(value("icosphere", icosphere))
-                                 : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere));
+                                 ? ReadFaces<Icosphere>(value("icosphere", icosphere), context)
+                                 : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere), context);
   if (!mesh) return nullptr;
   return std::make_shared<const Mesh>(std::move(*mesh));
 }

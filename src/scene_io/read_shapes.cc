@@ -19,11 +19,14 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
   ReadMaterialOf(shape, context, &sphere.material);
   Displacement displacement;
   if (!ReadDisplacement(shape, true, context, &displacement)) {
+    context->budget->Spend(1);
     context->scene->spheres.push_back(sphere);
     return;
   }
   displacement.center = sphere.center;
   displacement.size = sphere.radius;
+  const auto segments = static_cast<uint64_t>(displacement.segments);
+  context->budget->Spend(segments * segments);
   Mesh mesh = TessellateSphere(sphere, displacement.segments);
   Displace(*context->scene, displacement, &mesh);
   context->scene->meshes.push_back(std::move(mesh));

@@ -75,9 +75,7 @@ ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneCo
   const std::string key = path.string() + (encoding == TextureEncoding::kSrgb ? ":s" : ":l");
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
-  std::vector<SceneImage>& images = context->scene->images;
-  images.push_back(ReadTextureImage(path, source.file, encoding));
-  const ImageId id{static_cast<uint32_t>(images.size() - 1)};
+  const ImageId id = AddTextureImage(path, source.file, encoding, context->scene);
   context->images.emplace(key, id);
   return id;
 }
@@ -165,7 +163,9 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   if (found == context->textures.end()) {
     std::vector<std::string> names;
     names.reserve(context->textures.size());
-    for (const auto& [known, source] : context->textures) names.push_back(known);
+    if (value.faults->count() < FaultList::kMaxKept) {  // others are only counted
+      for (const auto& [known, source] : context->textures) names.push_back(known);
+    }
     std::sort(names.begin(), names.end());
     FaultUnknownName(value, "texture", name, names);
     return;

@@ -15,6 +15,7 @@
 #include "scene/material_parameters.h"
 #include "scene/scene.h"
 #include "scene_io/json_reader.h"
+#include "scene_io/scene_budget.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {
@@ -27,6 +28,7 @@ struct SceneContext {
   std::filesystem::path folder;  // of the scene file
   bool allow_paths = false;
   Scene* scene = nullptr;
+  SceneBudget* budget = nullptr;
   std::unordered_map<std::string, MaterialId> materials;  // by name
   // So that one fault does not make others of all that refer to it:
   bool has_materials = true;                          // false: their names could not be read

@@ -58,6 +58,10 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
 
 std::filesystem::path ResolveReference(const std::filesystem::path& folder, const std::string& name,
                                        bool allow_paths) {
+  // The system's calls would end the name there, and look at another file than is judged here.
+  if (name.find('\0') != std::string::npos) {
+    throw Error(ExitCode::kBadInput, {}, "a file's name has a character 0 in it");
+  }
   std::error_code error;
   const std::filesystem::path base = std::filesystem::weakly_canonical(
       folder.empty() ? std::filesystem::path(".") : folder, error);

@@ -46,18 +46,19 @@ struct CodeTable {
   }
 };
 
-void CheckSize(const std::filesystem::path& path, const Window& window, size_t channels) {
+void CheckSize(const std::filesystem::path& path, const Window& window, size_t channels,
+               size_t max_values) {
   const auto width = int64_t{window.x1} - window.x0, height = int64_t{window.y1} - window.y0;
   const double side = limits::kImageSide.max;
   const auto values = static_cast<double>(width) * static_cast<double>(height) *
                       static_cast<double>(std::min<size_t>(channels, 3));
   if (width >= 1 && height >= 1 && static_cast<double>(width) <= side &&
-      static_cast<double>(height) <= side && values <= static_cast<double>(kMaxTexelValues)) {
+      static_cast<double>(height) <= side && values <= static_cast<double>(max_values)) {
     return;
   }
   throw Error(ExitCode::kBadInput, path.string(),
               fmt::format("{} x {} texels are too many for a texture", width, height),
-              "make it smaller: 65536 a side, 2^30 values in all");
+              "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
 }
 
 // Red, green and blue, or the first channel that is not alpha.
@@ -104,10 +105,10 @@ float DecodeIntegers(TextureEncoding encoding, std::vector<float>* values) {
 }  // namespace
 
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            TextureEncoding encoding) {
+                            TextureEncoding encoding, size_t max_values) {
   if (HasExtension(path.string(), ".exr")) {
     const Image header = ReadExrHeader(path.string());  // before anything is decoded
-    CheckSize(path, header.data, header.channels.size());
+    CheckSize(path, header.data, header.channels.size(), max_values);
   }
   SceneImage texture;
   texture.file = file;
@@ -121,7 +122,7 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
     const Image image = plain ? std::move(*plain) : ReadImage(path.string());
     const std::vector<const Channel*> channels = ChannelsOf(image);
     if (channels.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no colours");
-    CheckSize(path, image.data, channels.size());
+    CheckSize(path, image.data, channels.size(), max_values);
     channel_count = channels.size();
     width = image.data.width();
     height = image.data.height();
@@ -138,6 +139,18 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   texture.texels = std::make_shared<const MipChain>(
       MakeMipChain(width, height, static_cast<int>(channel_count), std::move(values)));
   return texture;
+}
+
+ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
+                        TextureEncoding encoding, Scene* scene) {
+  size_t left = kMaxTexelValues;
+  for (const SceneImage& image : scene->images) {
+    const MipLevel& level = image.texels->levels[0];
+    left -= static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
+            static_cast<size_t>(image.texels->channels);
+  }
+  scene->images.push_back(ReadTextureImage(path, file, encoding, left));
+  return {static_cast<uint32_t>(scene->images.size() - 1)};
 }
 
 }  // namespace nacre

@@ -18,6 +18,10 @@ enum class TextureEncoding : uint8_t { kSrgb, kLinear };
 // broken, over 65536 texels a side or over 2^30 values, or that hold NaN or infinities. `file` is
 // what SceneImage calls it.
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            TextureEncoding encoding);
+                            TextureEncoding encoding, size_t max_values = kMaxTexelValues);
+
+// The same, added to the scene, whose images have 2^30 values at most together.
+ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
+                        TextureEncoding encoding, Scene* scene);
 
 }  // namespace nacre

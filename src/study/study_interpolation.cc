@@ -1,5 +1,6 @@
 // study/study_interpolation.cc: exercise 3: flat, Gouraud and Phong over the number of faces.
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -138,9 +139,9 @@ void AddNumbers(const std::vector<Level>& levels, StudyResult* result) {
     const Level& at = levels[static_cast<size_t>(level)];
     for (const auto& [name, error] :
          {std::pair{"flat", &at.flat}, {"Gouraud", &at.gouraud}, {"Phong", &at.phong}}) {
+      const std::string beginning = fmt::format("{}, {} faces: ", name, FacesOf(level));
       const auto add = [&](const char* what, double value) {
-        result->numbers.push_back(
-            {fmt::format("{}, {} faces: {}", name, FacesOf(level), what), value, ""});
+        result->numbers.push_back({beginning + what, value, ""});
       };
       add("diffuse, largest", error->diffuse_max);
       add("diffuse, rms", error->diffuse_rms);

@@ -1,16 +1,14 @@
-// visibility/intersector.cc: sets Embree up: device, instruction set, bounds, callbacks, errors.
+// visibility/intersector.cc: sets Embree's scenes up: bounds, callbacks.
 #include "visibility/intersector.h"
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
-#include <string>
+#include <optional>
 #include <utility>
 
-#include "base/error.h"
 #include "base/parallel.h"
-#include "base/target.h"
 #include "visibility/embree_api.h"
+#include "visibility/embree_device.h"
 #include "visibility/geometry.h"
 #include "visibility/packet.h"
 #include "visibility/refine_kernel.h"
@@ -22,85 +20,10 @@
 namespace nacre {
 namespace {
 
-// Embree's name for the instruction set of a target, and the widest packet it walks natively.
-struct EmbreeTarget {
-  const char* isa;
-  int packet_width;
-};
-
-EmbreeTarget EmbreeTargetFor(Target target) {
-  switch (target) {
-    case Target::kScalar:
-      return {"sse2", 4};
-    case Target::kSse4:
-      return {"sse4.2", 4};
-    case Target::kAvx2:
-      return {"avx2", 8};
-    case Target::kAvx3:
-      return {"avx512", 16};
-  }
-  return {"sse2", 4};
-}
-
-// The first error that Embree reported, from any of its threads.
-class ErrorRecord {
- public:
-  static void Report(void* self, RTCError code, const char* text) {
-    static_cast<ErrorRecord*>(self)->Remember(code, text);
-  }
-
-  void ThrowIfAny() {
-    const std::lock_guard lock(mutex_);
-    if (code_ == RTC_ERROR_NONE) return;
-    if (code_ == RTC_ERROR_OUT_OF_MEMORY) {
-      throw Error(ExitCode::kInternal, "Embree", "out of memory while building the scene");
-    }
-    throw Error(ExitCode::kInternal, "Embree", text_);
-  }
-
- private:
-  void Remember(RTCError code, const char* text) {
-    const std::lock_guard lock(mutex_);
-    if (code_ != RTC_ERROR_NONE) return;
-    code_ = code;
-    text_ = text != nullptr ? text : "unknown error";
-  }
-
-  std::mutex mutex_;
-  RTCError code_ = RTC_ERROR_NONE;
-  std::string text_;
-};
-
-struct ReleaseDevice {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-};
 struct ReleaseScene {
   void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
 };
-using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-
-// Embree ignores configuration that it does not know, so what it made of it is read back. Its
-// threads are not set here: threads=1 would throttle TBB in the whole process.
-DevicePointer MakeDevice(Target target) {
-  const EmbreeTarget wanted = EmbreeTargetFor(target);
-  const std::string config = std::string("isa=") + wanted.isa + ",verbose=0,set_affinity=0";
-  DevicePointer device(rtcNewDevice(config.c_str()));
-  if (!device) throw Error(ExitCode::kInternal, "Embree", "cannot create a device: " + config);
-  const auto native = [&](RTCDeviceProperty property) {
-    return rtcGetDeviceProperty(device.get(), property) != 0;
-  };
-  int width = 4;
-  if (native(RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED)) width = 8;
-  if (native(RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED)) width = 16;
-  if (width != wanted.packet_width) {
-    throw Error(ExitCode::kInternal, "Embree",
-                "this build walks packets of " + std::to_string(width) + " rays where " + config +
-                    " calls for " + std::to_string(wanted.packet_width),
-                "choose another target, or install an Embree built for this one");
-  }
-  return device;
-}
 
 // How far the float ray strays from the true one, at or before points within `reach` of the
 // camera: its origin by u |o| and its direction by u |p - o|, with |o| at most the extent. Twice
@@ -157,7 +80,7 @@ void Attach(RTCDevice device, RTCScene scene, TraceGeometry* geometry, size_t co
 
 }  // namespace
 
-// Embree holds pointers to the geometry and the errors; the scene goes before the device.
+// Embree holds pointers to the geometry; the scene goes before the device.
 struct Intersector::State {
   IntersectorSettings settings;
   Vec3d camera_position{0, 0, 0};
@@ -165,8 +88,7 @@ struct Intersector::State {
   std::vector<LightOccluders> occluders;  // by number of the light
   CameraFrame camera;
   SphereBins bins;
-  ErrorRecord errors;
-  DevicePointer device;
+  std::optional<EmbreeDevice> device;
   ScenePointer scene, triangle_scene;
   int packet_width = 0;
 
@@ -178,21 +100,20 @@ struct Intersector::State {
 
 ScenePointer Intersector::State::Build(bool with_spheres) {
   if (!device) {
-    device = MakeDevice(ActiveTarget());
-    packet_width = EmbreeTargetFor(ActiveTarget()).packet_width;
-    rtcSetDeviceErrorFunction(device.get(), &ErrorRecord::Report, &errors);
+    device.emplace();
+    packet_width = device->packet_width();
   }
-  ScenePointer built(rtcNewScene(device.get()));
-  errors.ThrowIfAny();
+  ScenePointer built(rtcNewScene(device->get()));
+  device->ThrowIfFailed();
   rtcSetSceneFlags(built.get(), RTC_SCENE_FLAG_ROBUST);
   if (with_spheres) {
-    Attach(device.get(), built.get(), &geometry, geometry.spheres.size(), &SphereBounds,
+    Attach(device->get(), built.get(), &geometry, geometry.spheres.size(), &SphereBounds,
            SphereCallbacks());
   }
-  Attach(device.get(), built.get(), &geometry, geometry.triangles.size(), &TriangleBounds,
+  Attach(device->get(), built.get(), &geometry, geometry.triangles.size(), &TriangleBounds,
          TriangleCallbacks());
   WithThreads(settings.threads, [&] { rtcJoinCommitScene(built.get()); });
-  errors.ThrowIfAny();
+  device->ThrowIfFailed();
   return built;
 }
 

@@ -102,16 +102,24 @@ HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere
   return occluded;
 }
 
+// The spheres of a list that rays are asked about.
+struct ListPart {
+  const uint32_t* entries;  // numbers of OccluderLists::spheres and proposals
+  size_t count;
+};
+
 // The rays `pending` of a block, which all start on sphere `start`, that something is in the way
 // of.
 HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const OccluderLists& lists,
-                                   uint32_t start, const ShadowRayBatch& rays, size_t first,
-                                   uint32_t pending) {
+                                   const ListPart& part, uint32_t start, const ShadowRayBatch& rays,
+                                   size_t first, uint32_t pending) {
   const F d;
   const TraceSphere& own = geometry.spheres[start];
   const FloatRays floats = LoadFloatRays(rays, first, own.center);
+  pending &= BitsOfMask(d, hn::Gt(floats.t_max, hn::Zero(d)));
   uint32_t occluded = 0;
-  for (uint32_t i = lists.Begin(start); i < lists.end[start] && pending != 0; ++i) {
+  for (size_t k = 0; k < part.count && pending != 0; ++k) {
+    const uint32_t i = part.entries[k];
     const Verdict verdict = Propose(lists.proposals[i], floats);
     uint32_t blocked = BitsOfMask(d, verdict.met) & pending;
     const uint32_t open = pending & ~(blocked | BitsOfMask(d, verdict.missed));
@@ -125,26 +133,84 @@ HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const Occluder
   return occluded;
 }
 
+struct Range {
+  double low, high;
+};
+
+HWY_INLINE Range RangeOf(const double* values, size_t first, size_t end) {
+  const D d;
+  const size_t lanes = hn::Lanes(d);
+  V low = hn::Set(d, values[first]), high = low;
+  size_t i = first;
+  for (; i + lanes <= end; i += lanes) {
+    const V v = hn::LoadU(d, values + i);
+    low = hn::Min(low, v);
+    high = hn::Max(high, v);
+  }
+  Range range{hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
+  for (; i < end; ++i) {
+    range.low = std::min(range.low, values[i]);
+    range.high = std::max(range.high, values[i]);
+  }
+  return range;
+}
+
+// Rays that leave outward stay above the plane that touches the sphere where they start, but for
+// what their directions' rounding makes of grazing ones (2e-6): spheres below the planes of all
+// their origins are left out. Returns the rest of the list of sphere `start`.
+HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& lists,
+                            uint32_t start, const ShadowRayBatch& rays, size_t first, size_t end,
+                            uint32_t* entries) {
+  const TraceSphere& own = geometry.spheres[start];
+  const Range box[3] = {RangeOf(rays.origin.x.data(), first, end),
+                        RangeOf(rays.origin.y.data(), first, end),
+                        RangeOf(rays.origin.z.data(), first, end)};
+  size_t count = 0;
+  for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
+    const TraceSphere& sphere = geometry.spheres[lists.spheres[i]];
+    const Vec3d offset = sphere.center - own.center;
+    double highest = 0;  // of the centre over the planes through the own centre
+    for (int c = 0; c < 3; ++c) {
+      highest += std::max(offset[c] * (box[c].low - own.center[c]),
+                          offset[c] * (box[c].high - own.center[c]));
+    }
+    const double margin =
+        1e-5 * (offset.length() + own.radius + sphere.radius) + 1e-12 * own.center.length();
+    const bool below = highest < (own.radius - sphere.radius - margin) * own.radius;
+    if (!below || !rays.outward) entries[count++] = i;
+  }
+  return count;
+}
+
+HWY_INLINE void StoreOccluded(uint32_t occluded, size_t first, size_t count, ShadowRayBatch* rays) {
+  for (size_t lane = 0; lane < count; ++lane) {
+    rays->occluded[first + lane] = static_cast<uint8_t>((occluded >> lane) & 1);
+  }
+}
+
+// Rays [first, end), all from one sphere.
+HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists& lists,
+                              size_t first, size_t end, ShadowRayBatch* rays) {
+  const size_t step = hn::Lanes(F());
+  const uint32_t start = rays->primitive[first];
+  uint32_t entries[kMaxListedSpheres];
+  const size_t kept = FindAbove(geometry, lists, start, *rays, first, end, entries);
+  for (; first < end; first += step) {
+    const size_t count = std::min(step, end - first);
+    const uint32_t lanes = (1u << count) - 1;
+    StoreOccluded(OccludedByList(geometry, lists, {entries, kept}, start, *rays, first, lanes),
+                  first, count, rays);
+  }
+}
+
 void OccludedByListsT(const TraceGeometry& geometry, const OccluderLists& lists,
                       ShadowRayBatch* rays) {
-  const size_t step = hn::Lanes(F());
-  for (size_t first = 0; first < rays->count; first += step) {
-    const size_t count = std::min(step, rays->count - first);
-    const uint32_t* const start = rays->primitive.data() + first;
-    uint32_t occluded = 0;
-    // Sphere by sphere of those that the block's rays start on: one, as a rule.
-    for (uint32_t left = (1u << count) - 1; left != 0;) {
-      const uint32_t sphere = start[__builtin_ctz(left)];
-      uint32_t same = 0;
-      for (size_t lane = 0; lane < count; ++lane) {
-        same |= static_cast<uint32_t>(start[lane] == sphere) << lane;
-      }
-      left &= ~same;
-      occluded |= OccludedByList(geometry, lists, sphere, *rays, first, same);
-    }
-    for (size_t lane = 0; lane < count; ++lane) {
-      rays->occluded[first + lane] = static_cast<uint8_t>((occluded >> lane) & 1);
-    }
+  const uint32_t* const start = rays->primitive.data();
+  for (size_t first = 0; first < rays->count;) {
+    size_t end = first + 1;
+    while (end < rays->count && start[end] == start[first]) ++end;
+    OccludedOfRun(geometry, lists, first, end, rays);
+    first = end;
   }
 }
 

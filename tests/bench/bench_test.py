@@ -10,12 +10,28 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 
 import estimates
 import google
+import lights
 import plots
 import precision
 import readme
 import report
 import scaling
 import summary
+
+
+class Lights(unittest.TestCase):
+    def test_time_to_an_error_lies_on_the_line_of_logarithms(self):
+        points = [{"error": 0.1 / 2 ** i, "seconds": 4.0 ** i} for i in range(4)]
+        self.assertAlmostEqual(lights.seconds_to(points, 0.05), 4)
+        self.assertAlmostEqual(lights.seconds_to(points, 0.1 / 2 ** 1.5), 8)
+        self.assertEqual(lights.seconds_to(points, 0.2), 1)
+        self.assertIsNone(lights.seconds_to(points, 0.01))
+
+    def test_error_is_that_of_the_spheres_pixels(self):
+        # A quarter of the picture, of value 2, off by 0.1 everywhere; the rest is black.
+        layers = {"A": {"mean_reference": 0.25},
+                  "beauty": {"rmse": 0.1 * 0.5, "mean_reference": 0.5}}
+        self.assertAlmostEqual(lights.relative_rmse(layers), 0.05)
 
 
 class Intervals(unittest.TestCase):

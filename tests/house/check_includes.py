@@ -32,8 +32,12 @@ BRANCHES = {
     "report": {"base", "color", "compare", "image_io"},
     # What the lesson's exercises ask: the renderer's terms and pictures as curves and numbers.
     "study": TRUNK_FOLDERS | {"image_io", "report"},
+    # The public API, nacre.h.
+    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare"},
     "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
 }
+# In src/ itself, and the folder whose header it is.
+PUBLIC_HEADER, PUBLIC_FOLDER = "nacre.h", "api"
 # Depends on whatever it likes; nothing depends on it.
 TOP = "cli"
 
@@ -120,6 +124,8 @@ def check_quoted(file, path, depends):
     """Fault of an #include "path" in src/<file>, or None."""
     included, slash, _ = path.partition("/")
     folder = file.partition("/")[0]
+    if path == PUBLIC_HEADER:
+        return None if folder == PUBLIC_FOLDER else f'"{path}" is for others: only api/ has it'
     if not slash:
         return f'"{path}": write "folder/file.h"'
     if not path.endswith(".h"):
@@ -151,16 +157,25 @@ def check_source(src, source, depends):
                 yield f"{at}: {fault}"
 
 
+def check_public_header(header):
+    """Faults of the public header, which others compile: it includes the standard library only."""
+    for number, line in enumerate(header.read_text().splitlines(), 1):
+        if INCLUDE.match(line) and not re.match(r"\s*#\s*include <[a-z_]+>", line):
+            yield f"src/{header.name}:{number}: {line.strip()}: only the standard library"
+
+
 def check(root):
     """All faults of the tree at `root`, and how many files were read."""
     src = pathlib.Path(root) / "src"
     depends = read_cmake(src)
-    # What lies in src/ itself, such as the public header, is no folder of the order.
+    # The public header, in src/ itself, is no folder of the order.
     sources = sorted(path for path in src.glob("*/**/*") if path.suffix in (".h", ".cc"))
     on_disk = {source.relative_to(src).parts[0] for source in sources}
     faults = list(check_cmake(depends, on_disk))
     for source in sources:
         faults.extend(check_source(src, source, depends))
+    if (src / PUBLIC_HEADER).is_file():
+        faults.extend(check_public_header(src / PUBLIC_HEADER))
     return faults, len(sources)
 
 

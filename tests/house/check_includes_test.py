@@ -18,6 +18,7 @@ nacre_library(render DEPENDS nacre_visibility  # a comment
 nacre_library(image_io DEPENDS nacre_base nacre_color)
 nacre_library(scene_io DEPENDS nacre_scene nacre_image_io)
 nacre_library(textbook DEPENDS nacre_base)
+nacre_library(api DEPENDS nacre_render)
 add_executable(nacre main.cc)
 target_link_libraries(nacre PRIVATE nacre_render
   nacre_scene_io nacre_textbook CLI11::CLI11)
@@ -40,6 +41,7 @@ SOUND_TREE = {
     "render/render.cc": '#include "base/vec.h"\n#include "visibility/trace.h"\n',
     "image_io/exr.cc": "#include <OpenEXR/openexr.h>\n#include <zlib.h>\n",
     "scene_io/json.cc": '#include <nlohmann/json.hpp>\n#include "color/tone.h"\n',
+    "api/border.h": '#include "nacre.h"\n#include "render/render.h"\n',
     "textbook/shading.h": '#include "base/vec.h"\n',
     "cli/main.cc": '#include <CLI/CLI.hpp>\n#include "render/render.h"\n',
     "cli/textbook.cc": '#include "textbook/shading.h"\n',
@@ -100,6 +102,9 @@ class CheckIncludes(unittest.TestCase):
             ("textbook/a.cc", '"color/tone.h"'),
             ("textbook/a.cc", '"scene/scene.h"'),
             ("textbook/a.cc", '"shading/shade.h"'),
+            ("render/a.cc", '"nacre.h"'),  # the public header is for others
+            ("nacre.h", '"base/vec.h"'),
+            ("nacre.h", "<Imath/ImathVec.h>"),
         ):
             with self.subTest(file=file, include=include):
                 faults = faults_of({file: f"// A fault\n  # include {include}\n"})

@@ -109,7 +109,7 @@ class Workshop:
         for command in commands:
             if command[0].endswith("_test"):
                 command.append("--abort")
-            elif command[1].endswith("cli_test.py"):
+            elif command[1].endswith(("cli_test.py", "tiles_test.py")):
                 command.append("--failfast")
         return commands[::-1]
 

@@ -1,5 +1,6 @@
 // tests/stress/stress_main.cc: the program behind scripts/stress: renders the stability gallery
-// beside the truth, judges it, and fuzzes the reflection models at length. Text to stdout.
+// beside the truth, judges it, looks for leaks, and fuzzes the reflection models at length. Text to
+// stdout.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +19,7 @@
 #include "render/render.h"
 #include "stress/fuzz.h"
 #include "stress/gallery.h"
+#include "stress/leaks.h"
 #include "stress/random_scene.h"
 #include "stress/truth_reflect.h"
 
@@ -34,6 +36,7 @@ struct Options {
   int width = 0;       // of pictures; 0: as the scenes say
   uint64_t random_scenes = 0;
   uint64_t draws = 0;               // of the fuzz; 0: none
+  uint64_t rays = 0;                // at the seams of meshes; 0: none
   std::vector<std::string> scenes;  // of the gallery; empty: all
   bool gallery = true;
 };
@@ -172,6 +175,25 @@ bool RunFuzz(uint64_t draws) {
   return holds;
 }
 
+bool RunLeaks(uint64_t rays) {
+  bool holds = true;
+  for (const Target target : SupportedTargets()) {
+    PinTarget(target);
+    LeakSettings settings;
+    settings.rays = rays / SupportedTargets().size();
+    settings.on_progress = [&](double done) {
+      ShowProgress(fmt::format("leaks {:<6} {:5.1f} %", TargetName(target), 100 * done));
+    };
+    const LeakResult result = CountLeaks(settings);
+    ShowProgress("");
+    fmt::print("leaks {:<6} {} rays at the seams of closed meshes: {} get out\n",
+               TargetName(target), result.rays, result.leaks);
+    std::fflush(stdout);
+    holds = holds && result.leaks == 0;
+  }
+  return holds;
+}
+
 double ParseNumber(const std::string& name, const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -215,6 +237,8 @@ Options ParseOptions(int count, char** arguments) {
       options.random_scenes = static_cast<uint64_t>(ParseNumber(name, value));
     } else if (name == "--draws") {
       options.draws = static_cast<uint64_t>(ParseNumber(name, value));
+    } else if (name == "--rays") {
+      options.rays = static_cast<uint64_t>(ParseNumber(name, value));
     } else {
       throw Error(ExitCode::kUsage, name, "unknown option", "see scripts/stress --help");
     }
@@ -227,6 +251,7 @@ int Run(const Options& options) {
   bool holds = true;
   if (options.gallery) holds = RunGallery(options);
   if (options.random_scenes > 0) holds = RunRandomScenes(options.random_scenes) && holds;
+  if (options.rays > 0) holds = RunLeaks(options.rays) && holds;
   if (options.draws > 0) holds = RunFuzz(options.draws) && holds;
   fmt::print("{}\n", holds ? "every bound holds" : "a bound is exceeded");
   return holds ? 0 : 1;

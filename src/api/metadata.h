@@ -1,4 +1,4 @@
-// cli/metadata.h: what the files of a render say about it.
+// api/metadata.h: what the files of a render say about it.
 #pragma once
 
 #include "image_io/exr_header.h"
@@ -9,10 +9,11 @@ namespace nacre {
 
 // Names of header attributes that nacre writes.
 inline constexpr char kRenderTimeAttribute[] = "renderTime";
+inline constexpr char kTileAttribute[] = "nacre:tile";
 
-// Everything but the channels. `reproducible`: without the render time, which is 0 until
-// ExrWriter::UpdateAttribute.
-ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible);
+// Everything but the channels. `tile`: as --tile has it, or empty. `reproducible`: without the
+// render time, which is 0 until ExrWriter::UpdateAttribute.
+ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible, const std::string& tile = {});
 
 // The masking-shadowing forms of the scene's materials by name, "height_correlated" or
 // "height_correlated, separable"; "none" if no material has one.

@@ -1,4 +1,4 @@
-#include "cli/metadata.h"
+#include "api/metadata.h"
 
 #include <set>
 
@@ -50,7 +50,7 @@ std::string ShadowingForms(const Scene& scene) {
   return forms.empty() ? "none" : fmt::format("{}", fmt::join(forms, ", "));
 }
 
-ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible) {
+ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible, const std::string& tile) {
   const Scene& scene = *plan.scene;
   const ImageSettings& image = scene.image;
   ExrHeader header;
@@ -72,8 +72,10 @@ ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible) {
                   image.shadows ? "on" : "off");
   if (plan.adaptive.max_error > 0) {
     attributes["nacre:maxError"] = static_cast<float>(plan.adaptive.max_error);
+    attributes["nacre:maxSamples"] = plan.adaptive.max_samples;
   }
   if (!plan.fast_lights.empty()) attributes["nacre:fastLights"] = FastLightText(plan);
+  if (!tile.empty()) attributes[kTileAttribute] = tile;
   if (!reproducible) attributes[kRenderTimeAttribute] = 0.0f;
   return header;
 }

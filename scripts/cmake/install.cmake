@@ -1,0 +1,79 @@
+# What `cmake --install` puts where, and the packages that CPack makes of it.
+#
+# Two components: runtime (the program, libnacre.so.0, what they load, scenes) and development.
+# Everything finds everything else by relative paths, so a prefix can be moved.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS nacre RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
+install(TARGETS nacre_oiio
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/nacre COMPONENT runtime)
+install(TARGETS nacre_shared EXPORT nacreTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development
+  INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(FILES src/nacre.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre COMPONENT development)
+
+# find_package(nacre) and pkg-config.
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/nacre)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/nacreConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+file(WRITE ${CMAKE_BINARY_DIR}/nacreConfig.cmake
+  "# libnacre.so brings all that it needs: there is nothing else to find.\n"
+  "include(\"\${CMAKE_CURRENT_LIST_DIR}/nacreTargets.cmake\")\n")
+install(EXPORT nacreTargets NAMESPACE nacre:: DESTINATION ${config_folder} COMPONENT development)
+install(FILES ${CMAKE_BINARY_DIR}/nacreConfig.cmake ${CMAKE_BINARY_DIR}/nacreConfigVersion.cmake
+  DESTINATION ${config_folder} COMPONENT development)
+set(pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+file(RELATIVE_PATH prefix_from_pkgconfig
+  ${CMAKE_INSTALL_PREFIX}/${pkgconfig_folder} ${CMAKE_INSTALL_PREFIX})
+configure_file(${CMAKE_CURRENT_LIST_DIR}/nacre.pc.in ${CMAKE_BINARY_DIR}/nacre.pc @ONLY)
+install(FILES ${CMAKE_BINARY_DIR}/nacre.pc
+  DESTINATION ${pkgconfig_folder} COMPONENT development)
+
+# The manual page and the shell's completion, which the program writes itself.
+set(docs_folder ${CMAKE_BINARY_DIR}/docs)
+file(MAKE_DIRECTORY ${docs_folder})
+add_custom_command(OUTPUT ${docs_folder}/nacre.1.gz ${docs_folder}/nacre
+  COMMAND nacre docs man > ${docs_folder}/nacre.1
+  COMMAND gzip -9nc ${docs_folder}/nacre.1 > ${docs_folder}/nacre.1.gz
+  COMMAND nacre docs bash > ${docs_folder}/nacre
+  DEPENDS nacre
+  COMMENT "Writing the manual page")
+add_custom_target(nacre_docs ALL DEPENDS ${docs_folder}/nacre.1.gz ${docs_folder}/nacre)
+install(FILES ${docs_folder}/nacre.1.gz
+  DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT runtime)
+install(FILES ${docs_folder}/nacre
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
+
+# Scenes with their schema and files, and what to read.
+install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre COMPONENT runtime
+  PATTERN gallery EXCLUDE)
+install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime RENAME copyright)
+
+# scripts/package: nacre_*.deb and libnacre-dev_*.deb.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME nacre)
+set(CPACK_PACKAGE_CONTACT "The nacre authors <nacre@invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}
+ nacre renders the Phong family and physically based reflection models in
+ comparable units, as linear HDR EXR and tone-mapped PNG, and compares,
+ measures and plots them.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "nacre as a C++ library: header and build files
+ Header, CMake package and pkg-config file of libnacre.")
+set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME nacre)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+# Labels in pictures, and diagrams.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, gnuplot-nox")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libnacre-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+include(CPack)

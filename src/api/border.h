@@ -1,0 +1,54 @@
+// api/border.h: the public header beside the library's own types, and what passes between them.
+// Inside namespace v0, names are the public ones; the library's own are written nacre::Scene.
+#pragma once
+
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#define NACRE_OWN_SOURCE
+#include "base/error.h"
+#include "base/image.h"
+#include "nacre.h"
+#include "scene/scene.h"
+
+namespace nacre::v0 {
+
+Error ToPublic(const nacre::Error& error);
+
+// Calls body(). Errors of the library and a lack of memory come out as v0::Error, anything else
+// (what the caller's own functions throw) as it is.
+template <class Body>
+auto AtBorder(const Body& body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const nacre::Error& error) {
+    throw ToPublic(error);
+  } catch (const std::bad_alloc&) {
+    throw ToPublic(nacre::Error(ExitCode::kInternal, "", "out of memory",
+                                "a smaller picture or scene needs less"));
+  }
+}
+
+inline nacre::Window ToOwn(const Window& window) {
+  return {window.x0, window.y0, window.x1, window.y1};
+}
+inline Window ToPublic(const nacre::Window& window) {
+  return {window.x0, window.y0, window.x1, window.y1};
+}
+inline Vec3d ToOwn(const Vec3& v) { return {v[0], v[1], v[2]}; }
+inline Vec3 ToPublic(const Vec3d& v) { return {v.x, v.y, v.z}; }
+inline Rgb ToPublic(const nacre::Rgb& c) { return {c.x, c.y, c.z}; }
+
+Image ToPublic(nacre::Image&& image);
+// A copy. Throws Error if a channel has not one sample for each pixel.
+nacre::Image ToOwn(const Image& image);
+
+// The channel of this name; `what` needs it.
+const Channel& RequireChannel(const Image& image, const std::string& name, const std::string& what);
+
+// Throws Error (kUsage) unless the image has pixels, and each channel one sample for each.
+void CheckImage(const Image& image);
+
+}  // namespace nacre::v0

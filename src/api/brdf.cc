@@ -1,0 +1,138 @@
+// api/brdf.cc: reflection models of the public API, in double and through the kernels.
+#include <algorithm>
+
+#include "api/scene_impl.h"
+#include "base/parallel.h"
+#include "shading/scalar_material.h"
+#include "shading/shade.h"
+
+namespace nacre::v0 {
+
+struct Brdf::Impl {
+  ShadingMaterial material;
+};
+
+namespace {
+
+ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
+  const std::shared_ptr<const nacre::Scene> made = scene.impl().Made();
+  std::vector<std::string> names;
+  for (const nacre::Material& material : made->materials) {
+    if (material.name != name) {
+      names.push_back(material.name);
+      continue;
+    }
+    ShadingMaterial prepared = PrepareMaterial(material, nacre::Rgb(0));
+    if (std::holds_alternative<std::monostate>(prepared.model)) {
+      throw nacre::Error(ExitCode::kUsage, "Brdf", "\"" + name + "\" is a split",
+                         "name one of the materials that it chooses from");
+    }
+    // Maps belong to places on shapes; the model is that of their factors.
+    prepared.textured = nullptr;
+    prepared.mapped = prepared.turned = false;
+    return prepared;
+  }
+  const std::string nearest = NearestName(name, names);
+  throw nacre::Error(
+      ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
+      nearest.empty() ? "Scene::material_names lists them" : "did you mean \"" + nearest + "\"?");
+}
+
+double Dot(const Directions& d, const std::array<const double*, 3>& a, size_t i) {
+  return d.normal[0][i] * a[0][i] + d.normal[1][i] * a[1][i] + d.normal[2][i] * a[2][i];
+}
+
+template <class Number>
+void CopyTo(const std::array<const double*, 3>& from, size_t begin, size_t count,
+            Soa3<Number>* to) {
+  Number* const planes[3] = {to->x.data(), to->y.data(), to->z.data()};
+  for (size_t c = 0; c < 3; ++c) {
+    for (size_t i = 0; i < count; ++i) planes[c][i] = static_cast<Number>(from[c][begin + i]);
+  }
+}
+
+void CopyFrom(const Soa3<float>& from, size_t begin, size_t count,
+              std::array<std::vector<float>, 3>* to) {
+  const float* const planes[3] = {from.x.data(), from.y.data(), from.z.data()};
+  for (size_t c = 0; c < 3; ++c) {
+    std::copy_n(planes[c], count, (*to)[c].begin() + static_cast<std::ptrdiff_t>(begin));
+  }
+}
+
+// A batch under a light of irradiance 1, and what it takes to shade it.
+class Batch {
+ public:
+  Batch() {
+    light_.form = LightForm::kGiven;
+    light_.color = nacre::Rgb(1);
+  }
+
+  void Shade(const ShadingMaterial& material, const Directions& d, size_t begin, size_t count) {
+    hits_.count = count;
+    CopyTo(d.normal, begin, count, &hits_.normal);
+    CopyTo(d.to_view, begin, count, &hits_.to_view);
+    CopyTo(d.to_light, begin, count, &lit_.to_light);
+    for (size_t i = 0; i < count; ++i) {
+      const bool above = Dot(d, d.to_light, begin + i) > 0 && Dot(d, d.to_view, begin + i) > 0;
+      lit_.irradiance[i] = above ? 1.0f : 0.0f;
+    }
+    PrepareSurface(hits_, &surface_);
+    PrepareRun(material, 0, count, &surface_);
+    ClearRadiance(count, &radiance_);
+    const LightOnBatch light{&light_, &lit_};
+    ShadeRun(material, {hits_, surface_, {&light, 1}}, 0, count, &scratch_, &radiance_);
+  }
+
+  const ReflectedRadiance& radiance() const { return radiance_; }
+
+ private:
+  HitBatch hits_;
+  Surface surface_;
+  ShadingLight light_;
+  LightBatch lit_;
+  NarrowLobes scratch_;
+  ReflectedRadiance radiance_;
+};
+
+}  // namespace
+
+Brdf::Brdf(const std::string& model, const Parameters& parameters) {
+  impl_ = AtBorder([&] {
+    Parameters material = {{"model", model}};
+    material.insert(material.end(), parameters.begin(), parameters.end());
+    Scene scene;
+    scene.AddMaterial("material", material);
+    return std::make_shared<const Impl>(Impl{Prepare(scene, "material")});
+  });
+}
+
+Brdf::Brdf(const Scene& scene, const std::string& material) {
+  impl_ = AtBorder([&] { return std::make_shared<const Impl>(Impl{Prepare(scene, material)}); });
+}
+
+Reflection Brdf::Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& to_light) const {
+  const nacre::Reflection own =
+      Reflect(impl_->material, ToOwn(normal), ToOwn(to_light), ToOwn(to_view));
+  return {ToPublic(own.diffuse), ToPublic(own.specular)};
+}
+
+Reflections Brdf::Shade(const Directions& directions) const {
+  return AtBorder([&] {
+    Reflections result;
+    for (auto* layer : {&result.diffuse, &result.specular}) {
+      for (std::vector<float>& plane : *layer) plane.resize(directions.count);
+    }
+    if (directions.count == 0) return result;
+    const FlushDenormals flush;  // as in renders
+    Batch batch;
+    for (size_t begin = 0; begin < directions.count; begin += kBatchCapacity) {
+      const size_t count = std::min(kBatchCapacity, directions.count - begin);
+      batch.Shade(impl_->material, directions, begin, count);
+      CopyFrom(batch.radiance().diffuse, begin, count, &result.diffuse);
+      CopyFrom(batch.radiance().specular, begin, count, &result.specular);
+    }
+    return result;
+  });
+}
+
+}  // namespace nacre::v0

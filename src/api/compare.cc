@@ -1,0 +1,61 @@
+// api/compare.cc: comparisons of the public API.
+#include "api/border.h"
+#include "compare/perceptual.h"
+#include "compare/verdict.h"
+
+namespace nacre::v0 {
+namespace {
+
+LayerMetrics ToPublic(const nacre::LayerMetrics& own) {
+  LayerMetrics metrics;
+  metrics.layer = own.layer;
+  metrics.samples = own.samples;
+  metrics.rmse = own.rmse;
+  metrics.rel_mse = own.rel_mse;
+  metrics.psnr_db = own.psnr_db;
+  metrics.max_abs = own.max_abs;
+  metrics.max_rel = own.max_rel;
+  metrics.mean = own.mean_got;
+  metrics.mean_reference = own.mean_reference;
+  return metrics;
+}
+
+void AddPerceptual(const PerceptualMetrics& own, std::vector<LayerMetrics>* layers) {
+  for (LayerMetrics& layer : *layers) {
+    if (layer.layer != own.layer) continue;
+    layer.ssim = own.ssim;
+    layer.flip = own.flip_mean;
+    layer.hdr_flip = own.hdr_flip_mean;
+  }
+}
+
+}  // namespace
+
+Comparison Compare(const Image& image, const Image& reference, const CompareSettings& settings) {
+  return AtBorder([&] {
+    const nacre::Image got = ToOwn(image);
+    const nacre::Image expected = ToOwn(reference);
+    const nacre::CompareOptions options{.layers = settings.layers};
+    const nacre::Tolerances tolerances{.max_abs = settings.max_abs,
+                                       .max_rel = settings.max_rel,
+                                       .exceeding_fraction = settings.exceeding_fraction,
+                                       .rmse = settings.max_rmse};
+    const nacre::Verdict verdict = Judge(got, expected, tolerances, options);
+    Comparison comparison;
+    comparison.match = verdict.match;
+    comparison.reason = verdict.reason;
+    comparison.pixels = verdict.pixels;
+    comparison.exceeding_pixels = verdict.exceeding_pixels;
+    for (const nacre::LayerMetrics& layer : verdict.layers) {
+      comparison.layers.push_back(ToPublic(layer));
+    }
+    if (settings.perceptual) {
+      for (const PerceptualMetrics& layer : MeasurePerceptual(got, expected, {}, options)) {
+        AddPerceptual(layer, &comparison.layers);
+      }
+    }
+    return comparison;
+  });
+}
+
+}  // namespace nacre::v0

@@ -1,0 +1,73 @@
+// api/image.cc: images of the public API: to and from the library's own, and read from files.
+#include "api/border.h"
+#include "image_io/image_reader.h"
+
+namespace nacre::v0 {
+namespace {
+
+SampleType ToPublic(nacre::PixelType type) {
+  switch (type) {
+    case nacre::PixelType::kHalf:
+      return SampleType::kHalf;
+    case nacre::PixelType::kFloat:
+      return SampleType::kFloat;
+    case nacre::PixelType::kUint:
+      return SampleType::kUint;
+  }
+  return SampleType::kFloat;
+}
+
+}  // namespace
+
+Image ToPublic(nacre::Image&& image) {
+  Image result;
+  result.frame = ToPublic(image.display);
+  result.data = ToPublic(image.data);
+  result.channels.reserve(image.channels.size());
+  for (nacre::Channel& channel : image.channels) {
+    result.channels.push_back(
+        {std::move(channel.name), ToPublic(channel.type), std::move(channel.samples)});
+  }
+  result.metadata = std::move(image.metadata);
+  return result;
+}
+
+void CheckImage(const Image& image) {
+  const nacre::Window data = ToOwn(image.data);
+  if (data.empty()) throw nacre::Error(ExitCode::kUsage, "image", "has no pixels");
+  for (const Channel& channel : image.channels) {
+    if (channel.samples.size() == data.pixel_count()) continue;
+    throw nacre::Error(ExitCode::kUsage, "image",
+                       "channel \"" + channel.name + "\" has " +
+                           std::to_string(channel.samples.size()) + " samples for " +
+                           std::to_string(data.pixel_count()) + " pixels",
+                       "Image::data tells the pixels that channels cover");
+  }
+}
+
+nacre::Image ToOwn(const Image& image) {
+  CheckImage(image);
+  nacre::Image own;
+  own.display = ToOwn(image.frame);
+  own.data = ToOwn(image.data);
+  own.channels.reserve(image.channels.size());
+  for (const Channel& channel : image.channels) {
+    // How files store them is of no interest to what works on samples.
+    own.channels.push_back({channel.name, nacre::PixelType::kFloat, channel.samples});
+  }
+  own.metadata = image.metadata;
+  return own;
+}
+
+const Channel& RequireChannel(const Image& image, const std::string& name,
+                              const std::string& what) {
+  if (const Channel* const channel = image.Find(name)) return *channel;
+  throw nacre::Error(ExitCode::kUsage, "image", "there is no channel \"" + name + "\"",
+                     what + " needs it");
+}
+
+Image Read(const std::string& path) {
+  return AtBorder([&] { return ToPublic(ReadImage(path)); });
+}
+
+}  // namespace nacre::v0

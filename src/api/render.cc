@@ -1,0 +1,111 @@
+// api/render.cc: renders of the public API.
+#include "render/render.h"
+
+#include <chrono>
+#include <variant>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "api/metadata.h"
+#include "api/scene_impl.h"
+#include "scene/limits.h"
+
+namespace nacre::v0 {
+namespace {
+
+void Require(bool is_right, const char* setting, const std::string& range) {
+  if (is_right) return;
+  throw nacre::Error(ExitCode::kUsage, std::string("RenderSettings::") + setting, "is out of range",
+                     "it is " + range);
+}
+
+void RequireWithin(double value, const Range& range, const char* setting) {
+  Require(value == 0 || range.Contains(value), setting, "0 or " + Describe(range));
+}
+
+nacre::RenderSettings ToOwn(const RenderSettings& settings) {
+  RequireWithin(settings.width, limits::kImageSide, "width");
+  RequireWithin(settings.height, limits::kImageSide, "height");
+  RequireWithin(settings.samples, limits::kSpp, "samples");
+  RequireWithin(settings.max_error, {1e-6, 1}, "max_error");
+  Require(settings.threads >= 0 && settings.threads <= 1024, "threads", "from 0 to 1024");
+  nacre::RenderSettings own;
+  own.threads = settings.threads;
+  own.region = ToOwn(settings.region);
+  const Window& region = settings.region;
+  const bool all = region.x0 == 0 && region.y0 == 0 && region.x1 == 0 && region.y1 == 0;
+  Require(all || !own.region.empty(), "region", "x0 < x1 and y0 < y1");
+  own.layers = settings.layers;
+  own.max_error = settings.max_error;
+  if (settings.samples > 0) own.max_samples = settings.samples;
+  const std::string& intersector = settings.intersector;
+  Require(intersector == "auto" || intersector == "embree" || intersector == "tiles", "intersector",
+          "auto, embree or tiles");
+  if (intersector == "embree") own.intersector = IntersectorChoice::kEmbree;
+  if (intersector == "tiles") own.intersector = IntersectorChoice::kTiles;
+  own.on_progress = settings.on_progress;
+  return own;
+}
+
+// The scene with the settings' own size, samples and seed; the same one if it has them.
+std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene> scene,
+                                             const RenderSettings& settings) {
+  nacre::ImageSettings image = scene->image;
+  if (settings.width > 0) image.width = settings.width;
+  if (settings.height > 0) image.height = settings.height;
+  if (settings.samples > 0) image.spp = settings.samples;
+  if (settings.seed) image.seed = *settings.seed;
+  const nacre::ImageSettings& old = scene->image;
+  if (image.width == old.width && image.height == old.height && image.spp == old.spp &&
+      image.seed == old.seed) {
+    return scene;
+  }
+  auto copy = std::make_shared<nacre::Scene>(*scene);
+  copy->image = image;
+  return copy;
+}
+
+// As readers of EXR files tell them.
+void AddMetadata(const nacre::ExrHeader& header, Image* image) {
+  const auto text = [](const auto& value) { return fmt::format("{}", value); };
+  for (const auto& [name, attribute] : header.attributes) {
+    image->metadata[name] = std::visit(text, attribute);
+  }
+  const auto add_matrix = [&](const char* name, const std::optional<Imath::M44f>& matrix) {
+    if (!matrix) return;
+    const float* const first = &(*matrix)[0][0];
+    image->metadata[name] = fmt::format("{}", fmt::join(first, first + 16, " "));
+  };
+  add_matrix("worldToCamera", header.world_to_camera);
+  add_matrix("worldToNDC", header.world_to_ndc);
+  image->metadata["transfer"] = "linear";
+}
+
+}  // namespace
+
+Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
+  return AtBorder([&] {
+    const nacre::RenderSettings own = ToOwn(settings);
+    const std::shared_ptr<const nacre::Scene> made = Adjusted(scene.impl().Made(), settings);
+    const auto start = std::chrono::steady_clock::now();
+    const RenderPlan plan = MakePlan(*made, own);
+    const std::chrono::duration<double> plan_time = std::chrono::steady_clock::now() - start;
+    nacre::RenderStats counted;
+    nacre::Image rendered = RenderImage(plan, own, &counted);
+    // In files, colours and normals are of half floats.
+    const std::vector<ChannelSpec> in_files = StripChannels(plan.layers, PixelType::kHalf);
+    for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
+    Image image = ToPublic(std::move(rendered));
+    nacre::ExrHeader header = MakeExrHeader(plan, false);
+    header.attributes[kRenderTimeAttribute] = static_cast<float>(counted.render_seconds);
+    AddMetadata(header, &image);
+    if (stats != nullptr) {
+      *stats = {counted.camera_rays,    counted.shadow_rays, plan_time.count(),
+                counted.render_seconds, counted.threads,     plan.notes};
+    }
+    return image;
+  });
+}
+
+}  // namespace nacre::v0

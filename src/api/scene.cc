@@ -1,0 +1,125 @@
+// api/scene.cc: scenes of the public API.
+#include "api/scene_impl.h"
+#include "scene/fault_list.h"
+#include "scene_io/load_scene.h"
+#include "scene_io/text_file.h"
+
+namespace nacre::v0 {
+namespace {
+
+// What scene files may be long.
+constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
+
+}  // namespace
+
+Scene::Scene() : impl_(std::make_unique<Impl>()) {}
+Scene::Scene(const Scene& other) : impl_(std::make_unique<Impl>(*other.impl_)) {}
+Scene& Scene::operator=(const Scene& other) {
+  if (this != &other) impl_ = std::make_unique<Impl>(*other.impl_);
+  return *this;
+}
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+Scene Scene::FromFile(const std::string& path) {
+  return AtBorder([&] {
+    Scene scene;
+    Impl::Source& source = scene.impl_->source;
+    source.allow_paths = false;
+    if (IsModelFile(path)) {
+      source.model_path = path;
+    } else {
+      source.text = ReadTextFile(path, kMaxBytes);
+      source.file = path;
+      source.folder = std::filesystem::path(path).parent_path();
+    }
+    scene.Check();
+    return scene;
+  });
+}
+
+Scene Scene::FromJson(const std::string& text, const std::string& folder) {
+  Scene scene;
+  Impl::Source& source = scene.impl_->source;
+  source.allow_paths = false;
+  source.text = text;
+  source.folder = folder;
+  scene.Check();
+  return scene;
+}
+
+void Scene::Set(const std::string& pointer, const Value& value) {
+  impl_->source.overrides.emplace_back(pointer, value.json());
+  impl_->Change();
+}
+
+void Scene::SetCamera(const Parameters& camera) { Set("/camera", camera); }
+
+void Scene::SetBackground(const Rgb& radiance) { Set("/background", radiance); }
+
+void Scene::AddTexture(const std::string& name, const Parameters& texture) {
+  Set("/textures/" + PointerToken(name), texture);
+}
+
+void Scene::AddMaterial(const std::string& name, const Parameters& material) {
+  Set("/materials/" + PointerToken(name), material);
+}
+
+void Scene::AddLight(const std::string& name, const Parameters& light) {
+  Set("/lights/" + PointerToken(name), light);
+}
+
+void Scene::AddShape(const Parameters& shape) {
+  impl_->source.shapes.push_back(Value(shape).json());
+  impl_->Change();
+}
+
+void Scene::AddSphere(const Vec3& center, double radius, const std::string& material) {
+  impl_->source.spheres.push_back({ToOwn(center), radius, impl_->NameId(material)});
+  impl_->Change();
+}
+
+void Scene::AddMesh(const Mesh& mesh, const std::string& material) {
+  nacre::Mesh own;
+  own.material = impl_->NameId(material);
+  own.positions.reserve(mesh.positions.size());
+  for (const Vec3& position : mesh.positions) own.positions.push_back(ToOwn(position));
+  own.normals.reserve(mesh.normals.size());
+  for (const Vec3& normal : mesh.normals) own.normals.push_back(ToOwn(normal));
+  own.uvs.reserve(mesh.uvs.size());
+  for (const auto& [u, v] : mesh.uvs) own.uvs.emplace_back(u, v);
+  own.triangles = mesh.triangles;
+  impl_->source.meshes.push_back(std::move(own));
+  impl_->Change();
+}
+
+void Scene::Check() const {
+  AtBorder([&] { impl_->Made(); });
+}
+
+size_t Scene::sphere_count() const {
+  return AtBorder([&] { return impl_->Made()->spheres.size(); });
+}
+
+size_t Scene::mesh_count() const {
+  return AtBorder([&] { return impl_->Made()->meshes.size(); });
+}
+
+std::vector<std::string> Scene::material_names() const {
+  return AtBorder([&] {
+    std::vector<std::string> names;
+    for (const nacre::Material& material : impl_->Made()->materials) names.push_back(material.name);
+    return names;
+  });
+}
+
+std::vector<std::string> Scene::light_names() const {
+  return AtBorder([&] {
+    std::vector<std::string> names;
+    for (const nacre::Light& light : impl_->Made()->lights) names.push_back(light.name);
+    return names;
+  });
+}
+
+}  // namespace nacre::v0

@@ -1,0 +1,100 @@
+#include "api/scene_impl.h"
+
+#include <algorithm>
+
+#include "scene/fault_list.h"
+#include "scene/validate.h"
+#include "scene_io/json_text.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre::v0 {
+namespace {
+
+// The text of a scene file with shapes added to those that it has. Leaves a text that is no scene
+// to its reader.
+std::string WithShapes(const Scene::Impl::Source& source) {
+  FaultList faults;
+  Json root = ParseJson(source.text, source.file, &faults);
+  if (!root.is_object()) return source.text;
+  Json& shapes = root["shapes"];
+  if (shapes.is_null()) shapes = Json::array();
+  if (!shapes.is_array()) return source.text;
+  for (const std::string& shape : source.shapes) {
+    shapes.push_back(ParseJson(shape, "AddShape", &faults));
+  }
+  if (faults.count() > 0) throw nacre::Error(ExitCode::kBadInput, faults.All());
+  return root.dump();
+}
+
+nacre::Scene Read(const Scene::Impl::Source& source) {
+  LoadOptions options;
+  options.overrides = source.overrides;
+  options.allow_paths = source.allow_paths;
+  if (!source.model_path.empty()) {
+    if (source.shapes.empty()) return LoadScene(source.model_path, options);
+    throw nacre::Error(ExitCode::kUsage, source.model_path, "a model takes no shapes as parameters",
+                       "AddSphere and AddMesh work; or name the model in a mesh of a scene");
+  }
+  if (source.shapes.empty()) {
+    return LoadSceneText(source.text, source.file, source.folder, options);
+  }
+  return LoadSceneText(WithShapes(source), source.file, source.folder, options);
+}
+
+// The scene's materials of these names.
+std::vector<nacre::MaterialId> FindMaterials(const std::vector<std::string>& names,
+                                             const nacre::Scene& scene) {
+  std::vector<std::string> known;
+  known.reserve(scene.materials.size());
+  for (const nacre::Material& material : scene.materials) known.push_back(material.name);
+  FaultList faults;
+  std::vector<nacre::MaterialId> ids;
+  ids.reserve(names.size());
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    ids.push_back({static_cast<uint32_t>(found - known.begin())});
+    if (found != known.end()) continue;
+    const std::string nearest = NearestName(name, known);
+    faults.Add("material", "unknown material \"" + name + "\"",
+               nearest.empty() ? "AddMaterial adds one" : "did you mean \"" + nearest + "\"?");
+  }
+  if (faults.count() > 0) throw nacre::Error(ExitCode::kBadInput, faults.All());
+  return ids;
+}
+
+void Append(const Scene::Impl::Source& source, nacre::Scene* scene) {
+  const std::vector<nacre::MaterialId> ids = FindMaterials(source.names, *scene);
+  scene->spheres.reserve(scene->spheres.size() + source.spheres.size());
+  for (nacre::Sphere sphere : source.spheres) {
+    sphere.material = ids[sphere.material.index];
+    scene->spheres.push_back(sphere);
+  }
+  for (nacre::Mesh mesh : source.meshes) {
+    mesh.material = ids[mesh.material.index];
+    scene->meshes.push_back(std::move(mesh));
+  }
+  std::vector<nacre::Fault> faults = Validate(*scene);
+  if (!faults.empty()) throw nacre::Error(ExitCode::kBadInput, std::move(faults));
+}
+
+}  // namespace
+
+std::shared_ptr<const nacre::Scene> Scene::Impl::Made() const {
+  const std::lock_guard lock(mutex_);
+  if (made_) return made_;
+  auto scene = std::make_shared<nacre::Scene>(Read(source));
+  if (!source.spheres.empty() || !source.meshes.empty()) Append(source, scene.get());
+  made_ = std::move(scene);
+  return made_;
+}
+
+nacre::MaterialId Scene::Impl::NameId(const std::string& name) {
+  std::vector<std::string>& names = source.names;
+  // Shapes of one material mostly come together.
+  const auto found = std::find(names.rbegin(), names.rend(), name);
+  if (found != names.rend()) return {static_cast<uint32_t>(names.rend() - found - 1)};
+  names.push_back(name);
+  return {static_cast<uint32_t>(names.size() - 1)};
+}
+
+}  // namespace nacre::v0

@@ -1,0 +1,178 @@
+// api/write.cc: images of the public API to EXR and PNG files.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <locale>
+#include <set>
+#include <sstream>
+
+#include "api/border.h"
+#include "base/parallel.h"
+#include "base/path.h"
+#include "base/version.h"
+#include "color/display.h"
+#include "image_io/exr_writer.h"
+#include "image_io/png_writer.h"
+
+namespace nacre::v0 {
+namespace {
+
+nacre::Compression ParseCompression(const std::string& name) {
+  constexpr std::array<const char*, 5> kNames = {"none", "zip", "zips", "piz", "dwaa"};
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) {
+    throw nacre::Error(ExitCode::kUsage, "compression", "unknown compression \"" + name + "\"",
+                       "one of: none, zip, zips, piz, dwaa");
+  }
+  return static_cast<nacre::Compression>(found - kNames.begin());
+}
+
+nacre::PixelType ToFile(SampleType type, bool half_floats) {
+  switch (type) {
+    case SampleType::kHalf:
+      return half_floats ? nacre::PixelType::kHalf : nacre::PixelType::kFloat;
+    case SampleType::kFloat:
+      return nacre::PixelType::kFloat;
+    case SampleType::kUint:
+      return nacre::PixelType::kUint;
+  }
+  return nacre::PixelType::kFloat;
+}
+
+// Sixteen numbers, as the reader prints a matrix; none if the text is anything else.
+std::optional<Imath::M44f> ParseMatrix(const std::string& text) {
+  std::istringstream numbers(text);
+  numbers.imbue(std::locale::classic());
+  Imath::M44f matrix;
+  for (int i = 0; i < 16; ++i) {
+    if (!(numbers >> matrix[i / 4][i % 4])) return std::nullopt;
+  }
+  return matrix;
+}
+
+// What the file says by itself, and "transfer", which is no attribute of any file.
+bool IsFilesOwn(const std::string& name) {
+  static const std::set<std::string> own = {
+      "channels",         "chromaticities",     "chunkCount", "compression", "dataWindow",
+      "displayWindow",    "lineOrder",          "name",       "transfer",    "type",
+      "pixelAspectRatio", "screenWindowCenter", "version",    "tiles",       "view",
+      "screenWindowWidth"};
+  return own.contains(name);
+}
+
+// Attributes keep the types that nacre itself gives them.
+nacre::ExrAttribute ToAttribute(const std::string& name, const std::string& text) {
+  try {
+    if (name == "samplesPerPixel") return std::stoi(text);
+    if (name == "renderTime" || name == "nacre:maxError") return std::stof(text);
+  } catch (const std::exception&) {  // no number: then it is a text
+  }
+  return text;
+}
+
+nacre::ExrHeader MakeHeader(const Image& image, const WriteSettings& settings) {
+  nacre::ExrHeader header;
+  header.data = ToOwn(image.data);
+  header.display = ToOwn(image.frame);
+  if (header.display.empty()) header.display = header.data;
+  for (const Channel& channel : image.channels) {
+    header.channels.push_back({channel.name, ToFile(channel.type, settings.half_floats)});
+  }
+  header.attributes["Software"] = std::string("nacre ") + kVersion;
+  for (const auto& [name, text] : image.metadata) {
+    if (name == "worldToCamera") {
+      header.world_to_camera = ParseMatrix(text);
+    } else if (name == "worldToNDC") {
+      header.world_to_ndc = ParseMatrix(text);
+    } else if (!IsFilesOwn(name)) {
+      header.attributes[name] = ToAttribute(name, text);
+    }
+  }
+  return header;
+}
+
+// Calls body(first row, rows) for strips of as many rows as both writers take at a time.
+template <class Body>
+void ForEachStrip(const Image& image, const Body& body) {
+  constexpr int kRows = ExrWriter::kStripRows;
+  static_assert(kRows == PngWriter::kStripRows);
+  const int strips = (image.height() + kRows - 1) / kRows;
+  ParallelFor(static_cast<size_t>(strips), 0, [&](size_t strip) {
+    const int row = static_cast<int>(strip) * kRows;
+    body(row, std::min(kRows, image.height() - row));
+  });
+}
+
+void WriteExr(const Image& image, const std::string& path, const WriteSettings& settings) {
+  const ExrOptions options{.compression = ParseCompression(settings.compression),
+                           .small = settings.small};
+  ExrWriter writer(path, MakeHeader(image, settings), options);
+  ForEachStrip(image, [&](int row, int rows) {
+    StripView strip;
+    strip.y = image.data.y0 + row;
+    strip.rows = rows;
+    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(image.width());
+    for (const Channel& channel : image.channels) {
+      strip.channels.emplace_back(channel.samples.data() + first);
+    }
+    writer.WriteStrip(strip);
+  });
+  writer.Finish();
+}
+
+// Values that are a display's already.
+void RoundToCodes(const std::array<const float*, 3>& rgb, size_t count, uint8_t* rgb8) {
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t c = 0; c < 3; ++c) {
+      const float value = std::min(std::max(rgb[c][i], 0.0f), 1.0f);
+      rgb8[3 * i + c] = static_cast<uint8_t>(std::lround(255 * value));
+    }
+  }
+}
+
+void WritePng(const Image& image, const std::string& path, const WriteSettings& settings) {
+  if (!(std::abs(settings.exposure) <= 60)) {
+    throw nacre::Error(ExitCode::kUsage, "exposure", "is not within -60 to 60 stops");
+  }
+  const nacre::DisplaySettings display{.tone = ParseToneOperator(settings.tonemap),
+                                       .exposure_ev = settings.exposure};
+  const auto transfer = image.metadata.find("transfer");
+  const bool displayed = transfer != image.metadata.end() && transfer->second == "display";
+  std::array<const float*, 3> rgb{};
+  for (size_t c = 0; c < 3; ++c) {
+    rgb[c] = RequireChannel(image, std::string(1, "RGB"[c]), "a PNG file").samples.data();
+  }
+  PngHeader header;
+  header.width = image.width();
+  header.height = image.height();
+  header.text = {{"Software", std::string("nacre ") + kVersion},
+                 {"nacre:tonemap", displayed ? "none" : settings.tonemap}};
+  PngWriter writer(path, header, {.small = settings.small});
+  ForEachStrip(image, [&](int row, int rows) {
+    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(image.width());
+    const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(image.width());
+    std::vector<uint8_t> rgb8(3 * count);
+    const std::array<const float*, 3> strip = {rgb[0] + first, rgb[1] + first, rgb[2] + first};
+    if (displayed) {
+      RoundToCodes(strip, count, rgb8.data());
+    } else {
+      EncodeDisplay(display, strip[0], strip[1], strip[2], count, rgb8.data());
+    }
+    writer.WriteStrip(row, rows, rgb8.data());
+  });
+  writer.Finish();
+}
+
+}  // namespace
+
+void Write(const Image& image, const std::string& path, const WriteSettings& settings) {
+  AtBorder([&] {
+    CheckImage(image);
+    if (HasExtension(path, ".exr")) return WriteExr(image, path, settings);
+    if (HasExtension(path, ".png")) return WritePng(image, path, settings);
+    throw nacre::Error(ExitCode::kUsage, path, "unknown output extension",
+                       "nacre writes .exr (linear, HDR) and .png (tone-mapped)");
+  });
+}
+
+}  // namespace nacre::v0

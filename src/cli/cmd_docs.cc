@@ -1,0 +1,24 @@
+// cli/cmd_docs.cc: nacre docs man|bash: what is installed beside the program. Not in the help.
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.h"
+#include "cli/manual.h"
+#include "cli/print.h"
+
+namespace nacre {
+
+void AddDocsCommand(CLI::App* app, int*) {
+  CLI::App* command = app->add_subcommand("docs", "Print the manual page or shell completion");
+  command->group("");  // hidden
+  const auto kind = std::make_shared<std::string>();
+  command->add_option("KIND", *kind, "man or bash")
+      ->required()
+      ->check(CLI::IsMember({"man", "bash"}));
+  command->callback(
+      [app, kind] { PrintOut(*kind == "man" ? ManPage(*app) : BashCompletion(*app)); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,169 @@
+// cli/cmd_merge.cc: nacre merge: the tiles of a picture to the whole of it.
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "base/path.h"
+#include "cli/commands.h"
+#include "cli/merge_tiles.h"
+#include "cli/outputs.h"
+#include "cli/print.h"
+#include "cli/progress.h"
+#include "image_io/exr_compress.h"
+#include "image_io/png_writer.h"
+
+namespace nacre {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> tiles;
+  std::vector<std::string> outputs;
+  std::string tonemap = "neutral";
+  double exposure = 0;
+  bool small = false;
+  bool quiet = false;
+};
+
+// The files being made, which tiles go into from the top down.
+class MergedFiles {
+ public:
+  MergedFiles(const Arguments& arguments, const ExrBandHeader& whole) : whole_(whole) {
+    display_.tone = ParseToneOperator(arguments.tonemap);
+    display_.exposure_ev = arguments.exposure;
+    const auto& attributes = whole.header.attributes;
+    PngHeader png;
+    png.width = whole.header.display.width();
+    png.height = whole.header.display.height();
+    for (const char* name : {"Software", "nacre:shadowing"}) {
+      const auto found = attributes.find(name);
+      if (found != attributes.end()) png.text[name] = std::get<std::string>(found->second);
+    }
+    png.text["nacre:tonemap"] = arguments.tonemap;
+    for (const std::string& path : arguments.outputs) {
+      if (HasExtension(path, ".exr")) {
+        exr_.push_back(std::make_unique<ExrBandWriter>(path, whole));
+      } else {
+        png_.push_back(
+            std::make_unique<PngWriter>(path, png, PngOptions{.small = arguments.small}));
+      }
+    }
+  }
+
+  void Add(const Tile& tile) {
+    ExrBandReader reader(tile.path);
+    const int chunk_rows = RowsPerChunk(whole_.compression);
+    for (int y = tile.rows.y0; !exr_.empty() && y < tile.rows.y1; y += chunk_rows) {
+      const std::vector<uint8_t> chunk = reader.ReadChunk(y);
+      for (const auto& exr : exr_) exr->WriteChunk(y, chunk);
+    }
+    if (!png_.empty()) AddToPng(tile.rows, &reader);
+  }
+
+  void Finish() {
+    if (!png_.empty()) FlushPng();
+    for (const auto& exr : exr_) exr->Finish();
+    for (const auto& png : png_) png->Finish();
+  }
+
+  uint64_t nan_pixels() const { return nan_pixels_; }
+
+ private:
+  // PNG strips are those of the frame; a tile's rows may begin within one.
+  void AddToPng(const Window& rows, ExrBandReader* reader) {
+    const auto row_bytes = 3 * static_cast<size_t>(rows.width());
+    for (int y = rows.y0; y < rows.y1;) {
+      const int row = y - whole_.header.display.y0;
+      const int count = std::min(PngWriter::kStripRows - row % PngWriter::kStripRows, rows.y1 - y);
+      reader->ReadRows(y, count, {"R", "G", "B"}, &planes_);
+      const size_t filled = rgb8_.size();
+      rgb8_.resize(filled + row_bytes * static_cast<size_t>(count));
+      nan_pixels_ += EncodeDisplay(display_, planes_[0].data(), planes_[1].data(),
+                                   planes_[2].data(), planes_[0].size(), rgb8_.data() + filled);
+      y += count;
+      if ((row + count) % PngWriter::kStripRows == 0) FlushPng();
+    }
+  }
+
+  void FlushPng() {
+    const auto row_bytes = 3 * static_cast<size_t>(whole_.header.display.width());
+    const int rows = static_cast<int>(rgb8_.size() / row_bytes);
+    for (const auto& png : png_) {
+      if (rows > 0) png->WriteStrip(png_row_, rows, rgb8_.data());
+    }
+    png_row_ += rows;
+    rgb8_.clear();
+  }
+
+  const ExrBandHeader& whole_;
+  DisplaySettings display_;
+  std::vector<std::unique_ptr<ExrBandWriter>> exr_;
+  std::vector<std::unique_ptr<PngWriter>> png_;
+  std::vector<std::vector<float>> planes_;
+  std::vector<uint8_t> rgb8_;  // of a strip, as far as it has come
+  int png_row_ = 0;            // its first row
+  uint64_t nan_pixels_ = 0;
+};
+
+void RunMerge(const Arguments& arguments) {
+  const auto start = std::chrono::steady_clock::now();
+  CheckPicturePaths(arguments.outputs);
+  std::vector<std::string> paths = arguments.outputs;
+  paths.insert(paths.end(), arguments.tiles.begin(), arguments.tiles.end());
+  CheckPathsDiffer(paths);
+  const TilesOfPicture picture = FindTiles(arguments.tiles);
+  MergedFiles files(arguments, picture.whole);
+  {
+    Progress progress(arguments.quiet ? ProgressForm::kNone : DefaultProgressForm(), "merging",
+                      static_cast<double>(picture.tiles.size()), "tiles");
+    for (size_t i = 0; i < picture.tiles.size(); ++i) {
+      files.Add(picture.tiles[i]);
+      progress.Update(static_cast<double>(i + 1) / static_cast<double>(picture.tiles.size()));
+    }
+  }
+  files.Finish();
+  if (files.nan_pixels() > 0) {
+    PrintError(fmt::format("warning: {} pixels are not numbers and are drawn in magenta\n",
+                           files.nan_pixels()));
+  }
+  if (arguments.quiet) return;
+  std::string names;
+  for (const std::string& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path;
+  const Window& frame = picture.whole.header.display;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  PrintError(fmt::format("{}: {}x{} of {} tiles, {:.0f} ms\n", names, frame.width(), frame.height(),
+                         picture.tiles.size(), 1e3 * elapsed.count()));
+}
+
+}  // namespace
+
+void AddMergeCommand(CLI::App* app, int*) {
+  CLI::App* command = app->add_subcommand("merge", "Put the tiles of a picture together");
+  const auto arguments = std::make_shared<Arguments>();
+  command
+      ->add_option("TILE", arguments->tiles, "EXR files of nacre render --tile i/N, in any order")
+      ->required();
+  command
+      ->add_option("-o,--output", arguments->outputs,
+                   "File to write, .exr or .png (tone-mapped from the tiles' samples); repeatable")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
+  command->add_flag("--small", arguments->small, "Smaller PNG files, several times slower");
+  command->add_flag("--quiet", arguments->quiet, "Print nothing but errors");
+  command->footer(
+      "The tiles must be of one picture (scene, settings, SIMD target, build, layers, "
+      "compression)\n"
+      "and hold each of its rows once. Their compressed rows are copied as they are, so the EXR\n"
+      "file has the bits of the picture rendered at once; its render time is the sum of theirs.\n"
+      "Example:\n"
+      "  nacre render scene.json -o 0.exr --tile 0/2\n"
+      "  nacre render scene.json -o 1.exr --tile 1/2\n"
+      "  nacre merge -o scene.exr -o scene.png 0.exr 1.exr");
+  command->callback([arguments] { RunMerge(*arguments); });
+}
+
+}  // namespace nacre

@@ -1,0 +1,16 @@
+// cli/manual.h: the command line as others read it, written from its own definitions.
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+namespace nacre {
+
+// A manual page (man 7 man) of the program and all of its commands.
+std::string ManPage(const CLI::App& app);
+
+// A script for bash: completes commands, options, the choices of options, and files.
+std::string BashCompletion(const CLI::App& app);
+
+}  // namespace nacre

@@ -1,0 +1,220 @@
+#include "cli/merge_tiles.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+#include "api/metadata.h"
+#include "image_io/exr_compress.h"
+
+namespace nacre {
+namespace {
+
+constexpr char kSceneHash[] = "nacre:sceneHash";
+
+struct HeaderOfTile {
+  std::string path;
+  ExrBandHeader band;
+
+  const ExrHeader& header() const { return band.header; }
+};
+
+// What is compared first, the rest after it by name: the scene's hash counts the settings too, and
+// would hide which of them differs. Then how to mend a difference.
+struct KnownAttribute {
+  const char* name;
+  const char* hint;
+};
+constexpr KnownAttribute kKnown[] = {
+    {"nacre:version", "render all tiles with one build of nacre"},
+    {"nacre:commit", "render all tiles with one build of nacre"},
+    {"nacre:target", "the bits depend on it: pin one for all tiles, e.g. --target avx2"},
+    {"nacre:settings", "render all tiles with the same options"},
+    {"nacre:maxError", "render all tiles with the same --max-error"},
+    {"nacre:maxSamples", "render all tiles with the same --spp"},
+    {"nacre:fastLights", "render all tiles with --fast, or none"},
+    {kSceneHash, "the scene changed in between: render the older tiles again"},
+    {kRenderTimeAttribute, "render all tiles with --reproducible, or none"},
+};
+
+std::string TextOf(const ExrHeader& header, const std::string& name) {
+  const auto found = header.attributes.find(name);
+  if (found == header.attributes.end()) return "none";
+  return std::visit([](const auto& value) { return fmt::format("{}", value); }, found->second);
+}
+
+[[noreturn]] void ThrowDifference(const HeaderOfTile& a, const HeaderOfTile& b,
+                                  const std::string& what, const std::string& of_a,
+                                  const std::string& of_b, const std::string& hint) {
+  throw Error(ExitCode::kBadInput, a.path + ", " + b.path,
+              fmt::format("differ in {}: {} and {}", what, of_a, of_b), hint);
+}
+
+void CheckAttribute(const HeaderOfTile& a, const HeaderOfTile& b, const std::string& name,
+                    const std::string& hint) {
+  const std::string of_a = TextOf(a.header(), name);
+  const std::string of_b = TextOf(b.header(), name);
+  // Every tile takes its own time, but either all tell it or none.
+  const bool same =
+      name == kRenderTimeAttribute ? (of_a == "none") == (of_b == "none") : of_a == of_b;
+  if (!same) ThrowDifference(a, b, name, of_a, of_b, hint);
+}
+
+std::string CompressionName(Compression compression) {
+  constexpr const char* kNames[] = {"none", "zip", "zips", "piz", "dwaa"};
+  return kNames[static_cast<size_t>(compression)];
+}
+
+std::string ChannelNames(const ExrHeader& header) {
+  constexpr const char* kTypes[] = {"half", "float", "uint"};
+  std::string names;
+  for (const ExrChannel& channel : header.channels) {
+    names += fmt::format("{}{}:{}", names.empty() ? "" : " ", channel.name,
+                         kTypes[static_cast<size_t>(channel.type)]);
+  }
+  return names;
+}
+
+// That b is a tile of the picture that a is a tile of.
+void CheckSamePicture(const HeaderOfTile& a, const HeaderOfTile& b) {
+  const auto compare = [&](const std::string& what, const auto& text_of, const std::string& hint) {
+    const std::string of_a = text_of(a);
+    const std::string of_b = text_of(b);
+    if (of_a != of_b) ThrowDifference(a, b, what, of_a, of_b, hint);
+  };
+  compare(
+      "size",
+      [](const HeaderOfTile& tile) {
+        const Window& frame = tile.header().display;
+        return fmt::format("{}x{}", frame.width(), frame.height());
+      },
+      "they are tiles of different pictures");
+  for (const KnownAttribute& known : kKnown) CheckAttribute(a, b, known.name, known.hint);
+  std::set<std::string> others;
+  for (const HeaderOfTile* tile : {&a, &b}) {
+    for (const auto& [name, value] : tile->header().attributes) others.insert(name);
+  }
+  others.erase(kTileAttribute);
+  for (const std::string& name : others) CheckAttribute(a, b, name, "");
+  compare(
+      "layers", [](const HeaderOfTile& tile) { return ChannelNames(tile.header()); },
+      "render all tiles with the same --layers and --depth");
+  compare(
+      "compression",
+      [](const HeaderOfTile& tile) { return CompressionName(tile.band.compression); },
+      "render all tiles with the same --compression");
+}
+
+// That the tile can be part of any picture.
+void CheckShape(const HeaderOfTile& tile) {
+  const Window& frame = tile.header().display;
+  const Window& data = tile.header().data;
+  if (!tile.header().attributes.contains(kSceneHash)) {
+    throw Error(ExitCode::kBadInput, tile.path,
+                fmt::format("is not a tile that nacre rendered: its header has no {}", kSceneHash),
+                "nacre render SCENE -o tile.exr --tile i/N");
+  }
+  if (data.x0 != frame.x0 || data.x1 != frame.x1 || Intersect(data, frame) != data) {
+    throw Error(ExitCode::kBadInput, tile.path, "does not hold whole rows of the picture",
+                "render tiles with --tile i/N");
+  }
+  const int chunk_rows = RowsPerChunk(tile.band.compression);
+  if ((data.y0 - frame.y0) % chunk_rows != 0) {
+    throw Error(ExitCode::kBadInput, tile.path,
+                fmt::format("begins at row {}, which is not a multiple of the {} rows that {} "
+                            "compresses together",
+                            data.y0, chunk_rows, CompressionName(tile.band.compression)),
+                "render tiles with --tile i/N");
+  }
+}
+
+std::string RowsText(int first, int end) {
+  return end - first == 1 ? fmt::format("row {}", first)
+                          : fmt::format("rows {} to {}", first, end - 1);
+}
+
+// The tiles i/N that are not there, if all come from one N.
+std::string MissingTiles(const std::vector<HeaderOfTile>& tiles) {
+  std::set<std::string> there;
+  std::set<std::string> counts;
+  for (const HeaderOfTile& tile : tiles) {
+    const std::string name = TextOf(tile.header(), kTileAttribute);
+    there.insert(name);
+    counts.insert(name.substr(name.find('/') + 1));
+  }
+  if (counts.size() != 1 || *counts.begin() == "none") return "render what is missing with --tile";
+  std::vector<std::string> missing;
+  for (int i = 0; i < std::stoi(*counts.begin()); ++i) {
+    std::string name = fmt::format("{}/{}", i, *counts.begin());
+    if (!there.contains(name)) missing.push_back(std::move(name));
+  }
+  return fmt::format("render what is missing: --tile {}", fmt::join(missing, ", "));
+}
+
+// That the tiles, sorted, hold every row once. Tells all that is wrong.
+void CheckCover(const std::vector<HeaderOfTile>& tiles) {
+  const Window& frame = tiles[0].header().display;
+  std::vector<Fault> faults;
+  std::string gap_hint = MissingTiles(tiles);
+  const auto gap = [&](const std::string& files, int first, int end, const char* place) {
+    faults.push_back({files, fmt::format("{} {} in no tile", RowsText(first, end), place),
+                      std::exchange(gap_hint, "")});
+  };
+  const int top = tiles.front().header().data.y0;
+  if (top > frame.y0) gap(tiles.front().path, frame.y0, top, "above it are");
+  int end = tiles[0].header().data.y1;
+  size_t lowest = 0;  // of those so far, which reaches down to `end`
+  for (size_t i = 1; i < tiles.size(); ++i) {
+    const Window& data = tiles[i].header().data;
+    const std::string pair = tiles[lowest].path + ", " + tiles[i].path;
+    if (data.y0 > end) gap(pair, end, data.y0, "between them are");
+    if (data.y0 < end) {
+      faults.push_back({pair,
+                        fmt::format("both hold {}", RowsText(data.y0, std::min(end, data.y1))),
+                        "leave one of them out"});
+    }
+    if (data.y1 < end) continue;
+    end = data.y1;
+    lowest = i;
+  }
+  if (end < frame.y1) gap(tiles[lowest].path, end, frame.y1, "below it are");
+  if (!faults.empty()) throw Error(ExitCode::kBadInput, std::move(faults));
+}
+
+}  // namespace
+
+TilesOfPicture FindTiles(const std::vector<std::string>& paths) {
+  std::vector<HeaderOfTile> tiles;
+  tiles.reserve(paths.size());
+  for (const std::string& path : paths) {
+    tiles.push_back({path, ExrBandReader(path).ReadHeader()});
+    CheckShape(tiles.back());
+    CheckSamePicture(tiles.front(), tiles.back());
+  }
+  std::ranges::stable_sort(tiles, {},
+                           [](const HeaderOfTile& tile) { return tile.header().data.y0; });
+  CheckCover(tiles);
+
+  TilesOfPicture picture;
+  picture.whole = tiles.front().band;
+  picture.whole.header.data = picture.whole.header.display;
+  auto& attributes = picture.whole.header.attributes;
+  attributes.erase(kTileAttribute);
+  double seconds = 0;
+  for (const HeaderOfTile& tile : tiles) {
+    picture.tiles.push_back({tile.path, tile.header().data});
+    const auto time = tile.header().attributes.find(kRenderTimeAttribute);
+    if (time == tile.header().attributes.end()) continue;
+    if (const float* real = std::get_if<float>(&time->second)) seconds += *real;
+  }
+  if (const auto time = attributes.find(kRenderTimeAttribute); time != attributes.end()) {
+    time->second = static_cast<float>(seconds);
+  }
+  return picture;
+}
+
+}  // namespace nacre

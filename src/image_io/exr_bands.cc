@@ -1,0 +1,181 @@
+#include "image_io/exr_bands.h"
+
+#include <filesystem>
+#include <set>
+#include <utility>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include "base/error.h"
+#include "image_io/exr_container.h"
+
+namespace nacre {
+namespace {
+
+[[noreturn]] void Fail(const std::string& path, const std::string& what) {
+  throw Error(ExitCode::kBadInput, path, what, "render this tile again");
+}
+
+[[noreturn]] void RefuseKind(const std::string& path, const std::string& what) {
+  throw Error(ExitCode::kBadInput, path, "is not a file that nacre wrote: " + what);
+}
+
+Window ToWindow(const Imath::Box2i& box) {
+  return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
+}
+
+Compression ToCompression(const std::string& path, Imf::Compression compression) {
+  switch (compression) {
+    case Imf::NO_COMPRESSION:
+      return Compression::kNone;
+    case Imf::ZIP_COMPRESSION:
+      return Compression::kZip;
+    case Imf::ZIPS_COMPRESSION:
+      return Compression::kZips;
+    case Imf::PIZ_COMPRESSION:
+      return Compression::kPiz;
+    case Imf::DWAA_COMPRESSION:
+      return Compression::kDwaa;
+    default:
+      RefuseKind(path, "its compression is not one of nacre's");
+  }
+}
+
+PixelType ToPixelType(Imf::PixelType type) {
+  if (type == Imf::HALF) return PixelType::kHalf;
+  return type == Imf::UINT ? PixelType::kUint : PixelType::kFloat;
+}
+
+// What every file has, and what ExrContainer writes by itself.
+const std::set<std::string> kStructure = {
+    "channels",  "compression",      "dataWindow",         "displayWindow",
+    "lineOrder", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
+    "type",      "chromaticities"};
+
+void AddAttribute(const std::string& path, const std::string& name, const Imf::Attribute& attribute,
+                  ExrHeader* header) {
+  if (const auto* number = dynamic_cast<const Imf::IntAttribute*>(&attribute)) {
+    header->attributes[name] = number->value();
+  } else if (const auto* real = dynamic_cast<const Imf::FloatAttribute*>(&attribute)) {
+    header->attributes[name] = real->value();
+  } else if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute)) {
+    header->attributes[name] = text->value();
+  } else if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&attribute)) {
+    if (name == "worldToCamera") header->world_to_camera = matrix->value();
+    if (name == "worldToNDC") header->world_to_ndc = matrix->value();
+  } else {
+    RefuseKind(path, "its header has an attribute " + name);
+  }
+}
+
+}  // namespace
+
+struct ExrBandReader::State {
+  // OpenEXR tells what is wrong with a file by exceptions of its own.
+  template <class Work>
+  auto Guard(const Work& work) const {
+    try {
+      return work();
+    } catch (const Error&) {
+      throw;
+    } catch (const std::exception& exception) {
+      Fail(path, std::string("cannot be read as EXR: ") + exception.what());
+    }
+  }
+
+  std::string path;
+  std::unique_ptr<Imf::InputFile> file;
+};
+
+ExrBandReader::ExrBandReader(const std::string& path) : state_(std::make_unique<State>()) {
+  state_->path = path;
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) Fail(path, "no such file");
+  if (!std::filesystem::is_regular_file(status)) {
+    throw Error(ExitCode::kBadInput, path, "is not a regular file", "give the tiles' EXR files");
+  }
+  state_->Guard([&] {
+    constexpr int kNoThreads = 0;
+    state_->file = std::make_unique<Imf::InputFile>(path.c_str(), kNoThreads);
+    const Imf::Header& header = state_->file->header();
+    if (header.hasTileDescription() || header.lineOrder() != Imf::INCREASING_Y) {
+      RefuseKind(path, "it does not hold lines from the top down");
+    }
+    if (!state_->file->isComplete()) Fail(path, "is not complete");
+  });
+}
+
+ExrBandReader::~ExrBandReader() = default;
+
+ExrBandHeader ExrBandReader::ReadHeader() const {
+  const Imf::Header& from = state_->file->header();
+  ExrBandHeader band;
+  band.compression = ToCompression(state_->path, from.compression());
+  band.header.display = ToWindow(from.displayWindow());
+  band.header.data = ToWindow(from.dataWindow());
+  for (auto it = from.channels().begin(); it != from.channels().end(); ++it) {
+    if (it.channel().xSampling != 1 || it.channel().ySampling != 1) {
+      RefuseKind(state_->path, std::string("channel ") + it.name() + " is subsampled");
+    }
+    band.header.channels.push_back({it.name(), ToPixelType(it.channel().type)});
+  }
+  for (auto it = from.begin(); it != from.end(); ++it) {
+    if (kStructure.contains(it.name())) continue;
+    AddAttribute(state_->path, it.name(), it.attribute(), &band.header);
+  }
+  return band;
+}
+
+std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
+  return state_->Guard([&]() -> std::vector<uint8_t> {
+    const char* bytes = nullptr;
+    int size = 0;
+    state_->file->rawPixelData(y, bytes, size);
+    return {bytes, bytes + size};
+  });
+}
+
+void ExrBandReader::ReadRows(int y, int rows, const std::vector<std::string>& channels,
+                             std::vector<std::vector<float>>* planes) {
+  const Window data = ToWindow(state_->file->header().dataWindow());
+  const auto width = static_cast<size_t>(data.width());
+  planes->resize(channels.size());
+  Imf::FrameBuffer frame;
+  for (size_t c = 0; c < channels.size(); ++c) {
+    std::vector<float>& plane = (*planes)[c];
+    plane.resize(width * static_cast<size_t>(rows));
+    frame.insert(channels[c], Imf::Slice::Make(Imf::FLOAT, plane.data(), Imath::V2i(data.x0, y),
+                                               data.width(), rows));
+  }
+  state_->Guard([&] {
+    state_->file->setFrameBuffer(frame);
+    state_->file->readPixels(y, y + rows - 1);
+  });
+}
+
+struct ExrBandWriter::State {
+  State(const std::string& path, const ExrBandHeader& header)
+      : container(path, header.header, header.compression) {}
+  ExrContainer container;
+};
+
+ExrBandWriter::ExrBandWriter(const std::string& path, const ExrBandHeader& header)
+    : state_(std::make_unique<State>(path, header)) {}
+
+ExrBandWriter::~ExrBandWriter() = default;
+
+void ExrBandWriter::WriteChunk(int y, const std::vector<uint8_t>& bytes) {
+  state_->container.WriteChunk(y, bytes);
+}
+
+void ExrBandWriter::Finish() { state_->container.Finish(/*sync=*/false); }
+
+}  // namespace nacre

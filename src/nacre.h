@@ -1,0 +1,331 @@
+// nacre.h: nacre as a C++17 library. Installed as <nacre/nacre.h>, with the library libnacre.
+//
+//   nacre::Scene scene;
+//   scene.AddMaterial("gold", {{"model", "conductor"}, {"preset", "gold"}, {"roughness", 0.2}});
+//   scene.AddLight("key", {{"type", "point"}, {"position", {3, 4, 5}}, {"intensity", 100}});
+//   scene.AddSphere({0, 0, 0}, 1, "gold");
+//   nacre::Write(nacre::Render(scene, {.width = 640, .height = 360}), "gold.exr");  // C++20
+//
+// Units and conventions are those of scene files (share/nacre/scenes/nacre.schema.json):
+// right-handed, +y up, linear Rec. 709 colours, unit directions that point away from the surface.
+//
+// Errors are thrown as nacre::Error; what a callback throws comes out as it is. Functions may be
+// called from several threads at once, on the same object too if it is const. The caller's
+// floating-point mode is left as it was. Standard library types cross the border: build with the
+// same standard library.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#define NACRE_API __attribute__((visibility("default")))
+
+namespace nacre {
+
+// The version of the binary interface. Inline, so that nobody has to write it; but in the library's
+// own sources, which have types of the same names beside these.
+#ifndef NACRE_OWN_SOURCE
+inline
+#endif
+    namespace v0 {
+
+using Vec3 = std::array<double, 3>;
+using Rgb = std::array<double, 3>;
+
+// ---- Errors -------------------------------------------------------------------------------------
+
+// One thing that is wrong.
+struct Fault {
+  std::string where;  // file and JSON pointer, e.g. "grid.json: /materials/gold/roughness"
+  std::string what;
+  std::string hint;  // how to mend it; may be empty
+};
+
+// One or more faults, and what a program that ends because of them should exit with (sysexits.h):
+// 2 images that cannot be compared, 64 wrong arguments, 65 bad input, 70 nacre's fault or out of
+// memory, 74 output that cannot be written.
+class NACRE_API Error : public std::exception {
+ public:
+  Error(int exit_code, std::vector<Fault> faults, std::string message);
+  Error(const Error&);
+  Error& operator=(const Error&);
+  ~Error() override;
+
+  int exit_code() const { return exit_code_; }
+  const std::vector<Fault>& faults() const { return faults_; }
+  // All faults as text: "error: WHERE: WHAT" and "  hint: HINT" in lines.
+  const char* what() const noexcept override;
+
+ private:
+  int exit_code_;
+  std::vector<Fault> faults_;
+  std::string message_;
+};
+
+// ---- This build and this machine ----------------------------------------------------------------
+
+NACRE_API std::string Version();  // "0.1.0"
+
+// The SIMD targets that this machine can run, slowest first, of "scalar", "sse4", "avx2", "avx3".
+NACRE_API std::vector<std::string> SupportedTargets();
+// The one that is used: the fastest, unless SetTarget chose another.
+NACRE_API std::string ActiveTarget();
+// For the whole process: call it before anything runs. Pictures differ in their last digits.
+NACRE_API void SetTarget(const std::string& target);
+
+// The JSON Schema of scene files: every name that the parameters below may have.
+NACRE_API std::string SceneSchema();
+
+// ---- Scenes -------------------------------------------------------------------------------------
+
+struct Parameter;
+using Parameters = std::vector<Parameter>;
+
+// A value as scene files write it.
+class NACRE_API Value {
+ public:
+  template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
+  Value(Number number)  // NOLINT(google-explicit-constructor)
+      : json_(ToJson(number)) {}
+  Value(double x, double y, double z);       // a point or colour: {"center", {0, 1, 0}}
+  Value(const Vec3& xyz);                    // NOLINT(google-explicit-constructor)
+  Value(const char* text);                   // NOLINT(google-explicit-constructor)
+  Value(const std::string& text);            // NOLINT(google-explicit-constructor)
+  Value(const std::vector<double>& list);    // NOLINT(google-explicit-constructor)
+  Value(const std::vector<std::string>& l);  // NOLINT(google-explicit-constructor)
+  Value(const Parameters& object);           // NOLINT(google-explicit-constructor)
+  static Value Json(std::string text);       // anything else, as JSON text
+
+  const std::string& json() const { return json_; }
+
+ private:
+  Value() = default;
+  static std::string ToJson(double number);  // throws Error unless it is finite
+  static std::string ToJson(bool truth);
+  template <class Number>
+  static std::string ToJson(Number number) {
+    return ToJson(static_cast<double>(number));
+  }
+
+  std::string json_;
+};
+
+struct Parameter {
+  std::string name;
+  Value value;
+};
+
+// Triangles in world space. Without normals faces are flat; both normals and uvs have one entry per
+// position, or none.
+struct Mesh {
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;
+  std::vector<std::array<double, 2>> uvs;
+  std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
+};
+
+// What is rendered: a scene file, a model (glTF, OBJ, PLY), or built in code, or both. Names and
+// values are those of scene files, and so are the checks. These run, on all of it at once, when the
+// scene is first rendered, or by Check().
+class NACRE_API Scene {
+ public:
+  Scene();  // empty: black, with the default camera
+  static Scene FromFile(const std::string& path);
+  // `folder` is where files that the text names are looked for.
+  static Scene FromJson(const std::string& text, const std::string& folder = ".");
+  Scene(const Scene&);
+  Scene& operator=(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
+
+  // Puts a value where a JSON pointer points: Set("/materials/red/roughness", 0.2),
+  // Set("/image/spp", 64). Objects on the way are made.
+  void Set(const std::string& pointer, const Value& value);
+  // The same for whole parts. One of the same name is replaced.
+  void SetCamera(const Parameters& camera);
+  void SetBackground(const Rgb& radiance);
+  void AddTexture(const std::string& name, const Parameters& texture);
+  void AddMaterial(const std::string& name, const Parameters& material);
+  void AddLight(const std::string& name, const Parameters& light);
+  // Any of the schema's: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud.
+  void AddShape(const Parameters& shape);
+  // Shapes without the detour of text, for many of them. They follow all others.
+  void AddSphere(const Vec3& center, double radius, const std::string& material);
+  void AddMesh(const Mesh& mesh, const std::string& material);
+
+  // Throws Error with everything that is wrong.
+  void Check() const;
+
+  size_t sphere_count() const;
+  size_t mesh_count() const;
+  std::vector<std::string> material_names() const;
+  std::vector<std::string> light_names() const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// ---- Images -------------------------------------------------------------------------------------
+
+// Pixels x0 <= x < x1, y0 <= y < y1, y downwards from the top.
+struct Window {
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+enum class SampleType : uint8_t { kHalf, kFloat, kUint };
+
+struct Channel {
+  std::string name;                      // "R", "diffuse.G", "N.X", "Z", "id.object"
+  SampleType type = SampleType::kFloat;  // in the file read, or wanted in the file written
+  std::vector<float> samples;            // row by row over Image::data
+};
+
+struct Image {
+  Window frame;  // the whole picture
+  Window data;   // the part that the channels cover; smaller than the frame in renders of a region
+  std::vector<Channel> channels;
+  std::map<std::string, std::string> metadata;
+
+  int width() const { return data.x1 - data.x0; }
+  int height() const { return data.y1 - data.y0; }
+  // The channel of this name, or nullptr.
+  const Channel* Find(const std::string& name) const {
+    for (const Channel& channel : channels) {
+      if (channel.name == name) return &channel;
+    }
+    return nullptr;
+  }
+};
+
+// EXR and PNG; other formats through OpenImageIO, which is loaded then.
+NACRE_API Image Read(const std::string& path);
+
+struct WriteSettings {
+  // EXR. Colours and normals are of `half_floats` unless that is false; positions, depths and ids
+  // always in full.
+  bool half_floats = true;
+  std::string compression = "zip";  // or none, zips, piz, dwaa
+  bool small = false;               // EXR and PNG: smaller, several times slower
+  // PNG, of the channels R, G and B.
+  std::string tonemap = "neutral";  // or reinhard, reinhard_extended, aces, agx, none
+  double exposure = 0;              // in stops
+};
+
+// To .exr (linear, all channels) or .png (tone-mapped). The file appears whole or not at all.
+NACRE_API void Write(const Image& image, const std::string& path,
+                     const WriteSettings& settings = {});
+
+// ---- Rendering ----------------------------------------------------------------------------------
+
+struct RenderSettings {
+  int width = 0, height = 0;     // pixels; 0: the scene's
+  int samples = 0;               // a pixel; 0: the scene's. With max_error, the most (0: 4096)
+  double max_error = 0;          // > 0: adaptive, as --max-error
+  std::optional<uint32_t> seed;  // of the sample pattern; none: the scene's
+  Window region;                 // pixels to render; empty: all. The bits of the full frame
+  // Besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, id.object, id.material,
+  // light.NAME, or all.
+  std::vector<std::string> layers;
+  int threads = 0;                   // 0: as many as the machine has
+  std::string intersector = "auto";  // or embree, tiles; the same bits
+  // Told the share done in (0, 1], from any thread, one call at a time. Throwing ends the render.
+  std::function<void(double)> on_progress;
+};
+
+struct RenderStats {
+  uint64_t camera_rays = 0, shadow_rays = 0;
+  double plan_seconds = 0, render_seconds = 0;
+  int threads = 0;
+  std::vector<std::string> notes;  // what the picture cannot show, and why
+};
+
+// All channels in float. `stats` may be null.
+NACRE_API Image Render(const Scene& scene, const RenderSettings& settings = {},
+                       RenderStats* stats = nullptr);
+
+// ---- Comparing ----------------------------------------------------------------------------------
+
+struct CompareSettings {
+  std::vector<std::string> layers;  // empty: all, and then both must have the same channels
+  // Samples may differ by max_abs + max_rel |reference|, in all but this fraction of the pixels.
+  double max_abs = 0, max_rel = 0, exceeding_fraction = 0;
+  double max_rmse = std::numeric_limits<double>::infinity();  // of any layer
+  bool perceptual = false;                                    // measure SSIM and FLIP, too
+};
+
+struct LayerMetrics {
+  std::string layer;  // "" is the beauty, R G B
+  size_t samples = 0;
+  double rmse = 0, rel_mse = 0;
+  double psnr_db = 0;  // relative to the reference's largest magnitude
+  double max_abs = 0, max_rel = 0;
+  double mean = 0, mean_reference = 0;
+  std::optional<double> ssim, flip, hdr_flip;  // perceptual, of layers that are colours
+};
+
+struct Comparison {
+  bool match = false;
+  std::string reason;  // in words
+  size_t pixels = 0, exceeding_pixels = 0;
+  std::vector<LayerMetrics> layers;
+};
+
+NACRE_API Comparison Compare(const Image& image, const Image& reference,
+                             const CompareSettings& settings = {});
+
+// ---- Reflection models --------------------------------------------------------------------------
+
+// Radiance towards the viewer per irradiance of a surface that faces the light: BRDF times n.l.
+// That is finite for every model, the BRDF is not.
+struct Reflection {
+  Rgb diffuse{}, specular{};
+};
+
+// Unit vectors of `count` surface points, each as three arrays x, y, z.
+struct Directions {
+  size_t count = 0;
+  std::array<const double*, 3> normal{}, to_view{}, to_light{};
+};
+
+// Likewise, by channel.
+struct Reflections {
+  std::array<std::vector<float>, 3> diffuse, specular;
+};
+
+// A material without maps, emission and ambient light, for measuring and for renderers of others. A
+// perfect mirror (roughness 0) shows nothing of its lobe.
+class NACRE_API Brdf {
+ public:
+  // As in scene files: Brdf("conductor", {{"preset", "gold"}, {"roughness", 0.2}}).
+  explicit Brdf(const std::string& model, const Parameters& parameters = {});
+  Brdf(const Scene& scene, const std::string& material);
+
+  // In double, by the formulas of the papers in their stable form. Black where light or viewer is
+  // not above the surface.
+  Reflection Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& to_light) const;
+
+  // The same in float through the SIMD kernels that render, in this thread.
+  Reflections Shade(const Directions& directions) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace v0
+}  // namespace nacre

@@ -1,0 +1,120 @@
+#include "render/sampled_kernel.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/sampled_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "base/vec3-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<float>;
+using V = hn::Vec<D>;
+
+HWY_INLINE Vec3V<V> LoadAt(const Soa3<float>& soa, size_t i) {
+  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
+}
+
+void ShineAlongT(const LightDirections& directions, const Surface& surface, size_t count,
+                 LightBatch* light) {
+  const D d;
+  const V zero = hn::Zero(d);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const Vec3V<V> l = LoadAt(directions.to_light, i);
+    const V n_dot_l = Dot(LoadAt(surface.normal, i), l);
+    const auto shines =
+        hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), hn::Gt(n_dot_l, zero));
+    hn::StoreU(l.x, d, light->to_light.x.data() + i);
+    hn::StoreU(l.y, d, light->to_light.y.data() + i);
+    hn::StoreU(l.z, d, light->to_light.z.data() + i);
+    hn::StoreU(hn::IfThenElseZero(shines, hn::Set(d, 1.0f)), d, light->irradiance.data() + i);
+  }
+}
+
+void FindDiffuseDensityT(const DiffuseWays& ways, const LightDirections& directions,
+                         const Surface& surface, const uint8_t* flat, size_t count,
+                         float* density) {
+  const D d;
+  const V by_pi = hn::Set(d, 0.318309886f);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    V sum = hn::Zero(d);
+    if (ways.light) sum = hn::LoadU(d, directions.density.data() + i);
+    if (ways.cosine) {
+      const V n_dot_l = Dot(LoadAt(surface.normal, i), LoadAt(directions.to_light, i));
+      sum = hn::Add(sum, hn::Mul(n_dot_l, by_pi));
+    }
+    hn::StoreU(sum, d, density + i);
+  }
+  if (flat == nullptr) return;
+  for (size_t i = 0; i < count; ++i) density[i] = flat[i] != 0 ? 0 : density[i];
+}
+
+void FindWeightsT(const float* irradiance, const float* density, size_t count, float* weight) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const V chosen = hn::LoadU(d, density + i);
+    const auto counts = hn::And(hn::Gt(hn::LoadU(d, irradiance + i), zero), hn::Gt(chosen, zero));
+    const V inverse = hn::Div(one, hn::IfThenElse(counts, chosen, one));
+    hn::StoreU(hn::IfThenElseZero(counts, inverse), d, weight + i);
+  }
+}
+
+// `radiance` may be null.
+HWY_INLINE void AddChannel(const float* part, const float* weight, const float* radiance,
+                           double color, size_t count, float* sum) {
+  const D d;
+  const V scale = hn::Set(d, static_cast<float>(color));
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const V weighed = hn::Mul(hn::LoadU(d, part + i), hn::LoadU(d, weight + i));
+    const V seen = radiance != nullptr ? hn::Mul(hn::LoadU(d, radiance + i), scale) : scale;
+    hn::StoreU(hn::Add(hn::LoadU(d, sum + i), hn::Mul(weighed, seen)), d, sum + i);
+  }
+}
+
+void AddWeightedT(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,
+                  const Rgb& color, size_t count, Soa3<float>* sum) {
+  const auto of = [&](AlignedArray<float> Soa3<float>::*channel) {
+    return radiance != nullptr ? (radiance->*channel).data() : nullptr;
+  };
+  AddChannel(part.x.data(), weight, of(&Soa3<float>::x), color.x, count, sum->x.data());
+  AddChannel(part.y.data(), weight, of(&Soa3<float>::y), color.y, count, sum->y.data());
+  AddChannel(part.z.data(), weight, of(&Soa3<float>::z), color.z, count, sum->z.data());
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(ShineAlongT);
+HWY_EXPORT(FindDiffuseDensityT);
+HWY_EXPORT(FindWeightsT);
+HWY_EXPORT(AddWeightedT);
+
+void ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
+                LightBatch* light) {
+  HWY_DYNAMIC_DISPATCH(ShineAlongT)(directions, surface, count, light);
+}
+
+void FindDiffuseDensity(const DiffuseWays& ways, const LightDirections& directions,
+                        const Surface& surface, const uint8_t* flat, size_t count, float* density) {
+  HWY_DYNAMIC_DISPATCH(FindDiffuseDensityT)(ways, directions, surface, flat, count, density);
+}
+
+void FindWeights(const float* irradiance, const float* density, size_t count, float* weight) {
+  HWY_DYNAMIC_DISPATCH(FindWeightsT)(irradiance, density, count, weight);
+}
+
+void AddWeighted(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,
+                 const Rgb& color, size_t count, Soa3<float>* sum) {
+  HWY_DYNAMIC_DISPATCH(AddWeightedT)(part, weight, radiance, color, count, sum);
+}
+}  // namespace nacre
+#endif

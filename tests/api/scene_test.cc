@@ -1,0 +1,143 @@
+// tests/api/scene_test.cc: scenes of the public API, which includes nothing but nacre.h.
+#include <cmath>
+#include <string>
+
+#include "catch.h"
+#include "nacre.h"
+
+namespace {
+
+const std::string kFirstScene = NACRE_SOURCE_DIR "/scenes/first_scene.json";
+
+// scenes/first_scene.json, in code.
+nacre::Scene BuildFirstScene() {
+  nacre::Scene scene;
+  scene.SetCamera({{"position", {0, 1.6, 6}}, {"look_at", {0, 0.9, 0}}, {"fov_y_deg", 32}});
+  scene.AddMaterial(
+      "red",
+      {{"model", "metallic_roughness"}, {"base_color", {0.8, 0.1, 0.08}}, {"roughness", 0.3}});
+  scene.AddMaterial("floor", {{"model", "lambert"}, {"albedo", 0.5}});
+  scene.AddLight("key", {{"type", "point"}, {"position", {3, 5, 4}}, {"intensity", 140}});
+  scene.AddLight("sky", {{"type", "ambient"}, {"radiance", {0.1, 0.11, 0.13}}});
+  scene.AddSphere({0, 1, 0}, 1, "red");
+  scene.AddSphere({0, -1000, 0}, 1000, "floor");
+  scene.SetBackground({0.05, 0.05, 0.08});
+  return scene;
+}
+
+nacre::RenderSettings Small() {
+  nacre::RenderSettings settings;
+  settings.width = 40;
+  settings.height = 30;
+  settings.samples = 2;
+  return settings;
+}
+
+// The error that body() throws.
+template <class Body>
+nacre::Error ErrorOf(const Body& body) {
+  try {
+    body();
+  } catch (const nacre::Error& error) {
+    return error;
+  }
+  FAIL("nothing was thrown");
+  return nacre::Error(0, {}, "");
+}
+
+TEST_CASE("a scene built in code is that of the file, to the bit") {
+  const nacre::Image built = nacre::Render(BuildFirstScene(), Small());
+  const nacre::Image loaded = nacre::Render(nacre::Scene::FromFile(kFirstScene), Small());
+  REQUIRE(built.channels.size() == 4);
+  for (const nacre::Channel& channel : built.channels) {
+    CAPTURE(channel.name);
+    REQUIRE((channel.samples == loaded.Find(channel.name)->samples));
+  }
+}
+
+TEST_CASE("shapes given as parameters, as text and directly are the same") {
+  nacre::Scene direct = BuildFirstScene();
+  direct.AddSphere({1, 0.5, 2}, 0.25, "red");
+  nacre::Scene parameters = nacre::Scene::FromFile(kFirstScene);
+  parameters.AddShape(
+      {{"type", "sphere"}, {"center", {1, 0.5, 2}}, {"radius", 0.25}, {"material", "red"}});
+  REQUIRE(parameters.sphere_count() == 3);
+  const nacre::Image a = nacre::Render(direct, Small());
+  const nacre::Image b = nacre::Render(parameters, Small());
+  REQUIRE((a.Find("R")->samples == b.Find("R")->samples));
+  REQUIRE((a.Find("R")->samples != nacre::Render(BuildFirstScene(), Small()).Find("R")->samples));
+}
+
+TEST_CASE("what is set is seen, and copies are independent") {
+  const nacre::Scene before = nacre::Scene::FromFile(kFirstScene);
+  nacre::Scene after = before;
+  after.Set("/materials/red/base_color", {0, 0, 1});
+  const auto red = [](const nacre::Scene& scene) {
+    return nacre::Render(scene, Small()).Find("R")->samples;
+  };
+  REQUIRE((red(before) == red(nacre::Scene::FromFile(kFirstScene))));
+  REQUIRE((red(before) != red(after)));
+  REQUIRE(before.material_names() == std::vector<std::string>{"red", "floor"});
+  REQUIRE(before.light_names() == std::vector<std::string>{"key", "sky"});
+}
+
+TEST_CASE("meshes are added, and a model is a scene") {
+  nacre::Scene scene = BuildFirstScene();
+  nacre::Mesh triangle;
+  triangle.positions = {{-1, 0, 2}, {1, 0, 2}, {0, 1, 2}};
+  triangle.triangles = {0, 1, 2};
+  scene.AddMesh(triangle, "red");
+  REQUIRE(scene.mesh_count() == 1);
+  nacre::RenderSettings settings = Small();
+  settings.layers = {"id.object"};
+  const nacre::Image image = nacre::Render(scene, settings);
+  float largest = 0;
+  for (const float id : image.Find("id.object")->samples) largest = std::max(largest, id);
+  REQUIRE(largest == 3);  // the mesh, after two spheres
+
+  nacre::Scene model = nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/meshes/torus_knot.obj");
+  REQUIRE(model.mesh_count() == 1);
+  model.AddShape({{"type", "sphere"}});
+  REQUIRE(ErrorOf([&] { model.Check(); }).exit_code() == 64);
+}
+
+TEST_CASE("errors say where, what and how to mend it") {
+  nacre::Scene scene = BuildFirstScene();
+  scene.AddMaterial("a/b", {{"model", "lambert"}, {"albedoo", 0.5}});
+  scene.AddLight("key", {{"type", "point"}, {"position", {0, 0, 0}}, {"intensity", -1}});
+  const nacre::Error error = ErrorOf([&] { nacre::Render(scene); });
+  REQUIRE(error.exit_code() == 65);
+  REQUIRE(error.faults().size() == 2);
+  REQUIRE(error.faults()[0].where == "scene: /materials/a~1b");
+  REQUIRE(error.faults()[0].what == "unknown key \"albedoo\"");
+  REQUIRE(error.faults()[0].hint == "did you mean \"albedo\"?");
+  REQUIRE(error.faults()[1].where == "scene: /lights/key/intensity");
+  REQUIRE(std::string(error.what()).find("error: scene: /materials/a~1b: unknown key") == 0);
+
+  nacre::Scene other = BuildFirstScene();
+  other.AddSphere({0, 0, 0}, 1, "rd");
+  REQUIRE(ErrorOf([&] { other.Check(); }).faults()[0].hint == "did you mean \"red\"?");
+  nacre::Scene bad_radius = BuildFirstScene();
+  bad_radius.AddSphere({0, 0, 0}, -1, "red");
+  REQUIRE(ErrorOf([&] { bad_radius.Check(); }).faults()[0].where == "/spheres/2/radius");
+  REQUIRE(ErrorOf([&] { nacre::Scene::FromFile("no such file.json"); }).exit_code() == 65);
+  REQUIRE(ErrorOf([&] { nacre::Scene::FromJson("{"); }).exit_code() == 65);
+  REQUIRE(ErrorOf([&] { other.Set("/image/spp", std::nan("")); }).exit_code() == 64);
+}
+
+TEST_CASE("a scene in text may not name files outside its folder, a scene in code may") {
+  const std::string file = NACRE_SOURCE_DIR "/scenes/meshes/torus_knot.obj";
+  const nacre::Parameters mesh = {{"type", "mesh"}, {"file", file}, {"material", "red"}};
+  nacre::Scene text = nacre::Scene::FromFile(kFirstScene);
+  text.AddShape(mesh);
+  REQUIRE_NOTHROW(text.Check());  // scenes/meshes is below scenes
+  nacre::Scene elsewhere = nacre::Scene::FromJson(R"({"nacre": 1})", NACRE_SOURCE_DIR "/src");
+  elsewhere.AddMaterial("red", {{"model", "lambert"}});
+  elsewhere.AddShape(mesh);
+  REQUIRE(ErrorOf([&] { elsewhere.Check(); }).exit_code() == 65);
+  nacre::Scene code = BuildFirstScene();
+  code.AddShape(mesh);
+  REQUIRE_NOTHROW(code.Check());
+}
+
+}  // namespace

@@ -1,0 +1,233 @@
+#!/usr/bin/env python3
+"""Tiles and what merges them, from outside: nacre render --tile, nacre merge, --dry-run.
+
+Usage: tiles_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+FIRST_SCENE = str(SOURCE / 'scenes/first_scene.json')
+# Six strips and four rows more: no number of tiles divides it.
+SMALL = ['--size', '64x100', '--spp', '2', '--reproducible']
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120)
+
+
+class TilesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = pathlib.Path(folder.name)
+
+    def render(self, name, *arguments, scene=FIRST_SCENE):
+        result = run('render', scene, '-o', self.out / name, *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.out / name
+
+    def tiles(self, count, *arguments, scene=FIRST_SCENE):
+        return [self.render(f't{i}.exr', '--tile', f'{i}/{count}', *arguments, scene=scene)
+                for i in range(count)]
+
+    def merge(self, *arguments):
+        result = run('merge', *arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def check_refused(self, tiles, *messages, code=65):
+        """Fails with this code and one error, whose line has all messages; nothing is left."""
+        before = sorted(self.out.iterdir())
+        result = run('merge', '-o', self.out / 'whole.exr', *tiles)
+        self.assertEqual(result.returncode, code, result.stderr)
+        errors = [line for line in result.stderr.splitlines() if line.startswith('error: ')]
+        self.assertEqual(len(errors), 1, result.stderr)
+        for message in messages:
+            self.assertIn(str(message), errors[0])
+        self.assertEqual(sorted(self.out.iterdir()), before)
+        return result
+
+    # ---- Tiles ----
+
+    def test_tiles_are_bands_of_whole_strips_in_the_full_frame(self):
+        windows = []
+        for tile in self.tiles(3, *SMALL):
+            text = run('info', tile).stdout
+            self.assertIn('display window  64x100 at 0,0', text)
+            windows.append(text.split('data window')[1].split('\n')[0].strip())
+        self.assertEqual(windows, ['64x32 at 0,0', '64x32 at 0,32', '64x36 at 0,64'])
+        self.assertRegex(run('info', self.out / 't1.exr').stdout, r'nacre:tile +1/3\n')
+
+    def test_bad_tiles_are_refused(self):
+        for tile, message in (('3/3', 'is not a tile'), ('-1/3', 'is not a tile'),
+                              ('1', 'is not a tile'), ('1/0', 'is not a tile'),
+                              ('0/8', 'has 7 bands of 16 rows at most')):
+            result = run('render', FIRST_SCENE, '-o', self.out / 'a.exr', f'--tile={tile}', *SMALL)
+            self.assertEqual(result.returncode, 64)
+            self.assertIn(message, result.stderr)
+        result = run('render', FIRST_SCENE, '-o', self.out / 'a.exr', '--tile', '0/2', '--region',
+                     '0,0,8,8', *SMALL)
+        self.assertEqual(result.returncode, 64)
+        self.assertIn('cannot be used with --region', result.stderr)
+        result = run('render', FIRST_SCENE, '-o', self.out / 'a.exr', '--tile', '0/5',
+                     '--compression', 'piz', *SMALL)
+        self.assertIn('has 4 bands of 32 rows at most', result.stderr)
+        self.assertEqual(list(self.out.iterdir()), [])
+
+    def test_a_dry_run_tells_all_that_decides_the_bits_and_writes_nothing(self):
+        result = run('render', FIRST_SCENE, '-o', self.out / 'a.exr', '--dry-run', '--layers', 'Z',
+                     '--max-error', '0.1', *SMALL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        plan = json.loads(result.stdout)
+        self.assertEqual(plan['display_window'], [64, 100])
+        self.assertEqual(plan['most_tiles'], 7)
+        self.assertEqual(plan['channels'], dict(R='half', G='half', B='half', A='half', Z='float'))
+        attributes = plan['attributes']
+        for name in 'sceneHash', 'settings', 'target', 'commit', 'maxError', 'maxSamples':
+            self.assertIn('nacre:' + name, attributes)
+        self.assertEqual(list(self.out.iterdir()), [])
+        self.render('a.exr', '--layers', 'Z', '--max-error', '0.1', *SMALL)
+        self.assertIn(attributes['nacre:sceneHash'], run('info', self.out / 'a.exr').stdout)
+
+    # ---- Merged ----
+
+    def test_the_merged_file_is_the_single_renders_to_the_byte(self):
+        for depth in 'half', 'float':
+            for compression in 'none', 'zip', 'zips', 'piz', 'dwaa':
+                with self.subTest(depth=depth, compression=compression):
+                    options = [*SMALL, '--layers', 'all', '--depth', depth, '--compression',
+                               compression]
+                    single = self.render('single.exr', *options)
+                    tiles = self.tiles(4, *options)
+                    self.merge('-o', self.out / 'whole.exr', *reversed(tiles))
+                    self.assertEqual(single.read_bytes(), (self.out / 'whole.exr').read_bytes())
+
+    def test_any_number_of_tiles_will_do(self):
+        single = self.render('single.exr', *SMALL).read_bytes()
+        for count in 1, 2, 5, 7:
+            self.merge('-o', self.out / 'whole.exr', *self.tiles(count, *SMALL))
+            self.assertEqual(single, (self.out / 'whole.exr').read_bytes())
+
+    def test_tiles_of_a_picture_with_a_wanted_error_are_its_bits(self):
+        options = ['--size', '96x75', '--max-error', '0.05', '--reproducible']
+        scene = str(SOURCE / 'scenes/material_grid.json')
+        single = self.render('single.exr', *options, scene=scene)
+        self.merge('-o', self.out / 'whole.exr', *self.tiles(3, *options, scene=scene))
+        self.assertEqual(single.read_bytes(), (self.out / 'whole.exr').read_bytes())
+
+    def test_the_png_is_that_of_the_tiles_samples(self):
+        display = ['--tonemap', 'aces', '--exposure', '1']
+        single = self.render('single.exr', '-o', self.out / 'single.png', '--depth', 'float',
+                             *display, *SMALL)
+        tiles = self.tiles(3, '--depth', 'float', *SMALL)
+        result = self.merge('-o', self.out / 'whole.exr', '-o', self.out / 'whole.png', *display,
+                            *tiles)
+        self.assertEqual(single.read_bytes(), (self.out / 'whole.exr').read_bytes())
+        self.assertEqual((self.out / 'single.png').read_bytes(),
+                         (self.out / 'whole.png').read_bytes())
+        self.assertIn('of 3 tiles', result.stderr)
+        # A half is not what was rendered: the PNG then is that of tonemap.
+        self.render('half.exr', *SMALL)
+        self.merge('-o', self.out / 'half.png', *self.tiles(3, *SMALL))
+        self.assertEqual(run('tonemap', self.out / 'half.exr', '-o', self.out / 'tone.png')
+                         .returncode, 0)
+        self.assertEqual(run('compare', self.out / 'half.png', self.out / 'tone.png').returncode, 0)
+
+    def test_regions_that_are_bands_merge_too(self):
+        single = self.render('single.exr', *SMALL)
+        tiles = [self.render('a.exr', '--region', '0,0,64,48', *SMALL),
+                 self.render('b.exr', '--region', '0,48,64,100', *SMALL)]
+        self.merge('-o', self.out / 'whole.exr', *tiles, '--quiet')
+        self.assertEqual(single.read_bytes(), (self.out / 'whole.exr').read_bytes())
+
+    def test_render_times_add_up(self):
+        def seconds(file):
+            text = run('info', file).stdout
+            return float(text.split('renderTime')[1].split()[0])
+        tiles = self.tiles(3, '--size', '64x100', '--spp', '2')
+        self.merge('-o', self.out / 'whole.exr', *tiles)
+        total = sum(seconds(tile) for tile in tiles)
+        self.assertGreater(total, 0)
+        # Each is a float as printed, and so is their sum.
+        self.assertAlmostEqual(seconds(self.out / 'whole.exr') / total, 1, places=6)
+
+    # ---- Refused ----
+
+    def test_gaps_are_refused_with_what_is_missing(self):
+        a, b, c = self.tiles(3, *SMALL)
+        middle = self.check_refused([c, a], a, c, 'rows 32 to 63 between them are in no tile')
+        self.assertIn('--tile 1/3', middle.stderr)
+        self.check_refused([b, c], b, 'rows 0 to 31 above it are in no tile')
+        self.check_refused([b, a], b, 'rows 64 to 99 below it are in no tile')
+
+    def test_overlaps_are_refused(self):
+        a, b, c = self.tiles(3, *SMALL)
+        lower = self.render('lower.exr', '--tile', '1/2', *SMALL)  # from row 48
+        self.check_refused([a, b, lower], b, lower, 'both hold rows 48 to 63')
+        again = self.out / 'again.exr'
+        again.write_bytes(b.read_bytes())
+        self.check_refused([a, b, c, again], b, again, 'both hold rows 32 to 63')
+        self.check_refused([a, b, b, c], 'the same file is named twice', code=64)
+
+    def test_tiles_that_differ_are_refused(self):
+        first, _ = self.tiles(2, *SMALL)
+        other = ['--tile', '1/2', '--reproducible', '--size', '64x100']
+        brighter = ['--set', '/lights/key/intensity=150']
+        for options, message in (
+                ([*other, '--spp', '2', *brighter], 'nacre:sceneHash'),
+                ([*other, '--spp', '4'], 'nacre:settings'),
+                ([*other, '--spp', '2', '--max-error', '0.1'], 'nacre:maxError'),
+                ([*other, '--spp', '2', '--target', 'scalar'], 'nacre:target'),
+                ([*other, '--spp', '2', '--layers', 'Z'], 'layers'),
+                ([*other, '--spp', '2', '--depth', 'float'], 'layers'),
+                ([*other, '--spp', '2', '--compression', 'piz'], 'compression'),
+                ([*other[:2], '--size', '64x100', '--spp', '2'], 'renderTime'),
+                ([*other[:3], '--size', '32x100', '--spp', '2'], 'size')):
+            with self.subTest(message=message):
+                second = self.render('other.exr', *options)
+                result = self.check_refused([first, second], first, second, f'differ in {message}')
+                self.assertIn('hint: ', result.stderr)
+
+    def test_tiles_of_another_build_are_refused(self):
+        a, b = self.tiles(2, *SMALL)
+        for name in b'nacre:commit\0string\0', b'nacre:version\0string\0':
+            bytes_of_b = b.read_bytes()
+            place = bytes_of_b.index(name) + len(name) + 4  # after the value's size
+            changed = self.out / 'changed.exr'
+            changed.write_bytes(bytes_of_b[:place] + b'?' + bytes_of_b[place + 1:])
+            self.check_refused([a, changed], a, changed, 'differ in ' + name.split(b'\0')[0].decode())
+
+    def test_what_is_no_tile_is_refused(self):
+        a, b = self.tiles(2, *SMALL)
+        text = self.out / 'text.exr'
+        text.write_text('no picture')
+        self.check_refused([a, text], text, 'cannot be read as EXR')
+        self.check_refused([a, self.out / 'missing.exr'], 'missing.exr', 'no such file')
+        half = self.out / 'half.exr'
+        half.write_bytes(b.read_bytes()[:-100])
+        self.check_refused([a, half], half)
+        self.check_refused([a, self.render('r.exr', '--region', '0,48,32,100', *SMALL)], 'r.exr',
+                           'does not hold whole rows')
+        self.check_refused([a, self.render('r.exr', '--region', '0,40,64,100', *SMALL)], 'r.exr',
+                           'begins at row 40')
+        foreign = str(next((SOURCE / 'tests/references').rglob('*.exr')))
+        self.check_refused([foreign], foreign, 'is not a')
+        result = run('merge', '-o', a, a, b)
+        self.assertEqual(result.returncode, 64)
+        result = run('merge', '-o', self.out / 'whole.jpg', a, b)
+        self.assertEqual(result.returncode, 64)
+
+    def test_a_whole_picture_is_a_tile_of_its_own(self):
+        whole = self.render('whole_of_it.exr', *SMALL)
+        self.merge('-o', self.out / 'copy.exr', whole)
+        self.assertEqual(whole.read_bytes(), (self.out / 'copy.exr').read_bytes())
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)

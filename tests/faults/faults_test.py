@@ -1,0 +1,294 @@
+#!/usr/bin/env python3
+"""What goes wrong around the program: full disks, folders that vanish, signals, no memory.
+
+Each time: no crash, the right exit code with words, no part of a file, and old files as they were.
+Usage: faults_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import contextlib
+import os
+import pathlib
+import random
+import resource
+import shutil
+import signal
+import stat
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+GRID = SOURCE / 'scenes/material_grid.json'
+FIRST = SOURCE / 'scenes/first_scene.json'
+SMALL = ['--size', '64x36', '--spp', '1']
+IS_ROOT = os.geteuid() == 0
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120, check=False, **options)
+
+
+def is_whole(path):
+    """Whether a PNG has its end, and an EXR can be read to its last row."""
+    if path.suffix == '.png':
+        data = path.read_bytes()
+        return data[:4] == b'\x89PNG' and data[-8:-4] == b'IEND'
+    return run('compare', path, path).returncode == 0
+
+
+@contextlib.contextmanager
+def small_disk(kib):
+    """A file system of that size, or a skip."""
+    folder = tempfile.mkdtemp()
+    mounted = IS_ROOT and subprocess.run(
+        ['mount', '-t', 'tmpfs', '-o', f'size={kib}k', 'tmpfs', folder],
+        capture_output=True, check=False).returncode == 0
+    try:
+        if not mounted:
+            raise unittest.SkipTest('a full disk needs the right to mount one')
+        yield pathlib.Path(folder)
+    finally:
+        if mounted:
+            subprocess.run(['umount', folder], check=True)
+        os.rmdir(folder)
+
+
+class FaultsTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = pathlib.Path(folder.name)
+
+    def check_refused(self, result, code, folder, left):
+        self.assertEqual(result.returncode, code, result.stderr)
+        self.assertIn('error: ', result.stderr)
+        self.assertEqual({path.name: path.read_bytes() for path in folder.iterdir()}, left)
+
+    # ---- Disks and folders ----
+
+    def test_full_disk(self):
+        """Both kinds of file, new ones and ones that were there."""
+        with small_disk(256) as disk:
+            (disk / 'old.exr').write_bytes(b'old')
+            (disk / 'old.png').write_bytes(b'old')
+            left = {'old.exr': b'old', 'old.png': b'old'}
+            for name in 'new.exr', 'old.exr', 'new.png', 'old.png':
+                with self.subTest(name=name):
+                    result = run('render', GRID, '-o', disk / name, '--size', '1024x1024', '--spp', '1',
+                                 '--compression', 'none')
+                    self.check_refused(result, 74, disk, left)
+                    self.assertIn('No space left on device', result.stderr)
+                    self.assertIn('hint: make room', result.stderr)
+
+    def test_disk_without_anonymous_files_or_room_for_a_name(self):
+        """No inode left: the file system refuses any new file."""
+        with small_disk(256) as disk:
+            subprocess.run(['mount', '-o', 'remount,nr_inodes=2', disk], check=False, capture_output=True)
+            (disk / 'old.png').write_bytes(b'old')
+            result = run('render', FIRST, '-o', disk / 'new.png', *SMALL)
+            if result.returncode == 0:
+                self.skipTest('this system does not count inodes')
+            self.check_refused(result, 74, disk, {'old.png': b'old'})
+
+    def test_quota_of_a_file(self):
+        limit = 20_000
+        (self.out / 'old.exr').write_bytes(b'old')
+        for name in 'new.exr', 'old.exr':
+            result = run('render', GRID, '-o', self.out / name, '--size', '512x512', '--spp', '1',
+                         '--compression', 'none', preexec_fn=lambda: resource.setrlimit(
+                             resource.RLIMIT_FSIZE, (limit, limit)))
+            self.check_refused(result, 74, self.out, {'old.exr': b'old'})
+
+    def test_read_only_folder(self):
+        folder = self.out / 'closed'
+        folder.mkdir()
+        (folder / 'old.png').write_bytes(b'old')
+        folder.chmod(0o500)
+        self.addCleanup(folder.chmod, 0o700)
+
+        def drop():  # root may write anywhere, so it becomes somebody else
+            if IS_ROOT:
+                os.setgid(65534)
+                os.setuid(65534)
+        if IS_ROOT:
+            for path in folder, folder / 'old.png':
+                os.chown(path, 65534, 65534)
+            self.out.chmod(0o755)
+        if IS_ROOT and subprocess.run([PROGRAM, '--version'], capture_output=True, preexec_fn=drop,
+                                      check=False).returncode != 0:
+            self.skipTest('nobody may not run the program')
+        for name in 'new.png', 'old.png':
+            result = run('render', FIRST, '-o', folder / name, *SMALL, preexec_fn=drop)
+            self.check_refused(result, 74, folder, {'old.png': b'old'})
+            self.assertIn('not writable', result.stderr)
+
+    def test_outputs_that_are_devices_stay_devices(self):
+        for path in ('/dev/null', '/dev/full', '/dev/stdout'):
+            with self.subTest(path=path):
+                link = self.out / 'a.png'
+                link.unlink(missing_ok=True)
+                link.symlink_to(path)
+                result = run('render', FIRST, '-o', link, *SMALL)
+                self.assertEqual(result.returncode, 74, result.stderr)
+                self.assertIn('not a regular file', result.stderr)
+                self.assertTrue(link.is_symlink())
+        self.assertTrue(stat.S_ISCHR(os.stat('/dev/null').st_mode))
+
+    def test_a_folder_that_goes_under_way(self):
+        """The file is anonymous until it is whole: then its folder is not there."""
+        for again in False, True:
+            with self.subTest(again=again):
+                folder = self.out / 'gone'
+                folder.mkdir()
+                process = subprocess.Popen(
+                    [PROGRAM, 'render', GRID, '-o', folder / 'a.exr', '--size', '1024x1024', '--spp', '16',
+                     '--progress=json'], stderr=subprocess.PIPE, text=True)
+                process.stderr.readline()  # rendering has begun
+                shutil.rmtree(folder)
+                if again:
+                    folder.mkdir()  # a new one of the same name
+                text = process.communicate(timeout=120)[1]
+                if again:  # the name is there again: either is right, as long as the file is whole
+                    self.assertIn(process.returncode, (0, 74), text)
+                    for path in folder.iterdir():
+                        self.assertTrue(is_whole(path))
+                    shutil.rmtree(folder)
+                else:
+                    self.assertEqual(process.returncode, 74, text)
+                    self.assertIn('error: ', text)
+                    self.assertFalse(folder.exists())
+
+    # ---- Pipes ----
+
+    def test_a_closed_pipe_harms_no_file(self):
+        """Whoever read standard output has gone: the picture is written all the same, and 74 tells."""
+        read_end, write_end = os.pipe()
+        os.close(read_end)
+        result = subprocess.run([PROGRAM, 'render', str(FIRST), '-o', str(self.out / 'a.png'), *SMALL,
+                                 '--explain', '--stats', '-'], stdout=write_end, stderr=subprocess.PIPE,
+                                timeout=120, check=False)
+        os.close(write_end)
+        self.assertEqual(result.returncode, 74, result.stderr)
+        self.assertTrue(is_whole(self.out / 'a.png'))
+        self.assertEqual(os.listdir(self.out), ['a.png'])
+
+    def test_a_closed_pipe_for_messages_stops_nothing(self):
+        read_end, write_end = os.pipe()
+        os.close(read_end)
+        result = subprocess.run([PROGRAM, 'render', str(FIRST), '-o', str(self.out / 'a.png'), *SMALL,
+                                 '--progress=json'], stderr=write_end, timeout=120, check=False)
+        os.close(write_end)
+        self.assertEqual(result.returncode, 0)
+        self.assertTrue(is_whole(self.out / 'a.png'))
+
+    # ---- Signals ----
+
+    def test_signals_at_any_time(self):
+        """200 of them, from before main() to after the end. An old file is whole, old or new."""
+        rng = random.Random(16)
+        render = ['render', GRID, '-o', self.out / 'a.exr', '-o', self.out / 'a.png', '--size', '320x180',
+                  '--spp', '1', '--quiet']
+        start = time.monotonic()
+        self.assertEqual(run(*render).returncode, 0)
+        whole = time.monotonic() - start
+        old = {name: (self.out / name).read_bytes() for name in ('a.exr', 'a.png')}
+        ends = {}
+        deadline = time.monotonic() + 50  # a busy machine kills fewer
+        for i in range(200):
+            if time.monotonic() > deadline:
+                break
+            number, code = rng.choice([(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+            process = subprocess.Popen([PROGRAM, *map(str, render)], stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            time.sleep(rng.uniform(0, 1.2 * whole))
+            process.send_signal(number)
+            ended = process.wait(timeout=60)
+            ends[ended] = ends.get(ended, 0) + 1
+            # -number: before the program could say what it does with it
+            self.assertIn(ended, (0, code, -number))
+            self.assertEqual(sorted(os.listdir(self.out)), ['a.exr', 'a.png'])
+            for name in old:
+                data = (self.out / name).read_bytes()
+                if data != old[name]:
+                    self.assertTrue(is_whole(self.out / name), f'kill {i}: {name}')
+        print(f'signals: {sum(ends.values())} kills, ended with {ends}')
+        self.assertGreater(sum(ends.values()), 10)
+
+    # ---- Memory ----
+
+    def test_out_of_memory(self):
+        """Address space from too little to enough: done, or 70 with words."""
+        (self.out / 'old.png').write_bytes(b'old')
+        seen = set()
+        for mib in (60, 100, 150, 200, 300, 400, 600, 1000, 2000, 4000):
+            limit = mib << 20
+            result = run('render', GRID, '-o', self.out / 'old.png', '--size', '2048x2048', '--spp', '1',
+                         '--threads', '2', preexec_fn=lambda: resource.setrlimit(
+                             resource.RLIMIT_AS, (limit, limit)))
+            with self.subTest(mib=mib, text=result.stderr[-500:]):
+                if result.returncode == 127:
+                    continue  # not even its libraries could be loaded
+                seen.add(result.returncode)
+                self.assertIn(result.returncode, (0, 70))
+                self.assertEqual(os.listdir(self.out), ['old.png'])
+                if result.returncode == 70:
+                    self.assertIn('error: ', result.stderr)
+                    self.assertEqual((self.out / 'old.png').read_bytes(), b'old')
+                else:
+                    self.assertTrue(is_whole(self.out / 'old.png'))
+                    (self.out / 'old.png').write_bytes(b'old')
+        self.assertIn(0, seen)
+
+    def test_a_scene_of_more_than_memory_is_refused(self):
+        cloud = ('{"type": "cloud", "count": 100000000, "min": [0,0,0], "max": [1,1,1], "radius": 0.1, '
+                 '"materials": ["a"]}')
+        (self.out / 'a.json').write_text(
+            '{"nacre": 1, "materials": {"a": {"model": "lambert"}}, "shapes": [%s]}'
+            % ', '.join([cloud] * 1000))
+        result = run('info', self.out / 'a.json', preexec_fn=lambda: resource.setrlimit(
+            resource.RLIMIT_AS, (2 << 30, 2 << 30)))
+        self.assertIn(result.returncode, (65, 70), result.stderr)
+        self.assertIn('error: ', result.stderr)
+
+    # ---- Files that change while they are read ----
+
+    def test_a_texture_cut_while_it_is_read(self):
+        scene = self.out / 'scene.json'
+        texture = self.out / 'texture.png'
+        whole = (SOURCE / 'scenes/textures/globe.png').read_bytes()
+        scene.write_text('''{"nacre": 1, "camera": {"position": [0, 0, 4], "look_at": [0, 0, 0]},
+            "textures": {"t": {"file": "texture.png", "mapping": "spherical"}},
+            "materials": {"a": {"model": "lambert", "albedo": 0.8, "albedo_map": "t"}},
+            "lights": {"sky": {"type": "ambient", "radiance": 1}},
+            "shapes": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "a"}]}''')
+        texture.write_bytes(whole)
+        stop = threading.Event()
+
+        def cut():
+            rng = random.Random(17)
+            while not stop.is_set():
+                os.truncate(texture, rng.randrange(len(whole)))
+                time.sleep(rng.uniform(0, 0.01))
+                with open(texture, 'r+b') as file:
+                    file.write(whole)
+                time.sleep(rng.uniform(0, 0.01))
+        cutter = threading.Thread(target=cut)
+        cutter.start()
+        try:
+            for _ in range(20):
+                result = run('render', scene, '-o', self.out / 'a.png', *SMALL)
+                self.assertIn(result.returncode, (0, 65), result.stderr)
+                if result.returncode == 0:
+                    self.assertTrue(is_whole(self.out / 'a.png'))
+                else:
+                    self.assertIn('error: ', result.stderr)
+        finally:
+            stop.set()
+            cutter.join()
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)

@@ -1,0 +1,124 @@
+// tests/image_io/hostile_image_test.cc: images that promise more than they hold, and formats that a
+// stranger may not choose.
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <zlib.h>
+
+#include "image_io/exr_reader.h"
+#include "image_io/image_reader.h"
+#include "image_io/png_reader.h"
+#include "pictures.h"
+
+namespace nacre {
+namespace {
+
+// The most memory that this process ever had, in MiB.
+size_t PeakMib() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  size_t kib = 0;
+  while (status >> word) {
+    if (word == "VmHWM:") status >> kib;
+  }
+  return kib >> 10;
+}
+
+// What the refusal of such files may take: readers, a band of rows, compressed data.
+constexpr size_t kRoomMib = 200;
+
+std::vector<uint8_t> Big32(uint64_t value) {
+  return {static_cast<uint8_t>(value >> 24), static_cast<uint8_t>(value >> 16),
+          static_cast<uint8_t>(value >> 8), static_cast<uint8_t>(value)};
+}
+
+void AppendChunk(const std::string& name, const std::vector<uint8_t>& data,
+                 std::vector<uint8_t>* file) {
+  std::vector<uint8_t> body(name.begin(), name.end());
+  body.insert(body.end(), data.begin(), data.end());
+  const std::vector<uint8_t> size = Big32(data.size());
+  const std::vector<uint8_t> crc = Big32(crc32(0, body.data(), static_cast<uInt>(body.size())));
+  for (const std::vector<uint8_t>& part : {size, body, crc}) {
+    file->insert(file->end(), part.begin(), part.end());
+  }
+}
+
+// An RGB file of 8 bits that holds `bytes` zeros, compressed.
+std::vector<uint8_t> Png(uint32_t width, uint32_t height, size_t bytes) {
+  std::vector<uint8_t> file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  std::vector<uint8_t> header = Big32(width);
+  const std::vector<uint8_t> rows = Big32(height), rest = {8, 2, 0, 0, 0};
+  header.insert(header.end(), rows.begin(), rows.end());
+  header.insert(header.end(), rest.begin(), rest.end());
+  AppendChunk("IHDR", header, &file);
+  std::vector<uint8_t> zeros(bytes), data(compressBound(bytes));
+  uLongf size = data.size();
+  compress2(data.data(), &size, zeros.data(), bytes, 9);
+  data.resize(size);
+  AppendChunk("IDAT", data, &file);
+  AppendChunk("IEND", {}, &file);
+  return file;
+}
+
+TEST_CASE("a PNG that promises more than deflate can hold costs nothing") {
+  const TestFolder folder;
+  constexpr uint64_t kAny = uint64_t{1} << 30;
+  // As many zeros as the picture has: read, however well it is compressed.
+  WriteBytes(folder / "whole.png", Png(2000, 1000, 1000 * (3 * 2000 + 1)));
+  CHECK(ReadPlainPng(folder / "whole.png", kAny));
+  const size_t before = PeakMib();
+  WriteBytes(folder / "bomb.png", Png(20'000, 8000, 1000));  // 0.5 GB
+  CHECK_FALSE(ReadPlainPng(folder / "bomb.png", kAny));
+  CHECK(Catching([&] { ReadImage(folder / "bomb.png"); }).code == ExitCode::kBadInput);
+  CHECK(PeakMib() < before + kRoomMib);
+}
+
+TEST_CASE("an EXR whose header promises pixels that are not there costs nothing") {
+  const TestFolder folder;
+  WritePicture(folder / "a.exr", MakePicture(8, 8), {});
+  std::vector<uint8_t> file = ReadBytes(folder / "a.exr");
+  const std::string name("dataWindow\0box2i\0", 17);
+  const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
+  REQUIRE(found != file.end());
+  // After the name, the type and the size: x0, y0, x1, y1, little-endian.
+  const auto corner = found + static_cast<std::ptrdiff_t>(name.size()) + 4 + 8;
+  const std::vector<uint8_t> far = {0xff, 0x3f, 0, 0, 0xff, 0x1f, 0, 0};  // 16384 x 8192
+  std::copy(far.begin(), far.end(), corner);
+  WriteBytes(folder / "bomb.exr", file);
+  CHECK(ReadExrHeader(folder / "bomb.exr").data.width() == 16384);
+  const size_t before = PeakMib();
+  const Caught caught = Catching([&] { ReadExr(folder / "bomb.exr"); });
+  CHECK(caught.code == ExitCode::kBadInput);
+  CHECK(caught.Says("bomb.exr"));
+  CHECK(PeakMib() < before + kRoomMib);
+}
+
+TEST_CASE("the first bytes choose the reader, among few") {
+  const TestFolder folder;
+  WriteText(folder / "ppm.png", "P6\n1 1\n255\nabc");
+  CHECK(ReadImage(folder / "ppm.png").Find("R")->samples == std::vector<float>{'a' / 255.0f});
+  const std::string others[] = {"GIF89a",
+                                "BM",
+                                "DDS ",
+                                "8BPS",
+                                "RIFF\x10\0\0\0WEBPVP8 ",
+                                "SDPX",
+                                std::string("\0\0\0\x18"
+                                            "ftypheic",
+                                            12),
+                                "\x59\xa6\x6a\x95"};
+  for (const std::string& head : others) {
+    CAPTURE(head);
+    for (const char* name : {"a.gif", "a.bmp", "a.dds", "a.psd", "a.webp", "a.dpx", "a.heic",
+                             "a.mp4", "a.cr2", "a.png"}) {
+      WriteText(folder / name, head + std::string(200, '\1'));
+      const Caught caught = Catching([&] { ReadImage(folder / name); });
+      CHECK(caught.code == ExitCode::kBadInput);
+      CHECK(caught.Says("cannot be read: not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA"));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre

@@ -1,0 +1,201 @@
+// tests/scene_io/hostile_test.cc: files that ask for more than anybody wants, and are told so.
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "catch.h"
+#include "scene_io/load_scene.h"
+#include "scene_io/text_file.h"
+#include "scene_io/texture_image.h"
+
+namespace nacre {
+namespace {
+
+struct HostileFolder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("nacre_hostile_test_" + std::to_string(getpid()));
+  HostileFolder() { std::filesystem::create_directories(path); }
+  ~HostileFolder() { std::filesystem::remove_all(path); }
+  std::filesystem::path Write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path / name, std::ios::binary) << bytes;
+    return path / name;
+  }
+};
+
+std::string MessageOf(const std::function<void()>& action, ExitCode code = ExitCode::kBadInput) {
+  try {
+    action();
+  } catch (const Error& error) {
+    CHECK(error.code() == code);
+    return error.what();
+  }
+  return "no error";
+}
+
+bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// What is said of a scene with these shapes when it may have `max` spheres and triangles.
+std::string MessageOfShapes(const std::string& shapes, uint64_t max,
+                            const std::string& lights = "{}") {
+  const HostileFolder folder;
+  folder.Write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  folder.Write("a.ppm", "P6\n1 1\n255\nabc");
+  LoadOptions options;
+  options.max_primitives = max;
+  return MessageOf([&] {
+    LoadSceneText(fmt::format(R"({{"nacre": 1, "materials": {{"a": {{"model": "lambert"}}}},
+                                  "textures": {{"t": {{"file": "a.ppm"}}}},
+                                  "lights": {}, "shapes": [{}]}})",
+                              lights, shapes),
+                  "test.json", folder.path, options);
+  });
+}
+
+// One shape is allowed, and the second one is one too many.
+TEST_CASE("what a file is made into has a bound, whatever it is made of") {
+  struct Case {
+    std::string shape;
+    uint64_t count;
+  };
+  const Case cases[] = {
+      {R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "a"})", 1},
+      {R"({"type": "cloud", "count": 50, "min": [0, 0, 0], "max": [1, 1, 1], "radius": 1,
+           "materials": ["a"]})",
+       50},
+      {R"({"type": "grid", "material": "a", "rows": {"count": 2}, "columns": {"count": 3}})",
+       6 * 16},
+      {R"({"type": "pair", "a": {"material": "a", "count": 3}, "b": {"material": "a", "count": 3}})",
+       6 * 16},
+      {R"({"type": "icosphere", "center": [0, 0, 0], "radius": 1, "material": "a",
+           "subdivisions": 2})",
+       320},
+      {R"({"type": "uv_sphere", "center": [0, 0, 0], "radius": 1, "material": "a",
+           "segments": 8, "rings": 4})",
+       64},
+      {R"({"type": "mesh", "file": "a.obj", "material": "a"})", 1},
+      {R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "a",
+           "displacement": {"texture": "t", "segments": 8}})",
+       64},
+  };
+  for (const auto& [shape, count] : cases) {
+    CAPTURE(shape);
+    const std::string two = fmt::format("{},{}", shape, shape);
+    CHECK(MessageOfShapes(two, 2 * count) == "no error");
+    const std::string message = MessageOfShapes(two, 2 * count - 1);
+    CHECK(Contains(message, "test.json: /shapes/1"));
+    CHECK(Contains(message, fmt::format("the scene would have more than {} spheres and triangles",
+                                        2 * count - 1)));
+  }
+}
+
+TEST_CASE("lights made of triangles count, too") {
+  const std::string lights = R"({"m": {"type": "mesh", "radiance": 1, "icosphere":
+      {"center": [0, 0, 0], "radius": 1, "subdivisions": 1}}})";
+  CHECK(MessageOfShapes("", 80, lights) == "no error");
+  CHECK(Contains(MessageOfShapes("", 79, lights), "more than 79 spheres and triangles"));
+}
+
+TEST_CASE("a second environment's picture is not even read") {
+  const std::string sky = R"({"type": "environment", "image": "none.exr"})";
+  const std::string message =
+      MessageOfShapes("", 100, fmt::format(R"({{"a": {}, "b": {}}})", sky, sky));
+  CHECK(Contains(message, "/lights/a/image: there is no file"));
+  CHECK(Contains(message, "/lights/b/image: a second environment"));
+}
+
+TEST_CASE("all textures of a scene share one bound") {
+  const HostileFolder folder;
+  const auto path = folder.Write("a.ppm", "P6\n4 2\n255\n" + std::string(24, 'x'));
+  CHECK_NOTHROW(ReadTextureImage(path, "a", TextureEncoding::kSrgb, 24));
+  CHECK(Contains(MessageOf([&] { ReadTextureImage(path, "a", TextureEncoding::kSrgb, 23); }),
+                 "4 x 2 texels are too many"));
+}
+
+// Edit distances of these would take hours; a test that never ends would be seen.
+TEST_CASE("slips are looked for in short names, and for faults that are told") {
+  const std::string mega_a(1'000'000, 'a'), mega_b = mega_a + 'b';
+  const std::string sphere = fmt::format(
+      R"({{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "{}"}})", mega_b);
+  const std::string message = MessageOf([&] {
+    LoadSceneText(fmt::format(R"({{"nacre": 1, "materials": {{"{}": {{"model": "lambert"}}}},
+                                  "shapes": [{}]}})",
+                              mega_a, sphere),
+                  "test.json", {});
+  });
+  CHECK(Contains(message, "unknown material"));
+  std::string materials = R"("m": {"model": "lambert"})", shapes = "{}";
+  for (int i = 0; i < 20'000; ++i) {
+    materials += fmt::format(R"(, "m{}": {{"model": "lambert"}})", i);
+    shapes += R"(, {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "n"})";
+  }
+  const std::string many = MessageOf([&] {
+    LoadSceneText(
+        fmt::format(R"({{"nacre": 1, "materials": {{{}}}, "shapes": [{}]}})", materials, shapes),
+        "test.json", {});
+  });
+  CHECK(Contains(many, "did you mean \"m\"?"));
+  CHECK(Contains(many, "more faults"));
+}
+
+TEST_CASE("a material library is read once, however often a file names it") {
+  const HostileFolder folder;
+  std::string mtl = "newmtl a\nKd 1 1 1\n", obj;
+  for (int i = 0; i < 20'000; ++i) mtl += "# a comment that takes its time\n";
+  for (int i = 0; i < 20'000; ++i) obj += "mtllib a.mtl\n";
+  folder.Write("a.mtl", mtl);
+  const Scene scene =
+      LoadScene(folder.Write("a.obj", obj + "usemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  CHECK(scene.materials.size() == 2);  // with the one of faces without any
+}
+
+// tinyobjloader multiplies exponents out as an int.
+TEST_CASE("numbers of OBJ and MTL that no double holds reach no library") {
+  const HostileFolder folder;
+  const std::string faces = "v 1 0 0 1e2147483649 1 1\nv 0 1 0\nvw 0 1 1e2147483649\nf 1 2 3\n";
+  folder.Write("a.mtl", "newmtl a\nNi 1e2147483649\nPr 1e2147483649\n");
+  folder.Write("b.mtl", "newmtl b\nmap_Kd -o 1e2147483649 x.png\n");
+  folder.Write("c.mtl", "newmtl c\nmap_Kd -s 2 2 1.5 3d picture.png\n");
+  const auto message = [&](const std::string& first) {
+    const auto path = folder.Write("a.obj", first + "\nv 0 0 0\n" + faces);
+    return MessageOf([&] { LoadScene(path); });
+  };
+  CHECK(message("mtllib a.mtl") == "no error");
+  CHECK(Contains(message("mtllib b.mtl"), "b.mtl:2: \"1e2147483649\" is not a finite number"));
+  CHECK(message("mtllib c.mtl") == "no error");
+}
+
+TEST_CASE("--set reaches as deep as a file does, and no deeper") {
+  const auto set = [](const std::string& pointer, const std::string& value) {
+    LoadOptions options;
+    options.overrides.emplace_back(pointer, value);
+    return MessageOf([&] { LoadSceneText(R"({"nacre": 1})", "test.json", {}, options); },
+                     ExitCode::kUsage);
+  };
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += "/a";
+  CHECK(Contains(set(deep, "1"), "is deeper than 100 levels"));
+  CHECK(Contains(set("/a", std::string(100'000, '[')), "is not JSON"));
+}
+
+TEST_CASE("names of files end where they end") {
+  using namespace std::string_literals;
+  const HostileFolder folder;
+  folder.Write("a.obj", "");
+  std::filesystem::create_directory(folder.path / "scene");
+  for (const std::string& name : {"a\0b"s, "../a.obj\0"s, "\0"s}) {
+    CHECK(Contains(MessageOf([&] { ResolveReference(folder.path / "scene", name, false); }),
+                   "has a character 0 in it"));
+  }
+  CHECK(Contains(MessageOf([&] { ResolveReference(folder.path, std::string(5000, 'x'), false); }),
+                 "is not a path"));
+}
+
+}  // namespace
+}  // namespace nacre
