@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "base/error.h"
 #include "api/metadata.h"
+#include "base/error.h"
 #include "image_io/exr_compress.h"
 
 namespace nacre {
@@ -36,6 +36,7 @@ constexpr KnownAttribute kKnown[] = {
     {"nacre:settings", "render all tiles with the same options"},
     {"nacre:maxError", "render all tiles with the same --max-error"},
     {"nacre:maxSamples", "render all tiles with the same --spp"},
+    {"nacre:fastLights", "render all tiles with --fast, or none"},
     {kSceneHash, "the scene changed in between: render the older tiles again"},
     {kRenderTimeAttribute, "render all tiles with --reproducible, or none"},
 };
