@@ -74,13 +74,8 @@ ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible, const std::st
     attributes["nacre:maxError"] = static_cast<float>(plan.adaptive.max_error);
     attributes["nacre:maxSamples"] = plan.adaptive.max_samples;
   }
-<<<<<<< HEAD
   if (!tile.empty()) attributes[kTileAttribute] = tile;
   if (!plan.fast_lights.empty()) attributes["nacre:fastLights"] = FastLightText(plan);
-=======
-  if (!plan.fast_lights.empty()) attributes["nacre:fastLights"] = FastLightText(plan);
-  if (!tile.empty()) attributes[kTileAttribute] = tile;
->>>>>>> fast
   if (!reproducible) attributes[kRenderTimeAttribute] = 0.0f;
   return header;
 }

@@ -79,29 +79,17 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("x0,y0,x1,y1")
       ->group(picture);
   command
-<<<<<<< HEAD
-=======
-      ->add_flag("--fast", o->fast,
-                 "Put approximations in the place of samples of lights: of an environment's image, "
-                 "where all of it is seen, its spherical harmonics; --explain tells how far off "
-                 "they are")
-      ->group(picture);
-  command
->>>>>>> fast
       ->add_option(
           "--tile", o->tile,
           "Render band i = 0 .. N-1 of N from the top: the same bits as in the full frame. "
           "nacre merge puts the bands' EXR files together")
       ->type_name("i/N")
-<<<<<<< HEAD
       ->group(picture);
   command
       ->add_flag("--fast", o->fast,
                  "Put approximations in the place of samples of lights: of an environment's image, "
                  "where all of it is seen, its spherical harmonics; --explain tells how far off "
                  "they are")
-=======
->>>>>>> fast
       ->group(picture);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command
