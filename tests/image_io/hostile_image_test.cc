@@ -1,5 +1,7 @@
 // tests/image_io/hostile_image_test.cc: images that promise more than they hold, and formats that a
 // stranger may not choose.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -83,10 +85,11 @@ TEST_CASE("an EXR whose header promises pixels that are not there costs nothing"
   REQUIRE(found != file.end());
   // After the name, the type and the size: x0, y0, x1, y1, little-endian.
   const auto corner = found + static_cast<std::ptrdiff_t>(name.size()) + 4 + 8;
-  const std::vector<uint8_t> far = {0xff, 0x3f, 0, 0, 0xff, 0x1f, 0, 0};  // 16384 x 8192
+  const std::vector<uint8_t> far = {0xff, 0x1f, 0, 0, 0xff, 0x0f, 0, 0};  // 8192 x 4096
   std::copy(far.begin(), far.end(), corner);
+  file.resize(file.size() + (1 << 16));  // room for the table of its chunks, which it must have
   WriteBytes(folder / "bomb.exr", file);
-  CHECK(ReadExrHeader(folder / "bomb.exr").data.width() == 16384);
+  CHECK(ReadExrHeader(folder / "bomb.exr").data.width() == 8192);
   const size_t before = PeakMib();
   const Caught caught = Catching([&] { ReadExr(folder / "bomb.exr"); });
   CHECK(caught.code == ExitCode::kBadInput);
@@ -97,7 +100,9 @@ TEST_CASE("an EXR whose header promises pixels that are not there costs nothing"
 TEST_CASE("the first bytes choose the reader, among few") {
   const TestFolder folder;
   WriteText(folder / "ppm.png", "P6\n1 1\n255\nabc");
-  CHECK(ReadImage(folder / "ppm.png").Find("R")->samples == std::vector<float>{'a' / 255.0f});
+  // Half an ulp of 1: a division or a multiplication by its inverse.
+  const float red = ReadImage(folder / "ppm.png").Find("R")->samples.at(0);
+  CHECK(std::abs(red - 'a' / 255.0f) <= 0x1p-24f);
   const std::string others[] = {"GIF89a",
                                 "BM",
                                 "DDS ",
