@@ -144,7 +144,7 @@ class FaultsTest(unittest.TestCase):
                 folder = self.out / 'gone'
                 folder.mkdir()
                 process = subprocess.Popen(
-                    [PROGRAM, 'render', GRID, '-o', folder / 'a.exr', '--size', '1024x1024', '--spp', '16',
+                    [PROGRAM, 'render', GRID, '-o', folder / 'a.exr', '--size', '4096x4096', '--spp', '16',
                      '--progress=json'], stderr=subprocess.PIPE, text=True)
                 process.stderr.readline()  # rendering has begun
                 shutil.rmtree(folder)
