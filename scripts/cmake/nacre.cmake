@@ -19,6 +19,21 @@ if(NACRE_WERROR)
   target_compile_options(nacre_options INTERFACE -Werror)
 endif()
 
+# nacre_one_unit(TARGET [EXCEPT FILES...]): with NACRE_UNITY, compiles the target's files as one, but
+# for SIMD files, which are compiled once for every target, and those named, which have helpers of
+# the same name as others'. Half of a file's compile time goes into reading headers.
+function(nacre_one_unit target)
+  cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
+  if(NOT NACRE_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "_kernel\\.cc$|/version\\.cc$")
+  list(TRANSFORM ARG_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  set_source_files_properties(${sources} ${ARG_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # nacre_library(NAME DEPENDS... ): the library nacre_<NAME> from all of src/<NAME>/*.cc.
 function(nacre_library name)
   cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
