@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/access_bench.cc: what it costs a kernel to come by its hits and materials. All that
 // shading_bench.cc measures has its hits in L1 and L2 and one material for all; here the same
 // light evaluation and shading with

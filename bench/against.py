@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Is the working tree slower than a commit? Both programs run in turns; ratios are paired."""
 import dataclasses
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/batch_shader.h: a batch of hits under one point light, shaded as the renderer does it.
 #pragma once
 

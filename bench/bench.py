@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Measures nacre: kernels, visibility, frames, processes, scaling, run time against error.
 
 Run by scripts/bench, which builds first; its --help says what there is.

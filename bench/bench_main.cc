@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/bench_main.cc: main() of the benchmarks; says what the machine is.
 #include <string>
 #include <vector>

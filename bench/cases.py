@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The whole processes that are timed: from spawn to exit, two files written."""
 import pathlib
 

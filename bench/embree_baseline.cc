@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/embree_baseline.cc: what Embree alone needs for a frame of camera rays: its built-in
 // spheres, packets of 16 rays made in float, the coherent flag, the closest hit and nothing after
 // it. Building the tree is left out. One thread.

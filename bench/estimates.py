@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The arithmetic behind the numbers: medians, paired ratios with an interval, growth."""
 import math
 import statistics

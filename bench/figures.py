@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The diagrams: what is on which axis."""
 import estimates
 import lights

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/frame_bench.cc: whole frames in memory, by stage: planning included, files and process
 // start left out. One thread unless the name says otherwise.
 //

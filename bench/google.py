@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs nacre_bench and reads what Google Benchmark writes."""
 import json
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run time against error under lights that are sampled: the material grid under a sky, under a
 rectangle and under the picture of a sky with a small sun, one thread."""
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/math_bench.cc: time and error of the ways to compute one highlight: the textbook's formula
 // in float (the scalar baseline's), the stable form in float, and half-vector terms in double.
 // The renderer chooses between the last two by the material; here each does all widths.

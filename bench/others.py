@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Other renderers on the material grid, where they are installed: the same spheres, camera, light
 and size, a material as near as theirs comes. Their shading is their own, so each is held against
 its own picture of very many samples."""

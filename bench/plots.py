@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Draws with gnuplot: the same commands for SVG and PNG."""
 import shutil
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run time against error: pictures of fewer samples beside one of very many."""
 import json
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Runs programs and tells wall time from spawn to exit and peak memory."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Puts the diagrams into scenes/gallery and the table between two marks of the README."""
 import shutil
 

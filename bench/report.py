@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The results as text tables; `markdown` is the short form that the README shows."""
 import estimates
 import machine

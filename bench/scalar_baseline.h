@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/scalar_baseline.h: what the SIMD kernels are measured against: plain per-hit float C++ in
 // the textbook's form. Not for use in the renderer: its forms are neither stable nor exact.
 #pragma once

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How time and memory grow: with spheres, triangles, lights, pixels and threads."""
 import estimates
 import scene_files

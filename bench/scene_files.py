@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Scenes made for the scaling curves, and the material grid for other renderers."""
 import json
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """All sizes of a run: how often, how large, how far. `--quick` takes the small end of each."""
 import dataclasses
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/shading_bench.cc: throughput of shading: a run of 512 hits of one material, in L1, under
 // one point light (lights16: 16 of them). All that is done per hit and light is counted: the
 // light's direction and fall-off, what the material prepares per view, reflection. Per model and

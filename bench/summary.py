@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The headline numbers, one name and one value each, out of what a run measured.
 
 `_over_` between two ways to do the same work is how many times faster the first is; names that end

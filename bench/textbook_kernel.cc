@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/textbook_kernel.cc: the kernels behind textbook_kernel.h.
 #include "textbook_kernel.h"
 

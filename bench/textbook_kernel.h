@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/textbook_kernel.h: the textbook's forms of three models as SIMD kernels, with nacre's light
 // and loop around them: what the stable forms cost. Not for use in the renderer.
 #pragma once

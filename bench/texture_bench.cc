@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/texture_bench.cc: what textures cost: look-ups alone, and all that is done for a run of 512
 // hits on a sphere whose material has maps (coordinates, footprints, look-ups, what the maps make
 // of the material, products with one light, reflection), beside shade/* of materials without.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/time_process.cc: time_process COMMAND [ARGUMENTS...] runs a program, drops what it prints
 // on stdout, and prints "wall seconds, processor seconds, peak MiB, exit code".
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/visibility_bench.cc: camera rays against spheres: the exact hits of a 1920x1080 frame,
 // one thread, by number of spheres. bench/embree_baseline.cc is what they are held against.
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // bench/visibility_scenes.h: the sphere scenes that nacre and the bare Embree baseline both trace.
 #pragma once
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # scripts/common.sh: what the scripts here share. It is sourced by them, not run.
 # shellcheck shell=bash
 set -euo pipefail

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """scripts/farm.py: what farm_local and farm_slurm share: a picture as tiles that can be lost and
 made again. It is imported by them, not run.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """scripts/farm_measure.py: what farm_local --measure prints: the costs of tiles, merging and Slurm on
 this machine, and what they grow to. It is imported, not run.
 

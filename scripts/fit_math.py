@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Prints the polynomial coefficients of src/base/{math,trig}-inl.h and their errors.
 
 Interpolates at Chebyshev nodes in exact rational arithmetic, then rounds to float. The error

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // nacre.h: nacre as a C++17 library. Installed as <nacre/nacre.h>, with the library libnacre.
 //
 //   nacre::Scene scene;

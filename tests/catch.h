@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/catch.h: Catch2, version 2 or 3, under one include.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/chi_squared.h: whether counts of samples follow given probabilities.
 #pragma once
 

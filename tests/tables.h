@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/tables.h: reads the reference tables and states the rule that most of them are judged by.
 #pragma once
 

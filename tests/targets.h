@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/targets.h: runs a test on every SIMD target that this machine has.
 #pragma once
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes torus_knot.obj: a (2, 3) torus knot as a tube of quads, without normals.
 
 Lies about the xy plane: |x|, |y| < 1.6, |z| < 0.7 (nacre computes the smooth normals).

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Makes pawns.glb: chess pieces on a board, all of triangles, for `nacre render`.
 
 Usage: make_pawns.py OUT.glb. Nothing but Python's own library is needed.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where, and the packages that CPack makes of it.
 #
 # Two components: runtime (the program, libnacre.so.0, what they load, scenes) and development.

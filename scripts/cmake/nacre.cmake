@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Helpers for nacre's own libraries, tests and benchmarks.
 
 find_package(Threads REQUIRED)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/border.h: the public header beside the library's own types, and what passes between them.
 // Inside namespace v0, names are the public ones; the library's own are written nacre::Scene.
 #pragma once

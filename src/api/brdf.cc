@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/brdf.cc: reflection models of the public API, in double and through the kernels.
 #include <algorithm>
 

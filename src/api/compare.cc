@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/compare.cc: comparisons of the public API.
 #include "api/border.h"
 #include "compare/perceptual.h"

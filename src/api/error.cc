@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/error.cc: errors of the public API, and what this build and machine are.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

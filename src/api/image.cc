@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/image.cc: images of the public API: to and from the library's own, and read from files.
 #include "api/border.h"
 #include "image_io/image_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/metadata.h: what the files of a render say about it.
 #pragma once
 

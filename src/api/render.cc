@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/render.cc: renders of the public API.
 #include "render/render.h"
 

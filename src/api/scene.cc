@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/scene.cc: scenes of the public API.
 #include "api/scene_impl.h"
 #include "scene/fault_list.h"

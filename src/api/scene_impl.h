@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/scene_impl.h: what a public scene is made of, and the scene that it makes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/value.cc: values of the public API as the JSON text that scene files would have.
 #include <cmath>
 

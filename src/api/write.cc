@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // api/write.cc: images of the public API to EXR and PNG files.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/aligned.h: arrays that SIMD kernels load from: aligned, zeroed, padded to whole vectors.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/basis-inl.h: orthonormal bases on SIMD vectors. Scalar twin: base/basis.h.
 #if defined(NACRE_BASE_BASIS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_BASIS_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/basis.h: two unit vectors that make a right-handed orthonormal basis with a third. SIMD
 // twin: basis-inl.h.
 #pragma once

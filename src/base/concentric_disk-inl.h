@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/concentric_disk-inl.h: square to disk on SIMD vectors. Scalar twin: base/concentric_disk.h.
 #if defined(NACRE_BASE_CONCENTRIC_DISK_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_CONCENTRIC_DISK_INL_H_

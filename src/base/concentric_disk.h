@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/concentric_disk.h: the unit square mapped to the unit disk, areas kept. SIMD twin:
 // concentric_disk-inl.h.
 #pragma once

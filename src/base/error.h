@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/error.h: the one error type. Thrown at the edges (scene and image I/O, validation),
 // caught once in main. Kernels never throw; libraries never print.
 #pragma once

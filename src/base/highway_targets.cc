@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/highway_targets.cc: which of Highway's targets this processor has, in place of libhwy's
 // three functions for that, so that nacre is not linked with the library: its initialiser measures
 // the clock for 4 ms at each start of a program.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/huge_pages.h: large arrays in 2 MiB pages where the system offers them: there are then few
 // faults when they are first touched, and few misses of the page table where they are read here
 // and there.

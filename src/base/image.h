@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/image.h: an image in memory: named float channels and the windows they cover.
 // What readers return, compare works on and tests build. Rendering itself works strip by strip
 // and never holds one.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/math-inl.h: base-2 logarithm and exponential on float vectors, for powers with real
 // exponents: x^n = Exp2(n Log2(x)). Highway's contrib has natural ones, twice as slow, and their
 // log1p loses a cosine near 0.

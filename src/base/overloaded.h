@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/overloaded.h: chooses a lambda by a variant's alternative, for std::visit.
 #pragma once
 

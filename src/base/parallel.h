@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/parallel.h: work on all cores. The only folder that knows TBB.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/target.h: the SIMD targets that nacre runs on, and which of them this process uses.
 //
 // Kernels are compiled for all of them and dispatched at run time by Highway, whose choice is

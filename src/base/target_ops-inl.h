@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/target_ops-inl.h: the few operations whose fastest exact form depends on the target. The
 // only #if on HWY_TARGET in nacre.
 //

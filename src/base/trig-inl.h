@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/trig-inl.h: sine, cosine and arc tangent on float vectors. Scalar twin of what the standard
 // library lacks: trig.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/trig.h: what trigonometry of solid angles needs beyond the standard library. SIMD twin:
 // trig-inl.h.
 #pragma once

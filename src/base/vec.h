@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/vec.h: the vector types, Imath's, under short names.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/vec3-inl.h: vectors of three on SIMD vectors: one per lane.
 #if defined(NACRE_BASE_VEC3_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_VEC3_INL_H_

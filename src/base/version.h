@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/version.h: what this build is. Written at build time.
 #pragma once
 

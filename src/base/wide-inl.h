@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // base/wide-inl.h: two vectors as one, for every operation that shading uses. Kernels written for
 // Wide run two packets side by side, instruction by instruction: a shading formula is one long
 // chain of dependent operations, and a processor's window holds less than two of them one after

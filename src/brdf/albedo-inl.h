@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/albedo-inl.h: directional albedos on SIMD vectors, all lanes of one material, or each of its
 // own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
 #if defined(NACRE_BRDF_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)

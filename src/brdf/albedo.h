@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/albedo.h: directional albedos of the GGX lobe at render time: how much a lobe reflects in
 // all, seen from n.v. SIMD twin: albedo-inl.h. The truth behind them: brdf/albedo_integral.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/albedo_curve.h: the form of the run-time albedos (brdf/albedo.h): which functions of n.v
 // they are polynomials in. SIMD twin: albedo-inl.h.
 //

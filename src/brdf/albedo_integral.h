@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/albedo_integral.h: directional albedos of the GGX lobe by quadrature, in double: the truth
 // that the run-time fits (brdf/albedo.h) are made from and tested against. No Monte Carlo.
 //

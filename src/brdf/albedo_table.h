@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/albedo_table.h: the table behind MakeAlbedoFit. Its contents are generated at build time, by
 // brdf/table/make_albedo_table.cc.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/angles-inl.h: the angles of brdf/angles.h on SIMD vectors.
 #if defined(NACRE_BRDF_ANGLES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_ANGLES_INL_H_

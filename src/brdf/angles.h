@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/angles.h: what every reflection model is a function of: the angles between a surface's
 // normal, a light and a viewer, in forms that keep their precision. SIMD twin: angles-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/burley-inl.h: Burley's diffuse term on SIMD vectors. Scalar twin: brdf/burley.h.
 #if defined(NACRE_BRDF_BURLEY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_BURLEY_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/burley.h: the diffuse term of Burley 2012, "Physically-Based Shading at Disney",
 // section 5.3. SIMD twin: burley-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/eon-inl.h: rough diffuse reflection on SIMD vectors. Scalar twin: brdf/eon.h.
 #if defined(NACRE_BRDF_EON_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_EON_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/eon.h: EON, diffuse reflection of rough surfaces that keeps energy and is reciprocal.
 // Portsmouth, Kutz and Hill 2025, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT
 // 14(1). SIMD twin: eon-inl.h.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/fresnel-inl.h: Fresnel terms on SIMD vectors. Scalar twin: brdf/fresnel.h.
 #if defined(NACRE_BRDF_FRESNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_FRESNEL_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/fresnel.h: reflectance of a smooth interface. SIMD twin: fresnel-inl.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/fresnel_average.h: Fresnel curves averaged over the hemisphere, F_avg = 2 int F(c) c dc:
 // what light that bounced between microfacets has met at each bounce.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/ggx-inl.h: GGX microfacet terms on SIMD vectors. Scalar twin: brdf/ggx.h.
 #if defined(NACRE_BRDF_GGX_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_GGX_INL_H_

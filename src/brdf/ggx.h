@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/ggx.h: GGX microfacet terms: distribution and masking-shadowing. SIMD twin: ggx-inl.h.
 //
 // alpha = roughness^2, converted in one place: AlphaFromRoughness. There is no floor: the stable

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/lobe_sampling-inl.h: lobes sampled on SIMD vectors. Scalar twin: brdf/lobe_sampling.h.
 #if defined(NACRE_BRDF_LOBE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_LOBE_SAMPLING_INL_H_

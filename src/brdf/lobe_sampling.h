@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/lobe_sampling.h: directions to light sampled from the lobes of reflection models. SIMD twin:
 // lobe_sampling-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/multi_scatter-inl.h: multiple-scattering terms on SIMD vectors. Scalar twin:
 // brdf/multi_scatter.h. Kulla and Conty's are products of AlbedoLoss and a material's constants.
 #if defined(NACRE_BRDF_MULTI_SCATTER_INL_H_) == defined(HWY_TARGET_TOGGLE)

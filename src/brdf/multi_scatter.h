@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/multi_scatter.h: what brings back the light that a single bounce on microfacets loses. SIMD
 // twin: multi_scatter-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/phong-inl.h: the lobes of the Phong family on SIMD vectors. Scalar twin: brdf/phong.h.
 #if defined(NACRE_BRDF_PHONG_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_PHONG_INL_H_

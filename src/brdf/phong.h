@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/phong.h: the specular lobes of the Phong family. SIMD twin: phong-inl.h.
 //
 // With c the lobe's cosine, c^n = exp(n log(c)) loses n roundings of c when written that way:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/presets.h: measured indices of refraction of named materials, for the exact Fresnel curves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/quadrature.h: Gauss-Legendre rules, for the integrals that reflection models have no closed
 // form of.
 #pragma once

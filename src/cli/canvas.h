@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/canvas.h: a picture of display codes that is put together from others and text.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_compare.cc: nacre compare: metrics of an image against a reference, a verdict, a map.
 #include <memory>
 #include <optional>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_convert.cc: nacre convert: a material of one model as the nearest one of another.
 #include <memory>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_docs.cc: nacre docs man|bash: what is installed beside the program. Not in the help.
 #include <memory>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_explain.cc: nacre explain TOPIC: what a part of nacre is about, with numbers that it
 // measures while it tells.
 #include <filesystem>

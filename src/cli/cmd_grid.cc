@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_grid.cc: nacre grid: a sheet of spheres over two axes of materials, without a file.
 #include <algorithm>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_info.cc: nacre info: what an image file or scene file holds, and what this build is.
 #include <algorithm>
 #include <memory>

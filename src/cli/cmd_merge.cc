@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_merge.cc: nacre merge: the tiles of a picture to the whole of it.
 #include <algorithm>
 #include <chrono>

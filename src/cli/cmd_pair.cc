@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_pair.cc: nacre pair: two materials as halves of one sphere, side by side, or with their
 // difference.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_plot.cc: nacre plot: reflection models, lights and tone operators as curves.
 #include <memory>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_render.cc: nacre render SCENE -o FILE...
 #include <memory>
 

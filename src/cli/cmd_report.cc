@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_report.cc: nacre report: pictures, comparisons, validations and benchmarks as one HTML
 // file.
 #include <algorithm>

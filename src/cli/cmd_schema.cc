@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_schema.cc: nacre schema
 #include "cli/commands.h"
 #include "cli/print.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_study.cc: nacre study: the lesson's exercises, answered in a folder of pictures,
 // diagrams, numbers and words.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_tonemap.cc: nacre tonemap: a linear image to a PNG for a display.
 #include <algorithm>
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/cmd_validate.cc: nacre validate: renders scenes that have a reference image and compares.
 #include <filesystem>
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/commands.h: the program's commands. Each adds itself to the command line; its work runs as
 // the subcommand's callback and its exit code is left in *exit_code.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/difference_page.h: two materials and their difference side by side: A | B | |A - B|, with
 // the difference's scale and its measures, as a PNG.
 #pragma once

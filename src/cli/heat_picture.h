@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/heat_picture.h: a heat map with its legend as a PNG.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/labels.h: the scene's labels in the picture (--labels).
 #pragma once
 

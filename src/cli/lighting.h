@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/lighting.h: the lights of sheets, by the name of a set-up or given as JSON.
 #pragma once
 

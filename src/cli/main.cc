@@ -1,7 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/main.cc: the program: commands, and the one place where errors are printed.
+#include <unistd.h>
+
 #include <algorithm>
 #include <iostream>
 #include <new>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -87,6 +91,9 @@ int main(int argc, char** argv) {
   try {
     return Run(argc, argv);
   } catch (...) {  // not even the message of an error could be put together
+    constexpr std::string_view kMessage =
+        "error: out of memory\n  hint: give the program more, not even a message had room\n";
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
     return static_cast<int>(nacre::ExitCode::kInternal);
   }
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/manual.h: the command line as others read it, written from its own definitions.
 #pragma once
 

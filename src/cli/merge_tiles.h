@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/merge_tiles.h: which files are the tiles of one picture, and what that picture's file says.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/metrics_json.h: the figures of a comparison for programs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/outputs.h: the files of a render: strips in, EXR and PNG files out, whole or not at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/perceptual_options.h: the options that ask for SSIM, FLIP and HDR-FLIP.
 #pragma once
 

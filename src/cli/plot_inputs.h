@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/plot_inputs.h: the materials and lights that `nacre plot` is told to draw.
 #pragma once
 

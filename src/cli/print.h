@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/print.h: text to standard output and standard error.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/progress.h: tells the user how far long work is, and notices when it is to stop.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/references.h: scenes that have a reference image.
 //
 // A folder of references holds, for each, NAME.reference.json:

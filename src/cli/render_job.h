@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/render_job.h: the whole job behind render, grid and pair: scene in, files out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/render_options.h: the options that every command that renders shares.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/report_inputs.h: what nacre report is given, read or rendered, and told apart by what it is.
 #pragma once
 

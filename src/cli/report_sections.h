@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/report_sections.h: the parts of a report as the page wants them (src/report/html).
 #pragma once
 

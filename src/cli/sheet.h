@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/sheet.h: scenes that the commands grid and pair build from their arguments: spheres in the
 // cells of a page, before a plain ground.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/sheet_page.h: where things are on a sheet: cells with a sphere each, and around them, on the
 // plain ground, title, axis names, values and a footer. All in pixels of the picture.
 #pragma once

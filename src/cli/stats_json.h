@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/stats_json.h: times and counts of a render for programs (--stats, --dry-run).
 #pragma once
 

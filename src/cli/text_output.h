@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/text_output.h: text files that appear whole or not at all.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/text_width.h: how wide text will be, without the module that draws it.
 #pragma once
 

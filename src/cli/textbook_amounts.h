@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/textbook_amounts.h: how much each fault of the founding documents amounts to (FaultAmount):
 // by switching it off in the lesson's pictures, by quadrature, or from its formula.
 #pragma once

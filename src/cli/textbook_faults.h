@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/textbook_faults.h: the faults of the founding documents, one by one: in words here, in
 // numbers that are computed when they are asked for.
 #pragma once

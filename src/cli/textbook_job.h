@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/textbook_job.h: nacre render --preset textbook: the founding lesson's pictures, faults and
 // all, made by its own program (textbook/).
 #pragma once

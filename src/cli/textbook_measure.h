@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/textbook_measure.h: by how much two versions of the lesson's pictures differ.
 #pragma once
 

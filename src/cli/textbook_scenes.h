@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/textbook_scenes.h: scenes/textbook/*.json in the program: the lesson's two set-ups for
 // nacre's own renderer, with real spheres and light that falls off.
 #pragma once

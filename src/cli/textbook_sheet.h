@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/textbook_sheet.h: a picture of the lesson beside nacre's own and the difference of the two.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // cli/wrap_text.h: text broken into lines, and labels made to fit beside one another.
 #pragma once
 

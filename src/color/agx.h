@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/agx.h: the AgX tone operator (Troy Sobotka 2022): its base image formation, without a look.
 // SIMD twin: tone-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/display.h: from linear scene radiance to what a display shows: exposure, tone operator,
 // exact sRGB transfer, 8 bits.
 #pragma once

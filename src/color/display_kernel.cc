@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/display_kernel.cc: EncodeDisplay of color/display.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "color/display_kernel.cc"

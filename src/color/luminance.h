@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/luminance.h: relative luminance of linear Rec. 709 values.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/srgb8-inl.h: 8-bit sRGB codes on SIMD vectors. Scalar twin: color/srgb8.h.
 #if defined(NACRE_COLOR_SRGB8_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_COLOR_SRGB8_INL_H_

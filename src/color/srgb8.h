@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/srgb8.h: 8-bit sRGB codes of linear floats, exact for every float, without a power
 // function. SIMD twin: srgb8-inl.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/tone-inl.h: tone operators on SIMD vectors. Scalar twins: color/tone.h and color/agx.h.
 //
 // Each is a functor that changes r, g and b in place, from [0, inf] to [0, 1]. For kernels and

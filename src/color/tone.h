@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/tone.h: tone operators: linear scene radiance in [0, inf], Rec. 709, to linear display
 // light in [0, 1]. SIMD twin: tone-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // color/transfer.h: the sRGB transfer curves, exact. 8-bit codes are made by color/srgb8.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/flip.h: FLIP, what a viewer who flips between two pictures sees change: Andersson,
 // Nilsson, Akenine-Moeller, Oskarsson, Astroem and Fairchild 2020, "FLIP: A Difference Evaluator
 // for Alternating Images".

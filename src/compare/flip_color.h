@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/flip_color.h: the colour spaces of FLIP (Andersson et al. 2020, its colour pipeline), in
 // double.
 #pragma once

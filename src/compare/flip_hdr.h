@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/flip_hdr.h: FLIP of linear pictures over a range of exposures: Andersson, Nilsson,
 // Shirley and Akenine-Moeller 2021, "Visualizing Errors in Rendered High Dynamic Range Images".
 #pragma once

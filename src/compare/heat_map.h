@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/heat_map.h: where two images differ, as colours of the logarithm of the error.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/layers.h: what of two images is compared with what: channels of one name over the pixels
 // that both cover, grouped into layers.
 #pragma once

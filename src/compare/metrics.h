@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/metrics.h: how far an image is from its reference, layer by layer.
 #pragma once
 

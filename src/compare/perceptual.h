@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/perceptual.h: metrics of what is seen: SSIM, FLIP and HDR-FLIP of the layers that are
 // colours.
 #pragma once

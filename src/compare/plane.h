@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/plane.h: pictures as planes of doubles and their separable filters, for the metrics that
 // look at neighbourhoods.
 #pragma once

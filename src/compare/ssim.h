@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/ssim.h: the structural similarity of two grey pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // compare/verdict.h: whether an image matches its reference within given tolerances, and why not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: camera rays,
 // their closest hits, shaded hits and shadow rays. Data only: made by render and visibility,
 // read by shading, which never includes each other.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // hit/camera_frame.h: a camera as rays are made from it and spheres are projected by it. Data only,
 // made by render/camera.h.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/deflate.h: deflate, by ISA-L where speed counts and by zlib where size does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_bands.h: EXR files that each hold a band of a picture's rows, and the file that they
 // make together: chunks are copied as they are, never decoded.
 #pragma once

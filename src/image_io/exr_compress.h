@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_compress.h: one chunk of an EXR file, compressed. Any thread.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_container.h: an EXR file around chunks that are compressed already.
 // The only file, with its .cc, that uses OpenEXR's C library.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_header.h: what an EXR file says about itself, as the writer is told it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_reader.h: EXR files into memory, by OpenEXR.
 #pragma once
 

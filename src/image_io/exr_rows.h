@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_rows.h: a strip's samples as they stand in an EXR file before compression.
 #pragma once
 

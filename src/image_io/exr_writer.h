@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/exr_writer.h: EXR files written strip by strip while the picture is being rendered.
 #pragma once
 

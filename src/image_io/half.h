@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/half.h: floats to 16-bit halves, as EXR stores them.
 #pragma once
 

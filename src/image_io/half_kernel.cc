@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/half_kernel.cc: FloatToHalf and CountNonfinite of image_io/half.h.
 //
 // In integers, on every target: Highway's conversion to half truncates on the targets without

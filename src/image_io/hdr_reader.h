@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/hdr_reader.h: plain Radiance pictures into memory without OpenImageIO, whose libraries
 // take 0.2 s to load.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/image_reader.h: images of any format into memory.
 #pragma once
 

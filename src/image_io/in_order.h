@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/in_order.h: what several threads finish in any order, written in order.
 #pragma once
 

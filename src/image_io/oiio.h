@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/oiio.h: OpenImageIO, loaded when first used.
 //
 // It is in a module of its own, nacre_oiio.so, looked for beside libnacre.so and the program; in

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/oiio_abi.h: what the module nacre_oiio offers, in plain C types.
 //
 // The module is the only thing that links OpenImageIO, whose 261 libraries take 0.2 s to load; it

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/output_file.h: files that appear whole or not at all.
 #pragma once
 

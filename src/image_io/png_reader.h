@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/png_reader.h: plain PNG files into memory without OpenImageIO, whose libraries take 0.2
 // s to load.
 #pragma once

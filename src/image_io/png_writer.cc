@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "image_io/png_writer.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/png_writer.h: 8-bit RGB PNG files written strip by strip while the picture is being
 // rendered.
 #pragma once

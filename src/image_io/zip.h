@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/zip.h: what EXR's ZIP compressions do to samples before they deflate them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // image_io/zip_kernel.cc: SplitAndPredict of image_io/zip.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "image_io/zip_kernel.cc"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/area_sample-inl.h: samples of area lights on SIMD vectors: what the shapes share. Scalar
 // twin: area_sample.h.
 #if defined(NACRE_LIGHT_AREA_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)

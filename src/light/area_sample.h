@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/area_sample.h: a direction sampled towards an area light. The lights themselves:
 // {sphere,rectangle,disk,triangle}_light.h. SIMD twin: area_sample-inl.h.
 //

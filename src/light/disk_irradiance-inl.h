@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/disk_irradiance-inl.h: the irradiance under disks on SIMD vectors. Scalar twin:
 // disk_irradiance.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/disk_irradiance.h: the irradiance of a surface under a disk. SIMD twin:
 // disk_irradiance-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/disk_light-inl.h: sampling disks as lights on SIMD vectors. Scalar twin: disk_light.h.
 #if defined(NACRE_LIGHT_DISK_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_DISK_LIGHT_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/disk_light.h: sampling a disk as a light. SIMD twin: disk_light-inl.h.
 //
 // A disk's solid angle takes elliptic integrals, and maps that are uniform in it take their

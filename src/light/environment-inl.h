@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/environment-inl.h: an environment's image on SIMD vectors. Scalar twin: environment.h.
 //
 // Look-ups go lane by lane: a texel is one load of four floats, and a sampled one three random

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/environment.cc: prepares an environment's image for sampling.
 #include "light/environment.h"
 

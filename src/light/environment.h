@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/environment.h: light from all round, from a latitude-longitude image: look-up, importance
 // sampling and its density. SIMD twin: environment-inl.h. Skies by formula: light/sky.h.
 //

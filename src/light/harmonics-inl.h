@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/harmonics-inl.h: irradiance from spherical harmonics on SIMD vectors. Scalar twin:
 // harmonics.h.
 #if defined(NACRE_LIGHT_HARMONICS_INL_H_) == defined(HWY_TARGET_TOGGLE)

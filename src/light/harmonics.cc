@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/harmonics.cc: projects an environment's image.
 #include "light/harmonics.h"
 

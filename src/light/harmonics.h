@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/harmonics.h: an environment's diffuse irradiance from nine numbers a channel: its spherical
 // harmonics to order 2, convolved with the clamped cosine. Ramamoorthi and Hanrahan 2001, "An
 // Efficient Representation for Irradiance Environment Maps". SIMD twin: harmonics-inl.h.

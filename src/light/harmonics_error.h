@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/harmonics_error.h: how far irradiance from harmonics is from that of all of an image's
 // texels. It is a property of the image, so it is measured, not promised.
 #pragma once

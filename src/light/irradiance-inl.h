@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/irradiance-inl.h: the irradiance of area lights on SIMD vectors. Scalar twin: irradiance.h.
 #if defined(NACRE_LIGHT_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_IRRADIANCE_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/irradiance.h: the irradiance of a surface under an unoccluded area light of uniform
 // radiance, in closed form, clipped at the surface's horizon. SIMD twin: irradiance-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/mesh_light.h: triangles as one light. Directions to it are chosen by choosing a triangle,
 // by its area, and then in the triangle (light/triangle_light.h); what is seen along a direction is
 // the nearest triangle.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/polygon_irradiance-inl.h: the irradiance under convex polygons on SIMD vectors. Scalar
 // twin, and the why of it: polygon_irradiance.h.
 #if defined(NACRE_LIGHT_POLYGON_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/polygon_irradiance.h: the irradiance of a surface under convex polygons. SIMD twin:
 // polygon_irradiance-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/punctual-inl.h: fall-off of point and spot lights on SIMD vectors. Scalar twin:
 // light/punctual.h.
 #if defined(NACRE_LIGHT_PUNCTUAL_INL_H_) == defined(HWY_TARGET_TOGGLE)

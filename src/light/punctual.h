@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/punctual.h: how the irradiance of point and spot lights falls off. SIMD twin:
 // punctual-inl.h. The factors here multiply the light's intensity and give the irradiance
 // perpendicular to the light's direction.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/rectangle_light-inl.h: sampling rectangles as lights on SIMD vectors. Scalar twin:
 // rectangle_light.h.
 #if defined(NACRE_LIGHT_RECTANGLE_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)

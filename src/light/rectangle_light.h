@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/rectangle_light.h: sampling a rectangle as a light. SIMD twin: rectangle_light-inl.h.
 //
 // Uniform in solid angle: Urena, Fajardo and King 2013, "An Area-Preserving Parametrization for

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/sky.h: environments by formula, with the irradiance of an unoccluded surface under them in
 // closed form. One channel each. SIMD twin: sky-inl.h.
 #pragma once

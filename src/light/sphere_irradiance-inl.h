@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/sphere_irradiance-inl.h: the irradiance under spheres on SIMD vectors. Scalar twin:
 // sphere_irradiance.h.
 #if defined(NACRE_LIGHT_SPHERE_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)

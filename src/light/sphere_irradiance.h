@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/sphere_irradiance.h: the irradiance of a surface under a sphere. SIMD twin:
 // sphere_irradiance-inl.h.
 //

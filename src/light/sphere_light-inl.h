@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/sphere_light-inl.h: sampling spheres as lights on SIMD vectors. Scalar twin:
 // sphere_light.h.
 #if defined(NACRE_LIGHT_SPHERE_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)

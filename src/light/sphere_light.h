@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/sphere_light.h: sampling a sphere as a light. SIMD twin: sphere_light-inl.h.
 //
 // From outside, directions are uniform in the cone that the sphere fills. From inside, where a

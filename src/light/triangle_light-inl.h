@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/triangle_light-inl.h: sampling triangles as lights on SIMD vectors. Scalar twin:
 // triangle_light.h.
 #if defined(NACRE_LIGHT_TRIANGLE_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)

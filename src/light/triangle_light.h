@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // light/triangle_light.h: sampling a triangle as a light. SIMD twin: triangle_light-inl.h.
 //
 // Uniform in solid angle, by Arvo's map (1995, "Stratified Sampling of Spherical Triangles") from

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // oiio_module/oiio_module.cc: the functions of image_io/oiio_abi.h, on OpenImageIO.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/adaptive.h: adaptive sampling: every block of 4x4 pixels takes samples until its error is
 // small enough.
 //

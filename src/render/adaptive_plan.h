@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/adaptive_plan.h: how a picture with a wanted error is sampled, decided once.
 #pragma once
 

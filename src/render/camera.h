@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/camera.h: from film positions to rays.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/cell_film.h: the film of adaptive sampling: a cell's pixels, block by block, each with as
 // many samples as it took.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "render/fast_lights.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/fast_lights.h: what stands in for samples of lights in their fast mode, and how far off it
 // is, which is measured while planning, on the light itself.
 //

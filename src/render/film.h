@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/film.h: a tile of the picture while its samples come in, and the strip it ends in.
 #pragma once
 

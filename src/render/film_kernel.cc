@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/film_kernel.cc: the kernels of film_kernel.h.
 #include "render/film_kernel.h"
 

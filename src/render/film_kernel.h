@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/film_kernel.h: the film's loops over samples and pixels, in SIMD. All sums and products
 // are of doubles and never fused: the same bits on every target.
 #pragma once

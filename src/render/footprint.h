@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/footprint.h: where one sample a pixel is enough.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/frame_window.h: which pixels of the frame a render is to make.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/layers.h: the layers that a render can write, and the channels each consists of.
 #pragma once
 

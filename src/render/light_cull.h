@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/light_cull.h: lights that a batch of hits surely gets nothing from: all of it faces away
 // from them, or lies outside their cones. Leaving them out changes no bit. No light here ends at a
 // distance.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/mesh_points.h: hits on triangles as points between their vertices.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/mesh_radiance.h: what the vertices or triangles of meshes reflect, where that is what is
 // interpolated (Gouraud 1971) or left as it is (flat). Worked out once in the plan.
 #pragma once

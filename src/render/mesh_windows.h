@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/mesh_windows.h: where in the picture meshes can be.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/plan.h: what a scene needs, decided once before any ray is traced, and so what is
 // skipped. Everything the tiles read is here; `--explain` prints the reasons.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/plan_notes.h: what a picture cannot show, or shows against nature, as its materials are.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/render.h: from a scene to strips of pixels.
 #pragma once
 

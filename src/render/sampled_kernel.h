@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/sampled_kernel.h: the SIMD loops of sampled_lights.cc, over the hits of a batch. Sums and
 // products stay apart, so every target gives the same bits.
 #pragma once

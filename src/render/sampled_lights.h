@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/sampled_lights.h: what a batch of hits reflects of lights with an extent.
 #pragma once
 

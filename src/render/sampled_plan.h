@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/sampled_plan.h: what lights with an extent, and environments, need.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/settings.h: what a render is asked for beyond its scene.
 #pragma once
 

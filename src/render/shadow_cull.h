@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/shadow_cull.h: which shadow rays of a scene of spheres need asking, and whom.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/sort_hits.h: the hits of a batch in runs of one material.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/stage_clock.h: where a worker's time goes.
 #pragma once
 

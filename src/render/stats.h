@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/stats.h: what a render counted and how long its stages took.
 #pragma once
 

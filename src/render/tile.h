@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/tile.h: the work on one tile: samples, rays, hits, light, film.
 #pragma once
 

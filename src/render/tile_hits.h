@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/tile_hits.h: the hits of a tile's camera rays: by bins or by Embree, or on spheres by bins
 // and on triangles by Embree, the nearer of both.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // render/tile_layers.h: from the radiance of a batch of hits to the film's layers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/axis_range.h: what part of the numbers a plot shows.
 #pragma once
 

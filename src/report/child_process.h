@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/child_process.h: another program, run to its end: text in, bytes out.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/gnuplot.h: a figure as commands and data for gnuplot.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/layout.h: where on a plot there is room for words.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/page.h: one HTML file that holds all that it shows: pictures, figures, style and script.
 // It asks no server for anything, and its policy forbids it to.
 #pragma once

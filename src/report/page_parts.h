@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/page_parts.h: the sources of the page, compiled in: report/html.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/picture.h: images as the page holds them: samples of each channel, deflated, and how small
 // they had to be made.
 #pragma once

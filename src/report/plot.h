@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/plot.h: diagrams: curves over an axis, in one or several panels, as SVG, PNG and CSV.
 //
 // gnuplot draws them (the Debian package gnuplot-nox), started without a shell and fed the data.

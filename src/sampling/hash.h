@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/hash.h: integer hashes for seeding sample patterns. Not cryptographic.
 #pragma once
 

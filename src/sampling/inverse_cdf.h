@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/inverse_cdf.h: an index drawn with given probabilities by inverting their running sum.
 //
 // The map from u to the index is monotone, so points that are evenly spread stay so. An alias table

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sampling/pair_sampler.h"
 
 #include "sampling/hash.h"

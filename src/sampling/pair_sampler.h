@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/pair_sampler.h: the points that a sample takes besides its place in the pixel: on
 // lights and in lobes.
 #pragma once

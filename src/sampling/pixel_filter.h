@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/pixel_filter.h: reconstruction filters, sampled by importance.
 //
 // A pixel's value is the integral of filter x image. Each pixel draws its own samples from the

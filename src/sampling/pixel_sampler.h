@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/pixel_sampler.h: where a pixel's samples lie and what they weigh.
 #pragma once
 

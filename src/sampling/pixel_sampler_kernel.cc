@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/pixel_sampler_kernel.cc: SamplePixels of sampling/pixel_sampler.h. Scalar twin:
 // SamplePixel. Products and sums are never fused, so that both agree to the bit on every target.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // sampling/sobol.h: the Sobol' sequence with Owen's nested uniform scrambling.
 //
 // Scrambling keeps the nets of the sequence, makes estimates unbiased, and lowers the error of N

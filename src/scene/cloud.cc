@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/cloud.cc: random clouds of spheres.
 #include <algorithm>
 

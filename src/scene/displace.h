@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/displace.h: surfaces moved along their normals by a texture's heights, once, when a scene
 // is read: P' = P + h n, and the normals of what that makes.
 #pragma once

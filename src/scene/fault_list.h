@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/fault_list.h: collects what is wrong with a scene, so that all of it is said at once.
 #pragma once
 

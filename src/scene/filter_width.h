@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/filter_width.h: the width of a pixel filter when a scene names only its kind.
 #pragma once
 

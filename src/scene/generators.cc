@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/generators.cc: grids and rows of pairs. Clouds: cloud.cc.
 #include "scene/generators.h"
 

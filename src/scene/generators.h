@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/generators.h: spheres by the dozen or the million: grids over material parameters, rows of
 // pairs to compare two materials, random clouds. What `grid`, `pair` and `cloud` in scene files and
 // the commands of those names make.

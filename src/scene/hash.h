@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/hash.h: a fingerprint of a scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/light_shapes.h: area lights as shapes, for the camera to see and to block other light.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/limits.h: the ranges of the numbers in a scene, defined once: the reader of scene files,
 // Validate() and the test of the JSON Schema all use these.
 #pragma once

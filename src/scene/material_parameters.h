@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/material_parameters.h: the parameters of each material model by name, defined once. The
 // reader of scene files, the axes of grids, Validate() and the test of the JSON Schema use it.
 #pragma once

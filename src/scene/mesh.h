@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/mesh.h: work on triangle meshes: face normals, vertex normals (vertex_normals.cc),
 // transforms.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/polygon.h: polygons into triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/scene.h: the one scene type: plain structs, a default for every field, references as
 // typed handles. What scene_io reads, the generators make and the renderer plans from.
 // Ranges of all numbers: scene/limits.h.

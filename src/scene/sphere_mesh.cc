@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene/sphere_mesh.h"
 
 #include <algorithm>

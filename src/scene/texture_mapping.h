@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/texture_mapping.h: from points on a shape to a texture's (u, v), as a scene's Texture says:
 // scalar, for work done once. The SIMD twin, for hits, is shading/coordinates_kernel.cc.
 #pragma once

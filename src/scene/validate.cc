@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/validate.cc: camera, image and materials. Shapes: validate_shapes.cc; lights:
 // validate_lights.cc.
 #include "scene/validate.h"

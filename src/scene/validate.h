@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/validate.h: everything that is wrong with a scene, at once. The second line behind the
 // reader of scene files, and the first for scenes built in code or by generators.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/validate_lights.cc: lights.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/validate_numbers.h: the checks of single values that Validate() is made of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/validate_shapes.cc: the part of Validate() that looks at spheres and meshes.
 #include <cmath>
 

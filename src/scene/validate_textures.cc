@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/validate_textures.cc: the part of Validate() that looks at images, textures and the maps of
 // materials.
 #include <array>

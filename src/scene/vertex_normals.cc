@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene/vertex_normals.cc: ComputeNormals() and MendNormals() of mesh.h. Faces around a vertex fall
 // into groups that share a normal there; without creases there is one group.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf.h: scenes from glTF 2.0 files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_accessor.h: the numbers that a glTF accessor stands for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_document.h: a glTF 2.0 file (.gltf with its buffers, or .glb), parsed by tinygltf.
 //
 // tinygltf takes the default for what it cannot read and checks no index, so the types of all

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_extension.h: the members of an extension, whose types nobody has checked.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_lights.h: the cameras of a glTF file and its lights (KHR_lights_punctual).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_materials.h: the materials of a glTF file as materials of the scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_meshes.h: the triangles of a glTF file.
 #pragma once
 

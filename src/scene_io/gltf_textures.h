@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_textures.h: the textures of a glTF file.
 #pragma once
 

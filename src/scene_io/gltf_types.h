@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/gltf_types.h: whether the members of a glTF file have the types that they should.
 #pragma once
 

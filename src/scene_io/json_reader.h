@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/json_reader.h: reads values out of a JSON tree into plain variables. Whatever is wrong
 // becomes a fault with its JSON pointer, and the variable keeps its default; so one pass over a
 // file finds all of its faults.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/json_text.h: JSON text to a tree, with the strictness that scene files want.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/load_scene.h: scene files, and models as scenes. What scene files may contain is written
 // down in scenes/nacre.schema.json, which SceneSchema() returns.
 #pragma once

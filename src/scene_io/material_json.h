@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/material_json.h: materials back to what scene files say.
 #pragma once
 

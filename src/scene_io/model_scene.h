@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/model_scene.h: what turns a model into a scene: a camera that sees all of it, light,
 // and the values that --set, --size and --spp give.
 #pragma once

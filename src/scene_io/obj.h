@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/obj.h: triangle meshes from Wavefront OBJ files.
 #pragma once
 

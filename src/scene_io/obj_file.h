@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/obj_file.h: Wavefront OBJ files as tinyobjloader reads them, checked before and after.
 #pragma once
 

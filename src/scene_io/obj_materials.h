@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/obj_materials.h: material libraries (MTL) of Wavefront OBJ files.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/overrides.h: values put into a scene file's tree before it is read ("--set").
 #pragma once
 

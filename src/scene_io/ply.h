@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/ply.h: triangle meshes and clouds of points from PLY files.
 #pragma once
 

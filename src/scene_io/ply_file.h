@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/ply_file.h: PLY files (Turk 1994) as their headers describe them: elements of numbers
 // and lists of numbers, as text or as bytes of either order. What the names mean: ply.h.
 #pragma once

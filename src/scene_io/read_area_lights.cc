@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_area_lights.cc: lights with an extent, and environments.
 #include <algorithm>
 #include <cmath>

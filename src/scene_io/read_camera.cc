@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_camera.cc: the parts "camera" and "image".
 #include <array>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_generators.cc: the shapes "grid", "pair" and "cloud".
 #include <array>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_lights.cc: the part "lights". Those with an extent: read_area_lights.cc.
 #include <array>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_materials.cc: the part "materials", and materials wherever a shape names one.
 #include <utility>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_meshes.cc: the shapes "mesh", "icosphere" and "uv_sphere".
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
 // read_generators.cc.
 #include <array>

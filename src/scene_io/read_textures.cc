@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/read_textures.cc: the part "textures", and the maps of materials, which name them.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/readers.h: one reader for each part of a scene file. All report to the faults of the
 // value that they are given and leave defaults in place of what is wrong.
 #pragma once

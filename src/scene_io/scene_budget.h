@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/scene_budget.h: how much more may be made of a file. A few bytes can ask for a hundred
 // million spheres, and for them again and again.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/sheet_axis.h: an axis of a sheet of spheres as people type it:
 //   roughness=0.1:1:5             five numbers, both ends included
 //   shininess=1:1024:6:log        at equal ratios

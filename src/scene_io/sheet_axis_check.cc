@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/sheet_axis_check.cc: what an axis of a sheet varies, and whether its values can be.
 #include <algorithm>
 

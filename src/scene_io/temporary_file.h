@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/temporary_file.h: bytes in a file for a reader that wants one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene_io/text_file.h"
 
 #include <algorithm>

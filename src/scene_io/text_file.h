@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/text_file.h: whole text files, and the files that a scene may refer to.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "scene_io/texture_image.h"
 
 #include <algorithm>

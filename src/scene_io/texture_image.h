@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/texture_image.h: image files as textures take them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // scene_io/tiny_gltf_model.cc: tinygltf's code.
 #include <fstream>  // which it forgets without file access
 

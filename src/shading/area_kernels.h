@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/area_kernels.h: the SIMD kernels behind sampled_light.h, for area lights, meshes
 // and skies.
 #pragma once

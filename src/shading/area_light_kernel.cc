@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/area_light_kernel.cc: directions to area lights from the hits of a batch, and where
 // directions meet them.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/conductor_kernel.cc: GGX with the exact Fresnel equations of a conductor.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/conductor_kernel.cc"

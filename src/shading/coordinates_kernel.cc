@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/coordinates_kernel.cc: texture coordinates of hits, their gradients, and how they change
 // from pixel to pixel: analytic, so that neither a seam nor a neighbour counts.
 #include <algorithm>

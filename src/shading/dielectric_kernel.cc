@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/dielectric_kernel.cc: GGX with the exact Fresnel equations of a dielectric.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/dielectric_kernel.cc"

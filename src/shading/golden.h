@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/golden.h: minima of functions of one variable, without derivatives and deterministic.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/kernels.h: the SIMD kernels behind shade.h, one file per reflection model, and the
 // uniforms that they take: products of material and light, computed in double, rounded once.
 #pragma once

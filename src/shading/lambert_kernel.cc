@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/lambert_kernel.cc: Lambert's cosine law.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lambert_kernel.cc"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/light.h: lights as the kernels want them: relative to the camera, their numbers turned
 // into the constants of each form, once per plan.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/light_at-inl.h: what a light is at a packet of hits: its direction and its irradiance.
 #if defined(NACRE_SHADING_LIGHT_AT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_LIGHT_AT_INL_H_

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/light_kernel.cc: lights evaluated at all hits of a batch, and the rounding of the hits'
 // directions to float.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/lobe_fit.h: the lobe of one family that is nearest to a material's, by least squares:
 // the width by search, the strength of each channel for that width exactly.
 #pragma once

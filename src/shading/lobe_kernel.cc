@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/lobe_kernel.cc: directions chosen by what surfaces reflect, and their densities.
 #include <algorithm>
 #include <variant>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/lobe_residual.h: how far two materials are apart: their specular lobes over the
 // directions of light, and their albedos, at several views. Deterministic quadrature, no picture.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/lobe_sample.h: directions chosen by what a surface reflects, and how densely, per solid
 // angle.
 #pragma once

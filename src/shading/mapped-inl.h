@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/mapped-inl.h: what the kernels of materials with maps share: loops over the hits of a
 // run, and what every material has of its colour.
 #if defined(NACRE_SHADING_MAPPED_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/mapped.h: shading of materials whose maps give each hit a model of its own.
 #pragma once
 

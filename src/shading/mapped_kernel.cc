@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/mapped_kernel.cc: what maps make of a material at each hit, and the products of that with
 // a light. The arithmetic is that of material.cc and shade.cc, operation by operation, in double:
 // where a map is constant, the bits are those of the constant material. Plain loops, which the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/mapped_microfacet_kernel.cc: what maps make of a lobe and its base at each hit. As
 // mapped_kernel.cc, the arithmetic of material.cc in plain loops.
 #include <cmath>

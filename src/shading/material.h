@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/material.h: materials as the kernels want them: numbers of the scene turned into the
 // constants of each reflection model, once per scene and in double.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/material_fit.h: a material of one reflection model as the nearest one of another:
 // Phong family <-> metallic-roughness and dielectric. The closed forms that books give
 // (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) are where a fit starts.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/mesh_light_kernel.cc: directions to lights made of triangles, and what is met along
 // directions. Triangles are chosen, and found, hit by hit; what follows of them runs on vectors.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/mesh_light_kernel.h: triangles of a light, one for each entry of a batch, as vectors read
 // them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/metallic_roughness_kernel.cc: GGX with Schlick's Fresnel curve, or the same with
 // the dip of real metals before grazing (F82).
 #undef HWY_TARGET_INCLUDE

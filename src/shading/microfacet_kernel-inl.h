@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/microfacet_kernel-inl.h: a GGX lobe over a diffuse base, for any Fresnel curve. The
 // kernels of the curves instantiate it: metallic_roughness_kernel.cc, conductor_kernel.cc,
 // dielectric_kernel.cc.

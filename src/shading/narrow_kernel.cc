@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/narrow_kernel.cc: the half-vector terms of narrow lobes, in double: float directions
 // are 6e-8 rad coarse, and a highlight 1e-4 rad wide shows it.
 #undef HWY_TARGET_INCLUDE

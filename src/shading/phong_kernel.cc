@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/phong_kernel.cc: Phong, modified Phong and Blinn-Phong.
 #include <type_traits>
 

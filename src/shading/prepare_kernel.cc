@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/prepare_kernel.cc: what microfacet materials need of a hit whatever the light: the
 // weight of multiple scattering and the base's share of the light, once per hit.
 #undef HWY_TARGET_INCLUDE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/range-inl.h: what all shading kernels share: the loop over a range of hits and the
 // lights on them, loading a hit's vectors and adding to its radiance.
 #if defined(NACRE_SHADING_RANGE_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/rough_base_kernel.cc: how the rough diffuse bases of microfacet materials spread a light,
 // ahead of the kernel of the lobe: few bases are rough, and the kernels of the others stay as they
 // are.

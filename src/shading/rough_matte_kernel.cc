@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/rough_matte_kernel.cc: rough matte surfaces: Oren-Nayar (EON) and Burley's.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/rough_matte_kernel.cc"

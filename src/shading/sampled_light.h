@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/sampled_light.h: lights with an extent, and environments: directions to them, how densely
 // these were chosen, and what is seen along a direction. Densities are per solid angle.
 //

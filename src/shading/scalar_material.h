@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/scalar_material.h: what a prepared material reflects, in double, for one light and one
 // viewer: for measuring materials, not for rendering. The kernels compute the same in float.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/shade.h: from a batch of hits and the scene's lights to radiance towards the viewer.
 //
 //   PrepareRun       once per run of hits that share a material: what depends on the view alone

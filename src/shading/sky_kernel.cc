@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/sky_kernel.cc: what skies show along directions, and their irradiance.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/sky_kernel.cc"

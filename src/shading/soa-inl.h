@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/soa-inl.h: vectors of three floats out of the arrays of a batch, and into them.
 #if defined(NACRE_SHADING_SOA_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_SOA_INL_H_

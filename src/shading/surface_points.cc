@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/surface_points.cc: where hits lie on their shapes: what mappings take, and the triangles
 // behind hits on meshes.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/texture_kernels.h: the steps behind textures.h, over the hits of a run.
 #pragma once
 

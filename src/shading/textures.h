@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/textures.h: textures of a scene as hits look them up: prepared once per plan, and what
 // they give at the hits of a batch.
 #pragma once

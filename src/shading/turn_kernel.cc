@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // shading/turn_kernel.cc: shading normals turned by normal maps and by the slopes of bump maps.
 #include "shading/texture_kernels.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/blinn_exponent.h: the exponent with which Blinn's lobe (n.h)^m comes nearest to Phong's
 // (r.v)^n, in the least squares of what is compared: there is more than one answer.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/components.cc: exercise 1: what the exponent does to each of Phong's components.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/fresnel_angles.h: at which angle an interface reflects a given share.
 #pragma once
 

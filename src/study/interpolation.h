@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/interpolation.h: how far spheres of faces are from the sphere, by what is interpolated.
 #pragma once
 

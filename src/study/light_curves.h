@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/light_curves.h: lights over distance, and tone operators, as curves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/material_curves.h: what reflection models are made of, as curves.
 #pragma once
 

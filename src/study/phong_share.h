@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/phong_share.h: how much of the light from one angle Phong's model reflects, in the units
 // that it is written in.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/picture.h: small scenes, rendered and put together on sheets.
 #pragma once
 

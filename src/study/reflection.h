@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/reflection.h: reflection models evaluated one pair of directions at a time by the kernels
 // that render; in double, from the scalar terms of brdf/, by shading/scalar_material.h.
 #pragma once

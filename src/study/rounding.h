@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/rounding.h: how far hits and highlights are from the truth, by formula and precision.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/studies.cc: the list of the studies, with what each is asked.
 #include "study/study.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study.h: studies: what the founding lesson's exercises ask, answered by pictures, curves
 // and numbers that are computed when they are asked for.
 //

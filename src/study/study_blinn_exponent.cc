@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_blinn_exponent.cc: exercise 2: the exponent that makes Blinn's highlight Phong's.
 #include <cmath>
 

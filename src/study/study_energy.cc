@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_energy.cc: exercise 6: who makes light, who loses it, and what brings it back.
 #include <cmath>
 

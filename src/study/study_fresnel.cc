@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_fresnel.cc: exercise 5: Schlick's curve, the exact one, and where half is reflected.
 #include <cmath>
 

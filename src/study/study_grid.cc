@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_grid.cc: exercise 4: roughness and metallic to both ends, under a lamp and a sky.
 #include <algorithm>
 #include <cmath>

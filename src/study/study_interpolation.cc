@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_interpolation.cc: exercise 3: flat, Gouraud and Phong over the number of faces.
 #include <cmath>
 #include <string>

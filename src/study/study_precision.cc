@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_precision.cc: what rounding does to far spheres and to smooth surfaces.
 #include <algorithm>
 #include <cmath>

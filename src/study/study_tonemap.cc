@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/study_tonemap.cc: one HDR picture under every tone operator.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // study/tone_facts.h: numbers of the tone and transfer curves, found on the curves themselves.
 #pragma once
 

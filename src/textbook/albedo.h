@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // textbook/albedo.h: how much of the light from everywhere a reflection model gives back, by
 // quadrature of the model's own functions. 1 is all of it; more is made from nothing.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // textbook/conventions.h: faults of the founding documents that neither picture shows, as numbers
 // from their formulas.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // textbook/faults.h: the faults of the founding lesson's program, a switch for each, so that what
 // one of them does to a picture can be measured alone.
 //

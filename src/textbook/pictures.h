@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // textbook/pictures.h: the lesson's two pictures.
 #pragma once
 

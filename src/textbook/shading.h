@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // textbook/shading.h: the lesson's shading functions, line by line. Not what nacre renders with:
 // see brdf/ and shading/ for that.
 #pragma once

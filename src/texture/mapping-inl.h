@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/mapping-inl.h: from points on an object to (u, v) on vectors of doubles. Scalar twin:
 // mapping.h.
 #if defined(NACRE_TEXTURE_MAPPING_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/mapping.h: from points on an object to (u, v), with the gradients of both. SIMD twin:
 // mapping-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/sample-inl.h: texture look-ups on SIMD vectors. Scalar twin: sample.h.
 //
 // Coordinates are doubles until the texel is found, so that 65536 texels a side are told apart

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/sample.h: a texture's value at (u, v): wrapping, nearest, bilinear and trilinear. SIMD
 // twin: sample-inl.h.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/sample_kernel.cc: the loop behind sample_kernel.h.
 #include "texture/sample_kernel.h"
 

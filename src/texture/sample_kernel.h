@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/sample_kernel.h: textures sampled at many points at once, by SIMD gathers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // texture/texels.h: a decoded image as textures are sampled from it: linear floats, with the
 // smaller copies of it (mip levels) that stand for many texels at once.
 //

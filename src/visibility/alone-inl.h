@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/alone-inl.h: camera rays against the only sphere that they may hit: what most rays of
 // most pictures meet.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/append-inl.h: writes the hits of a group of lanes behind those that a batch has.
 #if defined(NACRE_VISIBILITY_APPEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_APPEND_INL_H_

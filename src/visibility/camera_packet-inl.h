@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/camera_packet-inl.h: a packet of camera rays on its way through a tile's candidates:
 // float rays that propose, double rays that decide, and the best hit of each lane so far.
 #if defined(NACRE_VISIBILITY_CAMERA_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/cell_lists.h: sorts items into the lists of the cells that they touch, in parallel.
 // The order within a list is that of the items, whatever the threads.
 #pragma once

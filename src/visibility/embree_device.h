@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/embree_device.h: Embree's devices: which instruction set, what went wrong, and kept
 // from render to render.
 #pragma once

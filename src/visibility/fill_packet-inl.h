@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/fill_packet-inl.h: rounds a packet of a batch's rays to float, and keeps with them
 // what their proposals and the exact tests need.
 #if defined(NACRE_VISIBILITY_FILL_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)

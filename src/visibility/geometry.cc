@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/geometry.cc: takes the primitives from the scene.
 #include "visibility/geometry.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/geometry.h: the scene's primitives as the hit tests read them: doubles relative to
 // the camera (world position minus camera position, rounded once).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/intersector.cc: sets Embree's scenes up: bounds, callbacks.
 #include "visibility/intersector.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/intersector.h: which surface a ray meets first, and whether anything is in its way.
 // Embree finds candidates; our own tests decide every hit, in double (sphere_test.h,
 // triangle_test.h).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/light_bins.h: spheres binned as a light sees them. Shadow rays are the light's camera
 // rays: each finds what may be in its way in one cell, without a tree.
 #pragma once

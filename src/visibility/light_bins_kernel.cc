@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/light_bins_kernel.cc: each shadow ray against the spheres of its cell, a vector of
 // them at a time, in float; the double test decides those that it proposes.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/occluder_lists.h: for each sphere of a small scene those that can come between it and
 // a light, so that its shadow rays need no tree, or need not be asked at all.
 #pragma once

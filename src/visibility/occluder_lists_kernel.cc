@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/occluder_lists_kernel.cc: vectors of shadow rays from one sphere against its list.
 // Floats tell of most of them; the rest are decided in double.
 #include "visibility/occluder_lists.h"

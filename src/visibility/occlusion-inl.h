@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/occlusion-inl.h: whether a sphere is in the way of shadow rays, in double: what every
 // way of finding candidates asks in the end.
 #if defined(NACRE_VISIBILITY_OCCLUSION_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/packet-inl.h: what the callbacks for spheres and for triangles share: loading a
 // packet's rays, and recording exact hits.
 #if defined(NACRE_VISIBILITY_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/packet.h: one packet of rays on its way through Embree: the float rays that Embree
 // walks its tree with, and what our callbacks need to decide hits in double.
 #pragma once

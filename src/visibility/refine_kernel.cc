@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/refine_kernel.cc: repeats the exact test for each hit, which gives its point and its
 // normal in double.
 #include "visibility/refine_kernel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/refine_kernel.h: from closest hits to points and normals to shade.
 #pragma once
 

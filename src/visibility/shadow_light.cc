@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "visibility/shadow_light.h"
 
 #include <variant>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/shadow_light.h: a light as shadow rays go to it.
 #pragma once
 

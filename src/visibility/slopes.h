@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/slopes.h: how a disc is seen from a point in its plane: what a sphere's outline comes
 // to along either axis of a film.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "visibility/sphere_bins.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_bins.h: spheres binned to square cells of the image by bounds of their
 // projections, so that camera rays find their candidates without a tree. For camera rays alone this
 // is many times faster than one, and there is nothing to build.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_kernel.cc: a float test proposes the rays of a packet that may hit a sphere,
 // and the double test decides.
 #include "visibility/sphere_kernel.h"

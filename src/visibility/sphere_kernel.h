@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_kernel.h: Embree's callbacks for the spheres.
 #pragma once
 

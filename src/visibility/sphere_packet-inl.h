@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_packet-inl.h: a packet against one sphere: the float test that proposes lanes,
 // and the double test that decides them.
 #if defined(NACRE_VISIBILITY_SPHERE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)

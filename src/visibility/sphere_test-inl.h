@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_test-inl.h: the ray-sphere test on SIMD vectors. Scalar twin, with the
 // derivation: visibility/sphere_test.h.
 #if defined(NACRE_VISIBILITY_SPHERE_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_test.h: the ray-sphere test that decides every hit. SIMD twin:
 // sphere_test-inl.h, the same operations in the same order: in double both give the same bits.
 #pragma once

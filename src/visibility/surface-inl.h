@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/surface-inl.h: the point, the normal and the view direction of a hit, the same bits
 // whichever way it was found.
 #if defined(NACRE_VISIBILITY_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)

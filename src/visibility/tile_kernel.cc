@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/tile_kernel.cc: traces a tile packet by packet and writes its hits.
 #include "visibility/tile_kernel.h"
 

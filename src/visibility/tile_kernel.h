@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/tile_kernel.h: camera rays of a tile against the spheres binned to its cells: from
 // film positions to hits ready for shading, without a stop on the way.
 #pragma once

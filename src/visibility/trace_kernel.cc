@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/trace_kernel.cc: rounds packets of rays to float for Embree and starts its queries.
 #include "visibility/trace_kernel.h"
 

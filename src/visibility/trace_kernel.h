@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/trace_kernel.h: batches of rays through Embree, packet by packet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/triangle_kernel.cc: the double test of a packet of rays against one triangle.
 //
 // Embree's own triangle test is watertight, but its float edges depend on the instruction set and

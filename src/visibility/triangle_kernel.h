@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/triangle_kernel.h: Embree's callbacks for the triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/triangle_test-inl.h: the watertight ray-triangle test on SIMD vectors. Scalar twin,
 // with the derivation: visibility/triangle_test.h.
 #if defined(NACRE_VISIBILITY_TRIANGLE_TEST_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/triangle_test.h: the watertight ray-triangle test that decides every hit. SIMD twin:
 // triangle_test-inl.h, the same operations in the same order: in double both give the same bits.
 #pragma once

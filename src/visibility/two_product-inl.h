@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/two_product-inl.h: products without rounding error on SIMD vectors. Scalar twin:
 // visibility/two_product.h. The results are exact, so every target gives the same bits, with a
 // fused multiply-add or without.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // visibility/two_product.h: products without rounding error. SIMD twin: two_product-inl.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/api/brdf_test.cc: reflection models of the public API: the kernels beside the formulas.
 #include <cmath>
 #include <random>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/api/render_test.cc: renders, images and comparisons of the public API.
 #include <cmath>
 #include <cstdio>

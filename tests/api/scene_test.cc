@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/api/scene_test.cc: scenes of the public API, which includes nothing but nacre.h.
 #include <cmath>
 #include <string>

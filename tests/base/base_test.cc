@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/base/base_test.cc: errors, arrays, parallel loops, SIMD targets.
 #include <atomic>
 #include <chrono>

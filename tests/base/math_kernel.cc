@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/base/math_kernel.cc: the calls behind math_kernel.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "base/math_kernel.cc"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/base/math_kernel.h: the SIMD logarithms and the exponential of src/base, for tests.
 #pragma once
 

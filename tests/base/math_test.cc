@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/base/math_test.cc: the float logarithms and exponential of base/math-inl.h against those
 // of the library in double, on every target, with the errors that they promise.
 #include <algorithm>

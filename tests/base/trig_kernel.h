@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/base/trig_kernel.h: base/trig-inl.h on one number, on the active target, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/base/trig_test.cc: float sine, cosine and arc tangent of base/trig-inl.h against those of
 // the library in double, on every target, with the errors that they promise; and the twins in
 // double against long double.

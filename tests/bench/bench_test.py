@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests the arithmetic of scripts/bench: medians, intervals, ratios, fits, names. No clock here."""
 import json
 import pathlib

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/albedo_integral_test.cc: the quadratures behind the albedo fits, and the lobes of the
 // Phong family, against the reference tables.
 #include "brdf/albedo_integral.h"

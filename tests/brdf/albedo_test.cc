@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/albedo_test.cc: the run-time albedos against the quadratures that they were fitted to,
 // on every target, and white furnaces: what a lobe reflects and what compensation adds is all there
 // was.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/angles_test.cc: the angles of brdf/angles.h and fresnel.h are those of the normalised
 // half vector, where that can be trusted.
 #include "brdf/angles.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/brdf_table_test.cc: the hard configurations of tables/brdf_hard.json, in double
 // through the scalar twins and in float on every target.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/brdf_twin_test.cc: SIMD terms against their scalar double twins on random
 // directions, and the limits that both must keep.
 #include <cmath>

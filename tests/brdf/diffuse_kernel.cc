@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/diffuse_kernel.cc: the loop behind diffuse_kernel.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "brdf/diffuse_kernel.cc"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/diffuse_kernel.h: the SIMD diffuse models of src/brdf on arrays, for tests.
 #pragma once
 

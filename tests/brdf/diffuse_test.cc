@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/diffuse_test.cc: diffuse models: the energy that they keep or are known to make,
 // reciprocity, their limits, and the SIMD twins.
 #include <cmath>

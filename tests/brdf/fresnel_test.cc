@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/fresnel_test.cc: Fresnel curves and their averages against the tables and their
 // limits.
 #include "brdf/fresnel.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/lobe_kernel.cc: the loop behind lobe_kernel.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "brdf/lobe_kernel.cc"

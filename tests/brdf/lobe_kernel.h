@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/lobe_kernel.h: the SIMD lobe samplers of src/brdf on arrays, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/lobe_sampling_test.cc: lobe samplers: distribution by chi-squared, densities that
 // integrate to one, weights that agree with the model's BRDF, and the SIMD twins.
 #include "brdf/lobe_sampling.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/normalization_test.cc: the normalised lobes of the Phong family reflect all light
 // that comes along the normal.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/brdf/term_kernel.h: the SIMD terms of src/brdf evaluated on arrays, for tests against
 // their scalar twins and the tables.
 #pragma once

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The program from outside: exit codes, what is written and what is not, and what it prints.
 
 Usage: cli_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """The manual page and the completion that the program writes of itself.
 
 Usage: docs_test.py PROGRAM

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tiles and what merges them, from outside: nacre render --tile, nacre merge, --dry-run.
 
 Usage: tiles_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]

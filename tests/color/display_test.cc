@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/display_test.cc: EncodeDisplay: codes, tails, alignment, NaN and infinities.
 #include "color/display.h"
 

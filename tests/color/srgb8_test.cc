@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/srgb8_test.cc: 8-bit sRGB codes are exact for every float, on every target.
 #include "color/srgb8.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/tone_kernel.cc: the loop over arrays behind tone_kernel.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "color/tone_kernel.cc"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/tone_kernel.h: the SIMD tone operators of color/tone-inl.h over arrays, on the
 // active target.
 #pragma once

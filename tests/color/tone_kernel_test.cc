@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/tone_kernel_test.cc: the SIMD tone operators, on every target, against the tables
 // and their twins in double.
 #include "color/tone_kernel.h"

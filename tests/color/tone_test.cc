@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/tone_test.cc: the tone operators in double: against the tables, against independent
 // forms of the same curves, and the properties that every operator must have.
 #include "color/tone.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/color/transfer_test.cc: the sRGB curves in double, and luminance.
 #include "color/transfer.h"
 

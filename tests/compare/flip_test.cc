@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/flip_test.cc: FLIP and HDR-FLIP against the formulas of the authors' program
 // (tables/flip.json) and where their values can be computed by hand.
 #include "compare/flip.h"

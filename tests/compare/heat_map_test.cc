@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/heat_map_test.cc: colours of errors.
 #include "compare/heat_map.h"
 

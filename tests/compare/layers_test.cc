@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/layers_test.cc: what is compared with what, and the errors of single samples.
 #include "compare/layers.h"
 

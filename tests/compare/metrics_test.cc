@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/metrics_test.cc: the figures of a comparison, on images made so that they are
 // known.
 #include "compare/metrics.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/perceptual_test.cc: which metrics images get, and what is said of those they do
 // not.
 #include "compare/perceptual.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/ssim_test.cc: SSIM where its value is known.
 #include "compare/ssim.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/test_images.h: small images for the tests of compare.
 #pragma once
 

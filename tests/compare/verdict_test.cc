@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/compare/verdict_test.cc: match or differ, and the reason in words.
 #include "compare/verdict.h"
 

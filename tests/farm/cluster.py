@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A Slurm cluster of one node on this machine, for a test: munge, a controller and a node with a
 configuration and ports of their own, all in one folder."""
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """scripts/farm_local from outside: failures, resumption, and the picture that comes of it.
 
 Usage: farm_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """scripts/farm_local --measure on a Slurm of one node that is started for it.
 
 Usage: measure_on_slurm.py PROGRAM SOURCE_FOLDER

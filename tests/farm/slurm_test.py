@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """scripts/farm_slurm on a Slurm of one node that the test starts: 64 tiles, failures, resumption.
 
 Usage: slurm_test.py PROGRAM SOURCE_FOLDER. Exit code 77: there is no Slurm here, or no root.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/fuzz_input.h: what the targets share: files to be read, and what a reader may do.
 #pragma once
 

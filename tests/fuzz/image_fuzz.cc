@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/image_fuzz.cc: images as textures, as environments and as what is compared.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/libfuzzer_main.cc: one target for libFuzzer; CMake names it.
 #include <cstddef>
 #include <cstdint>

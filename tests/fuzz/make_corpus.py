@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes valid and invalid files by seeded mutation, for run_corpus.py to render.
 
 Usage: make_corpus.py NACRE ROOT FOLDER [--seed N] [--models N] [--images N] [--scenes N]

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the files in tests/fuzz/regressions that can be said in a line: each was, or would have been,
 too much for a reader or for a library beneath it.
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Makes the seeds in tests/fuzz/corpus: small valid files, one or more for each target.
 
 Usage: make_seeds.py NACRE ROOT. Needs oiiotool for the image formats that nacre does not write.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/model_fuzz.cc: model files: OBJ with MTL, PLY, glTF as text and as bytes.
 #include "fuzz/fuzz_input.h"
 #include "fuzz/targets.h"

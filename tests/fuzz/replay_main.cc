@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/replay_main.cc: seeds and once harmful files through the targets, without libFuzzer.
 //
 // Usage: nacre_fuzz_replay FOLDER...   FOLDER/<target>/* goes to that target

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Renders every scene and model of a folder, small, and reports what a program must not do: die of a
 signal, hang, end with another code than 0, 64 or 65, refuse without words, or leave part of a file.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/scene_json_fuzz.cc: the text of a scene file.
 #include "fuzz/fuzz_input.h"
 #include "fuzz/targets.h"

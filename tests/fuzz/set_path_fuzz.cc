@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/set_path_fuzz.cc: what follows --set, on a scene and on a model.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/shared_folder.cc: the files that fuzzed scenes and models may name: mesh.obj,
 // mesh.ply, mesh.mtl, texture.png, floats.pfm and buffer.bin.
 #include <array>

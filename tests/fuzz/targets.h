@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/fuzz/targets.h: the entries through which a stranger's bytes come in, each as a function of
 // the bytes alone. libFuzzer calls one (libfuzzer_main.cc), the replay of found files all
 // (replay_main.cc).

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks every #include and every nacre_library() of src/ against the dependency order.
 
 The order is the table below. A folder may use those that its DEPENDS line in src/CMakeLists.txt

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests check_includes.py: a small sound tree has no faults, and each planted fault is found."""
 import pathlib
 import tempfile

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Checks the tree itself: scripts run, no file is huge, each source file says what it is.
 
 Long files are listed, not refused.
@@ -15,6 +16,8 @@ MAX_BYTES = 2_000_000  # of any file: clones stay small
 LONG_FILE, LONG_HEADER = 350, 150  # lines: over that, something may be off
 SOURCE_FOLDERS = ("src", "tests", "bench")
 SCRIPT_FOLDERS = ("scripts", ".ci")
+CODE_SUFFIXES = (".h", ".cc", ".py", ".js", ".cmake", ".sh")
+LICENSE_TAG = "SPDX-License-Identifier: " + "Apache-2.0"
 
 
 def list_files(root):
@@ -32,9 +35,14 @@ def list_files(root):
     return sorted(name for name in set(names) if (root / name).is_file())
 
 
-def first_line(path):
+def first_lines(path):
+    """The first two, without their ends; "" for one that is not there."""
     with open(path, encoding="utf-8", errors="replace") as file:
-        return file.readline().rstrip("\n")
+        return [file.readline().rstrip("\n") for _ in range(2)]
+
+
+def first_line(path):
+    return first_lines(path)[0]
 
 
 def check_size(root, name):
@@ -64,12 +72,22 @@ def check_script(root, name):
             yield f"{name}: {' '.join(tool)}:\n{(result.stdout + result.stderr).rstrip()}"
 
 
+def check_license(root, name):
+    """Every source file and script names its licence in its first line, or under #!."""
+    path = root / name
+    code = path.suffix in CODE_SUFFIXES or path.name == "CMakeLists.txt"
+    if not code and not first_line(path).startswith("#!"):
+        return
+    if not any(line in (f"// {LICENSE_TAG}", f"# {LICENSE_TAG}") for line in first_lines(path)):
+        yield f"{name}:1: no line with {LICENSE_TAG}"
+
+
 def check_first_line(root, name):
-    """A source file opens with a comment; a .cc beside its .h may open by including it."""
+    """Under its licence a source file has a comment; a .cc beside its .h may include that."""
     path = root / name
     if path.suffix not in (".h", ".cc") or path.relative_to(root).parts[0] not in SOURCE_FOLDERS:
         return
-    first = first_line(path)
+    first = next((line for line in first_lines(path) if not line.endswith(LICENSE_TAG)), "")
     header = path.with_suffix(".h")
     own = re.fullmatch(r'#include "(.+)"', first)
     if path.suffix == ".cc" and own and header.is_file() and header.as_posix().endswith(
@@ -94,7 +112,8 @@ def long_files(root, names):
 def check(root):
     """All faults of the tree at `root`, and the names of the files looked at."""
     names = list_files(root)
-    faults = [fault for name in names for check_file in (check_size, check_script, check_first_line)
+    faults = [fault for name in names for check_file in (check_size, check_script, check_license,
+                                                     check_first_line)
               for fault in check_file(root, name)]
     return faults, names
 

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests check_tree.py: a small sound tree has no faults, and each planted fault is found."""
 import pathlib
 import subprocess
@@ -7,12 +8,14 @@ import unittest
 
 import check_tree
 
+SCRIPT_LICENSE = f"# {check_tree.LICENSE_TAG}\n"
+LICENSE = f"// {check_tree.LICENSE_TAG}\n"
 SOUND_TREE = {
-    "scripts/build": "#!/usr/bin/env bash\nsource scripts/common.sh\n",
-    "scripts/common.sh": "# shellcheck shell=bash\nset -eu\n",
-    "src/base/error.h": "// base/error.h: the one error type.\n",
-    "src/base/error.cc": '#include "base/error.h"\n',
-    "tests/base/error_test.cc": "// Tests of base/error.h.\n",
+    "scripts/build": f"#!/usr/bin/env bash\n{SCRIPT_LICENSE}source scripts/common.sh\n",
+    "scripts/common.sh": SCRIPT_LICENSE + "# shellcheck shell=bash\nset -eu\n",
+    "src/base/error.h": LICENSE + "// base/error.h: the one error type.\n",
+    "src/base/error.cc": LICENSE + '#include "base/error.h"\n',
+    "tests/base/error_test.cc": LICENSE + "// Tests of base/error.h.\n",
 }
 
 
@@ -60,7 +63,7 @@ class CheckTree(unittest.TestCase):
         self.assert_one_fault("scripts/build: has no run bit")
 
     def test_first_line_of_scripts(self):
-        self.write("scripts/other", "echo\n")
+        self.write("scripts/other", SCRIPT_LICENSE + "echo\n")
         self.assert_one_fault("scripts/other:1: ")
 
     def test_shell_syntax(self):
@@ -78,13 +81,26 @@ class CheckTree(unittest.TestCase):
             ("tests/base/vec_test.cc", '#include "base/error.h"\n'),
         ):
             with self.subTest(name=name, text=text):
+                self.write(name, LICENSE + text)
+                self.assert_one_fault(f"{name}:1: the first line")
+                (self.root / name).unlink()
+
+    def test_every_source_and_script_names_its_license(self):
+        for name, text in (
+            ("src/base/vec.h", "// base/vec.h: vectors.\n"),
+            ("src/base/vec.h", f"// base/vec.h: vectors.\n\n{LICENSE}"),  # too far down
+            ("tests/a_test.py", '"""Tests."""\n'),
+            ("src/CMakeLists.txt", "project(x)\n"),
+            ("tests/tool", "#!/usr/bin/env bash\n"),
+        ):
+            with self.subTest(name=name, text=text):
                 self.write(name, text)
-                self.assert_one_fault(f"{name}:1: ")
+                self.assert_one_fault(f"{name}:1: no line with ")
                 (self.root / name).unlink()
 
     def test_long_files_are_noted(self):
-        self.write("src/base/vec.h", "// A header\n" * (check_tree.LONG_HEADER + 1))
-        self.write("src/base/error.cc", "// A source\n" * check_tree.LONG_FILE)
+        self.write("src/base/vec.h", LICENSE + "// A header\n" * check_tree.LONG_HEADER)
+        self.write("src/base/error.cc", LICENSE + "// A source\n" * (check_tree.LONG_FILE - 1))
         faults, names = check_tree.check(self.root)
         self.assertEqual(faults, [])
         self.assertEqual(check_tree.long_files(self.root, names),

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/deflate_test.cc: deflate, undone by zlib.
 #include "image_io/deflate.h"
 

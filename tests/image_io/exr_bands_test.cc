@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/exr_bands_test.cc: bands of a picture, put together without decoding them.
 #include "image_io/exr_bands.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/exr_reader_test.cc: EXR files of other makers, and broken ones.
 #include "image_io/exr_reader.h"
 

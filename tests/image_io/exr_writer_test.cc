@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/exr_writer_test.cc: EXR files, read back by OpenEXR and by OpenImageIO.
 #include "image_io/exr_writer.h"
 

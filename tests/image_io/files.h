@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/files.h: what the tests of files share: folders, pictures, threads.
 #pragma once
 

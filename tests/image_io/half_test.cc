@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/half_test.cc: floats to halves on every target, against a table and Imath.
 #include "image_io/half.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/hdr_reader_test.cc: plain Radiance files against OpenImageIO, and what is left to
 // it.
 #include "image_io/hdr_reader.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/hostile_image_test.cc: images that promise more than they hold, and formats that a
 // stranger may not choose.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/image_reader_test.cc: images of any format, and text in them, by OpenImageIO.
 #include "image_io/image_reader.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/in_order_test.cc: the reorder buffer.
 #include "image_io/in_order.h"
 

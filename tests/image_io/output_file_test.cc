@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/output_file_test.cc: files appear whole or not at all.
 #include "image_io/output_file.h"
 

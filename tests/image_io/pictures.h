@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/pictures.h: random pictures for EXR files, and what reading them must give.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/png_reader_test.cc: plain PNG files against OpenImageIO, and what is left to it.
 #include "image_io/png_reader.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/image_io/png_writer_test.cc: PNG files, taken apart by the specification and read back by
 // OpenImageIO.
 #include "image_io/png_writer.h"

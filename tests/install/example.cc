@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/install/example.cc: nacre as a library: a grid of spheres, rendered and compared.
 //
 // Usage: example OUTPUT.exr

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """An installed nacre: what it shows, a program that uses it, and that it can be moved.
 
 Usage: install_test.py BUILD_FOLDER SOURCE_FOLDER CXX

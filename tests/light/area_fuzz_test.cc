@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_fuzz_test.cc: area lights of any shape anywhere, also degenerate ones and the
 // shaded point in, on and through them: samples, densities and irradiance stay finite and in range.
 #include <cmath>

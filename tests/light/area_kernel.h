@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_kernel.h: the SIMD area lights of src/light on arrays, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_pdf_test.cc: densities of samples of area lights integrate to one over them.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_rounding.h: area lights rounded to float and back.
 #pragma once
 

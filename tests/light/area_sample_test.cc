@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_sample_test.cc: samples of area lights in double: solid angles against the
 // table, uniformity by chi-squared against solid angles of parts, densities that belong to their
 // samples, and the places where there is nothing to sample.

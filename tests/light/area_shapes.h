@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_shapes.h: area lights in all the places that are hard on their mathematics.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/area_twin_test.cc: SIMD samples of area lights against their scalar double twins, on
 // every target.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/environment_kernel.cc: the loops behind environment_kernel.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "light/environment_kernel.cc"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/environment_kernel.h: the SIMD environments of src/light on arrays, for tests.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/environment_test.cc: images of environments: the mapping and its inverse, sampling
 // that follows luminance and solid angle, densities that integrate to one, and the SIMD twins.
 #include "light/environment.h"

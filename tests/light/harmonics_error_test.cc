@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/harmonics_error_test.cc: an image's exact irradiance against quadrature and closed
 // forms, and what harmonics are told to miss against what they are known to miss.
 #include "light/harmonics_error.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/irradiance_test.cc: closed-form irradiance of area lights against the table and,
 // where the table does not go, against quadrature: in double and in float on every target.
 #include "light/irradiance.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/mesh_light_test.cc: triangles as one light: how they are chosen, which a ray meets,
 // and whether they hide one another.
 #include "light/mesh_light.h"

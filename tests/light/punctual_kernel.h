@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/punctual_kernel.h: the SIMD fall-offs of src/light on arrays, for tests.
 #pragma once
 

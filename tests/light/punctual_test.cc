@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/punctual_test.cc: fall-off of point and spot lights against tables/punctual.json,
 // in double and in float on every target, and the rules at the edges.
 #include "light/punctual.h"

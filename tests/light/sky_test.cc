@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/sky_test.cc: skies by formula against the table and quadrature, irradiance from
 // spherical harmonics against both, and the SIMD twins.
 #include "light/sky.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/light/specular_test.cc: GGX reflections of area lights by multiple importance sampling of
 // lights and lobes, against the table: samplers, densities and BRDF together.
 #include <cmath>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The list of faults: tests/mutation/faults/*.txt, read and checked. No building here.
 
     fault NAME: TEST...

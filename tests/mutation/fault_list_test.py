@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Tests fault_list.py: a list is read as it is written, and each of its mistakes is found."""
 import pathlib
 import tempfile

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Plants the faults of tests/mutation/faults/ one at a time and runs the tests on each.
 
 A fault that no test sees has SURVIVED: a test is missing. Works on a copy of the tree, in one build

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/adaptive_test.cc: pictures to a wanted error: that it holds, what it costs, and what
 // a block's bits may not depend on.
 #include <cmath>

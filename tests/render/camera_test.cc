@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/camera_test.cc: rays of the cameras, and the matrices that headers carry.
 #include "render/camera.h"
 

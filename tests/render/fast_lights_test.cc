@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/fast_lights_test.cc: lights in their fast mode against the same lights sampled: off
 // by no more than they tell, and only where they say.
 #include "render/fast_lights.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/film_test.cc: what a pixel's samples add up to, and what its layers hold beside the
 // picture's centre.
 #include <algorithm>

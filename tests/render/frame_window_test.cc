@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/frame_window_test.cc: bands of a frame hold every row once, whatever their number.
 #include "render/frame_window.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/intersectors_test.cc: however camera rays find spheres, the picture's bits are the
 // same: random scenes that are hard to bin, and every scene that ships.
 #include <cmath>

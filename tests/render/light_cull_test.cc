@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/light_cull_test.cc: lights that are left out reach nothing, and many are.
 #include "render/light_cull.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/mesh_lights_test.cc: pictures under lights made of triangles, against the lights
 // that they are the same as, or come near to.
 #include <cmath>

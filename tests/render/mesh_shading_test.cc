@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is interpolated across the triangles of a mesh, and where its shadow rays start.
 #include <array>
 #include <cmath>

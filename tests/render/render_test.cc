@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/render_test.cc: whole pictures: what a pixel's bits may not depend on, what layers
 // add up to, and that skips skip nothing that shows.
 #include "render/render.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/rough_diffuse_test.cc: pictures of rough matte spheres, against the scalar twins of
 // their models and against what is known of light from everywhere.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/sampled_lights_test.cc: pictures under lights with an extent and under skies,
 // against what they must be in closed form, and against the same by other ways.
 #include "render/sampled_lights.h"

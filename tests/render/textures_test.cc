@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/textures_test.cc: whole pictures with textures: constant maps against constants, to
 // the bit, and what normals, bumps and coordinates do.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/render/visible_lights_test.cc: the shapes of lights that the camera sees, and which of them
 // it can see at all.
 #include <random>

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """nacre's reports in headless Chromium: what the page shows is what the files hold.
 
 Usage: browser_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/report/page_test.cc: what holds a page together: base64, escapes, its policy.
 #include "report/page.h"
 

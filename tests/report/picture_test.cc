@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/report/picture_test.cc: what of an image goes into a page, and how small it is made.
 #include "report/picture.h"
 

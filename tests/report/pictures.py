@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Just enough of EXR and PNG to know what is in nacre's own files."""
 import struct
 import zlib

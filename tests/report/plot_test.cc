@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Diagrams: what goes to gnuplot and to CSV, and that files appear whole or not at all.
 #include "report/plot.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/sampling/inverse_cdf_test.cc: indices have the probabilities that were asked for.
 #include "sampling/inverse_cdf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/sampling/pair_sampler_test.cc: the points of lights and lobes, pixel by pixel.
 #include "sampling/pair_sampler.h"
 

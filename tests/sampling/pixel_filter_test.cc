@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/sampling/pixel_filter_test.cc: filters and their importance sampling.
 #include "sampling/pixel_filter.h"
 

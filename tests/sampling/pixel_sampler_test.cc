@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/sampling/pixel_sampler_test.cc: the samples of pixels: weights, densities, unbiasedness.
 #include "sampling/pixel_sampler.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/sampling/sobol_test.cc: the scrambled Sobol' sequence is a net, uniform and fast.
 #include "sampling/sobol.h"
 

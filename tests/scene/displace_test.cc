@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/scene/displace_test.cc: displaced surfaces and their normals.
 #include "scene/displace.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/scene/edges_test.cc: numbers exactly at a limit, and defaults.
 #include <string>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Grids, pairs and clouds: where the spheres are, what they are made of, what the labels say.
 #include "scene/generators.h"
 

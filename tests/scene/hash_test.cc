@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/scene/hash_test.cc: a scene's fingerprint tells every value that shows from another.
 #include "scene/hash.h"
 

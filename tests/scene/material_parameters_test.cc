@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The table of material parameters against the structs that it is about.
 #include "scene/material_parameters.h"
 

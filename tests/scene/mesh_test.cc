@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Face normals, smooth normals, transforms and polygons.
 #include "scene/mesh.h"
 

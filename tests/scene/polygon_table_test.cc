@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Newell's normals against polygons of 1e-6 to 1e6, at the origin and far from it.
 #include <cmath>
 #include <vector>

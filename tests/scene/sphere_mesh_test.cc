@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Spheres as meshes: closed, right side out, with the sphere's own normals and uvs.
 #include "scene/sphere_mesh.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Validate() on scenes built in code: each fault alone, and many at once.
 #include "scene/validate.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // glTF files that must be refused, in one clear line, whatever is wrong with them.
 #include <random>
 

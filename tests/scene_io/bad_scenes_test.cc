@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenes that must be refused, one fault each, from the table bad_scenes.json (which
 // schema_test.py holds the JSON Schema against as well).
 #include <fstream>

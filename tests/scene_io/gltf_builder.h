@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small glTF files made in memory, to be changed and spoilt.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What glTF files say: nodes, meshes, materials, cameras and lights.
 #include <array>
 #include <cmath>

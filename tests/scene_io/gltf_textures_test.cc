@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The textures of glTF files: images inside and beside them, samplers, transforms.
 #include <algorithm>
 #include <cmath>

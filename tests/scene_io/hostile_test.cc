@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/scene_io/hostile_test.cc: files that ask for more than anybody wants, and are told so.
 #include <filesystem>
 #include <fstream>

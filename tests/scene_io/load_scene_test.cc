@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scene files of every kind, what --set changes, and the scenes that ship.
 #include "scene_io/load_scene.h"
 

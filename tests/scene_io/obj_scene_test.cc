@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OBJ files as scenes of their own, with their material libraries.
 #include <random>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OBJ files, good and bad.
 #include "scene_io/obj.h"
 

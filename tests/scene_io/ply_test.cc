@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // PLY files, good and bad: text, bytes of both orders, any order of properties.
 #include "scene_io/ply.h"
 

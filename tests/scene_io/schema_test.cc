@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The schema that the program carries, against the tables that the reader uses. Against scenes:
 // schema_test.py.
 #include <fstream>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Holds scenes/nacre.schema.json against the scenes that ship and against bad_scenes.json.
 
 Usage: schema_test.py SOURCE_DIR. Needs python3-jsonschema.

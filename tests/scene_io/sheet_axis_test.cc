@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes of sheets as people type them, and materials to JSON and back.
 #include "scene_io/sheet_axis.h"
 

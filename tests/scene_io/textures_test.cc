@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/scene_io/textures_test.cc: textures of scene files, from images written here (PPM, which
 // OpenImageIO reads).
 #include <filesystem>

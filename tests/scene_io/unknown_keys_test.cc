@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/scene_io/unknown_keys_test.cc: a key that nobody reads is a fault, wherever it stands.
 #include <functional>
 #include <string>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/furnace_test.cc: the white furnace, through the kernels that render: under equal
 // light from everywhere a white surface must reflect all of it, whatever its roughness and however
 // it is looked at.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/highlight.h: highlights on random normals under one directional light, as the
 // kernels shade them. For tests and for the tables of scripts/accuracy.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/highlight_test.cc: highlights against the models in double, over the whole lobe, on
 // every target: in float up to the limits of kDoubleTermsRoughness and kDoubleTermsShininess, in
 // double beyond them.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Materials as others: the closed forms, what a fit gains on them, and the way back.
 #include "shading/material_fit.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/material_test.cc: what is made of materials and lights before the kernels run,
 // against numbers and laws that do not come from there.
 #include "shading/material.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/mesh_light_test.cc: directions to lights made of triangles, and their densities, on
 // every target.
 #include "light/mesh_light.h"

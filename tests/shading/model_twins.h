@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/model_twins.h: lights and reflection models evaluated in double, one hit at a time,
 // from the scalar twins: what the shading kernels are held against.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/prepare.h: materials as the kernels want them.
 #pragma once
 

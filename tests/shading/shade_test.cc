@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/shading/shade_test.cc: the shading kernels against models evaluated in double from the
 // scalar twins, on every target, and the promises that keep bits independent of neighbours.
 #include "shading/shade.h"

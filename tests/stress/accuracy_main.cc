@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/accuracy_main.cc: prints what nacre's precision is, beside the textbook's formulas
 // in float: the tables of the README. Everything is measured when it is printed.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/denormal_test.cc: rendering flushes denormals in its workers, whatever the caller's
 // mode, and leaves that mode as it was. Of x86, where the mode is one register.
 #if defined(__SSE2__)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/everything.h: a scene with every reflection model, each of its options, every kind
 // of light, and shadows.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/fuzz.h: every reflection model under directions, parameters and lights drawn at
 // random and from the list of values that break renderers, through the shading kernels of the
 // active target. Models and parameters come from scene/material_parameters.h: new ones join by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/fuzz_draws.h: the random and the special values that the fuzz draws.
 #pragma once
 

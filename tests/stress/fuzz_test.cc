@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/fuzz_test.cc: a short run of the fuzz on every target; scripts/stress makes it long.
 #include "stress/fuzz.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/gallery.h: the scenes of scenes/stability, each of which shows where renderers are
 // known to fail, and what a picture of them is held to against the truth.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/gallery_test.cc: the stability gallery, in small pictures, on every target; and that
 // the comparison which judges it can fail.
 #include "stress/gallery.h"

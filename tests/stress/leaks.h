@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/leaks.h: rays from inside closed meshes at their vertices and edges: none may get
 // out.
 #pragma once

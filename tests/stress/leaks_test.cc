@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/leaks_test.cc: a short run on every target; scripts/stress makes it long.
 #include "stress/leaks.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/light_test.cc: lights where they should not be: on and in surfaces, at the very
 // point that is shaded, and brighter than a float.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/random_scene.h: small scenes of spheres at random: of any size, anywhere, seen from
 // near and far, in, on and between spheres, under lights that graze or touch.
 #pragma once

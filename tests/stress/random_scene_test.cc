@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/random_scene_test.cc: many small random scenes against the truth.
 #include "stress/random_scene.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/range_test.cc: single points at the ends of the number range that the fuzz found,
 // each by itself.
 #include <cmath>

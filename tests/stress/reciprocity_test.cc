@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/reciprocity_test.cc: light and viewer change places, and the reciprocal models
 // reflect as much (Helmholtz), in the kernels' own rounding.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/scale_test.cc: a picture does not know the unit of length, nor where the origin is.
 #include <cmath>
 #include <vector>

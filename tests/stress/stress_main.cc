@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/stress_main.cc: the program behind scripts/stress: renders the stability gallery
 // beside the truth, judges it, looks for leaks, and fuzzes the reflection models at length. Text to
 // stdout.

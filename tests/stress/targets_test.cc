@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/targets_test.cc: how far pictures of different SIMD targets may be apart, over all
 // models, options, lights and layers.
 #include "targets.h"

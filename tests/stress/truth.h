@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/truth.h: the third witness beside renderer and tables: a picture by brute force in
 // long double, one ray through each pixel's centre, punctual lights, hard shadows. It reads the
 // scene's own numbers and shares no formula's code with the renderer: no Embree, no SIMD, no float.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/truth_reflect.h: the reflection models as their papers write them, in long double:
 // the truth that the kernels are held against. Nothing here is shared with src/brdf or src/shading.
 #pragma once

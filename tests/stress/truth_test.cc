@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/stress/truth_test.cc: the truth itself: against numbers known on paper and against the
 // textbook's quadratic in 113 bits.
 #include "stress/truth.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lesson's exercises: what the studies compute against the tables of their answers, which other
 // programs found. Tolerances: of the quadratures, a few units of the tables' last sure digit.
 #include <cmath>

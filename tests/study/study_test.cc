@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the studies are made of: reflection by twins and kernels, shares by quadrature, rounding.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/textbook/albedo_test.cc: what the lesson's model gives back of light from everywhere: the
 // numbers of `nacre explain textbook`, against closed forms and the table of exact integrals.
 #include "textbook/albedo.h"

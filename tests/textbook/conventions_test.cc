@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/textbook/conventions_test.cc: the numbers that stand for faults which no picture shows.
 #include "textbook/conventions.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/textbook/faults_test.cc: each switch changes what it should in the lesson's pictures and
 // nothing else; faults that the pictures do not show are at work where they should be; and without
 // any of them the lesson's program agrees with nacre's own renderer.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/textbook/pictures_test.cc: the lesson's pictures against those that its own program made
 // (tests/references/textbook: its float image as EXR, its 8-bit image as PNG).
 #include "textbook/pictures.h"

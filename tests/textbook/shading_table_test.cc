@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/textbook/shading_table_test.cc: the lesson's functions in double against the tables, whose
 // lesson_* columns are the lesson in exact arithmetic: clamps, floors and + 0.0001 included.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/texture/mapping_kernel.cc: the loop behind mapping_kernel.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "texture/mapping_kernel.cc"

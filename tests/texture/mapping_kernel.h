@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/texture/mapping_kernel.h: the mappings' SIMD twins, on arrays.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/texture/mapping_test.cc: mappings against tables/mappings.json, their gradients against
 // differences, and the SIMD twins against the scalar ones.
 #include "texture/mapping.h"

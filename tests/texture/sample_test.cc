@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/texture/sample_test.cc: look-ups against tables/texture.json, their edges, and the SIMD
 // twin against the scalar one.
 #include "texture/sample.h"

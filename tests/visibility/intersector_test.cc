@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/intersector_test.cc: closest hits against brute force, and what they must not
 // depend on.
 #include "visibility/intersector.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/mesh_test.cc: triangles: watertight, ordered, and not shadowing themselves.
 #include <array>
 #include <map>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/near_root_test.cc: distances to huge spheres close to the eye.
 #include <cmath>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/occluders_test.cc: shadow rays without a tree, against brute force.
 #include "catch.h"
 #include "targets.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/packet_test.cc: the parts beneath the intersector: geometry, exact products,
 // and packets of which Embree hands on some rays in another order.
 #include "visibility/packet.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/ray_sphere_test.cc: the ray-sphere test against exact references.
 #include "catch.h"
 #include "tables.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/rays.h: rays one by one in place of batches, and the brute-force oracle: the
 // scalar twins of the hit tests on every primitive.
 #pragma once

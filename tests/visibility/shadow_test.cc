@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/shadow_test.cc: occlusion against brute force, and where others fail.
 #include "catch.h"
 #include "targets.h"

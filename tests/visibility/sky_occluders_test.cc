@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/sky_occluders_test.cc: shadow rays all over by lists, whose floats must leave to
 // doubles whatever they cannot be sure of, against brute force.
 #include "catch.h"

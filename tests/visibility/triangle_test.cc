@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tests/visibility/triangle_test.cc: one triangle: what lies before and behind it.
 #include "catch.h"
 #include "hit/batch.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // brdf/table/make_albedo_table.cc: the program that writes the table of brdf/albedo_table.h as C++,
 // at build time, from the quadratures of brdf/albedo_integral.h.
 //

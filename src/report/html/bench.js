@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/bench.js: a run of scripts/bench: its headlines, diagrams and tables.
 
 function median(values) {

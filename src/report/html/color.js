@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/color.js: from linear radiance to 8-bit codes, as nacre tonemap makes them: the tone
 // operators and the sRGB curve in double. Sources are cited in src/color/{tone,agx,transfer}.h.
 

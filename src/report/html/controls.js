@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/controls.js: what a viewer is set by, and what it says of a pixel.
 
 const KEYS = [

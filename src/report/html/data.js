@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/data.js: what the file holds: the report, and samples that are unpacked when needed.
 
 const REPORT = JSON.parse(document.getElementById('report').textContent);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/dom.js: elements without markup: whatever text comes in stays text.
 
 const SVG = 'http://www.w3.org/2000/svg';

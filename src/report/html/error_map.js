@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/error_map.js: where and how much two pictures differ, in the colours of nacre compare.
 
 // "Viridis" by van der Walt and Smith (2015), and for signs blue through grey to red.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/page.js: the page from its sections.
 
 // A page of one section needs no second title.

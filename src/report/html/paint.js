@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/paint.js: layers and errors as pictures of 8 bits.
 
 function blank(image) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/panes.js: canvases that look at the same part of the frame.
 
 // What is seen: the frame's point at the middle of each pane, and how many CSS pixels a pixel takes.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/plots.js: diagrams as SVG: lines over two logarithmic axes, dots and stacked bars in
 // rows. Okabe and Ito's colours (2008), and a mark of its own for each series.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/tables.js: figures of comparisons and validations, plans, facts.
 
 const METRICS = [

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // report/html/viewer.js: one or several pictures of a set, under one camera and one look.
 
 const MODES = {single: 'Single', slider: 'Slider', side: 'Side by side', error: 'Error map'};
