@@ -16,6 +16,7 @@ import figures
 import google
 import lights
 import machine
+import port_bound
 import precision
 import readme
 import report
@@ -65,6 +66,10 @@ def measure(build, sizes, summary_only):
     targets = context["simd_targets"].split()
     results["targets"], results["best_target"] = targets, targets[-1]
     results["scalar_baseline"] = context["scalar_baseline"]
+    if port_bound.available() and not summary_only:
+        say("port bounds of the kernels")
+        results["port_bounds"] = port_bound.measure(
+            build / "bench" / "nacre_bench", results["benchmarks"], results["best_target"])
     with scratch_folder() as name:
         folder = pathlib.Path(name)
         say("whole processes")

@@ -32,15 +32,16 @@ def markdown(results):
         by_model.setdefault(model, {})[target] = (ns, rate, ratio)
     lines = [f"Measured by `scripts/bench`: {machine.line(results['machine'])}.", "",
              f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}.", "",
-             f"| kernel | {best}, ns | million/s | times plain | avx2, ns |",
-             "|---|---|---|---|---|"]
+             f"| kernel | {best}, ns | million/s | times plain | of port bound | avx2, ns |",
+             "|---|---|---|---|---|---|"]
     for model, found in by_model.items():
         if best not in found:
             continue
         ns, rate, ratio = found[best]
         avx2 = f"{found['avx2'][0]:.2f}" if "avx2" in found else ""
         lines.append(f"| {model.replace('_', ' ')} | {ns:.2f} | {rate / 1e6:.0f} | "
-                     f"{f'{ratio:.1f}' if ratio else ''} | {avx2} |")
+                     f"{f'{ratio:.1f}' if ratio else ''} | "
+                     f"{report.share_of_bound(results, model, best, ns)} | {avx2} |")
     lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is; in memory "
               "unless it says process. Embree's spheres are traced bare, in float, their tree "
               "built before.", "", "| headline | value |", "|---|---|"]

@@ -62,11 +62,19 @@ def kernel_rows(benchmarks):
                                          order.get(row[2], 9)))
 
 
-def _kernels(benchmarks):
+def share_of_bound(results, model, target, ns):
+    """How much of what the processor's ports allow a kernel reaches, as text."""
+    bound = results.get("port_bounds", {}).get(f"shade/{model}/{target}")
+    return f"{100 * bound / ns:.0f} %" if bound else ""
+
+
+def _kernels(results):
     rows = [(model, mode, target, f"{ns:.2f}", f"{rate / 1e6:.0f}",
-             f"{ratio:.1f}" if ratio else "", f"{spread:.0f} %")
-            for model, mode, target, ns, rate, ratio, spread in kernel_rows(benchmarks)]
-    return table(("kernel", "hits", "target", "ns", "M/s", "x scalar", "+-"), rows)
+             f"{ratio:.1f}" if ratio else "",
+             share_of_bound(results, model, target, ns) if mode == "cached" else "",
+             f"{spread:.0f} %")
+            for model, mode, target, ns, rate, ratio, spread in kernel_rows(results["benchmarks"])]
+    return table(("kernel", "hits", "target", "ns", "M/s", "x scalar", "of port bound", "+-"), rows)
 
 
 def _plain(benchmarks, prefix, unit, scale):
@@ -148,7 +156,7 @@ def text(results):
     math = _plain({name: r for name, r in benchmarks.items()}, "math/", "us per 512 hits", 1e-3)
     parts = [machine.line(results["machine"]),
              f"x scalar: times as fast as {results['scalar_baseline']}",
-             _kernels(benchmarks), _plain(benchmarks, "visibility/", "ms", 1e-6),
+             _kernels(results), _plain(benchmarks, "visibility/", "ms", 1e-6),
              _frames(benchmarks), math, _processes(results["processes"]),
              _scaling(results.get("scaling", {})) or None,
              _precision(results["precision"]) if "precision" in results else None,

@@ -34,7 +34,7 @@ class Settings:
     blender_truth_spp: int = 1024
     # Which benchmarks, as regular expressions of Google Benchmark; what one of them names is run in
     # random order.
-    groups: tuple = ("^shade/", "^access/", "^math/", "^visibility/", "^frame/.*/1920x1080/",
+    groups: tuple = ("^(shade|machine)/", "^access/", "^math/", "^visibility/", "^frame/.*/1920x1080/",
                      "^frame/.*/480x270/")
 
 
@@ -59,8 +59,8 @@ QUICK = Settings(
     povray_truth_depth=7,
     blender_spp=(1, 4),
     blender_truth_spp=256,
-    groups=("^shade/", "^access/.*/avx[23]$", "^math/", "^visibility/",
-            "^frame/[a-z_]+/1920x1080/1spp/(avx2|avx3.*)$"
+    groups=("^(shade|machine)/", "^access/.*/avx[23]$", "^math/",
+            "^visibility/", "^frame/[a-z_]+/1920x1080/1spp/(avx2|avx3.*)$"
             "|^frame/material_grid(_plain)?/1920x1080/16spp/",
             "^frame/material_grid/480x270/(1|4|16)spp/"),
 )

@@ -10,7 +10,7 @@
 
 #include "brdf/fresnel-inl.h"
 #include "brdf/ggx-inl.h"
-#include "shading/range-inl.h"
+#include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -18,6 +18,7 @@ namespace HWY_NAMESPACE {
 
 struct TextbookGgx {
   static constexpr bool kHasSpecular = true;
+  using Incident = IncidentV;
   struct View {
     FloatV n_dot_v;
   };
@@ -52,6 +53,7 @@ struct TextbookGgx {
 
 struct NaivePhong {
   static constexpr bool kHasSpecular = true;
+  using Incident = IncidentV;
   struct View {};
   const PhongUniforms& uniforms;
 
@@ -71,6 +73,7 @@ struct NaivePhong {
 
 struct NaiveBlinnPhong {
   static constexpr bool kHasSpecular = true;
+  using Incident = IncidentV;
   struct View {};
   const PhongUniforms& uniforms;
 

@@ -17,12 +17,18 @@ namespace hn = hwy::HWY_NAMESPACE;
 // |n x u|^2 is formed as |u - n (n.u)|^2: one fused step each way, and what |n| and n.u are off by
 // points along n, where it counts in the second order only.
 template <class V>
-struct AnglesV {
-  V n_dot_l, n_dot_v, n_dot_u, u_squared, nxu_squared, lv_squared;
+struct HalfAnglesV {
+  V n_dot_u, u_squared, nxu_squared, lv_squared;
+};
+
+template <class V>
+struct AnglesV : HalfAnglesV<V> {
+  V n_dot_l, n_dot_v;
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, const Vec3V<V>& v) {
+HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l,
+                                            const Vec3V<V>& v) {
   const Vec3V<V> l_minus_v = Sub(l, v);
   const Vec3V<V> sum = Add(l, v);
   const V along = hn::Mul(FusedDot(sum, l_minus_v), hn::Set(d, hn::TFromD<D>(0.25)));
@@ -33,8 +39,12 @@ HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, c
   const Vec3V<V> across{hn::NegMulAdd(n.x, n_dot_u, u.x), hn::NegMulAdd(n.y, n_dot_u, u.y),
                         hn::NegMulAdd(n.z, n_dot_u, u.z)};
   const V across_squared = FusedDot(across, across);
-  return {FusedDot(n, l), FusedDot(n, v), n_dot_u,
-          FusedDot(u, u), across_squared, FusedDot(l_minus_v, l_minus_v)};
+  return {n_dot_u, FusedDot(u, u), across_squared, FusedDot(l_minus_v, l_minus_v)};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE AnglesV<V> ComputeAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l, const Vec3V<V>& v) {
+  return {ComputeHalfAngles(d, n, l, v), FusedDot(n, l), FusedDot(n, v)};
 }
 
 }  // namespace HWY_NAMESPACE

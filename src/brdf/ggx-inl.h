@@ -17,7 +17,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // Walter et al. 2007, eq. 33. alpha must not be a delta lobe's. 0 where h lies below the surface.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxDistribution(D d, const AnglesV<V>& a, V alpha) {
+HWY_INLINE V GgxDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
   const V zero = hn::Zero(d);
   const V scaled = hn::Mul(a.n_dot_u, alpha);
   const V denominator = hn::MulAdd(scaled, scaled, a.nxu_squared);
@@ -32,7 +32,7 @@ HWY_INLINE V GgxDistribution(D d, const AnglesV<V>& a, V alpha) {
 // kernel that has 1 / |u|^2 at hand and merges its divisions: q >= alpha^2, so nothing under- or
 // overflows. Says nothing of h below the surface.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxRootDenominator(D, const AnglesV<V>& a, V u_squared_inverse, V alpha) {
+HWY_INLINE V GgxRootDenominator(D, const HalfAnglesV<V>& a, V u_squared_inverse, V alpha) {
   const V scaled = hn::Mul(a.n_dot_u, alpha);
   return hn::Mul(hn::MulAdd(scaled, scaled, a.nxu_squared), u_squared_inverse);
 }

@@ -51,7 +51,7 @@ HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V
 
 // (n.h)^2, of which Blinn's lobe is the power n/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const AnglesV<V>& a) {
+HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, hn::TFromD<D>(1));
   const V cos2 = hn::Mul(a.n_dot_u, a.n_dot_u);

@@ -6,7 +6,7 @@
 
 #include "hwy/highway.h"
 
-#include "shading/range-inl.h"
+#include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -27,11 +27,11 @@ struct Lambert {
 };
 
 void ShadeLambertT(const LambertLight* lights, const ShadeRange& range) {
-  ShadePackets(FloatTag(), Lambert<float>{lights}, range);
+  ShadeBriefly(FloatTag(), Lambert<float>{lights}, range);
 }
 
 void ShadeLambertMapsT(const LambertLightOf<const float*>& light, const ShadeRange& range) {
-  ShadePackets(FloatTag(), Lambert<const float*>{&light}, range);
+  ShadeBriefly(FloatTag(), Lambert<const float*>{&light}, range);
 }
 
 }  // namespace HWY_NAMESPACE

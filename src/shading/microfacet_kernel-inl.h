@@ -15,6 +15,7 @@
 #include "brdf/fresnel-inl.h"
 #include "brdf/ggx-inl.h"
 #include "shading/microfacet_albedo-inl.h"
+#include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -90,6 +91,7 @@ HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
 template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared, class Number>
 struct Microfacet {
   static constexpr bool kHasSpecular = true;
+  using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
   const MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
@@ -113,19 +115,19 @@ struct Microfacet {
   }
 
   // Distribution, visibility, cosine and irradiance.
-  HWY_INLINE FloatV Lobe(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
-                         const AnglesV<FloatV>& angles, FloatV u_inverse) const {
+  HWY_INLINE FloatV Lobe(FloatTag d, const View& view, const PacketV& p, const Incident& in,
+                         FloatV u_inverse) const {
     // Not less than the smallest normal number, for unlit lanes and for cosines below that; nor
     // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
-    const auto above = hn::Gt(angles.n_dot_u, hn::Set(d, 0x1p-63f));
+    const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
     const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
     const FloatV masking = VisibilityDenominator<kShadowing>(d, in.n_dot_l, view.n_dot_v, alpha,
                                                              NumberAt(d, uniforms.schlick_k, p.i));
     if (kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in, masking);
-    const FloatV q = GgxRootDenominator(d, angles, hn::Mul(u_inverse, u_inverse), alpha);
+    const FloatV q = GgxRootDenominator(d, in.half, hn::Mul(u_inverse, u_inverse), alpha);
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
     const FloatV numerator = hn::Mul(in.weight, NumberAt(d, uniforms.alpha2_over_pi, p.i));
     const FloatV wide = hn::IfThenElseZero(
@@ -145,16 +147,15 @@ struct Microfacet {
     return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
   }
 
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,
                                size_t k) const {
     const MicrofacetLightOf<Number>& light = uniforms.lights[k];
-    const AnglesV<FloatV> angles = ComputeAngles(d, p.normal, in.to_light, p.to_view);
     const FloatV u_squared =
-        hn::Max(angles.u_squared, hn::Set(d, std::numeric_limits<float>::min()));
+        hn::Max(in.half.u_squared, hn::Set(d, std::numeric_limits<float>::min()));
     const FloatV u_inverse = ReciprocalSqrt(d, u_squared);
-    const HalfV half{angles.lv_squared, hn::Mul(u_squared, u_inverse)};
+    const HalfV half{in.half.lv_squared, hn::Mul(u_squared, u_inverse)};
     const CurveV curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms, light);
-    RgbV reflected = ScaleRgb(curve.reflected, Lobe(d, view, p, in, angles, u_inverse));
+    RgbV reflected = ScaleRgb(curve.reflected, Lobe(d, view, p, in, u_inverse));
     RgbV base = curve.left;
     if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
     if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);

@@ -9,7 +9,7 @@
 #include "hwy/highway.h"
 
 #include "brdf/phong-inl.h"
-#include "shading/range-inl.h"
+#include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -18,12 +18,13 @@ namespace HWY_NAMESPACE {
 template <PhongModel kModel, class Number>
 struct PhongFamily {
   static constexpr bool kHasSpecular = true;
+  using Incident = std::conditional_t<kModel == PhongModel::kBlinnPhong, HalfIncidentV, IncidentV>;
   struct View {};
   const PhongUniformsOf<Number>& uniforms;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
-  HWY_INLINE LobeCosineV<FloatV> Cosine(FloatTag d, const PacketV& p, const IncidentV& in) const {
+  HWY_INLINE LobeCosineV<FloatV> Cosine(FloatTag d, const PacketV& p, const Incident& in) const {
     const NarrowLobes* const narrow = uniforms.narrow;
     if constexpr (std::is_same_v<Number, float>) {
       return narrow != nullptr ? LoadNarrow(d, *narrow, p.i) : WideCosine(d, p, in);
@@ -43,15 +44,15 @@ struct PhongFamily {
   }
 
   static HWY_INLINE LobeCosineV<FloatV> WideCosine(FloatTag d, const PacketV& p,
-                                                   const IncidentV& in) {
+                                                   const Incident& in) {
     if constexpr (kModel == PhongModel::kBlinnPhong) {
-      return BlinnSquaredCosine(d, ComputeAngles(d, p.normal, in.to_light, p.to_view));
+      return BlinnSquaredCosine(d, in.half);
     } else {
       return PhongCosine(d, p.normal, in.to_light, p.to_view);
     }
   }
 
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
                                size_t k) const {
     const LobeCosineV<FloatV> cosine = Cosine(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);

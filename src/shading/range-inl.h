@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/range-inl.h: what all shading kernels share: the loop over a range of hits and the
-// lights on them, loading a hit's vectors and adding to its radiance.
+// shading/range-inl.h: what all shading kernels share: loading a hit's vectors, the light on it,
+// adding to its radiance. The loops over hits and lights: shading/packets-inl.h.
 #if defined(NACRE_SHADING_RANGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_RANGE_INL_H_
 #undef NACRE_SHADING_RANGE_INL_H_
@@ -10,6 +10,7 @@
 
 #include <span>
 
+#include "brdf/angles-inl.h"
 #include "shading/kernels.h"
 #include "shading/light_at-inl.h"
 
@@ -76,8 +77,13 @@ struct IncidentV {
   hn::Mask<FloatTag> lit;
 };
 
-HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const PacketV& packet) {
-  const FloatV n_dot_l = FusedDot(packet.normal, at.to_light);
+// The same with the angles of the half vector.
+struct HalfIncidentV : IncidentV {
+  HalfAnglesV<FloatV> half;
+};
+
+HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
+  const FloatV n_dot_l = FusedDot(normal, at.to_light);
   const auto lit = hn::Gt(n_dot_l, hn::Zero(d));
   const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, at.irradiance));
   return {at.to_light, n_dot_l, hn::IfThenElseZero(lit, at.irradiance), weight, lit};
@@ -128,35 +134,6 @@ struct RadianceV {
   RgbV diffuse, specular;
 };
 
-// One light, in the most frequent case, known before the loop.
-struct OneLight {
-  PointLightV light;
-
-  template <class Model>
-  HWY_INLINE RadianceV Reflect(FloatTag d, const Model& model, const typename Model::View& view,
-                               const PacketV& packet) const {
-    return model.Reflect(d, view, packet, MakeIncident(d, light.At(d, packet.i), packet), 0);
-  }
-};
-
-// Any lights. Their sum stays in registers from light to light.
-struct ManyLights {
-  const HitBatch& hits;
-  std::span<const LightOnBatch> lights;
-
-  template <class Model>
-  HWY_INLINE RadianceV Reflect(FloatTag d, const Model& model, const typename Model::View& view,
-                               const PacketV& packet, RadianceV sum) const {
-    for (size_t k = 0; k < lights.size(); ++k) {
-      const LightV at = LightAt(d, lights[k], hits, packet.i);
-      const RadianceV of_light = model.Reflect(d, view, packet, MakeIncident(d, at, packet), k);
-      sum.diffuse = AddRgb(sum.diffuse, of_light.diffuse);
-      sum.specular = AddRgb(sum.specular, of_light.specular);
-    }
-    return sum;
-  }
-};
-
 // A range's arrays. Arrays are padded to whole vectors and ranges of a batch follow one another, so
 // a packet may reach past its range: the lanes that do are not stored.
 struct RangeArrays {
@@ -170,6 +147,8 @@ struct RangeArrays {
         diffuse(PointersTo(&range.radiance->diffuse)),
         specular(PointersTo(&range.radiance->specular)),
         end(range.end) {}
+
+  HWY_INLINE Vec3V<FloatV> Normal(FloatTag d, size_t i) const { return LoadAt(d, normal, i); }
 
   HWY_INLINE PacketV Packet(FloatTag d, size_t i) const {
     return {i, LoadAt(d, normal, i), LoadAt(d, to_view, i)};
@@ -186,16 +165,34 @@ struct RangeArrays {
   }
 };
 
-// ShadePackets by one light.
-template <class Model>
-HWY_INLINE void ShadeByOne(FloatTag d, const Model& model, const OneLight& light,
-                           const ShadeRange& range) {
-  const RangeArrays arrays(range);
-  const bool replace = range.replace;
-  for (size_t i = range.begin; i < arrays.end; i += hn::Lanes(d)) {
+// The light of a batch's hits i..., of any form.
+struct AnyLight {
+  const LightOnBatch& light;
+  const HitBatch& hits;
+  HWY_INLINE LightV At(FloatTag d, size_t i) const { return LightAt(d, light, hits, i); }
+};
+
+// Calls with_light(light): the most frequent form's numbers are then known before the loop.
+template <class WithLight>
+HWY_INLINE void VisitLight(FloatTag d, const LightOnBatch& light, const HitBatch& hits,
+                           const WithLight& with_light) {
+  if (light.evaluated == nullptr && light.light->form == LightForm::kInverseSquare) {
+    with_light(PointLightV(d, *light.light, hits.position));
+  } else {
+    with_light(AnyLight{light, hits});
+  }
+}
+
+// What `incident_at(packet)` brings to hits [begin, end) is reflected, and added or stored.
+template <class Model, class IncidentAt>
+HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& range,
+                             const RangeArrays& arrays, size_t k, size_t begin, size_t end,
+                             const IncidentAt& incident_at) {
+  const bool replace = range.replace && k == 0;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const PacketV packet = arrays.Packet(d, i);
     const auto view = model.SeenBy(d, packet, range.surface);
-    const RadianceV of_light = light.Reflect(d, model, view, packet);
+    const RadianceV of_light = model.Reflect(d, view, packet, incident_at(packet), k);
     if (replace) {
       arrays.Store<true>(d, of_light, i);
     } else {
@@ -203,36 +200,6 @@ HWY_INLINE void ShadeByOne(FloatTag d, const Model& model, const OneLight& light
       arrays.Store<Model::kHasSpecular>(
           d, {AddRgb(sum.diffuse, of_light.diffuse), AddRgb(sum.specular, of_light.specular)}, i);
     }
-  }
-}
-
-template <class Model>
-HWY_INLINE void ShadeByMany(FloatTag d, const Model& model, const ManyLights& lights,
-                            const ShadeRange& range) {
-  const RangeArrays arrays(range);
-  const FloatV zero = hn::Zero(d);
-  const RgbV black{zero, zero, zero};
-  const bool replace = range.replace;
-  for (size_t i = range.begin; i < arrays.end; i += hn::Lanes(d)) {
-    const PacketV packet = arrays.Packet(d, i);
-    const auto view = model.SeenBy(d, packet, range.surface);
-    const RadianceV before = replace ? RadianceV{black, black} : arrays.Load(d, i);
-    arrays.Store<true>(d, lights.Reflect(d, model, view, packet, before), i);
-  }
-}
-
-// For each packet of the range: what `model` reflects of every light, added in the order of the
-// lights.
-//   view = model.SeenBy(packet, surface)             what does not depend on the light
-//   model.Reflect(view, packet, incident, k)         what it makes of light k
-template <class Model>
-HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
-  const LightOnBatch& first = range.lights[0];
-  if (range.lights.size() == 1 && first.evaluated == nullptr &&
-      first.light->form == LightForm::kInverseSquare) {
-    ShadeByOne(d, model, OneLight{PointLightV(d, *first.light, range.hits.position)}, range);
-  } else {
-    ShadeByMany(d, model, ManyLights{range.hits, range.lights}, range);
   }
 }
 

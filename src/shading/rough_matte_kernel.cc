@@ -6,6 +6,7 @@
 
 #include "hwy/highway.h"
 
+#include "shading/packets-inl.h"
 #include "shading/rough_diffuse-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,6 +16,7 @@ namespace HWY_NAMESPACE {
 template <DiffuseForm kForm, class Number>
 struct RoughMatte {
   static constexpr bool kHasSpecular = false;
+  using Incident = IncidentV;
   using View = typename RoughDiffuse<kForm>::View;
   const RoughMatteUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/packets-inl.h: the loops of all shading kernels over a range of hits and its lights.
+//
+// A shading formula is one long chain of dependent operations, and a processor's window holds few
+// of them. So it is cut in pieces: for a block of hits, small enough for the nearest cache, first
+// what the light is, then the half vector's angles, then what is reflected. Each loop is short
+// enough for several of its turns to overlap.
+#if defined(NACRE_SHADING_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_PACKETS_INL_H_
+#undef NACRE_SHADING_PACKETS_INL_H_
+#else
+#define NACRE_SHADING_PACKETS_INL_H_
+#endif
+
+#include <algorithm>
+#include <type_traits>
+
+#include "shading/range-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+// One light on a block of hits.
+class IncidentBlock {
+ public:
+  static constexpr size_t kHits = 128;  // a multiple of every target's lanes
+
+  HWY_INLINE void Store(FloatTag d, size_t at, const IncidentV& in) {
+    hn::Store(in.to_light.x, d, x_ + at);
+    hn::Store(in.to_light.y, d, y_ + at);
+    hn::Store(in.to_light.z, d, z_ + at);
+    hn::Store(in.n_dot_l, d, n_dot_l_ + at);
+    hn::Store(in.irradiance, d, irradiance_ + at);
+    hn::Store(in.weight, d, weight_ + at);
+  }
+
+  HWY_INLINE Vec3V<FloatV> ToLight(FloatTag d, size_t at) const {
+    return {hn::Load(d, x_ + at), hn::Load(d, y_ + at), hn::Load(d, z_ + at)};
+  }
+
+  HWY_INLINE IncidentV Load(FloatTag d, size_t at) const {
+    const FloatV n_dot_l = hn::Load(d, n_dot_l_ + at);
+    return {ToLight(d, at), n_dot_l, hn::Load(d, irradiance_ + at), hn::Load(d, weight_ + at),
+            hn::Gt(n_dot_l, hn::Zero(d))};
+  }
+
+  HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half) {
+    hn::Store(half.n_dot_u, d, n_dot_u_ + at);
+    hn::Store(half.u_squared, d, u_squared_ + at);
+    hn::Store(half.nxu_squared, d, nxu_squared_ + at);
+    hn::Store(half.lv_squared, d, lv_squared_ + at);
+  }
+
+  HWY_INLINE HalfAnglesV<FloatV> LoadHalf(FloatTag d, size_t at) const {
+    return {hn::Load(d, n_dot_u_ + at), hn::Load(d, u_squared_ + at),
+            hn::Load(d, nxu_squared_ + at), hn::Load(d, lv_squared_ + at)};
+  }
+
+ private:
+  static constexpr size_t kAlignment = 64;
+  alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits];
+  alignas(kAlignment) float n_dot_l_[kHits], irradiance_[kHits], weight_[kHits];
+  alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits],
+      lv_squared_[kHits];
+};
+
+template <class Model>
+HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& range,
+                           const RangeArrays& arrays, size_t k, size_t begin, size_t end,
+                           IncidentBlock* block) {
+  constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
+  VisitLight(d, range.lights[k], range.hits, [&](const auto& light) HWY_ATTR {
+    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+      block->Store(d, i - begin, MakeIncident(d, light.At(d, i), arrays.Normal(d, i)));
+    }
+  });
+  if constexpr (kHalf) {
+    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+      const PacketV p = arrays.Packet(d, i);
+      block->StoreHalf(d, i - begin,
+                       ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view));
+    }
+  }
+  ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
+    if constexpr (kHalf) {
+      return HalfIncidentV{block->Load(d, p.i - begin), block->LoadHalf(d, p.i - begin)};
+    } else {
+      return block->Load(d, p.i - begin);
+    }
+  });
+}
+
+// For each packet of the range: what `model` reflects of every light, added in the order of the
+// lights.
+//   view = model.SeenBy(packet, surface)             what does not depend on the light
+//   model.Reflect(view, packet, incident, k)         what it makes of light k
+// `Model::Incident`: IncidentV, or HalfIncidentV.
+template <class Model>
+HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
+  const RangeArrays arrays(range);
+  IncidentBlock block;
+  for (size_t begin = range.begin; begin < range.end; begin += IncidentBlock::kHits) {
+    const size_t end = std::min(begin + IncidentBlock::kHits, range.end);
+    for (size_t k = 0; k < range.lights.size(); ++k) {
+      ShadeBlock(d, model, range, arrays, k, begin, end, &block);
+    }
+  }
+}
+
+// The same in one loop, for models with next to nothing to overlap.
+template <class Model>
+HWY_INLINE void ShadeBriefly(FloatTag d, const Model& model, const ShadeRange& range) {
+  const RangeArrays arrays(range);
+  for (size_t k = 0; k < range.lights.size(); ++k) {
+    VisitLight(d, range.lights[k], range.hits, [&](const auto& light) HWY_ATTR {
+      ReflectLight(d, model, range, arrays, k, range.begin, range.end,
+                   [&](const PacketV& p)
+                       HWY_ATTR { return MakeIncident(d, light.At(d, p.i), p.normal); });
+    });
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
