@@ -34,7 +34,7 @@ HitBatch MakeHits() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (size_t i = 0; i < kHits;) {
-    const Vec3d n = Vec3d(uniform(random), uniform(random), uniform(random)).normalized();
+    const Vec3d n = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
     const Vec3d position = n + Vec3d(0, 0, -6);
     const Vec3d to_view = -position.normalized();
     if ((n ^ to_view) <= 0) continue;

@@ -15,7 +15,7 @@ TEST_CASE("angles are those of the half vector") {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const auto direction = [&] {
-    return Vec3d(uniform(random), uniform(random), uniform(random)).normalized();
+    return Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
   };
   for (int i = 0; i < 1000; ++i) {
     const Vec3d n = direction(), l = direction(), v = direction();

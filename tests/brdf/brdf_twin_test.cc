@@ -45,7 +45,7 @@ std::vector<TermInput> RandomInputs(double roughness, double shininess, double s
     const Vec3d l = RandomUpper(&random);
     Vec3d v = RandomUpper(&random);
     if (spread > 0) {
-      const Vec3d offset(normal(random), normal(random), normal(random));
+      const Vec3d offset{normal(random), normal(random), normal(random)};
       v = (Vec3d(-l.x, -l.y, l.z) + offset * spread).normalized();
     }
     // Grazing beyond 1e-3 tests the rounding of the inputs, not the kernels.

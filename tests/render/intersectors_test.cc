@@ -102,11 +102,11 @@ void AddMeshes(uint32_t seed, Scene* scene) {
     mesh.material = {0};
     for (int k = 0; k < 8; ++k) {
       const Sphere& sphere = scene->spheres[static_cast<size_t>(7 * i + k)];
-      const Vec3d side = Vec3d(uniform(random), uniform(random), uniform(random)).normalized();
+      const Vec3d side = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
       const Vec3d at = k % 2 == 0 ? sphere.center + side * sphere.radius : sphere.center;
       const double size = std::pow(10, uniform(random)) * sphere.radius;
       for (int corner = 0; corner < 3; ++corner) {
-        Vec3d offset(uniform(random), uniform(random), uniform(random));
+        Vec3d offset{uniform(random), uniform(random), uniform(random)};
         if (k % 4 == 0) offset -= side * side.dot(offset);
         mesh.triangles.push_back(static_cast<uint32_t>(mesh.positions.size()));
         mesh.positions.push_back(at + offset * size);
@@ -210,7 +210,7 @@ TEST_CASE("spheres that nothing can shadow need no shadow rays") {
     const Sphere& first = scene.spheres[0];
     if (seed % 5 == 0) scene.spheres[1] = {first.center, first.radius * 0.5, {0}};
     if (seed % 5 == 1) scene.spheres[1] = first;
-    const Vec3d side = Vec3d(uniform(random), uniform(random), uniform(random)).normalized();
+    const Vec3d side = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
     if (seed % 5 == 2)
       scene.spheres[1] = {first.center + side * (2 * first.radius), first.radius, {0}};
     scene.camera = Camera{};

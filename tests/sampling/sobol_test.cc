@@ -200,7 +200,7 @@ TEST_CASE("Scrambled Sobol' converges faster than N^-1.3 on a smooth function", 
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> uniform;
   const double random =
-      ConvergenceSlope([&](uint32_t, int) { return Vec2d(uniform(engine), uniform(engine)); });
+      ConvergenceSlope([&](uint32_t, int) { return Vec2d{uniform(engine), uniform(engine)}; });
   INFO("slopes: Sobol " << sobol << ", random " << random);
   CHECK(sobol < -1.3);
   CHECK(std::abs(random + 0.5) < 0.05);

@@ -33,7 +33,7 @@ std::vector<Vec3d> RandomPoints(size_t count) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> component(-1, 1);
   std::vector<Vec3d> points(count);
-  for (Vec3d& p : points) p = Vec3d(component(random), component(random), component(random));
+  for (Vec3d& p : points) p = Vec3d{component(random), component(random), component(random)};
   return points;
 }
 
