@@ -3,7 +3,7 @@
 // a block's bits may not depend on.
 #include <cmath>
 
-#include "catch.h"
+#include "pictures.h"
 #include "render/render.h"
 #include "targets.h"
 
@@ -75,14 +75,6 @@ double ShareWithin(const Image& image, const Image& truth, double max_error) {
     within += all ? 1 : 0;
   }
   return static_cast<double>(within) / static_cast<double>(pixels);
-}
-
-bool SameBits(const Image& a, const Image& b) {
-  if (a.channels.size() != b.channels.size()) return false;
-  for (size_t c = 0; c < a.channels.size(); ++c) {
-    if (a.channels[c].samples != b.channels[c].samples) return false;
-  }
-  return true;
 }
 
 // 95 % is what the interval promises. The truth's own error, of 4096 samples, is about a hundredth

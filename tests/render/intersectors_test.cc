@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "pictures.h"
 #include "render/render.h"
 #include "scene_io/load_scene.h"
 #include "targets.h"
@@ -15,16 +16,6 @@ namespace nacre {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool SameBits(const Image& a, const Image& b) {
-  if (a.channels.size() != b.channels.size()) return false;
-  for (size_t i = 0; i < a.channels.size(); ++i) {
-    const std::vector<float>& x = a.channels[i].samples;
-    const std::vector<float>& y = b.channels[i].samples;
-    if (x.size() != y.size() || std::memcmp(x.data(), y.data(), 4 * x.size()) != 0) return false;
-  }
-  return true;
-}
 
 void CheckSame(const Scene& scene, RenderSettings settings) {
   settings.layers = {"N", "P", "Z", "id.object"};

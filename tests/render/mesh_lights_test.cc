@@ -5,20 +5,13 @@
 #include <cstring>
 #include <memory>
 
-#include "catch.h"
+#include "pictures.h"
 #include "render/plan.h"
 #include "render/render.h"
 #include "scene/sphere_mesh.h"
 
 namespace nacre {
 namespace {
-
-Light Named(const std::string& name, decltype(Light::kind) kind) {
-  Light light;
-  light.name = name;
-  light.kind = std::move(kind);
-  return light;
-}
 
 Light MeshLightOf(Mesh mesh, bool two_sided = false, bool visible = false) {
   return Named("lamp", MeshAreaLight{.mesh = std::make_shared<const Mesh>(std::move(mesh)),
@@ -55,46 +48,6 @@ void Append(const Mesh& more, Mesh* mesh) {
   for (const uint32_t i : more.triangles) mesh->triangles.push_back(first + i);
 }
 
-Scene OneSphere(decltype(Material::model) model) {
-  Scene scene;
-  scene.materials.emplace_back().model = std::move(model);
-  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
-  scene.camera.position = Vec3d(0, 0, 10);
-  scene.camera.fov_y_deg = 14;
-  scene.image.width = scene.image.height = 48;
-  scene.image.spp = 64;
-  return scene;
-}
-
-// The mean over the object's pixels of the red channel's difference, its standard error, and the
-// mean of `b`.
-struct Difference {
-  double mean = 0, error = 0, of = 0;
-};
-
-Difference Compare(const Image& a, const Image& b) {
-  double sum = 0, squares = 0, count = 0, of = 0;
-  for (size_t i = 0; i < a.data.pixel_count(); ++i) {
-    if (a.Find("A")->samples[i] < 1) continue;
-    const double x = double{a.Find("R")->samples[i]} - b.Find("R")->samples[i];
-    of += b.Find("R")->samples[i];
-    sum += x;
-    squares += x * x;
-    count += 1;
-  }
-  REQUIRE(count > 100);
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count), of / count};
-}
-
-// Pixels' errors are independent: 4 standard errors, and what float sums leave.
-void CheckSameMean(const Image& a, const Image& b) {
-  const Difference d = Compare(a, b);
-  CAPTURE(d.mean, d.error, d.of);
-  CHECK(std::abs(d.mean) <= 4 * d.error + 1e-6 * d.of);
-  CHECK(d.error <= 0.02 * d.of);  // the check above could fail
-}
-
 Image Render(Scene scene, const Light& light, bool closed_forms = true) {
   scene.lights = {light};
   RenderSettings settings;
@@ -114,7 +67,7 @@ std::vector<decltype(Material::model)> Models() {
 }
 
 TEST_CASE("two triangles are a rectangle, in closed form") {
-  const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)});
+  const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)}, 48, 64);
   const Image rectangle = Render(scene, Named("lamp", Window()));
   const Image mesh = Render(scene, MeshLightOf(TwoTriangles(Window())));
   size_t lit = 0;
@@ -134,7 +87,7 @@ TEST_CASE("two triangles are a rectangle, sampled, whatever they shine on") {
     window.two_sided = two_sided;
     for (const auto& model : Models()) {
       CAPTURE(model.index(), two_sided);
-      const Scene scene = OneSphere(model);
+      const Scene scene = OneSphere(model, 48, 64);
       const Image rectangle = Render(scene, Named("lamp", window), false);
       CheckSameMean(Render(scene, MeshLightOf(TwoTriangles(window), two_sided), false), rectangle);
     }
@@ -145,26 +98,27 @@ TEST_CASE("a light of triangles has the same mean in closed form and sampled") {
   const Mesh die = MakeMesh(Icosphere{.center = {1, 2, 2}, .radius = 0.7, .subdivisions = 0});
   for (const auto& model : Models()) {
     CAPTURE(model.index());
-    const Scene scene = OneSphere(model);
+    const Scene scene = OneSphere(model, 48, 64);
     CheckSameMean(Render(scene, MeshLightOf(die), true), Render(scene, MeshLightOf(die), false));
   }
 }
 
 TEST_CASE("an icosphere comes to the sphere light as it refines") {
-  const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)});
+  const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)}, 48, 64);
   SphereAreaLight sphere;
   sphere.center = Vec3d(1, 2, 2);
   sphere.radius = 0.7;
   sphere.radiance = Rgb(5);
   sphere.visible = false;
   const Image truth = Render(scene, Named("lamp", sphere));
+  const double mean = MeanRed(truth).value;
   double last = 1;
   for (const int subdivisions : {0, 1, 2}) {
     const Mesh mesh =
         MakeMesh(Icosphere{.center = sphere.center, .radius = 0.7, .subdivisions = subdivisions});
-    const Difference d = Compare(Render(scene, MeshLightOf(mesh)), truth);
-    const double share = -d.mean / d.of;  // faces lie within the sphere: always too dark
-    CAPTURE(subdivisions, share, d.error / d.of);
+    const Mean difference = MeanDifference(Render(scene, MeshLightOf(mesh)), truth);
+    const double share = -difference.value / mean;  // faces lie within the sphere: always too dark
+    CAPTURE(subdivisions, share, difference.error / mean);
     // Their distance from it, and so what they lack, is a quarter each time.
     CHECK(share > 0.2 * last);
     CHECK(share < 0.35 * last);
@@ -173,7 +127,7 @@ TEST_CASE("an icosphere comes to the sphere light as it refines") {
 }
 
 TEST_CASE("what the light hides of itself does not shine") {
-  const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)});
+  const Scene scene = OneSphere(LambertMaterial{Rgb(0.7)}, 48, 64);
   const Vec3d behind = Vec3d(2, 1.5, 2).normalized() * 0.1;
   RectangleAreaLight smaller = Window();
   smaller.width = 1;
@@ -184,7 +138,7 @@ TEST_CASE("what the light hides of itself does not shine") {
 }
 
 TEST_CASE("the back of a light is dark unless both sides shine") {
-  const Scene scene = OneSphere(MetallicRoughnessMaterial{});
+  const Scene scene = OneSphere(MetallicRoughnessMaterial{}, 48, 64);
   RectangleAreaLight away = Window();
   away.facing = -away.facing;
   for (const bool closed_forms : {true, false}) {
@@ -196,7 +150,7 @@ TEST_CASE("the back of a light is dark unless both sides shine") {
 }
 
 TEST_CASE("the camera sees a visible light, which blocks others") {
-  Scene scene = OneSphere(LambertMaterial{Rgb(0.7)});
+  Scene scene = OneSphere(LambertMaterial{Rgb(0.7)}, 48, 64);
   RectangleAreaLight before;  // between the camera and the sphere's middle
   before.center = Vec3d(0, 0, 3);
   before.facing = Vec3d(0, 0, 1);
@@ -221,7 +175,7 @@ TEST_CASE("the camera sees a visible light, which blocks others") {
 }
 
 TEST_CASE("triangles without an area change no bit") {
-  const Scene scene = OneSphere(PhongMaterial{});
+  const Scene scene = OneSphere(PhongMaterial{}, 48, 64);
   Mesh mesh = TwoTriangles(Window());
   const Image without = Render(scene, MeshLightOf(mesh), false);
   mesh.triangles.insert(mesh.triangles.begin(), {0, 2, 0, 1, 1, 1});
@@ -233,7 +187,7 @@ TEST_CASE("triangles without an area change no bit") {
 TEST_CASE("surfaces in the light's plane, on it and inside it are finite") {
   // Ground in the plane of a light that faces up, another one that stands on it, and a sphere
   // inside a third.
-  Scene scene = OneSphere(MetallicRoughnessMaterial{});
+  Scene scene = OneSphere(MetallicRoughnessMaterial{}, 48, 64);
   Mesh ground;
   ground.positions = {{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}};
   ground.triangles = {0, 1, 2, 0, 2, 3};
@@ -266,7 +220,7 @@ TEST_CASE("surfaces in the light's plane, on it and inside it are finite") {
 }
 
 TEST_CASE("pictures under lights of triangles do not depend on threads, tiles or crops") {
-  Scene scene = OneSphere(MetallicRoughnessMaterial{});
+  Scene scene = OneSphere(MetallicRoughnessMaterial{}, 48, 64);
   scene.spheres.push_back({Vec3d(0.8, 0.9, 0.9), 0.3, {0}});  // in the way
   scene.image.spp = 4;
   for (const bool visible : {true, false}) {

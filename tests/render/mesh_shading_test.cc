@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "pictures.h"
 #include "render/render.h"
 #include "scene/mesh.h"
 #include "scene/sphere_mesh.h"
@@ -78,17 +79,6 @@ constexpr std::array<const char*, 3> kNormal = {"N.X", "N.Y", "N.Z"};
 constexpr std::array<const char*, 3> kPosition = {"P.X", "P.Y", "P.Z"};
 
 Vec3d Vector(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
-
-bool SameBits(const Image& a, const Image& b) {
-  if (a.channels.size() != b.channels.size()) return false;
-  for (size_t i = 0; i < a.channels.size(); ++i) {
-    const auto &x = a.channels[i].samples, &y = b.channels[i].samples;
-    if (x.size() != y.size() || std::memcmp(x.data(), y.data(), x.size() * sizeof(float)) != 0) {
-      return false;
-    }
-  }
-  return true;
-}
 
 TEST_CASE("a flat triangle has one colour, that of its centroid") {
   const Scene scene = MakeSphereScene(Interpolation::kFlat, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/render_test.cc: whole pictures: what a pixel's bits may not depend on, what layers
 // add up to, and that skips skip nothing that shows.
+#include "pictures.h"
 #include "render/render.h"
 
 #include <cmath>
@@ -83,18 +84,6 @@ RenderSettings Settings(int threads, std::vector<std::string> layers = {}) {
   settings.threads = threads;
   settings.layers = std::move(layers);
   return settings;
-}
-
-bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-bool SameBits(const Image& a, const Image& b) {
-  if (a.channels.size() != b.channels.size()) return false;
-  for (size_t i = 0; i < a.channels.size(); ++i) {
-    if (!SameBits(a.channels[i].samples, b.channels[i].samples)) return false;
-  }
-  return true;
 }
 
 TEST_CASE("threads and tiles change no bit") {

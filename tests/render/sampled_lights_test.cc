@@ -6,74 +6,15 @@
 #include <cmath>
 #include <cstring>
 
-#include "catch.h"
+#include "pictures.h"
 #include "render/render.h"
 
 namespace nacre {
 namespace {
 
-Light Named(const std::string& name, decltype(Light::kind) kind) {
-  Light light;
-  light.name = name;
-  light.kind = std::move(kind);
-  return light;
-}
-
 Light Sky(double radiance) {
   EnvironmentLight sky{.sky = ConstantSky{Rgb(radiance)}, .rotate_deg = 0, .background = false};
   return Named("sky", sky);
-}
-
-// A sphere that fills the picture's middle, of one material.
-Scene OneSphere(decltype(Material::model) model) {
-  Scene scene;
-  scene.materials.emplace_back().model = std::move(model);
-  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
-  scene.camera.position = Vec3d(0, 0, 10);
-  scene.camera.fov_y_deg = 14;
-  scene.image.width = scene.image.height = 64;
-  scene.image.spp = 16;
-  return scene;
-}
-
-// Mean and standard error of the red channel over pixels wholly on the object.
-struct Mean {
-  double value = 0, error = 0;
-};
-
-template <class Value>
-Mean MeanOf(const Image& image, const Value& value) {
-  const std::vector<float>& alpha = image.Find("A")->samples;
-  double sum = 0, squares = 0, count = 0;
-  for (size_t i = 0; i < alpha.size(); ++i) {
-    if (alpha[i] < 1) continue;
-    const double x = value(i);
-    sum += x;
-    squares += x * x;
-    count += 1;
-  }
-  REQUIRE(count > 100);
-  const double mean = sum / count;
-  return {mean, std::sqrt(std::max(squares / count - mean * mean, 0.0) / count)};
-}
-
-Mean MeanRed(const Image& image) {
-  const std::vector<float>& red = image.Find("R")->samples;
-  return MeanOf(image, [&](size_t i) { return double{red[i]}; });
-}
-
-// The mean over the object of the difference of two pictures, which is 0 but for their noise.
-Mean MeanDifference(const Image& a, const Image& b) {
-  const std::vector<float>& x = a.Find("R")->samples;
-  const std::vector<float>& y = b.Find("R")->samples;
-  return MeanOf(a, [&](size_t i) { return double{x[i]} - y[i]; });
-}
-
-void CheckSameMean(const Image& a, const Image& b) {
-  const Mean difference = MeanDifference(a, b);
-  CAPTURE(difference.value, difference.error);
-  // Pixels' errors are independent: 4 standard errors, plus what float sums leave.
-  CHECK(std::abs(difference.value) <= 4 * difference.error + 1e-6 * MeanRed(a).value);
 }
 
 TEST_CASE("under a constant sky a matte sphere shows its albedo, to float's last digits") {

@@ -3,7 +3,7 @@
 // it can see at all.
 #include <random>
 
-#include "catch.h"
+#include "pictures.h"
 #include "render/plan.h"
 #include "render/render.h"
 #include "render/sampled_plan.h"
@@ -11,13 +11,6 @@
 
 namespace nacre {
 namespace {
-
-Light Named(const std::string& name, decltype(Light::kind) kind) {
-  Light light;
-  light.name = name;
-  light.kind = std::move(kind);
-  return light;
-}
 
 TEST_CASE("a visible light is seen on the side that it shines from") {
   Scene scene;
