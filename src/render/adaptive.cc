@@ -26,7 +26,7 @@ constexpr int kPiece = 16;
 constexpr size_t kCommonLevels = 3;
 
 // A peak narrower than a pixel may fall between its samples, but its neighbours' see the flanks: a
-// pixel goes on while their intervals are wider than this many times what it wants itself.
+// pixel goes on while they go on, too, with intervals wider than this many times what it wants.
 constexpr double kNeighbourSlack = 8;
 
 using Unit = CellScratch::Unit;
@@ -53,12 +53,12 @@ void MakeUnitSamples(const PixelSampler* samplers, const Window& cell,
 
 // The same where units take one sample and come by whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
-                      const std::vector<Unit>& units, TileScratch* s, CellScratch* c) {
+                      const std::vector<Unit>& units, int index, TileScratch* s, CellScratch* c) {
   for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[units[ray].replicate];
     ShiftPixels(sampler, block, &c->shifts);
-    SamplePixels(sampler, block, c->shifts, 0, 1, s->samples.x.data() + ray,
+    SamplePixels(sampler, block, c->shifts, index, 1, s->samples.x.data() + ray,
                  s->samples.y.data() + ray);
   }
   s->samples.count = units.size();
@@ -115,14 +115,15 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
 // The active pixels' samples of a level, in batches.
 void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScratch* s,
               CellScratch* c, StageClock* clock, RenderStats* stats) {
-  const auto& samplers = plan.adaptive.levels[level];
-  const int samples = samplers[0].samples_per_pixel;
-  const int count = std::min(samples, kPiece);
-  const bool by_blocks = level < kCommonLevels && samples == 1;
+  const AdaptivePlan::Level& piece = plan.adaptive.levels[level];
+  const auto& samplers = plan.adaptive.patterns[piece.pattern];
+  const int end = piece.first + piece.count;
+  const int count = std::min(piece.count, kPiece);
+  const bool by_blocks = level < kCommonLevels && piece.count == 1;
   const size_t most = kBatchCapacity / static_cast<size_t>(count);
   std::vector<Unit>& units = c->units;
   units.clear();
-  for (int first = 0; first < samples; first += count) {
+  for (int first = piece.first; first < end; first += count) {
     s->weights.resize(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i) {
       s->weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
@@ -130,7 +131,7 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
     const auto flush = [&] {
       if (units.empty()) return;
       if (by_blocks) {
-        MakeBlockSamples(samplers.data(), cell, units, s, c);
+        MakeBlockSamples(samplers.data(), cell, units, first, s, c);
       } else {
         MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
       }
@@ -153,7 +154,7 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
     }
     flush();
   }
-  for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(samples);
+  for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(piece.count);
 }
 
 // The pixel's interval and what is wanted of it. NaN never converges: it is counted where the
@@ -179,7 +180,7 @@ void MeasurePixel(const RenderPlan& plan, uint32_t pixel, CellScratch* c) {
   }
 }
 
-// The widest interval of the pixels around one, in its block.
+// The widest interval of the pixels around one, in its block, that are not yet as narrow as wanted.
 double WidestAround(const CellScratch& c, uint32_t pixel) {
   const uint32_t first = pixel - pixel % uint32_t{kBlockPixels};
   const int x = static_cast<int>(pixel % kBlockSide);
@@ -188,7 +189,7 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, kBlockSide - 1); ++row) {
     for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
       const auto i = first + static_cast<uint32_t>(row * kBlockSide + column);
-      widest = std::max(widest, c.intervals[i].half_width);
+      if (!c.intervals[i].narrow) widest = std::max(widest, c.intervals[i].half_width);
     }
   }
   return widest;

@@ -57,17 +57,27 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
   plan.max_samples = max_samples;
   const PixelFilter& filter = scene.image.filter;
   const bool both_signs = !MakeFilterSampler(filter).negative.empty();
-  // Few samples cannot hold a negative lobe's share.
-  int samples = both_signs ? 4 : 1;
-  for (int total = 0; kReplicates * total < max_samples; total += samples) {
-    if (plan.levels.size() > 1) samples *= 2;
-    std::array<PixelSampler, kReplicates> level;
+  const auto add_pattern = [&](int samples) {
+    auto& pattern = plan.patterns.emplace_back();
     for (size_t r = 0; r < kReplicates; ++r) {
-      const uint64_t key = Combine(plan.levels.size() * kReplicates + r + 1, scene.image.seed);
-      level[r] = MakeReplicateSampler(filter, samples, static_cast<uint32_t>(key));
+      const uint64_t key = Combine(plan.patterns.size() * kReplicates + r, scene.image.seed);
+      pattern[r] = MakeReplicateSampler(filter, samples, static_cast<uint32_t>(key));
     }
-    plan.levels.push_back(std::move(level));
+  };
+  // Few samples cannot hold a negative lobe's share.
+  int count = both_signs ? 4 : 1;
+  int total = 0;
+  while (kReplicates * total < max_samples) {
+    if (plan.levels.size() > 1) count *= 2;
+    if (both_signs) {
+      add_pattern(count);
+      plan.levels.push_back({plan.patterns.size() - 1, 0, count});
+    } else {
+      plan.levels.push_back({0, total, count});
+    }
+    total += count;
   }
+  if (!both_signs) add_pattern(total);
   // What is sampled is not known from one sample, however smooth it is.
   const bool sampled =
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {

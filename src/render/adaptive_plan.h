@@ -17,8 +17,16 @@ inline constexpr int kReplicates = 4;
 struct AdaptivePlan {
   double max_error = 0;  // 0: every pixel takes the same samples
   int max_samples = 0;   // about, of a pixel
-  // Samples are added level by level: as many again as there are, in each replicate.
-  std::vector<std::array<PixelSampler, kReplicates>> levels;
+  // Samples are added level by level: as many again as there are, in each replicate. Of most
+  // filters they go on in one pattern, of which every such beginning is as well spread as a pattern
+  // of its own, so that its error falls as that of uniform sampling. The weights of a filter with
+  // negative lobes depend on the count: each level has a pattern of its own.
+  struct Level {
+    size_t pattern;
+    int first, count;  // samples of the pattern
+  };
+  std::vector<Level> levels;
+  std::vector<std::array<PixelSampler, kReplicates>> patterns;
   // Where the footprint test may stop a block at the pixels' centres:
   bool footprints = false;
   PixelSampler center;
