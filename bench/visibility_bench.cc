@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench/visibility_bench.cc: camera rays against spheres: the exact hits of a 1920x1080 frame,
 // one thread, by number of spheres. bench/embree_baseline.cc is what they are held against.
-#include <cstdlib>
+#include <algorithm>
 #include <string>
 
 #include <benchmark/benchmark.h>
@@ -25,21 +25,20 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
   RayBatch rays;
   ClosestHits hits;
   AlignedArray<double> x(kBatchCapacity), y(kBatchCapacity);
-  constexpr int kPixels = kWidth * kHeight;
+  constexpr int kBatch = static_cast<int>(kBatchCapacity);
   for (auto _ : state) {
-    for (int first = 0; first < kPixels; first += static_cast<int>(kBatchCapacity)) {
-      const int count = std::min(static_cast<int>(kBatchCapacity), kPixels - first);
-      for (int i = 0; i < count; ++i) {
-        const std::div_t row_and_column = std::div(first + i, kWidth);
-        x[static_cast<size_t>(i)] = row_and_column.rem + 0.5;
-        y[static_cast<size_t>(i)] = row_and_column.quot + 0.5;
+    for (int row = 0; row < kHeight; ++row) {
+      for (int first = 0; first < kWidth; first += kBatch) {
+        const int count = std::min(kBatch, kWidth - first);
+        for (int i = 0; i < count; ++i) x[static_cast<size_t>(i)] = first + i + 0.5;
+        std::fill_n(y.data(), count, row + 0.5);
+        MakeCameraRays(camera, x.data(), y.data(), static_cast<size_t>(count), &rays);
+        intersector.Closest(rays, &hits);
+        benchmark::DoNotOptimize(hits.primitive.data());
       }
-      MakeCameraRays(camera, x.data(), y.data(), static_cast<size_t>(count), &rays);
-      intersector.Closest(rays, &hits);
-      benchmark::DoNotOptimize(hits.primitive.data());
     }
   }
-  state.SetItemsProcessed(state.iterations() * kPixels);
+  state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
 }
 
 // The same frame by tiles, with the binning of every frame and the hits' points and normals;
@@ -62,11 +61,12 @@ void BenchTiles(benchmark::State& state, const SphereScene& which) {
         const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
                           std::min(y0 + kCellSize, kHeight)};
         if (!intersector.EnterTile(tile, &candidates)) continue;
-        film.count = tile.pixel_count();
-        for (size_t i = 0; i < film.count; ++i) {
-          const std::div_t row_and_column = std::div(static_cast<int>(i), tile.width());
-          film.x[i] = x0 + row_and_column.rem + 0.5;
-          film.y[i] = y0 + row_and_column.quot + 0.5;
+        film.count = 0;
+        for (int y = tile.y0; y < tile.y1; ++y) {
+          for (int x = tile.x0; x < tile.x1; ++x, ++film.count) {
+            film.x[film.count] = x + 0.5;
+            film.y[film.count] = y + 0.5;
+          }
         }
         intersector.HitsInTile(candidates, film, {&hits, &directions, false});
         benchmark::DoNotOptimize(hits.count);
