@@ -18,6 +18,7 @@ struct SampledScratch {
   LightDirections directions;
   AlignedArray<float> density{kBatchCapacity}, weight{kBatchCapacity};
   AlignedArray<uint8_t> flat{kBatchCapacity};  // 1: a hit's diffuse part is in closed form
+  AlignedArray<uint8_t> fast{kBatchCapacity};  // 1: its lobe is in the light's fast mode
   ReflectedRadiance unit;                      // of a light of colour 1
   RayBatch sky_rays;                           // through the samples, where a sky is seen
   Soa3<float> sky;                             // what they see of it
