@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fits linearly transformed cosines to the GGX lobe, and writes src/light/ltc_table.inc.
+"""Fits linearly transformed cosines to the GGX lobe, and writes src/light/ltc_{one,schlick}.inc.
 
 Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed
 Cosines": the lobe, seen from one direction and with all of its light's reflections counted as one,
@@ -9,9 +9,10 @@ three numbers of the matrix that the mean direction leaves free are found by the
 cube of the difference being least. Only the shape is fitted: what the lobe reflects in all is known
 better (src/brdf/albedo.h).
 
-The lobe is that of src/brdf/ggx.h, with height-correlated shadowing and F = 1. It wants numpy, and
-prints how far the fits are off, as the part of the light that comes from elsewhere
-than it should: half the integral of the difference of both distributions.
+The lobe is that of src/brdf/ggx.h, with height-correlated shadowing, once with F = 1 and once with
+F = (1 - v.h)^5: Schlick's curve is a mixture of both. It wants numpy, takes a minute or two, and
+prints how far the fits are off, as the part of the light that comes from elsewhere than it should:
+half the integral of the difference of both distributions.
 """
 import argparse
 import pathlib
@@ -29,8 +30,8 @@ def grid():
     return u.ravel(), v.ravel()
 
 
-def lobe(view, light, alpha):
-    """f cos, with F = 1."""
+def lobe(view, light, alpha, power):
+    """f cos, with F = (1 - v.h)^power."""
     half = view + light
     half /= np.linalg.norm(half, axis=1, keepdims=True)
     nh2 = half[:, 2] ** 2
@@ -38,7 +39,8 @@ def lobe(view, light, alpha):
     nl, nv = np.maximum(light[:, 2], 0), view[2]
     root = lambda c, o: o * np.sqrt(alpha**2 + (1 - alpha**2) * c * c)
     visibility = 0.5 / np.maximum(root(nv, nl) + root(nl, nv), 1e-30)
-    return np.where(light[:, 2] > 0, d * visibility * nl, 0)
+    fresnel = np.maximum(1 - half @ view, 0) ** power
+    return np.where(light[:, 2] > 0, d * visibility * nl * fresnel, 0)
 
 
 def lobe_samples(view, alpha):
@@ -129,17 +131,18 @@ def simplex(cost, start, steps=120):
 class Cell:
     """One roughness and view."""
 
-    def __init__(self, roughness, cosine):
-        self.alpha = roughness**2
+    def __init__(self, roughness, cosine, power):
+        self.alpha, self.power = roughness**2, power
         self.view = np.array([np.sqrt(max(1 - cosine**2, 0)), 0, cosine])
         self.lights, self.densities = lobe_samples(self.view, self.alpha)
-        weights = lobe(self.view, self.lights, self.alpha) / np.maximum(self.densities, 1e-30)
+        weights = lobe(self.view, self.lights, self.alpha, power)
+        weights /= np.maximum(self.densities, 1e-30)
         self.albedo = weights.mean()
         mean = (self.lights * weights[:, None]).sum(axis=0)
         mean[1] = 0
         self.mean = mean / np.linalg.norm(mean)
 
-    def integral(self, numbers, power):
+    def integral(self, numbers, exponent):
         m = matrix(self.mean, numbers)
         if abs(np.linalg.det(m)) < 1e-12:
             return 1e9
@@ -148,10 +151,10 @@ class Cell:
         own /= np.linalg.norm(own, axis=1, keepdims=True)
         total = 0
         for light in (self.lights, own):
-            wanted = lobe(self.view, light, self.alpha) / self.albedo
+            wanted = lobe(self.view, light, self.alpha, self.power) / self.albedo
             got = transformed(inverse, light)
             both = np.maximum(lobe_density(self.view, light, self.alpha) + got, 1e-30)
-            total += (np.abs(wanted - got) ** power / both).mean()
+            total += (np.abs(wanted - got) ** exponent / both).mean()
         return total
 
     def fit(self, start, is_round):
@@ -163,12 +166,12 @@ class Cell:
         return np.maximum(np.array(expand(simplex(cost, free))), [1e-4, 1e-4, -1e9])
 
 
-def fit_row(roughness):
+def fit_row(roughness, power):
     """From the view along the normal to grazing, each from where the last one ended."""
     numbers, row, errors = np.array([roughness**2, roughness**2, 0.0]), [], []
     for k in range(ANGLES):
         x = k / (ANGLES - 1)
-        cell = Cell(roughness, max(1 - x * x, 1e-3))
+        cell = Cell(roughness, max(1 - x * x, 1e-3), power)
         numbers = cell.fit(numbers, k == 0)
         inverse = np.linalg.inv(matrix(cell.mean, numbers))
         inverse /= inverse[1, 1]
@@ -177,23 +180,31 @@ def fit_row(roughness):
     return row, errors
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    root = pathlib.Path(__file__).resolve().parent.parent
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=root / "src/light/ltc_table.inc")
-    output = parser.parse_args().output
-    rows, errors = zip(*[fit_row(r) for r in ROUGHNESSES])
+def write(path, power, curve):
+    rows, errors = zip(*[fit_row(r, power) for r in ROUGHNESSES])
     errors = np.array(errors)
     told = f"{100 * np.median(errors):.1f} % in the median, {100 * errors.max():.1f} % at worst"
-    lines = ["// SPDX-License-Identifier: Apache-2.0",
-             "// light/ltc_table.inc: written by scripts/fit_ltc.py. Of each roughness, by views, the inverse",
-             "// matrix's four numbers that are neither 0 nor 1.",
-             f"// Light that the fits have elsewhere than the lobe has it: {told}.", "// clang-format off"]
+    lines = [
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// light/{path.name}: written by scripts/fit_ltc.py. Of each roughness, by views, the inverse",
+        f"// matrix's four numbers that are neither 0 nor 1, for {curve}.",
+        f"// Light that the fits have elsewhere than the lobe has it: {told}.",
+        "// clang-format off",
+    ]
     for row in rows:
         cells = ["{" + ", ".join(f"{float(x):.6e}f" for x in cell) + "}" for cell in row]
         lines.append("{{" + ",\n  ".join(cells) + "}},")
-    output.write_text("\n".join(lines) + "\n", encoding="utf-8")
-    print(f"{output}: {told}")
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    print(f"{path.name}: {told}", flush=True)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    root = pathlib.Path(__file__).resolve().parent.parent
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=root / "src/light")
+    folder = parser.parse_args().output
+    write(folder / "ltc_one.inc", 0, "F = 1")
+    write(folder / "ltc_schlick.inc", 5, "F = (1 - v.h)^5")
 
 
 if __name__ == "__main__":

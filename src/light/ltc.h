@@ -33,8 +33,14 @@ struct LtcNumbers {
 // Of one roughness.
 using LtcRow = std::array<LtcNumbers, kLtcViews>;
 
-// roughness in [kLeastLtcRoughness, 1]: linear between the table's.
-LtcRow MakeLtcRow(double roughness);
+// The lobe for F = 1, and for F = (1 - v.h)^5, which has its light nearer to the horizon: Schlick's
+// curve is a mixture of both.
+struct LtcRows {
+  LtcRow one, schlick;
+};
+
+// roughness in [kLeastLtcRoughness, 1]: linear between the tables'.
+LtcRows MakeLtcRows(double roughness);
 
 inline LtcNumbers Blend(const LtcNumbers& a, const LtcNumbers& b, float t) {
   return {a.xx + (b.xx - a.xx) * t, a.xz + (b.xz - a.xz) * t, a.zx + (b.zx - a.zx) * t,

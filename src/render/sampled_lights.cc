@@ -247,15 +247,15 @@ void AddFastLobes(const Lit& lit) {
   for (const MaterialRun& run : lit.s.runs) {
     const ShadingMaterial& material = lit.MaterialOf(run);
     if (!HasAnyFastLobe(light, material)) continue;
-    FastReflectance(material, lit.RangeOf(run), &lit.c.unit.specular);
-    std::fill(lit.c.weight.data() + run.begin, lit.c.weight.data() + run.end, 1.0f);
     if (light.transformed_cosines) {
-      TransformedShare(light, material, lit.RangeOf(run), lit.c.weight.data());
-    } else {
-      FastRadiance(light, material, run.begin, run.end, mirrored, &lit.c.directions.radiance);
+      TransformedReflectance(light, material, lit.RangeOf(run), &lit.c.shares,
+                             &lit.c.unit.specular);
+      continue;
     }
+    FastReflectance(material, lit.RangeOf(run), &lit.c.unit.specular);
+    FastRadiance(light, material, run.begin, run.end, mirrored, &lit.c.directions.radiance);
   }
-  for (size_t i = 0; i < lit.count(); ++i) lit.c.weight[i] *= lit.c.fast[i];
+  for (size_t i = 0; i < lit.count(); ++i) lit.c.weight[i] = lit.c.fast[i];
   AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
   lit.clock->Charge(Stage::kShade);
 }

@@ -16,10 +16,10 @@
 namespace nacre {
 namespace {
 
-constexpr size_t kDirections = 8;              // around the light, at each of
-constexpr double kDistances[] = {1.5, 4};      // over its radius
-constexpr double kTilts[] = {0, 0.15, 0.4};    // of the normal away from where the highlight is
-constexpr double kViewCosines[] = {0.9, 0.3};  // of view and light, about
+constexpr size_t kDirections = 8;            // around the light, at each of
+constexpr double kDistances[] = {1.5, 4};    // over its radius
+constexpr double kTilts[] = {0, 0.15, 0.4};  // of the normal away from where the highlight is
+constexpr double kViewCosines[] = {0.9, 0.5, 0.15};  // of view and light, about
 constexpr uint32_t kLobeSamples = 1024;
 
 // A light as the point of a surface sees it, in double.
@@ -138,7 +138,18 @@ Vec3d SampleTruth(const ShadingMaterial& material, const SeenLight& light,
   return sum / double{kLobeSamples};
 }
 
-Vec3d Transformed(const ShadingMaterial& material, const LtcRow& row, const SeenLight& light,
+// The part of LobeAlbedo that Fresnel's curve adds to its value at normal incidence.
+double GrazingAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
+  const double one = AlbedoOne(model.albedo.lobe, n_dot_v);
+  const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
+  const double f0 = model.f0[channel];
+  double rest = f0 * one;
+  if (model.compensation == Compensation::kTurquin) rest *= 1 + f0 * loss / one;
+  if (model.compensation == Compensation::kKullaConty) rest += model.f_multiple[channel] * loss;
+  return std::max(LobeAlbedo(model, n_dot_v, channel) - rest, 0.0);
+}
+
+Vec3d Transformed(const ShadingMaterial& material, const LtcRows& rows, const SeenLight& light,
                   const SurfacePoint& point) {
   const double n_dot_v = point.normal ^ point.to_view;
   if (!(n_dot_v > 0)) return Vec3d(0);
@@ -148,11 +159,15 @@ Vec3d Transformed(const ShadingMaterial& material, const LtcRow& row, const Seen
     const Vec3d x = across.normalized();
     frame = {x, point.normal % x, point.normal};
   }
-  const double share = light.Share(AtView(row, static_cast<float>(n_dot_v)), frame);
+  const double one = light.Share(AtView(rows.one, static_cast<float>(n_dot_v)), frame);
+  const double schlick = light.Share(AtView(rows.schlick, static_cast<float>(n_dot_v)), frame);
   const auto& model = std::get<MicrofacetModel>(material.model);
-  return Vec3d(LobeAlbedo(model, n_dot_v, 0), LobeAlbedo(model, n_dot_v, 1),
-               LobeAlbedo(model, n_dot_v, 2)) *
-         share;
+  Vec3d reflected;
+  for (int c = 0; c < 3; ++c) {
+    const double grazing = GrazingAlbedo(model, n_dot_v, c);
+    reflected[c] = (LobeAlbedo(model, n_dot_v, c) - grazing) * one + grazing * schlick;
+  }
+  return reflected;
 }
 
 }  // namespace
@@ -168,13 +183,13 @@ FastLobeError MeasureTransformedLobe(const ShadingMaterial& material, const Samp
                                      int threads) {
   constexpr size_t kPoints =
       kDirections * std::size(kDistances) * std::size(kTilts) * std::size(kViewCosines);
-  const LtcRow row = MakeLtcRow(std::sqrt(std::get<MicrofacetModel>(material.model).alpha));
+  const LtcRows rows = MakeLtcRows(std::sqrt(std::get<MicrofacetModel>(material.model).alpha));
   std::vector<Vec3d> truth(kPoints), fast(kPoints);
   ParallelFor(kPoints, threads, [&](size_t i) {
     const SurfacePoint point = PointAt(light, i);
     const SeenLight seen(light, point.position);
     truth[i] = SampleTruth(material, seen, point);
-    fast[i] = Transformed(material, row, seen, point);
+    fast[i] = Transformed(material, rows, seen, point);
   });
   return CompareEstimates(truth, fast);
 }

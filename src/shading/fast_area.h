@@ -12,9 +12,16 @@ namespace nacre {
 // mode: a rectangle or a mesh, and a GGX lobe of one width on normals that no map turns.
 bool HasTransformedLobe(const SampledLight& light, const ShadingMaterial& material);
 
-// The part of the lobe that the light fills, on hits [begin, end).
-void TransformedShare(const SampledLight& light, const ShadingMaterial& material,
-                      const LobeRange& range, float* share);
+// Buffers: the parts of a lobe that a light fills, for F = 1 and for what Fresnel's curve adds to
+// its value at normal incidence; and how much is added.
+struct LobeShares {
+  AlignedArray<float> one{kBatchCapacity}, schlick{kBatchCapacity};
+  Soa3<float> grazing;
+};
+
+// What the lobe reflects of a light of colour 1, on hits [begin, end).
+void TransformedReflectance(const SampledLight& light, const ShadingMaterial& material,
+                            const LobeRange& range, LobeShares* shares, Soa3<float>* reflected);
 
 // How far shares times reflectances are from samples, around the light, at distances of its size
 // and more, where its highlights are: as parts of the mean of the samples' estimates.

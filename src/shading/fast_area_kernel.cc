@@ -40,20 +40,45 @@ HWY_INLINE Vec3V<V> Offset(const SampledLight& light, const HitBatch& hits, cons
           SubtractAndRound(d, place.z, hits.position.z.data() + i)};
 }
 
-// The frame of hits, and the matrices of their views.
-struct LobeFrameV {
-  Vec3V<V> x, y, normal;
+// The matrices of hits.
+struct MatrixV {
   V xx, xz, zx, zz;
 
   HWY_INLINE Vec3V<V> Map(const Vec3V<V>& v) const {
-    const V along_x = FusedDot(x, v), along_z = FusedDot(normal, v);
-    return {hn::MulAdd(xx, along_x, hn::Mul(xz, along_z)), FusedDot(y, v),
-            hn::MulAdd(zx, along_x, hn::Mul(zz, along_z))};
+    return {hn::MulAdd(xx, v.x, hn::Mul(xz, v.z)), v.y, hn::MulAdd(zx, v.x, hn::Mul(zz, v.z))};
   }
 };
 
+HWY_INLINE MatrixV MatrixAt(const LtcRow& row, const float* cosines) {
+  const D d;
+  alignas(64) float numbers[4][kMaxLanes];
+  for (size_t k = 0; k < hn::Lanes(d); ++k) {
+    const LtcNumbers at = AtView(row, cosines[k]);
+    numbers[0][k] = at.xx;
+    numbers[1][k] = at.xz;
+    numbers[2][k] = at.zx;
+    numbers[3][k] = at.zz;
+  }
+  return {hn::Load(d, numbers[0]), hn::Load(d, numbers[1]), hn::Load(d, numbers[2]),
+          hn::Load(d, numbers[3])};
+}
+
+// The frame of hits, and the matrices of their views, for both parts of the lobe.
+struct LobeFrameV {
+  Vec3V<V> x, y, normal;
+  MatrixV one, schlick;
+
+  HWY_INLINE Vec3V<V> ToLocal(const Vec3V<V>& v) const {
+    return {FusedDot(x, v), FusedDot(y, v), FusedDot(normal, v)};
+  }
+};
+
+struct SharesV {
+  V one, schlick;
+};
+
 // Views along the normal have any x: their matrices are round.
-HWY_INLINE LobeFrameV FrameAt(const LtcRow& row, const Surface& surface, size_t i) {
+HWY_INLINE LobeFrameV FrameAt(const LtcRows& rows, const Surface& surface, size_t i) {
   const D d;
   LobeFrameV frame;
   frame.normal = LoadSoa(d, surface.normal, i);
@@ -69,54 +94,54 @@ HWY_INLINE LobeFrameV FrameAt(const LtcRow& row, const Surface& surface, size_t 
   const Vec3V<V> chosen = Select(has_side, across, any);
   frame.x = Scale(chosen, hn::Div(one, Length(chosen)));
   frame.y = FusedCross(n, frame.x);
-  alignas(64) float cosines[kMaxLanes], numbers[4][kMaxLanes];
+  alignas(64) float cosines[kMaxLanes];
   hn::Store(n_dot_v, d, cosines);
-  for (size_t k = 0; k < hn::Lanes(d); ++k) {
-    const LtcNumbers at = AtView(row, cosines[k]);
-    numbers[0][k] = at.xx;
-    numbers[1][k] = at.xz;
-    numbers[2][k] = at.zx;
-    numbers[3][k] = at.zz;
-  }
-  frame.xx = hn::Load(d, numbers[0]);
-  frame.xz = hn::Load(d, numbers[1]);
-  frame.zx = hn::Load(d, numbers[2]);
-  frame.zz = hn::Load(d, numbers[3]);
+  frame.one = MatrixAt(rows.one, cosines);
+  frame.schlick = MatrixAt(rows.schlick, cosines);
   return frame;
 }
 
-// Of one flat piece of the light. Parallelograms stay what they are under the matrix.
+// Adds those of one flat piece of the light. Parallelograms stay what they are under the matrix.
 template <class Shape>
-HWY_INLINE V PieceShare(const SampledLight& light, const Shape& piece, const Vec3V<V>& facing,
-                        const LobeFrameV& frame) {
+HWY_INLINE void AddPiece(const SampledLight& light, const Shape& piece, const Vec3V<V>& facing,
+                         const LobeFrameV& frame, SharesV* sum) {
   const D d;
   const V zero = hn::Zero(d);
   const auto front = hn::Lt(FusedDot(piece.corner, facing), zero);
-  if (!light.two_sided && hn::AllFalse(d, front)) return zero;
-  const Shape mapped{frame.Map(piece.corner), frame.Map(piece.edge_x), frame.Map(piece.edge_y)};
-  const V value = hn::Max(Irradiance(d, mapped, {zero, zero, hn::Set(d, 1.0f)}), zero);
-  return light.two_sided ? value : hn::IfThenElseZero(front, value);
+  if (!light.two_sided && hn::AllFalse(d, front)) return;
+  const Vec3V<V> corner = frame.ToLocal(piece.corner), edge_x = frame.ToLocal(piece.edge_x),
+                 edge_y = frame.ToLocal(piece.edge_y);
+  const auto share = [&](const MatrixV& m) HWY_ATTR {
+    const Shape mapped{m.Map(corner), m.Map(edge_x), m.Map(edge_y)};
+    const V value = hn::Max(Irradiance(d, mapped, {zero, zero, hn::Set(d, 1.0f)}), zero);
+    return light.two_sided ? value : hn::IfThenElseZero(front, value);
+  };
+  sum->one = hn::Add(sum->one, share(frame.one));
+  sum->schlick = hn::Add(sum->schlick, share(frame.schlick));
 }
 
-void ShareT(const LtcRow& row, const SampledLight& light, const LobeRange& range, float* share) {
+void SharesT(const LtcRows& rows, const SampledLight& light, const LobeRange& range,
+             LobeShares* shares) {
   const D d;
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const LobeFrameV frame = FrameAt(row, range.surface, i);
-    V sum = hn::Zero(d);
+    const LobeFrameV frame = FrameAt(rows, range.surface, i);
+    SharesV sum{hn::Zero(d), hn::Zero(d)};
     if (light.form == SampledForm::kRectangle) {
       const RectangleLightV<V> rectangle{Offset(light, range.hits, Vec3d(0), i), Set3(light.edge_x),
                                          Set3(light.edge_y)};
-      sum = PieceShare(light, rectangle, Set3(light.normal), frame);
+      AddPiece(light, rectangle, Set3(light.normal), frame, &sum);
     } else {
       for (size_t k = 0; k < light.mesh->triangles.size(); ++k) {
         const TriangleLight<double>& triangle = light.mesh->triangles[k];
         const TriangleLightV<V> seen{Offset(light, range.hits, triangle.corner, i),
                                      Set3(triangle.edge_x), Set3(triangle.edge_y)};
-        sum = hn::Add(sum, PieceShare(light, seen, Set3(light.mesh->crosses[k]), frame));
+        AddPiece(light, seen, Set3(light.mesh->crosses[k]), frame, &sum);
       }
     }
-    const V whole = hn::Mul(sum, hn::Set(d, 2 / kTwoPi));
-    hn::BlendedStore(whole, hn::FirstN(d, range.end - i), d, share + i);
+    const V inverse_pi = hn::Set(d, 2 / kTwoPi);
+    const auto mask = hn::FirstN(d, range.end - i);
+    hn::BlendedStore(hn::Mul(sum.one, inverse_pi), mask, d, shares->one.data() + i);
+    hn::BlendedStore(hn::Mul(sum.schlick, inverse_pi), mask, d, shares->schlick.data() + i);
   }
 }
 
@@ -127,12 +152,21 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(ShareT);
+HWY_EXPORT(SharesT);
 
-void TransformedShare(const SampledLight& light, const ShadingMaterial& material,
-                      const LobeRange& range, float* share) {
+void TransformedReflectance(const SampledLight& light, const ShadingMaterial& material,
+                            const LobeRange& range, LobeShares* shares, Soa3<float>* reflected) {
   const double alpha = std::get<MicrofacetModel>(material.model).alpha;
-  HWY_DYNAMIC_DISPATCH(ShareT)(MakeLtcRow(std::sqrt(alpha)), light, range, share);
+  HWY_DYNAMIC_DISPATCH(SharesT)(MakeLtcRows(std::sqrt(alpha)), light, range, shares);
+  FastReflectance(material, range, reflected, &shares->grazing);
+  const auto weigh = [&](const AlignedArray<float>& grazing, AlignedArray<float>* value) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      (*value)[i] = ((*value)[i] - grazing[i]) * shares->one[i] + grazing[i] * shares->schlick[i];
+    }
+  };
+  weigh(shares->grazing.x, &reflected->x);
+  weigh(shares->grazing.y, &reflected->y);
+  weigh(shares->grazing.z, &reflected->z);
 }
 
 }  // namespace nacre

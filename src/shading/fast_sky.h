@@ -35,8 +35,10 @@ std::shared_ptr<const EnvironmentMap> ImageOf(const SampledLight& light);
 
 // The split sum's halves: what a lobe that has a fast mode reflects in all, per channel, on hits
 // [begin, end); and what it sees in the mirror's direction, as a multiple of the light's colour.
+// `grazing`, unless null: the part of that which Fresnel's curve adds to its value at normal
+// incidence.
 void FastReflectance(const ShadingMaterial& material, const LobeRange& range,
-                     Soa3<float>* reflectance);
+                     Soa3<float>* reflectance, Soa3<float>* grazing = nullptr);
 void FastRadiance(const SampledLight& light, const ShadingMaterial& material, size_t begin,
                   size_t end, const Soa3<float>& mirrored, Soa3<float>* radiance);
 

@@ -28,24 +28,33 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace {
 
-HWY_INLINE FloatV WholeLobe(FloatTag d, const MicrofacetModel& model, const AlbedoV& albedo,
-                            int c) {
-  const FloatV f0 = hn::Set(d, static_cast<float>(model.f0[c]));
-  const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
+// What single scattering is multiplied by, and what is added to it.
+struct MultipleV {
+  FloatV scale, sum;
+};
+
+HWY_INLINE MultipleV MultipleOf(FloatTag d, const MicrofacetModel& model, const AlbedoV& albedo,
+                                int c) {
+  const FloatV one = hn::Set(d, 1.0f);
   switch (model.compensation) {
     case Compensation::kTurquin: {
-      const FloatV one = hn::Set(d, 1.0f);
-      return hn::Mul(single, hn::MulAdd(f0, hn::Div(albedo.loss, albedo.one), one));
+      const FloatV f0 = hn::Set(d, static_cast<float>(model.f0[c]));
+      return {hn::MulAdd(f0, hn::Div(albedo.loss, albedo.one), one), hn::Zero(d)};
     }
     case Compensation::kKullaConty:
-      return hn::MulAdd(hn::Set(d, static_cast<float>(model.f_multiple[c])), albedo.loss, single);
+      return {one, hn::Mul(hn::Set(d, static_cast<float>(model.f_multiple[c])), albedo.loss)};
     case Compensation::kNone:
       break;
   }
-  return single;
+  return {one, hn::Zero(d)};
 }
 
-void ReflectanceT(const MicrofacetModel& model, const LobeRange& range, Soa3<float>* reflectance) {
+float* ChannelOf(Soa3<float>* soa, int c) {
+  return c == 0 ? soa->x.data() : c == 1 ? soa->y.data() : soa->z.data();
+}
+
+void ReflectanceT(const MicrofacetModel& model, const LobeRange& range, Soa3<float>* reflectance,
+                  Soa3<float>* grazing) {
   const FloatTag d;
   const Soa3<float>&n = range.surface.normal, &v = range.surface.to_view;
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
@@ -55,9 +64,16 @@ void ReflectanceT(const MicrofacetModel& model, const LobeRange& range, Soa3<flo
                          LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i)),
                 hn::Zero(d));
     const AlbedoV albedo = EvaluateAlbedo(d, model, n_dot_v);
-    hn::BlendedStore(WholeLobe(d, model, albedo, 0), mask, d, reflectance->x.data() + i);
-    hn::BlendedStore(WholeLobe(d, model, albedo, 1), mask, d, reflectance->y.data() + i);
-    hn::BlendedStore(WholeLobe(d, model, albedo, 2), mask, d, reflectance->z.data() + i);
+    for (int c = 0; c < 3; ++c) {
+      const FloatV f0 = hn::Set(d, static_cast<float>(model.f0[c]));
+      const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);
+      const MultipleV multiple = MultipleOf(d, model, albedo, c);
+      hn::BlendedStore(hn::MulAdd(single, multiple.scale, multiple.sum), mask, d,
+                       ChannelOf(reflectance, c) + i);
+      if (grazing == nullptr) continue;
+      const FloatV added = hn::Max(hn::NegMulAdd(f0, albedo.one, single), hn::Zero(d));
+      hn::BlendedStore(hn::Mul(added, multiple.scale), mask, d, ChannelOf(grazing, c) + i);
+    }
   }
 }
 
@@ -93,9 +109,9 @@ HWY_EXPORT(ReflectanceT);
 HWY_EXPORT(RadianceT);
 
 void FastReflectance(const ShadingMaterial& material, const LobeRange& range,
-                     Soa3<float>* reflectance) {
+                     Soa3<float>* reflectance, Soa3<float>* grazing) {
   HWY_DYNAMIC_DISPATCH(ReflectanceT)
-  (std::get<MicrofacetModel>(material.model), range, reflectance);
+  (std::get<MicrofacetModel>(material.model), range, reflectance, grazing);
 }
 
 void FastRadiance(const SampledLight& light, const ShadingMaterial& material, size_t begin,

@@ -88,7 +88,7 @@ TEST_CASE("transformed cosines are off from samples by about what the plan tells
       const FastLight& told = plan.fast_lights[0];
       CHECK(told.light == "lamp");
       CHECK(told.method == "linearly transformed cosines");
-      CHECK(told.points == 96);
+      CHECK(told.points == 144);
       CHECK(told.rms > 1e-3);  // it is an approximation
       CHECK(told.rms < 0.25);
       Scene fast = OneSphere(roughness, light), sampled = OneSphere(roughness, light, false);
