@@ -10,6 +10,7 @@
 #include "base/target_ops-inl.h"
 #include "light/irradiance-inl.h"
 #include "light/ltc.h"
+#include "light/mesh_outline-inl.h"
 #include "shading/fast_area.h"
 #include "shading/soa-inl.h"
 
@@ -120,6 +121,34 @@ HWY_INLINE void AddPiece(const SampledLight& light, const Shape& piece, const Ve
   sum->schlick = hn::Add(sum->schlick, share(frame.schlick));
 }
 
+// Those of a whole convex mesh, by its outline, which is convex still after the matrix.
+HWY_INLINE SharesV OutlineShares(const SampledLight& light, const HitBatch& hits,
+                                 const LobeFrameV& frame, size_t i) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const MeshOutline& outline = light.mesh->outline;
+  V faces[kMostClosedTriangles];
+  V orientation = hn::Set(d, -1.0f);
+  for (size_t k = 0; k < outline.faces.size(); ++k) {
+    const OutlineFace& face = outline.faces[k];
+    const Vec3V<V> offset = Offset(light, hits, outline.corners[face.corner], i);
+    const V height = FusedDot(offset, Set3(face.cross));
+    faces[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
+    if (light.two_sided) orientation = height;
+  }
+  const Vec3V<V> first = frame.ToLocal(Offset(light, hits, outline.corners[0], i));
+  const auto share = [&](const MatrixV& m) HWY_ATTR {
+    SeenCornersV<V> seen;
+    seen.first = m.Map(first);
+    for (size_t k = 0; k < outline.corners.size(); ++k) {
+      seen.offset[k] = m.Map(frame.ToLocal(Set3(outline.corners[k] - outline.corners[0])));
+      seen.way[k] = UnitDifference(d, seen.first, seen.offset[k]);
+    }
+    return Irradiance(d, outline, seen, faces, orientation, {zero, zero, one});
+  };
+  return {share(frame.one), share(frame.schlick)};
+}
+
 void SharesT(const LtcRows& rows, const SampledLight& light, const LobeRange& range,
              LobeShares* shares) {
   const D d;
@@ -130,6 +159,8 @@ void SharesT(const LtcRows& rows, const SampledLight& light, const LobeRange& ra
       const RectangleLightV<V> rectangle{Offset(light, range.hits, Vec3d(0), i), Set3(light.edge_x),
                                          Set3(light.edge_y)};
       AddPiece(light, rectangle, Set3(light.normal), frame, &sum);
+    } else if (!light.mesh->outline.edges.empty()) {
+      sum = OutlineShares(light, range.hits, frame, i);
     } else {
       for (size_t k = 0; k < light.mesh->triangles.size(); ++k) {
         const TriangleLight<double>& triangle = light.mesh->triangles[k];

@@ -18,7 +18,7 @@ namespace {
 constexpr size_t kNormals = 16;
 constexpr double kViewCosines[] = {0.95, 0.6, 0.25};
 // The estimates' own error is some thousandths, far below what they measure.
-constexpr uint32_t kLobeSamples = 1024;
+constexpr uint32_t kLobeSamples = 512;
 
 constexpr int kImageRows = 64;  // of a sky by formula
 
