@@ -88,9 +88,10 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->group(picture);
   command
       ->add_flag("--fast", o->fast,
-                 "Put approximations in the place of samples of lights: of an environment's image, "
-                 "where all of it is seen, its spherical harmonics; --explain tells how far off "
-                 "they are")
+                 "Put approximations in the place of samples of lights where all of them is seen: "
+                 "of an environment's image its spherical harmonics, for lobes the split sum, and "
+                 "of rectangles and meshes linearly transformed cosines; --explain tells how far "
+                 "off they are")
       ->group(picture);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command

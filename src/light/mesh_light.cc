@@ -10,6 +10,7 @@ namespace nacre {
 namespace {
 
 constexpr uint32_t kLeafSize = 4;
+constexpr double kBoxMargin = 0x1p-50;  // over the mesh's size: some last digits
 
 struct Box {
   Vec3d low{std::numeric_limits<double>::infinity()};
@@ -41,6 +42,12 @@ class TreeBuilder {
   void Build() {
     tree_.emplace_back();
     Split(0, 0, static_cast<uint32_t>(order_.size()));
+    // A ray in the plane of a box's side is in the box: so that it is not asked 0 times infinity.
+    const Vec3d margin(kBoxMargin * (tree_[0].high - tree_[0].low).length());
+    for (MeshLightNode& node : tree_) {
+      node.low -= margin;
+      node.high += margin;
+    }
   }
 
  private:
@@ -98,33 +105,34 @@ Heights FindHeights(const MeshLight& light) {
   return heights;
 }
 
+// 1 / x, with a number for infinity, for which 0 times it is one, too.
+double SlabInverse(double x) { return x == 0 ? kSlabInfinity : 1 / x; }
+
 // Ize 2013, "Robust BVH Ray Traversal": the far end times 1 + 2 gamma(3), so that no box is missed
-// by the rounding of its slabs. A ray along a slab is in it or not.
-bool MeetsBox(const MeshLightNode& box, const Vec3d& point, const Vec3d& direction,
-              const Vec3d& inverse) {
+// by the rounding of its slabs.
+bool MeetsBox(const MeshLightNode& box, const Vec3d& point, const Vec3d& inverse) {
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (int c = 0; c < 3; ++c) {
-    if (direction[c] == 0) {
-      if (point[c] < box.low[c] || point[c] > box.high[c]) return false;
-      continue;
-    }
     const double a = (box.low[c] - point[c]) * inverse[c];
     const double b = (box.high[c] - point[c]) * inverse[c];
     near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }
-  return near <= far * (1 + 2 * 3 * 0x1p-52);
+  return near <= far * kSlabRounding;
 }
 
 // Where the ray meets the triangle's plane in it (Cramer), edges included; 0 if it does not.
-double MeetTriangle(const TriangleLight<double>& t, const Vec3d& point, const Vec3d& direction) {
+double MeetTriangle(const TriangleLight<double>& t, const Vec3d& cross, const Vec3d& point,
+                    const Vec3d& direction) {
   const Vec3d corner = t.corner - point;
-  const double towards = direction ^ (t.edge_x % t.edge_y);
+  const double towards = direction ^ cross;
   if (towards == 0) return 0;
-  const double x = (corner ^ (direction % t.edge_y)) / towards;
-  const double y = -(corner ^ (direction % t.edge_x)) / towards;
-  if (!(x >= 0 && y >= 0 && x + y <= 1)) return 0;
-  return (corner ^ (t.edge_x % t.edge_y)) / towards;
+  const double sign = std::copysign(1.0, towards);
+  const Vec3d across = corner % direction;
+  const double x = (across ^ t.edge_y) * sign;
+  const double y = -(across ^ t.edge_x) * sign;
+  if (!(x >= 0 && y >= 0 && x + y <= std::abs(towards))) return 0;
+  return (corner ^ cross) / towards;
 }
 
 }  // namespace
@@ -144,11 +152,13 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
   MeshLight light;
   TreeBuilder(unsorted, &order, &light.tree).Build();
   light.triangles.reserve(order.size());
+  light.crosses.reserve(order.size());
   light.probabilities.reserve(order.size());
   double sum = 0;
   for (const uint32_t i : order) {
     light.triangles.push_back(unsorted[i]);
-    light.probabilities.push_back((unsorted[i].edge_x % unsorted[i].edge_y).length());
+    light.crosses.push_back(unsorted[i].edge_x % unsorted[i].edge_y);
+    light.probabilities.push_back(light.crosses.back().length());
     sum += light.probabilities.back();
   }
   for (double& probability : light.probabilities) probability /= sum;
@@ -157,6 +167,8 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
     const Heights heights = FindHeights(light);
     light.is_convex = heights.highest <= kFlat;
     light.is_flat = light.is_convex && heights.lowest >= -kFlat;
+    if (light.is_convex)
+      light.outline = MakeMeshOutline(positions, triangles, origin, light.is_flat);
   }
   return light;
 }
@@ -164,20 +176,20 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
 void FindMeetings(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
                   std::vector<MeshLightMeeting>* meetings) {
   meetings->clear();
-  const Vec3d inverse(1 / direction.x, 1 / direction.y, 1 / direction.z);
-  uint32_t stack[64];  // a tree of halves is no deeper than its count has bits
+  const Vec3d inverse(SlabInverse(direction.x), SlabInverse(direction.y), SlabInverse(direction.z));
+  uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
     const MeshLightNode& node = light.tree[stack[--size]];
-    if (!MeetsBox(node, point, direction, inverse)) continue;
+    if (!MeetsBox(node, point, inverse)) continue;
     if (node.child != 0) {
       stack[size++] = node.child;
       stack[size++] = node.child + 1;
       continue;
     }
     for (uint32_t i = node.begin; i < node.end; ++i) {
-      const double t = MeetTriangle(light.triangles[i], point, direction);
+      const double t = MeetTriangle(light.triangles[i], light.crosses[i], point, direction);
       if (t > 0) meetings->push_back({i, t});
     }
   }

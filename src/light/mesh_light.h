@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_light.h: triangles as one light. Directions to it are chosen by choosing a triangle,
-// by its area, and then in the triangle (light/triangle_light.h); what is seen along a direction is
-// the nearest triangle.
+// light/mesh_light.h: triangles as one light. SIMD twin: mesh_light-inl.h. Directions to it are
+// chosen by choosing a triangle, by its area, and then in the triangle (light/triangle_light.h);
+// what is seen along a direction is the nearest triangle.
 //
 // A direction's density is the sum over all triangles that lie along it, as each could have led to
 // it: so it does not matter which one did, or how many a direction crosses. Half of a closed mesh's
@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "light/mesh_outline.h"
 #include "light/triangle_light.h"
 #include "sampling/inverse_cdf.h"
 
@@ -27,6 +28,7 @@ struct MeshLightNode {
 
 struct MeshLight {
   std::vector<TriangleLight<double>> triangles;  // those that have an area
+  std::vector<Vec3d> crosses;                    // edge_x cross edge_y of each
   std::vector<double> probabilities;             // area over the sum of all
   std::vector<CdfEntry> by_area;
   std::vector<MeshLightNode> tree;
@@ -34,7 +36,15 @@ struct MeshLight {
   // And whether none is behind one either.
   bool is_convex = false;
   bool is_flat = false;
+  MeshOutline outline;  // of convex solids and polygons; else empty
 };
+
+// In the place of 1 / 0 where a ray lies along a slab of a box.
+inline constexpr double kSlabInfinity = 1e300;
+inline constexpr double kSlabRounding = 1 + 2 * 3 * 0x1p-52;
+
+// The deepest that a tree's stack gets: a tree of halves is no deeper than its count has bits.
+inline constexpr size_t kMeshLightStack = 64;
 
 // Meshes of more triangles are never tried for being convex: their irradiance in closed form, a sum
 // over all, takes longer than samples.

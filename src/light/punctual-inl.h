@@ -27,7 +27,7 @@ HWY_INLINE V AttenuationFactor(D d, const AttenuationTerms<T>& a, V distance) {
   return hn::IfThenElseZero(lit, hn::Div(one, hn::IfThenElse(lit, denominator, one)));
 }
 
-// Cone with exponent and smoothstep penumbra; equality with the cutoff is dark.
+// Cone with exponent and penumbra; equality with the cutoff is dark.
 template <class D, class T = hn::TFromD<D>, class V = hn::Vec<D>>
 HWY_INLINE V SpotFactor(D d, const ConeTerms<T>& cone, V cos_angle) {
   const V one = hn::Set(d, T(1));
@@ -41,8 +41,9 @@ HWY_INLINE V SpotFactor(D d, const ConeTerms<T>& cone, V cos_angle) {
   if (cone.cos_inner > cone.cos_cutoff) {
     const V inner = hn::Set(d, cone.cos_inner);
     const V t = hn::Div(hn::Sub(cos_angle, cutoff), hn::Sub(inner, cutoff));
-    const V smooth = hn::Mul(hn::Mul(t, t), hn::NegMulAdd(hn::Set(d, T(2)), t, hn::Set(d, T(3))));
-    factor = hn::IfThenElse(hn::Lt(cos_angle, inner), hn::Mul(factor, smooth), factor);
+    const V line = hn::MulAdd(hn::Set(d, cone.edge[1]), t, hn::Set(d, cone.edge[0]));
+    const V edge = hn::Mul(hn::Mul(t, t), line);
+    factor = hn::IfThenElse(hn::Lt(cos_angle, inner), hn::Mul(factor, edge), factor);
   }
   return hn::IfThenElseZero(hn::Gt(cos_angle, cutoff), factor);
 }

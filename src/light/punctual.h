@@ -27,11 +27,13 @@ struct ConeTerms {
   Real cos_cutoff;  // dark where cos <= cos_cutoff
   Real cos_inner;   // full where cos >= cos_inner; == cos_cutoff: a hard edge
   Real exponent;
+  // The penumbra is t^2 (edge[0] + edge[1] t), t from 0 at the cutoff to 1 at the inner angle:
+  // smoothstep, or a square.
+  Real edge[2] = {3, -2};
 };
 
-// cos^exponent strictly inside the cone, times a smoothstep penumbra between cutoff and inner
-// angle. Equality with the cutoff is dark. A cosine below 0 (cutoff over 90 degrees) counts as 0
-// for the exponent.
+// cos^exponent strictly inside the cone, times a penumbra between cutoff and inner angle. Equality
+// with the cutoff is dark. A cosine below 0 (cutoff over 90 degrees) counts as 0 for the exponent.
 template <typename Real>
 Real SpotFactor(const ConeTerms<Real>& cone, Real cos_angle) {
   if (!(cos_angle > cone.cos_cutoff)) return 0;
@@ -39,7 +41,7 @@ Real SpotFactor(const ConeTerms<Real>& cone, Real cos_angle) {
   Real factor = cone.exponent == 0 ? 1 : std::pow(base, cone.exponent);
   if (cos_angle < cone.cos_inner) {
     const Real t = (cos_angle - cone.cos_cutoff) / (cone.cos_inner - cone.cos_cutoff);
-    factor *= t * t * (3 - 2 * t);
+    factor *= t * t * (cone.edge[0] + cone.edge[1] * t);
   }
   return factor;
 }

@@ -17,4 +17,8 @@ namespace nacre {
 std::string PlanFastLight(const Light& light, const RenderSettings& settings,
                           SampledLight* prepared, RenderPlan* plan);
 
+// After the plan's materials are prepared: gives the lights that have a fast mode the image as the
+// materials' lobes see it.
+void PlanFastLobes(const Scene& scene, const RenderSettings& settings, RenderPlan* plan);
+
 }  // namespace nacre

@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/target.h"
+#include "render/fast_lights.h"
 #include "render/frame_window.h"
 #include "render/mesh_points.h"
 #include "render/mesh_windows.h"
@@ -231,6 +232,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
   PlanTextures(scene, settings, &plan);
+  PlanFastLobes(scene, settings, &plan);
   plan.black = {static_cast<uint32_t>(plan.materials.size())};
   plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
   if (settings.max_error > 0) {

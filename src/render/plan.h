@@ -69,7 +69,7 @@ bool NeverShadowed(const Planned& planned, uint32_t primitive) {
 // points, as parts of the mean over these.
 struct FastLight {
   std::string light;
-  std::string method;  // "harmonics"
+  std::string method;  // "harmonics", "split sum" or "linearly transformed cosines"
   size_t points = 0;
   double rms = 0, worst = 0;
 };

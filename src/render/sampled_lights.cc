@@ -6,6 +6,7 @@
 
 #include "render/sampled_kernel.h"
 #include "render/tile_layers.h"
+#include "shading/fast_area.h"
 #include "shading/lobe_sample.h"
 
 namespace nacre {
@@ -161,6 +162,9 @@ void WeighSpecular(const Lit& lit, const Ways& ways) {
   if (ways.light) {
     for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
   }
+  for (size_t i = 0; i < lit.count(); ++i) {
+    if (lit.c.fast[i] != 0) lit.c.density[i] = 0;
+  }
   WeighByDensity(lit);
 }
 
@@ -212,6 +216,48 @@ void AddClosedForm(const Lit& lit) {
   ShadeUnit(lit);
   AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   lit.clock->Charge(Stage::kLight);
+}
+
+bool HasAnyFastLobe(const SampledLight& light, const ShadingMaterial& material) {
+  return HasFastLobe(light, material) || HasTransformedLobe(light, material);
+}
+
+// Which hits' lobes are in the light's fast mode: where all of it is seen. Returns whether any is
+// left to be sampled.
+bool FindFast(const Lit& lit) {
+  bool sampled = false;
+  for (const MaterialRun& run : lit.s.runs) {
+    const ShadingMaterial& material = lit.MaterialOf(run);
+    const bool has_lobe = HasSampledLobe(material);
+    const bool fast = lit.planned.closed_form && HasAnyFastLobe(lit.planned.light, material);
+    for (size_t i = run.begin; i < run.end; ++i) {
+      lit.c.fast[i] = fast && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
+      sampled = sampled || (has_lobe && lit.c.fast[i] == 0);
+    }
+  }
+  return sampled;
+}
+
+// What the lobe sees, a mean or a share of it, times what it reflects in all.
+void AddFastLobes(const Lit& lit) {
+  const SampledLight& light = lit.planned.light;
+  Soa3<float>& mirrored = lit.c.directions.to_light;
+  MirrorDirections({lit.s.hits, lit.s.surface, 0, lit.count()}, &mirrored);
+  ClearRadiance(lit.count(), &lit.c.unit);
+  for (const MaterialRun& run : lit.s.runs) {
+    const ShadingMaterial& material = lit.MaterialOf(run);
+    if (!HasAnyFastLobe(light, material)) continue;
+    if (light.transformed_cosines) {
+      TransformedReflectance(light, material, lit.RangeOf(run), &lit.c.shares,
+                             &lit.c.unit.specular);
+      continue;
+    }
+    FastReflectance(material, lit.RangeOf(run), &lit.c.unit.specular);
+    FastRadiance(light, material, run.begin, run.end, mirrored, &lit.c.directions.radiance);
+  }
+  for (size_t i = 0; i < lit.count(); ++i) lit.c.weight[i] = lit.c.fast[i];
+  AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
+  lit.clock->Charge(Stage::kShade);
 }
 
 void ChoosePoints(const Lit& lit, size_t pair) {
@@ -270,13 +316,14 @@ void AddByMirror(const Lit& lit) {
 }
 
 void ShadeByOne(const Lit& lit) {
-  bool lobes = false, mirrors = false;
+  bool mirrors = false;
   for (const MaterialRun& run : lit.s.runs) {
-    lobes = lobes || HasSampledLobe(lit.MaterialOf(run));
     mirrors = mirrors || HasDeltaLobe(lit.MaterialOf(run));
   }
-  const bool sampled_diffuse = !FindFlat(lit);
+  const bool sampled_diffuse = !FindFlat(lit), lobes = FindFast(lit);
   if (lit.planned.closed_form) AddClosedForm(lit);
+  const SampledLight& light = lit.planned.light;
+  if (light.sky.fast != nullptr || light.transformed_cosines) AddFastLobes(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
     AddByLight(lit, {sampled_diffuse, lobes});
   }

@@ -84,6 +84,7 @@ void Add(const Texture& texture, Hasher* hash) {
   hash->Add(texture.scale);
   hash->Add(texture.uv_rotate_deg);
   hash->Add(texture.offset);
+  hash->Word(texture.second_uvs);
 }
 
 // Nothing for a material without maps.
@@ -141,6 +142,7 @@ struct AddModel {
   void operator()(const MetallicRoughnessMaterial& m) const {
     hash->Add(m.base_color);
     hash->Add(m.metallic);
+    hash->Add(m.dielectric_f0);
     hash->Add(m.f82_tint);
     Base(m);
     Lobe(m);
@@ -191,6 +193,7 @@ struct AddLightKind {
     hash->Add(light.cutoff_deg);
     hash->Add(light.inner_deg);
     hash->Add(light.exponent);
+    hash->Word(static_cast<uint64_t>(light.edge));
   }
   void operator()(const SphereAreaLight& light) const {
     hash->Add(light.center);
@@ -266,6 +269,7 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(material.model.index());
     hash.Add(material.emission);
     hash.Word(material.emits_in_front_only);
+    hash.Word(static_cast<uint64_t>(material.vertex_colors));
     std::visit(AddModel{&hash}, material.model);
     AddMaps(material, &hash);
   }
@@ -274,6 +278,7 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(light.kind.index());
     hash.Add(std::string_view(light.name));
     hash.Word(light.shadows);
+    hash.Word(light.fast);
     std::visit(AddLightKind{&hash}, light.kind);
   }
   hash.Word(scene.spheres.size());
@@ -287,12 +292,16 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(mesh.positions.size());
     hash.Word(mesh.normals.size());
     hash.Word(mesh.uvs.size());
+    hash.Word(mesh.second_uvs.size());
+    hash.Word(mesh.colors.size());
     hash.Word(mesh.triangles.size());
     hash.Word(static_cast<uint64_t>(mesh.interpolation));
     hash.Word(mesh.smooth_terminator);
     for (const Vec3d& position : mesh.positions) hash.Add(position);
     for (const Vec3d& normal : mesh.normals) hash.Add(normal);
     for (const Vec2d& uv : mesh.uvs) hash.Add(uv);
+    for (const Vec2d& uv : mesh.second_uvs) hash.Add(uv);
+    for (const Vec3f& color : mesh.colors) hash.Add(Vec3d(color));
     for (const uint32_t index : mesh.triangles) hash.Word(index);
     hash.Add(mesh.material);
   }

@@ -88,6 +88,7 @@ struct Texture {
   Vec2d scale{1, 1};
   double uv_rotate_deg = 0;  // counter-clockwise
   Vec2d offset{0, 0};
+  bool second_uvs = false;  // kUv: on the meshes' second coordinates
 };
 
 // Tangent-space normals, x along growing u, y along growing v.
@@ -100,6 +101,13 @@ struct NormalMap {
     kLiteral,    // 2 c - 1: a flat 8-bit map, (128, 128, 255), leans by 0.3 degrees
   };
   Convention convention = Convention::kExactFlat;
+};
+
+// What the colours of a mesh's vertices multiply.
+enum class VertexColors : uint8_t {
+  kNone,
+  kBase,      // the base colour, or albedo
+  kEmission,  // of materials that are not lit
 };
 
 // Heights, whose slope turns the normal; the surface stays where it is.
@@ -183,6 +191,8 @@ enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 struct MetallicRoughnessMaterial {
   Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
   double metallic = 0;            // in [0, 1]
+  // What it reflects at normal incidence where it is no metal; each in [0, 1].
+  Rgb dielectric_f0{0.04, 0.04, 0.04};
   // What Schlick's reflectance at cosine 1/7 (81.8 degrees) is multiplied by (Kutz et al. 2021):
   // the dip of real metals just before grazing. 1: Schlick's curve itself.
   Rgb f82_tint{1, 1, 1};  // each in [0, 1]
@@ -252,6 +262,7 @@ struct Material {
   TextureId emission_map{};
   NormalMap normal_map{};
   BumpMap bump_map{};
+  VertexColors vertex_colors = VertexColors::kNone;
 };
 
 // ---- Lights -------------------------------------------------------------------------------------
@@ -285,6 +296,12 @@ struct PointLight {
 // Intensity times cos(a)^exponent within the cone (a: angle from the axis), dark at and beyond
 // cutoff_deg; between inner_deg and cutoff_deg a smooth penumbra. inner_deg == cutoff_deg is the
 // hard cone.
+// The curve from cutoff to inner angle, over the cosine t scaled to [0, 1] in between.
+enum class SpotEdge : uint8_t {
+  kSmoothstep,  // t^2 (3 - 2 t)
+  kSquare,      // t^2, as glTF's KHR_lights_punctual has it
+};
+
 struct SpotLight {
   Vec3d position{0, 0, 0};
   Vec3d direction_of_travel{0, -1, 0};  // the axis, any length > 0
@@ -293,6 +310,7 @@ struct SpotLight {
   double cutoff_deg = 30;  // half-angle, in (0, 180]
   double inner_deg = 30;   // in [0, cutoff_deg]
   double exponent = 0;     // >= 0
+  SpotEdge edge = SpotEdge::kSmoothstep;
 };
 
 // Surfaces that emit the same radiance everywhere and in all directions. `visible`: the camera sees
@@ -379,6 +397,7 @@ struct EnvironmentLight {
 struct Light {
   std::string name;  // unique; names the layer light.<name>
   bool shadows = true;
+  bool fast = false;  // approximations, whose error is told, in the place of samples
   std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
                RectangleAreaLight, DiskAreaLight, EnvironmentLight, MeshAreaLight>
       kind;
@@ -412,6 +431,8 @@ struct Mesh {
   std::vector<Vec3d> positions;     // world space
   std::vector<Vec3d> normals;       // unit, one per position; empty: face normals
   std::vector<Vec2d> uvs;           // one per position, or empty; (0, 0) is an image's bottom left
+  std::vector<Vec2d> second_uvs;    // likewise, of textures that ask for them
+  std::vector<Vec3f> colors;        // linear, each in [0, 1], one per position, or empty
   std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
   MaterialId material;
   Interpolation interpolation = Interpolation::kPhong;

@@ -42,6 +42,13 @@ void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faul
 }
 
 void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  for (const size_t count : {mesh.second_uvs.size(), mesh.colors.size()}) {
+    if (count == 0 || count == mesh.positions.size()) continue;
+    faults->Add(
+        where,
+        fmt::format("{} coordinates or colours for {} positions", count, mesh.positions.size()),
+        "one per position, or none");
+  }
   if (mesh.uvs.empty()) return;
   if (mesh.uvs.size() != mesh.positions.size()) {
     faults->Add(where + "/uvs",

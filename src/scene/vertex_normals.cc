@@ -143,6 +143,8 @@ std::vector<size_t> SplitPositions(Groups* groups, Mesh* mesh) {
       vertex = static_cast<uint32_t>(mesh->positions.size());
       mesh->positions.push_back(Vec3d(mesh->positions[original]));
       if (!mesh->uvs.empty()) mesh->uvs.push_back(Vec2d(mesh->uvs[original]));
+      if (!mesh->second_uvs.empty()) mesh->second_uvs.push_back(Vec2d(mesh->second_uvs[original]));
+      if (!mesh->colors.empty()) mesh->colors.push_back(Vec3f(mesh->colors[original]));
       group_of.push_back(group);
     }
     group_of[vertex] = group;

@@ -149,6 +149,7 @@ Scene ReadGltf(const std::filesystem::path& path, const LoadOptions& options, bo
   scene.materials = MakeGltfMaterials(&document, &scene);
   NodeWalk walk(std::min(GltfBudget().max_triangles, options.max_primitives), &document, &scene);
   walk.Run();
+  SplitColoredMaterials(&scene);
   if (CompleteCoordinates(&scene)) {
     document.Warn("a mesh has images but no texture coordinates: it shows one texel of each");
   }

@@ -50,9 +50,7 @@ SpotLight MakeSpot(const tinygltf::Light& light, const std::string& place,
   }
   spot.cutoff_deg = cone.outerConeAngle * kDegrees;
   spot.inner_deg = cone.innerConeAngle * kDegrees;
-  if (spot.inner_deg < spot.cutoff_deg) {
-    document->Warn("the edges of spot lights fall off by smoothstep, not by a square");
-  }
+  spot.edge = SpotEdge::kSquare;
   return spot;
 }
 

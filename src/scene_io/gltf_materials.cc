@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,9 +51,19 @@ Rgb ColorOf(const std::vector<double>& factor, const Rgb& otherwise) {
 // The index of refraction whose reflectance at normal incidence is f0.
 double IorOf(double f0) { return (1 + std::sqrt(f0)) / (1 - std::sqrt(f0)); }
 
-// KHR_materials_ior and KHR_materials_specular change what a dielectric reflects. A clear coat by
-// Schlick's curve over a diffuse base is the same model with that reflectance free; what it cannot
-// say is left out.
+// A clear coat by Schlick's curve over a diffuse base: the same model for what is no metal
+// anywhere.
+DielectricMaterial CoatOf(const MetallicRoughnessMaterial& base, double ior) {
+  DielectricMaterial coat;
+  coat.base_color = base.base_color;
+  coat.ior = ior;
+  coat.roughness = base.roughness;
+  coat.fresnel = DielectricFresnel::kSchlick;
+  return coat;
+}
+
+// KHR_materials_ior and KHR_materials_specular change what a material reflects at normal incidence
+// where it is no metal. What they say about grazing angles is left out: there all reflects.
 void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material, size_t index,
                       Material* result) {
   const auto ior = FindExtension(*document, material, index, "KHR_materials_ior");
@@ -60,30 +72,33 @@ void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material
   const double n = ior ? ior->Number("ior", 1.5) : 1.5;
   const double weight = specular ? specular->Number("specularFactor", 1) : 1;
   const Rgb tint = specular ? specular->Color("specularColorFactor", Rgb(1)) : Rgb(1);
-  const auto& base = std::get<MetallicRoughnessMaterial>(result->model);
-  if (base.metallic == 1 || (n == 1.5 && weight == 1 && tint == Rgb(1))) return;
-  if (base.metallic == 0 && weight == 0 && !base.base_color_map.valid() &&
-      !base.metallic_roughness_map.valid()) {
-    result->model = LambertMaterial{base.base_color};
+  auto& base = std::get<MetallicRoughnessMaterial>(result->model);
+  if (specular && (specular->Has("specularTexture") || specular->Has("specularColorTexture"))) {
+    document->Warn("images of KHR_materials_specular are left out");
+  }
+  if (base.metallic == 1 && !base.metallic_roughness_map.valid()) return;
+  if (n == 1.5 && weight == 1 && tint == Rgb(1)) return;
+  if (base.metallic == 0 && weight == 0) {
+    result->model = LambertMaterial{.albedo = base.base_color, .albedo_map = base.base_color_map};
     return;
   }
-  const double f0 = std::min((n - 1) * (n - 1) / ((n + 1) * (n + 1)) * tint.x, 1.0);
-  const bool is_grey = tint.x == tint.y && tint.y == tint.z;
-  const double equivalent = IorOf(f0);
-  const bool mapped = base.base_color_map.valid() || base.metallic_roughness_map.valid();
-  if (mapped || base.metallic != 0 || weight != 1 || !is_grey || !(n >= 1) || !(equivalent <= 10)) {
+  if (weight != 1 || !(n >= 1)) {
     document->Warn(fmt::format(
-        "material \"{}\": its ior or specular factors are left out (they are shown where metallic "
-        "is 0, specularFactor 0 or 1, specularColorFactor grey, and no image gives the colour)",
+        "material \"{}\": its ior or specular factors are left out (they are shown where "
+        "specularFactor is 1, or where it is 0 and so is metallic, and ior is at least 1)",
         result->name));
     return;
   }
-  DielectricMaterial coat;
-  coat.base_color = base.base_color;
-  coat.ior = n == IorOf(0.04) && tint == Rgb(1) ? n : equivalent;
-  coat.roughness = base.roughness;
-  coat.fresnel = DielectricFresnel::kSchlick;
-  result->model = coat;
+  Rgb f0 = tint * ((n - 1) * (n - 1) / ((n + 1) * (n + 1)));
+  for (int c = 0; c < 3; ++c) f0[c] = std::clamp(f0[c], 0.0, 1.0);
+  const bool mapped = base.base_color_map.valid() || base.metallic_roughness_map.valid();
+  const bool is_grey = f0.x == f0.y && f0.y == f0.z;
+  const double equivalent = tint == Rgb(1) ? n : IorOf(f0.x);
+  if (mapped || base.metallic != 0 || !is_grey || !(equivalent <= 10)) {
+    base.dielectric_f0 = f0;
+  } else {
+    result->model = CoatOf(base, equivalent);
+  }
 }
 
 // Metallic and base colour with about the same diffuse and specular reflectances, after the
@@ -253,6 +268,24 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
   otherwise.name = "default";
   otherwise.model = MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 1};
   return materials;
+}
+
+void SplitColoredMaterials(Scene* scene) {
+  std::map<uint32_t, uint32_t> colored;  // copies by their originals
+  for (Mesh& mesh : scene->meshes) {
+    if (mesh.colors.empty()) continue;
+    const auto next = static_cast<uint32_t>(scene->materials.size());
+    const auto [copy, is_new] = colored.try_emplace(mesh.material.index, next);
+    if (is_new) {
+      Material material = scene->materials[mesh.material.index];
+      const auto* const lambert = std::get_if<LambertMaterial>(&material.model);
+      const bool unlit = lambert != nullptr && lambert->albedo == Rgb(0);
+      material.vertex_colors = unlit ? VertexColors::kEmission : VertexColors::kBase;
+      material.name += " with vertex colours";
+      scene->materials.push_back(std::move(material));
+    }
+    mesh.material = {copy->second};
+  }
 }
 
 }  // namespace nacre

@@ -23,4 +23,7 @@ GltfImage FindGltfImage(const GltfDocument& document, int image);
 // of primitives that name none. Their textures and images go to the scene.
 std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene);
 
+// Gives meshes that have colours a material of their own that asks for them, after its original.
+void SplitColoredMaterials(Scene* scene);
+
 }  // namespace nacre

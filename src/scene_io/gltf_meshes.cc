@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "scene/limits.h"
+#include "scene/material_parameters.h"
 #include "scene/mesh.h"
 #include "scene_io/gltf_accessor.h"
 
@@ -146,13 +147,13 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
   MendNormals(mesh);  // some exporters write normals without a direction
 }
 
-void ReadUvs(const GltfDocument& document, const Primitive& primitive, size_t positions,
-             Mesh* mesh) {
-  const int index = AttributeOf(primitive, "TEXCOORD_0");
+void ReadUvs(const GltfDocument& document, const Primitive& primitive, const char* name,
+             size_t positions, std::vector<Vec2d>* uvs) {
+  const int index = AttributeOf(primitive, name);
   if (index < 0) return;
   const GltfAccessor accessor(document, index, TINYGLTF_TYPE_VEC2);
   CheckCount(document, accessor, positions);
-  mesh->uvs.reserve(primitive.vertices.size());
+  uvs->reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
     // There (0, 0) is an image's top left.
     const Vec2d uv(accessor.Number(element, 0), 1 - accessor.Number(element, 1));
@@ -160,8 +161,43 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, size_t po
       document.Refuse(accessor.place(),
                       fmt::format("texture coordinate {} is out of range", element));
     }
-    mesh->uvs.push_back(uv);
+    uvs->push_back(uv);
   }
+}
+
+// Linear colours, of which alpha is left out. White ones change nothing, and many exporters write
+// them.
+void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t positions,
+                Mesh* mesh) {
+  const int index = AttributeOf(primitive, "COLOR_0");
+  if (index < 0) return;
+  const auto& accessors = document.model.accessors;
+  const bool alpha = static_cast<size_t>(index) < accessors.size() &&
+                     accessors[static_cast<size_t>(index)].type == TINYGLTF_TYPE_VEC4;
+  const GltfAccessor accessor(document, index, alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
+  CheckCount(document, accessor, positions);
+  mesh->colors.reserve(primitive.vertices.size());
+  bool white = true;
+  for (const uint32_t element : primitive.vertices) {
+    Vec3d color = Triple(accessor, element);
+    for (int c = 0; c < 3; ++c) color[c] = color[c] > 0 ? std::min(color[c], 1.0) : 0;
+    white = white && color == Vec3d(1);
+    mesh->colors.emplace_back(color);
+  }
+  if (white) mesh->colors.clear();
+}
+
+// Whether any texture of the material is on the second coordinates.
+bool UsesSecondUvs(const Scene& scene, MaterialId id) {
+  const Material& material = scene.materials[id.index];
+  const auto second = [&](TextureId texture) {
+    return texture.valid() && scene.textures[texture.index].second_uvs;
+  };
+  const MaterialModel* const model = ModelOf(material);
+  return second(material.normal_map.texture) || second(material.emission_map) ||
+         (model != nullptr &&
+          std::any_of(model->maps.begin(), model->maps.end(),
+                      [&](const MaterialMap& map) { return second(map.get(material)); }));
 }
 
 MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {
@@ -176,7 +212,6 @@ MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) 
 }
 
 void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
-  if (AttributeOf(primitive, "COLOR_0") >= 0) document->Warn("vertex colours are not shown");
   if (!primitive.source.targets.empty()) {
     document->Warn("morph targets are left out: meshes are shown in their basic form");
   }
@@ -206,7 +241,14 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
   mesh.triangles = std::move(primitive.triangles);
   ReadPositions(*document, primitive, positions, world_from_node, &mesh);
   ReadNormals(*document, primitive, positions.count(), world_from_node, &mesh);
-  ReadUvs(*document, primitive, positions.count(), &mesh);
+  ReadUvs(*document, primitive, "TEXCOORD_0", positions.count(), &mesh.uvs);
+  if (UsesSecondUvs(*scene, mesh.material)) {
+    ReadUvs(*document, primitive, "TEXCOORD_1", positions.count(), &mesh.second_uvs);
+    if (mesh.second_uvs.empty()) {
+      document->Warn("a mesh without TEXCOORD_1 has images on it: they are on its first ones");
+    }
+  }
+  ReadColors(*document, primitive, positions.count(), &mesh);
   if (world_from_node.determinant() < 0) {
     for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
       std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);

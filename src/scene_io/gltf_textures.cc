@@ -101,10 +101,11 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
     tex_coord = reader.Number("texCoord", tex_coord);
     change.Apply(&texture);
   }
-  if (tex_coord != 0) {
-    document_.Warn("textures on other coordinates than TEXCOORD_0 are left out");
+  if (tex_coord != 0 && tex_coord != 1) {
+    document_.Warn("textures on other coordinates than TEXCOORD_0 and TEXCOORD_1 are left out");
     return {};
   }
+  texture.second_uvs = tex_coord == 1;
   if (source.sampler >= 0) {
     if (static_cast<size_t>(source.sampler) >= model.samplers.size()) {
       document_.Refuse(fmt::format("/textures/{}/sampler", use.texture),

@@ -85,6 +85,9 @@ SpotLight ReadSpot(JsonObject* object) {
   light.inner_deg = light.cutoff_deg;
   object->Number("inner_deg", limits::kInnerDeg, &light.inner_deg);
   object->Number("exponent", limits::kExponent, &light.exponent);
+  constexpr std::array<std::string_view, 2> kEdges = {"smoothstep", "square"};
+  size_t edge = 0;
+  if (object->Choice("edge", kEdges, &edge)) light.edge = static_cast<SpotEdge>(edge);
   return light;
 }
 
@@ -126,6 +129,13 @@ void ReadLight(const JsonValue& value, const SceneContext& context, Light* light
   }
   if (static_cast<LightType>(type) != LightType::kAmbient) {
     object.Boolean("shadows", &light->shadows);
+  }
+  const auto kind = static_cast<LightType>(type);
+  if (kind == LightType::kRectangle || kind == LightType::kMesh ||
+      kind == LightType::kEnvironment) {
+    constexpr std::array<std::string_view, 2> kModes = {"sampled", "fast"};
+    size_t mode = 0;
+    if (object.Choice("mode", kModes, &mode)) light->fast = mode == 1;
   }
   object.RefuseOthers();
 }

@@ -141,7 +141,7 @@ void MakeCoordinatesT(const TexturedRun& run, const PreparedTexture& texture, co
   FindSteps(run, hits, t);
   if (t->any_mesh && !own) PlaceMeshPoints(run, texture, hits, t);
   MapRun(run, texture, t);  // where a mesh has its own coordinates, of whatever point
-  if (t->any_mesh && own) FindMeshCoordinates(run, hits, t);
+  if (t->any_mesh && own) FindMeshCoordinates(run, texture, hits, t);
   const auto sphere_count = static_cast<uint32_t>(run.scene.scene->spheres.size());
   const bool down = IsUpsideDown(texture.mapping);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {

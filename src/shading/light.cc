@@ -19,7 +19,11 @@ ConeTerms<float> ToTerms(const SpotLight& spot) {
   const auto cosine = [](double degrees) {
     return static_cast<float>(std::cos(degrees * M_PI / 180));
   };
-  return {cosine(spot.cutoff_deg), cosine(spot.inner_deg), static_cast<float>(spot.exponent)};
+  const float first = spot.edge == SpotEdge::kSquare ? 1.0f : 3.0f;
+  return {cosine(spot.cutoff_deg),
+          cosine(spot.inner_deg),
+          static_cast<float>(spot.exponent),
+          {first, 1 - first}};
 }
 
 }  // namespace

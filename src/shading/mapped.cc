@@ -105,6 +105,7 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
 
 bool HasMappedModel(const ShadingMaterial& material) {
   if (!material.mapped) return false;
+  if (material.textured->vertex_colors == VertexColors::kBase) return true;
   for (const MapRole role :
        {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kWidth, MapRole::kMetallicRoughness}) {
     if (MapOf(*material.textured, role).valid()) return true;

@@ -84,6 +84,11 @@ void ApplyMapT(const TexturedRun& run, MapRole role, HitTextures* t) {
                   [&](size_t i) { return std::max(factor * double{texels[i]}, 0.0); });
         break;
       }
+      case MapRole::kShown: {
+        float* const emission = Channel(t->emission, c);
+        hits.Fill(emission, [&](size_t i) { return double{emission[i]} * double{texels[i]}; });
+        break;
+      }
       case MapRole::kWidth:
         if (c == 0) Multiply(hits, texels, widest, t->width.data());
         break;

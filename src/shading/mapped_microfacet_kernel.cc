@@ -137,8 +137,8 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
     double* const diffuse = Channel(t->diffuse, c);
     double* const f0 = Channel(t->specular, c);
     double* const slope = Channel(t->exact_slope, c);
-    hits.Fill(
-        f0, [&](size_t i) { return kDielectricF0 * (1 - metallic[i]) + diffuse[i] * metallic[i]; });
+    const double bare = material.dielectric_f0[c];
+    hits.Fill(f0, [&](size_t i) { return bare * (1 - metallic[i]) + diffuse[i] * metallic[i]; });
     hits.Fill(diffuse, [&](size_t i) { return diffuse[i] * ((1 - metallic[i]) * M_1_PI); });
     if (model.fresnel == FresnelForm::kSchlick) {
       hits.Fill(slope, [](size_t) { return 0.0; });

@@ -107,7 +107,8 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   model.coupling = material.diffuse_coupling;
   model.diffuse = material.base_color * ((1 - material.metallic) * M_1_PI);
   PrepareBase(material, &model);
-  model.f0 = Rgb(kDielectricF0) * (1 - material.metallic) + material.base_color * material.metallic;
+  model.f0 =
+      material.dielectric_f0 * (1 - material.metallic) + material.base_color * material.metallic;
   // The tint is the metal's.
   model.f82_slope = EachChannel([&](int c) {
     return material.metallic * F82SlopeFromTint(model.f0[c], material.f82_tint[c]);
@@ -180,6 +181,7 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
         std::any_of(model->maps.begin(), model->maps.end(),
                     [&](const MaterialMap& map) { return map.get(material).valid(); });
   }
+  prepared->mapped = prepared->mapped || material.vertex_colors != VertexColors::kNone;
   prepared->turned = material.normal_map.texture.valid() || material.bump_map.texture.valid();
   if (prepared->mapped || prepared->turned) prepared->textured = &material;
   auto* const microfacet = std::get_if<MicrofacetModel>(&prepared->model);

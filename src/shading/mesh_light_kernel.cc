@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/mesh_light_kernel.cc: directions to lights made of triangles, and what is met along
-// directions. Triangles are chosen, and found, hit by hit; what follows of them runs on vectors.
+// directions. Triangles are chosen hit by hit, and what is met is put into batches of its own; all
+// else runs on vectors.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -13,6 +14,8 @@
 
 #include "base/target_ops-inl.h"
 #include "light/irradiance-inl.h"
+#include "light/mesh_light-inl.h"
+#include "light/mesh_outline-inl.h"
 #include "shading/mesh_light_kernel.h"
 #include "shading/soa-inl.h"
 
@@ -54,27 +57,125 @@ HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
           hn::Set(d, static_cast<float>(v.z))};
 }
 
-// The sum of the triangles that emit towards each hit.
+// From hits i... to a point of the light, formed in double.
+HWY_INLINE Vec3V<V> Offset(const SampledLight& light, const HitBatch& hits, const Vec3d& point,
+                           size_t i) {
+  const D d;
+  const Vec3d place = light.place + point;
+  return {SubtractAndRound(d, place.x, hits.position.x.data() + i),
+          SubtractAndRound(d, place.y, hits.position.y.data() + i),
+          SubtractAndRound(d, place.z, hits.position.z.data() + i)};
+}
+
+// The sum of the triangles that emit towards hits i...
+HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
+                          size_t i) {
+  const D d;
+  const V zero = hn::Zero(d);
+  const MeshLight& mesh = *light.mesh;
+  V sum = zero;
+  for (size_t k = 0; k < mesh.triangles.size(); ++k) {
+    const TriangleLight<double>& triangle = mesh.triangles[k];
+    const TriangleLightV<V> seen{Offset(light, hits, triangle.corner, i), Set3(triangle.edge_x),
+                                 Set3(triangle.edge_y)};
+    const auto front = hn::Lt(FusedDot(seen.corner, Set3(mesh.crosses[k])), zero);
+    if (!light.two_sided && hn::AllFalse(d, front)) continue;
+    const V value = hn::Max(Irradiance(d, seen, normal), zero);
+    sum = hn::Add(sum, light.two_sided ? value : hn::IfThenElseZero(front, value));
+  }
+  return sum;
+}
+
+// The same by the outline of the mesh.
+HWY_INLINE V SumOutline(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
+                        size_t i) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const MeshOutline& outline = light.mesh->outline;
+  V faces[kMostClosedTriangles];
+  V orientation = hn::Set(d, -1.0f);
+  for (size_t k = 0; k < outline.faces.size(); ++k) {
+    const OutlineFace& face = outline.faces[k];
+    const Vec3V<V> offset = Offset(light, hits, outline.corners[face.corner], i);
+    const V height = FusedDot(offset, Set3(face.cross));
+    faces[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
+    if (light.two_sided) orientation = height;
+  }
+  SeenCornersV<V> seen;
+  seen.first = Offset(light, hits, outline.corners[0], i);
+  for (size_t k = 0; k < outline.corners.size(); ++k) {
+    seen.offset[k] = Set3(outline.corners[k] - outline.corners[0]);
+    seen.way[k] = UnitDifference(d, seen.first, seen.offset[k]);
+  }
+  return Irradiance(d, outline, seen, faces, orientation, normal);
+}
+
 void MeshIrradianceT(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      float* irradiance) {
   const D d;
-  const V zero = hn::Zero(d);
+  const bool by_outline = !light.mesh->outline.edges.empty();
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
     const Vec3V<V> normal = LoadSoa(d, surface.normal, i);
-    V sum = zero;
-    for (const TriangleLight<double>& triangle : light.mesh->triangles) {
-      const Vec3d corner = light.place + triangle.corner;
-      const TriangleLightV<V> seen{{SubtractAndRound(d, corner.x, hits.position.x.data() + i),
-                                    SubtractAndRound(d, corner.y, hits.position.y.data() + i),
-                                    SubtractAndRound(d, corner.z, hits.position.z.data() + i)},
-                                   Set3(triangle.edge_x),
-                                   Set3(triangle.edge_y)};
-      const V value = hn::Max(Irradiance(d, seen, normal), zero);
-      const V height = FusedDot(seen.corner, Set3(triangle.edge_x % triangle.edge_y));
-      const auto front = hn::Lt(height, zero);
-      sum = hn::Add(sum, light.two_sided ? value : hn::IfThenElseZero(front, value));
-    }
-    hn::StoreU(sum, d, irradiance + i);
+    hn::StoreU(
+        by_outline ? SumOutline(light, hits, normal, i) : SumTriangles(light, hits, normal, i), d,
+        irradiance + i);
+  }
+}
+
+using DD = hn::ScalableTag<double>;
+using VD = hn::Vec<DD>;
+
+HWY_INLINE VD Promote(const float* from) {
+  const hn::Rebind<float, DD> half;
+  return hn::PromoteTo(DD(), hn::LoadU(half, from));
+}
+
+HWY_INLINE LightRaysV<VD> RaysAt(const SampledLight& light, const HitBatch& hits,
+                                 const Soa3<float>& l, size_t i) {
+  const DD d;
+  const Vec3V<VD> position =
+      LoadU3(d, hits.position.x.data() + i, hits.position.y.data() + i, hits.position.z.data() + i);
+  return MakeLightRays(d, Sub(position, SetVec3(d, light.place)),
+                       {Promote(l.x.data() + i), Promote(l.y.data() + i), Promote(l.z.data() + i)});
+}
+
+// What a vector of rays has met so far.
+struct Nearest {
+  VD t, towards;
+};
+
+// Writes a bit for each lane of the mask.
+template <class M>
+HWY_INLINE uint32_t BitsOf(M mask) {
+  alignas(8) uint8_t bits[8] = {};
+  hn::StoreMaskBits(DD(), mask, bits);
+  return bits[0];
+}
+
+void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float>& to_light,
+               float* distance, SeenMeetings* meetings) {
+  const DD d;
+  const VD zero = hn::Zero(d), infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+  meetings->count = 0;
+  for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
+    const LightRaysV<VD> rays = RaysAt(light, hits, to_light, i);
+    const auto ray = static_cast<uint32_t>(i);
+    Nearest nearest{infinity, zero};
+    ForEachMeeting(d, *light.mesh, rays, [&](uint32_t triangle, const auto& meeting) HWY_ATTR {
+      const auto nearer = hn::And(meeting.met, hn::Lt(meeting.t, nearest.t));
+      nearest.t = hn::IfThenElse(nearer, meeting.t, nearest.t);
+      nearest.towards = hn::IfThenElse(nearer, meeting.towards, nearest.towards);
+      SeenMeeting* to = meetings->Room(hn::Lanes(d));
+      for (uint32_t bits = BitsOf(meeting.met); bits != 0; bits &= bits - 1) {
+        *to++ = {ray + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)), triangle};
+        ++meetings->count;
+      }
+    });
+    const auto met = hn::Lt(nearest.t, infinity);
+    const auto seen = light.two_sided ? met : hn::And(met, hn::Lt(nearest.towards, zero));
+    const VD length = hn::Sqrt(Dot(rays.direction, rays.direction));
+    const VD away = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElseZero(met, nearest.t), length));
+    hn::StoreU(hn::DemoteTo(hn::Rebind<float, DD>(), away), hn::Rebind<float, DD>(), distance + i);
   }
 }
 
@@ -88,6 +189,7 @@ namespace nacre {
 HWY_EXPORT(SampleSeenT);
 HWY_EXPORT(SeenDensityT);
 HWY_EXPORT(MeshIrradianceT);
+HWY_EXPORT(MeetMeshT);
 
 namespace {
 
@@ -162,22 +264,15 @@ void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoint
 }
 
 void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
-  const MeshLight& mesh = *light.mesh;
+  SeenMeetings meetings;
+  HWY_DYNAMIC_DISPATCH(MeetMeshT)
+  (light, hits, directions->to_light, directions->distance.data(), &meetings);
+  std::fill_n(directions->density.data(), hits.count, 0.0f);
   DensitySum sum(light, hits, directions);
-  std::vector<MeshLightMeeting> meetings;
-  for (size_t i = 0; i < hits.count; ++i) {
-    const Soa3<float>& l = directions->to_light;
-    const Vec3d direction(l.x[i], l.y[i], l.z[i]);
-    directions->distance[i] = directions->density[i] = 0;
-    FindMeetings(mesh, At(hits.position, i) - light.place, direction, &meetings);
-    if (meetings.empty()) continue;
-    const auto nearest = std::min_element(meetings.begin(), meetings.end(),
-                                          [](const auto& a, const auto& b) { return a.t < b.t; });
-    const TriangleLight<double>& seen = mesh.triangles[nearest->triangle];
-    const bool front = (direction ^ (seen.edge_x % seen.edge_y)) < 0;
-    if (!front && !light.two_sided) continue;
-    directions->distance[i] = static_cast<float>(nearest->t * direction.length());
-    for (const MeshLightMeeting& meeting : meetings) sum.Add(i, meeting.triangle);
+  for (size_t i = 0; i < meetings.count; ++i) {
+    const SeenMeeting& meeting = meetings.entries[i];
+    const bool seen = meeting.hit < hits.count && directions->distance[meeting.hit] > 0;
+    if (seen) sum.Add(meeting.hit, meeting.triangle);
   }
   sum.Flush();
 }

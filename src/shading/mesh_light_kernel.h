@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mesh_light_kernel.h: triangles of a light, one for each entry of a batch, as vectors read
-// them.
+// shading/mesh_light_kernel.h: triangles of a light as vectors read and write them: one for each
+// entry of a batch, and those that rays meet.
 #pragma once
+
+#include <vector>
 
 #include "shading/area_kernels.h"
 
@@ -9,6 +11,22 @@ namespace nacre {
 
 struct SeenTriangles {
   Soa3<float> corner, edge_x, edge_y;  // as TriangleLight's, relative to the hit
+};
+
+// A triangle that the ray from a hit meets, whether it is the nearest or not.
+struct SeenMeeting {
+  uint32_t hit, triangle;
+};
+
+struct SeenMeetings {
+  std::vector<SeenMeeting> entries;
+  size_t count = 0;
+
+  // The place for so many more.
+  SeenMeeting* Room(size_t more) {
+    if (count + more > entries.size()) entries.resize(2 * (count + more) + kBatchCapacity);
+    return entries.data() + count;
+  }
 };
 
 }  // namespace nacre

@@ -38,6 +38,17 @@ Corners CornersOf(const TextureScene& scene, uint32_t triangle) {
   return corners;
 }
 
+// The gradients of the barycentric coordinates: dual to the edges, in their plane.
+struct Gradients {
+  Vec3d of_b1, of_b2;
+};
+
+Gradients GradientsOf(const Corners& corners) {
+  const Vec3d n = corners.e1.cross(corners.e2);
+  const double area2 = n.dot(n);
+  return {corners.e2.cross(n) / area2, n.cross(corners.e1) / area2};
+}
+
 }  // namespace
 
 void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
@@ -73,26 +84,48 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   }
 }
 
-void FindMeshCoordinates(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
+void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
+                         const HitBatch& hits, HitTextures* textures) {
   HitTextures& t = *textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {
     if (hits.primitive[i] < sphere_count) continue;
     const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
-    const auto& uvs = corners.mesh->uvs;
+    const bool second = texture.second_uvs && !corners.mesh->second_uvs.empty();
+    const auto& uvs = second ? corners.mesh->second_uvs : corners.mesh->uvs;
     const Vec2d uv = uvs[corners.index[0]];
     const Vec2d d1 = uvs[corners.index[1]] - uv, d2 = uvs[corners.index[2]] - uv;
-    // The gradients of the barycentric coordinates: dual to the edges, in their plane.
-    const Vec3d n = corners.e1.cross(corners.e2);
-    const double area2 = n.dot(n);
-    const Vec3d g1 = corners.e2.cross(n) / area2, g2 = n.cross(corners.e1) / area2;
+    const auto [g1, g2] = GradientsOf(corners);
     const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
     const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);
     t.u[i] = uv.x + b1 * d1.x + b2 * d2.x;
     t.v[i] = uv.y + b1 * d1.y + b2 * d2.y;
     Put(g1 * d1.x + g2 * d2.x, i, &t.gradient_u);
     Put(g1 * d1.y + g2 * d2.y, i, &t.gradient_v);
+  }
+}
+
+void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {
+  Soa3<float>& to = textures->texels;
+  const Scene& scene = *run.scene.scene;
+  const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
+  for (size_t i = run.begin; i < run.end; ++i) {
+    Vec3d color(1);
+    if (hits.primitive[i] >= sphere_count) {
+      const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
+      const std::vector<Vec3f>& colors = corners.mesh->colors;
+      if (!colors.empty()) {
+        const auto [g1, g2] = GradientsOf(corners);
+        const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
+        const Vec3d first(colors[corners.index[0]]);
+        color = first + (Vec3d(colors[corners.index[1]]) - first) * g1.dot(from_a) +
+                (Vec3d(colors[corners.index[2]]) - first) * g2.dot(from_a);
+      }
+    }
+    to.x[i] = static_cast<float>(color.x);
+    to.y[i] = static_cast<float>(color.y);
+    to.z[i] = static_cast<float>(color.z);
   }
 }
 

@@ -15,6 +15,7 @@ enum class MapRole : uint8_t {
   kWidth,              // shininess; roughness of conductors and dielectrics
   kMetallicRoughness,  // green: roughness, blue: metallic
   kEmission,
+  kShown,  // emission that a map may have multiplied already
 };
 TextureId MapOf(const Material& material, MapRole role);
 
@@ -23,7 +24,11 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
 
 // For meshes with coordinates of their own: u, v and gradients at hits on triangles, before the
 // texture's transform (surface_points.cc).
-void FindMeshCoordinates(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
+void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
+                         const HitBatch& hits, HitTextures* textures);
+
+// The colours between vertices, white on what has none, in `texels` (surface_points.cc).
+void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
 
 // u, v, gradients and footprints for a texture (coordinates_kernel.cc).
 void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,

@@ -15,7 +15,7 @@ bool SameCoordinates(const Texture& a, const Texture& b) {
   const auto key = [](const Texture& t) {
     return std::make_tuple(t.mapping, t.axis.x, t.axis.y, t.axis.z, t.rotate_deg, t.center.x,
                            t.center.y, t.center.z, t.size, t.scale.x, t.scale.y, t.uv_rotate_deg,
-                           t.offset.x, t.offset.y);
+                           t.offset.x, t.offset.y, t.second_uvs);
   };
   return key(a) == key(b);
 }
@@ -35,6 +35,7 @@ class RunTexturer {
     if (material.bump_map.texture.valid()) TurnByBumpMap(material.bump_map);
     if (run_.material.turned) RoundGeometric(run_, t_);
     StartMaterial(run_, t_);
+    if (material.vertex_colors == VertexColors::kBase) ApplyVertexColors(MapRole::kDiffuse);
     for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kWidth,
                                MapRole::kMetallicRoughness, MapRole::kEmission}) {
       const TextureId id = MapOf(material, role);
@@ -42,6 +43,7 @@ class RunTexturer {
       LookUp(id);
       ApplyMap(run_, role, t_);
     }
+    if (material.vertex_colors == VertexColors::kEmission) ApplyVertexColors(MapRole::kShown);
     FinishMaterial(run_, t_);
   }
 
@@ -68,6 +70,11 @@ class RunTexturer {
     float* const to[3] = {t_->texels.x.data() + i, t_->texels.y.data() + i,
                           t_->texels.z.data() + i};
     SampleTexture(*texture.image, texture.sampling, Points(), 3, to);
+  }
+
+  void ApplyVertexColors(MapRole role) {
+    FindVertexColors(run_, *hits_, t_);
+    ApplyMap(run_, role, t_);
   }
 
   void TurnByNormalMap(const NormalMap& map) {
@@ -140,6 +147,7 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
     to.image = image.texels.get();
     to.sampling = texture.sampling;
     to.mapping = texture.mapping;
+    to.second_uvs = texture.second_uvs;
     to.middle = image.middle;
     const MappingFrame frame = FrameOf(texture);
     to.frame[0] = frame.x;

@@ -19,6 +19,7 @@ struct PreparedTexture {
   const MipChain* image;
   SampleSettings sampling;
   MappingKind mapping;
+  bool second_uvs;
   float middle;         // of a normal map: the value that is 0
   Vec3d frame[3];       // the mapping's x, y and z axes, unit; z is its axis
   Vec3d center;         // of meshes, relative to the camera

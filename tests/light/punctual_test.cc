@@ -103,6 +103,9 @@ TEST_CASE("a cone is dark at its cutoff, and a penumbra of no width is a hard ed
     CHECK(EvaluateSpot({soft}, {0.625f})[0] == 0.5f);  // halfway: smoothstep(1/2)
     CHECK(EvaluateSpot({soft}, {0.75f})[0] == 1);
     CHECK(EvaluateSpot({soft}, {0.5625f})[0] == 0.15625f);  // a quarter of the way: 5/32
+    const ConeTerms<float> square{cutoff, 0.75f, 0, {1, 0}};
+    CHECK(EvaluateSpot({square}, {0.625f})[0] == 0.25f);
+    CHECK(EvaluateSpot({square}, {0.75f})[0] == 1);
     // An exponent below 1: the root of the cosine.
     CHECK(EvaluateSpot({{0, 0, 0.5f}}, {0.25f})[0] == Approx(0.5f).epsilon(1e-6));
     // A cone wider than a half-space: negative cosines count as 0 for the exponent.
@@ -110,6 +113,7 @@ TEST_CASE("a cone is dark at its cutoff, and a penumbra of no width is a hard ed
     CHECK(EvaluateSpot({{-0.5f, -0.5f, 0}}, {-0.25f})[0] == 1);
   });
   CHECK(SpotFactor<double>({0.5, 0.75, 0}, 0.5625) == 0.15625);
+  CHECK(SpotFactor<double>({0.5, 0.75, 0, {1, 0}}, 0.5625) == 0.0625);
   CHECK(SpotFactor<double>({0, 0, 0.5}, 0.25) == 0.5);
 }
 

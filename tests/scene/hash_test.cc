@@ -69,6 +69,8 @@ TEST_CASE("what else shows changes the hash") {
   CHECK(differs([](Scene* s) { s->image.shadows = false; }));
   CHECK(differs([](Scene* s) { s->background.z = 1; }));
   CHECK(differs([](Scene* s) { s->lights[0].shadows = false; }));
+  CHECK(differs([](Scene* s) { s->lights[0].fast = true; }));
+  CHECK(differs([](Scene* s) { s->materials[0].vertex_colors = VertexColors::kBase; }));
   CHECK(differs([](Scene* s) { s->lights[0].kind = SpotLight{}; }));
   CHECK(differs([](Scene* s) { std::swap(s->spheres[0], s->spheres[1]); }));
   CHECK(differs([](Scene* s) { s->spheres.pop_back(); }));
@@ -77,6 +79,8 @@ TEST_CASE("what else shows changes the hash") {
   CHECK(differs([](Scene* s) { s->meshes[0].normals.clear(); }));
   CHECK(differs([](Scene* s) { s->meshes[0].uvs.clear(); }));
   CHECK(differs([](Scene* s) { s->meshes[0].uvs[1].y += 1e-12; }));
+  CHECK(differs([](Scene* s) { s->meshes[0].second_uvs = s->meshes[0].uvs; }));
+  CHECK(differs([](Scene* s) { s->meshes[0].colors.resize(s->meshes[0].positions.size()); }));
   CHECK(differs([](Scene* s) { s->meshes[0].interpolation = Interpolation::kFaceted; }));
   CHECK(differs([](Scene* s) { s->meshes[0].smooth_terminator = false; }));
 }

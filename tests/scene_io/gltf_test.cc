@@ -186,6 +186,43 @@ TEST_CASE("texture coordinates have v up, normals without direction are mended")
   CHECK(mesh.normals == std::vector<Vec3d>{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, 1}});
 }
 
+TEST_CASE("colours of vertices") {
+  GltfFile file = MakeSquare();
+  Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  const auto material_of = [](const Scene& scene) {
+    return scene.materials.at(scene.meshes.at(0).material.index);
+  };
+  attributes["COLOR_0"] =
+      file.Accessor(std::vector<float>{1, 0.5, 0, 0, 0, 1, 2, 0.25, -1, 1, 1, 1}, 5126, "VEC3", 3);
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  // Out of [0, 1] there is none.
+  CHECK(scene.meshes.at(0).colors ==
+        std::vector<Vec3f>{{1, 0.5, 0}, {0, 0, 1}, {1, 0.25, 0}, {1, 1, 1}});
+  CHECK(material_of(scene).vertex_colors == VertexColors::kBase);
+  CHECK(material_of(scene).name == "default with vertex colours");
+  CHECK(scene.materials.at(0).vertex_colors == VertexColors::kNone);
+  // Normalised bytes with alpha.
+  attributes["COLOR_0"] = file.Accessor(
+      std::vector<uint8_t>{255, 51, 0, 9, 0, 0, 0, 9, 0, 0, 0, 9, 0, 0, 0, 9}, 5121, "VEC4", 4);
+  file.json["accessors"].back()["normalized"] = true;
+  CHECK(LoadFile(file).meshes.at(0).colors.at(0) == Vec3f(1, 51 / 255.0f, 0));
+  // Without light they are what is shown.
+  const auto color = [&]() -> Json& {
+    return file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"];
+  };
+  file.json["materials"].push_back({{"extensions", {{"KHR_materials_unlit", Json::object()}}}});
+  file.json["meshes"][0]["primitives"][0]["material"] = 0;
+  CHECK(material_of(LoadFile(file)).vertex_colors == VertexColors::kEmission);
+  // White changes nothing.
+  color() = file.Accessor(std::vector<float>(12, 1.0f), 5126, "VEC3", 3);
+  CHECK(LoadFile(file).meshes.at(0).colors.empty());
+  CHECK(material_of(LoadFile(file)).vertex_colors == VertexColors::kNone);
+  color() = file.Accessor(std::vector<float>(9, 0.5f), 5126, "VEC3", 3);
+  CHECK_THROWS_AS(LoadFile(file), Error);
+}
+
 TEST_CASE("primitives that share long accessors take what they use") {
   GltfFile file = MakeSquare();
   std::vector<float> many(3 * 10000);
@@ -250,8 +287,10 @@ TEST_CASE("extensions of materials") {
   CHECK(warnings.empty());
   const Material tinted =
       plastic(R"("KHR_materials_specular": {"specularColorFactor": [1, 0.5, 0.5]})", &warnings);
-  CHECK(std::holds_alternative<MetallicRoughnessMaterial>(tinted.model));
-  CHECK(warnings.size() == 1);
+  const Rgb f0 = std::get<MetallicRoughnessMaterial>(tinted.model).dielectric_f0;
+  CHECK(f0.x == Approx(0.04).epsilon(1e-14));
+  CHECK(f0.y == Approx(0.02).epsilon(1e-14));
+  CHECK(warnings.empty());
   // White paint without gloss, and gold.
   const Material paint = plastic(R"("KHR_materials_pbrSpecularGlossiness": {
       "diffuseFactor": [0.5, 0.5, 0.5, 1], "specularFactor": [0.04, 0.04, 0.04],
@@ -314,7 +353,8 @@ TEST_CASE("lights") {
   const auto& spot = std::get<SpotLight>(scene.lights[2].kind);
   CHECK(spot.cutoff_deg == Approx(90 / std::numbers::pi));
   CHECK(spot.inner_deg == Approx(45 / std::numbers::pi));
-  CHECK(warnings.size() == 1);  // the penumbra
+  CHECK(spot.edge == SpotEdge::kSquare);
+  CHECK(warnings.empty());
 }
 
 TEST_CASE("a model without camera and lights gets both") {

@@ -107,9 +107,9 @@ TEST_CASE("samplers and transforms") {
 TEST_CASE("what cannot be shown is told, and the rest is shown") {
   std::vector<std::string> warnings;
   GltfFile file = MakeTexturedSquare();
-  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 1;
+  file.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"] = 2;
   CHECK(!MaterialOf(LoadFile(file, &warnings)).base_color_map.valid());
-  CHECK(Mentions(warnings, "TEXCOORD_0"));
+  CHECK(Mentions(warnings, "other coordinates than TEXCOORD_0 and TEXCOORD_1"));
 
   warnings.clear();
   file = MakeTexturedSquare();
@@ -117,6 +117,48 @@ TEST_CASE("what cannot be shown is told, and the rest is shown") {
   const Scene scene = LoadFile(file, &warnings);
   CHECK(Mentions(warnings, "no texture coordinates"));
   CHECK(scene.meshes.at(0).uvs.size() == scene.meshes[0].positions.size());
+}
+
+TEST_CASE("textures on second coordinates") {
+  GltfFile file = MakeTexturedSquare();
+  Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["TEXCOORD_1"] =
+      file.Accessor(std::vector<float>{0.5, 1, 1, 1, 1, 0, 0, 0}, 5126, "VEC2", 2);
+  CHECK(LoadFile(file).meshes.at(0).second_uvs.empty());  // nothing asks for them
+  CHECK(!LoadFile(file).textures.at(0).second_uvs);
+  file.json["materials"][0]["emissiveTexture"] = {{"index", 0}, {"texCoord", 1}};
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  CHECK(scene.meshes.at(0).second_uvs == std::vector<Vec2d>{{0.5, 0}, {1, 0}, {1, 1}, {0, 1}});
+  CHECK(scene.meshes[0].uvs.at(0) == Vec2d(0, 0));
+  const auto second = [&](TextureId id) { return scene.textures.at(id.index).second_uvs; };
+  CHECK(second(scene.materials.at(0).emission_map));
+  CHECK(!second(MaterialOf(scene).base_color_map));
+  attributes.erase("TEXCOORD_1");
+  CHECK(LoadFile(file, &warnings).meshes.at(0).second_uvs.empty());
+  CHECK(Mentions(warnings, "a mesh without TEXCOORD_1"));
+}
+
+TEST_CASE("an index of refraction beside images, and specular colours") {
+  GltfFile file = MakeTexturedSquare();
+  Json& material = file.json["materials"][0];
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0.25;
+  material["extensions"] = {{"KHR_materials_ior", {{"ior", 2.0}}},
+                            {"KHR_materials_specular", {{"specularColorFactor", {1, 0.5, 12}}}}};
+  std::vector<std::string> warnings;
+  const Rgb f0 = MaterialOf(LoadFile(file, &warnings)).dielectric_f0;
+  CHECK(warnings.empty());
+  CHECK(f0.x == Approx(1.0 / 9).epsilon(1e-14));
+  CHECK(f0.y == Approx(0.5 / 9).epsilon(1e-14));
+  CHECK(f0.z == 1);  // no more than all
+  material["extensions"]["KHR_materials_specular"]["specularFactor"] = 0.5;
+  CHECK(MaterialOf(LoadFile(file, &warnings)).dielectric_f0 == Rgb(0.04));
+  CHECK(Mentions(warnings, "its ior or specular factors are left out"));
+  material["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  const Scene matte = LoadFile(file);
+  CHECK(std::get<LambertMaterial>(matte.materials.at(0).model).albedo_map == TextureId{0});
 }
 
 TEST_CASE("images that are not there, or are none, are refused") {

@@ -181,8 +181,9 @@ TEST_CASE("lights of every kind") {
                "shadows": false},
       "lamp": {"type": "spot", "position": [0, 1, 0], "direction_of_travel": [0, -1, 0],
                "intensity": 2, "attenuation": {"constant": 1, "quadratic": 0.1},
-               "cutoff_deg": 12, "exponent": 3}})");
+               "cutoff_deg": 12, "edge": "square", "exponent": 3}})");
   REQUIRE(scene.lights.size() == 4);
+  CHECK(std::get<SpotLight>(scene.lights[3].kind).edge == SpotEdge::kSquare);
   CHECK(scene.lights[0].name == "sky");
   CHECK(std::get<AmbientLight>(scene.lights[0].kind).radiance == Rgb(0.5, 0.5, 0.5));
 
@@ -225,11 +226,11 @@ TEST_CASE("lights that are meshes") {
 TEST_CASE("lights with an extent and skies") {
   const Scene scene = Load(R"(, "lights": {
       "window": {"type": "rectangle", "center": [1, 2, 3], "facing": [0, -2, 0], "width": 2,
-                 "height": 0.5, "radiance": [3, 2, 1], "two_sided": true},
+                 "height": 0.5, "radiance": [3, 2, 1], "two_sided": true, "mode": "fast"},
       "panel": {"type": "disk", "center": [0, 1, 0], "facing": [0, 0, 1], "radius": 0.25,
                 "radiance": 2, "visible": false, "shadows": false},
       "bulb": {"type": "sphere", "center": [0, 4, 0], "radius": 0.1, "radiance": 9},
-      "sky": {"type": "environment", "rotate_deg": 45, "background": false,
+      "sky": {"type": "environment", "rotate_deg": 45, "background": false, "mode": "sampled",
               "quadratic": {"radiance": [1, 2, 3], "axis": [1, 0, 0], "constant": 1, "linear": -1,
                             "quadratic": 0.5}}})");
   REQUIRE(scene.lights.size() == 4);
@@ -246,6 +247,8 @@ TEST_CASE("lights with an extent and skies") {
   CHECK(std::get<QuadraticSky>(sky.sky).linear == -1);
   const auto& window = std::get<RectangleAreaLight>(scene.lights[0].kind);
   CHECK(window.two_sided);
+  CHECK(scene.lights[0].fast);
+  CHECK(!scene.lights[3].fast);
   CHECK(window.up == Vec3d(0, 0, -1));  // a light that faces down has no other
   CHECK(window.radiance == Rgb(3, 2, 1));
 }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// light/mesh_light-inl.h: the triangles of a light that a packet of rays meets. Scalar twin:
+// FindMeetings of mesh_light.h, bit for bit. The rays walk the tree together: a box is opened, and
+// a triangle tried, if any of them asks for it.
+#if defined(NACRE_LIGHT_MESH_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_LIGHT_MESH_LIGHT_INL_H_
+#undef NACRE_LIGHT_MESH_LIGHT_INL_H_
+#else
+#define NACRE_LIGHT_MESH_LIGHT_INL_H_
+#endif
+
+#include <limits>
+
+#include "base/vec3-inl.h"
+#include "light/mesh_light.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Rays from points, relative to the light's origin, in double.
+template <class V>
+struct LightRaysV {
+  Vec3V<V> point, direction, inverse;
+};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE LightRaysV<V> MakeLightRays(D d, const Vec3V<V>& point, const Vec3V<V>& direction) {
+  const auto inverse = [d](V x) HWY_ATTR {
+    const V one = hn::Set(d, 1.0);
+    const auto along = hn::Eq(x, hn::Zero(d));
+    return hn::IfThenElse(along, hn::Set(d, kSlabInfinity),
+                          hn::Div(one, hn::IfThenElse(along, one, x)));
+  };
+  return {point, direction, {inverse(direction.x), inverse(direction.y), inverse(direction.z)}};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE auto MeetsBox(D d, const MeshLightNode& box, const LightRaysV<V>& rays) {
+  V near = hn::Zero(d), far = hn::Set(d, std::numeric_limits<double>::infinity());
+  const auto cut = [&](double low, double high, V point, V inverse) HWY_ATTR {
+    const V a = hn::Mul(hn::Sub(hn::Set(d, low), point), inverse);
+    const V b = hn::Mul(hn::Sub(hn::Set(d, high), point), inverse);
+    near = hn::Max(near, hn::Min(a, b));
+    far = hn::Min(far, hn::Max(a, b));
+  };
+  cut(box.low.x, box.high.x, rays.point.x, rays.inverse.x);
+  cut(box.low.y, box.high.y, rays.point.y, rays.inverse.y);
+  cut(box.low.z, box.high.z, rays.point.z, rays.inverse.z);
+  return hn::Le(near, hn::Mul(far, hn::Set(d, kSlabRounding)));
+}
+
+// Where rays meet a triangle: at which multiple of their directions (valid where `met`), and
+// towards which side of it they go: negative, against its front.
+template <class M, class V>
+struct TriangleMeetingV {
+  M met;
+  V t, towards;
+};
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
+  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
+}
+
+// Products and sums stay apart, as in the scalar twin.
+template <class V>
+HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
+          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
+          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE TriangleMeetingV<hn::Mask<D>, V> MeetTriangle(D d, const TriangleLight<double>& t,
+                                                         const Vec3d& cross,
+                                                         const LightRaysV<V>& rays) {
+  const V zero = hn::Zero(d);
+  const Vec3V<V> corner = Sub(SetVec3(d, t.corner), rays.point);
+  const Vec3V<V> normal = SetVec3(d, cross);
+  const V towards = Dot(rays.direction, normal);
+  const Vec3V<V> across = Cross(corner, rays.direction);
+  const V along_y = Dot(across, SetVec3(d, t.edge_y)), along_x = Dot(across, SetVec3(d, t.edge_x));
+  const auto back = hn::Lt(towards, zero);
+  const V x = hn::IfThenElse(back, hn::Neg(along_y), along_y);
+  const V y = hn::IfThenElse(back, along_x, hn::Neg(along_x));
+  const V size = hn::Abs(towards);
+  const auto in_angle = hn::And(hn::Ge(x, zero), hn::Ge(y, zero));
+  const auto met = hn::And(hn::And(in_angle, hn::Le(hn::Add(x, y), size)), hn::Gt(size, zero));
+  if (hn::AllFalse(d, met)) return {met, zero, towards};
+  const V t_met = hn::Div(Dot(corner, normal), hn::IfThenElse(met, towards, hn::Set(d, 1.0)));
+  return {hn::And(met, hn::Gt(t_met, zero)), t_met, towards};
+}
+
+// Calls found(triangle, meeting) for the triangles that any of the lanes' rays meets.
+template <class D, class V, class Found>
+HWY_INLINE void ForEachMeeting(D d, const MeshLight& light, const LightRaysV<V>& rays,
+                               const Found& found) {
+  uint32_t stack[kMeshLightStack];
+  size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const MeshLightNode& node = light.tree[stack[--size]];
+    if (hn::AllFalse(d, MeetsBox(d, node, rays))) continue;
+    if (node.child != 0) {
+      stack[size++] = node.child;
+      stack[size++] = node.child + 1;
+      continue;
+    }
+    for (uint32_t i = node.begin; i < node.end; ++i) {
+      const auto meeting = MeetTriangle(d, light.triangles[i], light.crosses[i], rays);
+      if (!hn::AllFalse(d, meeting.met)) found(i, meeting);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

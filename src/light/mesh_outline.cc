@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "light/mesh_outline.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace nacre {
+namespace {
+
+using Corners = std::array<uint32_t, 3>;
+
+// Corners at one place are one, whatever number files give them.
+class CornerNumbers {
+ public:
+  explicit CornerNumbers(std::vector<Vec3d>* corners) : corners_(*corners) {}
+
+  uint32_t Of(const Vec3d& p) {
+    const auto [entry, is_new] = numbers_.try_emplace(std::tuple(p.x, p.y, p.z), corners_.size());
+    if (is_new) corners_.push_back(p);
+    return static_cast<uint32_t>(entry->second);
+  }
+
+ private:
+  std::map<std::tuple<double, double, double>, size_t> numbers_;
+  std::vector<Vec3d>& corners_;
+};
+
+// Pairs the triangles' edges up. Returns false if one is there twice the same way round.
+bool FindEdges(const std::vector<Corners>& faces, std::vector<OutlineEdge>* edges) {
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> left;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    for (size_t k = 0; k < 3; ++k) {
+      const std::pair edge(faces[i][k], faces[i][(k + 1) % 3]);
+      if (!left.try_emplace(edge, static_cast<uint32_t>(i)).second) return false;
+    }
+  }
+  edges->reserve(left.size());
+  for (const auto& [edge, face] : left) {
+    const auto other = left.find({edge.second, edge.first});
+    if (other == left.end()) {
+      edges->push_back({edge.first, edge.second, face, kNoFace});
+    } else if (edge.first < edge.second) {
+      edges->push_back({edge.first, edge.second, face, other->second});
+    }
+  }
+  return true;
+}
+
+// How many pieces the faces make that edges join.
+size_t CountPieces(const MeshOutline& outline) {
+  std::vector<uint32_t> piece(outline.faces.size());
+  for (uint32_t i = 0; i < piece.size(); ++i) piece[i] = i;
+  const auto root = [&](uint32_t i) {
+    while (piece[i] != i) i = piece[i] = piece[piece[i]];
+    return i;
+  };
+  size_t pieces = piece.size();
+  for (const OutlineEdge& edge : outline.edges) {
+    if (edge.right == kNoFace) continue;
+    const uint32_t a = root(edge.left), b = root(edge.right);
+    pieces -= a == b ? 0 : 1;
+    piece[a] = b;
+  }
+  return pieces;
+}
+
+// Euler's formula: convex faces that close around a ball once, not twice or with a hole.
+bool IsSolid(const MeshOutline& outline) {
+  const auto closed = [](const OutlineEdge& edge) { return edge.right != kNoFace; };
+  return std::all_of(outline.edges.begin(), outline.edges.end(), closed) &&
+         outline.corners.size() + outline.faces.size() == outline.edges.size() + 2;
+}
+
+// Whether no corner is to the right of an edge of the border, as seen from the side that all faces
+// are on.
+bool IsConvexPolygon(const MeshOutline& outline) {
+  const Vec3d& up = outline.faces[0].cross;
+  for (const OutlineFace& face : outline.faces) {
+    if (!((face.cross ^ up) > 0)) return false;
+  }
+  // A notch of this part of the polygon's area is the rounding of corners in files.
+  constexpr double kRounding = 1e-7;
+  for (const OutlineEdge& edge : outline.edges) {
+    if (edge.right != kNoFace) continue;
+    const Vec3d& from = outline.corners[edge.from];
+    const Vec3d way = outline.corners[edge.to] - from;
+    for (const Vec3d& corner : outline.corners) {
+      const double across = up ^ (way % (corner - from));
+      if (across < -kRounding * up.length() * way.length2()) return false;
+    }
+  }
+  return outline.corners.size() + outline.faces.size() == outline.edges.size() + 1;
+}
+
+}  // namespace
+
+MeshOutline MakeMeshOutline(std::span<const Vec3d> positions, std::span<const uint32_t> triangles,
+                            const Vec3d& origin, bool is_flat) {
+  MeshOutline outline;
+  CornerNumbers numbers(&outline.corners);
+  std::vector<Corners> faces;
+  faces.reserve(triangles.size() / 3);
+  outline.faces.reserve(triangles.size() / 3);
+  for (size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const Vec3d &a = positions[triangles[i]], &b = positions[triangles[i + 1]],
+                &c = positions[triangles[i + 2]];
+    const Vec3d cross = (b - a) % (c - a);
+    if (!(cross.length() > 0)) continue;
+    faces.push_back({numbers.Of(a), numbers.Of(b), numbers.Of(c)});
+    outline.faces.push_back({faces.back()[0], cross});
+  }
+  const bool known = FindEdges(faces, &outline.edges) && CountPieces(outline) == 1 &&
+                     outline.corners.size() <= kMostOutlineCorners &&
+                     (is_flat ? IsConvexPolygon(outline) : IsSolid(outline));
+  if (!known) return {};
+  for (Vec3d& corner : outline.corners) corner -= origin;
+  return outline;
+}
+
+}  // namespace nacre
