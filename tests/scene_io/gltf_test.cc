@@ -373,6 +373,9 @@ TEST_CASE("--set reaches the camera, the image, the lights and the materials of 
                           {"/lights/more", R"({"type": "ambient", "radiance": 1})"}});
   CHECK(lit.lights.size() == 5);
   CHECK(std::holds_alternative<AmbientLight>(lit.lights[0].kind));
+  const Scene alone = load({{"/lights", R"({"only": {"type": "ambient", "radiance": 1}})"}});
+  REQUIRE(alone.lights.size() == 1);
+  CHECK(alone.lights[0].name == "only");
   CHECK(message("/materials/n/roughness", "1").find("unknown material \"n\"") != std::string::npos);
   CHECK(message("/materials/m/rough", "1").find("unknown key \"rough\"") != std::string::npos);
   CHECK(message("/image/spp", "0").find("/image/spp: 0 is out of range") != std::string::npos);
