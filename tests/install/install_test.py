@@ -7,6 +7,7 @@ Usage: install_test.py BUILD_FOLDER SOURCE_FOLDER CXX
 import gzip
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -60,6 +61,24 @@ class InstallTest(unittest.TestCase):
         run(CXX, '-std=c++17', '-Wall', '-Wextra', '-Werror', EXAMPLE / 'example.cc', '-o', program,
             *flags)
         self.check_example(program, {**os.environ, 'LD_LIBRARY_PATH': str(self.library.parent)})
+
+    def test_the_programs_of_the_readme_build_and_run(self):
+        readme = (SOURCE / 'README.md').read_text()
+        blocks = re.findall(r'^```(cpp|cmake)\n(.*?)^```$', readme, re.M | re.S)
+        check, picture = (text for kind, text in blocks if kind == 'cpp')
+        project, = (text for kind, text in blocks if kind == 'cmake')
+        folder = self.top / 'readme'
+        folder.mkdir()
+        (folder / 'check.cc').write_text(check)
+        (folder / 'picture.cc').write_text(picture)
+        (folder / 'CMakeLists.txt').write_text(
+            project + project[project.index('add_executable'):].replace('check', 'picture'))
+        run('cmake', '-S', folder, '-B', folder / 'build', f'-DCMAKE_PREFIX_PATH={self.prefix}',
+            f'-DCMAKE_CXX_COMPILER={CXX}')
+        run('cmake', '--build', folder / 'build')
+        self.assertIn('largest relative difference', run(folder / 'build/check'))
+        run(folder / 'build/picture', cwd=folder)
+        self.assertIn('specular', run(self.prefix / 'bin/nacre', 'info', folder / 'gold.exr'))
 
     def test_the_library_shows_the_api_alone(self):
         names = run('nm', '-DC', '--defined-only', self.library).splitlines()
