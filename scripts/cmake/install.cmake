@@ -55,7 +55,10 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime RENA
 # scripts/package: nacre_*.deb and libnacre-dev_*.deb.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nacre)
-set(CPACK_PACKAGE_CONTACT "The nacre authors <nacre@invalid>")
+# Nobody answers mail for nacre, and the ending says so (RFC 2606). Who passes packages on gives a name
+# of their own: scripts/package takes it from DEBFULLNAME and DEBEMAIL.
+set(NACRE_MAINTAINER "The nacre authors <nobody@nacre.invalid>" CACHE STRING "Of the packages")
+set(CPACK_PACKAGE_CONTACT "${NACRE_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL runtime development)

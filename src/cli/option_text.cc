@@ -40,8 +40,12 @@ std::string ValueName(const CLI::Option& option) {
 std::string OptionText(const CLI::Option& option) {
   std::string text = option.get_description();
   const std::string type = option.get_type_name();
-  const size_t bounds = type.rfind(" in [");
-  if (bounds != std::string::npos) text += ", in" + type.substr(bounds + 3);
+  const size_t bounds = type.rfind(" in [");  // "INT in [1 - 64]"
+  const size_t dash = type.rfind(" - ");
+  if (bounds != std::string::npos && dash != std::string::npos) {
+    text += fmt::format(" ({} to {})", type.substr(bounds + 5, dash - bounds - 5),
+                        type.substr(dash + 3, type.rfind(']') - dash - 3));
+  }
   // Flags and empty texts have no value worth telling.
   const std::string value = option.get_default_str();
   if (TakesValue(option) && !value.empty()) text += " (default: " + value + ")";

@@ -90,7 +90,7 @@ std::string FieldText(const Field& field) {
   }
   return fmt::format(
       "set palette defined ({})\nset logscale cb\nset cbrange [{}:{}]\nset format cb '10^{{%T}}'\n"
-      "set cblabel {} noenhanced textcolor rgb '#222222'\n",
+      "set cblabel {} noenhanced textcolor rgb '#222222' offset 0.8,0\nset rmargin 9\n",
       palette, Number(field.low), Number(field.high), GnuplotQuote(field.label));
 }
 

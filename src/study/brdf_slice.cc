@@ -8,8 +8,9 @@
 namespace nacre {
 namespace {
 
-constexpr int kSlicePoints = 180;  // along each axis, at the middles of half degrees
-constexpr double kDecades = 1e4;   // of the scale at most, as the heat maps of errors have
+constexpr int kSlicePoints = 180;       // along each axis, at the middles of half degrees
+constexpr double kGrazingCosine = 0.1;  // light and viewer 84 degrees from the normal
+constexpr double kDecades = 1e4;        // of the scale at most, as the heat maps of errors have
 
 Field FieldOf(const ShadingMaterial& material, ColorChannel channel) {
   Field field;
@@ -32,13 +33,17 @@ Field FieldOf(const ShadingMaterial& material, ColorChannel channel) {
   return field;
 }
 
-// Powers of ten around all values, kDecades apart at most.
+// Powers of ten around all values but those of grazing light, kDecades apart at most: BRDFs grow
+// there as 1 / n.l, whatever the model, and would leave no colours for the rest.
 void SetScale(std::vector<Plot>* plots) {
   double high = 0;
   double low = std::numeric_limits<double>::infinity();
   for (const Plot& plot : *plots) {
-    for (const double value : plot.field->values) {
-      if (!(value > 0)) continue;
+    const Field& field = *plot.field;
+    for (size_t i = 0; i < field.values.size(); ++i) {
+      const double value = field.values[i];
+      const double n_dot_l = DirectionsOfSlice(field.x[i], field.y[i]).to_light.z;
+      if (!(value > 0) || n_dot_l < kGrazingCosine) continue;
       high = std::max(high, value);
       low = std::min(low, value);
     }

@@ -16,9 +16,9 @@ struct SliceDirections {
 };
 SliceDirections DirectionsOfSlice(double theta_h_deg, double theta_d_deg);
 
-// For each material, the BRDF over theta_h and theta_d as colours, all on one scale (Burley 2012,
-// figure 3): the highlight at the left, Fresnel's effect at the top, grazing light retroreflected
-// at the right.
+// For each material, the BRDF over theta_h and theta_d as colours, all on one scale, which grazing
+// light may exceed (Burley 2012, figure 3): the highlight at the left, Fresnel's effect at the top,
+// grazing light retroreflected at the right.
 std::vector<Plot> SlicePlots(const std::vector<NamedMaterial>& materials, ColorChannel channel);
 
 }  // namespace nacre

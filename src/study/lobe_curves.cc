@@ -55,7 +55,13 @@ Figure LobeFigure(const std::vector<NamedLobe>& lobes) {
               .low = from == -kLastDegree ? -90 : from,
               .high = to == kLastDegree ? 90 : to};
     plot.y = {.label = "specular radiance per irradiance (1/sr)", .low = 0};
-    for (const NamedLobe& lobe : lobes) plot.curves.push_back(LobeCurve(lobe, view_deg, from, to));
+    double largest = 0;
+    for (const NamedLobe& lobe : lobes) {
+      plot.curves.push_back(LobeCurve(lobe, view_deg, from, to));
+      const std::vector<double>& y = plot.curves.back().y;
+      largest = std::max(largest, *std::max_element(y.begin(), y.end()));
+    }
+    if (largest > 0) plot.y.high = 1.5 * largest;  // the key has room above the lobes
     plot.rules.push_back({Rule::Across::kX, view_deg, "mirror"});
     figure.panels.push_back(std::move(plot));
   }
