@@ -98,6 +98,8 @@ set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "ray tracer for seeing and measuring reflec
  PNG, and compares, measures and plots them.")
 # Labels in pictures, and diagrams.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, gnuplot-nox")
+file(WRITE ${CMAKE_BINARY_DIR}/package/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libnacre0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "ray tracer of reflection models, as a library
