@@ -92,22 +92,19 @@ set(CPACK_COMPONENT_RUNTIME_DEPENDS library)
 set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME nacre)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
-set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "ray tracer for seeing and measuring reflection models
- nacre renders the Phong family and physically based reflection models on
- spheres and meshes in comparable units, as linear HDR EXR and tone-mapped
- PNG, and compares, measures and plots them.")
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "The program: renders the Phong family and physically based reflection models
+on spheres and meshes in comparable units, as linear HDR EXR and tone-mapped
+PNG, and compares, measures and plots them.")
 # Labels in pictures, and diagrams.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, gnuplot-nox")
 file(WRITE ${CMAKE_BINARY_DIR}/package/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package/triggers)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libnacre0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
-set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "ray tracer of reflection models, as a library
- libnacre renders scenes built in C++ code or read from files, evaluates
- reflection models and compares images.")
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "The library: renders scenes built in C++ code or read from files, evaluates
+reflection models and compares images.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libnacre-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "ray tracer of reflection models, to build programs with
- Header, CMake package and pkg-config file of libnacre.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Header, CMake package and pkg-config file of the library.")
 include(CPack)
