@@ -3,7 +3,8 @@
 """Checks the READMEs: links lead somewhere, and every picture is made by a script of the tree.
 
 Pictures of scenes/gallery come from scripts/gallery (its --list) or, bench_*, from bench/figures.py;
-what lies there and no README shows is a fault too, but for the SVG twin of a diagram.
+what lies there and no README shows is a fault too, but for the SVG twin of a diagram. Diagrams of
+speed are drawn on a quiet machine, by hand: one that is not there yet is told and is no fault.
 """
 import argparse
 import ast
@@ -48,7 +49,8 @@ def check_links(root, path):
         file, _, part = target.partition("#")
         there = path if not file else path.parent / file
         if not there.exists():
-            yield f"{name}: {target}: there is no such file"
+            is_bench = target.endswith(".png") and there.stem in made_by_bench(root)
+            yield f"{'note: ' if is_bench else ''}{name}: {target}: there is no such file"
             continue
         page = there / "README.md" if there.is_dir() else there
         if part and part not in headings(page):
@@ -100,6 +102,7 @@ def main():
     faults, pages = check(parser.parse_args().root.resolve())
     for fault in faults:
         print(fault)
+    faults = [fault for fault in faults if not fault.startswith("note: ")]
     print(f"{len(pages)} READMEs, {len(faults)} faults")
     # No page read is a fault too: a check that saw nothing has checked nothing.
     return 1 if faults or not pages else 0
