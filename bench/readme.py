@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the diagrams into scenes/gallery and the table between two marks of the README."""
+"""Puts the diagrams into scenes/gallery and the table between two marks of bench/README.md."""
 import shutil
 
 import figures
@@ -51,10 +51,10 @@ def markdown(results):
 
 
 def update(root, results, folder):
-    """Copies the diagrams and rewrites the README's part."""
+    """Copies the diagrams and rewrites the part of bench/README.md."""
     for name in figures.ALL:
         for suffix in ("svg", "png"):
             if (folder / f"{name}.{suffix}").exists():
                 shutil.copy(folder / f"{name}.{suffix}", root / "scenes" / "gallery")
-    readme = root / "README.md"
+    readme = root / "bench" / "README.md"
     readme.write_text(replace_between(readme.read_text(), BEGIN, END, markdown(results)))

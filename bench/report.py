@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The results as text tables; `markdown` is the short form that the README shows."""
+"""The results as text tables; readme.py has their short form."""
 import estimates
 import machine
 

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # What `cmake --install` puts where, and the packages that CPack makes of it.
 #
-# Two components: runtime (the program, libnacre.so.0, what they load, scenes) and development.
-# Everything finds everything else by relative paths, so a prefix can be moved.
+# Components: runtime (the program, scenes, what to read), library (libnacre.so.0 and what it and the
+# program load) and development. Everything finds everything else by relative paths, so a prefix can
+# be moved.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS nacre RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
 install(TARGETS nacre_oiio
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/nacre COMPONENT runtime)
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/nacre COMPONENT library)
 install(TARGETS nacre_shared EXPORT nacreTargets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime NAMELINK_COMPONENT development
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES src/nacre.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/nacre COMPONENT development)
@@ -46,35 +47,64 @@ install(FILES ${docs_folder}/nacre.1.gz
 install(FILES ${docs_folder}/nacre
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT runtime)
 
-# Scenes with their schema and files, and what to read.
+# Scenes with their schema and files, and what to read: the READMEs in their places, without pictures.
 install(DIRECTORY scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/nacre COMPONENT runtime
-  PATTERN gallery EXCLUDE)
-install(FILES README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime RENAME copyright)
+  PATTERN gallery EXCLUDE PATTERN README.md EXCLUDE)
+foreach(folder . scenes src src/cli bench tests scripts)
+  install(FILES ${folder}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT runtime)
+endforeach()
 
-# scripts/package: nacre_*.deb and libnacre-dev_*.deb.
+# scripts/package: nacre_*.deb, libnacre0_*.deb and libnacre-dev_*.deb.
+# Nobody answers mail for nacre, and the ending says so (RFC 2606). Who passes packages on gives a name
+# of their own: scripts/package takes it from DEBFULLNAME and DEBEMAIL.
+set(NACRE_MAINTAINER "The nacre authors <nobody@nacre.invalid>" CACHE STRING "Of the packages")
+
+# Debian has the licence's text in one place for all packages. Others get the text itself: it belongs
+# to no package.
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT license)
+string(TIMESTAMP package_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+set(package_parts runtime library development)
+set(package_names nacre libnacre0 libnacre-dev)
+foreach(part name IN ZIP_LISTS package_parts package_names)
+  set(folder ${CMAKE_BINARY_DIR}/package/${name})
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/copyright.in ${folder}/copyright @ONLY)
+  file(CONFIGURE OUTPUT ${folder}/changelog @ONLY CONTENT
+    "nacre (@PROJECT_VERSION@) unstable; urgency=low\n\n  * See the commits.\n\n -- @NACRE_MAINTAINER@  @package_date@\n")
+  execute_process(COMMAND gzip -9nf ${folder}/changelog)
+  install(FILES ${folder}/copyright ${folder}/changelog.gz
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${part})
+endforeach()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME nacre)
-set(CPACK_PACKAGE_CONTACT "The nacre authors <nacre@invalid>")
+set(CPACK_PACKAGE_CONTACT "${NACRE_MAINTAINER}")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_COMPONENTS_ALL runtime development)
+set(CPACK_COMPONENTS_ALL ${package_parts})
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${PROJECT_DESCRIPTION}
- nacre renders the Phong family and physically based reflection models in
- comparable units, as linear HDR EXR and tone-mapped PNG, and compares,
- measures and plots them.")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "nacre as a C++ library: header and build files
- Header, CMake package and pkg-config file of libnacre.")
-set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS runtime)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# The library's numbers promise nothing yet: who links it needs this very version.
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
+set(CPACK_COMPONENT_RUNTIME_DEPENDS library)
+set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME nacre)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "The program: renders the Phong family and physically based reflection models
+on spheres and meshes in comparable units, as linear HDR EXR and tone-mapped
+PNG, and compares, measures and plots them.")
 # Labels in pictures, and diagrams.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "fonts-dejavu-core, gnuplot-nox")
+file(WRITE ${CMAKE_BINARY_DIR}/package/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/package/triggers)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libnacre0)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "The library: renders scenes built in C++ code or read from files, evaluates
+reflection models and compares images.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libnacre-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Header, CMake package and pkg-config file of the library.")
 include(CPack)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_convert.cc: nacre convert: a material of one model as the nearest one of another.
 #include <memory>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -9,10 +10,14 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/difference_page.h"
+#include "cli/given_options.h"
+#include "cli/outputs.h"
 #include "cli/print.h"
+#include "image_io/output_file.h"
 #include "scene_io/material_json.h"
 #include "scene_io/sheet_axis.h"
 #include "shading/material_fit.h"
+#include "study/lobe_curves.h"
 
 namespace nacre {
 namespace {
@@ -20,6 +25,7 @@ namespace {
 struct Arguments {
   std::string material;
   std::string to = "metallic_roughness";
+  std::vector<std::string> curves;  // files
   bool json = false;
   SheetOptions sheet;
   RenderOptions options;
@@ -57,35 +63,73 @@ std::string Table(const MaterialFit& fit) {
   return text;
 }
 
-void RunConvert(const Arguments& arguments) {
+// Options that say how a picture looks mean nothing where none is drawn.
+void RefuseWhatCannotApply(const Arguments& arguments, const CLI::App& command) {
+  if (!arguments.options.outputs.empty()) {
+    RefuseWhatNoDifferencePageTakes(command, "nacre convert");
+    return;
+  }
+  static const std::set<std::string> kApplying = {"MATERIAL", "--to",    "--curves",
+                                                  "--json",   "--quiet", "--target"};
+  RefuseOptions(
+      command, [](const CLI::Option& option) { return kApplying.contains(option.get_name()); },
+      "nacre convert without a picture", "-o FILE.png draws original, conversion and difference");
+}
+
+void DrawCurves(const Arguments& arguments, const Material& original, const std::string& label,
+                const MaterialFit& fit) {
+  if (arguments.curves.empty()) return;
+  const Figure figure = LobeFigure({{label, original},
+                                    {arguments.to + ", closed form", fit.guess},
+                                    {arguments.to + ", fit", fit.fitted}});
+  for (const std::string& path : arguments.curves) WriteFigure(path, figure);
+}
+
+void CheckFiles(const Arguments& arguments) {
+  std::vector<std::string> paths = arguments.options.outputs;
+  for (const std::string& path : arguments.curves) {
+    CheckFigurePath(path);
+    CheckWritable(path);
+    paths.push_back(path);
+  }
+  CheckPathsDiffer(paths);
+}
+
+// The page with both materials and their difference; null if there is none.
+Json DrawPage(const Arguments& arguments, const Json& given, const Material& original,
+              const MaterialFit& fit) {
+  if (arguments.options.outputs.empty()) return {};
+  const Json fitted = MaterialJson(fit.fitted);
+  Json source = given;
+  source.erase("name");
+  DifferencePage page{source, fitted, MaterialLabel(given), arguments.to, arguments.sheet.title,
+                      {}};
+  if (page.title.empty()) page.title = fmt::format("{} as {}", page.a_label, arguments.to);
+  if (page.title == "-") page.title.clear();
+  page.footer = {
+      "A  " + DescribeMaterial(MaterialJson(original)), "B  " + DescribeMaterial(fitted),
+      fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
+                  fit.guess_residual.rms, MakeLighting(arguments.sheet.lighting, 0.5).label)};
+  return DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
+}
+
+void RunConvert(const Arguments& arguments, const CLI::App& command) {
+  RefuseWhatCannotApply(arguments, command);
+  CheckFiles(arguments);
   const Json given = ParseMaterialText("MATERIAL", arguments.material);
   Json source = given;
   source.erase("name");
   const Material original = MaterialFromJson(source, "MATERIAL");
   const MaterialFit fit = FitMaterial(original, arguments.to);
+  const Json difference = DrawPage(arguments, given, original, fit);
+  DrawCurves(arguments, original, MaterialLabel(given), fit);
   const Json fitted = MaterialJson(fit.fitted);
-  const Json complete = MaterialJson(original);
-
-  Json difference;
-  if (!arguments.options.outputs.empty()) {
-    DifferencePage page{source, fitted, MaterialLabel(given), arguments.to, arguments.sheet.title,
-                        {}};
-    if (page.title.empty()) {
-      page.title = fmt::format("{} as {}", page.a_label, arguments.to);
-    }
-    if (page.title == "-") page.title.clear();
-    page.footer = {
-        "A  " + DescribeMaterial(complete), "B  " + DescribeMaterial(fitted),
-        fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
-                    fit.guess_residual.rms, MakeLighting(arguments.sheet.lighting, 0.5).label)};
-    difference = DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
-  }
   if (!arguments.json) {
     PrintOut(fitted.dump() + "\n" + (arguments.options.quiet ? "" : Table(fit)));
     return;
   }
   Json json = {
-      {"original", complete},
+      {"original", MaterialJson(original)},
       {"material", fitted},
       {"residual", ResidualJson(fit.residual)},
       {"closed_form",
@@ -109,6 +153,12 @@ void AddConvertCommand(CLI::App* app, int*) {
                    fmt::format("The model wanted: {}", fmt::join(targets, ", ")))
       ->check(CLI::IsMember(targets))
       ->capture_default_str();
+  command
+      ->add_option("--curves", arguments->curves,
+                   "File for the lobes of original, closed form and fit over the light's angle, "
+                   ".svg, .png or .csv; repeatable")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
   command->add_flag("--json", arguments->json,
                     "Print materials, residuals and what is lost as JSON");
   AddSheetOptions(command, &arguments->sheet, &arguments->options);
@@ -117,14 +167,14 @@ void AddConvertCommand(CLI::App* app, int*) {
       "Prints the material for a scene file, and how far it is from the original: by the closed\n"
       "forms (n = 2 / alpha^2 - 2 for Blinn's lobe, a fourth of it for Phong's) and after the "
       "fit.\n"
-      "-o FILE.png draws original, conversion and difference.\n"
+      "-o FILE.png draws original, conversion and difference, --curves FILE.svg their lobes.\n"
       "Examples:\n"
       "  nacre convert '{\"model\": \"phong\", \"kd\": [0.6,0.1,0.1], \"ks\": 0.04, "
       "\"shininess\": 50}'\n"
       "  nacre convert '{\"model\": \"metallic_roughness\", \"base_color\": [1,0.77,0.34], "
       "\"metallic\": 1}' \\\n"
-      "    --to blinn_phong -o gold.png --light studio");
-  command->callback([arguments] { RunConvert(*arguments); });
+      "    --to blinn_phong -o gold.png --light studio --curves gold.svg");
+  command->callback([arguments, command] { RunConvert(*arguments, *command); });
 }
 
 }  // namespace nacre

@@ -18,6 +18,10 @@ void AddDocsCommand(CLI::App* app, int*) {
   command->add_option("KIND", *kind, "man or bash")
       ->required()
       ->check(CLI::IsMember({"man", "bash"}));
+  command->footer(
+      "Examples:\n"
+      "  nacre docs man | man -l -\n"
+      "  source <(nacre docs bash)");
   command->callback(
       [app, kind] { PrintOut(*kind == "man" ? ManPage(*app) : BashCompletion(*app)); });
 }

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "api/metadata.h"
 #include "base/parallel.h"
 #include "base/path.h"
 #include "base/target.h"
 #include "base/version.h"
 #include "cli/commands.h"
-#include "api/metadata.h"
 #include "cli/print.h"
 #include "image_io/exr_reader.h"
 #include "image_io/image_reader.h"
@@ -51,6 +51,19 @@ void PrintImage(const std::string& path) {
     PrintOut(fmt::format("  {:<15} {}\n", name, value));
 }
 
+// "3: gold, silver, copper", as --set names them; of many, some.
+template <class Item>
+std::string CountAndNames(const std::vector<Item>& items) {
+  constexpr size_t kMost = 8;
+  std::vector<std::string> names;
+  names.reserve(kMost + 1);
+  for (const Item& item : items) {
+    if (names.size() < kMost) names.push_back(item.name);
+  }
+  if (items.size() > kMost) names.emplace_back("...");
+  return fmt::format("{}{}{}", items.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
+}
+
 void PrintScene(const std::string& path, bool allow_paths) {
   const Scene scene = LoadScene(path, {.overrides = {}, .allow_paths = allow_paths});
   size_t triangles = 0;
@@ -60,11 +73,8 @@ void PrintScene(const std::string& path, bool allow_paths) {
                        scene.image.height, scene.image.spp));
   PrintOut(fmt::format("  spheres     {}\n", scene.spheres.size()));
   PrintOut(fmt::format("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles));
-  PrintOut(fmt::format("  materials   {}\n", scene.materials.size()));
-  std::vector<std::string> lights;
-  for (const Light& light : scene.lights) lights.push_back(light.name);
-  PrintOut(fmt::format("  lights      {}\n",
-                       lights.empty() ? "none" : fmt::format("{}", fmt::join(lights, ", "))));
+  PrintOut(fmt::format("  materials   {}\n", CountAndNames(scene.materials)));
+  PrintOut(fmt::format("  lights      {}\n", CountAndNames(scene.lights)));
   PrintOut(fmt::format("  shadowing   {}\n", ShadowingForms(scene)));
   PrintOut(fmt::format("  hash        {:016x}\n", HashScene(scene)));
 }
@@ -92,6 +102,10 @@ void AddInfoCommand(CLI::App* app, int*) {
       "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");
   command->add_flag("--allow-paths", arguments->allow_paths,
                     "Let scenes refer to files outside their own folder");
+  command->footer(
+      "Examples:\n"
+      "  nacre info render.exr\n"
+      "  nacre info scenes/first_scene.json");
   command->callback([arguments] {
     if (arguments->files.empty()) PrintBuild();
     for (const std::string& file : arguments->files) {

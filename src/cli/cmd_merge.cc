@@ -160,6 +160,8 @@ void AddMergeCommand(CLI::App* app, int*) {
       "compression)\n"
       "and hold each of its rows once. Their compressed rows are copied as they are, so the EXR\n"
       "file has the bits of the picture rendered at once; its render time is the sum of theirs.\n"
+      "PNG files have the codes of one rendered at once if the tiles are of --depth float; halves\n"
+      "are rounded, which some pixels show by one code.\n"
       "Example:\n"
       "  nacre render scene.json -o 0.exr --tile 0/2\n"
       "  nacre render scene.json -o 1.exr --tile 1/2\n"

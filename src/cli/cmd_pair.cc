@@ -118,7 +118,7 @@ void Report(const Arguments& arguments, const Side& a, const Side& b,
   }
 }
 
-void RunPair(const Arguments& arguments) {
+void RunPair(const Arguments& arguments, const CLI::App& command) {
   const Side a = ReadSide("--a", arguments.a);
   const Side b = ReadSide("--b", arguments.b);
   if (arguments.layout != "difference") {
@@ -126,6 +126,7 @@ void RunPair(const Arguments& arguments) {
     Report(arguments, a, b, nullptr);
     return;
   }
+  RefuseWhatNoDifferencePageTakes(command, "--layout difference");
   DifferencePage page{
       a.json, b.json, a.label, b.label, Title(arguments, a, b), Footer(arguments, a, b)};
   const DifferenceMeasures measures =
@@ -156,7 +157,7 @@ void AddPairCommand(CLI::App* app, int*) {
       "  nacre pair -o phong_vs_pbr.png\n"
       "  nacre pair --a blinn_phong --b phong --layout side -o lobes.png --spp 64\n"
       "  nacre pair --layout difference --light studio -o difference.png --json");
-  command->callback([arguments] { RunPair(*arguments); });
+  command->callback([arguments, command] { RunPair(*arguments, *command); });
 }
 
 }  // namespace nacre

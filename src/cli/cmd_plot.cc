@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_plot.cc: nacre plot: reflection models, lights and tone operators as curves.
+#include <algorithm>
 #include <memory>
+#include <set>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -8,13 +10,16 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/given_options.h"
 #include "cli/outputs.h"
+#include "cli/plot_defaults.h"
 #include "cli/plot_inputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
 #include "image_io/output_file.h"
 #include "report/plot.h"
+#include "study/brdf_slice.h"
 #include "study/light_curves.h"
 
 namespace nacre {
@@ -27,86 +32,9 @@ struct Arguments {
   CurveOptions curves;
   std::string channel = "luminance";
   std::string title;
-  std::string size = "1280x800";
+  std::string size;  // empty: 1280x800, or what slices need
   double exposure = 0;
   bool one_light = false;
-};
-
-const std::vector<PlotItem> kModels = {
-    {"Lambert", R"({"model": "lambert", "albedo": 0.5})"},
-    {"Phong, n = 32", R"({"model": "phong", "kd": 0.5, "ks": 0.3, "shininess": 32})"},
-    {"Blinn-Phong, n = 128", R"({"model": "blinn_phong", "kd": 0.5, "ks": 0.3, "shininess": 128})"},
-    {"GGX dielectric, roughness 0.35",
-     R"({"model": "metallic_roughness", "base_color": 0.5, "roughness": 0.35})"},
-    {"GGX metal, roughness 0.5",
-     R"({"model": "metallic_roughness", "base_color": 0.9, "metallic": 1, "roughness": 0.5})"},
-};
-
-PlotItem Metal(double roughness, const std::string& rest, const std::string& label) {
-  return {label, fmt::format(R"({{"model": "metallic_roughness", "base_color": 1, "metallic": 1, )"
-                             R"("roughness": {}{}}})",
-                             roughness, rest)};
-}
-
-std::vector<PlotItem> DistributionDefaults() {
-  std::vector<PlotItem> items;
-  for (const double roughness : {0.1, 0.2, 0.4, 0.7, 1.0}) {
-    items.push_back(Metal(roughness, "", fmt::format("GGX, roughness {}", roughness)));
-  }
-  // 2 / alpha^2 - 2 for roughness 0.4, which has the same peak.
-  items.push_back({"Blinn-Phong, n = 76", R"({"model": "blinn_phong", "shininess": 76})"});
-  return items;
-}
-
-std::vector<PlotItem> MaskingDefaults() {
-  std::vector<PlotItem> items;
-  for (const double roughness : {0.3, 0.8}) {
-    for (const char* form : {"height_correlated", "separable", "schlick_direct"}) {
-      items.push_back(Metal(roughness, fmt::format(R"(, "shadowing": "{}")", form),
-                            fmt::format("{}, roughness {}", form, roughness)));
-    }
-  }
-  return items;
-}
-
-std::vector<PlotItem> AlbedoDefaults() {
-  const std::string single = R"(, "compensation": "none")";
-  return {
-      Metal(0.4, single, "metal, roughness 0.4, one bounce"),
-      Metal(0.7, single, "metal, roughness 0.7, one bounce"),
-      Metal(1, single, "metal, roughness 1, one bounce"),
-      Metal(1, "", "metal, roughness 1, compensated"),
-      {"dielectric, base by 1 - F(v.h)",
-       R"({"model": "metallic_roughness", "base_color": 1, "roughness": 0.3, )"
-       R"("diffuse_coupling": "one_minus_fresnel"})"},
-      {"dielectric, base by albedo",
-       R"({"model": "metallic_roughness", "base_color": 1, "roughness": 0.3})"},
-  };
-}
-
-const std::vector<PlotItem> kInterfaces = {
-    {"Schlick's curve, F0 = 0.04", R"({"model": "metallic_roughness"})"},
-    {"glass (1.5), exact", R"({"model": "dielectric", "preset": "glass"})"},
-    {"diamond (2.417), exact", R"({"model": "dielectric", "preset": "diamond"})"},
-    {"iron, exact", R"({"model": "conductor", "preset": "iron"})"},
-    {"gold, exact", R"({"model": "conductor", "preset": "gold"})"},
-    {"aluminium, exact", R"({"model": "conductor", "preset": "aluminium"})"},
-};
-
-// All have the intensity 1 from afar.
-const std::vector<PlotItem> kLights = {
-    {"point, 1 / d²", R"({"type": "point", "position": [0, 0, 0], "intensity": 1})"},
-    {"point, 1 / (1 + 0.1 d²)",
-     R"({"type": "point", "position": [0, 0, 0], "intensity": 1, )"
-     R"("attenuation": {"constant": 1, "linear": 0, "quadratic": 0.1}})"},
-    {"sphere, radius 0.5",
-     R"({"type": "sphere", "center": [0, 0, 0], "radius": 0.5, "radiance": 1.2732395447351628})"},
-    {"disk, radius 1",
-     R"({"type": "disk", "center": [0, 0, 0], "facing": [0, -1, 0], "radius": 1, )"
-     R"("radiance": 0.3183098861837907})"},
-    {"rectangle, 4 by 0.25",
-     R"({"type": "rectangle", "center": [0, 0, 0], "facing": [0, -1, 0], "up": [0, 0, -1], )"
-     R"("width": 4, "height": 0.25, "radiance": 1})"},
 };
 
 ColorChannel ParseChannel(const std::string& name) {
@@ -134,42 +62,49 @@ CurveOptions Complete(const Arguments& arguments) {
   return options;
 }
 
-Plot DrawBrdf(const Arguments& a) {
-  return BrdfPlot(ReadPlotMaterials(a.inputs, kModels), Complete(a));
+// The panels of a figure.
+using Plots = std::vector<Plot>;
+
+Plots DrawBrdf(const Arguments& a) {
+  return {BrdfPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
 }
 
-Plot DrawPolar(const Arguments& a) {
-  return PolarPlot(ReadPlotMaterials(a.inputs, kModels), Complete(a));
+Plots DrawPolar(const Arguments& a) {
+  return {PolarPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
 }
 
-Plot DrawDistribution(const Arguments& a) {
-  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DistributionDefaults());
+Plots DrawSlice(const Arguments& a) {
+  return SlicePlots(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a).channel);
+}
+
+Plots DrawDistribution(const Arguments& a) {
+  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultDistributions());
   Require(materials, HasDistribution, "distribution of normals",
           "blinn_phong and the models with a roughness above 0 have one");
-  return DistributionPlot(materials);
+  return {DistributionPlot(materials)};
 }
 
-Plot DrawMasking(const Arguments& a) {
-  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, MaskingDefaults());
+Plots DrawMasking(const Arguments& a) {
+  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultMaskings());
   Require(materials, HasMasking, "masking", "the models with a roughness have one");
-  return MaskingPlot(materials);
+  return {MaskingPlot(materials)};
 }
 
-Plot DrawFresnel(const Arguments& a) {
-  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, kInterfaces);
+Plots DrawFresnel(const Arguments& a) {
+  const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultInterfaces());
   Require(materials, HasFresnel, "Fresnel term", "the models with a roughness have one");
-  return FresnelPlot(materials, Complete(a).channel);
+  return {FresnelPlot(materials, Complete(a).channel)};
 }
 
-Plot DrawAlbedo(const Arguments& a) {
-  return AlbedoPlot(ReadPlotMaterials(a.inputs, AlbedoDefaults()),
-                    a.one_light ? ShareOf::kOneLight : ShareOf::kFurnace, Complete(a).channel);
+Plots DrawAlbedo(const Arguments& a) {
+  return {AlbedoPlot(ReadPlotMaterials(a.inputs, DefaultAlbedos()),
+                     a.one_light ? ShareOf::kOneLight : ShareOf::kFurnace, Complete(a).channel)};
 }
 
-Plot DrawTone(const Arguments& a) { return TonePlot(a.exposure); }
+Plots DrawTone(const Arguments& a) { return {TonePlot(a.exposure)}; }
 
-Plot DrawFalloff(const Arguments& a) {
-  const std::vector<Light> lights = ReadPlotLights(a.inputs, kLights);
+Plots DrawFalloff(const Arguments& a) {
+  const std::vector<Light> lights = ReadPlotLights(a.inputs, DefaultLights());
   for (const Light& light : lights) {
     if (!HasFalloff(light)) {
       throw Error(ExitCode::kBadInput, light.name,
@@ -177,24 +112,60 @@ Plot DrawFalloff(const Arguments& a) {
                   "name a light with a position, a centre or a direction");
     }
   }
-  return FalloffPlot(lights);
+  return {FalloffPlot(lights)};
 }
 
 struct Kind {
   const char* name;
   const char* help;
-  Plot (*draw)(const Arguments&);
+  Plots (*draw)(const Arguments&);
+  std::set<std::string> options;  // that it takes, besides those of all kinds
 };
-constexpr Kind kKinds[] = {
-    {"brdf", "the BRDF over the light's angle in the plane of incidence", DrawBrdf},
-    {"polar", "what light from one angle leaves by, as a lobe", DrawPolar},
-    {"ndf", "the distribution of the microfacets' normals", DrawDistribution},
-    {"masking", "the share of microfacets that are lit and seen", DrawMasking},
-    {"fresnel", "the reflectance of the interface over the angle of incidence", DrawFresnel},
-    {"albedo", "how much light is reflected in all, over the angle", DrawAlbedo},
-    {"tone", "every tone operator", DrawTone},
-    {"falloff", "a light's irradiance over its distance", DrawFalloff},
+const std::vector<Kind> kKinds = {
+    {"brdf",
+     "the BRDF over the light's angle in the plane of incidence",
+     DrawBrdf,
+     {"--material", "--angle", "--channel", "--log", "--cosine", "--kernel"}},
+    {"polar",
+     "what light from one angle leaves by, as a lobe",
+     DrawPolar,
+     {"--material", "--angle", "--channel", "--kernel"}},
+    {"slice",
+     "the BRDF as colours over the angles of half vector and light",
+     DrawSlice,
+     {"--material", "--channel"}},
+    {"ndf", "the distribution of the microfacets' normals", DrawDistribution, {"--material"}},
+    {"masking", "the share of microfacets that are lit and seen", DrawMasking, {"--material"}},
+    {"fresnel",
+     "the reflectance of the interface over the angle of incidence",
+     DrawFresnel,
+     {"--material", "--channel"}},
+    {"albedo",
+     "how much light is reflected in all, over the angle",
+     DrawAlbedo,
+     {"--material", "--channel", "--one-light"}},
+    {"tone", "every tone operator", DrawTone, {"--exposure"}},
+    {"falloff", "a light's irradiance over its distance", DrawFalloff, {"--light"}},
 };
+
+// Materials and lights may come from a scene.
+bool TakesScene(const Kind& kind) {
+  return kind.options.contains("--material") || kind.options.contains("--light");
+}
+
+void RefuseWhatCannotApply(const Kind& kind, const CLI::App& command) {
+  static const std::set<std::string> kOfAll = {"KIND", "--output", "--title", "--size"};
+  static const std::set<std::string> kOfScenes = {"--scene", "--allow-paths"};
+  RefuseOptions(
+      command,
+      [&](const CLI::Option& option) {
+        const std::string name = option.get_name();
+        return kOfAll.contains(name) || kind.options.contains(name) ||
+               (TakesScene(kind) && kOfScenes.contains(name));
+      },
+      fmt::format("nacre plot {}", kind.name),
+      fmt::format("of its own it takes {}", fmt::join(kind.options, ", ")));
+}
 
 const Kind& FindKind(const std::string& name) {
   std::vector<std::string> names;
@@ -208,8 +179,25 @@ const Kind& FindKind(const std::string& name) {
                               : fmt::format("did you mean \"{}\"?", nearest));
 }
 
-void RunPlot(const Arguments& arguments) {
+// Panels in rows of three at most, with their title above.
+Figure Arrange(Plots plots, const std::string& title) {
+  if (plots.size() == 1) {
+    if (!title.empty()) plots[0].title = title;
+    return MakeFigure(std::move(plots[0]));
+  }
+  Figure figure;
+  figure.title = title;
+  figure.columns = static_cast<int>(std::min<size_t>(plots.size(), 3));
+  const auto rows = static_cast<int>((plots.size() + 2) / 3);
+  figure.width = 800 * figure.columns;
+  figure.height = 640 * rows + (title.empty() ? 0 : 40);
+  figure.panels = std::move(plots);
+  return figure;
+}
+
+void RunPlot(const Arguments& arguments, const CLI::App& command) {
   const Kind& kind = FindKind(arguments.kind);
+  RefuseWhatCannotApply(kind, command);
   std::vector<std::string> paths = arguments.outputs;
   for (const std::string& path : paths) {
     CheckFigurePath(path);
@@ -217,10 +205,8 @@ void RunPlot(const Arguments& arguments) {
   }
   if (!arguments.inputs.scene.empty()) paths.push_back(arguments.inputs.scene);
   CheckPathsDiffer(paths);
-  Plot plot = kind.draw(arguments);
-  plot.title = arguments.title;
-  Figure figure = MakeFigure(std::move(plot));
-  ParseSize(arguments.size, &figure.width, &figure.height);
+  Figure figure = Arrange(kind.draw(arguments), arguments.title);
+  if (!arguments.size.empty()) ParseSize(arguments.size, &figure.width, &figure.height);
   for (const std::string& path : arguments.outputs) {
     ThrowIfStopped();
     WriteFigure(path, figure);
@@ -275,9 +261,10 @@ void AddCurveOptions(CLI::App* command, Arguments* a) {
       ->check(InRange(-60, 60))
       ->capture_default_str();
   command->add_option("--title", a->title, "Written above");
-  command->add_option("--size", a->size, "Width and height in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
+  command
+      ->add_option("--size", a->size,
+                   "Width and height in pixels (1280x800; of several slices 800x640 each)")
+      ->type_name("WxH");
   command->add_flag("--allow-paths", a->inputs.allow_paths,
                     "Let the scene refer to files outside its own folder");
 }
@@ -297,9 +284,10 @@ void AddPlotCommand(CLI::App* app, int*) {
       "  nacre plot brdf --angle 30,60 --log --material phong --material blinn_phong -o brdf.svg\n"
       "  nacre plot polar --material '{\"model\": \"metallic_roughness\", \"roughness\": 0.3}' -o "
       "lobe.png\n"
+      "  nacre plot slice --material phong --material metallic_roughness -o slices.png\n"
       "  nacre plot albedo --scene scenes/first_scene.json -o albedo.svg -o albedo.csv\n"
       "  nacre plot falloff -o falloff.png");
-  command->callback([arguments] { RunPlot(*arguments); });
+  command->callback([arguments, command] { RunPlot(*arguments, *command); });
 }
 
 }  // namespace nacre

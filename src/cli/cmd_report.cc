@@ -8,16 +8,12 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/path.h"
-#include "base/target.h"
-#include "base/version.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/perceptual_options.h"
-#include "cli/print.h"
 #include "cli/render_options.h"
+#include "cli/report_page.h"
 #include "cli/report_sections.h"
-#include "cli/text_output.h"
 
 namespace nacre {
 namespace {
@@ -76,11 +72,7 @@ Pictures ReadPictures(const Arguments& arguments) {
 }
 
 void CheckOutput(const Arguments& arguments) {
-  if (!HasExtension(arguments.output, ".html")) {
-    throw Error(ExitCode::kUsage, arguments.output, "unknown output extension",
-                "the report is a .html file, and comes before the inputs");
-  }
-  CheckTextOutput(arguments.output);
+  CheckReportPath(arguments.output);
   for (const std::string& input : arguments.inputs) {
     CheckPathsDiffer({arguments.output, input});
   }
@@ -93,17 +85,6 @@ std::string DefaultTitle(const Pictures& pictures, const Json& sections) {
            pictures.all[pictures.reference].name;
   }
   return sections[0]["title"];
-}
-
-std::string Summary(const Arguments& arguments, const Json& sections) {
-  const bool pictures = std::any_of(sections.begin(), sections.end(),
-                                    [](const Json& s) { return s["kind"] == "images"; });
-  if (!pictures) return fmt::format("By nacre {}.", kVersion);
-  return fmt::format(
-      "By nacre {}, SIMD target {}. Pictures open with the tone operator {} at {} "
-      "stops; what they hold is linear.",
-      kVersion, TargetName(ActiveTarget()), arguments.perceptual.tonemap,
-      arguments.perceptual.exposure);
 }
 
 void RunReport(const Arguments& arguments) {
@@ -121,23 +102,15 @@ void RunReport(const Arguments& arguments) {
     const ReportInput kind = KindOfInput(path);
     if (kind == ReportInput::kBench) sections.push_back(BenchSection(path));
     if (kind == ReportInput::kReferences) {
-      sections.push_back(
-          ValidationSection(path, arguments.render.threads, perceptual, limit, &page));
+      ValidationSection validation(perceptual, limit / FindReferences(path).size(), &page);
+      RunReferences(path, arguments.render.threads,
+                    [&](const ReferenceOutcome& outcome) { validation.Add(outcome); });
+      sections.push_back(validation.ToJson());
     }
   }
-  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
-  const std::string title =
-      arguments.title.empty() ? DefaultTitle(pictures, sections) : arguments.title;
-  const std::string html = page.Html(title, generator,
-                                     {{"generator", generator},
-                                      {"summary", Summary(arguments, sections)},
-                                      {"notes", Json::array()},
-                                      {"tone", arguments.perceptual.tonemap},
-                                      {"exposure", arguments.perceptual.exposure},
-                                      {"sections", sections}});
-  WriteText(arguments.output, html);
-  PrintError(fmt::format("{}: {:.1f} MiB\n", arguments.output,
-                         static_cast<double>(html.size()) / (1024 * 1024)));
+  WriteReport(arguments.output,
+              arguments.title.empty() ? DefaultTitle(pictures, sections) : arguments.title,
+              sections, arguments.perceptual, page);
 }
 
 }  // namespace

@@ -9,6 +9,9 @@ namespace nacre {
 void AddSchemaCommand(CLI::App* app, int*) {
   CLI::App* command =
       app->add_subcommand("schema", "Print the JSON Schema of scene files, for editors and checks");
+  command->footer(
+      "Example:\n"
+      "  nacre schema > nacre.schema.json");
   command->callback([] { PrintOut(SceneSchema()); });
 }
 

@@ -93,6 +93,9 @@ void AddTonemapCommand(CLI::App* app, int*) {
                       "Layer to show instead of the beauty, e.g. diffuse");
   AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
   command->add_flag("--small", arguments->small, "Smaller file, several times slower");
+  command->footer(
+      "Example:\n"
+      "  nacre tonemap render.exr -o render.png --tonemap agx --exposure 0.5");
   command->callback([arguments] { RunTonemap(*arguments); });
 }
 

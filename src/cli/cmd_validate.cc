@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_validate.cc: nacre validate: renders scenes that have a reference image and compares.
-#include <filesystem>
 #include <memory>
 
 #include <fmt/format.h>
@@ -10,21 +9,59 @@
 #include "cli/print.h"
 #include "cli/references.h"
 #include "cli/render_options.h"
+#include "cli/report_page.h"
+#include "cli/report_sections.h"
 
 namespace nacre {
 namespace {
 
-namespace fs = std::filesystem;
+struct Arguments {
+  std::string folder = "tests/references";
+  std::string report;  // path; empty: none
+  std::string target = "auto";
+  int threads = 0;
+};
 
-bool ValidateOne(const fs::path& path, int threads) {
-  const Reference reference = ReadReference(path);
-  const Verdict verdict = RunReference(reference, threads).verdict;
+// A line of the table.
+void PrintOutcome(const ReferenceOutcome& outcome) {
+  if (!outcome.run) {
+    PrintOut(fmt::format("{:<24} ERROR  {}\n", outcome.name, outcome.failure));
+    PrintError(fmt::format("{}\n", outcome.message));
+    return;
+  }
+  const Verdict& verdict = outcome.run->verdict;
   const LayerMetrics& m = verdict.layers.front();
-  PrintOut(fmt::format("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", reference.name,
+  PrintOut(fmt::format("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", outcome.name,
                        verdict.match ? "match" : "DIFFER", m.rmse, m.max_rel, m.p999_rel,
                        verdict.exceeding_pixels,
-                       verdict.match ? reference.reason : verdict.reason));
-  return verdict.match;
+                       verdict.match ? outcome.reference.reason : verdict.reason));
+}
+
+ExitCode Validate(const Arguments& arguments) {
+  ApplyTarget(arguments.target);
+  if (!arguments.report.empty()) CheckReportPath(arguments.report);
+  constexpr size_t kLimit = size_t{64} << 20;  // bytes of samples, as nacre report has it
+  PerceptualArguments shown;
+  shown.metrics = {"all"};
+  Page page;
+  ValidationSection section(MakePerceptualOptions(shown),
+                            kLimit / FindReferences(arguments.folder).size(), &page);
+  PrintOut(fmt::format("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE",
+                       "max rel", "99.9% rel", "exceed", "tolerance's reason, or what differs"));
+  bool all_match = true;
+  bool all_compared = true;
+  RunReferences(arguments.folder, arguments.threads, [&](const ReferenceOutcome& outcome) {
+    PrintOutcome(outcome);
+    all_compared = all_compared && outcome.run;
+    all_match = all_match && outcome.run && outcome.run->verdict.match;
+    if (!arguments.report.empty()) section.Add(outcome);
+  });
+  if (!arguments.report.empty()) {
+    const auto sections = nlohmann::ordered_json::array({section.ToJson()});
+    WriteReport(arguments.report, section.ToJson()["title"], sections, shown, page);
+  }
+  if (!all_compared) return ExitCode::kCannotCompare;
+  return all_match ? ExitCode::kOk : ExitCode::kDiffers;
 }
 
 }  // namespace
@@ -32,42 +69,27 @@ bool ValidateOne(const fs::path& path, int threads) {
 void AddValidateCommand(CLI::App* app, int* exit_code) {
   CLI::App* command = app->add_subcommand(
       "validate", "Render the scenes of a folder of references and compare with their images");
-  struct Arguments {
-    std::string folder = "tests/references";
-    std::string target = "auto";
-    int threads = 0;
-  };
   const auto a = std::make_shared<Arguments>();
   command->add_option("DIR", a->folder, "Folder with *.reference.json files")
       ->capture_default_str();
+  command
+      ->add_option("--report", a->report,
+                   "Also one HTML file with all pictures, their references and errors")
+      ->type_name("OUT.html");
   command->add_option("--threads", a->threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024));
   command->add_option("--target", a->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
       ->capture_default_str();
-  command->footer("Exit code: 0 all match, 1 one differs, 2 one cannot be compared.");
-  command->callback([a, exit_code] {
-    ApplyTarget(a->target);
-    const std::vector<fs::path> references = FindReferences(a->folder);
-    PrintOut(fmt::format("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE",
-                         "max rel", "99.9% rel", "exceed", "tolerance's reason, or what differs"));
-    bool all_match = true;
-    bool all_compared = true;
-    for (const fs::path& reference : references) {
-      try {
-        all_match = ValidateOne(reference, a->threads) && all_match;
-      } catch (const Error& error) {
-        // A missing scene or image: told, and the others still get their turn.
-        if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
-        all_compared = false;
-        PrintOut(fmt::format("{:<24} ERROR  {}\n", reference.stem().stem().string(),
-                             error.faults().front().what));
-        PrintError(fmt::format("{}\n", error.what()));
-      }
-    }
-    *exit_code = static_cast<int>(!all_compared ? ExitCode::kCannotCompare
-                                  : all_match   ? ExitCode::kOk
-                                                : ExitCode::kDiffers);
-  });
+  command->footer(
+      "NAME.reference.json names a scene, its image by somebody else, tolerances and their "
+      "reason:\n"
+      "  {\"scene\": \"ball.json\", \"image\": \"ball.exr\", \"layers\": [\"\"],\n"
+      "   \"tolerances\": {\"max_rel\": 1e-5}, \"reason\": \"float shading in the other one\"}\n"
+      "Exit code: 0 all match, 1 one differs, 2 one cannot be compared.\n"
+      "Examples:\n"
+      "  nacre validate\n"
+      "  nacre validate my_references --report checks.html");
+  command->callback([a, exit_code] { *exit_code = static_cast<int>(Validate(*a)); });
 }
 
 }  // namespace nacre

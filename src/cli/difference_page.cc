@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "cli/canvas.h"
+#include "cli/given_options.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "color/display.h"
@@ -28,6 +30,7 @@ RenderSettings MakeSettings(const RenderOptions& options) {
   settings.threads = options.threads;
   settings.tile_size = options.tile_size;
   settings.max_error = options.max_error;
+  settings.fast_lights = options.fast;
   if (options.spp) settings.max_samples = *options.spp;
   if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
   if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
@@ -152,6 +155,16 @@ void WriteMeasures(const SheetPage& page, const DifferenceMeasures& m, bool ligh
 }
 
 }  // namespace
+
+void RefuseWhatNoDifferencePageTakes(const CLI::App& command, const std::string& what) {
+  // The page is a PNG of two whole pictures: those have no file, plan or header of their own.
+  static const std::set<std::string> kRefused = {"--region",  "--tile",        "--layers",
+                                                 "--depth",   "--compression", "--dry-run",
+                                                 "--explain", "--stats",       "--progress"};
+  RefuseOptions(
+      command, [](const CLI::Option& option) { return !kRefused.contains(option.get_name()); },
+      what, "nacre render and the other layouts of nacre pair take it");
+}
 
 Json DifferenceMeasures::ToJson() const { return {{"rmse", rmse}, {"max", max}, {"mean", mean}}; }
 

@@ -25,6 +25,9 @@ struct DifferencePage {
   std::vector<std::string> footer;
 };
 
+// Throws Error (usage) for an option of the command that means nothing to such a page.
+void RefuseWhatNoDifferencePageTakes(const CLI::App& command, const std::string& what);
+
 // Renders both on the same sphere under the same light and writes the page to the outputs, PNG
 // files all of them; with no outputs it only measures. Throws Error.
 DifferenceMeasures DrawDifference(const DifferencePage& page, const SheetOptions& sheet,

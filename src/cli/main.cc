@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/main.cc: the program: commands, and the one place where errors are printed.
-#include <unistd.h>
-
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <new>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/version.h"
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 
@@ -34,10 +35,11 @@ void CheckCommandName(const CLI::App& app, int argc, char** argv) {
 int Run(int argc, char** argv) {
   using nacre::ExitCode;
   CLI::App app(
-      "nacre renders shading models on spheres and meshes: exact hits, SIMD shading, HDR output.");
+      "nacre renders shading models on spheres and meshes: exact hits, SIMD shading, HDR output.",
+      "nacre");
+  app.formatter(std::make_shared<nacre::HelpFormatter>());
   app.set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit));
   app.require_subcommand(1);
-  app.get_formatter()->column_width(36);
   app.footer(
       "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
       "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"

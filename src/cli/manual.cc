@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/manual.h"
 
-#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/version.h"
+#include "cli/option_text.h"
 
 namespace nacre {
 namespace {
@@ -19,28 +19,6 @@ std::vector<const CLI::App*> Commands(const CLI::App& app) {
 
 std::vector<const CLI::Option*> Options(const CLI::App& app) {
   return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
-}
-
-// "-o", "--output": as they are typed.
-std::vector<std::string> NamesOf(const CLI::Option& option) {
-  std::vector<std::string> names;
-  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
-  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
-  return names;
-}
-
-bool TakesValue(const CLI::Option& option) { return option.get_expected_max() > 0; }
-
-// The names that an option may be given; its check lists them in braces. Empty: anything.
-std::vector<std::string> ChoicesOf(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const size_t open = type.rfind('{');
-  const size_t close = type.rfind('}');
-  if (open == std::string::npos || close == std::string::npos || close < open) return {};
-  std::vector<std::string> choices;
-  std::istringstream list(type.substr(open + 1, close - open - 1));
-  for (std::string choice; std::getline(list, choice, ',');) choices.push_back(choice);
-  return choices;
 }
 
 // ---- Manual page --------------------------------------------------------------------------------
@@ -62,11 +40,6 @@ std::string Roff(const std::string& text) {
   return out;
 }
 
-std::string ValueName(const CLI::Option& option) {
-  const std::vector<std::string> choices = ChoicesOf(option);
-  return choices.empty() ? option.get_type_name() : fmt::format("{}", fmt::join(choices, "|"));
-}
-
 std::string OptionEntry(const CLI::Option& option) {
   std::string head;
   for (const std::string& name : NamesOf(option)) {
@@ -77,9 +50,7 @@ std::string OptionEntry(const CLI::Option& option) {
   } else if (TakesValue(option)) {
     head += " \\fI" + Roff(ValueName(option)) + "\\fR";
   }
-  std::string text = option.get_description();
-  if (!option.get_default_str().empty()) text += " [" + option.get_default_str() + "]";
-  return ".TP\n" + head + "\n" + Roff(text) + "\n";
+  return ".TP\n" + head + "\n" + Roff(OptionText(option)) + "\n";
 }
 
 std::string CommandSection(const CLI::App& command) {

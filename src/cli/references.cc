@@ -66,6 +66,9 @@ CompareOptions OptionsOf(const Reference& reference) {
   return options;
 }
 
+namespace {
+
+// Throws Error for a scene or image that cannot be read or that do not belong together.
 ReferenceRun RunReference(const Reference& reference, int threads) {
   ReferenceRun run;
   const Scene scene = LoadScene(reference.scene, {});
@@ -76,6 +79,26 @@ ReferenceRun RunReference(const Reference& reference, int threads) {
   run.expected = ReadExr(reference.image.string());
   run.verdict = Judge(run.got, run.expected, reference.tolerances, OptionsOf(reference));
   return run;
+}
+
+}  // namespace
+
+void RunReferences(const std::string& folder, int threads,
+                   const std::function<void(const ReferenceOutcome&)>& done) {
+  for (const fs::path& path : FindReferences(folder)) {
+    ReferenceOutcome outcome;
+    outcome.name = path.stem().stem().string();
+    try {
+      outcome.reference = ReadReference(path);
+      outcome.run = RunReference(outcome.reference, threads);
+    } catch (const Error& error) {
+      // Told, and the others still get their turn.
+      if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
+      outcome.failure = error.faults().front().what;
+      outcome.message = error.what();
+    }
+    done(outcome);
+  }
 }
 
 }  // namespace nacre

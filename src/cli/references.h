@@ -7,6 +7,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +39,18 @@ struct ReferenceRun {
 
 CompareOptions OptionsOf(const Reference& reference);
 
-// Throws Error for a scene or image that cannot be read or that do not belong together.
-ReferenceRun RunReference(const Reference& reference, int threads);
+// What came of a reference: its run, or, if its scene or image cannot be read or they do not belong
+// together, why there is none.
+struct ReferenceOutcome {
+  std::string name;
+  Reference reference;
+  std::optional<ReferenceRun> run;
+  std::string failure;  // in a few words
+  std::string message;  // where, what and hint
+};
+
+// All references of the folder, one after another; `done` is called with each. Throws Error.
+void RunReferences(const std::string& folder, int threads,
+                   const std::function<void(const ReferenceOutcome&)>& done);
 
 }  // namespace nacre

@@ -120,57 +120,46 @@ Json PictureSection(const std::vector<ReportPicture>& pictures, size_t reference
   return section;
 }
 
-namespace {
+ValidationSection::ValidationSection(const std::optional<PerceptualOptions>& perceptual,
+                                     size_t limit, Page* page)
+    : perceptual_(perceptual),
+      limit_(limit),
+      page_(page),
+      section_({{"kind", "images"},
+                {"title", "Validation against references"},
+                {"notes", Json::array()},
+                {"cases", Json::array()},
+                {"sets", Json::array()}}) {}
 
-// A reference that could be compared: its row, and its two pictures as a set of the viewer.
-void AddRun(const Reference& reference, const ReferenceRun& run,
-            const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page,
-            Json* section) {
+void ValidationSection::Add(const ReferenceOutcome& outcome) {
+  if (outcome.run) return AddRun(outcome);
+  section_["cases"].push_back(
+      {{"name", outcome.name}, {"outcome", "error"}, {"reason", outcome.failure}});
+}
+
+// Its row, and its two pictures as a set of the viewer.
+void ValidationSection::AddRun(const ReferenceOutcome& outcome) {
+  const Reference& reference = outcome.reference;
+  const ReferenceRun& run = *outcome.run;
   const std::vector<const Image*> images = {&run.got, &run.expected};
-  const Packing packing = ChoosePacking(images, limit);
+  const Packing packing = ChoosePacking(images, limit_);
   const Json comparison = Compare(run.got, run.expected, OptionsOf(reference), run.verdict,
-                                  perceptual, packing, 0, page);
+                                  perceptual_, packing, 0, page_);
   Json row = comparison["verdict"];
   row["name"] = reference.name;
   row["outcome"] = run.verdict.match ? "match" : "differ";
   if (run.verdict.match) row["reason"] = reference.reason;
-  row["set"] = (*section)["sets"].size();
-  (*section)["cases"].push_back(row);
-  (*section)["sets"].push_back(
+  row["set"] = section_["sets"].size();
+  section_["cases"].push_back(row);
+  section_["sets"].push_back(
       {{"name", reference.name},
        {"frame", FrameOf(run.expected)},
        {"reference", 1},
        {"images",
-        {PackImage(run.got, "nacre", packing, page),
-         PackImage(run.expected, reference.image.filename().string(), packing, page)}},
+        {PackImage(run.got, "nacre", packing, page_),
+         PackImage(run.expected, reference.image.filename().string(), packing, page_)}},
        {"comparisons", {comparison}}});
-  AddNote(packing, images, section);
-}
-
-}  // namespace
-
-Json ValidationSection(const std::string& folder, int threads,
-                       const std::optional<PerceptualOptions>& perceptual, size_t limit,
-                       Page* page) {
-  const std::vector<std::filesystem::path> paths = FindReferences(folder);
-  Json section = {{"kind", "images"},
-                  {"title", "Validation against references"},
-                  {"notes", Json::array()},
-                  {"cases", Json::array()},
-                  {"sets", Json::array()}};
-  for (const std::filesystem::path& path : paths) {
-    try {
-      const Reference reference = ReadReference(path);
-      AddRun(reference, RunReference(reference, threads), perceptual, limit / paths.size(), page,
-             &section);
-    } catch (const Error& error) {
-      if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
-      section["cases"].push_back({{"name", path.stem().stem().string()},
-                                  {"outcome", "error"},
-                                  {"reason", error.faults().front().what}});
-    }
-  }
-  return section;
+  AddNote(packing, images, &section_);
 }
 
 Json BenchSection(const std::string& path) {

@@ -19,10 +19,24 @@ nlohmann::ordered_json PictureSection(const std::vector<ReportPicture>& pictures
                                       const std::optional<PerceptualOptions>& perceptual,
                                       size_t limit, Page* page);
 
-// All references of a folder, rendered and compared. Those that cannot be are told in the table.
-nlohmann::ordered_json ValidationSection(const std::string& folder, int threads,
-                                         const std::optional<PerceptualOptions>& perceptual,
-                                         size_t limit, Page* page);
+// References as they are rendered and compared, one after another. Those that could not be are told
+// in the table.
+class ValidationSection {
+ public:
+  // `limit`: bytes of samples that the pictures of one reference may have.
+  ValidationSection(const std::optional<PerceptualOptions>& perceptual, size_t limit, Page* page);
+
+  void Add(const ReferenceOutcome& outcome);
+  const nlohmann::ordered_json& ToJson() const { return section_; }
+
+ private:
+  void AddRun(const ReferenceOutcome& outcome);
+
+  std::optional<PerceptualOptions> perceptual_;
+  size_t limit_;
+  Page* page_;
+  nlohmann::ordered_json section_;
+};
 
 nlohmann::ordered_json BenchSection(const std::string& path);
 

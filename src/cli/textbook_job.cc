@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/path.h"
 #include "base/version.h"
+#include "cli/given_options.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -28,13 +29,12 @@ const std::set<std::string> kApplying = {"SCENE",   "--preset",      "--output",
                                          "--quiet", "--allow-paths"};
 
 void RefuseOptionsThatCannotApply(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || kApplying.contains(name)) continue;
-    throw Error(ExitCode::kUsage, name, "cannot be used with --preset textbook",
-                "the preset is the lesson's own program, numbers and curves included; leave " +
-                    name + " out, or render without the preset");
-  }
+  RefuseOptions(
+      command, [](const CLI::Option& option) { return kApplying.contains(option.get_name()); },
+      "--preset textbook",
+      "the preset is the lesson's own program, numbers and curves included; leave it out, or "
+      "render "
+      "without the preset");
 }
 
 template <class Model>

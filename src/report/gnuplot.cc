@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "compare/heat_map.h"
 #include "report/axis_range.h"
 #include "report/layout.h"
 
@@ -63,6 +64,34 @@ std::string DataBlock(const std::string& name, const Plot& plot, const Curve& cu
         std::isfinite(x) && std::isfinite(y) ? fmt::format("{} {}\n", Number(x), Number(y)) : "\n";
   }
   return text + "EOD\n";
+}
+
+std::string FieldName(size_t panel) { return fmt::format("$p{}f", panel); }
+
+// Of a field, which has a logarithmic scale: what is not above its lower end is drawn as that.
+std::string FieldBlock(const std::string& name, const Field& field) {
+  std::string text = name + " << EOD\n";
+  for (size_t i = 0; i < field.values.size(); ++i) {
+    const double value = std::isfinite(field.values[i])
+                             ? std::clamp(field.values[i], field.low, field.high)
+                             : field.values[i];
+    text += fmt::format("{} {} {}\n", Number(field.x[i]), Number(field.y[i]), Number(value));
+  }
+  return text + "EOD\n";
+}
+
+// The colours of heat maps, and the scale beside the plot.
+std::string FieldText(const Field& field) {
+  constexpr int kSteps = 9;  // HeatColor is linear between ten colours
+  std::string palette;
+  for (int i = 0; i <= kSteps; ++i) {
+    const Rgb8 c = HeatColor(static_cast<double>(i) / kSteps);
+    palette += fmt::format("{}{} '#{:02x}{:02x}{:02x}'", i == 0 ? "" : ", ", i, c[0], c[1], c[2]);
+  }
+  return fmt::format(
+      "set palette defined ({})\nset logscale cb\nset cbrange [{}:{}]\nset format cb '10^{{%T}}'\n"
+      "set cblabel {} noenhanced textcolor rgb '#222222' offset 0.8,0\nset rmargin 9\n",
+      palette, Number(field.low), Number(field.high), GnuplotQuote(field.label));
 }
 
 std::string CurveStyleText(const Curve& curve, size_t place) {
@@ -211,11 +240,15 @@ std::string PanelText(const Figure& figure, size_t index, int width, int height)
   }
   text += KeyText(plot, layout);
   std::string curves;
+  if (plot.field) {
+    text += FieldText(*plot.field);
+    curves = FieldName(index) + " using 1:2:3 with image notitle";
+  }
   for (size_t i = 0; i < plot.curves.size(); ++i) {
     const Curve& curve = plot.curves[i];
     const std::string title =
         curve.title.empty() ? "notitle" : "title " + GnuplotQuote(curve.title);
-    curves += fmt::format("{}{} using 1:2 {} {}", i == 0 ? "" : ", ", BlockName(index, i),
+    curves += fmt::format("{}{} using 1:2 {} {}", curves.empty() ? "" : ", ", BlockName(index, i),
                           CurveStyleText(curve, i), title);
   }
   return text + "plot " + (curves.empty() ? "NaN notitle" : curves) + "\n";
@@ -244,11 +277,15 @@ std::string GnuplotScript(const Figure& figure, PictureFormat format) {
                   format == PictureFormat::kSvg ? "svg" : "pngcairo", figure.width, figure.height);
   for (size_t p = 0; p < figure.panels.size(); ++p) {
     const Plot& plot = figure.panels[p];
+    if (plot.field) text += FieldBlock(FieldName(p), *plot.field);
     for (size_t c = 0; c < plot.curves.size(); ++c) {
       text += DataBlock(BlockName(p, c), plot, plot.curves[c]);
     }
   }
-  if (count > 1) text += fmt::format("set multiplot layout {},{}\n", rows, columns);
+  if (count > 1) {
+    text += fmt::format("set multiplot layout {},{} title {} noenhanced\n", rows, columns,
+                        GnuplotQuote(figure.title));
+  }
   for (size_t p = 0; p < figure.panels.size(); ++p) {
     text += PanelText(figure, p, figure.width / columns, figure.height / rows);
   }

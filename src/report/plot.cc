@@ -38,6 +38,11 @@ std::vector<Column> ColumnsOf(const Figure& figure) {
   for (const Plot& plot : figure.panels) {
     const std::string prefix =
         figure.panels.size() > 1 && !plot.title.empty() ? plot.title + ": " : "";
+    if (plot.field) {
+      columns.push_back({prefix + plot.x.label, &plot.field->x});
+      columns.push_back({prefix + plot.y.label, &plot.field->y});
+      columns.push_back({prefix + plot.field->label, &plot.field->values});
+    }
     const std::vector<double>* x = nullptr;
     for (const Curve& curve : plot.curves) {
       if (x == nullptr || *x != curve.x) columns.push_back({prefix + plot.x.label, &curve.x});

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,11 +48,20 @@ struct Rule {
   std::string label;
 };
 
+// A value for each point of an even grid over both axes, as colours: those of the heat maps
+// (compare/heat_map.h), by the logarithm. Points are given row by row, and have no other place.
+struct Field {
+  std::string label;  // of the scale beside it, with its unit
+  std::vector<double> x, y, values;
+  double low = 1e-4, high = 1;  // ends of the scale; values beyond have the colours of the ends
+};
+
 struct Plot {
   std::string title;
   Axis x, y;
   std::vector<Curve> curves;
   std::vector<Rule> rules;
+  std::optional<Field> field;  // below the curves; both axes then say what they show
   // x is an angle in degrees in [-90, 90], 0 upwards and growing to the right; y the radius.
   bool polar = false;
 };
@@ -61,6 +71,7 @@ struct Figure {
   std::vector<Plot> panels;
   int columns = 1;
   int width = 1280, height = 800;  // pixels
+  std::string title;               // above several panels
 };
 
 // One plot of the usual size.
@@ -68,8 +79,9 @@ Figure MakeFigure(Plot plot);
 // Two or three of them side by side.
 Figure MakeRow(std::vector<Plot> plots);
 
-// All numbers of the figure, to the last digit. For each run of curves with equal x: a column of
-// x, then one for each curve. The first line names them. Numbers that are not finite are empty.
+// All numbers of the figure, to the last digit. For each field: columns of x, y and the value. For
+// each run of curves with equal x: a column of x, then one for each curve. The first line names
+// them. Numbers that are not finite are empty.
 std::string FigureCsv(const Figure& figure);
 
 // ".svg", ".png" or ".csv". Throws Error (kUsage) for others.

@@ -59,9 +59,10 @@ class Overrides {
   JsonObject root_;
 };
 
-void SetMaterials(const JsonValue& value, Scene* scene) {
+void SetMaterials(const JsonValue& value, SceneContext* context) {
   JsonObject object(value, "materials by name");
   if (!object.is_object()) return;
+  Scene* const scene = context->scene;
   std::vector<std::string> names;
   for (const Material& material : scene->materials) names.push_back(material.name);
   for (const auto& [name, json] : value.json.items()) {
@@ -71,7 +72,7 @@ void SetMaterials(const JsonValue& value, Scene* scene) {
       continue;
     }
     Material& material = scene->materials[static_cast<size_t>(found - names.begin())];
-    ChangeMaterial({json, object.path().Member(name), value.faults}, &material);
+    ChangeMaterial({json, object.path().Member(name), value.faults}, context, &material);
   }
 }
 
@@ -179,14 +180,22 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
     Overrides again(root, &told_already);
     again.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   }
-  if (scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
+  // A value for all of "lights" leaves none of the others, as in a scene file.
+  const bool own_lights =
+      std::any_of(options.overrides.begin(), options.overrides.end(),
+                  [](const auto& override) { return override.first == "/lights"; });
+  if (own_lights) scene->lights.clear();
+  if (!own_lights && scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
   SceneContext context;
   context.folder = std::filesystem::path(file).parent_path();
   context.allow_paths = options.allow_paths;
+  context.scene = scene;
   SceneBudget budget(options.max_primitives);
   context.budget = &budget;
   overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });
-  overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, scene); });
+  overrides.Member("textures", [&](const JsonValue& value) { ReadTextures(value, &context); });
+  overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, &context); });
+  CompleteCoordinates(scene);  // new maps may need them
   overrides.root().Color("background", limits::kRadiance, &scene->background);
   overrides.root().RefuseOthers();
   if (faults.count() == 0) return;

@@ -118,10 +118,11 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
   }
 }
 
-void ChangeMaterial(const JsonValue& value, Material* material) {
+void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material) {
   JsonObject object(value);
   if (const MaterialModel* const model = ModelOf(*material)) {
     ReadParameters(*model, &object, material);
+    ReadMaps(*model, &object, context, material);
   }
   object.RefuseOthers();
 }

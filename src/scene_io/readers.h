@@ -83,8 +83,8 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
 
-// Sets what the object says of a material that is there; its model stays.
-void ChangeMaterial(const JsonValue& value, Material* material);
+// Sets what the object says of a material that is there, its maps too; its model stays.
+void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material);
 
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);

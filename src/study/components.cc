@@ -83,7 +83,7 @@ Figure LobeFigure() {
             .low = 0,
             .high = 90,
             .step = 15};
-  plot.y = {.label = "(r.v)^n", .low = 0, .high = 1};
+  plot.y = {.label = "lobe (r.v)^n (1: its peak)", .low = 0, .high = 1};
   for (const double n : kExponents) {
     Curve curve;
     curve.title = fmt::format("n = {}", n);

@@ -79,7 +79,7 @@ Plot FalloffPlot(const std::vector<Light>& lights) {
   constexpr int kDecades = 3;
   Plot plot;
   plot.x = {.label = "distance from the light's centre (world units)", .log = true};
-  plot.y = {.label = "irradiance of a surface that faces the light", .log = true};
+  plot.y = {.label = "irradiance of a surface that faces the light (radiance · sr)", .log = true};
   for (const Light& light : lights) {
     Curve curve;
     curve.title = light.name;
@@ -95,7 +95,10 @@ Plot FalloffPlot(const std::vector<Light>& lights) {
 
 Plot TonePlot(double exposure_ev) {
   Plot plot;
-  plot.x = {.label = "scene radiance of a grey", .log = true, .low = 1e-3, .high = 100};
+  plot.x = {.label = "scene radiance of a grey (1: white before the operator)",
+            .log = true,
+            .low = 1e-3,
+            .high = 100};
   plot.y = {.label = "display value, sRGB encoded (1: white)", .low = 0, .high = 1};
   for (const std::string& name : ToneOperatorNames()) {
     DisplaySettings settings;

@@ -160,7 +160,7 @@ bool HasMasking(const ShadingMaterial& material) { return MicrofacetOf(material)
 Plot MaskingPlot(const std::vector<NamedMaterial>& materials) {
   Plot plot;
   plot.x = {.label = "angle of light and viewer (degrees)", .low = 0, .high = 90, .step = 15};
-  plot.y = {.label = "G: share of microfacets lit and seen", .low = 0, .high = 1};
+  plot.y = {.label = "G: share of microfacets lit and seen (1: all)", .low = 0, .high = 1};
   for (const NamedMaterial& named : materials) {
     if (!HasMasking(named.material)) continue;
     const MicrofacetModel& model = *MicrofacetOf(named.material);
@@ -177,7 +177,7 @@ bool HasFresnel(const ShadingMaterial& material) { return MicrofacetOf(material)
 Plot FresnelPlot(const std::vector<NamedMaterial>& materials, ColorChannel channel) {
   Plot plot;
   plot.x = {.label = "angle of incidence (degrees)", .low = 0, .high = 90, .step = 15};
-  plot.y = {.label = "reflectance", .low = 0, .high = 1};
+  plot.y = {.label = "reflectance (1: all)", .low = 0, .high = 1};
   for (const NamedMaterial& named : materials) {
     if (!HasFresnel(named.material)) continue;
     const MicrofacetModel& model = *MicrofacetOf(named.material);
@@ -197,9 +197,9 @@ Plot AlbedoPlot(const std::vector<NamedMaterial>& materials, ShareOf what, Color
             .low = 0,
             .high = 90,
             .step = 15};
-  plot.y = {
-      .label = furnace ? "radiance over the furnace’s" : "share of the light that is reflected",
-      .low = 0};
+  plot.y = {.label = furnace ? "radiance over the furnace’s (1: all)"
+                             : "share of the light that is reflected (1: all)",
+            .low = 0};
   for (const NamedMaterial& named : materials) {
     plot.curves.push_back(MakeCurve(named.label, Steps(0, 89, 1), [&](double degrees) {
       return ValueOf(ReflectedShare(named.material, what, DirectionAt(degrees).z), channel);

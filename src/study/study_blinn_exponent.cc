@@ -32,7 +32,7 @@ Plot LobePlot(double in_plane) {
   plot.title = "the lobes in the plane of incidence";
   plot.x = {
       .label = "viewer from the mirror direction (degrees)", .low = 0, .high = 60, .step = 10};
-  plot.y = {.label = "lobe", .low = 0, .high = 1};
+  plot.y = {.label = "lobe (1: its peak)", .low = 0, .high = 1};
   const auto add = [&](const std::string& title, double exponent, double turn) {
     Curve curve;
     curve.title = title;
@@ -52,7 +52,7 @@ Plot AnglePlot(const StudyProgress& progress) {
   Plot plot;
   plot.title = "over all viewers";
   plot.x = {.label = "angle of the light (degrees)", .low = 0, .high = 90, .step = 15};
-  plot.y = {.label = "best exponent over Phong's", .low = 0, .high = 4.5, .step = 0.5};
+  plot.y = {.label = "best exponent, in Phong's", .low = 0, .high = 4.5, .step = 0.5};
   for (const double n : {16.0, kPhong, 256.0}) {
     Curve curve;
     curve.title = fmt::format("n = {}", n);

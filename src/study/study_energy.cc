@@ -18,7 +18,7 @@ Plot PhongPlot() {
   Plot plot;
   plot.title = "Phong, kd = 0.8, ks = 0.5: of light from one angle";
   plot.x = {.label = "angle of the light (degrees)", .low = 0, .high = 90, .step = 15};
-  plot.y = {.label = "share that is reflected", .low = 0, .high = 3.5, .step = 0.5};
+  plot.y = {.label = "share that is reflected (1: all)", .low = 0, .high = 3.5, .step = 0.5};
   const auto add = [&](const std::string& title, PhongUnits units, double n) {
     Curve curve;
     curve.title = title;

@@ -31,7 +31,7 @@ Plot CurvePlot(bool degrees) {
   plot.title = degrees ? "over the angle" : "over its cosine";
   plot.x = degrees ? Axis{.label = "angle of incidence (degrees)", .low = 0, .high = 90, .step = 15}
                    : Axis{.label = "cosine of the angle of incidence", .low = 0, .high = 1};
-  plot.y = {.label = "reflectance", .low = 0, .high = 1};
+  plot.y = {.label = "reflectance (1: all)", .low = 0, .high = 1};
   const auto schlick = [](double f0) {
     return [f0](double cosine) { return FresnelSchlick(f0, Power5(1 - cosine)); };
   };

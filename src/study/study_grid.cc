@@ -123,7 +123,8 @@ StudyResult StudyGrid(const StudyProgress& progress) {
   const Light lamp = SunTowards({0.5, 0.7, 0.9}, Rgb(2.5));
   StudyResult result;
   PaneSheet sheet;
-  sheet.columns = {"under a lamp alone", "under a sky"};
+  sheet.columns = {"under a lamp alone; metallic 0 to 1", "under a sky; metallic 0 to 1"};
+  sheet.rows = {"roughness 0 to 1"};
   sheet.panes.push_back(RenderGrid(lamp));
   progress(0.2);
   sheet.panes.push_back(RenderGrid(Sky()));

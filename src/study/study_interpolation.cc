@@ -41,7 +41,7 @@ Plot ErrorPlot(const std::vector<Level>& levels, bool specular) {
   Plot plot;
   plot.title = specular ? "specular" : "diffuse";
   plot.x = {.label = "faces", .log = true};
-  plot.y = {.label = "error against the exact normal", .log = true, .low = 1e-4, .high = 1};
+  plot.y = {.label = "error of radiance (1: white)", .log = true, .low = 1e-4, .high = 1};
   const auto add = [&](const char* title, double InterpolationError::*error,
                        InterpolationError Level::*kind) {
     Curve curve;
@@ -71,8 +71,8 @@ Figure MachFigure() {
   value.title = fmt::format("diffuse light across a sphere of {} faces", FacesOf(kLevel));
   slope.title = "its slope: steps are Mach bands";
   value.x = slope.x = {.label = "from left to right (radii)", .low = -1, .high = 1, .step = 0.5};
-  value.y = {.label = "radiance", .low = 0};
-  slope.y = {.label = "change per radius", .low = -1, .high = 1};
+  value.y = {.label = "radiance (1: white)", .low = 0};
+  slope.y = {.label = "change of radiance per radius", .low = -1, .high = 1};
   for (const auto& [title, interpolation] :
        {std::pair{"flat", Interpolation::kFlat}, std::pair{"Gouraud", Interpolation::kGouraud},
         std::pair{"Phong: the exact sphere's", Interpolation::kPhong}}) {

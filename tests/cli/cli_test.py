@@ -678,7 +678,8 @@ class CliTest(unittest.TestCase):
         return lines[0].split(','), [line.split(',') for line in lines[1:]]
 
     def test_every_plot_is_drawn_without_any_option(self):
-        for kind in 'brdf', 'polar', 'ndf', 'masking', 'fresnel', 'albedo', 'tone', 'falloff':
+        for kind in ('brdf', 'polar', 'slice', 'ndf', 'masking', 'fresnel', 'albedo', 'tone',
+                     'falloff'):
             with self.subTest(kind=kind):
                 files = [self.out / (kind + extension) for extension in ('.svg', '.png', '.csv')]
                 self.plot(kind, *[word for file in files for word in ('-o', file)])

@@ -3,10 +3,13 @@
 """An installed nacre: what it shows, a program that uses it, and that it can be moved.
 
 Usage: install_test.py BUILD_FOLDER SOURCE_FOLDER CXX
+
+With NACRE_PREFIX in the environment, of what is installed there, e.g. by packages, not of the build.
 """
 import gzip
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -31,7 +34,10 @@ class InstallTest(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.top = pathlib.Path(cls.folder.name)
-        run('cmake', '--install', BUILD, '--prefix', cls.top / 'first')
+        if 'NACRE_PREFIX' in os.environ:
+            shutil.copytree(os.environ['NACRE_PREFIX'], cls.top / 'first', symlinks=True)
+        else:
+            run('cmake', '--install', BUILD, '--prefix', cls.top / 'first')
         # Whatever an installation knows of its place is now wrong.
         cls.prefix = cls.top / 'moved'
         (cls.top / 'first').rename(cls.prefix)
@@ -60,6 +66,24 @@ class InstallTest(unittest.TestCase):
         run(CXX, '-std=c++17', '-Wall', '-Wextra', '-Werror', EXAMPLE / 'example.cc', '-o', program,
             *flags)
         self.check_example(program, {**os.environ, 'LD_LIBRARY_PATH': str(self.library.parent)})
+
+    def test_the_programs_of_the_readme_build_and_run(self):
+        readme = (SOURCE / 'README.md').read_text()
+        blocks = re.findall(r'^```(cpp|cmake)\n(.*?)^```$', readme, re.M | re.S)
+        check, picture = (text for kind, text in blocks if kind == 'cpp')
+        project, = (text for kind, text in blocks if kind == 'cmake')
+        folder = self.top / 'readme'
+        folder.mkdir()
+        (folder / 'check.cc').write_text(check)
+        (folder / 'picture.cc').write_text(picture)
+        (folder / 'CMakeLists.txt').write_text(
+            project + project[project.index('add_executable'):].replace('check', 'picture'))
+        run('cmake', '-S', folder, '-B', folder / 'build', f'-DCMAKE_PREFIX_PATH={self.prefix}',
+            f'-DCMAKE_CXX_COMPILER={CXX}')
+        run('cmake', '--build', folder / 'build')
+        self.assertIn('largest relative difference', run(folder / 'build/check'))
+        run(folder / 'build/picture', cwd=folder)
+        self.assertIn('specular', run(self.prefix / 'bin/nacre', 'info', folder / 'gold.exr'))
 
     def test_the_library_shows_the_api_alone(self):
         names = run('nm', '-DC', '--defined-only', self.library).splitlines()

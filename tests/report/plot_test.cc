@@ -63,6 +63,23 @@ uint32_t BigEndian(const std::string& bytes, size_t at) {
 
 }  // namespace
 
+TEST_CASE("a field is drawn as colours within its scale, and has all of its numbers as CSV") {
+  Plot plot;
+  plot.x = {.label = "x (m)", .low = 0, .high = 2};
+  plot.y = {.label = "y (s)", .low = 0, .high = 2};
+  plot.field = Field{"f (1/sr)", {0.5, 1.5, 0.5, 1.5}, {0.5, 0.5, 1.5, 1.5}, {0, 0.01, 5, kNan}};
+  plot.field->low = 1e-3;
+  const Figure figure = MakeFigure(plot);
+  CHECK(FigureCsv(figure) ==
+        "x (m),y (s),f (1/sr)\n0.5,0.5,0\n1.5,0.5,0.01\n0.5,1.5,5\n1.5,1.5,\n");
+  const std::string script = GnuplotScript(figure, PictureFormat::kPng);
+  // A logarithm has no 0: it has the colour of the scale's lower end, and 5 that of the upper one.
+  for (const char* line : {"0.5 0.5 0.001\n", "1.5 0.5 0.01\n", "0.5 1.5 1\n", "1.5 1.5 NaN\n",
+                           "set cbrange [0.001:1]", "'f (1/sr)'", "with image"}) {
+    CHECK(script.find(line) != std::string::npos);
+  }
+}
+
 TEST_CASE("CSV has each x once, and all digits") {
   Plot plot = Line(0.1, 1.0 / 3);
   plot.curves.push_back({"say \"b\", c", {0, 1, 2}, {1, kNan, 3}});

@@ -413,6 +413,20 @@ TEST_CASE("--set reaches the camera, the image, the lights and the materials of 
                           {"/lights/more", R"({"type": "ambient", "radiance": 1})"}});
   CHECK(lit.lights.size() == 5);
   CHECK(std::holds_alternative<AmbientLight>(lit.lights[0].kind));
+  const Scene alone = load({{"/lights", R"({"only": {"type": "ambient", "radiance": 1}})"}});
+  REQUIRE(alone.lights.size() == 1);
+  CHECK(alone.lights[0].name == "only");
+  // Of a file that has lights of its own as well.
+  file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  file.json["extensions"] = Json::parse(
+      R"({"KHR_lights_punctual": {"lights": [{"type": "directional", "name": "own"}]}})");
+  file.json["nodes"][0]["extensions"] = Json::parse(R"({"KHR_lights_punctual": {"light": 0}})");
+  folder.Write("model.glb", file.Binary());
+  CHECK(load({}).lights.size() == 1);
+  CHECK(load({{"/lights/only", R"({"type": "ambient", "radiance": 1})"}}).lights.size() == 2);
+  const Scene replaced = load({{"/lights", R"({"only": {"type": "ambient", "radiance": 1}})"}});
+  REQUIRE(replaced.lights.size() == 1);
+  CHECK(replaced.lights[0].name == "only");
   CHECK(message("/materials/n/roughness", "1").find("unknown material \"n\"") != std::string::npos);
   CHECK(message("/materials/m/rough", "1").find("unknown key \"rough\"") != std::string::npos);
   CHECK(message("/image/spp", "0").find("/image/spp: 0 is out of range") != std::string::npos);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/error.h"
 #include "catch.h"
 #include "scene/texture_mapping.h"
 #include "scene_io/gltf_builder.h"
@@ -79,6 +80,27 @@ TEST_CASE("an image beside the file, for two uses of two encodings") {
   const auto image_of = [&](TextureId id) { return scene.textures.at(id.index).image; };
   CHECK(image_of(material.emission_map) == image_of(MaterialOf(scene).base_color_map));
   CHECK(image_of(material.normal_map.texture) != image_of(material.emission_map));
+}
+
+TEST_CASE("--set puts a texture of its own in the place of the file's") {
+  const ModelFolder folder;
+  folder.Write("mine.png", std::string(kPng.begin(), kPng.end()));
+  GltfFile plain = MakeTexturedSquare();
+  plain.json["materials"][0]["pbrMetallicRoughness"] = Json::object();
+  plain.json["materials"][0]["name"] = "m";
+  LoadOptions options;
+  options.overrides = {{"/textures/mine", R"({"file": "mine.png", "filter": "nearest"})"},
+                       {"/materials/m/base_color_map", R"("mine")"}};
+  const auto path = folder.Write("model.glb", plain.Binary());
+  CHECK_FALSE(MaterialOf(LoadScene(path)).base_color_map.valid());
+  const Scene scene = LoadScene(path, options);
+  const TextureId map = MaterialOf(scene).base_color_map;
+  REQUIRE(map.index < scene.textures.size());
+  CHECK(scene.textures[map.index].name == "mine");
+  CHECK(scene.textures[map.index].sampling.filter == TextureFilter::kNearest);
+  CHECK(scene.meshes.at(0).uvs.size() == scene.meshes[0].positions.size());
+  options.overrides[1].second = R"("yours")";
+  CHECK_THROWS_AS(LoadScene(path, options), Error);
 }
 
 TEST_CASE("samplers and transforms") {

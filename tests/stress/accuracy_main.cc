@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/stress/accuracy_main.cc: prints what nacre's precision is, beside the textbook's formulas
-// in float: the tables of the README. Everything is measured when it is printed.
+// in float: the tables of tests/README.md. Everything is measured when it is printed.
 #include <cmath>
 #include <cstdio>
 #include <exception>

@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Options: those that cannot apply are refused, help is readable; and files that options ask for.
+
+Usage: options_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import csv
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+FIRST_SCENE = str(SOURCE / 'scenes/first_scene.json')
+SMALL = ['--size', '64x36', '--spp', '1']
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=120, check=False)
+
+
+class OptionsTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.out = pathlib.Path(self.folder.name)
+
+    def check_works(self, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def check_refused(self, option, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 64, arguments)
+        self.assertIn(f'error: {option[0]}: cannot be used with', result.stderr)
+        self.assertIn('hint: ', result.stderr)
+        self.assertEqual(list(self.out.iterdir()), [])
+
+    # What no page of differences has.
+    OF_FILES = (['--region', '0,0,9,9'], ['--tile', '0/2'], ['--layers', 'diffuse'],
+                ['--depth', 'float'], ['--compression', 'piz'], ['--dry-run'], ['--explain'],
+                ['--stats', '-'], ['--progress', 'json'])
+
+    def test_pages_of_differences_take_what_means_something_to_them(self):
+        page = ['-o', self.out / 'a.png', *SMALL]
+        for option in self.OF_FILES:
+            with self.subTest(option=option):
+                self.check_refused(option, 'pair', '--layout', 'difference', *page, *option)
+                self.check_refused(option, 'convert', 'phong', *page, *option)
+        taken = ['--seed', '2', '--small', '--fast', '--reproducible', '--threads', '1',
+                 '--tonemap', 'agx', '--light', 'studio', '--no-labels', '--set', '/image/spp=2']
+        self.check_works('pair', '--layout', 'difference', *page, *taken)
+        self.check_works('convert', 'phong', *page, *taken)
+
+    def test_convert_without_a_picture_takes_no_options_of_pictures(self):
+        for option in (['--spp', '4'], ['--light', 'studio'], ['--size', '9x9'], ['--labels'],
+                       ['--tonemap', 'aces'], *self.OF_FILES):
+            with self.subTest(option=option):
+                self.check_refused(option, 'convert', 'phong', *option)
+        self.check_works('convert', 'phong', '--to', 'dielectric', '--json')
+
+    def test_plots_take_the_options_of_their_kind(self):
+        out = ['-o', self.out / 'a.csv']
+        for kind, option in (('tone', ['--material', 'phong']), ('tone', ['--scene', FIRST_SCENE]),
+                             ('fresnel', ['--angle', '30']), ('slice', ['--log']),
+                             ('polar', ['--cosine']), ('ndf', ['--channel', 'red']),
+                             ('falloff', ['--material', 'phong']), ('brdf', ['--one-light']),
+                             ('albedo', ['--exposure', '1']), ('masking', ['--kernel'])):
+            with self.subTest(kind=kind, option=option):
+                self.check_refused(option, 'plot', kind, *out, *option)
+
+    # ---- Files ----
+
+    def test_slices_are_drawn_with_their_numbers(self):
+        files = [self.out / name for name in ('a.svg', 'a.png', 'a.csv')]
+        self.check_works('plot', 'slice', '--material', 'phong', '--material', 'lambert', '--title',
+                         'Two', *[word for file in files for word in ('-o', file)])
+        self.assertIn('</svg>', files[0].read_text())
+        self.assertEqual(files[1].read_bytes()[:4], b'\x89PNG')
+        lines = files[2].read_text().splitlines()
+        self.assertEqual(len(lines), 1 + 180 * 180)
+        self.assertAlmostEqual(float(lines[-1].split(',')[5]), 0.5 / 3.141592653589793, places=12)
+
+    def test_conversions_are_drawn_as_curves(self):
+        files = [self.out / name for name in ('a.svg', 'a.csv')]
+        told = self.check_works('convert', 'phong', '--curves', files[0], '--curves', files[1])
+        self.assertEqual(json.loads(told.stdout.splitlines()[0])['model'], 'metallic_roughness')
+        self.assertIn('</svg>', files[0].read_text())
+        titles = next(csv.reader([files[1].read_text().splitlines()[0]]))
+        self.assertEqual(len(titles), 4 * (1 + 3))  # views; an angle, and three lobes
+        for word in 'viewer at 75', 'closed form', 'fit':
+            self.assertTrue(any(word in title for title in titles), word)
+
+    def test_validations_are_reported(self):
+        scene = json.loads(pathlib.Path(FIRST_SCENE).read_text())
+        scene['image'] = {'width': 64, 'height': 36, 'spp': 1}
+        (self.out / 'scene.json').write_text(json.dumps(scene))
+        self.check_works('render', self.out / 'scene.json', '-o', self.out / 'a.exr', '--depth',
+                         'float')
+        for name, image in ('a', 'a.exr'), ('b', 'missing.exr'):
+            (self.out / f'{name}.reference.json').write_text(json.dumps({
+                'scene': 'scene.json', 'image': image, 'layers': [''], 'tolerances': {},
+                'reason': 'the same program'}))
+        report = self.out / 'r.html'
+        result = run('validate', self.out, '--report', report)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(' match ', result.stdout)
+        page = report.read_text()
+        for word in 'the same program', '"outcome":"error"', '"outcome":"match"':
+            self.assertIn(word, page)
+        (self.out / 'b.reference.json').unlink()
+        self.check_works('validate', self.out, '--report', report)
+        result = run('validate', self.out, '--report', self.out / 'r.txt')
+        self.assertEqual(result.returncode, 64)
+        self.assertEqual(result.stdout, '')  # before anything is rendered
+
+    # ---- Help ----
+
+    def test_help_fits_a_terminal_and_has_examples(self):
+        text = self.check_works('--help').stdout
+        names = re.findall(r'^  ([a-z]+) ', text.partition('Subcommands:')[2], re.M)
+        self.assertGreater(len(names), 10)
+        for name in names:
+            help_text = self.check_works(name, '--help').stdout
+            self.assertIn('Usage: nacre ' + name, help_text)
+            self.assertRegex(help_text, r'(?s)Examples?:\n.*  nacre ' + name)
+            options = help_text.partition('xample')[0]
+            # Ends of text and examples, which are lines to be copied, may be longer.
+            for line in options.splitlines():
+                self.assertLessEqual(len(line), 100, line)
+            body = re.findall(r'^ {24}.*', options, re.M)
+            self.assertLessEqual(max(map(len, body), default=0), 80)
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

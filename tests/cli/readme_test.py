@@ -1,0 +1,151 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Runs every command of the READMEs as it is written there, in a folder that looks like the root.
+
+Of scripts, which would build and install, the names and options are checked. The programs of
+README.md are built by tests/install.
+
+Usage: readme_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import json
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+BLOCK = re.compile(r'^```(\w*)\n(.*?)^```$', re.M | re.S)
+READMES = sorted(path for path in SOURCE.rglob('README.md')
+                 if not re.match(r'build|out/|\.git', path.relative_to(SOURCE).as_posix()))
+# Options in the text that belong to other programs: cmake, ctest.
+OTHERS = {'--install', '--prefix', '--preset'}
+
+
+def blocks(path, kind):
+    return [text for tag, text in BLOCK.findall(path.read_text()) if tag == kind]
+
+
+def commands(path):
+    """[(command line, exit code)] of the sh blocks; the code is told by a comment behind it."""
+    found = []
+    for block in blocks(path, 'sh'):
+        for line in block.replace('\\\n', ' ').splitlines():
+            words = shlex.split(line, comments=True)
+            code = re.search(r'# exit code (\d+)$', line)
+            if words:
+                found.append((words, int(code.group(1)) if code else 0))
+    return found
+
+
+def run(words, cwd):
+    return subprocess.run(words, cwd=cwd, capture_output=True, text=True, timeout=900, check=False)
+
+
+class ReadmeTest(unittest.TestCase):
+    def make_root(self):
+        """The tree's entries under a folder of its own, and the program where a build puts it."""
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        root = pathlib.Path(folder.name)
+        for entry in SOURCE.iterdir():
+            if not re.fullmatch(r'build.*|out|\.git', entry.name):
+                (root / entry.name).symlink_to(entry)
+        (root / 'build').mkdir()
+        (root / 'build/nacre').symlink_to(PROGRAM)
+        return root
+
+    def check_script(self, words):
+        script = SOURCE / words[0]
+        self.assertTrue(script.is_file(), words)
+        told = run([script, '--help'], SOURCE)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        for word in words[1:]:
+            if word.startswith('--'):
+                self.assertIn(word, told.stdout + run([PROGRAM, 'render', '--help'], SOURCE).stdout)
+
+    def test_every_command_does_what_it_says(self):
+        done = set()
+        for path in READMES:
+            root = self.make_root()
+            for words, code in commands(path):
+                with self.subTest(path=path.relative_to(SOURCE).as_posix(), command=words):
+                    if words[0].startswith('scripts/'):
+                        self.check_script(words)
+                        continue
+                    self.assertIn(words[0], ('build/nacre', 'cp'))
+                    # The same line elsewhere, and files that none of the later lines reads.
+                    if tuple(words) in done and 'render' not in words:
+                        continue
+                    done.add(tuple(words))
+                    result = run(words, root)
+                    self.assertEqual(result.returncode, code, result.stderr)
+                    for flag, value in zip(words, words[1:]):
+                        if flag == '-o':
+                            self.assertTrue((root / value).exists(), value)
+        self.assertGreater(len(done), 30)
+
+    def test_no_command_hides_in_a_block_of_another_kind(self):
+        for path in READMES:
+            for tag, text in BLOCK.findall(path.read_text()):
+                if tag != 'sh':
+                    self.assertNotRegex(text, r'(?m)^(build/nacre|scripts/\w+)', path)
+
+    def test_the_picture_at_the_top_comes_of_the_command_below_it(self):
+        root = self.make_root()
+        line = re.search(r'`(build/nacre pair [^`]*)`', (SOURCE / 'README.md').read_text()).group(1)
+        result = run(shlex.split(line), root)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue((root / 'difference.png').exists())
+
+    def test_the_scene_is_the_one_of_the_folder(self):
+        scene, = blocks(SOURCE / 'README.md', 'json')
+        self.assertEqual(json.loads(scene),
+                         json.loads((SOURCE / 'scenes/first_scene.json').read_text()))
+
+    def test_a_slip_gets_the_answer_that_is_shown(self):
+        root = self.make_root()
+        shown, = (text for text in blocks(SOURCE / 'README.md', '') if text.startswith('error: '))
+        scene = (SOURCE / 'scenes/first_scene.json').read_text()
+        slip = scene.replace('"roughness"', '"roughnes"')
+        self.assertNotEqual(slip, scene)
+        (root / 'my_scene.json').write_text(slip)
+        result = run(['build/nacre', 'render', 'my_scene.json', '-o', 'mine.png'], root)
+        self.assertEqual(result.returncode, 65)
+        self.assertIn(shown.strip(), result.stderr)
+
+    def test_every_option_that_is_named_exists(self):
+        names = re.findall(r'^  (\w+) ', run([PROGRAM, '--help'], SOURCE).stdout, re.M)
+        known = ''.join(run([PROGRAM, name, '--help'], SOURCE).stdout for name in names)
+        for script in sorted((SOURCE / 'scripts').iterdir()):
+            if not script.suffix and script.is_file():
+                known += run([script, '--help'], SOURCE).stdout
+        known = set(re.findall(r'--[a-z][a-z-]*', known)) | OTHERS
+        for path in READMES:
+            text = '\n'.join(re.findall(r'`([^`\n]+)`', path.read_text()))
+            named = set(re.findall(r'(?<![\w-])--[a-z][a-z-]*', text)) - {'--help'}
+            self.assertEqual(named - known, set(), path)
+
+    @unittest.skipUnless(shutil.which('gnuplot'), 'gnuplot is missing')
+    def test_the_studies_answers_are_those_of_the_table(self):
+        """The figures of README.md's table, where a study takes little time."""
+        text = (SOURCE / 'README.md').read_text()
+        root = self.make_root()
+        for study, pattern in (('blinn-exponent', r'(\d+\.\d) in the plane of incidence, '
+                                                  r'(\d+\.\d) over a sphere.*?, (\d+\.\d) at 85'),
+                               ('fresnel', r'(\d+\.\d+)° by Schlick')):
+            result = run(['build/nacre', 'study', study, '-o', study, '--quiet'], root)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            answer = (root / study / 'answer.md').read_text()
+            for figure in re.search(pattern, text).groups():
+                digits = len(figure.partition('.')[2])
+                rounded = {f'{float(number):.{digits}f}'
+                           for number in re.findall(r'\d+\.\d+', answer)}
+                self.assertIn(figure, rounded)
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
