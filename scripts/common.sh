@@ -38,6 +38,18 @@ install_packages() {
   fi
 }
 
+# debian_mirror: DEBIAN_MIRROR, else the first mirror of Debian itself (not of its security updates)
+# that apt here reads; nothing where there is none.
+debian_mirror() {
+  if [[ ${DEBIAN_MIRROR:-} ]]; then
+    echo "$DEBIAN_MIRROR"
+  else
+    # shellcheck disable=SC2016  # the names are apt's
+    apt-get indextargets --format '$(REPO_URI) $(LABEL)' 'Created-By: Packages' 2>/dev/null |
+      awk '$2 == "Debian" { print $1; exit }' || true
+  fi
+}
+
 # compile_jobs: all cores, but no more compilers at once than memory holds. The largest files
 # (SIMD kernels for every target, tests with JSON tables) take a compiler to 1.3 GiB.
 compile_jobs() {

@@ -2,6 +2,41 @@
 # Helpers for nacre's own libraries, tests and benchmarks.
 
 find_package(Threads REQUIRED)
+find_package(hwy REQUIRED)
+
+# The SIMD targets that kernels are compiled for, of scalar, sse4, avx2, avx3; or neon. Of Highway's
+# others (SSSE3, AVX-512 with extensions, SVE) none gave enough to be worth compiling.
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
+  set(NACRE_TARGETS neon CACHE STRING "SIMD targets to compile for")
+else()
+  set(NACRE_TARGETS scalar sse4 avx2 avx3 CACHE STRING "SIMD targets to compile for")
+endif()
+# In Highway's names. Its fallback target has two, by compiler. NEON is what arm64 has at least,
+# which Highway 1.0.3 does not tell from NEON with AES.
+set(highway_scalar HWY_SCALAR HWY_EMU128)
+set(highway_sse4 HWY_SSE4)
+set(highway_avx2 HWY_AVX2)
+set(highway_avx3 HWY_AVX3)
+set(highway_neon HWY_NEON)
+if(hwy_VERSION VERSION_GREATER_EQUAL 1.0.4)
+  set(highway_neon HWY_NEON_WITHOUT_AES)
+endif()
+set(NACRE_HIGHWAY_TARGETS)
+foreach(target ${NACRE_TARGETS})
+  if(NOT highway_${target})
+    message(FATAL_ERROR "NACRE_TARGETS: ${target} is none of scalar, sse4, avx2, avx3, neon")
+  endif()
+  list(APPEND NACRE_HIGHWAY_TARGETS ${highway_${target}})
+endforeach()
+list(JOIN NACRE_HIGHWAY_TARGETS "|" NACRE_HIGHWAY_TARGETS)
+# Without the fallback the slowest target is what all code may use, and Highway wants to see so.
+set(NACRE_BASELINE)
+if(NOT "scalar" IN_LIST NACRE_TARGETS AND NOT "neon" IN_LIST NACRE_TARGETS)
+  if(NOT "sse4" IN_LIST NACRE_TARGETS)
+    message(FATAL_ERROR "NACRE_TARGETS: scalar, sse4 or neon must be among them")
+  endif()
+  set(NACRE_BASELINE -msse4.2 -maes -mpclmul)
+endif()
 
 # What every target of ours is compiled with.
 add_library(nacre_options INTERFACE)
@@ -10,8 +45,8 @@ target_include_directories(nacre_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
 # -ffp-contract=off: left alone, GCC fuses multiplies and adds across intrinsics, differently in
 # each context, and then a pixel's bits would depend on which kernel computed it.
 target_compile_options(nacre_options INTERFACE -ffp-contract=off -Wall -Wextra -Wconversion)
-# SSSE3 is left out: nacre offers SCALAR, SSE4, AVX2 and AVX3.
-target_compile_definitions(nacre_options INTERFACE HWY_DISABLED_TARGETS=HWY_SSSE3)
+target_compile_definitions(nacre_options INTERFACE "HWY_DISABLED_TARGETS=~(${NACRE_HIGHWAY_TARGETS})")
+target_compile_options(nacre_options INTERFACE ${NACRE_BASELINE})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Highway passes vectors between its own inlined functions only.
   target_compile_options(nacre_options INTERFACE -Wno-psabi)

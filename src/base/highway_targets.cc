@@ -32,11 +32,14 @@ int64_t DetectTargets() {
                                 __builtin_cpu_supports("fma"), __builtin_cpu_supports("bmi"),
                                 __builtin_cpu_supports("bmi2"), HasHalfAndZeroCount());
   const bool avx3 =
-      avx2 && has(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512vl"),
-                  __builtin_cpu_supports("avx512dq"), __builtin_cpu_supports("avx512bw"));
+      avx2 && has(__builtin_cpu_supports("avx512f"), __builtin_cpu_supports("avx512cd"),
+                  __builtin_cpu_supports("avx512vl"), __builtin_cpu_supports("avx512dq"),
+                  __builtin_cpu_supports("avx512bw"));
   if (sse4) targets |= HWY_SSE4;
   if (avx2) targets |= HWY_AVX2;
   if (avx3) targets |= HWY_AVX3;
+#else
+  targets |= HWY_STATIC_TARGET;  // the one that is compiled
 #endif
   return targets;
 }

@@ -13,6 +13,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "base/handover.h"
+
 #if defined(__SSE2__)
 #include <xmmintrin.h>
 #endif
@@ -84,10 +86,13 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   // Workers take indices in order, one after the other: what is finished early is then needed
   // early, and a consumer that wants them in order has little to keep.
   std::atomic<size_t> next{0};
+  static const char begun = 0;
+  HandOver(&begun);
   ArenaOf(ThreadCount(threads)).execute([&] {
     tbb::parallel_for(
         0, ThreadCount(threads),
         [&](int) {
+          TakeOver(&begun);
           const FlushDenormals flush;
           for (size_t i = next++; i < count; i = next++) {
             try {
@@ -100,6 +105,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
         },
         tbb::simple_partitioner());
   });
+  TakeOver(&next);  // each worker's last next++ is a release of it
 }
 
 void WithThreads(int threads, const std::function<void()>& body) {

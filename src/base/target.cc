@@ -8,9 +8,10 @@
 namespace nacre {
 namespace {
 
-constexpr Target kAllTargets[] = {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx3};
+constexpr Target kAllTargets[] = {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx3,
+                                  Target::kNeon};
 
-// Highway's fallback target is SCALAR with GCC 12 and EMU128 with Clang 14.
+// Highway's fallback target is SCALAR with GCC 12 and EMU128 with Clang 14 and GCC 14.
 constexpr int64_t kFallbackTargets = HWY_SCALAR | HWY_EMU128;
 
 int64_t HighwayTarget(Target target) {
@@ -23,6 +24,8 @@ int64_t HighwayTarget(Target target) {
       return HWY_AVX2;
     case Target::kAvx3:
       return HWY_AVX3;
+    case Target::kNeon:
+      return HWY_ARCH_ARM ? HWY_STATIC_TARGET : 0;
   }
   return 0;
 }
@@ -39,6 +42,8 @@ std::string TargetName(Target target) {
       return "avx2";
     case Target::kAvx3:
       return "avx3";
+    case Target::kNeon:
+      return "neon";
   }
   return {};
 }

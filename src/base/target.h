@@ -10,9 +10,9 @@
 
 namespace nacre {
 
-enum class Target { kScalar, kSse4, kAvx2, kAvx3 };
+enum class Target { kScalar, kSse4, kAvx2, kAvx3, kNeon };
 
-// "scalar", "sse4", "avx2" or "avx3".
+// "scalar", "sse4", "avx2" or "avx3"; "neon" on arm64, which has no other.
 std::string TargetName(Target target);
 
 // The targets compiled in and supported by this CPU, slowest first.

@@ -14,6 +14,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <unistd.h>
 
 // Only these names are seen from outside.
 #pragma GCC visibility push(default)
@@ -127,7 +128,12 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
   return read ? std::string() : input->geterror();
 }
 
-constexpr char kFont[] = "DejaVuSans";
+// Where Debian has it: OpenImageIO 2.5 no longer looks there by itself. Elsewhere its name.
+const std::string& Font() {
+  constexpr char kFile[] = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  static const std::string font = access(kFile, R_OK) == 0 ? kFile : "DejaVuSans";
+  return font;
+}
 
 // From the text's origin, which is on its baseline, to the point that the item places. Vertically
 // that depends on the font only, so that labels in a row stand on one line: the top and the middle
@@ -138,9 +144,9 @@ struct Offset {
 
 Offset AlignmentOffset(const NacreOiioText& item) {
   using OIIO::ImageBufAlgo::text_size;
-  const OIIO::ROI text = text_size(item.text, item.size_px, kFont);
-  const OIIO::ROI capital = text_size("H", item.size_px, kFont);
-  const OIIO::ROI descender = text_size("g", item.size_px, kFont);
+  const OIIO::ROI text = text_size(item.text, item.size_px, Font());
+  const OIIO::ROI capital = text_size("H", item.size_px, Font());
+  const OIIO::ROI descender = text_size("g", item.size_px, Font());
   Offset offset = {(text.xbegin + text.xend) / 2, (capital.ybegin + capital.yend) / 2};
   if (item.align_x < 0) offset.x = text.xbegin;
   if (item.align_x > 0) offset.x = text.xend;
@@ -156,6 +162,9 @@ std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
                          static_cast<float>(item.color[1]) / kCodes,
                          static_cast<float>(item.color[2]) / kCodes};
   const int outline_px = item.outline != 0 ? std::max(1, item.size_px / 12) : 0;
+  if (!OIIO::ImageBufAlgo::text_size("H", item.size_px, Font()).defined()) {
+    return "the font DejaVuSans is not there";
+  }
   const Offset offset = AlignmentOffset(item);
   using OIIO::ImageBufAlgo::TextAlignX;
   using OIIO::ImageBufAlgo::TextAlignY;
@@ -164,14 +173,14 @@ std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
   // render_text ends the process when text crosses the picture's edge: draw on a cut-out as large
   // as the text, and put back what lies within the picture.
   const int room = outline_px + 2;
-  OIIO::ROI bounds = OIIO::ImageBufAlgo::text_size(item.text, item.size_px, kFont);
+  OIIO::ROI bounds = OIIO::ImageBufAlgo::text_size(item.text, item.size_px, Font());
   bounds = OIIO::ROI(x + bounds.xbegin - room, x + bounds.xend + room, y + bounds.ybegin - room,
                      y + bounds.yend + room, 0, 1, 0, 3);
   const OIIO::ROI visible = OIIO::roi_intersection(bounds, picture->roi());
   if (visible.width() <= 0 || visible.height() <= 0) return {};
   OIIO::ImageBuf part = OIIO::ImageBufAlgo::crop(*picture, bounds);
   const bool drawn =
-      OIIO::ImageBufAlgo::render_text(part, x, y, item.text, item.size_px, kFont, color,
+      OIIO::ImageBufAlgo::render_text(part, x, y, item.text, item.size_px, Font(), color,
                                       TextAlignX::Left, TextAlignY::Baseline, outline_px);
   if (!drawn) return part.geterror();
   std::vector<uint8_t> pixels(visible.npixels() * 3);

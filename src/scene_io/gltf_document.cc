@@ -137,15 +137,30 @@ void CheckImageOffsets(const Json& root, const GltfDocument& document) {
 
 std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
 
+// All file access of tinygltf. A template, because newer ones ask for sizes, too, of files that
+// they leave to their reader otherwise; ReadBuffer judges sizes itself.
+template <class Callbacks>
+Callbacks MakeCallbacks(Files* files, Callbacks callbacks) {
+  callbacks.FileExists = [](const std::string&, void*) { return true; };
+  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  callbacks.ReadWholeFile = &ReadBuffer;
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                                void*) { return false; };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
+    callbacks.GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
+      *size = 1;  // within any limit
+      return true;
+    };
+  }
+  callbacks.user_data = files;
+  return callbacks;
+}
+
 void Parse(const std::string& bytes, bool is_binary, const Json& root, GltfDocument* document) {
   Files files{document, ExternalLengths(root)};
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(&KeepImage, nullptr);
-  loader.SetFsCallbacks({[](const std::string&, void*) { return true; },
-                         [](const std::string& name, void*) { return name; }, &ReadBuffer,
-                         [](std::string*, const std::string&, const std::vector<unsigned char>&,
-                            void*) { return false; },
-                         &files});
+  loader.SetFsCallbacks(MakeCallbacks(&files, tinygltf::FsCallbacks{}));
   std::string error, warning;
   const auto length = static_cast<unsigned int>(bytes.size());
   bool is_read = false;

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "base/version.h"
 #include "scene/validate.h"
 #include "scene_io/gltf.h"
 #include "scene_io/model_scene.h"
@@ -21,11 +22,27 @@ namespace nacre {
 namespace {
 
 constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
-constexpr int kVersion = 1;
+constexpr int kFormat = 1;  // the version of scene files
+
+// What is wrong with a version that this program does not read, and the way to one that it does.
+Fault JudgeVersion(const Json& version, const std::string& where) {
+  const std::string reads = fmt::format("nacre {} reads version {}", kVersion, kFormat);
+  if (!version.is_number()) return {where, "the version is not a number", reads};
+  if (version > kFormat) {
+    return {
+        where,
+        fmt::format("version {} of the scene format is newer than this program", version.dump()),
+        fmt::format("{}: take a newer nacre, or write the scene as version {}", reads, kFormat)};
+  }
+  // Version 1 is the first: nothing older is to be translated.
+  return {where, fmt::format("there is no version {} of the scene format", version.dump()),
+          fmt::format("{}: write \"nacre\": {}; `nacre schema` prints what it may hold", reads,
+                      kFormat)};
+}
 
 // Throws if the rest of the file cannot mean anything to this program.
 void CheckVersion(const Json& root, const std::string& file) {
-  const std::string hint = fmt::format("\"nacre\": {}, the version of the format", kVersion);
+  const std::string hint = fmt::format("\"nacre\": {}, the version of the format", kFormat);
   if (!root.is_object()) {
     throw Error(ExitCode::kBadInput, file, "not a scene: no object", "a scene begins {" + hint);
   }
@@ -33,12 +50,8 @@ void CheckVersion(const Json& root, const std::string& file) {
   if (version == root.end()) {
     throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"", "add " + hint);
   }
-  if (version->is_number() && *version == kVersion) return;
-  throw Error(ExitCode::kBadInput, PlaceInFile(file, "/nacre"),
-              version->is_number()
-                  ? fmt::format("version {} of scene files is not known", version->dump())
-                  : "the version is not a number",
-              fmt::format("this program reads version {}", kVersion));
+  if (version->is_number() && *version == kFormat) return;
+  throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
 }
 
 void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {

@@ -98,8 +98,13 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
   size_t corners = 0;
   for (const tinyobj::shape_t& shape : obj.shapes) {
     size_t expected = 0;
-    for (const unsigned char count : shape.mesh.num_face_vertices) expected += count;
-    if (expected != shape.mesh.indices.size()) {  // it counts them modulo 256
+    size_t most = 0;
+    for (const size_t count : shape.mesh.num_face_vertices) {
+      expected += count;
+      most = std::max(most, count);
+    }
+    // Release 2.0.0rc10 counts them modulo 256; the bound is the same with all.
+    if (most > 255 || expected != shape.mesh.indices.size()) {
       Refuse(file, "a face has more than 255 corners", "cut it into triangles before");
     }
     for (const tinyobj::index_t& corner : shape.mesh.indices) {

@@ -29,6 +29,8 @@ EmbreeTarget EmbreeTargetFor(Target target) {
       return {"avx2", 8};
     case Target::kAvx3:
       return {"avx512", 16};
+    case Target::kNeon:
+      return {"neon", 4};
   }
   return {"sse2", 4};
 }

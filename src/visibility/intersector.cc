@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/handover.h"
 #include "base/parallel.h"
 #include "visibility/embree_api.h"
 #include "visibility/embree_device.h"
@@ -43,6 +44,7 @@ void SetBounds(const Vec3d& lower, const Vec3d& upper, double margin, RTCBounds*
 }
 
 void SphereBounds(const RTCBoundsFunctionArguments* args) {
+  TakeOver(args->geometryUserPtr);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const auto& [center, radius] = geometry.spheres[args->primID];
   SetBounds(center - Vec3d(radius), center + Vec3d(radius),
@@ -50,6 +52,7 @@ void SphereBounds(const RTCBoundsFunctionArguments* args) {
 }
 
 void TriangleBounds(const RTCBoundsFunctionArguments* args) {
+  TakeOver(args->geometryUserPtr);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const auto& corners = geometry.triangles[args->primID];
   Vec3d lower = geometry.positions[corners[0]], upper = lower;
@@ -113,6 +116,7 @@ ScenePointer Intersector::State::Build(bool with_spheres) {
   }
   Attach(device->get(), built.get(), &geometry, geometry.triangles.size(), &TriangleBounds,
          TriangleCallbacks());
+  HandOver(&geometry);
   WithThreads(settings.threads, [&] { rtcJoinCommitScene(built.get()); });
   device->ThrowIfFailed();
   return built;

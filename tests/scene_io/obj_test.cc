@@ -42,10 +42,12 @@ std::string MessageOf(const std::string& text) {
   return "no error";
 }
 
-bool Refused(const std::string& text, const std::string& part) {
+// `or_part`: what newer releases of tinyobjloader say themselves.
+bool Refused(const std::string& text, const std::string& part, const std::string& or_part = {}) {
   const std::string message = MessageOf(text);
   INFO(message);
-  const bool refused = message.find(part) != std::string::npos;
+  const bool refused = message.find(part) != std::string::npos ||
+                       (!or_part.empty() && message.find(or_part) != std::string::npos);
   CHECK(refused);
   return refused;
 }
@@ -140,8 +142,8 @@ TEST_CASE("what is wrong with an OBJ file is said") {
   CHECK(Refused(kTriangle, "has no faces"));
   CHECK(Refused(kTriangle + "f 1 2 4\n", "a face has position 4\n  hint: there are 3"));
   CHECK(Refused(kTriangle + "f 1 2 0\n", "zero value"));
-  CHECK(Refused(kTriangle + "f 1 2 -4\n", "a face has position 0"));
-  CHECK(Refused(kTriangle + "f 1 2 -400\n", "a face has position -396"));
+  CHECK(Refused(kTriangle + "f 1 2 -4\n", "a face has position 0", "invalid relative vertex"));
+  CHECK(Refused(kTriangle + "f 1 2 -400\n", "a face has position -396", "invalid relative"));
   CHECK(Refused(kTriangle + "f 1 2 99999999999\n", "a face has position"));
   CHECK(Refused(kTriangle + "f 1//1 2//1 3//1\n", "a face has normal 1\n  hint: there are 0"));
   CHECK(Refused(kTriangle + "f a b c\n", "zero value"));

@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "catch.h"
+#include "quad.h"
 #include "stress/truth_reflect.h"
 
 namespace nacre {
 namespace {
-
-using Quad = __float128;
 
 Scene OneSphere(const Vec3d& center, double radius) {
   Scene scene;

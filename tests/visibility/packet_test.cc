@@ -4,6 +4,7 @@
 #include "visibility/packet.h"
 
 #include "catch.h"
+#include "quad.h"
 #include "visibility/rays.h"
 #include "visibility/two_product.h"
 
@@ -15,7 +16,7 @@ TEST_CASE("a two-product is exact") {
   for (int i = 0; i < 1000; ++i) {
     const double a = random.Uniform(-2, 2), b = random.Magnitude(1e-9, 1e9);
     const auto [product, error] = TwoProduct(a, b);
-    CHECK(static_cast<__float128>(a) * b == static_cast<__float128>(product) + error);
+    CHECK(static_cast<Quad>(a) * b == static_cast<Quad>(product) + error);
   }
 }
 

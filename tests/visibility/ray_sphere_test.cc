@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/ray_sphere_test.cc: the ray-sphere test against exact references.
 #include "catch.h"
+#include "quad.h"
 #include "tables.h"
 #include "targets.h"
 #include "visibility/rays.h"
 
 namespace nacre {
 namespace {
-
-using Quad = __float128;
 
 Vec3d TableVector(const nlohmann::json& v) {
   return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};

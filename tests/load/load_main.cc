@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/load/load_main.cc: the program behind scripts/load: many small renders in one process,
+// through the public API alone, with what a service would do around each (a scene read, changed,
+// rendered, written, read back, compared, and a faulty one refused). Its memory must stay flat, and
+// a job's picture the same from its first turn to its last.
+//
+// Usage: nacre_load SCENES_FOLDER RENDERS
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "nacre.h"
+
+namespace {
+
+// Renders after which threads, allocators and Embree have filled their stores.
+constexpr int kWarmUp = 400;
+// What memory may grow by after that: a leak of 7 KiB a render, which one was, makes 64 MiB of
+// 10 000; the allocators' ups and downs were measured to stay below 1 MiB.
+constexpr long kMaxGrowthKib = 2048;
+
+struct Job {
+  const char* scene;
+  const char* intersector;
+  int threads, samples;
+  double max_error;
+};
+
+// Spheres, meshes, area lights, skies and textures; both intersectors; adaptive sampling.
+constexpr Job kJobs[] = {
+    {"first_scene.json", "tiles", 1, 1, 0},      {"first_scene.json", "embree", 2, 2, 0},
+    {"mesh_and_spheres.json", "auto", 2, 1, 0},  {"area_lights.json", "auto", 1, 4, 0},
+    {"fast_sky.json", "auto", 2, 2, 0},          {"textures.json", "auto", 1, 1, 0},
+    {"interpolations.json", "embree", 2, 1, 0},  {"phong_vs_pbr.json", "auto", 1, 2, 0},
+    {"material_grid.json", "embree", 1, 1, 0.1},
+};
+
+long ResidentKib() {
+  std::FILE* const file = std::fopen("/proc/self/statm", "r");
+  long pages = 0;
+  const int read = file != nullptr ? std::fscanf(file, "%*d %ld", &pages) : 0;
+  if (file != nullptr) std::fclose(file);
+  return read == 1 ? pages * (sysconf(_SC_PAGESIZE) / 1024) : -1;
+}
+
+[[noreturn]] void Fail(const std::string& what) {
+  std::fprintf(stderr, "load: %s\n", what.c_str());
+  std::exit(1);
+}
+
+nacre::Image RenderJob(const std::string& folder, const Job& job, int turn) {
+  nacre::Scene scene = nacre::Scene::FromFile(folder + "/" + job.scene);
+  scene.AddMaterial("load", {{"model", "metallic_roughness"}, {"base_color", {0.2, 0.4, 0.6}}});
+  scene.AddSphere({0, 100, 0}, 0.5, "load");
+  nacre::RenderSettings settings;
+  settings.width = 32;
+  settings.height = 18;
+  settings.samples = job.samples;
+  settings.max_error = job.max_error;
+  settings.threads = job.threads;
+  settings.intersector = job.intersector;
+  // Layers that come and go do not change the picture.
+  if (turn % 2 == 1) settings.layers = {"N", "Z", "diffuse"};
+  return nacre::Render(scene, settings);
+}
+
+// Writes, reads back and compares, as a service that hands files out.
+void RoundTrip(const nacre::Image& image, const std::string& path) {
+  nacre::WriteSettings settings;
+  settings.half_floats = false;
+  nacre::Write(image, path, settings);
+  if (!nacre::Compare(nacre::Read(path), image).match) Fail("a file is not what was written");
+}
+
+void RefuseFaulty() {
+  try {
+    nacre::Scene::FromJson(R"({"nacre": 1, "shapes": [{"type": "cube"}, {"type": "sphere"}]})")
+        .Check();
+  } catch (const nacre::Error&) {
+    return;
+  }
+  Fail("a faulty scene was not refused");
+}
+
+// Resident memory before the first render, after the warm-up, and at ten points from there on.
+struct Memory {
+  long at_start = 0, warm = 0;
+  std::vector<long> later;
+};
+
+Memory Run(const std::string& folder, int renders) {
+  const std::string path =
+      (std::filesystem::temp_directory_path() / ("nacre_load_" + std::to_string(getpid()) + ".exr"))
+          .string();
+  constexpr int kKinds = static_cast<int>(std::size(kJobs));
+  std::vector<std::vector<float>> first(kKinds);
+  Memory memory;
+  memory.at_start = ResidentKib();
+  for (int i = 0; i < renders; ++i) {
+    const auto kind = static_cast<size_t>(i % kKinds);
+    const nacre::Image image = RenderJob(folder, kJobs[kind], i / kKinds);
+    const std::vector<float>& green = image.Find("G")->samples;
+    if (first[kind].empty()) first[kind] = green;
+    if (green != first[kind]) Fail(std::string(kJobs[kind].scene) + " changed between renders");
+    if (i % 10 == 0) RoundTrip(image, path);
+    if (i % 10 == 5) RefuseFaulty();
+    const int done = i + 1;
+    if (done == kWarmUp) memory.warm = ResidentKib();
+    if (done > kWarmUp && (done - kWarmUp) * 10 % (renders - kWarmUp) < 10) {
+      memory.later.push_back(ResidentKib());
+    }
+  }
+  std::filesystem::remove(path);
+  return memory;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int renders = argc == 3 ? std::atoi(argv[2]) : 0;
+  if (renders <= kWarmUp) {
+    Fail("usage: nacre_load SCENES_FOLDER RENDERS, more than " + std::to_string(kWarmUp));
+  }
+  try {
+    const Memory memory = Run(argv[1], renders);
+    std::printf("%d renders; resident KiB: %ld at the start, %ld after %d, then", renders,
+                memory.at_start, memory.warm, kWarmUp);
+    for (const long kib : memory.later) std::printf(" %ld", kib);
+    const long growth = memory.later.back() - memory.warm;
+    std::printf("\ngrowth %ld KiB, %ld allowed\n", growth, kMaxGrowthKib);
+    return memory.warm > 0 && growth <= kMaxGrowthKib ? 0 : 1;
+  } catch (const nacre::Error& error) {
+    Fail(error.what());
+  }
+}
