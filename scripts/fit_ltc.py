@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Fits linearly transformed cosines to the GGX lobe, and writes src/light/ltc_{one,schlick}.inc.
+"""Fits linearly transformed cosines to the GGX lobe, and writes src/light/ltc_{one,schlick}.h.
 
 Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed
 Cosines": the lobe, seen from one direction and with all of its light's reflections counted as one,
@@ -180,21 +180,35 @@ def fit_row(roughness, power):
     return row, errors
 
 
-def write(path, power, curve):
-    rows, errors = zip(*[fit_row(r, power) for r in ROUGHNESSES])
-    errors = np.array(errors)
-    told = f"{100 * np.median(errors):.1f} % in the median, {100 * errors.max():.1f} % at worst"
+def header(name, array, curve, rows, told):
+    """The table as a header."""
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
-        f"// light/{path.name}: written by scripts/fit_ltc.py. Of each roughness, by views, the inverse",
-        f"// matrix's four numbers that are neither 0 nor 1, for {curve}.",
-        f"// Light that the fits have elsewhere than the lobe has it: {told}.",
+        f"// light/{name}: written by scripts/fit_ltc.py, for light/ltc.cc alone: of each roughness,",
+        f"// by views, LtcNumbers for {curve}.",
+        "//",
+        f"// Light that the fits have elsewhere: {told}.",
+        "#pragma once",
+        "",
+        '#include "light/ltc.h"',
+        "",
+        "namespace nacre {",
+        "",
         "// clang-format off",
+        f"inline constexpr LtcRow {array}[kLtcRoughnesses] = {{",
     ]
     for row in rows:
         cells = ["{" + ", ".join(f"{float(x):.6e}f" for x in cell) + "}" for cell in row]
         lines.append("{{" + ",\n  ".join(cells) + "}},")
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    lines += ["};", "// clang-format on", "", "}  // namespace nacre"]
+    return "\n".join(lines) + "\n"
+
+
+def write(path, power, array, curve):
+    rows, errors = zip(*[fit_row(r, power) for r in ROUGHNESSES])
+    errors = np.array(errors)
+    told = f"{100 * np.median(errors):.1f} % in the median, {100 * errors.max():.1f} % at worst"
+    path.write_text(header(path.name, array, curve, rows, told), encoding="utf-8")
     print(f"{path.name}: {told}", flush=True)
 
 
@@ -203,8 +217,8 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     parser.add_argument("-o", "--output", type=pathlib.Path, default=root / "src/light")
     folder = parser.parse_args().output
-    write(folder / "ltc_one.inc", 0, "F = 1")
-    write(folder / "ltc_schlick.inc", 5, "F = (1 - v.h)^5")
+    write(folder / "ltc_one.h", 0, "kLtcOne", "F = 1")
+    write(folder / "ltc_schlick.h", 5, "kLtcSchlick", "F = (1 - v.h)^5")
 
 
 if __name__ == "__main__":

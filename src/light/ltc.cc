@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/ltc.h"
 
+#include "light/ltc_one.h"
+#include "light/ltc_schlick.h"
+
 namespace nacre {
-namespace {
-
-constexpr LtcRow kOne[kLtcRoughnesses] = {
-#include "light/ltc_one.inc"
-};
-constexpr LtcRow kSchlick[kLtcRoughnesses] = {
-#include "light/ltc_schlick.inc"
-};
-
-}  // namespace
 
 LtcRows MakeLtcRows(double roughness) {
   const double at =
@@ -21,8 +14,8 @@ LtcRows MakeLtcRows(double roughness) {
   const auto t = static_cast<float>(at - static_cast<double>(i));
   LtcRows rows;
   for (size_t k = 0; k < kLtcViews; ++k) {
-    rows.one[k] = Blend(kOne[i][k], kOne[i + 1][k], t);
-    rows.schlick[k] = Blend(kSchlick[i][k], kSchlick[i + 1][k], t);
+    rows.one[k] = Blend(kLtcOne[i][k], kLtcOne[i + 1][k], t);
+    rows.schlick[k] = Blend(kLtcSchlick[i][k], kLtcSchlick[i + 1][k], t);
   }
   return rows;
 }

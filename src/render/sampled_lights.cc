@@ -222,14 +222,13 @@ bool HasAnyFastLobe(const SampledLight& light, const ShadingMaterial& material) 
   return HasFastLobe(light, material) || HasTransformedLobe(light, material);
 }
 
-// Which hits' lobes are in the light's fast mode: where all of it is seen. Returns whether any is
-// left to be sampled.
+// Which hits' lobes are in the light's fast mode. Returns whether any is left to be sampled.
 bool FindFast(const Lit& lit) {
   bool sampled = false;
   for (const MaterialRun& run : lit.s.runs) {
     const ShadingMaterial& material = lit.MaterialOf(run);
-    const bool has_lobe = HasSampledLobe(material);
-    const bool fast = lit.planned.closed_form && HasAnyFastLobe(lit.planned.light, material);
+    const bool fast = lit.planned.closed_form && HasAnyFastLobe(lit.planned.light, material),
+               has_lobe = HasSampledLobe(material);
     for (size_t i = run.begin; i < run.end; ++i) {
       lit.c.fast[i] = fast && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
       sampled = sampled || (has_lobe && lit.c.fast[i] == 0);
@@ -315,15 +314,18 @@ void AddByMirror(const Lit& lit) {
   lit.clock->Charge(Stage::kShade);
 }
 
+bool AnyOf(const AlignedArray<uint8_t>& flags, size_t count) {
+  return std::find(flags.data(), flags.data() + count, uint8_t{1}) != flags.data() + count;
+}
+
 void ShadeByOne(const Lit& lit) {
   bool mirrors = false;
   for (const MaterialRun& run : lit.s.runs) {
     mirrors = mirrors || HasDeltaLobe(lit.MaterialOf(run));
   }
   const bool sampled_diffuse = !FindFlat(lit), lobes = FindFast(lit);
-  if (lit.planned.closed_form) AddClosedForm(lit);
-  const SampledLight& light = lit.planned.light;
-  if (light.sky.fast != nullptr || light.transformed_cosines) AddFastLobes(lit);
+  if (AnyOf(lit.c.flat, lit.count())) AddClosedForm(lit);
+  if (AnyOf(lit.c.fast, lit.count())) AddFastLobes(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
     AddByLight(lit, {sampled_diffuse, lobes});
   }

@@ -147,7 +147,7 @@ class CliTest(unittest.TestCase):
         self.assertEqual((lobes['light'], lobes['method']), ('sky', 'split sum'))
         self.assertTrue(0 < lobes['rms_error'] < lobes['worst_error'])
         self.assertIn('nacre:fastLights', run('info', self.out / 'a.exr').stdout)
-        told = self.render(*options, '--set', '/lights/sky/mode=fast', scene=sky).stdout
+        told = self.render(*options, '--set', '/lights/sky/mode="fast"', scene=sky).stdout
         self.assertIn('by split sum', told)
         told = self.render(*options, '--fast', scene=str(SOURCE / 'scenes/fast_area.json')).stdout
         self.assertIn('by linearly transformed cosines', told)

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/ltc_one.inc: written by scripts/fit_ltc.py. Of each roughness, by views, the inverse
-// matrix's four numbers that are neither 0 nor 1, for F = 1.
-// Light that the fits have elsewhere than the lobe has it: 3.2 % in the median, 45.0 % at worst.
+// light/ltc_one.h: written by scripts/fit_ltc.py, for light/ltc.cc alone: of each roughness,
+// by views, LtcNumbers for F = 1.
+//
+// Light that the fits have elsewhere: 3.2 % in the median, 45.0 % at worst.
+#pragma once
+
+#include "light/ltc.h"
+
+namespace nacre {
+
 // clang-format off
+inline constexpr LtcRow kLtcOne[kLtcRoughnesses] = {
 {{{1.000000e+00f, 5.747261e-18f, -1.149452e-19f, 2.000000e-02f},
   {9.979255e-01f, 4.556311e-02f, -9.109770e-04f, 1.995725e-02f},
   {9.921898e-01f, 9.080504e-02f, -1.815291e-03f, 1.983770e-02f},
@@ -611,3 +619,7 @@
   {1.000142e+00f, 6.246279e-05f, -1.391105e-04f, 1.389902e+00f},
   {9.995136e-01f, 1.749127e-03f, -2.651876e-03f, 1.481073e+00f},
   {1.000426e+00f, 1.747732e-04f, -3.521752e-04f, 1.701262e+00f}}},
+};
+// clang-format on
+
+}  // namespace nacre

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/ltc_schlick.inc: written by scripts/fit_ltc.py. Of each roughness, by views, the inverse
-// matrix's four numbers that are neither 0 nor 1, for F = (1 - v.h)^5.
-// Light that the fits have elsewhere than the lobe has it: 18.3 % in the median, 443.2 % at worst.
+// light/ltc_schlick.h: written by scripts/fit_ltc.py, for light/ltc.cc alone: of each roughness,
+// by views, LtcNumbers for F = (1 - v.h)^5.
+//
+// Light that the fits have elsewhere: 18.3 % in the median, 443.2 % at worst.
+#pragma once
+
+#include "light/ltc.h"
+
+namespace nacre {
+
 // clang-format off
+inline constexpr LtcRow kLtcSchlick[kLtcRoughnesses] = {
 {{{1.000000e+00f, 1.650405e-15f, -4.546351e-17f, 2.754688e-02f},
   {1.047545e+00f, -1.416815e-01f, -7.904198e-03f, 4.222757e-02f},
   {1.134851e+00f, -3.602867e-01f, -1.511641e-02f, 7.266932e-02f},
@@ -611,3 +619,7 @@
   {4.760160e-01f, 1.721809e+00f, -4.845228e-01f, 2.036823e-01f},
   {4.441491e-01f, 1.746923e+00f, -4.772706e-01f, 1.911920e-01f},
   {3.436862e-01f, 1.836072e+00f, -4.559327e-01f, 1.649741e-01f}}},
+};
+// clang-format on
+
+}  // namespace nacre
