@@ -79,7 +79,7 @@ Plot FalloffPlot(const std::vector<Light>& lights) {
   constexpr int kDecades = 3;
   Plot plot;
   plot.x = {.label = "distance from the light's centre (world units)", .log = true};
-  plot.y = {.label = "irradiance of a surface that faces the light (radiance · sr)", .log = true};
+  plot.y = {.label = "irradiance facing the light (radiance · sr)", .log = true};
   for (const Light& light : lights) {
     Curve curve;
     curve.title = light.name;
