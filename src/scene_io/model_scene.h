@@ -24,8 +24,8 @@ void AddStudioLights(Scene* scene);
 
 // Gives the scene of a model the overrides, a camera unless it has one, and light if it has none.
 // Overrides work as in scene files, on camera, image, lights, background, textures, and parameters
-// and maps of the materials that there are. Throws Error: kBadInput for values out of range and names that mean
-// nothing, kUsage for overrides that cannot be made.
+// and maps of the materials that there are. Throws Error: kBadInput for values out of range and
+// names that mean nothing, kUsage for overrides that cannot be made.
 void CompleteModelScene(const LoadOptions& options, const std::string& file, bool has_camera,
                         Scene* scene);
 
