@@ -87,23 +87,21 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   // early, and a consumer that wants them in order has little to keep.
   std::atomic<size_t> next{0};
   static const char begun = 0;
+  const auto work = [&](int) {
+    TakeOver(&begun);
+    const FlushDenormals flush;
+    for (size_t i = next++; i < count; i = next++) {
+      try {
+        body(i);
+      } catch (...) {
+        next = count;  // no worker begins another
+        throw;
+      }
+    }
+  };
   HandOver(&begun);
   ArenaOf(ThreadCount(threads)).execute([&] {
-    tbb::parallel_for(
-        0, ThreadCount(threads),
-        [&](int) {
-          TakeOver(&begun);
-          const FlushDenormals flush;
-          for (size_t i = next++; i < count; i = next++) {
-            try {
-              body(i);
-            } catch (...) {
-              next = count;  // no worker begins another
-              throw;
-            }
-          }
-        },
-        tbb::simple_partitioner());
+    tbb::parallel_for(0, ThreadCount(threads), work, tbb::simple_partitioner());
   });
   TakeOver(&next);  // each worker's last next++ is a release of it
 }

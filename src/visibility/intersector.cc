@@ -49,6 +49,7 @@ void SphereBounds(const RTCBoundsFunctionArguments* args) {
   const auto& [center, radius] = geometry.spheres[args->primID];
   SetBounds(center - Vec3d(radius), center + Vec3d(radius),
             BoundsMargin(geometry, center.length() + radius), args->bounds_o);
+  HandOver(args->geometryUserPtr);
 }
 
 void TriangleBounds(const RTCBoundsFunctionArguments* args) {
@@ -66,6 +67,7 @@ void TriangleBounds(const RTCBoundsFunctionArguments* args) {
     reach = std::max(reach, position.length());
   }
   SetBounds(lower, upper, BoundsMargin(geometry, reach), args->bounds_o);
+  HandOver(args->geometryUserPtr);
 }
 
 void Attach(RTCDevice device, RTCScene scene, TraceGeometry* geometry, size_t count,
@@ -118,6 +120,7 @@ ScenePointer Intersector::State::Build(bool with_spheres) {
          TriangleCallbacks());
   HandOver(&geometry);
   WithThreads(settings.threads, [&] { rtcJoinCommitScene(built.get()); });
+  TakeOver(&geometry);
   device->ThrowIfFailed();
   return built;
 }
