@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/vertex_colors_test.cc: meshes that bring colours and second texture coordinates.
 #include <cmath>
-#include <cstring>
 #include <memory>
 
-#include "catch.h"
+#include "pictures.h"
 #include "render/render.h"
 
 namespace nacre {
@@ -35,14 +34,6 @@ Image Render(const Scene& scene) {
   RenderSettings settings;
   settings.layers = {"P", "albedo", "emission", "diffuse"};
   return RenderImage(scene, settings);
-}
-
-bool SameBits(const Image& a, const Image& b) {
-  for (const char* channel : {"R", "G", "B"}) {
-    const std::vector<float>& x = a.Find(channel)->samples;
-    if (std::memcmp(x.data(), b.Find(channel)->samples.data(), 4 * x.size()) != 0) return false;
-  }
-  return true;
 }
 
 // Affine over the square, and so between its corners: red along x, green along y, blue of neither.
