@@ -23,7 +23,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string image, reference;
   CompareOptions options;
   Tolerances tolerances;
@@ -68,7 +68,7 @@ void PrintPerceptual(const std::vector<PerceptualMetrics>& all) {
   }
 }
 
-int RunCompare(const Arguments& arguments) {
+int RunCompare(const CompareArguments& arguments) {
   if (!arguments.heat_map.empty()) {
     CheckPngPath(arguments.heat_map);
     CheckPathsDiffer({arguments.image, arguments.heat_map});
@@ -107,7 +107,7 @@ int RunCompare(const Arguments& arguments) {
 void AddCompareCommand(CLI::App* app, int* exit_code) {
   CLI::App* command = app->add_subcommand(
       "compare", "Compare an image with a reference: metrics per layer, a verdict, a heat map");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<CompareArguments>();
   command->add_option("IMAGE", a->image, "Image to judge")->required();
   command->add_option("REFERENCE", a->reference, "What it should be")->required();
   command

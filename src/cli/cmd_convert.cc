@@ -22,7 +22,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct ConvertArguments {
   std::string material;
   std::string to = "metallic_roughness";
   std::vector<std::string> curves;  // files
@@ -64,7 +64,7 @@ std::string Table(const MaterialFit& fit) {
 }
 
 // Options that say how a picture looks mean nothing where none is drawn.
-void RefuseWhatCannotApply(const Arguments& arguments, const CLI::App& command) {
+void RefuseWhatCannotApply(const ConvertArguments& arguments, const CLI::App& command) {
   if (!arguments.options.outputs.empty()) {
     RefuseWhatNoDifferencePageTakes(command, "nacre convert");
     return;
@@ -76,8 +76,8 @@ void RefuseWhatCannotApply(const Arguments& arguments, const CLI::App& command) 
       "nacre convert without a picture", "-o FILE.png draws original, conversion and difference");
 }
 
-void DrawCurves(const Arguments& arguments, const Material& original, const std::string& label,
-                const MaterialFit& fit) {
+void DrawCurves(const ConvertArguments& arguments, const Material& original,
+                const std::string& label, const MaterialFit& fit) {
   if (arguments.curves.empty()) return;
   const Figure figure = LobeFigure({{label, original},
                                     {arguments.to + ", closed form", fit.guess},
@@ -85,7 +85,7 @@ void DrawCurves(const Arguments& arguments, const Material& original, const std:
   for (const std::string& path : arguments.curves) WriteFigure(path, figure);
 }
 
-void CheckFiles(const Arguments& arguments) {
+void CheckFiles(const ConvertArguments& arguments) {
   std::vector<std::string> paths = arguments.options.outputs;
   for (const std::string& path : arguments.curves) {
     CheckFigurePath(path);
@@ -96,7 +96,7 @@ void CheckFiles(const Arguments& arguments) {
 }
 
 // The page with both materials and their difference; null if there is none.
-Json DrawPage(const Arguments& arguments, const Json& given, const Material& original,
+Json DrawPage(const ConvertArguments& arguments, const Json& given, const Material& original,
               const MaterialFit& fit) {
   if (arguments.options.outputs.empty()) return {};
   const Json fitted = MaterialJson(fit.fitted);
@@ -113,7 +113,7 @@ Json DrawPage(const Arguments& arguments, const Json& given, const Material& ori
   return DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
 }
 
-void RunConvert(const Arguments& arguments, const CLI::App& command) {
+void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
   RefuseWhatCannotApply(arguments, command);
   CheckFiles(arguments);
   const Json given = ParseMaterialText("MATERIAL", arguments.material);
@@ -144,7 +144,7 @@ void RunConvert(const Arguments& arguments, const CLI::App& command) {
 void AddConvertCommand(CLI::App* app, int*) {
   CLI::App* command =
       app->add_subcommand("convert", "Find the nearest material of another model: Phong <-> PBR");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("MATERIAL", arguments->material, "A model's name, or a material as JSON")
       ->required();
   std::vector<std::string> targets(FitTargets().begin(), FitTargets().end());

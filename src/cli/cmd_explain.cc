@@ -126,11 +126,11 @@ void ExplainTextbook(const std::string& folder) {
 
 void AddExplainCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("explain", "Explain a topic, with measured numbers");
-  struct Arguments {
+  struct ExplainArguments {
     std::string topic;
     std::string folder;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ExplainArguments>();
   command
       ->add_option("TOPIC", arguments->topic,
                    "textbook: the faults of the founding lesson's shading program, each with what "

@@ -17,7 +17,7 @@ namespace {
 
 using Kind = SheetAxis::Kind;
 
-struct Arguments {
+struct GridArguments {
   std::string rows = "roughness=0.1:0.9:5";
   std::string columns = "metallic=0:1:5";
   std::string material = R"({"model": "metallic_roughness", "base_color": [0.9, 0.6, 0.2]})";
@@ -31,7 +31,7 @@ struct Axes {
   std::string material_label;
 };
 
-Axes ParseAxes(const Arguments& arguments) {
+Axes ParseAxes(const GridArguments& arguments) {
   Axes axes;
   axes.rows = ParseSheetAxis("--rows", arguments.rows);
   axes.columns = ParseSheetAxis("--columns", arguments.columns);
@@ -124,7 +124,7 @@ SheetText MakeText(const Axes& axes, const SheetOptions& sheet, const Lighting& 
   return text;
 }
 
-void RunGrid(const Arguments& arguments) {
+void RunGrid(const GridArguments& arguments) {
   const RenderOptions& options = arguments.options;
   const Axes axes = ParseAxes(arguments);
   const auto rows = static_cast<int>(axes.rows.values.size());
@@ -154,7 +154,7 @@ constexpr char kAxisHelp[] =
 void AddGridCommand(CLI::App* app, int*) {
   CLI::App* command =
       app->add_subcommand("grid", "Render a sheet of spheres over two parameters of a material");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<GridArguments>();
   command->add_option("--rows", arguments->rows, fmt::format(kAxisHelp, "downwards"))
       ->type_name("AXIS")
       ->capture_default_str();

@@ -92,11 +92,11 @@ void PrintBuild() {
 void AddInfoCommand(CLI::App* app, int*) {
   CLI::App* command =
       app->add_subcommand("info", "Show what image and scene files hold; alone, about this build");
-  struct Arguments {
+  struct InfoArguments {
     std::vector<std::string> files;
     bool allow_paths = false;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<InfoArguments>();
   command->add_option(
       "FILE", arguments->files,
       "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");

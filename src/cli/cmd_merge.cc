@@ -19,7 +19,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct MergeArguments {
   std::vector<std::string> tiles;
   std::vector<std::string> outputs;
   std::string tonemap = "neutral";
@@ -31,7 +31,7 @@ struct Arguments {
 // The files being made, which tiles go into from the top down.
 class MergedFiles {
  public:
-  MergedFiles(const Arguments& arguments, const ExrBandHeader& whole) : whole_(whole) {
+  MergedFiles(const MergeArguments& arguments, const ExrBandHeader& whole) : whole_(whole) {
     display_.tone = ParseToneOperator(arguments.tonemap);
     display_.exposure_ev = arguments.exposure;
     const auto& attributes = whole.header.attributes;
@@ -108,7 +108,7 @@ class MergedFiles {
   uint64_t nan_pixels_ = 0;
 };
 
-void RunMerge(const Arguments& arguments) {
+void RunMerge(const MergeArguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
   CheckPicturePaths(arguments.outputs);
   std::vector<std::string> paths = arguments.outputs;
@@ -142,7 +142,7 @@ void RunMerge(const Arguments& arguments) {
 
 void AddMergeCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("merge", "Put the tiles of a picture together");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<MergeArguments>();
   command
       ->add_option("TILE", arguments->tiles, "EXR files of nacre render --tile i/N, in any order")
       ->required();

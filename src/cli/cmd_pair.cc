@@ -17,7 +17,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct PairArguments {
   // The same red plastic twice: shininess 2 / alpha^2 - 2 for roughness 0.4, ks = F0.
   std::string a = R"({"model": "phong", "color": [0.8, 0.2, 0.2], "kd": 0.96, "ks": 0.04, )"
                   R"("ka": 0.96, "shininess": 19})";
@@ -48,19 +48,19 @@ Side ReadSide(const std::string& option, const std::string& text) {
   return side;
 }
 
-std::string Title(const Arguments& arguments, const Side& a, const Side& b) {
+std::string Title(const PairArguments& arguments, const Side& a, const Side& b) {
   if (arguments.sheet.title == "-") return {};
   if (!arguments.sheet.title.empty()) return arguments.sheet.title;
   return fmt::format("{} and {}", a.label, b.label);
 }
 
-std::vector<std::string> Footer(const Arguments& arguments, const Side& a, const Side& b) {
+std::vector<std::string> Footer(const PairArguments& arguments, const Side& a, const Side& b) {
   return {"A  " + DescribeMaterial(a.complete), "B  " + DescribeMaterial(b.complete),
           "light: " + MakeLighting(arguments.sheet.lighting, 0.5).label};
 }
 
 // Both on one page, by the job behind all renders.
-void RenderBoth(const Arguments& arguments, const Side& a, const Side& b) {
+void RenderBoth(const PairArguments& arguments, const Side& a, const Side& b) {
   const RenderOptions& options = arguments.options;
   const bool split = arguments.layout == "split";
   const Lighting lighting = MakeLighting(arguments.sheet.lighting, split ? 0.5 : 1, split);
@@ -102,7 +102,7 @@ void RenderBoth(const Arguments& arguments, const Side& a, const Side& b) {
       page.text);
 }
 
-void Report(const Arguments& arguments, const Side& a, const Side& b,
+void Report(const PairArguments& arguments, const Side& a, const Side& b,
             const DifferenceMeasures* measures) {
   if (arguments.json) {
     Json json = {{"a", a.complete}, {"b", b.complete}};
@@ -118,7 +118,7 @@ void Report(const Arguments& arguments, const Side& a, const Side& b,
   }
 }
 
-void RunPair(const Arguments& arguments, const CLI::App& command) {
+void RunPair(const PairArguments& arguments, const CLI::App& command) {
   const Side a = ReadSide("--a", arguments.a);
   const Side b = ReadSide("--b", arguments.b);
   if (arguments.layout != "difference") {
@@ -138,7 +138,7 @@ void RunPair(const Arguments& arguments, const CLI::App& command) {
 
 void AddPairCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("pair", "Render two materials under the same light");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PairArguments>();
   command->add_option("--a", arguments->a, "Left material: a model's name or JSON")
       ->capture_default_str();
   command->add_option("--b", arguments->b, "Right material: a model's name or JSON")

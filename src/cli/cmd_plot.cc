@@ -25,7 +25,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct PlotArguments {
   std::string kind;
   std::vector<std::string> outputs;
   PlotInputs inputs;
@@ -55,7 +55,7 @@ void Require(const std::vector<NamedMaterial>& materials, bool (*has)(const Shad
 }
 
 // What the numbers are of.
-CurveOptions Complete(const Arguments& arguments) {
+CurveOptions Complete(const PlotArguments& arguments) {
   CurveOptions options = arguments.curves;
   options.channel = ParseChannel(arguments.channel);
   if (options.angles_deg.empty()) options.angles_deg = {45};
@@ -65,45 +65,45 @@ CurveOptions Complete(const Arguments& arguments) {
 // The panels of a figure.
 using Plots = std::vector<Plot>;
 
-Plots DrawBrdf(const Arguments& a) {
+Plots DrawBrdf(const PlotArguments& a) {
   return {BrdfPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
 }
 
-Plots DrawPolar(const Arguments& a) {
+Plots DrawPolar(const PlotArguments& a) {
   return {PolarPlot(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a))};
 }
 
-Plots DrawSlice(const Arguments& a) {
+Plots DrawSlice(const PlotArguments& a) {
   return SlicePlots(ReadPlotMaterials(a.inputs, DefaultModels()), Complete(a).channel);
 }
 
-Plots DrawDistribution(const Arguments& a) {
+Plots DrawDistribution(const PlotArguments& a) {
   const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultDistributions());
   Require(materials, HasDistribution, "distribution of normals",
           "blinn_phong and the models with a roughness above 0 have one");
   return {DistributionPlot(materials)};
 }
 
-Plots DrawMasking(const Arguments& a) {
+Plots DrawMasking(const PlotArguments& a) {
   const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultMaskings());
   Require(materials, HasMasking, "masking", "the models with a roughness have one");
   return {MaskingPlot(materials)};
 }
 
-Plots DrawFresnel(const Arguments& a) {
+Plots DrawFresnel(const PlotArguments& a) {
   const std::vector<NamedMaterial> materials = ReadPlotMaterials(a.inputs, DefaultInterfaces());
   Require(materials, HasFresnel, "Fresnel term", "the models with a roughness have one");
   return {FresnelPlot(materials, Complete(a).channel)};
 }
 
-Plots DrawAlbedo(const Arguments& a) {
+Plots DrawAlbedo(const PlotArguments& a) {
   return {AlbedoPlot(ReadPlotMaterials(a.inputs, DefaultAlbedos()),
                      a.one_light ? ShareOf::kOneLight : ShareOf::kFurnace, Complete(a).channel)};
 }
 
-Plots DrawTone(const Arguments& a) { return {TonePlot(a.exposure)}; }
+Plots DrawTone(const PlotArguments& a) { return {TonePlot(a.exposure)}; }
 
-Plots DrawFalloff(const Arguments& a) {
+Plots DrawFalloff(const PlotArguments& a) {
   const std::vector<Light> lights = ReadPlotLights(a.inputs, DefaultLights());
   for (const Light& light : lights) {
     if (!HasFalloff(light)) {
@@ -115,13 +115,13 @@ Plots DrawFalloff(const Arguments& a) {
   return {FalloffPlot(lights)};
 }
 
-struct Kind {
+struct PlotKind {
   const char* name;
   const char* help;
-  Plots (*draw)(const Arguments&);
+  Plots (*draw)(const PlotArguments&);
   std::set<std::string> options;  // that it takes, besides those of all kinds
 };
-const std::vector<Kind> kKinds = {
+const std::vector<PlotKind> kPlotKinds = {
     {"brdf",
      "the BRDF over the light's angle in the plane of incidence",
      DrawBrdf,
@@ -149,11 +149,11 @@ const std::vector<Kind> kKinds = {
 };
 
 // Materials and lights may come from a scene.
-bool TakesScene(const Kind& kind) {
+bool TakesScene(const PlotKind& kind) {
   return kind.options.contains("--material") || kind.options.contains("--light");
 }
 
-void RefuseWhatCannotApply(const Kind& kind, const CLI::App& command) {
+void RefuseWhatCannotApply(const PlotKind& kind, const CLI::App& command) {
   static const std::set<std::string> kOfAll = {"KIND", "--output", "--title", "--size"};
   static const std::set<std::string> kOfScenes = {"--scene", "--allow-paths"};
   RefuseOptions(
@@ -167,9 +167,9 @@ void RefuseWhatCannotApply(const Kind& kind, const CLI::App& command) {
       fmt::format("of its own it takes {}", fmt::join(kind.options, ", ")));
 }
 
-const Kind& FindKind(const std::string& name) {
+const PlotKind& FindKind(const std::string& name) {
   std::vector<std::string> names;
-  for (const Kind& kind : kKinds) {
+  for (const PlotKind& kind : kPlotKinds) {
     if (name == kind.name) return kind;
     names.emplace_back(kind.name);
   }
@@ -195,8 +195,8 @@ Figure Arrange(Plots plots, const std::string& title) {
   return figure;
 }
 
-void RunPlot(const Arguments& arguments, const CLI::App& command) {
-  const Kind& kind = FindKind(arguments.kind);
+void RunPlot(const PlotArguments& arguments, const CLI::App& command) {
+  const PlotKind& kind = FindKind(arguments.kind);
   RefuseWhatCannotApply(kind, command);
   std::vector<std::string> paths = arguments.outputs;
   for (const std::string& path : paths) {
@@ -215,12 +215,12 @@ void RunPlot(const Arguments& arguments, const CLI::App& command) {
 
 std::string KindHelp() {
   std::string help;
-  for (const Kind& kind : kKinds)
+  for (const PlotKind& kind : kPlotKinds)
     help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", kind.name, kind.help);
   return help;
 }
 
-void AddPlotOptions(CLI::App* command, Arguments* a) {
+void AddPlotOptions(CLI::App* command, PlotArguments* a) {
   command->add_option("KIND", a->kind, KindHelp())->required();
   command->add_option("-o,--output", a->outputs, "File to write, .svg, .png or .csv; repeatable")
       ->required()
@@ -240,7 +240,7 @@ void AddPlotOptions(CLI::App* command, Arguments* a) {
       ->allow_extra_args(false);
 }
 
-void AddCurveOptions(CLI::App* command, Arguments* a) {
+void AddCurveOptions(CLI::App* command, PlotArguments* a) {
   command
       ->add_option("--angle", a->curves.angles_deg,
                    "Degrees from the normal: of the viewer (brdf) or the light (polar); several by "
@@ -274,7 +274,7 @@ void AddCurveOptions(CLI::App* command, Arguments* a) {
 void AddPlotCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand(
       "plot", "Draw reflection models, lights and tone operators as curves (SVG, PNG, CSV)");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<PlotArguments>();
   AddPlotOptions(command, arguments.get());
   AddCurveOptions(command, arguments.get());
   command->footer(

@@ -12,12 +12,12 @@ namespace nacre {
 
 void AddRenderCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("render", "Render a scene file to EXR and PNG");
-  struct Arguments {
+  struct RenderArguments {
     std::string scene;
     std::string preset;
     RenderOptions options;
   };
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RenderArguments>();
   command
       ->add_option("SCENE", arguments->scene,
                    "Scene file (.json) or model (.gltf, .glb, .obj, .ply)")

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Arguments {
+struct ReportArguments {
   std::string output;
   std::vector<std::string> inputs;
   std::string reference;
@@ -36,7 +36,7 @@ struct Pictures {
   size_t reference = 0;
 };
 
-Pictures ReadPictures(const Arguments& arguments) {
+Pictures ReadPictures(const ReportArguments& arguments) {
   Pictures pictures;
   std::vector<std::string> paths;
   for (const std::string& path : arguments.inputs) {
@@ -71,7 +71,7 @@ Pictures ReadPictures(const Arguments& arguments) {
   return pictures;
 }
 
-void CheckOutput(const Arguments& arguments) {
+void CheckOutput(const ReportArguments& arguments) {
   CheckReportPath(arguments.output);
   for (const std::string& input : arguments.inputs) {
     CheckPathsDiffer({arguments.output, input});
@@ -87,7 +87,7 @@ std::string DefaultTitle(const Pictures& pictures, const Json& sections) {
   return sections[0]["title"];
 }
 
-void RunReport(const Arguments& arguments) {
+void RunReport(const ReportArguments& arguments) {
   CheckOutput(arguments);
   ApplyTarget(arguments.render.target);
   const std::optional<PerceptualOptions> perceptual = MakePerceptualOptions(arguments.perceptual);
@@ -118,7 +118,7 @@ void RunReport(const Arguments& arguments) {
 void AddReportCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand(
       "report", "One HTML file to look at and pass on: pictures, comparisons, measurements");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ReportArguments>();
   a->perceptual.metrics = {"all"};
   command->add_option("OUT.html", a->output, "File to write; nothing else is needed to read it")
       ->required();

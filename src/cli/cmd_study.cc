@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct StudyArguments {
   std::string name;
   std::string folder;
   bool quiet = false;
@@ -132,7 +132,7 @@ const StudyEntry& FindStudy(const std::string& name) {
                               : fmt::format("did you mean \"{}\"?", nearest));
 }
 
-void Run(const Arguments& arguments) {
+void Run(const StudyArguments& arguments) {
   if (arguments.name == "list") return PrintList();
   const StudyEntry* const study = arguments.name == "all" ? nullptr : &FindStudy(arguments.name);
   if (arguments.folder.empty()) {
@@ -151,7 +151,7 @@ void Run(const Arguments& arguments) {
 void AddStudyCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand(
       "study", "Answer an exercise of the founding lesson with pictures, curves and numbers");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<StudyArguments>();
   std::string names;
   for (const StudyEntry& study : Studies()) names += fmt::format("{}, ", study.name);
   command->add_option("NAME", arguments->name, names + "all, or list to see what each asks")

@@ -19,7 +19,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct TonemapArguments {
   std::string input, output;
   std::string layer;
   std::string tonemap = "neutral";
@@ -39,7 +39,7 @@ const Channel& RequireChannel(const Image& image, const std::string& path,
                               : "did you mean \"" + nearest + "\"? nacre info lists them");
 }
 
-void RunTonemap(const Arguments& arguments) {
+void RunTonemap(const TonemapArguments& arguments) {
   // The size is known only after reading, but a path that cannot be written is told before.
   CheckPngPath(arguments.output);
   CheckPathsDiffer({arguments.input, arguments.output});
@@ -86,7 +86,7 @@ void RunTonemap(const Arguments& arguments) {
 
 void AddTonemapCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand("tonemap", "Tone-map a linear image (EXR) to a PNG");
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<TonemapArguments>();
   command->add_option("INPUT", arguments->input, "Linear image: EXR, HDR, ...")->required();
   command->add_option("-o,--output", arguments->output, "PNG file to write")->required();
   command->add_option("--layer", arguments->layer,

@@ -15,7 +15,7 @@
 namespace nacre {
 namespace {
 
-struct Arguments {
+struct ValidateArguments {
   std::string folder = "tests/references";
   std::string report;  // path; empty: none
   std::string target = "auto";
@@ -37,7 +37,7 @@ void PrintOutcome(const ReferenceOutcome& outcome) {
                        verdict.match ? outcome.reference.reason : verdict.reason));
 }
 
-ExitCode Validate(const Arguments& arguments) {
+ExitCode Validate(const ValidateArguments& arguments) {
   ApplyTarget(arguments.target);
   if (!arguments.report.empty()) CheckReportPath(arguments.report);
   constexpr size_t kLimit = size_t{64} << 20;  // bytes of samples, as nacre report has it
@@ -69,7 +69,7 @@ ExitCode Validate(const Arguments& arguments) {
 void AddValidateCommand(CLI::App* app, int* exit_code) {
   CLI::App* command = app->add_subcommand(
       "validate", "Render the scenes of a folder of references and compare with their images");
-  const auto a = std::make_shared<Arguments>();
+  const auto a = std::make_shared<ValidateArguments>();
   command->add_option("DIR", a->folder, "Folder with *.reference.json files")
       ->capture_default_str();
   command

@@ -65,23 +65,36 @@ class IncidentBlock {
       lv_squared_[kHits];
 };
 
+// The light of hits [begin, end). Not inlined, as it is the same for all models.
+inline HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
+                                   const RangeArrays& arrays, size_t begin, size_t end,
+                                   IncidentBlock* block) {
+  const FloatTag d;
+  VisitLight(d, light, hits, [&](const auto& known) HWY_ATTR {
+    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+      block->Store(d, i - begin, MakeIncident(d, known.At(d, i), arrays.Normal(d, i)));
+    }
+  });
+}
+
+// The angles of their half vectors.
+inline HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
+                                  IncidentBlock* block) {
+  const FloatTag d;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, i);
+    block->StoreHalf(d, i - begin,
+                     ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view));
+  }
+}
+
 template <class Model>
 HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& range,
                            const RangeArrays& arrays, size_t k, size_t begin, size_t end,
                            IncidentBlock* block) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
-  VisitLight(d, range.lights[k], range.hits, [&](const auto& light) HWY_ATTR {
-    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-      block->Store(d, i - begin, MakeIncident(d, light.At(d, i), arrays.Normal(d, i)));
-    }
-  });
-  if constexpr (kHalf) {
-    for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-      const PacketV p = arrays.Packet(d, i);
-      block->StoreHalf(d, i - begin,
-                       ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view));
-    }
-  }
+  FillLight(range.lights[k], range.hits, arrays, begin, end, block);
+  if constexpr (kHalf) FillHalf(arrays, begin, end, block);
   ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
     if constexpr (kHalf) {
       return HalfIncidentV{block->Load(d, p.i - begin), block->LoadHalf(d, p.i - begin)};
