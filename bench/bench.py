@@ -99,6 +99,7 @@ def main():
         results = json.loads(file.read_text())
     else:
         results = measure(arguments.build, sizes, arguments.summary)
+        results["command"] = "scripts/bench" + (" --quick" if arguments.quick else "")
     results["summary"], results["not_measured"] = summary.headlines(results)
     file.write_text(json.dumps(results, indent=1))
     if not arguments.summary:

@@ -30,7 +30,7 @@ def markdown(results):
     by_model = {}
     for model, _, target, ns, rate, ratio, _ in rows:
         by_model.setdefault(model, {})[target] = (ns, rate, ratio)
-    lines = [f"Measured by `scripts/bench`: {machine.line(results['machine'])}.", "",
+    lines = [f"Measured by `{results['command']}`: {machine.line(results['machine'])}.", "",
              f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}.", "",
              f"| kernel | {best}, ns | million/s | times plain | of port bound | avx2, ns |",
              "|---|---|---|---|---|---|"]
