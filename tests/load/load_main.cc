@@ -10,9 +10,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include "nacre.h"
@@ -21,9 +23,10 @@ namespace {
 
 // Renders after which threads, allocators and Embree have filled their stores.
 constexpr int kWarmUp = 400;
-// What memory may grow by after that: a leak of 7 KiB a render, which one was, makes 64 MiB of
-// 10 000; the allocators' ups and downs were measured to stay below 1 MiB.
-constexpr long kMaxGrowthKib = 2048;
+// What memory may grow by after that, the least of the last five of ten points. Measured: 44 KiB in
+// 1000 renders; in 10 000 the heap's gaps take 3 MiB in the first half and no more in the second. A
+// leak of 1 KiB a render would make 9 MiB of these.
+constexpr long kMaxGrowthKib = 4096;
 
 struct Job {
   const char* scene;
@@ -42,6 +45,7 @@ constexpr Job kJobs[] = {
 };
 
 long ResidentKib() {
+  malloc_trim(0);  // what is free is no leak
   std::FILE* const file = std::fopen("/proc/self/statm", "r");
   long pages = 0;
   const int read = file != nullptr ? std::fscanf(file, "%*d %ld", &pages) : 0;
@@ -132,7 +136,8 @@ int main(int argc, char** argv) {
     std::printf("%d renders; resident KiB: %ld at the start, %ld after %d, then", renders,
                 memory.at_start, memory.warm, kWarmUp);
     for (const long kib : memory.later) std::printf(" %ld", kib);
-    const long growth = memory.later.back() - memory.warm;
+    const auto last = memory.later.end() - std::min<std::ptrdiff_t>(std::ssize(memory.later), 5);
+    const long growth = *std::min_element(last, memory.later.end()) - memory.warm;
     std::printf("\ngrowth %ld KiB, %ld allowed\n", growth, kMaxGrowthKib);
     return memory.warm > 0 && growth <= kMaxGrowthKib ? 0 : 1;
   } catch (const nacre::Error& error) {
