@@ -206,8 +206,9 @@ def process_error(results, path):
 
 
 def lights_error(results, path):
-    lines = [(f"under a {name}", [(p["error"], p["seconds"]) for p in points])
-             for name, points in results["lights"].items()]
+    lines = [(f"under a {name}, {kind}", [(p["error"], p["seconds"]) for p in points])
+             for name, light in results["lights"].items()
+             for kind, points in light["curves"].items()]
     options = ("set logscale xy\nset xlabel 'relative RMSE over the spheres'\n"
                "set format x '10^{%T}'\nset key bottom left Left reverse\n"
                f"set ylabel 'seconds per process, {lights.SIZE}, one thread'\n")

@@ -146,7 +146,10 @@ def _precision(precision):
 
 def _lights(series):
     rows = [(f"under a {name}", p["what"], f"{1e3 * p['seconds']:.1f}", f"{100 * p['error']:.2f} %")
-            for name, points in series.items() for p in points]
+            for name, light in series.items() for points in light["curves"].values()
+            for p in points]
+    rows += [(f"under a {name}", "the truth itself", "", f"{100 * light['truth_error']:.2f} %")
+             for name, light in series.items()]
     return table(("error, one thread", "samples", "ms", "relative RMSE"), rows)
 
 

@@ -26,7 +26,9 @@ class Settings:
     max_errors: tuple = (0.03, 0.01, 0.003, 0.001, 0.0003)
     # The same under lights that are sampled.
     lights_spp: tuple = (1, 4, 16, 64, 256, 1024)
-    lights_truth_spp: int = 16384
+    lights_max_errors: tuple = (0.5, 0.3, 0.1, 0.03, 0.01)
+    lights_truth_spp: int = 65536  # at most; fewer where the truth's error is below this
+    lights_truth_error: float = 0.004
     # Other renderers, where installed: antialiasing depths of POV-Ray, samples of Blender.
     povray_depths: tuple = (1, 2, 3, 4, 5)
     povray_truth_depth: int = 9
@@ -54,7 +56,9 @@ QUICK = Settings(
     truth_spp=4096,
     max_errors=(0.03, 0.01, 0.003),
     lights_spp=(4, 16, 64, 256),
-    lights_truth_spp=2048,
+    lights_max_errors=(0.5, 0.3, 0.1),
+    lights_truth_spp=16384,
+    lights_truth_error=0.02,
     povray_depths=(1, 2, 3),
     povray_truth_depth=7,
     blender_spp=(1, 4),

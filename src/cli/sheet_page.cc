@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/text_width.h"
 #include "cli/wrap_text.h"
+#include "image_io/text_width.h"
 
 namespace nacre {
 namespace {

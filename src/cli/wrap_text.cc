@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cli/text_width.h"
+#include "image_io/text_width.h"
 
 namespace nacre {
 namespace {

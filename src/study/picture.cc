@@ -2,8 +2,10 @@
 #include "study/picture.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "image_io/oiio.h"
+#include "image_io/text_width.h"
 #include "render/render.h"
 
 namespace nacre {
@@ -13,12 +15,10 @@ constexpr int kTextPx = 20;
 constexpr int kGap = 8;
 constexpr uint8_t kGround = 30;
 
-int TextWidth(const std::string& text) { return static_cast<int>(text.size()) * kTextPx * 11 / 20; }
-
 int LongestWidth(const std::vector<std::string>& texts) {
-  int width = 0;
-  for (const std::string& text : texts) width = std::max(width, TextWidth(text) + 2 * kGap);
-  return width;
+  double width = 0;
+  for (const std::string& text : texts) width = std::max(width, TextWidth(text, kTextPx));
+  return texts.empty() ? 0 : static_cast<int>(std::ceil(width)) + 2 * kGap;
 }
 
 void Blit(const Pane& pane, int left, int top, StudyPicture* picture) {

@@ -47,6 +47,13 @@ function precisionPlot(data, key, title, scale, yLabel) {
       .map(p => [Math.sqrt(p.rel_mse), scale * p.seconds])})), 'relative error (root of relMSE)', yLabel);
 }
 
+function lightsPlot(data) {
+  const lights = Object.entries(data.lights || {}).filter(([, light]) => light.curves);
+  return linePlot('Run time against error: sampled lights', lights.flatMap(([name, light]) => Object.entries(light.curves)
+      .map(([kind, points]) => ({name: `${name}, ${kind}`, points: points.map(p => [p.error, p.seconds, `${p.what}: ${show(100 * p.error, 3)} %, ${show(p.seconds, 3)} s`])}))),
+      'relative RMSE over the spheres', 's per process, one thread');
+}
+
 function scalingPlots(data) {
   const curve = (title, names, field, factor, xLabel, yLabel) => linePlot(title, names.filter(n => data.scaling[n]).map(n => ({
       name: data.scaling[n].fits && data.scaling[n].fits[field] ? `${n}: n^${show(data.scaling[n].fits[field].exponent, 2)}` : n,
@@ -70,7 +77,7 @@ function benchSection(section) {
        el('div', {}, precisionPlot(data, 'frame', 'Run time against error: frames', 1e3, `ms per frame of ${size}, one thread`)),
        el('div', {}, precisionPlot(data, 'process', 'Run time against error: processes', 1, `s per process, ${size}, all threads`))),
     kernelPlot(data), stagePlot(data),
-    el('div', {class: 'columns'}, [visibilityPlot(data), ...scalingPlots(data)].map(figure => figure && el('div', {}, figure))),
+    el('div', {class: 'columns'}, [lightsPlot(data), visibilityPlot(data), ...scalingPlots(data)].map(figure => figure && el('div', {}, figure))),
     el('div', {class: 'columns'},
        el('div', {}, el('h3', {}, 'Headline numbers'), table(['name', 'value'], Object.entries(data.summary || {}).map(([k, v]) => [words(k), show(v, 3)]), {caption: 'a over b: how many times faster a is'})),
        el('div', {}, processes.length ? [el('h3', {}, 'Processes'), table(['process', 'ms', 'fastest', 'MiB', 'rounds'], processes, {caption: 'From spawn to exit, all threads'})] : null,

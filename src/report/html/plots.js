@@ -64,11 +64,14 @@ function linePlot(title, series, xLabel, yLabel) {
   return el('figure', {}, el('h3', {}, title), picture, keys(kept.map(s => s.name), 'line'));
 }
 
+// Room for the longest name, in the page's 13 pixel letters.
+const nameWidth = rows => 20 + 7.2 * Math.max(...rows.map(row => row.name.length));
+
 // rows: [{name, values: [number or undefined...]}...], one mark a series on a logarithmic axis.
 function dotPlot(title, names, rows, xLabel) {
   const all = rows.flatMap(r => r.values).filter(v => v > 0);
   if (!all.length) return null;
-  const left = 190, width = 760, line = 23, top = 8, height = top + line * rows.length + 46, X = logAxis(all);
+  const left = nameWidth(rows), width = 760, line = 23, top = 8, height = top + line * rows.length + 46, X = logAxis(all);
   const x = v => left + X.place(v) * (width - left - 14), bottom = top + line * rows.length;
   return el('figure', {}, el('h3', {}, title), keys(names, 'dot'),
     el('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title},
@@ -86,7 +89,7 @@ function dotPlot(title, names, rows, xLabel) {
 function barPlot(title, names, rows, xLabel) {
   const totals = rows.map(r => r.values.reduce((a, b) => a + b, 0)), most = Math.max(...totals);
   if (!(most > 0)) return null;
-  const left = 190, width = 760, line = 30, top = 6, bottom = top + line * rows.length, height = bottom + 46;
+  const left = nameWidth(rows), width = 760, line = 30, top = 6, bottom = top + line * rows.length, height = bottom + 46;
   const step = [1, 2, 5, 10].map(s => s * 10 ** Math.floor(Math.log10(most / 5))).find(s => most / s <= 7);
   const x = v => left + v / most * (width - left - 60), ticks = [];
   for (let v = 0; v <= most * 1.0001; v += step) ticks.push(v);

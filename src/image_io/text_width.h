@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/text_width.h: how wide text will be, without the module that draws it.
+// image_io/text_width.h: how wide text will be, without the module that draws it.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/text_width.h"
+#include "image_io/text_width.h"
 
 #include <array>
 #include <cstdint>
