@@ -84,7 +84,7 @@ constexpr uint32_t ReverseBits(uint32_t x) {
 uint32_t SobolBits(uint32_t index, uint32_t dimension) {
   uint32_t bits = 0;
   for (uint32_t k = 0; index != 0; index >>= 1, ++k) {
-    if (index & 1u) bits ^= kMatrices[dimension][k];
+    bits ^= kMatrices[dimension][k] & (0u - (index & 1u));  // no branch: bits are as good as random
   }
   return bits;
 }
