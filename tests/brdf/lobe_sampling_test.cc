@@ -90,16 +90,23 @@ struct Cells {
     std::vector<double> integrals(kRings * kSectors);
     const auto rings = static_cast<int>(kRings) * steps;
     const auto sectors = static_cast<int>(kSectors) * steps;
+    std::vector<double> cos_phi, sin_phi;
+    for (int j = 0; j < sectors; ++j) {
+      const double phi = ((j + 0.5) / sectors - 0.5) * 2 * M_PI;
+      cos_phi.push_back(std::cos(phi));
+      sin_phi.push_back(std::sin(phi));
+    }
     for (int i = 0; i < rings; ++i) {
       const double t = (i + 0.5) / rings * MaxT();
       const double angle = width * t / (1 - t);
       const double d_angle = width / ((1 - t) * (1 - t)) * MaxT() / rings;
+      const double sin = std::sin(angle), cos = std::cos(angle);
+      const double area = sin * d_angle * 2 * M_PI / sectors;
       for (int j = 0; j < sectors; ++j) {
-        const double phi = ((j + 0.5) / sectors - 0.5) * 2 * M_PI;
-        const Vec3d direction = basis.ToWorld(
-            {std::sin(angle) * std::cos(phi), std::sin(angle) * std::sin(phi), std::cos(angle)});
+        const auto k = static_cast<size_t>(j);
+        const Vec3d direction = basis.ToWorld({sin * cos_phi[k], sin * sin_phi[k], cos});
         integrals[static_cast<size_t>(i / steps) * kSectors + static_cast<size_t>(j / steps)] +=
-            pdf(direction) * std::sin(angle) * d_angle * 2 * M_PI / sectors;
+            pdf(direction) * area;
       }
     }
     return integrals;

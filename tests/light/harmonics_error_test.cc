@@ -45,7 +45,7 @@ Vec3d Quadrature(const EnvironmentMap& map, const Vec3d& normal) {
     const double sin = std::sqrt((i + 0.5) / kSteps);
     for (int j = 0; j < kSteps; ++j) {
       const double phi = 2 * M_PI * (j + std::fmod(0.618033988749895 * i, 1.0)) / kSteps;
-      const EnvironmentTexel& texel =
+      const EnvironmentTexel texel =
           TexelAt(map, basis.ToWorld({sin * std::cos(phi), sin * std::sin(phi),
                                       std::sqrt((1 - sin) * (1 + sin))}));
       sum += Vec3d(texel.red, texel.green, texel.blue);

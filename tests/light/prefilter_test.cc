@@ -40,7 +40,7 @@ Vec3d Quadrature(const EnvironmentMap& map, const Vec3d& mirror, double alpha) {
     if (!(cosine > 0)) continue;
     for (int j = 0; j < kSteps; ++j) {
       const double phi = 2 * M_PI * (j + 0.5) / kSteps;
-      const EnvironmentTexel& texel =
+      const EnvironmentTexel texel =
           TexelAt(map, basis.ToWorld({sine * std::cos(phi), sine * std::sin(phi), cosine}));
       sum += Vec3d(texel.red, texel.green, texel.blue) * cosine;
       weights += cosine;
