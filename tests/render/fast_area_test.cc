@@ -182,7 +182,8 @@ TEST_CASE("what may lie in shadow, and narrow lobes, are sampled") {
     return std::memcmp(x.data(), b.Find("R")->samples.data(), 4 * x.size()) == 0;
   };
   const std::string text = ExplainPlan(MakePlan(scene, {}), nullptr);
-  CHECK_THAT(text, Catch::Contains("by linearly transformed cosines where all of the light is"));
+  CHECK(text.find("by linearly transformed cosines where all of the light is") !=
+        std::string::npos);
   scene.lights[0].shadows = sampled.lights[0].shadows = false;
   CHECK_FALSE(same(Render(scene), Render(sampled)));
   Scene narrow = OneSphere(0.05, Window());
