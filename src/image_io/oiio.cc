@@ -66,7 +66,7 @@ Module LoadModule() {
             Find<decltype(Module::draw_text)>(library, "NacreOiioDrawText")};
   }
   throw Error(ExitCode::kInternal, kModuleName,
-              "is neither beside the program nor in " NACRE_MODULE_FROM_PROGRAM,
+              "the module for it is neither beside the program nor in " NACRE_MODULE_FROM_PROGRAM,
               "EXR files need no module; for other formats and labels build or install it");
 }
 

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "pictures.h"
 #include "render/render.h"
@@ -64,11 +67,11 @@ RenderSettings Settings(std::vector<std::string> layers = {}, int threads = 2) {
   return settings;
 }
 
-const std::vector<float>& Samples(const Image& image, const std::string& channel) {
+const std::vector<float>& Samples(const Image& image, std::string_view channel) {
   for (const Channel& c : image.channels) {
     if (c.name == channel) return c.samples;
   }
-  throw std::runtime_error(channel);
+  throw std::runtime_error(std::string(channel));
 }
 
 std::array<float, 3> Triple(const Image& image, const std::array<const char*, 3>& names, size_t i) {
