@@ -1,325 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/render/textures_test.cc: whole pictures with textures: constant maps against constants, to
-// the bit, and what normals, bumps and coordinates do.
+// tests/render/textures_test.cc: whole pictures with textures: normals, bumps, coordinates.
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 
-#include "catch.h"
-#include "render/render.h"
 #include "targets.h"
+#include "textured_scenes.h"
 
 namespace nacre {
 namespace {
-
-ImageId AddImage(Scene* scene, MipChain chain, float middle = 128.0f / 255) {
-  scene->images.push_back({"image", std::make_shared<const MipChain>(std::move(chain)), middle});
-  return {static_cast<uint32_t>(scene->images.size() - 1)};
-}
-
-// A texture of spheres, width x height texels of `of(x, y)`.
-TextureId AddTexture(Scene* scene, int width, int height, const std::function<Rgb(int, int)>& of) {
-  std::vector<float> values;
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const Rgb value = of(x, y);
-      for (int c = 0; c < 3; ++c) values.push_back(static_cast<float>(value[c]));
-    }
-  }
-  Texture texture;
-  texture.image = AddImage(scene, MakeMipChain(width, height, 3, std::move(values)));
-  texture.mapping = MappingKind::kSpherical;
-  texture.sampling.wrap_v = Wrap::kClamp;
-  scene->textures.push_back(texture);
-  return {static_cast<uint32_t>(scene->textures.size() - 1)};
-}
-
-TextureId AddConstant(Scene* scene, const Rgb& value) {
-  return AddTexture(scene, 8, 4, [&](int, int) { return value; });
-}
-
-// A value that a texel can hold.
-double Held(double value) { return double{static_cast<float>(value)}; }
-Rgb Held(const Rgb& value) { return {Held(value.x), Held(value.y), Held(value.z)}; }
-
-// Three spheres of one material, one with the eye close to it and another behind it, under lights
-// of every kind, with shadows.
-Scene MakeScene(const Material& material) {
-  Scene scene;
-  scene.image.width = 48;
-  scene.image.height = 32;
-  scene.image.spp = 4;
-  scene.camera.position = Vec3d(0, 0, 6);
-  scene.materials = {material};
-  scene.spheres = {{{-0.9, 0, 0}, 0.8, {0}}, {{0.9, 0.2, 0.5}, 0.7, {0}}, {{0, 0, -3}, 2, {0}}};
-  Light key;
-  key.name = "key";
-  PointLight point;
-  point.position = Vec3d(3, 4, 5);
-  point.intensity = Rgb(90, 80, 70);
-  key.kind = point;
-  Light sun;
-  sun.name = "sun";
-  DirectionalLight directional;
-  directional.direction_of_travel = Vec3d(1, -1, -1);
-  directional.irradiance = Rgb(0.9, 1, 1.1);
-  sun.kind = directional;
-  sun.shadows = false;
-  Light lamp;
-  lamp.name = "lamp";
-  SpotLight spot;
-  spot.position = Vec3d(-3, 0, 5);
-  spot.direction_of_travel = Vec3d(3, 0, -5);
-  spot.intensity = Rgb(50, 50, 60);
-  lamp.kind = spot;
-  Light sky;
-  sky.name = "sky";
-  sky.kind = AmbientLight{Rgb(0.1, 0.2, 0.3)};
-  scene.lights = {key, sun, lamp, sky};
-  return scene;
-}
-
-Image Rendered(const Scene& scene) {
-  RenderSettings settings;
-  settings.threads = 1;
-  settings.layers = {"all"};
-  return RenderImage(scene, settings);
-}
-
-void CheckSameBits(const Image& got, const Image& expected) {
-  REQUIRE(got.channels.size() == expected.channels.size());
-  for (size_t i = 0; i < got.channels.size(); ++i) {
-    CAPTURE(expected.channels[i].name);
-    const auto& a = got.channels[i].samples;
-    const auto& b = expected.channels[i].samples;
-    const auto [first, second] = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-    const auto differing = first - a.begin();
-    CHECK(first == a.end());
-    if (first != a.end()) {
-      CAPTURE(differing, *first, *second);
-      CHECK(*first == *second);
-    }
-  }
-}
-
-// Renders the material and the same with maps, which `add_maps` gives it and which multiply to it.
-template <class Model, class AddMaps>
-void CheckConstantMaps(const Model& constant, const Model& factors, const AddMaps& add_maps) {
-  ForEachTarget([&](Target) {
-    Material plain, mapped;
-    plain.model = constant;
-    mapped.model = factors;
-    Scene with_maps = MakeScene(mapped);
-    add_maps(&with_maps, &std::get<Model>(with_maps.materials[0].model));
-    const Image got = Rendered(with_maps), expected = Rendered(MakeScene(plain));
-    REQUIRE(*std::max_element(expected.channels[0].samples.begin(),
-                              expected.channels[0].samples.end()) > 0.1f);
-    CheckSameBits(got, expected);
-  });
-}
-
-TEST_CASE("constant maps have the bits of constants: metallic-roughness") {
-  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
-  const Rgb metallic_roughness = Held(Rgb(0, 0.7, 0.6));
-  for (const double roughness : {1.0, 0.1, 0.0}) {
-    for (const Compensation compensation :
-         {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
-      for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect}) {
-        for (const double tint : {1.0, 0.7}) {
-          MetallicRoughnessMaterial factors;
-          factors.base_color = Rgb(0.5, 1, 0.75);
-          factors.metallic = 0.5;
-          factors.roughness = roughness;
-          factors.compensation = compensation;
-          factors.shadowing = shadowing;
-          factors.f82_tint = Rgb(tint);
-          if (compensation == Compensation::kNone) {
-            factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
-          }
-          MetallicRoughnessMaterial constant = factors;
-          constant.base_color = factors.base_color * color;
-          constant.metallic = factors.metallic * metallic_roughness.z;
-          constant.roughness = factors.roughness * metallic_roughness.y;
-          CAPTURE(roughness, static_cast<int>(compensation), static_cast<int>(shadowing), tint);
-          CheckConstantMaps(
-              constant, factors, [&](Scene* scene, MetallicRoughnessMaterial* material) {
-                material->base_color_map = AddConstant(scene, color);
-                material->metallic_roughness_map = AddConstant(scene, metallic_roughness);
-              });
-          // Without a map of roughness the albedo fit is the material's.
-          MetallicRoughnessMaterial colored = factors;
-          colored.base_color = factors.base_color * color;
-          CheckConstantMaps(colored, factors,
-                            [&](Scene* scene, MetallicRoughnessMaterial* material) {
-                              material->base_color_map = AddConstant(scene, color);
-                            });
-        }
-      }
-    }
-  }
-}
-
-TEST_CASE("constant maps have the bits of constants: the Phong family and Lambert") {
-  const Rgb color = Held(Rgb(0.9, 0.4, 0.2)), gloss = Held(Rgb(0.3, 0.8, 0.6));
-  const double share = 0.5;
-  for (const PhongModel model :
-       {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
-    for (const PhongConvention convention :
-         {PhongConvention::kClassic, PhongConvention::kRadiometric}) {
-      for (const double shininess : {32.0, 2000.0}) {  // wide, and narrow
-        PhongMaterial factors;
-        factors.model = model;
-        factors.convention = convention;
-        factors.color = Rgb(0.5, 1, 0.75);
-        factors.shininess = shininess;
-        PhongMaterial constant = factors;
-        constant.color = factors.color * color;
-        constant.ks = factors.ks * gloss;
-        constant.shininess = shininess * share;
-        CAPTURE(static_cast<int>(model), static_cast<int>(convention), shininess);
-        CheckConstantMaps(constant, factors, [&](Scene* scene, PhongMaterial* material) {
-          material->diffuse_map = AddConstant(scene, color);
-          material->specular_map = AddConstant(scene, gloss);
-          material->shininess_map = AddConstant(scene, Rgb(share));
-        });
-      }
-    }
-  }
-  LambertMaterial factors, constant;
-  factors.albedo = Rgb(0.5, 0.6, 0.7);
-  constant.albedo = factors.albedo * color;
-  CheckConstantMaps(constant, factors, [&](Scene* scene, LambertMaterial* material) {
-    material->albedo_map = AddConstant(scene, color);
-  });
-}
-
-TEST_CASE("constant maps have the bits of constants: rough matte surfaces and bases") {
-  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
-  const Rgb metallic_roughness = Held(Rgb(0, 0.7, 0.6));
-  const auto matte = [&](auto factors) {
-    factors.albedo = Rgb(0.5, 1, 0.75);
-    factors.roughness = 0.6;
-    auto constant = factors;
-    constant.albedo = factors.albedo * color;
-    CheckConstantMaps(constant, factors, [&](Scene* scene, auto* material) {
-      material->albedo_map = AddConstant(scene, color);
-    });
-  };
-  matte(OrenNayarMaterial{});
-  matte(BurleyMaterial{});
-  for (const DiffuseForm form : {DiffuseForm::kOrenNayar, DiffuseForm::kBurley}) {
-    for (const bool own : {true, false}) {
-      MetallicRoughnessMaterial factors;
-      factors.base_color = Rgb(0.5, 1, 0.75);
-      factors.metallic = 0.5;
-      factors.diffuse = form;
-      if (own) factors.diffuse_roughness = 0.8;
-      MetallicRoughnessMaterial constant = factors;
-      constant.base_color = factors.base_color * color;
-      constant.metallic = factors.metallic * metallic_roughness.z;
-      constant.roughness = factors.roughness * metallic_roughness.y;
-      CAPTURE(static_cast<int>(form), own);
-      CheckConstantMaps(constant, factors, [&](Scene* scene, MetallicRoughnessMaterial* material) {
-        material->base_color_map = AddConstant(scene, color);
-        material->metallic_roughness_map = AddConstant(scene, metallic_roughness);
-      });
-    }
-  }
-}
-
-TEST_CASE("constant maps have the bits of constants: conductors and dielectrics") {
-  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
-  const double share = Held(0.7);
-  for (const Compensation compensation :
-       {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
-    CAPTURE(static_cast<int>(compensation));
-    for (const ConductorFresnel fresnel :
-         {ConductorFresnel::kExact, ConductorFresnel::kF82Tint, ConductorFresnel::kSchlick}) {
-      for (const double roughness : {1.0, 0.1}) {
-        ConductorMaterial factors;
-        factors.roughness = roughness;
-        factors.compensation = compensation;
-        factors.fresnel = fresnel;
-        ConductorMaterial constant = factors;
-        constant.roughness = roughness * share;
-        CAPTURE(static_cast<int>(fresnel), roughness);
-        CheckConstantMaps(constant, factors, [&](Scene* scene, ConductorMaterial* material) {
-          material->roughness_map = AddConstant(scene, Rgb(share));
-        });
-      }
-    }
-    for (const DielectricFresnel fresnel :
-         {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
-      for (const DiffuseForm form : {DiffuseForm::kLambert, DiffuseForm::kOrenNayar}) {
-        DielectricMaterial factors;
-        factors.base_color = Rgb(0.5, 1, 0.75);
-        factors.compensation = compensation;
-        factors.fresnel = fresnel;
-        factors.diffuse = form;
-        if (compensation == Compensation::kNone) {
-          factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
-        }
-        DielectricMaterial constant = factors;
-        constant.base_color = factors.base_color * color;
-        // Of the exact curve's albedo, a roughness each has a blend: below.
-        const bool rough = fresnel == DielectricFresnel::kSchlick;
-        if (rough) constant.roughness = factors.roughness * share;
-        CAPTURE(static_cast<int>(fresnel), static_cast<int>(form));
-        CheckConstantMaps(constant, factors, [&](Scene* scene, DielectricMaterial* material) {
-          material->base_color_map = AddConstant(scene, color);
-          if (rough) material->roughness_map = AddConstant(scene, Rgb(share));
-        });
-      }
-    }
-  }
-}
-
-TEST_CASE("a dielectric's roughness map is within its albedo's error of the constant") {
-  for (const Compensation compensation : {Compensation::kTurquin, Compensation::kKullaConty}) {
-    for (const double share : {Held(0.9), Held(0.37), Held(0.12)}) {
-      Material plain, mapped;
-      DielectricMaterial coat;
-      coat.compensation = compensation;
-      coat.roughness = share;
-      plain.model = coat;
-      coat.roughness = 1;
-      mapped.model = coat;
-      Scene with_map = MakeScene(mapped);
-      std::get<DielectricMaterial>(with_map.materials[0].model).roughness_map =
-          AddConstant(&with_map, Rgb(share));
-      const Image got = Rendered(with_map), expected = Rendered(MakeScene(plain));
-      const std::vector<float>& a = got.Find("R")->samples;
-      const std::vector<float>& b = expected.Find("R")->samples;
-      double worst = 0;
-      for (size_t i = 0; i < a.size(); ++i) {
-        worst = std::max(worst, std::abs(double{a[i]} - b[i]) / std::max(double{b[i]}, 1e-3));
-      }
-      CAPTURE(static_cast<int>(compensation), share, worst);
-      // tests/brdf/albedo_test.cc: 3e-5 of albedo, of a base that gets at least some tenths.
-      CHECK(worst <= 3e-4);
-    }
-  }
-}
-
-TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
-  ForEachTarget([&](Target) {
-    Material plain;
-    plain.model = MetallicRoughnessMaterial{.roughness = 0.05};
-    plain.emission = Rgb(0.2, 0.4, 0.8) * Held(0.3);
-    Scene scene = MakeScene(plain);
-    Material& material = scene.materials[0];
-    material.emission = Rgb(0.2, 0.4, 0.8);
-    material.emission_map = AddConstant(&scene, Rgb(Held(0.3)));
-    material.normal_map.texture = AddConstant(&scene, Rgb(128.0 / 255, 128.0 / 255, 1));
-    material.bump_map.texture = AddConstant(&scene, Rgb(0.4));
-    CheckSameBits(Rendered(scene), Rendered(MakeScene(plain)));
-    // Neither does one of length 0, which points nowhere.
-    material.normal_map.texture =
-        AddConstant(&scene, Rgb(double{128.0f / 255}, double{128.0f / 255}, double{128.0f / 255}));
-    CheckSameBits(Rendered(scene), Rendered(MakeScene(plain)));
-  });
-}
 
 // The normals that a picture of 16x16 pixels of a unit sphere has at its hits.
 Scene OneSphere(const Material& material) {
@@ -340,7 +29,7 @@ struct HitNormal {
   Vec3d plain, turned;
 };
 std::vector<HitNormal> Normals(const Scene& plain, const Scene& turned) {
-  const Image a = Rendered(plain), b = Rendered(turned);
+  const Image a = AllLayers(plain), b = AllLayers(turned);
   std::vector<HitNormal> normals;
   const auto at = [](const Image& image, size_t i) {
     const auto value = [&](const char* name) { return double{image.Find(name)->samples[i]}; };
@@ -403,7 +92,7 @@ TEST_CASE("a turned normal stays above its surface, and light from below stays o
   const Scene plain = OneSphere(material);
   size_t dark = 0;
   for (const HitNormal& n : Normals(plain, scene)) CHECK(n.plain.dot(n.turned) >= -1e-6);
-  const Image a = Rendered(plain), b = Rendered(scene);
+  const Image a = AllLayers(plain), b = AllLayers(scene);
   for (size_t i = 0; i < a.data.pixel_count(); ++i) {
     if (!(a.Find("A")->samples[i] > 0) || a.Find("R")->samples[i] > 0) continue;
     ++dark;
@@ -459,7 +148,7 @@ TEST_CASE("nothing shows at the seam, at any level of detail") {
     return Rgb(0.5 + 0.4 * std::sin(2 * M_PI * (x + 0.5) / 512));
   });
   scene.materials[0].emission_map = id;
-  const Image image = Rendered(scene);
+  const Image image = AllLayers(scene);
   const auto& red = image.Find("R")->samples;
   // Along the middle row the value is that of the sine within what filtering takes from it; a level
   // chosen across the seam would be its mean, 0.5, there.
@@ -500,7 +189,7 @@ Scene Square(MappingKind mapping) {
 
 TEST_CASE("an image on a square is that image, from its lower left corner") {
   for (const MappingKind mapping : {MappingKind::kUv, MappingKind::kPlanar}) {
-    const Image image = Rendered(Square(mapping));
+    const Image image = AllLayers(Square(mapping));
     for (size_t y = 0; y < 16; ++y) {
       for (size_t x = 0; x < 16; ++x) {
         const size_t i = y * 16 + x;
@@ -518,7 +207,7 @@ TEST_CASE("texture coordinates are scaled, turned and moved, in this order") {
   scene.textures[0].uv_rotate_deg = 90;  // (u, v) becomes (-v, u)
   scene.textures[0].offset = Vec2d(0.75, 0);
   scene.textures[0].sampling.filter = TextureFilter::kNearest;
-  const Image image = Rendered(scene);
+  const Image image = AllLayers(scene);
   const auto at = [&](size_t x, size_t y, const char* name) {
     return 16 * double{image.Find(name)->samples[(15 - y) * 16 + x]};
   };
@@ -545,12 +234,12 @@ TEST_CASE("seen from behind, a normal map is the front turned round") {
       scene.materials[0].normal_map.texture = id;
     }
     scene.textures[id.index].mapping = MappingKind::kUv;
-    const Image image = Rendered(scene);
+    const Image image = AllLayers(scene);
     const size_t middle = 8 * 16 + 8;
     CHECK(image.Find("N.Z")->samples[middle] < 0);
     CHECK((bump ? 1 : -1) * image.Find("N.X")->samples[middle] > 0.1f);
     scene.camera.position = Vec3d(0, 0, 5);
-    const Image front = Rendered(scene);
+    const Image front = AllLayers(scene);
     CHECK((bump ? -1 : 1) * front.Find("N.X")->samples[middle] > 0.1f);
   }
 }
@@ -564,7 +253,7 @@ TEST_CASE("a far surface shows its texture's mean, in both projections") {
     // Perspective: the same part of the square, from so far that depth counts.
     scene.camera.position = Vec3d(0, 0, 50);
     scene.camera.fov_y_deg = 2 * std::atan(1.0 / 50) * 180 / M_PI;
-    const Image image = Rendered(scene);
+    const Image image = AllLayers(scene);
     for (const float red : image.Find("R")->samples) {
       CHECK(double{red} == Approx(7.5 / 16).epsilon(1e-6));
     }
@@ -575,7 +264,7 @@ TEST_CASE("scenes with textures have the same bits by tiles, crops, layers and t
   Material material;
   MetallicRoughnessMaterial metallic;
   material.model = metallic;
-  Scene scene = MakeScene(material);
+  Scene scene = TexturedSpheres(material);
   const auto noise = [](int x, int y) {
     return Rgb((x * 7 + y * 3) % 16 / 16.0, (x * 5 + y) % 16 / 16.0, (x + y * 11) % 16 / 16.0);
   };

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/constant_maps_test.cc: maps that are constant against constants, to the bit.
+#include <algorithm>
+#include <cmath>
+
+#include "targets.h"
+#include "textured_scenes.h"
+
+namespace nacre {
+namespace {
+
+// Renders the material and the same with maps, which `add_maps` gives it and which multiply to it.
+template <class Model, class AddMaps>
+void CheckConstantMaps(const Model& constant, const Model& factors, const AddMaps& add_maps) {
+  ForEachTarget([&](Target) {
+    Material plain, mapped;
+    plain.model = constant;
+    mapped.model = factors;
+    Scene with_maps = TexturedSpheres(mapped);
+    add_maps(&with_maps, &std::get<Model>(with_maps.materials[0].model));
+    const Image got = AllLayers(with_maps), expected = AllLayers(TexturedSpheres(plain));
+    REQUIRE(*std::max_element(expected.channels[0].samples.begin(),
+                              expected.channels[0].samples.end()) > 0.1f);
+    CheckSameBits(got, expected);
+  });
+}
+
+TEST_CASE("constant maps have the bits of constants: metallic-roughness") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
+  const Rgb metallic_roughness = Held(Rgb(0, 0.7, 0.6));
+  for (const double roughness : {1.0, 0.1, 0.0}) {
+    for (const Compensation compensation :
+         {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+      for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect}) {
+        for (const double tint : {1.0, 0.7}) {
+          MetallicRoughnessMaterial factors;
+          factors.base_color = Rgb(0.5, 1, 0.75);
+          factors.metallic = 0.5;
+          factors.roughness = roughness;
+          factors.compensation = compensation;
+          factors.shadowing = shadowing;
+          factors.f82_tint = Rgb(tint);
+          if (compensation == Compensation::kNone) {
+            factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+          }
+          MetallicRoughnessMaterial constant = factors;
+          constant.base_color = factors.base_color * color;
+          constant.metallic = factors.metallic * metallic_roughness.z;
+          constant.roughness = factors.roughness * metallic_roughness.y;
+          CAPTURE(roughness, static_cast<int>(compensation), static_cast<int>(shadowing), tint);
+          CheckConstantMaps(
+              constant, factors, [&](Scene* scene, MetallicRoughnessMaterial* material) {
+                material->base_color_map = AddConstant(scene, color);
+                material->metallic_roughness_map = AddConstant(scene, metallic_roughness);
+              });
+          // Without a map of roughness the albedo fit is the material's.
+          MetallicRoughnessMaterial colored = factors;
+          colored.base_color = factors.base_color * color;
+          CheckConstantMaps(colored, factors,
+                            [&](Scene* scene, MetallicRoughnessMaterial* material) {
+                              material->base_color_map = AddConstant(scene, color);
+                            });
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("constant maps have the bits of constants: the Phong family and Lambert") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2)), gloss = Held(Rgb(0.3, 0.8, 0.6));
+  const double share = 0.5;
+  for (const PhongModel model :
+       {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
+    for (const PhongConvention convention :
+         {PhongConvention::kClassic, PhongConvention::kRadiometric}) {
+      for (const double shininess : {32.0, 2000.0}) {  // wide, and narrow
+        PhongMaterial factors;
+        factors.model = model;
+        factors.convention = convention;
+        factors.color = Rgb(0.5, 1, 0.75);
+        factors.shininess = shininess;
+        PhongMaterial constant = factors;
+        constant.color = factors.color * color;
+        constant.ks = factors.ks * gloss;
+        constant.shininess = shininess * share;
+        CAPTURE(static_cast<int>(model), static_cast<int>(convention), shininess);
+        CheckConstantMaps(constant, factors, [&](Scene* scene, PhongMaterial* material) {
+          material->diffuse_map = AddConstant(scene, color);
+          material->specular_map = AddConstant(scene, gloss);
+          material->shininess_map = AddConstant(scene, Rgb(share));
+        });
+      }
+    }
+  }
+  LambertMaterial factors, constant;
+  factors.albedo = Rgb(0.5, 0.6, 0.7);
+  constant.albedo = factors.albedo * color;
+  CheckConstantMaps(constant, factors, [&](Scene* scene, LambertMaterial* material) {
+    material->albedo_map = AddConstant(scene, color);
+  });
+}
+
+TEST_CASE("constant maps have the bits of constants: rough matte surfaces and bases") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
+  const Rgb metallic_roughness = Held(Rgb(0, 0.7, 0.6));
+  const auto matte = [&](auto factors) {
+    factors.albedo = Rgb(0.5, 1, 0.75);
+    factors.roughness = 0.6;
+    auto constant = factors;
+    constant.albedo = factors.albedo * color;
+    CheckConstantMaps(constant, factors, [&](Scene* scene, auto* material) {
+      material->albedo_map = AddConstant(scene, color);
+    });
+  };
+  matte(OrenNayarMaterial{});
+  matte(BurleyMaterial{});
+  for (const DiffuseForm form : {DiffuseForm::kOrenNayar, DiffuseForm::kBurley}) {
+    for (const bool own : {true, false}) {
+      MetallicRoughnessMaterial factors;
+      factors.base_color = Rgb(0.5, 1, 0.75);
+      factors.metallic = 0.5;
+      factors.diffuse = form;
+      if (own) factors.diffuse_roughness = 0.8;
+      MetallicRoughnessMaterial constant = factors;
+      constant.base_color = factors.base_color * color;
+      constant.metallic = factors.metallic * metallic_roughness.z;
+      constant.roughness = factors.roughness * metallic_roughness.y;
+      CAPTURE(static_cast<int>(form), own);
+      CheckConstantMaps(constant, factors, [&](Scene* scene, MetallicRoughnessMaterial* material) {
+        material->base_color_map = AddConstant(scene, color);
+        material->metallic_roughness_map = AddConstant(scene, metallic_roughness);
+      });
+    }
+  }
+}
+
+TEST_CASE("constant maps have the bits of constants: conductors and dielectrics") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2));
+  const double share = Held(0.7);
+  for (const Compensation compensation :
+       {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+    CAPTURE(static_cast<int>(compensation));
+    for (const ConductorFresnel fresnel :
+         {ConductorFresnel::kExact, ConductorFresnel::kF82Tint, ConductorFresnel::kSchlick}) {
+      for (const double roughness : {1.0, 0.1}) {
+        ConductorMaterial factors;
+        factors.roughness = roughness;
+        factors.compensation = compensation;
+        factors.fresnel = fresnel;
+        ConductorMaterial constant = factors;
+        constant.roughness = roughness * share;
+        CAPTURE(static_cast<int>(fresnel), roughness);
+        CheckConstantMaps(constant, factors, [&](Scene* scene, ConductorMaterial* material) {
+          material->roughness_map = AddConstant(scene, Rgb(share));
+        });
+      }
+    }
+    for (const DielectricFresnel fresnel :
+         {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
+      for (const DiffuseForm form : {DiffuseForm::kLambert, DiffuseForm::kOrenNayar}) {
+        DielectricMaterial factors;
+        factors.base_color = Rgb(0.5, 1, 0.75);
+        factors.compensation = compensation;
+        factors.fresnel = fresnel;
+        factors.diffuse = form;
+        if (compensation == Compensation::kNone) {
+          factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+        }
+        DielectricMaterial constant = factors;
+        constant.base_color = factors.base_color * color;
+        // Of the exact curve's albedo, a roughness each has a blend: below.
+        const bool rough = fresnel == DielectricFresnel::kSchlick;
+        if (rough) constant.roughness = factors.roughness * share;
+        CAPTURE(static_cast<int>(fresnel), static_cast<int>(form));
+        CheckConstantMaps(constant, factors, [&](Scene* scene, DielectricMaterial* material) {
+          material->base_color_map = AddConstant(scene, color);
+          if (rough) material->roughness_map = AddConstant(scene, Rgb(share));
+        });
+      }
+    }
+  }
+}
+
+TEST_CASE("a dielectric's roughness map is within its albedo's error of the constant") {
+  for (const Compensation compensation : {Compensation::kTurquin, Compensation::kKullaConty}) {
+    for (const double share : {Held(0.9), Held(0.37), Held(0.12)}) {
+      Material plain, mapped;
+      DielectricMaterial coat;
+      coat.compensation = compensation;
+      coat.roughness = share;
+      plain.model = coat;
+      coat.roughness = 1;
+      mapped.model = coat;
+      Scene with_map = TexturedSpheres(mapped);
+      std::get<DielectricMaterial>(with_map.materials[0].model).roughness_map =
+          AddConstant(&with_map, Rgb(share));
+      const Image got = AllLayers(with_map), expected = AllLayers(TexturedSpheres(plain));
+      const std::vector<float>& a = got.Find("R")->samples;
+      const std::vector<float>& b = expected.Find("R")->samples;
+      double worst = 0;
+      for (size_t i = 0; i < a.size(); ++i) {
+        worst = std::max(worst, std::abs(double{a[i]} - b[i]) / std::max(double{b[i]}, 1e-3));
+      }
+      CAPTURE(static_cast<int>(compensation), share, worst);
+      // tests/brdf/albedo_test.cc: 3e-5 of albedo, of a base that gets at least some tenths.
+      CHECK(worst <= 3e-4);
+    }
+  }
+}
+
+TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
+  ForEachTarget([&](Target) {
+    Material plain;
+    plain.model = MetallicRoughnessMaterial{.roughness = 0.05};
+    plain.emission = Rgb(0.2, 0.4, 0.8) * Held(0.3);
+    Scene scene = TexturedSpheres(plain);
+    Material& material = scene.materials[0];
+    material.emission = Rgb(0.2, 0.4, 0.8);
+    material.emission_map = AddConstant(&scene, Rgb(Held(0.3)));
+    material.normal_map.texture = AddConstant(&scene, Rgb(128.0 / 255, 128.0 / 255, 1));
+    material.bump_map.texture = AddConstant(&scene, Rgb(0.4));
+    CheckSameBits(AllLayers(scene), AllLayers(TexturedSpheres(plain)));
+    // Neither does one of length 0, which points nowhere.
+    material.normal_map.texture =
+        AddConstant(&scene, Rgb(double{128.0f / 255}, double{128.0f / 255}, double{128.0f / 255}));
+    CheckSameBits(AllLayers(scene), AllLayers(TexturedSpheres(plain)));
+  });
+}
+
+}  // namespace
+}  // namespace nacre
