@@ -11,9 +11,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64)$")
 else()
   set(NACRE_TARGETS scalar sse4 avx2 avx3 CACHE STRING "SIMD targets to compile for")
 endif()
-# In Highway's names. Its fallback target has two, by compiler. NEON is what arm64 has at least,
-# which Highway 1.0.3 does not tell from NEON with AES.
-set(highway_scalar HWY_SCALAR HWY_EMU128)
+# In Highway's names. NEON is what arm64 has at least, which Highway 1.0.3 does not tell from NEON
+# with AES.
+set(highway_scalar HWY_SCALAR)
 set(highway_sse4 HWY_SSE4)
 set(highway_avx2 HWY_AVX2)
 set(highway_avx3 HWY_AVX3)
@@ -46,6 +46,9 @@ target_include_directories(nacre_options INTERFACE ${CMAKE_SOURCE_DIR}/src)
 # each context, and then a pixel's bits would depend on which kernel computed it.
 target_compile_options(nacre_options INTERFACE -ffp-contract=off -Wall -Wextra -Wconversion)
 target_compile_definitions(nacre_options INTERFACE "HWY_DISABLED_TARGETS=~(${NACRE_HIGHWAY_TARGETS})")
+# Highway's fallback is SCALAR or EMU128, by compiler and version. Of EMU128 in Highway 1.2, a
+# division by zero is zero; this asks for SCALAR everywhere, whose numbers are C++'s.
+target_compile_definitions(nacre_options INTERFACE HWY_BROKEN_EMU128=1)
 target_compile_options(nacre_options INTERFACE ${NACRE_BASELINE})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Highway passes vectors between its own inlined functions only.

@@ -21,7 +21,7 @@ bool HasHalfAndZeroCount() {
 #endif
 
 int64_t DetectTargets() {
-  int64_t targets = HWY_SCALAR | HWY_EMU128;
+  int64_t targets = HWY_SCALAR;
 #if HWY_ARCH_X86
   __builtin_cpu_init();
   const auto has = [](auto... features) { return (features && ...); };

@@ -11,13 +11,10 @@ namespace {
 constexpr Target kAllTargets[] = {Target::kScalar, Target::kSse4, Target::kAvx2, Target::kAvx3,
                                   Target::kNeon};
 
-// Highway's fallback target is SCALAR with GCC 12 and EMU128 with Clang 14 and GCC 14.
-constexpr int64_t kFallbackTargets = HWY_SCALAR | HWY_EMU128;
-
 int64_t HighwayTarget(Target target) {
   switch (target) {
     case Target::kScalar:
-      return HWY_TARGETS & kFallbackTargets;
+      return HWY_TARGETS & HWY_SCALAR;
     case Target::kSse4:
       return HWY_SSE4;
     case Target::kAvx2:
@@ -50,7 +47,7 @@ std::string TargetName(Target target) {
 
 std::vector<Target> SupportedTargets() {
   // Asked once, before any pin: Highway answers with the pinned target afterwards.
-  static const int64_t supported = (hwy::SupportedTargets() | kFallbackTargets) & HWY_TARGETS;
+  static const int64_t supported = (hwy::SupportedTargets() | HWY_SCALAR) & HWY_TARGETS;
   std::vector<Target> targets;
   for (const Target target : kAllTargets) {
     if ((supported & HighwayTarget(target)) != 0) targets.push_back(target);

@@ -53,7 +53,7 @@ class InstallTest(unittest.TestCase):
 
     def test_a_program_finds_it_by_cmake(self):
         build = self.top / 'example'
-        run('cmake', '-S', EXAMPLE, '-B', build, f'-DCMAKE_PREFIX_PATH={self.prefix}',
+        run('cmake', '-G', 'Ninja', '-S', EXAMPLE, '-B', build, f'-DCMAKE_PREFIX_PATH={self.prefix}',
             f'-DCMAKE_CXX_COMPILER={CXX}')
         run('cmake', '--build', build)
         self.check_example(build / 'example', None)
@@ -78,7 +78,7 @@ class InstallTest(unittest.TestCase):
         (folder / 'picture.cc').write_text(picture)
         (folder / 'CMakeLists.txt').write_text(
             project + project[project.index('add_executable'):].replace('check', 'picture'))
-        run('cmake', '-S', folder, '-B', folder / 'build', f'-DCMAKE_PREFIX_PATH={self.prefix}',
+        run('cmake', '-G', 'Ninja', '-S', folder, '-B', folder / 'build', f'-DCMAKE_PREFIX_PATH={self.prefix}',
             f'-DCMAKE_CXX_COMPILER={CXX}')
         run('cmake', '--build', folder / 'build')
         self.assertIn('largest relative difference', run(folder / 'build/check'))
