@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -94,6 +95,14 @@ std::string FormatOf(const std::string& path) {
   return is_tga ? "targa" : "";
 }
 
+// Bytes that an uncompressed PNM file has at least; OpenImageIO reads what is missing as anything.
+// Each text form takes no less than the binary one, but for the last sample's space.
+uint64_t LeastPnmBytes(const OIIO::ImageSpec& spec) {
+  const uint64_t samples = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
+  const bool bits = spec.get_int_attribute("oiio:BitsPerSample", 8) == 1;
+  return bits ? samples / 8 : samples * spec.format.size() - 1;
+}
+
 std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
@@ -117,6 +126,10 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
   const auto channels = static_cast<uint64_t>(spec.nchannels);
   if (tile > max_samples / channels) return "its tiles are too large";
   if (spec.image_pixels() > max_samples / channels) return "too large";
+  if (format == "pnm" && std::filesystem::file_size(path) < LeastPnmBytes(spec)) {
+    return "cut off: too short for " + std::to_string(spec.width) + "x" +
+           std::to_string(spec.height) + " pixels";
+  }
   const uint64_t samples = spec.image_pixels() * channels;
   DescribeImage(spec, image);
   image->samples = static_cast<float*>(std::malloc(samples * sizeof(float)));
