@@ -10,6 +10,7 @@
 #include "hwy/highway.h"
 
 #include "base/basis-inl.h"
+#include "base/geometry-inl.h"
 #include "light/ellipse_irradiance-inl.h"
 #include "light/ltc-inl.h"
 #include "shading/fast_area_kernels.h"
@@ -31,15 +32,10 @@ HWY_INLINE Vec3V<VD> PromoteSoa(const Soa3<float>& soa, size_t i) {
   return {promote(soa.x), promote(soa.y), promote(soa.z)};
 }
 
-HWY_INLINE Vec3V<VD> Constant(const Vec3d& v) {
-  const DD d;
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-
 // From hits i... to the light's centre.
 HWY_INLINE Vec3V<VD> CentreFrom(const SampledLight& light, const Soa3<double>& from, size_t i) {
   const DD d;
-  return Sub(Constant(light.place),
+  return Sub(SetVec3(DD(), light.place),
              LoadU3(d, from.x.data() + i, from.y.data() + i, from.z.data() + i));
 }
 
@@ -52,9 +48,9 @@ struct SeenEllipse {
 HWY_INLINE SeenEllipse DiskFrom(const SampledLight& light, const Vec3V<VD>& centre) {
   const DD d;
   const EllipseLight ellipse = EllipseOf(DiskLight<double>{Vec3d(0), light.normal, light.radius});
-  const VD towards = FusedDot(centre, Constant(light.normal));
+  const VD towards = FusedDot(centre, SetVec3(DD(), light.normal));
   const auto front = hn::Lt(towards, hn::Zero(d));
-  return {{centre, Constant(ellipse.x), Constant(ellipse.y)},
+  return {{centre, SetVec3(DD(), ellipse.x), SetVec3(DD(), ellipse.y)},
           light.two_sided ? hn::Ne(towards, hn::Zero(d)) : front};
 }
 

@@ -8,6 +8,7 @@
 #define NACRE_SHADING_SEEN_INL_H_
 #endif
 
+#include "base/geometry-inl.h"
 #include "base/target_ops-inl.h"
 #include "light/irradiance-inl.h"
 #include "light/mesh_outline-inl.h"
@@ -22,11 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using SeenTag = hn::ScalableTag<float>;
 using SeenV = hn::Vec<SeenTag>;
 
-HWY_INLINE Vec3V<SeenV> Set3(const Vec3d& v) {
-  const SeenTag d;
-  return {hn::Set(d, static_cast<float>(v.x)), hn::Set(d, static_cast<float>(v.y)),
-          hn::Set(d, static_cast<float>(v.z))};
-}
+HWY_INLINE Vec3V<SeenV> Set3(const Vec3d& v) { return SetVec3(SeenTag(), v); }
 
 // From hits i... to a point of the light, formed in double.
 HWY_INLINE Vec3V<SeenV> Offset(const SampledLight& light, const HitBatch& hits, const Vec3d& point,
