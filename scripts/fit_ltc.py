@@ -10,9 +10,11 @@ cube of the difference being least. Only the shape is fitted: what the lobe refl
 better (src/brdf/albedo.h).
 
 The lobe is that of src/brdf/ggx.h, with height-correlated shadowing, once with F = 1 and once with
-F = (1 - v.h)^5: Schlick's curve is a mixture of both. It wants numpy, takes a minute or two, and
-prints how far the fits are off, as the part of the light that comes from elsewhere than it should:
-half the integral of the difference of both distributions.
+F = (1 - v.h)^5: Schlick's curve is a mixture of both. It wants numpy, takes some minutes, makes the
+same bytes again, and prints how far the fits are off, as the part of the light that comes from
+elsewhere than it should: half the integral of the difference of both distributions. That is much
+where a lobe's light is in two places, as Schlick's part of narrow ones near the normal: at the peak
+and next to the horizon.
 """
 import argparse
 import pathlib
