@@ -10,9 +10,11 @@ cube of the difference being least. Only the shape is fitted: what the lobe refl
 better (src/brdf/albedo.h).
 
 The lobe is that of src/brdf/ggx.h, with height-correlated shadowing, once with F = 1 and once with
-F = (1 - v.h)^5: Schlick's curve is a mixture of both. It wants numpy, takes a minute or two, and
-prints how far the fits are off, as the part of the light that comes from elsewhere than it should:
-half the integral of the difference of both distributions.
+F = (1 - v.h)^5: Schlick's curve is a mixture of both. It wants numpy, takes some minutes, makes the
+same bytes again, and prints how far the fits are off, as the part of the light that comes from
+elsewhere than it should: half the integral of the difference of both distributions. That is much
+where a lobe's light is in two places, as Schlick's part of narrow ones near the normal: at the peak
+and next to the horizon.
 """
 import argparse
 import pathlib
@@ -44,7 +46,7 @@ def lobe(view, light, alpha, power):
 
 
 def lobe_samples(view, alpha):
-    """Directions by the visible normals (Heitz 2018), and their density."""
+    """Directions by the visible normals (Heitz 2018)."""
     u, v = grid()
     stretched = np.array([alpha * view[0], 0, view[2]])
     stretched /= np.linalg.norm(stretched)
@@ -60,7 +62,7 @@ def lobe_samples(view, alpha):
     n = np.stack([alpha * n[:, 0], alpha * n[:, 1], np.maximum(n[:, 2], 1e-12)], axis=1)
     n /= np.linalg.norm(n, axis=1, keepdims=True)
     light = 2 * (n @ view)[:, None] * n - view
-    return light, lobe_density(view, light, alpha)
+    return light
 
 
 def lobe_density(view, light, alpha):
@@ -69,6 +71,17 @@ def lobe_density(view, light, alpha):
     d = alpha**2 / (np.pi * (half[:, 2] ** 2 * (alpha**2 - 1) + 1) ** 2)
     g1 = 2 / (view[2] + np.sqrt(alpha**2 + (1 - alpha**2) * view[2] ** 2))
     return np.where(half[:, 2] > 0, d * g1 / 4, 0)
+
+
+def hemisphere_samples():
+    """Uniform."""
+    u, v = grid()
+    r, phi = np.sqrt(1 - u * u), 2 * np.pi * v
+    return np.stack([r * np.cos(phi), r * np.sin(phi), u], axis=1)
+
+
+HEMISPHERE = hemisphere_samples()
+HEMISPHERE_DENSITY = 1 / (2 * np.pi)
 
 
 def cosine_samples():
@@ -93,8 +106,8 @@ def matrix(mean, numbers):
     return frame @ np.array([[m11, 0, m13], [0, m22, 0], [0, 0, 1.0]])
 
 
-def simplex(cost, start, steps=120):
-    """The least of a function near a place: Nelder and Mead 1965."""
+def simplex(cost, start, steps=200):
+    """The least of a function near a place, and whether it settled: Nelder and Mead 1965."""
     start = np.asarray(start, float)
     points = [start]
     for i in range(len(start)):
@@ -106,7 +119,7 @@ def simplex(cost, start, steps=120):
         order = np.argsort(values)
         points, values = [points[i] for i in order], [values[i] for i in order]
         if max(np.abs(p - points[0]).max() for p in points) < 1e-5:
-            break
+            return points[0], True
         centre = np.mean(points[:-1], axis=0)
         place = lambda t: centre + t * (points[-1] - centre)
         reflected = place(-1)
@@ -125,7 +138,7 @@ def simplex(cost, start, steps=120):
             else:
                 points = [points[0]] + [(p + points[0]) / 2 for p in points[1:]]
                 values = [values[0]] + [cost(p) for p in points[1:]]
-    return points[int(np.argmin(values))]
+    return points[int(np.argmin(values))], False
 
 
 class Cell:
@@ -134,13 +147,18 @@ class Cell:
     def __init__(self, roughness, cosine, power):
         self.alpha, self.power = roughness**2, power
         self.view = np.array([np.sqrt(max(1 - cosine**2, 0)), 0, cosine])
-        self.lights, self.densities = lobe_samples(self.view, self.alpha)
-        weights = lobe(self.view, self.lights, self.alpha, power)
-        weights /= np.maximum(self.densities, 1e-30)
-        self.albedo = weights.mean()
+        # With F = (1 - v.h)^5 a narrow lobe has nearly all of its light far from where it is densest,
+        # where none of its own samples may be: half of all samples know nothing of it.
+        self.lights = np.concatenate([lobe_samples(self.view, self.alpha), HEMISPHERE])
+        weights = lobe(self.view, self.lights, self.alpha, power) / self.density(self.lights)
+        self.albedo = weights.sum() / SIDE**2
         mean = (self.lights * weights[:, None]).sum(axis=0)
         mean[1] = 0
         self.mean = mean / np.linalg.norm(mean)
+
+    def density(self, light):
+        """Of the lobe's samples and those of the hemisphere together."""
+        return lobe_density(self.view, light, self.alpha) + HEMISPHERE_DENSITY
 
     def integral(self, numbers, exponent):
         m = matrix(self.mean, numbers)
@@ -153,9 +171,8 @@ class Cell:
         for light in (self.lights, own):
             wanted = lobe(self.view, light, self.alpha, self.power) / self.albedo
             got = transformed(inverse, light)
-            both = np.maximum(lobe_density(self.view, light, self.alpha) + got, 1e-30)
-            total += (np.abs(wanted - got) ** exponent / both).mean()
-        return total
+            total += (np.abs(wanted - got) ** exponent / (self.density(light) + got)).sum()
+        return total / SIDE**2
 
     def fit(self, start, is_round):
         def expand(x):
@@ -163,21 +180,24 @@ class Cell:
 
         free = start[:1] if is_round else start
         cost = lambda x: self.integral(np.maximum(np.array(expand(x)), [1e-4, 1e-4, -1e9]), 3)
-        return np.maximum(np.array(expand(simplex(cost, free))), [1e-4, 1e-4, -1e9])
+        best, self.settled = simplex(cost, free)
+        return np.maximum(np.array(expand(best)), [1e-4, 1e-4, -1e9])
 
 
 def fit_row(roughness, power):
     """From the view along the normal to grazing, each from where the last one ended."""
-    numbers, row, errors = np.array([roughness**2, roughness**2, 0.0]), [], []
+    width = roughness**2 if power == 0 else 1.0
+    numbers, row, errors, unsettled = np.array([width, width, 0.0]), [], [], 0
     for k in range(ANGLES):
         x = k / (ANGLES - 1)
         cell = Cell(roughness, max(1 - x * x, 1e-3), power)
         numbers = cell.fit(numbers, k == 0)
+        unsettled += not cell.settled
         inverse = np.linalg.inv(matrix(cell.mean, numbers))
         inverse /= inverse[1, 1]
         row.append((inverse[0, 0], inverse[0, 2], inverse[2, 0], inverse[2, 2]))
         errors.append(cell.integral(numbers, 1) / 2)
-    return row, errors
+    return row, errors, unsettled
 
 
 def header(name, array, curve, rows, told):
@@ -205,11 +225,13 @@ def header(name, array, curve, rows, told):
 
 
 def write(path, power, array, curve):
-    rows, errors = zip(*[fit_row(r, power) for r in ROUGHNESSES])
+    rows, errors, unsettled = zip(*[fit_row(r, power) for r in ROUGHNESSES])
     errors = np.array(errors)
     told = f"{100 * np.median(errors):.1f} % in the median, {100 * errors.max():.1f} % at worst"
     path.write_text(header(path.name, array, curve, rows, told), encoding="utf-8")
-    print(f"{path.name}: {told}", flush=True)
+    i, k = np.unravel_index(errors.argmax(), errors.shape)
+    print(f"{path.name}: {told}, at roughness {ROUGHNESSES[i]:.2f} and view {k} of {ANGLES}; "
+          f"{sum(unsettled)} of {errors.size} fits did not settle", flush=True)
 
 
 def main():

@@ -53,15 +53,20 @@ Real IrradianceOfWholeDisk(const DiskAbove<Real>& disk) {
          (q * (a + q));
 }
 
+// The integral of max(y - x, 0) over the unit disk, y a coordinate on it.
+template <typename Real>
+Real HeightMoment(Real x) {
+  const Real y = std::sqrt((1 - x) * (1 + x));
+  return 2 * y * y * y / 3 - x * (std::acos(x) - x * y);
+}
+
 // A disk across the horizon so small that distance and direction are the same all over it (below
 // 1e-5 of its distance; this is off by 4 times that): the height's first moment over the segment.
 template <typename Real>
 Real IrradianceOfRisingSpeck(const DiskAbove<Real>& disk) {
   const Real x = -disk.centre_height / disk.rim_height;  // the horizon, in radii from the centre
-  const Real y = std::sqrt((1 - x) * (1 + x));
-  const Real moment = 2 * y * y * y / 3 - x * (std::acos(x) - x * y);
   const Real distance2 = disk.z * disk.z + disk.rho * disk.rho;
-  return std::abs(disk.z) * disk.radius * disk.radius * disk.rim_height * moment /
+  return std::abs(disk.z) * disk.radius * disk.radius * disk.rim_height * HeightMoment(x) /
          (distance2 * distance2);
 }
 

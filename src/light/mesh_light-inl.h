@@ -11,7 +11,7 @@
 
 #include <limits>
 
-#include "base/vec3-inl.h"
+#include "base/geometry-inl.h"
 #include "light/mesh_light.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -58,19 +58,6 @@ struct TriangleMeetingV {
   M met;
   V t, towards;
 };
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-
-// Products and sums stay apart, as in the scalar twin.
-template <class V>
-HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
-}
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE TriangleMeetingV<hn::Mask<D>, V> MeetTriangle(D d, const TriangleLight<double>& t,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -53,55 +54,60 @@ struct Errors {
   }
 };
 
+// measure(material): an error, or none if the material's lobe is to be sampled.
+template <class Measure>
+Errors MeasureLobes(const Scene& scene, const RenderPlan& plan, FastLight told,
+                    const Measure& measure) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  Errors errors{.told = std::move(told)};
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (!used[i]) continue;
+    const std::optional<FastLobeError> error = measure(plan.materials[i]);
+    if (error) errors.Add(*error, scene.materials[i].name);
+  }
+  return errors;
+}
+
+// Tells the errors, if there are any: `how` the lobes are had, and `where` the points were.
+void TellLobes(const Errors& errors, const std::string& how, const char* where, RenderPlan* plan) {
+  if (errors.materials == 0) return;
+  const FastLight& told = errors.told;
+  plan->substitutions.push_back(
+      {fmt::format("light \"{}\", lobes", told.light), true,
+       fmt::format("of {} materials by {} where all of the light is seen: off by {:.2g} % of a "
+                   "material's mean (rms; at worst {:.2g} %, \"{}\") at {} points{}; other lobes "
+                   "sampled",
+                   errors.materials, how, 100 * told.rms, 100 * told.worst, errors.worst,
+                   told.points, where)});
+  plan->fast_lights.push_back(told);
+}
+
 void PlanLobes(const Scene& scene, const RenderSettings& settings, PlannedSampledLight* planned,
                RenderPlan* plan) {
-  const std::string& name = scene.lights[planned->index].name;
-  const std::vector<bool> used = FindUsedMaterials(scene);
   const auto fast = std::make_shared<FastSky>(*planned->light.sky.fast);
   planned->light.sky.fast = fast;
   const std::shared_ptr<const EnvironmentMap> image =
       IsColored(planned->light) ? ImageOf(planned->light) : nullptr;
-  Errors errors{.told = {name, "split sum"}};
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const ShadingMaterial& material = plan->materials[i];
-    if (!used[i] || !AddLobe(material, image.get(), settings.threads, fast.get())) continue;
-    errors.Add(MeasureFastLobe(material, planned->light, settings.threads),
-               scene.materials[i].name);
-  }
-  if (errors.materials == 0) return;
-  const FastLight& told = errors.told;
-  plan->substitutions.push_back(
-      {fmt::format("light \"{}\", lobes", name), true,
-       fmt::format(
-           "of {} materials by split sum, from {} blurred images, where all of the light is seen: "
-           "off by {:.2g} % of a material's mean (rms; at worst {:.2g} %, \"{}\") at {} points; "
-           "other lobes sampled",
-           errors.materials, fast->lobes.size(), 100 * told.rms, 100 * told.worst, errors.worst,
-           told.points)});
-  plan->fast_lights.push_back(told);
+  const FastLight told{scene.lights[planned->index].name, "split sum"};
+  const Errors errors = MeasureLobes(
+      scene, *plan, told, [&](const ShadingMaterial& material) -> std::optional<FastLobeError> {
+        if (!AddLobe(material, image.get(), settings.threads, fast.get())) return std::nullopt;
+        return MeasureFastLobe(material, planned->light, settings.threads);
+      });
+  TellLobes(errors, fmt::format("split sum, from {} blurred images,", fast->lobes.size()), "",
+            plan);
 }
 
 void PlanTransformedLobes(const Scene& scene, const RenderSettings& settings,
                           const PlannedSampledLight& planned, RenderPlan* plan) {
-  const std::string& name = scene.lights[planned.index].name;
-  const std::vector<bool> used = FindUsedMaterials(scene);
-  Errors errors{.told = {name, "linearly transformed cosines"}};
-  for (size_t i = 0; i < scene.materials.size(); ++i) {
-    const ShadingMaterial& material = plan->materials[i];
-    if (!used[i] || !HasTransformedLobe(planned.light, material)) continue;
-    errors.Add(MeasureTransformedLobe(material, planned.light, settings.threads),
-               scene.materials[i].name);
-  }
-  if (errors.materials == 0) return;
-  const FastLight& told = errors.told;
-  plan->substitutions.push_back(
-      {fmt::format("light \"{}\", lobes", name), true,
-       fmt::format(
-           "of {} materials by linearly transformed cosines where all of the light is seen: "
-           "off by {:.2g} % of a material's mean (rms; at worst {:.2g} %, \"{}\") at {} "
-           "points around the light; other lobes sampled",
-           errors.materials, 100 * told.rms, 100 * told.worst, errors.worst, told.points)});
-  plan->fast_lights.push_back(told);
+  constexpr const char* kMethod = "linearly transformed cosines";
+  const FastLight told{scene.lights[planned.index].name, kMethod};
+  const Errors errors = MeasureLobes(
+      scene, *plan, told, [&](const ShadingMaterial& material) -> std::optional<FastLobeError> {
+        if (!HasTransformedLobe(planned.light, material)) return std::nullopt;
+        return MeasureTransformedLobe(material, planned.light, settings.threads);
+      });
+  TellLobes(errors, kMethod, " around the light", plan);
 }
 
 }  // namespace
@@ -109,9 +115,7 @@ void PlanTransformedLobes(const Scene& scene, const RenderSettings& settings,
 std::string PlanFastLight(const Light& light, const RenderSettings& settings,
                           SampledLight* prepared, RenderPlan* plan) {
   const bool fast = (settings.fast_lights || light.fast) && settings.closed_forms;
-  const bool flat = prepared->form == SampledForm::kRectangle ||
-                    (prepared->form == SampledForm::kMesh && HasIrradiance(*prepared));
-  prepared->transformed_cosines = fast && flat;
+  prepared->transformed_cosines = fast && !IsSky(*prepared) && HasIrradiance(*prepared);
   if (!fast || !IsSky(*prepared)) return "in closed form";
   if (prepared->form != SampledForm::kPictureSky) {
     prepared->sky.fast = std::make_shared<FastSky>();

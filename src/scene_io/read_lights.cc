@@ -127,12 +127,10 @@ void ReadLight(const JsonValue& value, const SceneContext& context, Light* light
       light->kind = ReadEnvironment(&object, context);
       break;
   }
-  if (static_cast<LightType>(type) != LightType::kAmbient) {
-    object.Boolean("shadows", &light->shadows);
-  }
   const auto kind = static_cast<LightType>(type);
-  if (kind == LightType::kRectangle || kind == LightType::kMesh ||
-      kind == LightType::kEnvironment) {
+  if (kind != LightType::kAmbient) object.Boolean("shadows", &light->shadows);
+  if (kind == LightType::kSphere || kind == LightType::kRectangle || kind == LightType::kDisk ||
+      kind == LightType::kMesh || kind == LightType::kEnvironment) {
     constexpr std::array<std::string_view, 2> kModes = {"sampled", "fast"};
     size_t mode = 0;
     if (object.Choice("mode", kModes, &mode)) light->fast = mode == 1;

@@ -7,10 +7,8 @@
 
 #include "hwy/highway.h"
 
-#include "base/target_ops-inl.h"
-#include "light/irradiance-inl.h"
 #include "shading/area_kernels.h"
-#include "shading/soa-inl.h"
+#include "shading/seen-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -20,20 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
-
-HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
-  const D d;
-  return {hn::Set(d, static_cast<float>(v.x)), hn::Set(d, static_cast<float>(v.y)),
-          hn::Set(d, static_cast<float>(v.z))};
-}
-
-// From hits i... to the light's place, formed in double.
-HWY_INLINE Vec3V<V> Offset(const SampledLight& light, const HitBatch& hits, size_t i) {
-  const D d;
-  return {SubtractAndRound(d, light.place.x, hits.position.x.data() + i),
-          SubtractAndRound(d, light.place.y, hits.position.y.data() + i),
-          SubtractAndRound(d, light.place.z, hits.position.z.data() + i)};
-}
 
 HWY_INLINE SphereLightV<V> SphereAt(const SampledLight& light, const HitBatch& hits, size_t i) {
   return {Offset(light, hits, i), hn::Set(D(), static_cast<float>(light.radius))};

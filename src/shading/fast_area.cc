@@ -7,11 +7,11 @@
 #include "base/basis.h"
 #include "base/parallel.h"
 #include "brdf/lobe_sampling.h"
-#include "light/irradiance.h"
-#include "light/ltc.h"
 #include "sampling/sobol.h"
+#include "shading/fast_area_kernels.h"
 #include "shading/mapped.h"
 #include "shading/scalar_material.h"
+#include "shading/seen_light.h"
 
 namespace nacre {
 namespace {
@@ -23,68 +23,6 @@ constexpr double kViewCosines[] = {0.9, 0.5, 0.15};  // of view and light, about
 // The estimates' own error is about a hundredth, below what they measure.
 constexpr uint32_t kLobeSamples = 256;
 
-// A light as the point of a surface sees it, in double.
-class SeenLight {
- public:
-  SeenLight(const SampledLight& light, const Vec3d& point) : light_(light), point_(point) {}
-
-  // A direction to it, and the density with which it is chosen; 0: no light is seen there.
-  Vec3d Sample(double u0, double u1) const {
-    if (light_.form == SampledForm::kRectangle) return SampleLight(Rectangle(), u0, u1).to_light;
-    const CdfPick pick = PickIndex(light_.mesh->by_area, u0);
-    return SampleLight(Triangle(pick.index), pick.rest, u1).to_light;
-  }
-
-  double Density(const Vec3d& direction) const {
-    if (light_.form == SampledForm::kRectangle) {
-      return Emits((direction ^ light_.normal) < 0) ? LightPdf(Rectangle(), direction) : 0;
-    }
-    FindMeetings(*light_.mesh, point_ - light_.place, direction, &meetings_);
-    double density = 0;
-    const MeshLightMeeting* nearest = nullptr;
-    for (const MeshLightMeeting& meeting : meetings_) {
-      density += light_.mesh->probabilities[meeting.triangle] *
-                 LightPdf(Triangle(meeting.triangle), direction);
-      if (nearest == nullptr || meeting.t < nearest->t) nearest = &meeting;
-    }
-    if (nearest == nullptr) return 0;
-    return Emits((direction ^ light_.mesh->crosses[nearest->triangle]) < 0) ? density : 0;
-  }
-
-  // The part of the lobe with this frame and matrix that it fills.
-  double Share(const LtcNumbers& numbers, const Basis<double>& frame) const {
-    const auto map = [&](const Vec3d& v) { return numbers.Apply(frame.ToLocal(v)); };
-    const auto share = [&](auto piece, const Vec3d& facing) {
-      if (!Emits((piece.corner ^ facing) < 0)) return 0.0;
-      piece.corner = map(piece.corner);
-      piece.edge_x = map(piece.edge_x);
-      piece.edge_y = map(piece.edge_y);
-      return std::max(Irradiance(piece, Vec3d(0, 0, 1)), 0.0) / M_PI;
-    };
-    if (light_.form == SampledForm::kRectangle) return share(Rectangle(), light_.normal);
-    double sum = 0;
-    for (size_t i = 0; i < light_.mesh->triangles.size(); ++i) {
-      sum += share(Triangle(i), light_.mesh->crosses[i]);
-    }
-    return sum;
-  }
-
- private:
-  bool Emits(bool front) const { return front || light_.two_sided; }
-  RectangleLight<double> Rectangle() const {
-    return {light_.place - point_, light_.edge_x, light_.edge_y};
-  }
-  TriangleLight<double> Triangle(size_t i) const {
-    TriangleLight<double> triangle = light_.mesh->triangles[i];
-    triangle.corner += light_.place - point_;
-    return triangle;
-  }
-
-  const SampledLight& light_;
-  const Vec3d& point_;
-  mutable std::vector<MeshLightMeeting> meetings_;  // of the last density
-};
-
 struct SurfacePoint {
   Vec3d position, normal, to_view;
 };
@@ -93,6 +31,7 @@ struct SurfacePoint {
 // viewer.
 SurfacePoint PointAt(const SampledLight& light, size_t i) {
   const bool rectangle = light.form == SampledForm::kRectangle;
+  const bool flat = rectangle || light.form == SampledForm::kDisk;
   const Vec3d way = (light.edge_x + light.edge_y) / 2;
   const Vec3d center = rectangle ? light.place + way : light.place;
   const double radius = rectangle ? way.length() : light.radius;
@@ -104,12 +43,12 @@ SurfacePoint PointAt(const SampledLight& light, size_t i) {
   const double cosine = kViewCosines[take(std::size(kViewCosines))];
   const double tilt = kTilts[take(std::size(kTilts))];
   const double distance = kDistances[take(std::size(kDistances))] * radius;
-  // A spiral of the golden angle over the sphere, or the half that the rectangle faces.
+  // A spiral of the golden angle over the sphere, or the half that a flat light faces.
   const double phi = static_cast<double>(i) * M_PI * (3 - std::sqrt(5.0));
   const double height = (static_cast<double>(i) + 0.5) / kDirections;
-  const double z = rectangle && !light.two_sided ? height : 2 * height - 1;
+  const double z = flat && !light.two_sided ? height : 2 * height - 1;
   const double r = std::sqrt((1 - z) * (1 + z));
-  const Basis<double> about = BasisAbout(rectangle ? light.normal : Vec3d(0, 0, 1));
+  const Basis<double> about = BasisAbout(flat ? light.normal : Vec3d(0, 0, 1));
   const Vec3d from_light = about.ToWorld({r * std::cos(phi), r * std::sin(phi), z});
   const Basis<double> around = BasisAbout(-from_light);
   const double half = std::acos(cosine), turn = 2 * phi + 1;
@@ -171,6 +110,10 @@ Vec3d Transformed(const ShadingMaterial& material, const LtcRows& rows, const Se
   return reflected;
 }
 
+bool IsRound(const SampledLight& light) {
+  return light.form == SampledForm::kSphere || light.form == SampledForm::kDisk;
+}
+
 }  // namespace
 
 bool HasTransformedLobe(const SampledLight& light, const ShadingMaterial& material) {
@@ -178,6 +121,26 @@ bool HasTransformedLobe(const SampledLight& light, const ShadingMaterial& materi
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   return model != nullptr && !model->delta &&
          model->alpha >= kLeastLtcRoughness * kLeastLtcRoughness;
+}
+
+void TransformedReflectance(const SampledLight& light, const ShadingMaterial& material,
+                            const LobeRange& range, LobeShares* shares, Soa3<float>* reflected) {
+  const double alpha = std::get<MicrofacetModel>(material.model).alpha;
+  const LtcRows rows = MakeLtcRows(std::sqrt(alpha));
+  if (IsRound(light)) {
+    RoundShares(rows, light, range, shares);
+  } else {
+    FlatShares(rows, light, range, shares);
+  }
+  FastReflectance(material, range, reflected, &shares->grazing);
+  const auto weigh = [&](const AlignedArray<float>& grazing, AlignedArray<float>* value) {
+    for (size_t i = range.begin; i < range.end; ++i) {
+      (*value)[i] = ((*value)[i] - grazing[i]) * shares->one[i] + grazing[i] * shares->schlick[i];
+    }
+  };
+  weigh(shares->grazing.x, &reflected->x);
+  weigh(shares->grazing.y, &reflected->y);
+  weigh(shares->grazing.z, &reflected->z);
 }
 
 FastLobeError MeasureTransformedLobe(const ShadingMaterial& material, const SampledLight& light,

@@ -9,7 +9,8 @@
 namespace nacre {
 
 // Whether the light, of which nothing hides anything, has the lobe of the material in its fast
-// mode: a rectangle or a mesh, and a GGX lobe of one width on normals that no map turns.
+// mode: a sphere, a flat light or a mesh with a closed form, and a GGX lobe of one width on normals
+// that no map turns.
 bool HasTransformedLobe(const SampledLight& light, const ShadingMaterial& material);
 
 // Buffers: the parts of a lobe that a light fills, for F = 1 and for what Fresnel's curve adds to

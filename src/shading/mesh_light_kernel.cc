@@ -12,12 +12,9 @@
 
 #include "hwy/highway.h"
 
-#include "base/target_ops-inl.h"
-#include "light/irradiance-inl.h"
 #include "light/mesh_light-inl.h"
-#include "light/mesh_outline-inl.h"
 #include "shading/mesh_light_kernel.h"
-#include "shading/soa-inl.h"
+#include "shading/seen-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -51,22 +48,6 @@ void SeenDensityT(const SeenTriangles& seen, size_t count, const Soa3<float>& to
   }
 }
 
-HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
-  const D d;
-  return {hn::Set(d, static_cast<float>(v.x)), hn::Set(d, static_cast<float>(v.y)),
-          hn::Set(d, static_cast<float>(v.z))};
-}
-
-// From hits i... to a point of the light, formed in double.
-HWY_INLINE Vec3V<V> Offset(const SampledLight& light, const HitBatch& hits, const Vec3d& point,
-                           size_t i) {
-  const D d;
-  const Vec3d place = light.place + point;
-  return {SubtractAndRound(d, place.x, hits.position.x.data() + i),
-          SubtractAndRound(d, place.y, hits.position.y.data() + i),
-          SubtractAndRound(d, place.z, hits.position.z.data() + i)};
-}
-
 // The sum of the triangles that emit towards hits i...
 HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
                           size_t i) {
@@ -75,9 +56,7 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
   const MeshLight& mesh = *light.mesh;
   V sum = zero;
   for (size_t k = 0; k < mesh.triangles.size(); ++k) {
-    const TriangleLight<double>& triangle = mesh.triangles[k];
-    const TriangleLightV<V> seen{Offset(light, hits, triangle.corner, i), Set3(triangle.edge_x),
-                                 Set3(triangle.edge_y)};
+    const TriangleLightV<V> seen = SeenTriangle(light, hits, k, i);
     const auto front = hn::Lt(FusedDot(seen.corner, Set3(mesh.crosses[k])), zero);
     if (!light.two_sided && hn::AllFalse(d, front)) continue;
     const V value = hn::Max(Irradiance(d, seen, normal), zero);
@@ -89,25 +68,10 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
 // The same by the outline of the mesh.
 HWY_INLINE V SumOutline(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
                         size_t i) {
-  const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const MeshOutline& outline = light.mesh->outline;
-  V faces[kMostClosedTriangles];
-  V orientation = hn::Set(d, -1.0f);
-  for (size_t k = 0; k < outline.faces.size(); ++k) {
-    const OutlineFace& face = outline.faces[k];
-    const Vec3V<V> offset = Offset(light, hits, outline.corners[face.corner], i);
-    const V height = FusedDot(offset, Set3(face.cross));
-    faces[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
-    if (light.two_sided) orientation = height;
-  }
-  SeenCornersV<V> seen;
-  seen.first = Offset(light, hits, outline.corners[0], i);
-  for (size_t k = 0; k < outline.corners.size(); ++k) {
-    seen.offset[k] = Set3(outline.corners[k] - outline.corners[0]);
-    seen.way[k] = UnitDifference(d, seen.first, seen.offset[k]);
-  }
-  return Irradiance(d, outline, seen, faces, orientation, normal);
+  SeenFaces faces;
+  FindFaces(light, hits, i, &faces);
+  return OutlineIrradiance(light, hits, i, faces, normal,
+                           [](const Vec3V<V>& offset) HWY_ATTR { return offset; });
 }
 
 void MeshIrradianceT(const SampledLight& light, const HitBatch& hits, const Surface& surface,

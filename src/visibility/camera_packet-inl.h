@@ -8,6 +8,7 @@
 #define NACRE_VISIBILITY_CAMERA_PACKET_INL_H_
 #endif
 
+#include "base/geometry-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/tile_kernel.h"
@@ -20,13 +21,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr int kCameraPacket = 16;
 using CameraDouble = hn::CappedTag<double, kCameraPacket>;
 using CameraFloat = hn::CappedTag<float, kCameraPacket>;
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
-  using T = hn::TFromD<D>;
-  return {hn::Set(d, static_cast<T>(v.x)), hn::Set(d, static_cast<T>(v.y)),
-          hn::Set(d, static_cast<T>(v.z))};
-}
 
 // Each ray has a vector of its own, its direction (perspective) or its origin (orthographic):
 // corner + x step_x + y step_y of the frame. The other vector is the same for all.

@@ -10,6 +10,7 @@
 #define HWY_TARGET_INCLUDE "visibility/refine_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "base/geometry-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/surface-inl.h"
 #include "visibility/triangle_test-inl.h"
@@ -58,12 +59,6 @@ HWY_INLINE SurfaceV<D> RefineSphere(const Gathered& in, size_t i, const Vec3V<V>
   const V along = hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord));
   return SphereSurface(d, direction, along, hit.perpendicular, center,
                        hn::Div(hn::Set(d, 1.0), radius));
-}
-
-HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
-  return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),
-          hn::Sub(hn::Mul(a.z, b.x), hn::Mul(a.x, b.z)),
-          hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {

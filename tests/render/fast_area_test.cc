@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "catch.h"
+#include "render/fast_pictures.h"
 #include "render/render.h"
 #include "scene/light_shapes.h"
 #include "scene/sphere_mesh.h"
@@ -41,77 +42,21 @@ MeshAreaLight TwoTriangles(const RectangleAreaLight& rectangle) {
   return MeshLight(std::move(mesh));
 }
 
-Scene OneSphere(double roughness, decltype(Light::kind) light, bool fast = true) {
-  Scene scene;
-  scene.materials.emplace_back().model = MetallicRoughnessMaterial{
-      .base_color = Rgb(0.9, 0.6, 0.3), .metallic = 1, .roughness = roughness};
-  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
-  scene.camera.projection = Projection::kOrthographic;
-  scene.camera.height = 2.2;
-  scene.image.width = scene.image.height = 32;
-  scene.image.spp = 1;
-  Light& added = scene.lights.emplace_back();
-  added.name = "lamp";
-  added.fast = fast;
-  added.kind = std::move(light);
-  return scene;
-}
-
-Image Render(const Scene& scene) {
-  RenderSettings settings;
-  settings.layers = {"specular", "diffuse"};
-  return RenderImage(scene, settings);
-}
-
-double At(const Image& image, const char* channel, size_t i) {
-  return image.Find(channel)->samples[i];
-}
-
-// Of the specular layer's red, over its mean, where `b` shows the highlight.
-double RmsBetween(const Image& a, const Image& b) {
-  const std::vector<float>& red = b.Find("specular.R")->samples;
-  const double most = *std::max_element(red.begin(), red.end());
-  double squares = 0, mean = 0, count = 0;
-  for (size_t i = 0; i < a.data.pixel_count(); ++i) {
-    if (At(a, "A", i) < 1 || At(b, "specular.R", i) < most / 4) continue;
-    squares += std::pow(At(a, "specular.R", i) - At(b, "specular.R", i), 2);
-    mean += At(b, "specular.R", i);
-    count += 1;
-  }
-  return std::sqrt(squares / count) / (mean / count);
-}
-
 TEST_CASE("transformed cosines are off from samples by about what the plan tells") {
   const Mesh ball = MakeMesh(Icosphere{.center = {2, 1.5, 2}, .radius = 0.7, .subdivisions = 0});
-  for (const decltype(Light::kind)& light :
-       {decltype(Light::kind)(Window()), decltype(Light::kind)(MeshLight(ball))}) {
+  for (const LightKind& light : {LightKind(Window()), LightKind(MeshLight(ball))}) {
     for (const double roughness : {0.15, 0.4, 0.8}) {
-      const RenderPlan plan = MakePlan(OneSphere(roughness, light), {});
-      REQUIRE(plan.fast_lights.size() == 1);
-      const FastLight& told = plan.fast_lights[0];
-      CHECK(told.light == "lamp");
-      CHECK(told.method == "linearly transformed cosines");
-      CHECK(told.points == 48);
-      CHECK(told.rms > 1e-3);  // it is an approximation
-      CHECK(told.rms < 0.25);
-      Scene fast = OneSphere(roughness, light), sampled = OneSphere(roughness, light, false);
-      CHECK(MakePlan(sampled, {}).fast_lights.empty());
-      fast.image.spp = sampled.image.spp = 256;
-      const double rms = RmsBetween(Render(fast), Render(sampled));
-      CAPTURE(roughness, rms, told.rms, told.worst);
-      // The picture has other points, all of one distance, and some noise.
-      CHECK(rms <= 2 * told.rms + 0.02);
-      CHECK(rms > 1e-4);
+      CheckTold(light, roughness);
     }
   }
 }
 
 TEST_CASE("a rectangle and its triangles are the same light to transformed cosines") {
   for (const double roughness : {0.2, 0.7}) {
-    const Scene whole = OneSphere(roughness, Window());
-    const Scene halves = OneSphere(roughness, TwoTriangles(Window()));
+    const Scene whole = FastSphere(roughness, Window());
+    const Scene halves = FastSphere(roughness, TwoTriangles(Window()));
     ForEachTarget([&](Target) {
-      const Image a = Render(whole), b = Render(halves);
+      const Image a = RenderFast(whole), b = RenderFast(halves);
       double largest = 0;
       for (size_t i = 0; i < a.data.pixel_count(); ++i) {
         largest = std::max(largest, At(a, "specular.R", i));
@@ -135,10 +80,10 @@ TEST_CASE("a solid's outline is the sum of its fronts to transformed cosines") {
   cut.triangles[1] = middle;
   for (const uint32_t i : {middle, b, c}) cut.triangles.push_back(i);
   for (const double roughness : {0.2, 0.7}) {
-    const Scene whole = OneSphere(roughness, MeshLight(solid));
-    const Scene pieces = OneSphere(roughness, MeshLight(cut));
+    const Scene whole = FastSphere(roughness, MeshLight(solid));
+    const Scene pieces = FastSphere(roughness, MeshLight(cut));
     ForEachTarget([&](Target) {
-      const Image x = Render(whole), y = Render(pieces);
+      const Image x = RenderFast(whole), y = RenderFast(pieces);
       double largest = 0;
       for (size_t i = 0; i < x.data.pixel_count(); ++i) {
         largest = std::max(largest, At(x, "specular.R", i));
@@ -156,24 +101,24 @@ TEST_CASE("a light all around a surface fills all of its lobe") {
   for (size_t i = 0; i < room.triangles.size(); i += 3) {
     std::swap(room.triangles[i + 1], room.triangles[i + 2]);
   }
-  const Scene scene = OneSphere(0.5, MeshLight(room));
+  const Scene scene = FastSphere(0.5, MeshLight(room));
   // Its fronts hide one another from points outside: it has no closed form, and so no fast mode.
   CHECK(MakePlan(scene, {}).fast_lights.empty());
   RectangleAreaLight wall = Window();
   wall.center = Vec3d(0, 0, 1.01);
   wall.facing = Vec3d(0, 0, -1);
   wall.width = wall.height = 4000;
-  Scene before = OneSphere(0.3, wall);
+  Scene before = FastSphere(0.3, wall);
   before.camera.position = Vec3d(0, 0, 1.005);  // between both
   before.camera.height = 0.02;
   before.image.width = before.image.height = 3;
-  const Image image = Render(before);
+  const Image image = RenderFast(before);
   // The sphere's top sees nothing but the wall, and F = 0.9 but for some thousandths.
   CHECK(std::abs(At(image, "specular.R", 4) / 5 - 0.9) < 0.01);
 }
 
 TEST_CASE("what may lie in shadow, and narrow lobes, are sampled") {
-  Scene scene = OneSphere(0.5, Window());
+  Scene scene = FastSphere(0.5, Window());
   scene.spheres.push_back({Vec3d(0.8, 0.9, 0.9), 0.3, {0}});
   Scene sampled = scene;
   sampled.lights[0].fast = false;
@@ -185,12 +130,12 @@ TEST_CASE("what may lie in shadow, and narrow lobes, are sampled") {
   CHECK(text.find("by linearly transformed cosines where all of the light is") !=
         std::string::npos);
   scene.lights[0].shadows = sampled.lights[0].shadows = false;
-  CHECK_FALSE(same(Render(scene), Render(sampled)));
-  Scene narrow = OneSphere(0.05, Window());
+  CHECK_FALSE(same(RenderFast(scene), RenderFast(sampled)));
+  Scene narrow = FastSphere(0.05, Window());
   CHECK(MakePlan(narrow, {}).fast_lights.empty());
   sampled = narrow;
   sampled.lights[0].fast = false;
-  CHECK(same(Render(narrow), Render(sampled)));
+  CHECK(same(RenderFast(narrow), RenderFast(sampled)));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "catch.h"
 #include "light/harmonics_error.h"
+#include "render/fast_pictures.h"
 #include "render/render.h"
 #include "targets.h"
 
@@ -33,32 +34,13 @@ std::shared_ptr<const SkyPicture> LampPicture() {
   return picture;
 }
 
-EnvironmentMap MapOf(const SkyPicture& picture) {
-  std::vector<Vec3f> texels;
-  texels.reserve(picture.rgb.size() / 3);
-  for (size_t i = 0; i < picture.rgb.size(); i += 3) {
-    texels.emplace_back(picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]);
-  }
-  return MakeEnvironmentMap(picture.width, picture.height, texels);
-}
-
-Scene OneSphere(decltype(Material::model) model) {
-  Scene scene;
-  scene.materials.emplace_back().model = std::move(model);
-  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
-  scene.camera.projection = Projection::kOrthographic;
-  scene.camera.height = 2.2;
-  scene.image.width = scene.image.height = 40;
-  scene.image.spp = 1;
+Scene UnderPicture(decltype(Material::model) model) {
+  Scene scene = SphereFromAbove(std::move(model), 40);
   Light& light = scene.lights.emplace_back();
   light.name = "sky";
   light.kind = EnvironmentLight{
       .sky = PictureSky{LampPicture(), Rgb(2, 1, 0.5)}, .rotate_deg = 30, .background = false};
   return scene;
-}
-
-double At(const Image& image, const char* channel, size_t i) {
-  return image.Find(channel)->samples[i];
 }
 
 Vec3d NormalAt(const Image& image, size_t i) {
@@ -71,19 +53,12 @@ Vec3d TurnBack(const Vec3d& n) {
   return {n.x * c - n.z * s, n.y, n.z * c + n.x * s};
 }
 
-RenderSettings Fast() {
-  RenderSettings settings;
-  settings.fast_lights = true;
-  return settings;
-}
-
 constexpr const char* kChannels[] = {"R", "G", "B"};
 
 TEST_CASE("a fast picture of the sky lights matte surfaces as its harmonics, without noise") {
-  const Scene scene = OneSphere(LambertMaterial{Rgb(0.5)});
+  const Scene scene = UnderPicture(LambertMaterial{Rgb(0.5)});
   const IrradianceHarmonics<double> harmonics = ProjectIrradiance(MapOf(*LampPicture()));
-  RenderSettings settings = Fast();
-  settings.layers = {"N"};
+  const RenderSettings settings = Fast({"N"});
   ForEachTarget([&](Target) {
     const Image image = RenderImage(scene, settings);
     size_t seen = 0;
@@ -103,9 +78,8 @@ TEST_CASE("a fast picture of the sky lights matte surfaces as its harmonics, wit
 }
 
 TEST_CASE("a fast picture is off by what the plan tells") {
-  const Scene scene = OneSphere(LambertMaterial{Rgb(0.5)});
-  RenderSettings settings = Fast();
-  settings.layers = {"N"};
+  const Scene scene = UnderPicture(LambertMaterial{Rgb(0.5)});
+  const RenderSettings settings = Fast({"N"});
   const RenderPlan plan = MakePlan(scene, settings);
   REQUIRE(plan.fast_lights.size() == 1);
   const FastLight& told = plan.fast_lights[0];
@@ -143,7 +117,7 @@ TEST_CASE("a fast picture is off by what the plan tells") {
 }
 
 TEST_CASE("a white furnace of a fast picture shows nothing") {
-  Scene scene = OneSphere(LambertMaterial{Rgb(1)});
+  Scene scene = UnderPicture(LambertMaterial{Rgb(1)});
   auto white = std::make_shared<SkyPicture>();
   white->width = 16;
   white->height = 8;
@@ -157,7 +131,7 @@ TEST_CASE("a white furnace of a fast picture shows nothing") {
 }
 
 TEST_CASE("fast pictures are sampled where something may cast a shadow") {
-  Scene scene = OneSphere(LambertMaterial{Rgb(0.5)});
+  Scene scene = UnderPicture(LambertMaterial{Rgb(0.5)});
   scene.spheres.push_back({Vec3d(0.3, 1.3, 0.5), 0.4, {0}});
   const auto same = [](const Image& a, const Image& b) {
     const auto& x = a.Find("R")->samples;

@@ -6,6 +6,7 @@
 
 #include "catch.h"
 #include "light/prefilter.h"
+#include "render/fast_pictures.h"
 #include "render/render.h"
 #include "shading/material.h"
 #include "targets.h"
@@ -31,23 +32,8 @@ std::shared_ptr<const SkyPicture> Picture(bool uniform) {
   return picture;
 }
 
-EnvironmentMap MapOf(const SkyPicture& picture) {
-  std::vector<Vec3f> texels;
-  texels.reserve(picture.rgb.size() / 3);
-  for (size_t i = 0; i < picture.rgb.size(); i += 3) {
-    texels.emplace_back(picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]);
-  }
-  return MakeEnvironmentMap(picture.width, picture.height, texels);
-}
-
-Scene OneSphere(const MetallicRoughnessMaterial& material, bool uniform) {
-  Scene scene;
-  scene.materials.emplace_back().model = material;
-  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
-  scene.camera.projection = Projection::kOrthographic;
-  scene.camera.height = 2.2;
-  scene.image.width = scene.image.height = 32;
-  scene.image.spp = 1;
+Scene UnderPicture(const MetallicRoughnessMaterial& material, bool uniform) {
+  Scene scene = SphereFromAbove(material);
   Light& light = scene.lights.emplace_back();
   light.name = "sky";
   light.kind = EnvironmentLight{
@@ -64,27 +50,18 @@ MetallicRoughnessMaterial Metal(double roughness, Compensation compensation) {
   return metal;
 }
 
-RenderSettings Fast() {
-  RenderSettings settings;
-  settings.fast_lights = true;
-  settings.layers = {"specular", "N"};
-  return settings;
-}
-
-double At(const Image& image, const std::string& channel, size_t i) {
-  return image.Find(channel)->samples[i];
-}
+RenderSettings FastLobes() { return Fast({"specular", "N"}); }
 
 TEST_CASE("fast lobes are the lobe's albedo times the image that it sees in the mirror") {
   const EnvironmentMap map = MapOf(*Picture(false));
   const double c = std::cos(M_PI / 6), s = std::sin(M_PI / 6);
   for (const Compensation compensation :
        {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
-    const Scene scene = OneSphere(Metal(0.6, compensation), false);
+    const Scene scene = UnderPicture(Metal(0.6, compensation), false);
     const PrefilteredMap lobe = Prefilter(map, 0.36);
     const ShadingMaterial material = PrepareMaterial(scene.materials[0], Rgb(0));
     ForEachTarget([&](Target) {
-      const Image image = RenderImage(scene, Fast());
+      const Image image = RenderImage(scene, FastLobes());
       size_t seen = 0;
       for (size_t i = 0; i < image.data.pixel_count(); ++i) {
         if (At(image, "A", i) < 1) continue;
@@ -109,7 +86,7 @@ TEST_CASE("a white furnace of a fast picture shows nothing, but where lobes are 
   for (const double roughness : {0.3, 0.6, 1.0}) {
     MetallicRoughnessMaterial white = Metal(roughness, Compensation::kTurquin);
     white.base_color = Rgb(1);
-    const Image image = RenderImage(OneSphere(white, true), Fast());
+    const Image image = RenderImage(UnderPicture(white, true), FastLobes());
     for (size_t i = 0; i < image.data.pixel_count(); ++i) {
       if (At(image, "A", i) < 1) continue;
       CHECK(std::abs(At(image, "R", i) - 1) <= 2e-4);  // twice the albedo's error
@@ -118,15 +95,15 @@ TEST_CASE("a white furnace of a fast picture shows nothing, but where lobes are 
 }
 
 TEST_CASE("fast lobes are off from samples by what the plan tells") {
-  Scene scene = OneSphere(Metal(0.5, Compensation::kTurquin), false);
-  const RenderPlan plan = MakePlan(scene, Fast());
+  Scene scene = UnderPicture(Metal(0.5, Compensation::kTurquin), false);
+  const RenderPlan plan = MakePlan(scene, FastLobes());
   REQUIRE(plan.fast_lights.size() == 2);
   const FastLight& told = plan.fast_lights[1];
   CHECK(told.method == "split sum");
   CHECK(told.points == 48);
   CHECK(told.rms > 0.01);  // it is an approximation
   CHECK(told.rms < 0.5);
-  const Image fast = RenderImage(scene, Fast());
+  const Image fast = RenderImage(scene, FastLobes());
   scene.image.spp = 256;
   RenderSettings sampled;
   sampled.layers = {"specular"};
@@ -146,19 +123,19 @@ TEST_CASE("fast lobes are off from samples by what the plan tells") {
 }
 
 TEST_CASE("narrow lobes are sampled") {
-  const Scene scene = OneSphere(Metal(0.2, Compensation::kTurquin), false);
-  CHECK(MakePlan(scene, Fast()).fast_lights.size() == 1);
+  const Scene scene = UnderPicture(Metal(0.2, Compensation::kTurquin), false);
+  CHECK(MakePlan(scene, FastLobes()).fast_lights.size() == 1);
 }
 
 TEST_CASE("skies by formula have fast lobes, too") {
-  Scene scene = OneSphere(Metal(0.5, Compensation::kTurquin), false);
+  Scene scene = UnderPicture(Metal(0.5, Compensation::kTurquin), false);
   auto& light = std::get<EnvironmentLight>(scene.lights[0].kind);
   light.sky = ConstantSky{Rgb(0.5, 1, 2)};
-  const RenderPlan constant = MakePlan(scene, Fast());
+  const RenderPlan constant = MakePlan(scene, FastLobes());
   REQUIRE(constant.fast_lights.size() == 1);
   // Exact, but for the albedo's curves and the noise of what it is held against.
   CHECK(constant.fast_lights[0].worst < 0.01);
-  const Image image = RenderImage(scene, Fast());
+  const Image image = RenderImage(scene, FastLobes());
   const ShadingMaterial material = PrepareMaterial(scene.materials[0], Rgb(0));
   for (size_t i = 0; i < image.data.pixel_count(); ++i) {
     if (At(image, "A", i) < 1) continue;
@@ -170,16 +147,16 @@ TEST_CASE("skies by formula have fast lobes, too") {
   }
 
   light.sky = GradientSky{.zenith = Rgb(0.2, 0.5, 1), .horizon = Rgb(1), .ground = Rgb(0.1)};
-  const RenderPlan gradient = MakePlan(scene, Fast());
+  const RenderPlan gradient = MakePlan(scene, FastLobes());
   REQUIRE(gradient.fast_lights.size() == 1);
   CHECK(gradient.fast_lights[0].rms > 1e-3);
   CHECK(gradient.fast_lights[0].rms < 0.2);
 }
 
 TEST_CASE("a light may be fast by itself, as all of them") {
-  Scene scene = OneSphere(Metal(0.5, Compensation::kTurquin), false);
+  Scene scene = UnderPicture(Metal(0.5, Compensation::kTurquin), false);
   scene.image.spp = 1;
-  RenderSettings settings = Fast();
+  RenderSettings settings = FastLobes();
   const std::vector<float> all = RenderImage(scene, settings).Find("R")->samples;
   settings.fast_lights = false;
   CHECK(MakePlan(scene, settings).fast_lights.empty());

@@ -48,6 +48,23 @@ TEST_CASE("face normals follow the right hand and do not know scale") {
   }
 }
 
+TEST_CASE("a face in the plane A x + B y + C z = D has the normal (A, B, C) / |(A, B, C)|") {
+  for (const Vec3d& plane : {Vec3d(1, 2, 3), Vec3d(-7, 11, 2), Vec3d(1, 1, 1), Vec3d(3, -4, 1000),
+                             Vec3d(0.5, 1023, -2), Vec3d(-5, 1, 0.125)}) {
+    // Across (B, -A, 0) x (0, C, -B) = B (A, B, C), all without rounding.
+    const Vec3d along(plane.y, -plane.x, 0), across(0, plane.z, -plane.y), place(64, -32, 16);
+    Mesh mesh;
+    mesh.positions = {place, place + along, place + across};
+    mesh.triangles = {0, 1, 2};
+    const Vec3d expected = plane * (plane.y > 0 ? 1 : -1) / plane.length();
+    const Vec3d normal = FaceNormal(mesh, 0);
+    for (int c = 0; c < 3; ++c) {
+      CHECK(std::abs(normal[c] - expected[c]) <= 4 * 0x1p-53 * std::abs(expected[c]));
+    }
+    CHECK(std::abs(normal.length() - 1) <= 4 * 0x1p-53);
+  }
+}
+
 TEST_CASE("smooth normals do not depend on how faces are cut") {
   // Weighting by count or by area would pull them towards faces that have two triangles at the
   // corner.

@@ -183,6 +183,33 @@ TEST_CASE("an index of refraction beside images, and specular colours") {
   CHECK(std::get<LambertMaterial>(matte.materials.at(0).model).albedo_map == TextureId{0});
 }
 
+TEST_CASE("images of specular weights and colours are left out, with one warning") {
+  GltfFile file = MakeTexturedSquare();
+  file.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  file.json["materials"][0]["extensions"]["KHR_materials_specular"] = {
+      {"specularColorFactor", {1, 0.5, 0.25}}};
+  file.json["materials"].push_back(file.json["materials"][0]);
+  const MetallicRoughnessMaterial plain = MaterialOf(LoadFile(file));
+  CHECK(plain.dielectric_f0.z == Approx(0.01).epsilon(1e-14));
+  for (const char* name : {"specularTexture", "specularColorTexture"}) {
+    CAPTURE(name);
+    GltfFile mapped = file;
+    for (Json& material : mapped.json["materials"]) {
+      material["extensions"]["KHR_materials_specular"][name] = {{"index", 0}};
+    }
+    std::vector<std::string> warnings;
+    const Scene scene = LoadFile(mapped, &warnings);
+    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
+            return warning.find("images of KHR_materials_specular are left out") !=
+                   std::string::npos;
+          }) == 1);
+    // The factors count all the same, and no other image takes the place of these.
+    CHECK(MaterialOf(scene).dielectric_f0 == plain.dielectric_f0);
+    CHECK(MaterialOf(scene).base_color_map == plain.base_color_map);
+    CHECK(scene.images.size() == 1);
+  }
+}
+
 TEST_CASE("images that are not there, or are none, are refused") {
   const auto message = [](const GltfFile& file) -> std::string {
     try {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/seen-inl.h: lights as the hits of a batch see them: what the kernels of area lights and
+// their fast mode share.
+#if defined(NACRE_SHADING_SEEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_SEEN_INL_H_
+#undef NACRE_SHADING_SEEN_INL_H_
+#else
+#define NACRE_SHADING_SEEN_INL_H_
+#endif
+
+#include "base/geometry-inl.h"
+#include "base/target_ops-inl.h"
+#include "light/irradiance-inl.h"
+#include "light/mesh_outline-inl.h"
+#include "shading/sampled_light.h"
+#include "shading/soa-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using SeenTag = hn::ScalableTag<float>;
+using SeenV = hn::Vec<SeenTag>;
+
+HWY_INLINE Vec3V<SeenV> Set3(const Vec3d& v) { return SetVec3(SeenTag(), v); }
+
+// From hits i... to a point of the light, formed in double.
+HWY_INLINE Vec3V<SeenV> Offset(const SampledLight& light, const HitBatch& hits, const Vec3d& point,
+                               size_t i) {
+  const SeenTag d;
+  const Vec3d place = light.place + point;
+  return {SubtractAndRound(d, place.x, hits.position.x.data() + i),
+          SubtractAndRound(d, place.y, hits.position.y.data() + i),
+          SubtractAndRound(d, place.z, hits.position.z.data() + i)};
+}
+
+HWY_INLINE Vec3V<SeenV> Offset(const SampledLight& light, const HitBatch& hits, size_t i) {
+  return Offset(light, hits, Vec3d(0), i);
+}
+
+HWY_INLINE TriangleLightV<SeenV> SeenTriangle(const SampledLight& light, const HitBatch& hits,
+                                              size_t triangle, size_t i) {
+  const TriangleLight<double>& t = light.mesh->triangles[triangle];
+  return {Offset(light, hits, t.corner, i), Set3(t.edge_x), Set3(t.edge_y)};
+}
+
+// The faces of a mesh with an outline, as Irradiance of mesh_outline-inl.h asks for them.
+struct SeenFaces {
+  SeenV shines[kMostClosedTriangles];
+  SeenV orientation;
+};
+
+HWY_INLINE void FindFaces(const SampledLight& light, const HitBatch& hits, size_t i,
+                          SeenFaces* faces) {
+  const SeenTag d;
+  const SeenV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const MeshOutline& outline = light.mesh->outline;
+  faces->orientation = hn::Set(d, -1.0f);
+  for (size_t k = 0; k < outline.faces.size(); ++k) {
+    const OutlineFace& face = outline.faces[k];
+    const Vec3V<SeenV> offset = Offset(light, hits, outline.corners[face.corner], i);
+    const SeenV height = FusedDot(offset, Set3(face.cross));
+    faces->shines[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
+    if (light.two_sided) faces->orientation = height;
+  }
+}
+
+// What the outline of a mesh lights of a surface, once map(offset) has been applied to all offsets
+// from hits i...
+template <class Map>
+HWY_INLINE SeenV OutlineIrradiance(const SampledLight& light, const HitBatch& hits, size_t i,
+                                   const SeenFaces& faces, const Vec3V<SeenV>& normal,
+                                   const Map& map) {
+  const SeenTag d;
+  const MeshOutline& outline = light.mesh->outline;
+  SeenCornersV<SeenV> seen;
+  seen.first = map(Offset(light, hits, outline.corners[0], i));
+  for (size_t k = 0; k < outline.corners.size(); ++k) {
+    seen.offset[k] = map(Set3(outline.corners[k] - outline.corners[0]));
+    seen.way[k] = UnitDifference(d, seen.first, seen.offset[k]);
+  }
+  return Irradiance(d, outline, seen, faces.shines, faces.orientation, normal);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
