@@ -24,6 +24,7 @@
 #include <OpenEXR/ImfVecAttribute.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <openexr.h>
 
 #include "base/error.h"
 
@@ -171,11 +172,25 @@ void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* 
   }
 }
 
+// OpenEXR's C++ reader makes room for an attribute of any size that the header tells, 2 GiB of text
+// where the file has 40 bytes; its C library looks at the file's size first.
+void CheckHeader(const std::string& path) {
+  exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  initializer.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+  exr_context_t context = nullptr;
+  const exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
+  exr_finish(&context);
+  if (result != EXR_ERR_SUCCESS) {
+    Fail(path, std::string("cannot be read as EXR: ") + exr_get_default_error_message(result));
+  }
+}
+
 Image Read(const std::string& path, bool with_samples) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) Fail(path, "no such file");
   if (!std::filesystem::is_regular_file(status)) Fail(path, "is not a regular file");
+  CheckHeader(path);
   try {
     constexpr int kNoThreads = 0;
     Imf::MultiPartInputFile file(path.c_str(), kNoThreads);

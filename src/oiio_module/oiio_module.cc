@@ -95,12 +95,16 @@ std::string FormatOf(const std::string& path) {
   return is_tga ? "targa" : "";
 }
 
-// Bytes that an uncompressed PNM file has at least; OpenImageIO reads what is missing as anything.
-// Each text form takes no less than the binary one, but for the last sample's space.
-uint64_t LeastPnmBytes(const OIIO::ImageSpec& spec) {
-  const uint64_t samples = spec.image_pixels() * static_cast<uint64_t>(spec.nchannels);
-  const bool bits = spec.get_int_attribute("oiio:BitsPerSample", 8) == 1;
-  return bits ? samples / 8 : samples * spec.format.size() - 1;
+// Bytes that a PNM file of such an image has at least: OpenImageIO reads what is missing as
+// anything. Text takes no less than binary numbers, but for the space after the last one. Binary
+// bitmaps, P4, have rows of whole bytes.
+uint64_t LeastPnmBytes(const std::string& path, const OIIO::ImageSpec& spec) {
+  std::array<char, 2> kind = {};
+  std::ifstream(path, std::ios::binary).read(kind.data(), kind.size());
+  if (kind[1] == '4') {
+    return (static_cast<uint64_t>(spec.width) + 7) / 8 * static_cast<uint64_t>(spec.height);
+  }
+  return spec.image_pixels() * static_cast<uint64_t>(spec.nchannels) * spec.format.size() - 1;
 }
 
 std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
@@ -126,7 +130,7 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
   const auto channels = static_cast<uint64_t>(spec.nchannels);
   if (tile > max_samples / channels) return "its tiles are too large";
   if (spec.image_pixels() > max_samples / channels) return "too large";
-  if (format == "pnm" && std::filesystem::file_size(path) < LeastPnmBytes(spec)) {
+  if (format == "pnm" && std::filesystem::file_size(path) < LeastPnmBytes(path, spec)) {
     return "cut off: too short for " + std::to_string(spec.width) + "x" +
            std::to_string(spec.height) + " pixels";
   }

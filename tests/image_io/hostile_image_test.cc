@@ -98,6 +98,41 @@ TEST_CASE("an EXR whose header promises pixels that are not there costs nothing"
   CHECK(PeakMib() < before + kRoomMib);
 }
 
+TEST_CASE("an EXR attribute that is longer than its file takes no room") {
+  const TestFolder folder;
+  const size_t before = PeakMib();
+  // One attribute, a text of 2 GiB less a bit.
+  std::string file("\x76\x2f\x31\x01\x02\0\0\0words\0string\0\xff\xff\xff\x7f", 25);
+  WriteText(folder / "long.exr", file + "no more");
+  const Caught caught = Catching([&] { ReadExr(folder / "long.exr"); });
+  CHECK(caught.code == ExitCode::kBadInput);
+  CHECK(caught.Says("long.exr"));
+  CHECK(PeakMib() < before + kRoomMib);
+}
+
+TEST_CASE("PNM files that end before their pixels are refused, and whole ones are read") {
+  const TestFolder folder;
+  const std::string whole[] = {
+      "P1\n3 2\n1 0 1\n0 1 0",       "P2\n2 1\n255\n1 2",
+      "P3\n1 1\n65535\n0 0 9",       std::string("P4\n9 2\n\1\200\2\200", 11),
+      "P5\n3 1\n255\nabc",           "P6\n1 1\n65535\nabcdef",
+      "PF\n1 1\n-1.0\nabcdefghijkl", "Pf\n2 1\n-1.0\nabcdefgh"};
+  for (const std::string& file : whole) {
+    CAPTURE(file);
+    WriteText(folder / "a.pnm", file);
+    CHECK(!ReadImage(folder / "a.pnm").channels.empty());
+  }
+  for (const std::string head : {"P1\n999 999\n1", "P2\n9 9\n255\n1 2", "P3\n9 9\n65535\n1 2 3",
+                                 "P4\n999 999\nab", "P5\n9 9\n255\nabc", "P6\n3 3\n65535\nabcdef",
+                                 "PF\n60000 600-0\n01.0\n", "Pf\n9 1\n-1.0\nabcdefgh"}) {
+    CAPTURE(head);
+    WriteText(folder / "a.pnm", head);
+    const Caught caught = Catching([&] { ReadImage(folder / "a.pnm"); });
+    CHECK(caught.code == ExitCode::kBadInput);
+    CHECK(caught.Says("a.pnm: cannot be read: cut off: too short for "));
+  }
+}
+
 TEST_CASE("the first bytes choose the reader, among few") {
   const TestFolder folder;
   WriteText(folder / "ppm.png", "P6\n1 1\n255\nabc");
