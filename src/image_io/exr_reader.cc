@@ -173,15 +173,24 @@ void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* 
 }
 
 // OpenEXR's C++ reader makes room for an attribute of any size that the header tells, 2 GiB of text
-// where the file has 40 bytes; its C library looks at the file's size first.
+// where the file has 40 bytes. Its C library looks at the file's size first, and says so, but goes
+// on after it: any complaint counts.
 void CheckHeader(const std::string& path) {
+  exr_result_t complaint = EXR_ERR_SUCCESS;
   exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  initializer.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+  initializer.user_data = &complaint;
+  initializer.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char*) {
+    void* first = nullptr;
+    if (exr_get_user_data(context, &first) != EXR_ERR_SUCCESS || first == nullptr) return;
+    if (auto* const kept = static_cast<exr_result_t*>(first); *kept == EXR_ERR_SUCCESS)
+      *kept = code;
+  };
   exr_context_t context = nullptr;
   const exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
   exr_finish(&context);
-  if (result != EXR_ERR_SUCCESS) {
-    Fail(path, std::string("cannot be read as EXR: ") + exr_get_default_error_message(result));
+  if (complaint == EXR_ERR_SUCCESS) complaint = result;
+  if (complaint != EXR_ERR_SUCCESS) {
+    Fail(path, std::string("cannot be read as EXR: ") + exr_get_default_error_message(complaint));
   }
 }
 

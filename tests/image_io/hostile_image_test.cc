@@ -101,13 +101,24 @@ TEST_CASE("an EXR whose header promises pixels that are not there costs nothing"
 TEST_CASE("an EXR attribute that is longer than its file takes no room") {
   const TestFolder folder;
   const size_t before = PeakMib();
-  // One attribute, a text of 2 GiB less a bit.
-  std::string file("\x76\x2f\x31\x01\x02\0\0\0words\0string\0\xff\xff\xff\x7f", 25);
-  WriteText(folder / "long.exr", file + "no more");
-  const Caught caught = Catching([&] { ReadExr(folder / "long.exr"); });
-  CHECK(caught.code == ExitCode::kBadInput);
-  CHECK(caught.Says("long.exr"));
-  CHECK(PeakMib() < before + kRoomMib);
+  const auto refused = [&](const std::string& file) {
+    WriteText(folder / "long.exr", file);
+    const Caught caught = Catching([&] { ReadExr(folder / "long.exr"); });
+    CHECK(caught.code == ExitCode::kBadInput);
+    CHECK(caught.Says("long.exr: cannot be read as EXR: "));
+    CHECK(PeakMib() < before + kRoomMib);
+  };
+  // A text of 2 GiB less a byte, alone, and among all that a header needs.
+  const std::string size = "\xff\xff\xff\x7f";
+  refused(std::string("\x76\x2f\x31\x01\x02\0\0\0words\0string\0", 21) + size + "no more");
+  Picture picture = MakePicture(5, 5);
+  picture.header.attributes["words"] = std::string("two words");
+  WritePicture(folder / "good.exr", picture, {});
+  std::ifstream stream(folder / "good.exr", std::ios::binary);
+  std::string file(std::istreambuf_iterator<char>(stream), {});
+  const std::string words("words\0string\0", 13);
+  REQUIRE(file.find(words) != std::string::npos);
+  refused(file.replace(file.find(words) + words.size(), size.size(), size));
 }
 
 TEST_CASE("PNM files that end before their pixels are refused, and whole ones are read") {
