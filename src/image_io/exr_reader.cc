@@ -24,9 +24,9 @@
 #include <OpenEXR/ImfVecAttribute.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <openexr.h>
 
 #include "base/error.h"
+#include "image_io/exr_header_check.h"
 
 namespace nacre {
 namespace {
@@ -172,34 +172,12 @@ void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* 
   }
 }
 
-// OpenEXR's C++ reader makes room for an attribute of any size that the header tells, 2 GiB of text
-// where the file has 40 bytes. Its C library looks at the file's size first, and says so, but goes
-// on after it: any complaint counts.
-void CheckHeader(const std::string& path) {
-  exr_result_t complaint = EXR_ERR_SUCCESS;
-  exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  initializer.user_data = &complaint;
-  initializer.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char*) {
-    void* first = nullptr;
-    if (exr_get_user_data(context, &first) != EXR_ERR_SUCCESS || first == nullptr) return;
-    if (auto* const kept = static_cast<exr_result_t*>(first); *kept == EXR_ERR_SUCCESS)
-      *kept = code;
-  };
-  exr_context_t context = nullptr;
-  const exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
-  exr_finish(&context);
-  if (complaint == EXR_ERR_SUCCESS) complaint = result;
-  if (complaint != EXR_ERR_SUCCESS) {
-    Fail(path, std::string("cannot be read as EXR: ") + exr_get_default_error_message(complaint));
-  }
-}
-
 Image Read(const std::string& path, bool with_samples) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) Fail(path, "no such file");
   if (!std::filesystem::is_regular_file(status)) Fail(path, "is not a regular file");
-  CheckHeader(path);
+  CheckExrHeader(path);
   try {
     constexpr int kNoThreads = 0;
     Imf::MultiPartInputFile file(path.c_str(), kNoThreads);

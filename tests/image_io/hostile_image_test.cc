@@ -118,7 +118,14 @@ TEST_CASE("an EXR attribute that is longer than its file takes no room") {
   std::string file(std::istreambuf_iterator<char>(stream), {});
   const std::string words("words\0string\0", 13);
   REQUIRE(file.find(words) != std::string::npos);
-  refused(file.replace(file.find(words) + words.size(), size.size(), size));
+  std::string longer = file;
+  refused(longer.replace(file.find(words) + words.size(), size.size(), size));
+  // A list of channels that goes on after its size, into another such text.
+  const std::string channels("channels\0chlist\0", 16);
+  const size_t list = file.find(channels) + channels.size();
+  REQUIRE(list < file.size());
+  file.replace(list, 5, std::string("\1\0\0\0", 4) + 'A');
+  refused(file);
 }
 
 TEST_CASE("PNM files that end before their pixels are refused, and whole ones are read") {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_io/exr_header_check.h"
+
+#include <cstdint>
+#include <fstream>
+#include <string_view>
+
+#include <openexr.h>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+// OpenEXR's C++ reader makes room for an attribute of any size that the header tells, 2 GiB of text
+// where the file has 40 bytes. Its C library looks at the file's size first, and says so, but goes
+// on after it: any complaint counts.
+exr_result_t FirstComplaint(const std::string& path) {
+  exr_result_t complaint = EXR_ERR_SUCCESS;
+  exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  initializer.user_data = &complaint;
+  initializer.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char*) {
+    void* first = nullptr;
+    if (exr_get_user_data(context, &first) != EXR_ERR_SUCCESS || first == nullptr) return;
+    if (auto* const kept = static_cast<exr_result_t*>(first); *kept == EXR_ERR_SUCCESS)
+      *kept = code;
+  };
+  exr_context_t context = nullptr;
+  const exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
+  exr_finish(&context);
+  return complaint != EXR_ERR_SUCCESS ? complaint : result;
+}
+
+// Whether the channels, a name and 16 bytes each, end with an empty name where the list does.
+bool EndsWhereItSays(std::string_view list) {
+  constexpr size_t kDescription = 16;
+  while (!list.empty()) {
+    const size_t end = list.find('\0');
+    if (end == 0) return list.size() == 1;
+    if (end == std::string_view::npos || list.size() <= end + kDescription) return false;
+    list.remove_prefix(end + 1 + kDescription);
+  }
+  return false;
+}
+
+// The C++ reader goes on where the names of channels end, not where their size says, and takes for
+// an attribute what lies there. Sizes are within the file here.
+bool ChannelListsEnd(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  constexpr std::streamoff kMagic = 4;
+  constexpr uint32_t kMultiPart = 0x1000;
+  uint32_t version = 0;
+  file.seekg(kMagic).read(reinterpret_cast<char*>(&version), sizeof(version));
+  bool after_header = false;  // a second empty name ends those of several parts
+  std::string name, type, value;
+  while (std::getline(file, name, '\0')) {
+    if (name.empty()) {
+      if ((version & kMultiPart) == 0 || after_header) return true;
+      after_header = true;
+      continue;
+    }
+    after_header = false;
+    int32_t size = 0;
+    if (!std::getline(file, type, '\0') ||
+        !file.read(reinterpret_cast<char*>(&size), sizeof(size)) || size < 0) {
+      return false;
+    }
+    if (type != "chlist") {
+      file.seekg(size, std::ios::cur);
+      continue;
+    }
+    value.resize(static_cast<size_t>(size));
+    if (!file.read(value.data(), size) || !EndsWhereItSays(value)) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+void CheckExrHeader(const std::string& path) {
+  const exr_result_t complaint = FirstComplaint(path);
+  if (complaint != EXR_ERR_SUCCESS) {
+    throw Error(ExitCode::kBadInput, path,
+                std::string("cannot be read as EXR: ") + exr_get_default_error_message(complaint));
+  }
+  if (!ChannelListsEnd(path)) {
+    throw Error(ExitCode::kBadInput, path,
+                "cannot be read as EXR: its list of channels is not as long as it says");
+  }
+}
+
+}  // namespace nacre
