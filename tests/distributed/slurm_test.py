@@ -43,7 +43,7 @@ class SlurmTest(unittest.TestCase):
         self.slurm.environment.update(NACRE=PROGRAM, FAILING=failing, FAILED=str(self.out / 'failed'))
         return self.slurm.run(SOURCE + '/scripts/farm_slurm', SCENE, '-o', self.out / 'a.exr',
                               '--tiles', TILES, '--wait', '--nacre',
-                              SOURCE + '/tests/farm/fails_at_first', *OPTIONS, *arguments)
+                              SOURCE + '/tests/distributed/fails_at_first', *OPTIONS, *arguments)
 
     def check_picture(self, result):
         logs = '\n'.join(path.read_text() for path in self.out.rglob('logs/*.txt'))

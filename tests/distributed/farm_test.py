@@ -16,7 +16,7 @@ import unittest
 PROGRAM, SOURCE = (os.path.abspath(word) for word in sys.argv[1:3])
 SCENE = SOURCE + '/scenes/first_scene.json'
 OPTIONS = ['--size', '64x300', '--spp', '2', '--reproducible']
-WRAPPER = SOURCE + '/tests/farm/fails_at_first'
+WRAPPER = SOURCE + '/tests/distributed/fails_at_first'
 
 
 class FarmTest(unittest.TestCase):
