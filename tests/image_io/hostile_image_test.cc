@@ -120,12 +120,15 @@ TEST_CASE("an EXR attribute that is longer than its file takes no room") {
   REQUIRE(file.find(words) != std::string::npos);
   std::string longer = file;
   refused(longer.replace(file.find(words) + words.size(), size.size(), size));
-  // A list of channels that goes on after its size, into another such text.
+  // A list of channels that ends before its size: what follows is no attribute.
   const std::string channels("channels\0chlist\0", 16);
-  const size_t list = file.find(channels) + channels.size();
-  REQUIRE(list < file.size());
-  file.replace(list, 5, std::string("\1\0\0\0", 4) + 'A');
-  refused(file);
+  REQUIRE(file.find(channels) != std::string::npos);
+  const size_t first_name = file.find(channels) + channels.size() + size.size();
+  constexpr size_t kDescription = 16;
+  file[file.find('\0', first_name) + 1 + kDescription] = '\0';
+  WriteText(folder / "long.exr", file);
+  CHECK(
+      Catching([&] { ReadExr(folder / "long.exr"); }).Says("its list of channels is not as long"));
 }
 
 TEST_CASE("PNM files that end before their pixels are refused, and whole ones are read") {
