@@ -47,6 +47,12 @@ HWY_INLINE V FresnelSchlick(D d, V f0, V schlick_weight) {
   return hn::MulAdd(hn::Sub(hn::Set(d, hn::TFromD<D>(1)), f0), schlick_weight, f0);
 }
 
+// F0 + (F90 - F0) weight.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FresnelSchlick(D, V f0, V f90, V schlick_weight) {
+  return hn::MulAdd(hn::Sub(f90, f0), schlick_weight, f0);
+}
+
 // Fresnel's equations of a dielectric, eta = n_t / n_i.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FresnelDielectric(D d, V v_dot_h, V one_minus_vh, V eta) {
@@ -98,11 +104,11 @@ HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
 
 // Schlick's curve less slope c (1 - c)^6, within [0, 1]; the slope is F82Slope's.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V slope) {
+HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V f90, V slope) {
   const V one = hn::Set(d, hn::TFromD<D>(1));
   const V weight = Power5(one_minus_vh);
   const V dip = hn::Mul(hn::Mul(slope, v_dot_h), hn::Mul(one_minus_vh, weight));
-  const V value = hn::Sub(FresnelSchlick(d, f0, weight), dip);
+  const V value = hn::Sub(FresnelSchlick(d, f0, f90, weight), dip);
   return hn::Min(hn::Max(value, hn::Zero(d)), one);
 }
 

@@ -5,16 +5,16 @@
 
 namespace nacre {
 
-// Schlick: F0 + (1 - F0) / 21, as 2 int (1 - c)^5 c dc = 1/21.
+// Schlick: F0 + (F90 - F0) / 21, as 2 int (1 - c)^5 c dc = 1/21.
 template <typename Real>
-Real AverageSchlick(Real f0) {
-  return f0 + (1 - f0) / 21;
+Real AverageSchlick(Real f0, Real f90 = 1) {
+  return f0 + (f90 - f0) / 21;
 }
 
 // F82: 2 int c^2 (1 - c)^6 dc = 1/126. Exact where the curve stays within [0, 1] by itself.
 template <typename Real>
-Real AverageF82(Real f0, Real slope) {
-  return AverageSchlick(f0) - slope / 126;
+Real AverageF82(Real f0, Real f90, Real slope) {
+  return AverageSchlick(f0, f90) - slope / 126;
 }
 
 // By quadrature, to 1e-12.

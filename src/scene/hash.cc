@@ -143,6 +143,7 @@ struct AddModel {
     hash->Add(m.base_color);
     hash->Add(m.metallic);
     hash->Add(m.dielectric_f0);
+    hash->Add(m.specular);
     hash->Add(m.f82_tint);
     Base(m);
     Lobe(m);

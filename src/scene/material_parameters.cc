@@ -103,6 +103,8 @@ constexpr std::array kMetallicRoughnessParameters = {
     Color<&MetallicRoughnessMaterial::base_color>("base_color", limits::kUnit),
     Number<&MetallicRoughnessMaterial::metallic>("metallic", limits::kUnit),
     Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit),
+    Color<&MetallicRoughnessMaterial::dielectric_f0>("dielectric_f0", limits::kUnit),
+    Number<&MetallicRoughnessMaterial::specular>("specular", limits::kUnit),
     Color<&MetallicRoughnessMaterial::f82_tint>("f82_tint", limits::kUnit),
     BaseRoughness<MetallicRoughnessMaterial>(),
     kEmission,
@@ -187,6 +189,8 @@ constexpr std::array kMetallicRoughnessMaps = {
     Map<&MetallicRoughnessMaterial::base_color_map>("base_color_map", MapUse::kColor),
     Map<&MetallicRoughnessMaterial::metallic_roughness_map>("metallic_roughness_map",
                                                             MapUse::kTwoData),
+    Map<&MetallicRoughnessMaterial::specular_map>("specular_map", MapUse::kData),
+    Map<&MetallicRoughnessMaterial::specular_color_map>("specular_color_map", MapUse::kColor),
     kEmissionMap};
 constexpr std::array kConductorMaps = {
     Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap};

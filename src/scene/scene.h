@@ -186,13 +186,15 @@ enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 // The microfacet models have a GGX lobe each. Roughness is perceptual, in [0, 1]:
 // alpha = roughness^2; 0 is a perfect mirror.
 
-// Metallic-roughness as in glTF 2.0: GGX, Schlick's Fresnel with F0 = mix(0.04, base_color,
-// metallic), over a diffuse base (1 - metallic) base_color / pi.
+// Metallic-roughness as in glTF 2.0 with KHR_materials_ior and KHR_materials_specular: GGX and
+// Schlick's Fresnel, from F0 = mix(specular dielectric_f0, base_color, metallic) to F90 =
+// mix(specular, 1, metallic), over a diffuse base (1 - metallic) base_color / pi.
 struct MetallicRoughnessMaterial {
   Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
   double metallic = 0;            // in [0, 1]
   // What it reflects at normal incidence where it is no metal; each in [0, 1].
   Rgb dielectric_f0{0.04, 0.04, 0.04};
+  double specular = 1;  // in [0, 1]: how much of that there is, at all angles
   // What Schlick's reflectance at cosine 1/7 (81.8 degrees) is multiplied by (Kutz et al. 2021):
   // the dip of real metals just before grazing. 1: Schlick's curve itself.
   Rgb f82_tint{1, 1, 1};  // each in [0, 1]
@@ -204,6 +206,8 @@ struct MetallicRoughnessMaterial {
   std::optional<double> diffuse_roughness{};  // of the base, in [0, 1]; none: the lobe's
   TextureId base_color_map{};
   TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
+  TextureId specular_map{};            // of `specular`
+  TextureId specular_color_map{};      // of dielectric_f0
 };
 
 enum class ConductorFresnel : uint8_t {

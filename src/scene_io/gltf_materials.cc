@@ -48,59 +48,6 @@ Rgb ColorOf(const std::vector<double>& factor, const Rgb& otherwise) {
   return factor.size() < 3 ? otherwise : Rgb(factor[0], factor[1], factor[2]);
 }
 
-// The index of refraction whose reflectance at normal incidence is f0.
-double IorOf(double f0) { return (1 + std::sqrt(f0)) / (1 - std::sqrt(f0)); }
-
-// A clear coat by Schlick's curve over a diffuse base: the same model for what is no metal
-// anywhere.
-DielectricMaterial CoatOf(const MetallicRoughnessMaterial& base, double ior) {
-  DielectricMaterial coat;
-  coat.base_color = base.base_color;
-  coat.ior = ior;
-  coat.roughness = base.roughness;
-  coat.fresnel = DielectricFresnel::kSchlick;
-  return coat;
-}
-
-// KHR_materials_ior and KHR_materials_specular change what a material reflects at normal incidence
-// where it is no metal. What they say about grazing angles is left out: there all reflects.
-void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material, size_t index,
-                      Material* result) {
-  const auto ior = FindExtension(*document, material, index, "KHR_materials_ior");
-  const auto specular = FindExtension(*document, material, index, "KHR_materials_specular");
-  if (!ior && !specular) return;
-  const double n = ior ? ior->Number("ior", 1.5) : 1.5;
-  const double weight = specular ? specular->Number("specularFactor", 1) : 1;
-  const Rgb tint = specular ? specular->Color("specularColorFactor", Rgb(1)) : Rgb(1);
-  auto& base = std::get<MetallicRoughnessMaterial>(result->model);
-  if (specular && (specular->Has("specularTexture") || specular->Has("specularColorTexture"))) {
-    document->Warn("images of KHR_materials_specular are left out");
-  }
-  if (base.metallic == 1 && !base.metallic_roughness_map.valid()) return;
-  if (n == 1.5 && weight == 1 && tint == Rgb(1)) return;
-  if (base.metallic == 0 && weight == 0) {
-    result->model = LambertMaterial{.albedo = base.base_color, .albedo_map = base.base_color_map};
-    return;
-  }
-  if (weight != 1 || !(n >= 1)) {
-    document->Warn(fmt::format(
-        "material \"{}\": its ior or specular factors are left out (they are shown where "
-        "specularFactor is 1, or where it is 0 and so is metallic, and ior is at least 1)",
-        result->name));
-    return;
-  }
-  Rgb f0 = tint * ((n - 1) * (n - 1) / ((n + 1) * (n + 1)));
-  for (int c = 0; c < 3; ++c) f0[c] = std::clamp(f0[c], 0.0, 1.0);
-  const bool mapped = base.base_color_map.valid() || base.metallic_roughness_map.valid();
-  const bool is_grey = f0.x == f0.y && f0.y == f0.z;
-  const double equivalent = tint == Rgb(1) ? n : IorOf(f0.x);
-  if (mapped || base.metallic != 0 || !is_grey || !(equivalent <= 10)) {
-    base.dielectric_f0 = f0;
-  } else {
-    result->model = CoatOf(base, equivalent);
-  }
-}
-
 // Metallic and base colour with about the same diffuse and specular reflectances, after the
 // conversion in the appendix of KHR_materials_pbrSpecularGlossiness: equal brightness of the
 // specular reflectance decides the metallic.
@@ -147,21 +94,45 @@ TextureId AddTexture(const Info& info, const std::string& place, TextureEncoding
   return textures->Add({info.index, info.texCoord, &info.extensions, encoding, needs_rgb}, place);
 }
 
-// The diffuse texture of KHR_materials_pbrSpecularGlossiness, which is the base colour where the
-// material is no metal.
-TextureId AddDiffuseTexture(const GltfDocument& document, const GltfExtension& extension,
-                            const std::string& place, GltfTextures* textures) {
-  if (!extension.Has("diffuseTexture")) return {};
-  const tinygltf::Value& info = extension.Get("diffuseTexture");
-  const GltfExtension reader(document, info, place);
+// The texture that an extension has as its member `name`.
+TextureId AddTexture(const GltfDocument& document, const GltfExtension& extension, const char* name,
+                     const std::string& place, TextureEncoding encoding, GltfTextures* textures) {
+  if (!extension.Has(name)) return {};
+  const tinygltf::Value& info = extension.Get(name);
+  const std::string member = place + "/" + name;
+  const GltfExtension reader(document, info, member);
   const double index = reader.Number("index", -1), tex_coord = reader.Number("texCoord", 0);
   if (!(index >= 0 && index < 1e9) || !(tex_coord >= 0 && tex_coord < 1e9)) {
-    document.Refuse(place, "has no texture's \"index\"");
+    document.Refuse(member, "has no texture's \"index\"");
   }
-  static const tinygltf::ExtensionMap kNone;
+  tinygltf::ExtensionMap extensions;
+  if (reader.Has("extensions") && reader.Get("extensions").IsObject()) {
+    for (const std::string& key : reader.Get("extensions").Keys()) {
+      extensions.emplace(key, reader.Get("extensions").Get(key));
+    }
+  }
   return textures->Add(
-      {static_cast<int>(index), static_cast<int>(tex_coord), &kNone, TextureEncoding::kSrgb, false},
-      place);
+      {static_cast<int>(index), static_cast<int>(tex_coord), &extensions, encoding, false}, member);
+}
+
+// KHR_materials_ior and KHR_materials_specular: what a material reflects where it is no metal.
+void ApplyReflectance(const GltfDocument& document, const tinygltf::Material& material,
+                      size_t index, GltfTextures* textures, MetallicRoughnessMaterial* result) {
+  if (const auto ior = FindExtension(document, material, index, "KHR_materials_ior")) {
+    const double n = ior->Number("ior", 1.5);  // 0: all is reflected
+    result->dielectric_f0 = Rgb((n - 1) * (n - 1) / ((n + 1) * (n + 1)));
+  }
+  const auto specular = FindExtension(document, material, index, "KHR_materials_specular");
+  if (!specular) return;
+  const Rgb f0 = result->dielectric_f0 * specular->Color("specularColorFactor", Rgb(1));
+  for (int c = 0; c < 3; ++c) result->dielectric_f0[c] = std::clamp(f0[c], 0.0, 1.0);
+  result->specular = specular->Number("specularFactor", 1);
+  const std::string place = fmt::format("/materials/{}/extensions/KHR_materials_specular", index);
+  const auto map = [&](const char* name, TextureEncoding encoding) {
+    return AddTexture(document, *specular, name, place, encoding, textures);
+  };
+  result->specular_map = map("specularTexture", TextureEncoding::kAlpha);
+  result->specular_color_map = map("specularColorTexture", TextureEncoding::kSrgb);
 }
 
 void AddCommonTextures(const tinygltf::Material& material, const std::string& place,
@@ -197,8 +168,9 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
           FindExtension(*document, material, index, "KHR_materials_pbrSpecularGlossiness")) {
     document->Warn("specular-glossiness materials are shown as the nearest metallic-roughness");
     MetallicRoughnessMaterial nearest = FromSpecularGlossiness(*glossiness);
-    nearest.base_color_map =
-        AddDiffuseTexture(*document, *glossiness, place + "/diffuseTexture", textures);
+    // Which is the base colour where the material is no metal.
+    nearest.base_color_map = AddTexture(*document, *glossiness, "diffuseTexture", place,
+                                        TextureEncoding::kSrgb, textures);
     result.model = nearest;
     return result;
   }
@@ -212,8 +184,8 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
   metallic_roughness.metallic_roughness_map = AddTexture(
       pbr.metallicRoughnessTexture, place + "/pbrMetallicRoughness/metallicRoughnessTexture",
       TextureEncoding::kLinear, true, textures);
+  ApplyReflectance(*document, material, index, textures, &metallic_roughness);
   result.model = metallic_roughness;
-  ApplyReflectance(document, material, index, &result);
   return result;
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "brdf/fresnel.h"
 #include "scene/material_parameters.h"
 #include "scene_io/load_scene.h"
 
@@ -20,6 +21,8 @@ Json ColorJson(const Rgb& rgb) {
 
 bool DoesNothing(const MaterialParameter& parameter, const Rgb& value) {
   return (parameter.name == "emission" && value == Rgb(0)) ||
+         (parameter.name == "dielectric_f0" && value == Rgb(kDielectricF0)) ||
+         (parameter.name == "specular" && value == Rgb(1)) ||
          (parameter.name == "f82_tint" && value == Rgb(1));
 }
 

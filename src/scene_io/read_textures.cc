@@ -14,7 +14,7 @@ namespace {
 
 using TextureSource = SceneContext::TextureSource;
 
-constexpr std::array<std::string_view, 3> kEncodings = {"auto", "srgb", "linear"};
+constexpr std::array<std::string_view, 4> kEncodings = {"auto", "srgb", "linear", "alpha"};
 constexpr std::array<std::string_view, 3> kFilters = {"nearest", "bilinear", "trilinear"};
 constexpr std::array<std::string_view, 3> kWraps = {"repeat", "clamp", "mirror"};
 constexpr std::array<std::string_view, 5> kMappings = {"uv", "spherical", "cylindrical", "planar",
@@ -73,7 +73,7 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
 // The image of the texture, decoded so; read once.
 ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
   const auto path = ResolveReference(context->folder, source.file, context->allow_paths);
-  const std::string key = path.string() + (encoding == TextureEncoding::kSrgb ? ":s" : ":l");
+  const std::string key = path.string() + ":sla"[1 + static_cast<size_t>(encoding)];
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
   const ImageId id = AddTextureImage(path, source.file, encoding, context->scene);
@@ -125,7 +125,7 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   size_t encoding = 0;
   object.Choice("encoding", kEncodings, &encoding);
   if (encoding != 0) {
-    source.encoding = encoding == 1 ? TextureEncoding::kSrgb : TextureEncoding::kLinear;
+    source.encoding = static_cast<TextureEncoding>(encoding - 1);
   }
   ReadChoice(&object, "filter", kFilters, &texture.sampling.filter);
   if (const Json* mapping = object.Find("mapping")) {
@@ -175,7 +175,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   if (!source.is_readable) return;  // told before
   const auto by_use = use == MapUse::kColor ? TextureEncoding::kSrgb : TextureEncoding::kLinear;
   const TextureEncoding encoding = source.encoding.value_or(by_use);
-  TextureId& known = encoding == TextureEncoding::kSrgb ? source.srgb : source.linear;
+  TextureId& known = source.decoded[static_cast<size_t>(encoding)];
   if (!known.valid()) known = AddTexture(&source, encoding, context, value.faults);
   *id = known;
 }

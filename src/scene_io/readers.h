@@ -3,6 +3,7 @@
 // value that they are given and leave defaults in place of what is wrong.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -35,13 +36,13 @@ struct SceneContext {
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
   // Textures by name. One that says nothing of its encoding is sRGB where it is a colour and linear
-  // where it is data: up to two of the scene's textures, read when first used.
+  // where it is data: up to two of the scene's textures, read when first used. By encoding.
   struct TextureSource {
     Texture texture;  // all but the image
     std::string file;
     bool is_readable = false;  // false: its faults have been told
     std::optional<TextureEncoding> encoding;
-    TextureId srgb{}, linear{};
+    std::array<TextureId, 3> decoded{};
   };
   std::unordered_map<std::string, TextureSource> textures;
   std::unordered_map<std::string, ImageId> images;  // by path and encoding

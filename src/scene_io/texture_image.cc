@@ -62,12 +62,21 @@ void CheckSize(const std::filesystem::path& path, const Window& window, size_t c
               "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
 }
 
-// Red, green and blue, or the first channel that is not alpha.
-std::vector<const Channel*> ChannelsOf(const Image& image) {
+bool IsAlpha(const Channel& channel) { return channel.name == "A" || channel.name == "Alpha"; }
+
+// Red, green and blue, or the first channel that is not alpha; or alpha, and nothing if there is
+// none.
+std::vector<const Channel*> ChannelsOf(const Image& image, TextureEncoding encoding) {
+  if (encoding == TextureEncoding::kAlpha) {
+    for (const Channel& channel : image.channels) {
+      if (IsAlpha(channel)) return {&channel};
+    }
+    return {};
+  }
   const std::vector<const Channel*> rgb = {image.Find("R"), image.Find("G"), image.Find("B")};
   if (rgb[0] != nullptr && rgb[1] != nullptr && rgb[2] != nullptr) return rgb;
   for (const Channel& channel : image.channels) {
-    if (channel.name != "A" && channel.name != "Alpha") return {&channel};
+    if (!IsAlpha(channel)) return {&channel};
   }
   return {};
 }
@@ -121,13 +130,17 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
     // readers refuse images over 2 GiB before they decode them, as this one does.
     std::optional<Image> plain = ReadPlainPng(path.string(), kMaxTexelValues / 2);
     const Image image = plain ? std::move(*plain) : ReadImage(path.string());
-    const std::vector<const Channel*> channels = ChannelsOf(image);
-    if (channels.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no colours");
-    CheckSize(path, image.data, channels.size(), max_values);
-    channel_count = channels.size();
+    const std::vector<const Channel*> channels = ChannelsOf(image, encoding);
+    const bool opaque = channels.empty() && encoding == TextureEncoding::kAlpha;
+    if (channels.empty() && !opaque) {
+      throw Error(ExitCode::kBadInput, path.string(), "has no colours");
+    }
+    channel_count = opaque ? 1 : channels.size();
+    CheckSize(path, image.data, channel_count, max_values);
     width = image.data.width();
     height = image.data.height();
-    values = Interleave(image, channels);
+    values = opaque ? std::vector<float>(image.channels.front().samples.size(), 1.0f)
+                    : Interleave(image, channels);
     const auto transfer = image.metadata.find("transfer");
     if (transfer != image.metadata.end() && transfer->second == "display") {
       texture.middle = DecodeIntegers(encoding, &values);

@@ -9,13 +9,14 @@
 
 namespace nacre {
 
-// What the values of integer files mean; files of floats are linear whatever is said.
-enum class TextureEncoding : uint8_t { kSrgb, kLinear };
+// What the values of integer files mean; files of floats are linear whatever is said. kAlpha: the
+// alpha channel alone, as numbers; 1 where a file has none.
+enum class TextureEncoding : uint8_t { kSrgb, kLinear, kAlpha };
 
 // Reads any image file (EXR by OpenEXR, plain PNG by itself, others by OpenImageIO, which is
 // loaded then), decodes it to
 // linear floats, exactly, and makes its mip levels. Red, green and blue are kept, or the one
-// channel of a grey image; alpha is not. Throws Error (kBadInput) for files that are missing,
+// channel of a grey image; or else alpha. Throws Error (kBadInput) for files that are missing,
 // broken, over 65536 texels a side or over 2^30 values, or that hold NaN or infinities. `file` is
 // what SceneImage calls it.
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,

@@ -19,7 +19,7 @@ void ShadeConductorT(const MicrofacetUniforms& uniforms, const ShadeRange& range
 // Of materials with maps.
 void ShadeConductorMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
                          const ShadeRange& range) {
-  ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
+  ShadeMicrofacetMaps<FresnelForm::kConductor>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

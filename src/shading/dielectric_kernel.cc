@@ -19,7 +19,7 @@ void ShadeDielectricT(const MicrofacetUniforms& uniforms, const ShadeRange& rang
 // Of materials with maps.
 void ShadeDielectricMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
                           const ShadeRange& range) {
-  ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
+  ShadeMicrofacetMaps<FresnelForm::kDielectric>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

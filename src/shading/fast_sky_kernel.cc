@@ -63,7 +63,8 @@ void ReflectanceT(const MicrofacetModel& model, const LobeRange& range, Soa3<flo
         hn::Max(FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
                          LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i)),
                 hn::Zero(d));
-    const AlbedoV albedo = EvaluateAlbedo(d, model, n_dot_v);
+    const FloatV f90 = hn::Set(d, static_cast<float>(model.f90));
+    const AlbedoV albedo = EvaluateAlbedo(d, model, f90, n_dot_v);
     for (int c = 0; c < 3; ++c) {
       const FloatV f0 = hn::Set(d, static_cast<float>(model.f0[c]));
       const FloatV single = hn::MulAdd(f0, albedo.scale, albedo.bias);

@@ -49,8 +49,9 @@ template <class Number>
 struct MicrofacetLightOf {
   Number diffuse[3];   // MicrofacetModel::diffuse * light
   Number specular[3];  // light; 0 for a delta lobe, which these lights cannot show
-  // kSchlick, with the two ends of its curve multiplied in: F0 and 1 - F0.
-  Number specular_f0[3], specular_rest[3], diffuse_rest[3];
+  // kSchlick, with its curve multiplied in: `specular` times F0 and F90 - F0, what it starts from
+  // and what it rises by; `diffuse` times 1 - F0 and F90 - F0, which fall to 1 - F90.
+  Number specular_f0[3], specular_rise[3], diffuse_rest[3], diffuse_fall[3];
   Number multiple[3];  // kKullaConty: F_ms * light
 };
 using MicrofacetLight = MicrofacetLightOf<float>;
@@ -61,7 +62,7 @@ struct MicrofacetUniformsOf {
   const MicrofacetLightOf<Number>* lights;
   // The model's, rounded.
   Number alpha, alpha2_over_pi, schlick_k;
-  Number f0[3], f82_slope[3];
+  Number f0[3], f90, f82_slope[3];
   float eta[3], k[3];
   Number f_multiple[3];
   // The distribution at each hit, formed in double, under one light; or null. Where each hit has

@@ -222,9 +222,9 @@ double FresnelAt(const MicrofacetModel& model, double cosine, int channel) {
   const double rest = 1 - cosine;
   switch (model.fresnel) {
     case FresnelForm::kSchlick:
-      return FresnelSchlick(model.f0[channel], Power5(rest));
+      return FresnelSchlick(model.f0[channel], model.f90, Power5(rest));
     case FresnelForm::kF82:
-      return FresnelF82(cosine, rest, model.f0[channel], model.f82_slope[channel]);
+      return FresnelF82(cosine, rest, model.f0[channel], model.f90, model.f82_slope[channel]);
     case FresnelForm::kDielectric:
       return FresnelDielectric(cosine, rest, model.eta[0]);
     case FresnelForm::kConductor:

@@ -71,8 +71,9 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   Assign(t.by_diffuse, light.diffuse);
   Assign(t.by_specular, light.specular);
   Assign(t.by_specular_f0, light.specular_f0);
-  Assign(t.by_specular_rest, light.specular_rest);
+  Assign(t.by_specular_rise, light.specular_rise);
   Assign(t.by_diffuse_rest, light.diffuse_rest);
+  Assign(t.by_diffuse_fall, light.diffuse_fall);
   Assign(t.by_multiple, light.multiple);
   MicrofacetUniformsOf<ByHit> uniforms{};
   uniforms.model = &model;
@@ -81,6 +82,7 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   uniforms.alpha2_over_pi = t.alpha2_over_pi.data();
   uniforms.schlick_k = t.schlick_k.data();
   Assign(t.f0, uniforms.f0);
+  uniforms.f90 = t.f90.data();
   Assign(t.f82_slope, uniforms.f82_slope);
   Assign(t.f_multiple, uniforms.f_multiple);
   for (int c = 0; c < 3; ++c) {
@@ -106,8 +108,8 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
 bool HasMappedModel(const ShadingMaterial& material) {
   if (!material.mapped) return false;
   if (material.textured->vertex_colors == VertexColors::kBase) return true;
-  for (const MapRole role :
-       {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kWidth, MapRole::kMetallicRoughness}) {
+  for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kSpecularWeight,
+                             MapRole::kWidth, MapRole::kMetallicRoughness}) {
     if (MapOf(*material.textured, role).valid()) return true;
   }
   return false;

@@ -55,6 +55,8 @@ void StartMaterialT(const TexturedRun& run, HitTextures* t) {
     FillNumber(hits, phong->shininess, &t->width);
   } else if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
     FillRgb(hits, metallic->base_color, &t->diffuse);
+    FillRgb(hits, metallic->dielectric_f0, &t->specular);
+    FillNumber(hits, metallic->specular, &t->exact_f90);
     FillNumber(hits, metallic->metallic, &t->metallic);
     FillNumber(hits, metallic->roughness, &t->width);
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
@@ -77,6 +79,9 @@ void ApplyMapT(const TexturedRun& run, MapRole role, HitTextures* t) {
         break;
       case MapRole::kSpecular:
         Multiply(hits, texels, 1, Channel(t->specular, c));
+        break;
+      case MapRole::kSpecularWeight:
+        if (c == 0) Multiply(hits, texels, 1, t->exact_f90.data());
         break;
       case MapRole::kEmission: {
         const double factor = run.material.emission[c];
@@ -155,14 +160,17 @@ void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
     const double color = products.color[c];
     const double* const diffuse = Channel(t->diffuse, c);
     const double* const f0 = Channel(t->specular, c);
+    const double* const f90 = t->exact_f90.data();
     hits.Fill(Channel(t->by_diffuse, c), [&](size_t i) { return diffuse[i] * color; });
     if (model.fresnel == FresnelForm::kSchlick) {
       hits.Fill(Channel(t->by_specular_f0, c),
                 [&](size_t i) { return f0[i] * (double{not_delta[i]} * color); });
-      hits.Fill(Channel(t->by_specular_rest, c),
-                [&](size_t i) { return (1 - f0[i]) * (double{not_delta[i]} * color); });
+      hits.Fill(Channel(t->by_specular_rise, c),
+                [&](size_t i) { return (f90[i] - f0[i]) * (double{not_delta[i]} * color); });
       hits.Fill(Channel(t->by_diffuse_rest, c),
                 [&](size_t i) { return (1 - f0[i]) * diffuse[i] * color; });
+      hits.Fill(Channel(t->by_diffuse_fall, c),
+                [&](size_t i) { return (f90[i] - f0[i]) * diffuse[i] * color; });
     } else {
       hits.Fill(Channel(t->by_specular, c), [&](size_t i) { return double{not_delta[i]} * color; });
     }

@@ -82,15 +82,17 @@ void FinishKullaConty(const MicrofacetModel& model, const HitFit& fit, bool by_h
   t->multiple_scale[i] = static_cast<float>(KullaContyScale(fit.e_average));
   for (int c = 0; c < 3; ++c) {
     const double f0 = Channel(t->specular, c)[i];
+    const double f90 = t->exact_f90[i];
     const double f_average =
-        by_hit ? AverageF82(f0, Channel(t->exact_slope, c)[i]) : model.f_average[c];
+        by_hit ? AverageF82(f0, f90, Channel(t->exact_slope, c)[i]) : model.f_average[c];
     const double f_multiple = KullaContyFresnel(f_average, fit.e_average);
     Channel(t->exact_f_multiple, c)[i] = f_multiple;
     Channel(t->f_multiple, c)[i] = static_cast<float>(f_multiple);
     if (model.coupling != DiffuseCoupling::kAlbedoScaled) continue;
-    const double single = model.fresnel == FresnelForm::kDielectric
-                              ? fit.average
-                              : f0 * (fit.e_average - fit.schlick_average) + fit.schlick_average;
+    const double single =
+        model.fresnel == FresnelForm::kDielectric
+            ? fit.average
+            : f0 * (fit.e_average - fit.schlick_average) + f90 * fit.schlick_average;
     const double left = 1 - single - f_multiple * (1 - fit.e_average);
     double& diffuse = Channel(t->diffuse, c)[i];
     diffuse = left > 0 ? diffuse / left : 0;
@@ -132,21 +134,27 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
   const auto& model = std::get<MicrofacetModel>(run.material.model);
   const Hits hits{run.begin, run.end};
   const double* const metallic = t->metallic.data();
+  double* const specular = t->exact_f90.data();
   FinishBase(run, model, material.diffuse_roughness, t);
   for (int c = 0; c < 3; ++c) {
     double* const diffuse = Channel(t->diffuse, c);
     double* const f0 = Channel(t->specular, c);
     double* const slope = Channel(t->exact_slope, c);
-    const double bare = material.dielectric_f0[c];
-    hits.Fill(f0, [&](size_t i) { return bare * (1 - metallic[i]) + diffuse[i] * metallic[i]; });
+    hits.Fill(f0, [&](size_t i) {
+      return specular[i] * f0[i] * (1 - metallic[i]) + diffuse[i] * metallic[i];
+    });
     hits.Fill(diffuse, [&](size_t i) { return diffuse[i] * ((1 - metallic[i]) * M_1_PI); });
     if (model.fresnel == FresnelForm::kSchlick) {
       hits.Fill(slope, [](size_t) { return 0.0; });
       continue;
     }
     const double tint = material.f82_tint[c];
-    hits.Fill(slope, [&](size_t i) { return metallic[i] * F82SlopeFromTint(f0[i], tint); });
+    hits.Fill(slope, [&](size_t i) {
+      const double f90 = 1 - (1 - specular[i]) * (1 - metallic[i]);
+      return metallic[i] * F82SlopeFromTint(f0[i], f90, tint);
+    });
   }
+  hits.Fill(specular, [&](size_t i) { return 1 - (1 - specular[i]) * (1 - metallic[i]); });
 }
 
 // Those of a conductor and a dielectric are the model's.
@@ -154,6 +162,7 @@ void FillFresnel(const TexturedRun& run, HitTextures* t) {
   const auto& model = std::get<MicrofacetModel>(run.material.model);
   FillRgb({run.begin, run.end}, model.f0, &t->specular);
   FillRgb({run.begin, run.end}, model.f82_slope, &t->exact_slope);
+  FillNumber({run.begin, run.end}, model.f90, &t->exact_f90);
 }
 
 void FinishConductor(const TexturedRun& run, HitTextures* t) {
@@ -206,6 +215,8 @@ void FinishMicrofacetT(const TexturedRun& run, HitTextures* t) {
     hits.Fill(Channel(t->f0, c), [&](size_t i) { return f0[i]; });
     hits.Fill(Channel(t->f82_slope, c), [&](size_t i) { return slope[i]; });
   }
+  const double* const f90 = t->exact_f90.data();
+  hits.Fill(t->f90.data(), [&](size_t i) { return f90[i]; });
   FinishLobe(run, t);
   const auto& model = std::get<MicrofacetModel>(run.material.model);
   if (model.prepared) FinishAlbedo(run, model, t);

@@ -94,9 +94,10 @@ void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
   const AlbedoFit& lobe = model->albedo.lobe;
   for (int c = 0; c < 3; ++c) {
     const double f0 = model->f0[c];
-    const double single = model->fresnel == FresnelForm::kDielectric
-                              ? model->albedo.average
-                              : f0 * (e_average - lobe.schlick_average) + lobe.schlick_average;
+    const double single =
+        model->fresnel == FresnelForm::kDielectric
+            ? model->albedo.average
+            : f0 * (e_average - lobe.schlick_average) + model->f90 * lobe.schlick_average;
     const double left = 1 - single - model->f_multiple[c] * (1 - e_average);
     model->diffuse[c] = left > 0 ? model->diffuse[c] / left : 0;
   }
@@ -107,16 +108,21 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   model.coupling = material.diffuse_coupling;
   model.diffuse = material.base_color * ((1 - material.metallic) * M_1_PI);
   PrepareBase(material, &model);
-  model.f0 =
-      material.dielectric_f0 * (1 - material.metallic) + material.base_color * material.metallic;
+  const double not_metal = 1 - material.metallic;
+  model.f0 = EachChannel([&](int c) {
+    return material.specular * material.dielectric_f0[c] * not_metal +
+           material.base_color[c] * material.metallic;
+  });
+  model.f90 = 1 - (1 - material.specular) * not_metal;  // 1, not nearly, of the default
   // The tint is the metal's.
   model.f82_slope = EachChannel([&](int c) {
-    return material.metallic * F82SlopeFromTint(model.f0[c], material.f82_tint[c]);
+    return material.metallic * F82SlopeFromTint(model.f0[c], model.f90, material.f82_tint[c]);
   });
   model.fresnel = model.f82_slope == Rgb(0, 0, 0) ? FresnelForm::kSchlick : FresnelForm::kF82;
   if (model.compensation == Compensation::kKullaConty) {
     PrepareKullaConty(
-        EachChannel([&](int c) { return AverageF82(model.f0[c], model.f82_slope[c]); }), &model);
+        EachChannel([&](int c) { return AverageF82(model.f0[c], model.f90, model.f82_slope[c]); }),
+        &model);
   }
   return model;
 }
@@ -131,8 +137,9 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
   if (material.fresnel == ConductorFresnel::kF82Tint) {
     model.fresnel = FresnelForm::kF82;
     model.f82_slope = EachChannel([&](int c) {
-      return F82Slope(model.f0[c], FresnelConductor(1 - one_minus_seventh, one_minus_seventh,
-                                                    material.eta[c], material.k[c]));
+      return F82Slope(model.f0[c], model.f90,
+                      FresnelConductor(1 - one_minus_seventh, one_minus_seventh, material.eta[c],
+                                       material.k[c]));
     });
   } else if (material.fresnel == ConductorFresnel::kSchlick) {
     model.fresnel = FresnelForm::kSchlick;
@@ -141,7 +148,7 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
     PrepareKullaConty(EachChannel([&](int c) {
                         return model.fresnel == FresnelForm::kConductor
                                    ? AverageConductor(material.eta[c], material.k[c])
-                                   : AverageF82(model.f0[c], model.f82_slope[c]);
+                                   : AverageF82(model.f0[c], model.f90, model.f82_slope[c]);
                       }),
                       &model);
   }
@@ -255,7 +262,7 @@ double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
   const double schlick = AlbedoSchlick(model.albedo.lobe, n_dot_v);
   const double single = model.fresnel == FresnelForm::kDielectric
                             ? AlbedoFresnel(model.albedo, n_dot_v)
-                            : f0 * (one - schlick) + schlick;
+                            : f0 * (one - schlick) + model.f90 * schlick;
   switch (model.compensation) {
     case Compensation::kTurquin:
       return single * (1 + f0 * loss / one);

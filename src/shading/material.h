@@ -53,6 +53,7 @@ struct MicrofacetModel {
   double base_roughness = 0;     // of other forms
   Rgb base_ratio{0, 0, 0};       // kOrenNayar: EonMultipleRatio of the base's colour
   Rgb f0{0, 0, 0};               // reflectance at normal incidence
+  double f90 = 1;                // at grazing incidence, of Schlick's curve and F82's
   Rgb f82_slope{0, 0, 0};        // kF82
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta), kConductor
   Rgb f_average{0, 0, 0};        // kKullaConty: the Fresnel curve's mean

@@ -24,11 +24,11 @@ void ShadeF82T(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
 // Of materials with maps.
 void ShadeSchlickMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
                        const ShadeRange& range) {
-  ShadeMicrofacet<FresnelForm::kSchlick>(uniforms, range);
+  ShadeMicrofacetMaps<FresnelForm::kSchlick>(uniforms, range);
 }
 
 void ShadeF82MapsT(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
+  ShadeMicrofacetMaps<FresnelForm::kF82>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

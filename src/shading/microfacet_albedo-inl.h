@@ -21,7 +21,8 @@ struct AlbedoV {
   FloatV scale, bias;
 };
 
-HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV cosine) {
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV f90,
+                                  FloatV cosine) {
   const AlbedoFit& fit = model.albedo.lobe;
   const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
   const FloatV one = AlbedoOne(d, fit, x);
@@ -32,15 +33,16 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
     scale = hn::Zero(d);
     bias = AlbedoFresnel(d, model.albedo, one, x);
   } else {
-    bias = AlbedoSchlick(d, fit, one, x);
-    scale = hn::Sub(one, bias);
+    const FloatV schlick = AlbedoSchlick(d, fit, one, x);
+    scale = hn::Sub(one, schlick);
+    bias = hn::Mul(f90, schlick);
   }
   return {one, loss, scale, bias};
 }
 
 // From the fit of each hit, whose second curve is Schlick's, or that of the dielectric.
 HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
-                                  const AlbedoFitLanes& fit, FloatV cosine) {
+                                  const AlbedoFitLanes& fit, FloatV f90, FloatV cosine) {
   const FloatV unit = hn::Set(d, 1.0f);
   const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
   const FloatV one = AlbedoOne(d, fit, x);
@@ -51,8 +53,9 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
     scale = hn::Zero(d);
     bias = AlbedoNearMirror(d, fit, fit.schlick, mirror, one, x);
   } else {
-    bias = AlbedoSchlick(d, fit, one, x);
-    scale = hn::Sub(one, bias);
+    const FloatV schlick = AlbedoSchlick(d, fit, one, x);
+    scale = hn::Sub(one, schlick);
+    bias = hn::Mul(f90, schlick);
   }
   return {one, AlbedoLoss(d, fit, x), scale, bias};
 }

@@ -21,16 +21,26 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
+// The shadowing that a kernel is for: one, or whichever its model has, asked at each packet.
 template <Shadowing kShadowing>
-HWY_INLINE FloatV VisibilityDenominator(FloatTag d, FloatV n_dot_l, FloatV n_dot_v, FloatV alpha,
-                                        FloatV schlick_k) {
-  if constexpr (kShadowing == Shadowing::kHeightCorrelated) {
-    return VisibilityDenominatorHeightCorrelated(d, n_dot_l, n_dot_v, alpha);
-  } else if constexpr (kShadowing == Shadowing::kSeparable) {
-    return VisibilityDenominatorSeparable(d, n_dot_l, n_dot_v, alpha);
-  } else {
-    return VisibilityDenominatorSchlick(d, n_dot_l, n_dot_v, schlick_k);
+struct OneShadowing {
+  static HWY_INLINE Shadowing Of(const MicrofacetModel&) { return kShadowing; }
+};
+struct ModelShadowing {
+  static HWY_INLINE Shadowing Of(const MicrofacetModel& model) { return model.shadowing; }
+};
+
+HWY_INLINE FloatV VisibilityDenominator(FloatTag d, Shadowing shadowing, FloatV n_dot_l,
+                                        FloatV n_dot_v, FloatV alpha, FloatV schlick_k) {
+  switch (shadowing) {
+    case Shadowing::kHeightCorrelated:
+      return VisibilityDenominatorHeightCorrelated(d, n_dot_l, n_dot_v, alpha);
+    case Shadowing::kSeparable:
+      return VisibilityDenominatorSeparable(d, n_dot_l, n_dot_v, alpha);
+    case Shadowing::kSchlickDirect:
+      break;
   }
+  return VisibilityDenominatorSchlick(d, n_dot_l, n_dot_v, schlick_k);
 }
 
 // What a Fresnel curve makes of the light on a packet: the part that the lobe reflects, and the
@@ -53,16 +63,19 @@ HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
   const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, half.u_length);
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const FloatV weight = Power5(one_minus_vh);
-    return {MulAddRgb(RgbAt(d, light.specular_rest, i), weight, RgbAt(d, light.specular_f0, i)),
-            ScaleRgb(RgbAt(d, light.diffuse_rest, i), hn::Sub(one, weight))};
+    const RgbV rest = RgbAt(d, light.diffuse_rest, i), fall = RgbAt(d, light.diffuse_fall, i);
+    return {MulAddRgb(RgbAt(d, light.specular_rise, i), weight, RgbAt(d, light.specular_f0, i)),
+            {hn::NegMulAdd(fall.r, weight, rest.r), hn::NegMulAdd(fall.g, weight, rest.g),
+             hn::NegMulAdd(fall.b, weight, rest.b)}};
   } else {
     const FloatV v_dot_h = VDotH(d, half.u_length);
     RgbV fresnel;
     if constexpr (kFresnel == FresnelForm::kF82) {
       const RgbV f0 = RgbAt(d, uniforms.f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
-      fresnel = {FresnelF82(d, v_dot_h, one_minus_vh, f0.r, slope.r),
-                 FresnelF82(d, v_dot_h, one_minus_vh, f0.g, slope.g),
-                 FresnelF82(d, v_dot_h, one_minus_vh, f0.b, slope.b)};
+      const FloatV f90 = NumberAt(d, uniforms.f90, i);
+      fresnel = {FresnelF82(d, v_dot_h, one_minus_vh, f0.r, f90, slope.r),
+                 FresnelF82(d, v_dot_h, one_minus_vh, f0.g, f90, slope.g),
+                 FresnelF82(d, v_dot_h, one_minus_vh, f0.b, f90, slope.b)};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
       const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
       fresnel = {grey, grey, grey};
@@ -88,7 +101,7 @@ HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
 
 // kPrepared: with what PrepareMicrofacet has left of every hit: multiple scattering, or a base
 // that gets what the lobe's albedo leaves.
-template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared, class Number>
+template <FresnelForm kFresnel, class ShadowingOf, bool kPrepared, class Number>
 struct Microfacet {
   static constexpr bool kHasSpecular = true;
   using Incident = HalfIncidentV;
@@ -124,8 +137,9 @@ struct Microfacet {
     // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
     const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
     const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
-    const FloatV masking = VisibilityDenominator<kShadowing>(d, in.n_dot_l, view.n_dot_v, alpha,
-                                                             NumberAt(d, uniforms.schlick_k, p.i));
+    const FloatV masking =
+        VisibilityDenominator(d, ShadowingOf::Of(model), in.n_dot_l, view.n_dot_v, alpha,
+                              NumberAt(d, uniforms.schlick_k, p.i));
     if (kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in, masking);
     const FloatV q = GgxRootDenominator(d, in.half, hn::Mul(u_inverse, u_inverse), alpha);
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
@@ -173,12 +187,13 @@ struct Microfacet {
   }
 
   HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {
+    const FloatV f90 = NumberAt(d, uniforms.f90, i);
     if constexpr (kSame) {
-      return EvaluateAlbedo(d, model, cosine);
+      return EvaluateAlbedo(d, model, f90, cosine);
     } else {
-      if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, cosine);
+      if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, f90, cosine);
       return EvaluateAlbedo(d, model, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
-                            cosine);
+                            f90, cosine);
     }
   }
 
@@ -206,20 +221,19 @@ struct Microfacet {
   }
 };
 
-template <FresnelForm kFresnel, Shadowing kShadowing, class Number>
-void ShadeMicrofacetForm(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRange& range) {
+template <FresnelForm kFresnel, Shadowing kShadowing>
+void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  using Form = OneShadowing<kShadowing>;
   const MicrofacetModel& model = *uniforms.model;
   if (model.prepared) {
-    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, true, Number>{uniforms, model},
-                 range);
+    ShadePackets(FloatTag(), Microfacet<kFresnel, Form, true, float>{uniforms, model}, range);
   } else {
-    ShadePackets(FloatTag(), Microfacet<kFresnel, kShadowing, false, Number>{uniforms, model},
-                 range);
+    ShadePackets(FloatTag(), Microfacet<kFresnel, Form, false, float>{uniforms, model}, range);
   }
 }
 
-template <FresnelForm kFresnel, class Number>
-void ShadeMicrofacet(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRange& range) {
+template <FresnelForm kFresnel>
+void ShadeMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   switch (uniforms.model->shadowing) {
     case Shadowing::kHeightCorrelated:
       return ShadeMicrofacetForm<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);
@@ -228,6 +242,16 @@ void ShadeMicrofacet(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRa
     case Shadowing::kSchlickDirect:
       return ShadeMicrofacetForm<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
   }
+}
+
+// Hits with numbers of their own, of which looking up and rounding them is most of the work: one
+// kernel for every shadowing, prepared or not, costs them little and saves minutes of compiling.
+template <FresnelForm kFresnel>
+void ShadeMicrofacetMaps(const MicrofacetUniformsOf<const float*>& uniforms,
+                         const ShadeRange& range) {
+  ShadePackets(FloatTag(),
+               Microfacet<kFresnel, ModelShadowing, true, const float*>{uniforms, *uniforms.model},
+               range);
 }
 
 }  // namespace HWY_NAMESPACE

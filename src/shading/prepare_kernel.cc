@@ -38,7 +38,7 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
 struct SameForAll {
   const MicrofacetModel& model;
   HWY_INLINE AlbedoV Albedo(FloatTag d, size_t, FloatV n_dot_v) const {
-    return EvaluateAlbedo(d, model, n_dot_v);
+    return EvaluateAlbedo(d, model, hn::Set(d, static_cast<float>(model.f90)), n_dot_v);
   }
   HWY_INLINE FloatV MultipleScale(FloatTag d, size_t) const {
     return hn::Set(d, static_cast<float>(model.multiple));
@@ -57,9 +57,10 @@ struct ByHit {
   const HitTextures& t;
   bool own_fits;
   HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, FloatV n_dot_v) const {
-    if (!own_fits) return EvaluateAlbedo(d, model, n_dot_v);
+    const FloatV f90 = hn::LoadU(d, t.f90.data() + i);
+    if (!own_fits) return EvaluateAlbedo(d, model, f90, n_dot_v);
     return EvaluateAlbedo(
-        d, model, FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing), n_dot_v);
+        d, model, FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing), f90, n_dot_v);
   }
   HWY_INLINE FloatV MultipleScale(FloatTag d, size_t i) const {
     return hn::LoadU(d, t.multiple_scale.data() + i);

@@ -107,10 +107,10 @@ Rgb FresnelOf(const MicrofacetModel& model, double v_dot_h, double one_minus_vh)
   for (int c = 0; c < 3; ++c) {
     switch (model.fresnel) {
       case FresnelForm::kSchlick:
-        fresnel[c] = FresnelSchlick(model.f0[c], Power5(one_minus_vh));
+        fresnel[c] = FresnelSchlick(model.f0[c], model.f90, Power5(one_minus_vh));
         break;
       case FresnelForm::kF82:
-        fresnel[c] = FresnelF82(v_dot_h, one_minus_vh, model.f0[c], model.f82_slope[c]);
+        fresnel[c] = FresnelF82(v_dot_h, one_minus_vh, model.f0[c], model.f90, model.f82_slope[c]);
         break;
       case FresnelForm::kDielectric:
         fresnel[c] = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c]);

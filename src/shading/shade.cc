@@ -41,12 +41,13 @@ PhongLight MakeLight(const PhongFamilyModel& model, const Rgb& color) {
 MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
   MicrofacetLight light;
   const Rgb specular = model.delta ? Rgb(0, 0, 0) : color;
-  const Rgb rest = Rgb(1) - model.f0;
+  const Rgb rest = Rgb(1) - model.f0, rise = Rgb(model.f90) - model.f0;
   Assign(model.diffuse * color, light.diffuse);
   Assign(specular, light.specular);
   Assign(model.f0 * specular, light.specular_f0);
-  Assign(rest * specular, light.specular_rest);
+  Assign(rise * specular, light.specular_rise);
   Assign(rest * model.diffuse * color, light.diffuse_rest);
+  Assign(rise * model.diffuse * color, light.diffuse_fall);
   Assign(model.f_multiple * color, light.multiple);
   return light;
 }
@@ -60,6 +61,7 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLi
   uniforms.alpha2_over_pi = static_cast<float>(alpha * alpha * M_1_PI);
   uniforms.schlick_k = static_cast<float>(model.schlick_k);
   Assign(model.f0, uniforms.f0);
+  uniforms.f90 = static_cast<float>(model.f90);
   Assign(model.f82_slope, uniforms.f82_slope);
   Assign(model.eta, uniforms.eta);
   Assign(model.k, uniforms.k);

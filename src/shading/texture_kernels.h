@@ -11,7 +11,8 @@ namespace nacre {
 // What a map multiplies.
 enum class MapRole : uint8_t {
   kDiffuse,            // albedo, the Phong family's color, base_color
-  kSpecular,           // ks
+  kSpecular,           // ks; dielectric_f0
+  kSpecularWeight,     // `specular`
   kWidth,              // shininess; roughness of conductors and dielectrics
   kMetallicRoughness,  // green: roughness, blue: metallic
   kEmission,

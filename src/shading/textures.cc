@@ -36,8 +36,8 @@ class RunTexturer {
     if (run_.material.turned) RoundGeometric(run_, t_);
     StartMaterial(run_, t_);
     if (material.vertex_colors == VertexColors::kBase) ApplyVertexColors(MapRole::kDiffuse);
-    for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kWidth,
-                               MapRole::kMetallicRoughness, MapRole::kEmission}) {
+    for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kSpecularWeight,
+                               MapRole::kWidth, MapRole::kMetallicRoughness, MapRole::kEmission}) {
       const TextureId id = MapOf(material, role);
       if (!id.valid()) continue;
       LookUp(id);
@@ -120,6 +120,8 @@ TextureId MapOf(const Material& material, MapRole role) {
   }
   if (const auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
     return role == MapRole::kDiffuse             ? m->base_color_map
+           : role == MapRole::kSpecular          ? m->specular_color_map
+           : role == MapRole::kSpecularWeight    ? m->specular_map
            : role == MapRole::kMetallicRoughness ? m->metallic_roughness_map
                                                  : TextureId{};
   }

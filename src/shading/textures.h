@@ -66,15 +66,17 @@ struct HitTextures {
   Soa3<double> diffuse, specular;
   AlignedArray<double> width{kBatchCapacity};  // roughness; or the Phong family's exponent
   AlignedArray<double> metallic{kBatchCapacity};
-  Soa3<double> exact_slope, exact_f_multiple;  // f82_slope and f_multiple, not rounded
-  Soa3<float> albedo, ambient, emission;       // for the layers of these names
-  Soa3<float> geometric_rounded;               // for lights below the horizon
+  AlignedArray<double> exact_f90{kBatchCapacity};  // before it is finished: `specular`
+  Soa3<double> exact_slope, exact_f_multiple;      // f82_slope and f_multiple, not rounded
+  Soa3<float> albedo, ambient, emission;           // for the layers of these names
+  Soa3<float> geometric_rounded;                   // for lights below the horizon
   // The constants of models, rounded: alpha or exponent, alpha^2 / pi, Schlick's k; 0 for mirrors
   // and else 1.
   AlignedArray<float> alpha{kBatchCapacity}, alpha2_over_pi{kBatchCapacity};
   AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
   AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
   Soa3<float> f0, f82_slope, f_multiple;
+  AlignedArray<float> f90{kBatchCapacity};
   // Of rough matte surfaces and bases: EonMultipleRatio of their colour; a base's roughness.
   Soa3<float> base_ratio;
   AlignedArray<float> base_roughness{kBatchCapacity};
@@ -84,8 +86,8 @@ struct HitTextures {
   static constexpr size_t kFitStride = kBatchCapacity + 3 * kBatchPadding;  // no power of two
   AlignedArray<float> fit{kFitEntries * kFitStride};
   // Products with one light; see MicrofacetLightOf.
-  Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rest, by_diffuse_rest,
-      by_multiple;
+  Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rise, by_diffuse_rest,
+      by_diffuse_fall, by_multiple;
 };
 
 // What a material with maps has at hits [begin, end) of the batch, all of it: looks the maps up,

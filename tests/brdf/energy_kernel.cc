@@ -51,8 +51,8 @@ void EvaluateFresnelT(const std::vector<FresnelInput>& inputs,
     Scatter(FresnelConductor(d, c, m, eta, get(&FresnelInput::k)), first, &FresnelOutput::conductor,
             outputs);
     Scatter(FresnelSchlick(d, f0, Power5(m)), first, &FresnelOutput::schlick, outputs);
-    Scatter(FresnelF82(d, c, m, f0, get(&FresnelInput::slope)), first, &FresnelOutput::f82,
-            outputs);
+    Scatter(FresnelF82(d, c, m, f0, hn::Set(d, 1.0f), get(&FresnelInput::slope)), first,
+            &FresnelOutput::f82, outputs);
   }
 }
 

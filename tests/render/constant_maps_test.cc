@@ -66,6 +66,36 @@ TEST_CASE("constant maps have the bits of constants: metallic-roughness") {
   }
 }
 
+TEST_CASE("constant maps have the bits of constants: weights and colours of a dielectric") {
+  const Rgb color = Held(Rgb(0.9, 0.4, 0.2)), weight = Held(Rgb(0.3));
+  for (const Compensation compensation :
+       {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+    for (const double metallic : {0.0, 0.4}) {
+      for (const double roughness : {0.5, 0.0}) {
+        MetallicRoughnessMaterial factors;
+        factors.metallic = metallic;
+        factors.roughness = roughness;
+        factors.compensation = compensation;
+        factors.dielectric_f0 = Rgb(0.5, 0.1, 0.04);
+        factors.specular = 0.75;
+        factors.f82_tint = Rgb(metallic > 0 ? 0.7 : 1);
+        if (compensation == Compensation::kNone) {
+          factors.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+        }
+        MetallicRoughnessMaterial constant = factors;
+        constant.dielectric_f0 = factors.dielectric_f0 * color;
+        constant.specular = factors.specular * weight.x;
+        CAPTURE(static_cast<int>(compensation), metallic, roughness);
+        CheckConstantMaps(constant, factors,
+                          [&](Scene* scene, MetallicRoughnessMaterial* material) {
+                            material->specular_color_map = AddConstant(scene, color);
+                            material->specular_map = AddConstant(scene, weight);
+                          });
+      }
+    }
+  }
+}
+
 TEST_CASE("constant maps have the bits of constants: the Phong family and Lambert") {
   const Rgb color = Held(Rgb(0.9, 0.4, 0.2)), gloss = Held(Rgb(0.3, 0.8, 0.6));
   const double share = 0.5;

@@ -273,23 +273,23 @@ TEST_CASE("extensions of materials") {
   const Material unlit = plastic(R"("KHR_materials_unlit": {})", &warnings);
   CHECK(unlit.emission == Rgb(1));
   CHECK(std::get<LambertMaterial>(unlit.model).albedo == Rgb(0));
-  const Material coat = plastic(R"("KHR_materials_ior": {"ior": 1.8})", &warnings);
-  CHECK(std::get<DielectricMaterial>(coat.model).ior == Approx(1.8).epsilon(1e-14));
-  CHECK(std::get<DielectricMaterial>(coat.model).fresnel == DielectricFresnel::kSchlick);
-  CHECK(std::get<DielectricMaterial>(coat.model).roughness == 0.5);
-  // Half the reflectance at normal incidence, 0.02.
-  const Material half =
-      plastic(R"("KHR_materials_specular": {"specularColorFactor": [0.5, 0.5, 0.5]})", &warnings);
-  const double ior = std::get<DielectricMaterial>(half.model).ior;
-  CHECK((ior - 1) * (ior - 1) / ((ior + 1) * (ior + 1)) == Approx(0.02).epsilon(1e-14));
-  const Material matte = plastic(R"("KHR_materials_specular": {"specularFactor": 0})", &warnings);
-  CHECK(std::get<LambertMaterial>(matte.model).albedo == Rgb(1));
-  CHECK(warnings.empty());
-  const Material tinted =
-      plastic(R"("KHR_materials_specular": {"specularColorFactor": [1, 0.5, 0.5]})", &warnings);
-  const Rgb f0 = std::get<MetallicRoughnessMaterial>(tinted.model).dielectric_f0;
+  const auto reflectance = [&](const std::string& extension) {
+    return std::get<MetallicRoughnessMaterial>(plastic(extension, &warnings).model);
+  };
+  const MetallicRoughnessMaterial coat = reflectance(R"("KHR_materials_ior": {"ior": 1.8})");
+  CHECK(coat.dielectric_f0.y == Approx(0.64 / (2.8 * 2.8)).epsilon(1e-14));
+  CHECK(coat.specular == 1);
+  // The specification's mirror, for materials that were specular-glossiness.
+  CHECK(reflectance(R"("KHR_materials_ior": {"ior": 0})").dielectric_f0 == Rgb(1));
+  const MetallicRoughnessMaterial matte =
+      reflectance(R"("KHR_materials_specular": {"specularFactor": 0.25})");
+  CHECK(matte.specular == 0.25);
+  CHECK(matte.dielectric_f0.x == Approx(0.04).epsilon(1e-14));
+  const Rgb f0 = reflectance(R"("KHR_materials_specular": {"specularColorFactor": [1, 0.5, 0.25]})")
+                     .dielectric_f0;
   CHECK(f0.x == Approx(0.04).epsilon(1e-14));
   CHECK(f0.y == Approx(0.02).epsilon(1e-14));
+  CHECK(f0.z == Approx(0.01).epsilon(1e-14));
   CHECK(warnings.empty());
   // White paint without gloss, and gold.
   const Material paint = plastic(R"("KHR_materials_pbrSpecularGlossiness": {

@@ -174,40 +174,57 @@ TEST_CASE("an index of refraction beside images, and specular colours") {
   CHECK(f0.x == Approx(1.0 / 9).epsilon(1e-14));
   CHECK(f0.y == Approx(0.5 / 9).epsilon(1e-14));
   CHECK(f0.z == 1);  // no more than all
-  material["extensions"]["KHR_materials_specular"]["specularFactor"] = 0.5;
-  CHECK(MaterialOf(LoadFile(file, &warnings)).dielectric_f0 == Rgb(0.04));
-  CHECK(Mentions(warnings, "its ior or specular factors are left out"));
-  material["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
-  material["pbrMetallicRoughness"]["metallicFactor"] = 0;
-  const Scene matte = LoadFile(file);
-  CHECK(std::get<LambertMaterial>(matte.materials.at(0).model).albedo_map == TextureId{0});
+  material["extensions"]["KHR_materials_specular"]["specularFactor"] = 2;
+  CHECK_THROWS_AS(LoadFile(file), Error);
 }
 
-TEST_CASE("images of specular weights and colours are left out, with one warning") {
+TEST_CASE("images of specular weights and colours") {
   GltfFile file = MakeTexturedSquare();
-  file.json["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] = 0;
-  file.json["materials"][0]["extensions"]["KHR_materials_specular"] = {
-      {"specularColorFactor", {1, 0.5, 0.25}}};
-  file.json["materials"].push_back(file.json["materials"][0]);
-  const MetallicRoughnessMaterial plain = MaterialOf(LoadFile(file));
-  CHECK(plain.dielectric_f0.z == Approx(0.01).epsilon(1e-14));
-  for (const char* name : {"specularTexture", "specularColorTexture"}) {
-    CAPTURE(name);
-    GltfFile mapped = file;
-    for (Json& material : mapped.json["materials"]) {
-      material["extensions"]["KHR_materials_specular"][name] = {{"index", 0}};
-    }
-    std::vector<std::string> warnings;
-    const Scene scene = LoadFile(mapped, &warnings);
-    CHECK(std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
-            return warning.find("images of KHR_materials_specular are left out") !=
-                   std::string::npos;
-          }) == 1);
-    // The factors count all the same, and no other image takes the place of these.
-    CHECK(MaterialOf(scene).dielectric_f0 == plain.dielectric_f0);
-    CHECK(MaterialOf(scene).base_color_map == plain.base_color_map);
-    CHECK(scene.images.size() == 1);
-  }
+  // 2 x 1 texels of red, with an alpha of 51 and of 255.
+  const std::vector<unsigned char> png = {
+      137, 80, 78,  71, 13,  10,  26,  10, 0,   0,   0,   13,  73, 72,  68,  82, 0,  0,
+      0,   2,  0,   0,  0,   1,   8,   6,  0,   0,   0,   244, 34, 127, 138, 0,  0,  0,
+      15,  73, 68,  65, 84,  120, 218, 99, 248, 207, 192, 96,  12, 196, 255, 1,  13, 251,
+      3,   49, 225, 16, 159, 16,  0,   0,  0,   0,   73,  69,  78, 68,  174, 66, 96, 130};
+  const size_t offset = file.Append(png);
+  file.json["bufferViews"].push_back(
+      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", png.size()}});
+  file.json["images"].push_back(
+      {{"bufferView", file.json["bufferViews"].size() - 1}, {"mimeType", "image/png"}});
+  file.json["textures"].push_back({{"source", 1}});
+  Json& material = file.json["materials"][0];
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+  const Json moved = {{"KHR_texture_transform", {{"scale", {2, 3}}}}};
+  material["extensions"]["KHR_materials_specular"] = {
+      {"specularColorFactor", {1, 0.5, 0.25}},
+      {"specularFactor", 0.5},
+      {"specularTexture", {{"index", 1}}},
+      {"specularColorTexture", {{"index", 0}, {"extensions", moved}}}};
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  const MetallicRoughnessMaterial& model = MaterialOf(scene);
+  CHECK(model.specular == 0.5);
+  REQUIRE(model.specular_map.valid());
+  REQUIRE(model.specular_color_map.valid());
+  const auto image_of = [&](TextureId id) { return scene.textures.at(id.index).image; };
+  // The weight is alpha, never encoded.
+  const MipChain& weight = *scene.images.at(image_of(model.specular_map).index).texels;
+  CHECK(weight.channels == 1);
+  CHECK(weight.Value(0, 0, 0, 0) == 0.2f);
+  CHECK(weight.Value(0, 1, 0, 0) == 1);
+  // The colour is that of the base, decoded once.
+  CHECK(image_of(model.specular_color_map) == image_of(model.base_color_map));
+  CHECK(scene.textures.at(model.specular_color_map.index).scale == Vec2d(2, 3));
+  // An image without alpha takes nothing away.
+  material["extensions"]["KHR_materials_specular"]["specularTexture"]["index"] = 0;
+  const Scene opaque = LoadFile(file);
+  const TextureId whole = MaterialOf(opaque).specular_map;
+  const MipChain& ones = *opaque.images.at(opaque.textures.at(whole.index).image.index).texels;
+  CHECK((ones.channels == 1 && ones.levels.at(0).width == 2 && ones.levels.at(0).height == 2));
+  CHECK(std::all_of(ones.values.begin(), ones.values.end(), [](float v) { return v == 1; }));
+  material["extensions"]["KHR_materials_specular"]["specularTexture"] = {{"index", "none"}};
+  CHECK_THROWS_AS(LoadFile(file), Error);
 }
 
 TEST_CASE("images that are not there, or are none, are refused") {

@@ -12,6 +12,7 @@
 #include "brdf/quadrature.h"
 #include "shading/lobe_sample.h"
 #include "shading/prepare.h"
+#include "shading/scalar_material.h"
 #include "shading/shade.h"
 #include "targets.h"
 
@@ -37,6 +38,40 @@ TEST_CASE("metallic-roughness mixes its base and F0") {
   CheckEqual(model.diffuse * M_PI, {0.6, 0.3, 0.15});
   CHECK(model.alpha == Approx(0.09));
   CHECK(model.schlick_k == Approx(0.21125));  // 1.3^2 / 8
+}
+
+TEST_CASE("what is no metal reflects as much as `specular` says, at all angles") {
+  MetallicRoughnessMaterial material;
+  material.base_color = {0.8, 0.4, 0.2};
+  material.dielectric_f0 = {0.1, 0.04, 0.02};
+  material.roughness = 0.3;
+  const MicrofacetModel whole = PrepareModel(material);
+  CHECK(whole.f90 == 1);
+  material.specular = 0.25;
+  const MicrofacetModel quarter = PrepareModel(material);
+  CheckEqual(quarter.f0, {0.025, 0.01, 0.005});
+  CHECK(quarter.f90 == 0.25);
+  for (const double cosine : {1.0, 0.7, 0.2, 0.0}) {
+    const Rgb all = FresnelOf(whole, cosine, 1 - cosine);
+    CheckEqual(FresnelOf(quarter, cosine, 1 - cosine), all * 0.25);
+  }
+  // A fifth of it metal, whose reflection is never less.
+  material.metallic = 0.2;
+  const MicrofacetModel mixed = PrepareModel(material);
+  CheckEqual(mixed.f0, {0.8 * 0.025 + 0.16, 0.8 * 0.01 + 0.08, 0.8 * 0.005 + 0.04});
+  CHECK(mixed.f90 == Approx(0.8 * 0.25 + 0.2).epsilon(1e-15));
+  for (const double metallic : {0.1, 0.3, 0.7, 1e-17, 0.9999999999999999}) {
+    material.metallic = metallic;
+    material.specular = 1;
+    CHECK(PrepareModel(material).f90 == 1);
+  }
+  // None: a Lambert surface.
+  material.metallic = 0;
+  material.specular = 0;
+  const MicrofacetModel none = PrepareModel(material);
+  for (const double n_dot_v : {1.0, 0.5, 0.01}) {
+    for (int c = 0; c < 3; ++c) CHECK(LobeAlbedo(none, n_dot_v, c) == 0);
+  }
 }
 
 TEST_CASE("radiometric Phong is normalised, classic Phong is not") {

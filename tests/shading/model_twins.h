@@ -94,10 +94,10 @@ inline Rgb Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
   for (int c = 0; c < 3; ++c) {
     switch (m.fresnel) {
       case FresnelForm::kSchlick:
-        fresnel[c] = FresnelSchlick(m.f0[c], SchlickWeight(a));
+        fresnel[c] = FresnelSchlick(m.f0[c], m.f90, SchlickWeight(a));
         break;
       case FresnelForm::kF82:
-        fresnel[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.f0[c], m.f82_slope[c]);
+        fresnel[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.f0[c], m.f90, m.f82_slope[c]);
         break;
       case FresnelForm::kDielectric:
         fresnel[c] = FresnelDielectric(VDotH(a), OneMinusVDotH(a), m.eta[c]);

@@ -192,6 +192,16 @@ std::vector<Material> MicrofacetMaterials(double roughness) {
   auto tinted = std::get<MetallicRoughnessMaterial>(materials[0].model);
   tinted.f82_tint = Rgb(0.5, 0.9, 0.7);
   materials.emplace_back().model = tinted;
+  // Half a dielectric's reflection, and none, under every coupling and compensation.
+  for (size_t i = 0, count = materials.size(); i < count; ++i) {
+    auto* weak = std::get_if<MetallicRoughnessMaterial>(&materials[i].model);
+    if (weak == nullptr || weak->shadowing != Shadowing::kHeightCorrelated) continue;
+    MetallicRoughnessMaterial less = *weak;
+    less.dielectric_f0 = Rgb(0.08, 0.04, 0.01);
+    less.specular = i % 2 == 0 ? 0.5 : 0;
+    less.metallic = i % 3 == 0 ? 0 : 0.4;
+    materials.emplace_back().model = less;
+  }
   return materials;
 }
 
