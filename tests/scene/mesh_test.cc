@@ -158,6 +158,35 @@ TEST_CASE("positions without any area around them have some unit normal") {
   CHECK(NormalsOf(mesh)[8] == Vec3d(0, 1, 0));
 }
 
+TEST_CASE("edges of three faces, and faces that contradict each other, have unit normals") {
+  Mesh fins;  // three about the z axis, 120 degrees apart; the last one wound the other way
+  fins.positions = {{0, 0, 0}, {0, 0, 1}};
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 3;
+    fins.positions.emplace_back(std::cos(angle), std::sin(angle), 0.5);
+  }
+  fins.triangles = {0, 1, 2, 0, 1, 3, 1, 0, 4};
+  for (const double crease : {180.0, 45.0, 0.0}) {
+    CAPTURE(crease);
+    Mesh mesh = fins;
+    ComputeNormals(NormalWeighting::kAngle, crease, &mesh);
+    REQUIRE(mesh.normals.size() == mesh.positions.size());
+    CHECK(mesh.triangles.size() == fins.triangles.size());
+    for (const Vec3d& normal : mesh.normals) {
+      CHECK(std::abs(normal.length() - 1) <= 4 * 0x1p-53);
+    }
+    // A fin's outer corner knows no other fin.
+    for (size_t t = 0; t < 3; ++t) {
+      const Vec3d outer = mesh.normals[mesh.triangles[3 * t + 2]];
+      CHECK((outer - FaceNormal(mesh, t)).length() <= 4 * 0x1p-53);
+    }
+  }
+  // The same face twice, once each way: they cancel out, and some unit normal is left.
+  Mesh both = fins;
+  both.triangles = {0, 1, 2, 1, 0, 2};
+  CHECK(NormalsOf(both)[2] == Vec3d(0, 1, 0));
+}
+
 TEST_CASE("transforms scale, rotate about x, y, z and translate") {
   const auto moved = [](const Transform& transform) {
     Mesh mesh;
