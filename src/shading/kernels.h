@@ -56,6 +56,11 @@ struct MicrofacetLightOf {
 };
 using MicrofacetLight = MicrofacetLightOf<float>;
 
+// Where a channel reflects as little at normal incidence, Schlick's weight needs 1 - v.h to its
+// last digit. Else it is rounded by as much as 1 is: of (1 - v.h)^5, 5 (1 - v.h)^4 times 6e-8, over
+// F0 + (1 - v.h)^5 at most 7e-7.
+inline constexpr float kBrightF0 = 0.02f;
+
 template <class Number>
 struct MicrofacetUniformsOf {
   const MicrofacetModel* model;
@@ -63,6 +68,7 @@ struct MicrofacetUniformsOf {
   // The model's, rounded.
   Number alpha, alpha2_over_pi, schlick_k;
   Number f0[3], f90, f82_slope[3];
+  bool is_bright;  // no channel of f0 is below kBrightF0; not of hits with their own
   float eta[3], k[3];
   Number f_multiple[3];
   // The distribution at each hit, formed in double, under one light; or null. Where each hit has

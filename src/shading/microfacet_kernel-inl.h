@@ -55,19 +55,32 @@ struct HalfV {
   FloatV lv_squared, u_length;
 };
 
+// 1 - v.h for Schlick's weight; by kBrightF0.
+template <class Number>
+HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
+                              const MicrofacetUniformsOf<Number>& uniforms) {
+  const FloatV rounded = hn::NegMulAdd(half.u_length, hn::Set(d, 0.5f), hn::Set(d, 1.0f));
+  if constexpr (std::is_same_v<Number, float>) {
+    return uniforms.is_bright ? rounded : OneMinusVDotH(d, half.lv_squared, half.u_length);
+  } else {
+    const RgbV f0 = RgbAt(d, uniforms.f0, i);
+    const auto bright = hn::Ge(hn::Min(hn::Min(f0.r, f0.g), f0.b), hn::Set(d, kBrightF0));
+    return hn::IfThenElse(bright, rounded, OneMinusVDotH(d, half.lv_squared, half.u_length));
+  }
+}
+
 template <FresnelForm kFresnel, class Number>
 HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
                                 const MicrofacetUniformsOf<Number>& uniforms,
                                 const MicrofacetLightOf<Number>& light) {
-  const FloatV one = hn::Set(d, 1.0f);
-  const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, half.u_length);
   if constexpr (kFresnel == FresnelForm::kSchlick) {
-    const FloatV weight = Power5(one_minus_vh);
+    const FloatV weight = Power5(SchlickBase(d, half, i, uniforms));
     const RgbV rest = RgbAt(d, light.diffuse_rest, i), fall = RgbAt(d, light.diffuse_fall, i);
     return {MulAddRgb(RgbAt(d, light.specular_rise, i), weight, RgbAt(d, light.specular_f0, i)),
             {hn::NegMulAdd(fall.r, weight, rest.r), hn::NegMulAdd(fall.g, weight, rest.g),
              hn::NegMulAdd(fall.b, weight, rest.b)}};
   } else {
+    const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, half.u_length);
     const FloatV v_dot_h = VDotH(d, half.u_length);
     RgbV fresnel;
     if constexpr (kFresnel == FresnelForm::kF82) {
@@ -85,6 +98,7 @@ HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
                  FresnelConductor(d, v_dot_h, one_minus_vh, eta.g, k.g),
                  FresnelConductor(d, v_dot_h, one_minus_vh, eta.b, k.b)};
     }
+    const FloatV one = hn::Set(d, 1.0f);
     // The exact curves may round to just above 1 at grazing angles.
     const auto left = [&](FloatV f) HWY_ATTR { return hn::Max(hn::Sub(one, f), hn::Zero(d)); };
     return {
@@ -113,6 +127,10 @@ struct Microfacet {
     FloatV n_dot_v, multiple;
     RgbV turquin, base;
   };
+
+  HWY_INLINE bool ReadsLv() const {
+    return kFresnel != FresnelForm::kSchlick || !kSame || !uniforms.is_bright;
+  }
 
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface& surface) const {
     // Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.

@@ -45,11 +45,12 @@ class IncidentBlock {
             hn::Gt(n_dot_l, hn::Zero(d))};
   }
 
+  template <bool kWithLv>
   HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half) {
     hn::Store(half.n_dot_u, d, n_dot_u_ + at);
     hn::Store(half.u_squared, d, u_squared_ + at);
     hn::Store(half.nxu_squared, d, nxu_squared_ + at);
-    hn::Store(half.lv_squared, d, lv_squared_ + at);
+    if (kWithLv) hn::Store(half.lv_squared, d, lv_squared_ + at);
   }
 
   HWY_INLINE HalfAnglesV<FloatV> LoadHalf(FloatTag d, size_t at) const {
@@ -61,8 +62,8 @@ class IncidentBlock {
   static constexpr size_t kAlignment = 64;
   alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits];
   alignas(kAlignment) float n_dot_l_[kHits], irradiance_[kHits], weight_[kHits];
-  alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits],
-      lv_squared_[kHits];
+  alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits];
+  alignas(kAlignment) float lv_squared_[kHits] = {};
 };
 
 // The light of hits [begin, end). Not inlined, as it is the same for all models.
@@ -77,14 +78,15 @@ inline HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hi
   });
 }
 
-// The angles of their half vectors.
-inline HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
-                                  IncidentBlock* block) {
+// The angles of their half vectors, with or without |l - v|^2.
+template <bool kWithLv>
+HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
+                           IncidentBlock* block) {
   const FloatTag d;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, i);
-    block->StoreHalf(d, i - begin,
-                     ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view));
+    block->StoreHalf<kWithLv>(
+        d, i - begin, ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view));
   }
 }
 
@@ -94,7 +96,10 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
                            IncidentBlock* block) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
   FillLight(range.lights[k], range.hits, arrays, begin, end, block);
-  if constexpr (kHalf) FillHalf(arrays, begin, end, block);
+  if constexpr (kHalf) {
+    const auto fill = model.ReadsLv() ? FillHalf<true> : FillHalf<false>;
+    fill(arrays, begin, end, block);
+  }
   ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
     if constexpr (kHalf) {
       return HalfIncidentV{block->Load(d, p.i - begin), block->LoadHalf(d, p.i - begin)};
@@ -108,7 +113,8 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 // lights.
 //   view = model.SeenBy(packet, surface)             what does not depend on the light
 //   model.Reflect(view, packet, incident, k)         what it makes of light k
-// `Model::Incident`: IncidentV, or HalfIncidentV.
+// `Model::Incident`: IncidentV, or HalfIncidentV. With the latter model.ReadsLv() tells whether
+// HalfAnglesV::lv_squared has a meaning to the model; else it need not be there.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);

@@ -22,6 +22,7 @@ struct PhongFamily {
   struct View {};
   const PhongUniformsOf<Number>& uniforms;
 
+  static constexpr bool ReadsLv() { return false; }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
   HWY_INLINE LobeCosineV<FloatV> Cosine(FloatTag d, const PacketV& p, const Incident& in) const {

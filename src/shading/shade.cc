@@ -61,6 +61,7 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLi
   uniforms.alpha2_over_pi = static_cast<float>(alpha * alpha * M_1_PI);
   uniforms.schlick_k = static_cast<float>(model.schlick_k);
   Assign(model.f0, uniforms.f0);
+  uniforms.is_bright = std::min({uniforms.f0[0], uniforms.f0[1], uniforms.f0[2]}) >= kBrightF0;
   uniforms.f90 = static_cast<float>(model.f90);
   Assign(model.f82_slope, uniforms.f82_slope);
   Assign(model.eta, uniforms.eta);
