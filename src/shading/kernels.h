@@ -57,8 +57,8 @@ struct MicrofacetLightOf {
 using MicrofacetLight = MicrofacetLightOf<float>;
 
 // Where a channel reflects as little at normal incidence, Schlick's weight needs 1 - v.h to its
-// last digit. Else it is rounded by as much as 1 is: of (1 - v.h)^5, 5 (1 - v.h)^4 times 6e-8, over
-// F0 + (1 - v.h)^5 at most 7e-7.
+// last digit. Else it may be off by 1e-7: (1 - v.h)^5 is off by 5 (1 - v.h)^4 times that, Schlick's
+// curve by 7e-7 of itself at most.
 inline constexpr float kBrightF0 = 0.02f;
 
 template <class Number>
