@@ -156,11 +156,11 @@ TEST_CASE("the caller's floating-point mode is left as it was") {
 }
 #endif
 
+// Sanitizers have allocators of their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 // KiB that were allocated and not freed.
 long HeapInUse() { return static_cast<long>(mallinfo2().uordblks / 1024); }
 
-// Sanitizers keep freed memory.
-#if !defined(__SANITIZE_ADDRESS__)
 TEST_CASE("two hundred renders need no more memory than a hundred") {
   const nacre::Scene scene =
       nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/mesh_and_spheres.json");
