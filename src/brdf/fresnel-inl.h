@@ -41,12 +41,6 @@ HWY_INLINE V SchlickWeight(D d, const AnglesV<V>& a) {
   return Power5(OneMinusVDotH(d, a.lv_squared, hn::Sqrt(a.u_squared)));
 }
 
-// F0 + (1 - F0) weight.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V FresnelSchlick(D d, V f0, V schlick_weight) {
-  return hn::MulAdd(hn::Sub(hn::Set(d, hn::TFromD<D>(1)), f0), schlick_weight, f0);
-}
-
 // F0 + (F90 - F0) weight.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V FresnelSchlick(D, V f0, V f90, V schlick_weight) {

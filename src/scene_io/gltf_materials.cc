@@ -116,23 +116,39 @@ TextureId AddTexture(const GltfDocument& document, const GltfExtension& extensio
 }
 
 // KHR_materials_ior and KHR_materials_specular: what a material reflects where it is no metal.
-void ApplyReflectance(const GltfDocument& document, const tinygltf::Material& material,
-                      size_t index, GltfTextures* textures, MetallicRoughnessMaterial* result) {
-  if (const auto ior = FindExtension(document, material, index, "KHR_materials_ior")) {
+void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material, size_t index,
+                      GltfTextures* textures, MetallicRoughnessMaterial* result) {
+  const std::string place = fmt::format("/materials/{}/extensions/", index);
+  const auto check = [&](bool is_right, const char* member, const char* what) {
+    if (!is_right) document->Refuse(place + member, what);
+  };
+  if (const auto ior = FindExtension(*document, material, index, "KHR_materials_ior")) {
     const double n = ior->Number("ior", 1.5);  // 0: all is reflected
-    result->dielectric_f0 = Rgb((n - 1) * (n - 1) / ((n + 1) * (n + 1)));
+    check(n == 0 || n >= 1, "KHR_materials_ior/ior", "is neither 0 nor at least 1");
+    const double root = (n - 1) / (n + 1);
+    result->dielectric_f0 = Rgb(root * root);
   }
-  const auto specular = FindExtension(document, material, index, "KHR_materials_specular");
+  const auto specular = FindExtension(*document, material, index, "KHR_materials_specular");
   if (!specular) return;
-  const Rgb f0 = result->dielectric_f0 * specular->Color("specularColorFactor", Rgb(1));
-  for (int c = 0; c < 3; ++c) result->dielectric_f0[c] = std::clamp(f0[c], 0.0, 1.0);
   result->specular = specular->Number("specularFactor", 1);
-  const std::string place = fmt::format("/materials/{}/extensions/KHR_materials_specular", index);
+  check(result->specular >= 0 && result->specular <= 1, "KHR_materials_specular/specularFactor",
+        "is not in [0, 1]");
+  const Rgb tint = specular->Color("specularColorFactor", Rgb(1));
+  check(tint.x >= 0 && tint.y >= 0 && tint.z >= 0, "KHR_materials_specular/specularColorFactor",
+        "is negative");
+  const Rgb f0 = result->dielectric_f0 * tint;
+  for (int c = 0; c < 3; ++c) result->dielectric_f0[c] = std::min(f0[c], 1.0);
+  if (result->metallic == 1 && !result->metallic_roughness_map.valid()) return;
   const auto map = [&](const char* name, TextureEncoding encoding) {
-    return AddTexture(document, *specular, name, place, encoding, textures);
+    return AddTexture(*document, *specular, name, place + "KHR_materials_specular", encoding,
+                      textures);
   };
   result->specular_map = map("specularTexture", TextureEncoding::kAlpha);
+  if (textures->IsWhite(result->specular_map)) result->specular_map = {};
   result->specular_color_map = map("specularColorTexture", TextureEncoding::kSrgb);
+  if (f0 != result->dielectric_f0 && result->specular_color_map.valid()) {
+    document->Warn("specular colours that reflect more than all are cut before their images");
+  }
 }
 
 void AddCommonTextures(const tinygltf::Material& material, const std::string& place,
@@ -169,7 +185,8 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     document->Warn("specular-glossiness materials are shown as the nearest metallic-roughness");
     MetallicRoughnessMaterial nearest = FromSpecularGlossiness(*glossiness);
     // Which is the base colour where the material is no metal.
-    nearest.base_color_map = AddTexture(*document, *glossiness, "diffuseTexture", place,
+    nearest.base_color_map = AddTexture(*document, *glossiness, "diffuseTexture",
+                                        place + "/extensions/KHR_materials_pbrSpecularGlossiness",
                                         TextureEncoding::kSrgb, textures);
     result.model = nearest;
     return result;
@@ -184,7 +201,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
   metallic_roughness.metallic_roughness_map = AddTexture(
       pbr.metallicRoughnessTexture, place + "/pbrMetallicRoughness/metallicRoughnessTexture",
       TextureEncoding::kLinear, true, textures);
-  ApplyReflectance(*document, material, index, textures, &metallic_roughness);
+  ApplyReflectance(document, material, index, textures, &metallic_roughness);
   result.model = metallic_roughness;
   return result;
 }

@@ -75,6 +75,13 @@ ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   return id;
 }
 
+bool GltfTextures::IsWhite(TextureId texture) const {
+  if (!texture.valid()) return false;
+  const ImageId image = scene_.textures[texture.index].image;
+  const std::vector<float>& texels = scene_.images[image.index].texels->values;
+  return std::all_of(texels.begin(), texels.end(), [](float value) { return value == 1; });
+}
+
 TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {
   if (use.texture < 0) return {};
   const tinygltf::Model& model = document_.model;

@@ -30,6 +30,9 @@ class GltfTextures {
   // for images that are missing or broken.
   TextureId Add(const GltfTextureUse& use, const std::string& place);
 
+  // Whether it is a texture that changes nothing: all of its texels are 1.
+  bool IsWhite(TextureId texture) const;
+
  private:
   ImageId AddImage(int image, TextureEncoding encoding);
 

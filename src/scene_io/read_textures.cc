@@ -73,7 +73,7 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
 // The image of the texture, decoded so; read once.
 ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
   const auto path = ResolveReference(context->folder, source.file, context->allow_paths);
-  const std::string key = path.string() + ":sla"[1 + static_cast<size_t>(encoding)];
+  const std::string key = path.string() + "sla"[static_cast<size_t>(encoding)];
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
   const ImageId id = AddTextureImage(path, source.file, encoding, context->scene);

@@ -57,8 +57,8 @@ struct MicrofacetLightOf {
 using MicrofacetLight = MicrofacetLightOf<float>;
 
 // Where a channel reflects as little at normal incidence, Schlick's weight needs 1 - v.h to its
-// last digit. Else it may be off by 1e-7: (1 - v.h)^5 is off by 5 (1 - v.h)^4 times that, Schlick's
-// curve by 7e-7 of itself at most.
+// last digit. Else it may be off by 2e-7: (1 - v.h)^5 is off by 5 (1 - v.h)^4 times that, Schlick's
+// curve by 1.4e-6 of itself at most.
 inline constexpr float kBrightF0 = 0.02f;
 
 template <class Number>

@@ -176,7 +176,7 @@ HWY_EXPORT(MirrorDirectionsT);
 namespace {
 
 bool HasLobe(const PhongFamilyModel& phong) { return phong.specular.length2() > 0; }
-bool HasLobe(const MicrofacetModel& microfacet) { return !microfacet.delta; }
+bool HasLobe(const MicrofacetModel& microfacet) { return !microfacet.delta && microfacet.f90 > 0; }
 
 const ShadingLight& GivenLight() {
   static const ShadingLight kGiven{.form = LightForm::kGiven};

@@ -103,6 +103,17 @@ void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
   }
 }
 
+// What it reflects of light from everywhere: of the gloss, its mean, and what that leaves to the
+// base.
+Rgb AmbientAlbedo(const MetallicRoughnessMaterial& material) {
+  return EachChannel([&](int c) {
+    const double gloss =
+        AverageSchlick(material.specular * material.dielectric_f0[c], material.specular);
+    const double base = material.base_color[c];
+    return (gloss + base * (1 - gloss)) * (1 - material.metallic) + base * material.metallic;
+  });
+}
+
 MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.coupling = material.diffuse_coupling;
@@ -225,9 +236,9 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
                         },
                         [&](const MetallicRoughnessMaterial& metallic_roughness) {
                           prepared.model = MakeModel(metallic_roughness);
-                          // base_color is what both the diffuse base and a metal reflect, the 4 %
-                          // of a dielectric's gloss aside.
-                          prepared.albedo = of_ambient = metallic_roughness.base_color;
+                          // What both the diffuse base and a metal reflect, the gloss aside.
+                          prepared.albedo = metallic_roughness.base_color;
+                          of_ambient = AmbientAlbedo(metallic_roughness);
                         },
                         [&](const ConductorMaterial& conductor) {
                           const MicrofacetModel model = MakeModel(conductor);
@@ -285,7 +296,7 @@ bool HasDoubleTerms(const ShadingMaterial& material) {
 
 bool HasDeltaLobe(const ShadingMaterial& material) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
-  return microfacet != nullptr && microfacet->delta;
+  return microfacet != nullptr && microfacet->delta && microfacet->f90 > 0;
 }
 
 }  // namespace nacre

@@ -122,6 +122,13 @@ MetallicRoughnessMaterial GuessMetallic(const Summary& summary, double alpha) {
 }
 
 void FitMetallic(const Material& original, MaterialFit* fit) {
+  if (const auto* same = std::get_if<MetallicRoughnessMaterial>(&original.model)) {
+    MetallicRoughnessMaterial material = *same;
+    material.base_color_map = material.metallic_roughness_map = {};
+    material.specular_map = material.specular_color_map = {};
+    fit->guess.model = fit->fitted.model = material;
+    return;
+  }
   const Summary summary = Summarize(original);
   MetallicRoughnessMaterial material = GuessMetallic(summary, LobeAlpha(original));
   fit->guess.model = material;
@@ -139,7 +146,8 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
         "the lobe asks for F0 {:.3f} {:.3f} {:.3f}, one base colour for both lobe and base allows "
         "{:.3f} {:.3f} {:.3f}{}",
         free.strength.x, free.strength.y, free.strength.z, f0.x, f0.y, f0.z,
-        base.metallic < 0.5 ? "; --to dielectric has an index of its own" : ""));
+        base.metallic < 0.5 ? "; its dielectric_f0 says it apart, and so does --to dielectric"
+                            : ""));
   }
 }
 

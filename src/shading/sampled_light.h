@@ -53,7 +53,7 @@ struct SampledLight {
   Vec3d normal{0, 0, 0};  // of rectangles and disks: unit, to the side that emits
   double radius = 0;
   bool two_sided = false;
-  bool transformed_cosines = false;  // the fast mode of area lights (fast_area.h)
+  bool transformed_cosines = false;       // the fast mode of area lights (fast_area.h)
   std::shared_ptr<const MeshLight> mesh;  // relative to `place`
   ShadingSky sky;
 };

@@ -50,7 +50,8 @@ void EvaluateFresnelT(const std::vector<FresnelInput>& inputs,
     Scatter(FresnelDielectric(d, c, m, eta), first, &FresnelOutput::dielectric, outputs);
     Scatter(FresnelConductor(d, c, m, eta, get(&FresnelInput::k)), first, &FresnelOutput::conductor,
             outputs);
-    Scatter(FresnelSchlick(d, f0, Power5(m)), first, &FresnelOutput::schlick, outputs);
+    Scatter(FresnelSchlick(d, f0, hn::Set(d, 1.0f), Power5(m)), first, &FresnelOutput::schlick,
+            outputs);
     Scatter(FresnelF82(d, c, m, f0, hn::Set(d, 1.0f), get(&FresnelInput::slope)), first,
             &FresnelOutput::f82, outputs);
   }

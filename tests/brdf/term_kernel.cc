@@ -59,7 +59,7 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
         hn::Div(one, VisibilityDenominatorHeightCorrelated(d, a.n_dot_l, n_dot_v, alpha)),
         hn::Div(one, VisibilityDenominatorSeparable(d, a.n_dot_l, n_dot_v, alpha)),
         hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, k)),
-        FresnelSchlick(d, f0, SchlickWeight(d, a)),
+        FresnelSchlick(d, f0, hn::Set(d, hn::TFromD<D>(1)), SchlickWeight(d, a)),
     };
     float TermOutput::*const members[] = {
         &TermOutput::phong,        &TermOutput::blinn,

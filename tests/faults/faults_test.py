@@ -32,6 +32,12 @@ def run(*arguments, **options):
                           timeout=120, check=False, **options)
 
 
+def run_within(mib, *arguments):
+    """With no more address space than that."""
+    limit = mib << 20
+    return run(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+
+
 def is_whole(path):
     """Whether a PNG has its end, and an EXR can be read to its last row."""
     if path.suffix == '.png':
@@ -220,20 +226,18 @@ class FaultsTest(unittest.TestCase):
 
     # ---- Memory ----
 
+    def skip_without_limits(self):
+        if run_within(4000, '--version').returncode != 0:
+            self.skipTest('a sanitizer reserves more address space than any limit here')
+
     def test_out_of_memory(self):
         """Address space from too little to enough: done, or 70 with words.
 
         What happens before main() is the loader's and the libraries': the least memory is that in
         which the program can say its version.
         """
-        def run_within(mib, *arguments):
-            limit = mib << 20
-            return run(*arguments, preexec_fn=lambda: resource.setrlimit(
-                resource.RLIMIT_AS, (limit, limit)))
-
+        self.skip_without_limits()
         (self.out / 'old.png').write_bytes(b'old')
-        if run_within(4000, '--version').returncode != 0:
-            self.skipTest('a sanitizer reserves more address space than any limit here')
         least = next(mib for mib in range(16, 4000)
                      if run_within(mib, '--version').returncode == 0)
         seen = set()
@@ -259,8 +263,8 @@ class FaultsTest(unittest.TestCase):
         (self.out / 'a.json').write_text(
             '{"nacre": 1, "materials": {"a": {"model": "lambert"}}, "shapes": [%s]}'
             % ', '.join([cloud] * 1000))
-        result = run('info', self.out / 'a.json', preexec_fn=lambda: resource.setrlimit(
-            resource.RLIMIT_AS, (2 << 30, 2 << 30)))
+        self.skip_without_limits()
+        result = run_within(2000, 'info', self.out / 'a.json')
         self.assertIn(result.returncode, (65, 70), result.stderr)
         self.assertIn('error: ', result.stderr)
 

@@ -63,8 +63,8 @@ class InstallTest(unittest.TestCase):
         flags = run('pkg-config', '--cflags', '--libs', 'nacre',
                     env={**os.environ, 'PKG_CONFIG_PATH': str(pc)}).split()
         program = self.top / 'by_pkg_config'
-        run(CXX, '-std=c++17', '-Wall', '-Wextra', '-Werror', EXAMPLE / 'example.cc', '-o', program,
-            *flags)
+        run(CXX, *os.environ.get('CXXFLAGS', '').split(), '-std=c++17', '-Wall', '-Wextra', '-Werror',
+            EXAMPLE / 'example.cc', '-o', program, *flags)
         self.check_example(program, {**os.environ, 'LD_LIBRARY_PATH': str(self.library.parent)})
 
     def test_the_programs_of_the_readme_build_and_run(self):

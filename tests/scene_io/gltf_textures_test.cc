@@ -174,8 +174,26 @@ TEST_CASE("an index of refraction beside images, and specular colours") {
   CHECK(f0.x == Approx(1.0 / 9).epsilon(1e-14));
   CHECK(f0.y == Approx(0.5 / 9).epsilon(1e-14));
   CHECK(f0.z == 1);  // no more than all
-  material["extensions"]["KHR_materials_specular"]["specularFactor"] = 2;
-  CHECK_THROWS_AS(LoadFile(file), Error);
+  const auto refused = [&](const char* extension, const char* member, const Json& value,
+                           const std::string& where) {
+    GltfFile bad = file;
+    bad.json["materials"][0]["extensions"][extension][member] = value;
+    try {
+      LoadFile(bad);
+    } catch (const Error& error) {
+      return error.faults().front().where.find(where) != std::string::npos;
+    }
+    return false;
+  };
+  const char* const specular = "KHR_materials_specular";
+  CHECK(refused(specular, "specularFactor", 2, "/materials/0/extensions/KHR_materials_specular/"));
+  CHECK(refused(specular, "specularFactor", -0.5, "specularFactor"));
+  CHECK(refused(specular, "specularColorFactor", {1, -1, 1}, "specularColorFactor"));
+  for (const double ior : {-1.0, -0.5, 0.5}) {
+    CHECK(refused("KHR_materials_ior", "ior", ior, "KHR_materials_ior/ior"));
+  }
+  material["extensions"]["KHR_materials_ior"]["ior"] = 1e200;
+  CHECK(MaterialOf(LoadFile(file)).dielectric_f0.x == 1);
 }
 
 TEST_CASE("images of specular weights and colours") {
@@ -216,13 +234,17 @@ TEST_CASE("images of specular weights and colours") {
   // The colour is that of the base, decoded once.
   CHECK(image_of(model.specular_color_map) == image_of(model.base_color_map));
   CHECK(scene.textures.at(model.specular_color_map.index).scale == Vec2d(2, 3));
+  // Factors that reflect more than all are cut, with a warning where an image would follow.
+  material["extensions"]["KHR_materials_specular"]["specularColorFactor"] = {30, 1, 1};
+  CHECK(MaterialOf(LoadFile(file, &warnings)).dielectric_f0.x == 1);
+  CHECK(Mentions(warnings, "are cut before their images"));
   // An image without alpha takes nothing away.
   material["extensions"]["KHR_materials_specular"]["specularTexture"]["index"] = 0;
-  const Scene opaque = LoadFile(file);
-  const TextureId whole = MaterialOf(opaque).specular_map;
-  const MipChain& ones = *opaque.images.at(opaque.textures.at(whole.index).image.index).texels;
-  CHECK((ones.channels == 1 && ones.levels.at(0).width == 2 && ones.levels.at(0).height == 2));
-  CHECK(std::all_of(ones.values.begin(), ones.values.end(), [](float v) { return v == 1; }));
+  CHECK(!MaterialOf(LoadFile(file)).specular_map.valid());
+  // Nor does any from a metal.
+  material["pbrMetallicRoughness"]["metallicFactor"] = 1;
+  CHECK(!MaterialOf(LoadFile(file)).specular_color_map.valid());
+  material["pbrMetallicRoughness"]["metallicFactor"] = 0;
   material["extensions"]["KHR_materials_specular"]["specularTexture"] = {{"index", "none"}};
   CHECK_THROWS_AS(LoadFile(file), Error);
 }
