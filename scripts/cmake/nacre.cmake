@@ -49,6 +49,11 @@ target_compile_definitions(nacre_options INTERFACE "HWY_DISABLED_TARGETS=~(${NAC
 # Highway's fallback is SCALAR or EMU128, by compiler and version. Of EMU128 in Highway 1.2, a
 # division by zero is zero; this asks for SCALAR everywhere, whose numbers are C++'s.
 target_compile_definitions(nacre_options INTERFACE HWY_BROKEN_EMU128=1)
+# NEON is all there is, and what all code may use: without this Highway gives its functions a target
+# of their own, which GCC does not give to the constructors of structs of vectors.
+if("neon" IN_LIST NACRE_TARGETS)
+  target_compile_definitions(nacre_options INTERFACE TOOLCHAIN_MISS_SYS_AUXV_H=1)
+endif()
 target_compile_options(nacre_options INTERFACE ${NACRE_BASELINE})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Highway passes vectors between its own inlined functions only.
