@@ -86,9 +86,13 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   // Workers take indices in order, one after the other: what is finished early is then needed
   // early, and a consumer that wants them in order has little to keep.
   std::atomic<size_t> next{0};
-  static const char begun = 0;
+  static const char begun = 0, ended = 0;
+  struct AtEnd {  // of whatever the worker read of this function's variables, too
+    ~AtEnd() { HandOver(&ended); }
+  };
   const auto work = [&](int) {
     TakeOver(&begun);
+    const AtEnd at_end;
     const FlushDenormals flush;
     for (size_t i = next++; i < count; i = next++) {
       try {
@@ -103,7 +107,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   ArenaOf(ThreadCount(threads)).execute([&] {
     tbb::parallel_for(0, ThreadCount(threads), work, tbb::simple_partitioner());
   });
-  TakeOver(&next);  // each worker's last next++ is a release of it
+  TakeOver(&ended);
 }
 
 void WithThreads(int threads, const std::function<void()>& body) {
