@@ -21,6 +21,7 @@
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfStringVectorAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfVecAttribute.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -143,6 +144,21 @@ Image DescribeHeader(const std::string& path, const Imf::Header& header) {
   return image;
 }
 
+// OpenEXR makes room for a tile, and for a row of tiles over the picture's width, as large as the
+// header tells, however small the picture is.
+void CheckTiles(const std::string& path, const Imf::Header& header, uint64_t width, uint64_t height,
+                uint64_t channels) {
+  if (!header.hasTileDescription()) return;
+  constexpr uint64_t kSmall = uint64_t{1} << 26;  // samples, 256 MiB
+  const Imf::TileDescription& tiles = header.tileDescription();
+  const uint64_t most = std::max(kSmall, width * height * channels);
+  const uint64_t across = std::max<uint64_t>(width, tiles.xSize);  // both below 2^31
+  if (tiles.ySize > most / channels / std::max<uint64_t>(across, 1)) {
+    Fail(path, fmt::format("its tiles of {} x {} are too large for {} x {} pixels", tiles.xSize,
+                           tiles.ySize, width, height));
+  }
+}
+
 void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* image) {
   const Window& data = image->data;
   const auto width = static_cast<uint64_t>(int64_t{data.x1} - data.x0);
@@ -151,6 +167,8 @@ void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* 
     Fail(path, fmt::format("{} x {} pixels of {} channels are more than 2 GiB", width, height,
                            image->channels.size()));
   }
+  if (image->channels.empty()) Fail(path, "has no channels");
+  CheckTiles(path, file.header(0), width, height, image->channels.size());
   Imf::FrameBuffer frame;
   for (Channel& channel : image->channels) {
     channel.samples.reserve(width * height);

@@ -7,6 +7,11 @@
 #include <string>
 #include <vector>
 
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfTileDescription.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
 #include <zlib.h>
 
 #include "image_io/exr_reader.h"
@@ -96,6 +101,39 @@ TEST_CASE("an EXR whose header promises pixels that are not there costs nothing"
   CHECK(caught.code == ExitCode::kBadInput);
   CHECK(caught.Says("bomb.exr"));
   CHECK(PeakMib() < before + kRoomMib);
+}
+
+TEST_CASE("an EXR with tiles far larger than its picture takes no room") {
+  const TestFolder folder;
+  Imf::Header header(8, 8);
+  header.channels().insert("R", Imf::Channel(Imf::FLOAT));
+  header.setTileDescription(Imf::TileDescription(4, 4));
+  std::vector<float> red(64, 0.5f);
+  Imf::FrameBuffer frame;
+  frame.insert("R", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(red.data()), 4, 32));
+  {
+    Imf::TiledOutputFile file((folder / "a.exr").c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writeTiles(0, 1, 0, 1);
+  }
+  CHECK(ReadExr(folder / "a.exr").channels.at(0).samples == red);
+  std::vector<uint8_t> file = ReadBytes(folder / "a.exr");
+  const std::string name("tiles\0tiledesc\0", 15);
+  const auto found = std::search(file.begin(), file.end(), name.begin(), name.end());
+  REQUIRE(found != file.end());
+  // After the name, the type and the size: width and height, little-endian.
+  const auto tile = found + static_cast<std::ptrdiff_t>(name.size()) + 4;
+  const auto refused = [&](const std::vector<uint8_t>& size) {
+    std::copy(size.begin(), size.end(), tile);
+    WriteBytes(folder / "huge.exr", file);
+    const size_t before = PeakMib();
+    const Caught caught = Catching([&] { ReadExr(folder / "huge.exr"); });
+    CHECK(caught.code == ExitCode::kBadInput);
+    CHECK(PeakMib() < before + kRoomMib);
+    return caught;
+  };
+  CHECK(refused({8, 0, 0, 0, 0, 0, 0, 0x10}).Says("its tiles of 8 x 268435456 are too large"));
+  CHECK(refused({0, 0, 0, 0x10, 8, 0, 0, 0}).Says("are too large for 8 x 8 pixels"));
 }
 
 TEST_CASE("an EXR attribute that is longer than its file takes no room") {
