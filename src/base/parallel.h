@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 
 namespace nacre {
@@ -20,7 +21,7 @@ void WithThreads(int threads, const std::function<void()>& body);
 int ThreadCount(int threads);
 
 // While alive, denormal results and operands of this thread are treated as zero (FTZ and DAZ on
-// x86): the tails of highlights make denormals, which cost a hundred cycles each. Restores the
+// x86, FZ on arm64): the tails of highlights make denormals, which cost a hundred cycles each. Restores the
 // caller's mode.
 class FlushDenormals {
  public:
@@ -30,7 +31,7 @@ class FlushDenormals {
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 
  private:
-  unsigned saved_ = 0;
+  uint64_t saved_ = 0;
 };
 
 }  // namespace nacre
