@@ -103,11 +103,14 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
       }
     }
   };
+  struct AfterAll {  // by an exception, too
+    ~AfterAll() { TakeOver(&ended); }
+  };
+  const AfterAll after_all;
   HandOver(&begun);
   ArenaOf(ThreadCount(threads)).execute([&] {
     tbb::parallel_for(0, ThreadCount(threads), work, tbb::simple_partitioner());
   });
-  TakeOver(&ended);
 }
 
 void WithThreads(int threads, const std::function<void()>& body) {

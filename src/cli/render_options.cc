@@ -136,8 +136,10 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   command->add_option("--threads", o->threads, "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->group(machine);
-  command->add_option("--target", o->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
-      ->check(CLI::IsMember({"auto", "avx3", "avx2", "sse4", "scalar"}))
+  command
+      ->add_option("--target", o->target,
+                   "SIMD target: auto, avx3, avx2, sse4 or scalar; neon on arm64")
+      ->check(CLI::IsMember({"auto", "avx3", "avx2", "sse4", "scalar", "neon"}))
       ->capture_default_str()
       ->group(machine);
   command

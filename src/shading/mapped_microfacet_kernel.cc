@@ -140,11 +140,6 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
     double* const diffuse = Channel(t->diffuse, c);
     double* const f0 = Channel(t->specular, c);
     double* const slope = Channel(t->exact_slope, c);
-    const double radiance = run.material.ambient_radiance[c];
-    hits.Fill(Channel(t->ambient, c), [&](size_t i) {
-      const double gloss = AverageSchlick(specular[i] * f0[i], specular[i]), base = diffuse[i];
-      return ((gloss + base * (1 - gloss)) * (1 - metallic[i]) + base * metallic[i]) * radiance;
-    });
     hits.Fill(f0, [&](size_t i) {
       return specular[i] * f0[i] * (1 - metallic[i]) + diffuse[i] * metallic[i];
     });

@@ -103,17 +103,6 @@ void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
   }
 }
 
-// What it reflects of light from everywhere: of the gloss, its mean, and what that leaves to the
-// base.
-Rgb AmbientAlbedo(const MetallicRoughnessMaterial& material) {
-  return EachChannel([&](int c) {
-    const double gloss =
-        AverageSchlick(material.specular * material.dielectric_f0[c], material.specular);
-    const double base = material.base_color[c];
-    return (gloss + base * (1 - gloss)) * (1 - material.metallic) + base * material.metallic;
-  });
-}
-
 MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.coupling = material.diffuse_coupling;
@@ -236,9 +225,9 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
                         },
                         [&](const MetallicRoughnessMaterial& metallic_roughness) {
                           prepared.model = MakeModel(metallic_roughness);
-                          // What both the diffuse base and a metal reflect, the gloss aside.
-                          prepared.albedo = metallic_roughness.base_color;
-                          of_ambient = AmbientAlbedo(metallic_roughness);
+                          // base_color is what both the diffuse base and a metal reflect. The
+                          // gloss of a dielectric is left out, as lessons do.
+                          prepared.albedo = of_ambient = metallic_roughness.base_color;
                         },
                         [&](const ConductorMaterial& conductor) {
                           const MicrofacetModel model = MakeModel(conductor);

@@ -204,15 +204,7 @@ TruthVec AmbientTruth(const Material& material) {
     return ToTruth(phong->color * phong->ka);
   }
   if (const auto* ggx = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
-    // Schlick's mean is F0 + (F90 - F0) / 21.
-    const TruthReal s = ggx->specular, m = ggx->metallic;
-    TruthVec mean;
-    for (int c = 0; c < 3; ++c) {
-      const TruthReal f0 = s * TruthReal{ggx->dielectric_f0[c]}, base = ggx->base_color[c];
-      const TruthReal gloss = f0 + (s - f0) / 21;
-      mean[c] = (gloss + base * (1 - gloss)) * (1 - m) + base * m;
-    }
-    return mean;
+    return ToTruth(ggx->base_color);
   }
   if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
     TruthVec mean;
