@@ -21,8 +21,8 @@ void WithThreads(int threads, const std::function<void()>& body);
 int ThreadCount(int threads);
 
 // While alive, denormal results and operands of this thread are treated as zero (FTZ and DAZ on
-// x86, FZ on arm64): the tails of highlights make denormals, which cost a hundred cycles each. Restores the
-// caller's mode.
+// x86, FZ on arm64): the tails of highlights make denormals, which cost a hundred cycles each on
+// x86. Restores the caller's mode.
 class FlushDenormals {
  public:
   FlushDenormals();

@@ -263,7 +263,7 @@ void ShadeMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range
 }
 
 // Hits with numbers of their own, of which looking up and rounding them is most of the work: one
-// kernel for every shadowing, prepared or not, costs them little and saves minutes of compiling.
+// kernel for every shadowing, prepared or not, in place of six.
 template <FresnelForm kFresnel>
 void ShadeMicrofacetMaps(const MicrofacetUniformsOf<const float*>& uniforms,
                          const ShadeRange& range) {

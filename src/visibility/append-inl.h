@@ -24,7 +24,7 @@ class Appender {
 
   template <class D, class T>
   HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
-    // Not CompressStore: Zen 4 takes over a hundred cycles for the instruction behind it.
+    // Not CompressStore: the instruction behind it is microcode on Zen 4.
     hn::StoreU(all_ ? value : hn::Compress(value, MaskOfBits(d, bits_, 0)), d,
                to->data() + count_);
   }
