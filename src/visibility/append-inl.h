@@ -25,8 +25,7 @@ class Appender {
   template <class D, class T>
   HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
     // Not CompressStore: the instruction behind it is microcode on Zen 4.
-    hn::StoreU(all_ ? value : hn::Compress(value, MaskOfBits(d, bits_, 0)), d,
-               to->data() + count_);
+    hn::StoreU(all_ ? value : hn::Compress(value, MaskOfBits(d, bits_, 0)), d, to->data() + count_);
   }
 
   template <class D, class T>
