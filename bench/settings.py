@@ -25,7 +25,7 @@ class Settings:
     truth_spp: int = 16384
     max_errors: tuple = (0.03, 0.01, 0.003, 0.001, 0.0003)
     # The same under lights that are sampled.
-    lights_spp: tuple = (1, 4, 16, 64, 256, 1024)
+    lights_spp: tuple = (1, 4, 16, 32, 64, 256, 1024)
     lights_max_errors: tuple = (0.5, 0.3, 0.1, 0.03, 0.01)
     lights_truth_spp: int = 65536  # at most; fewer where the truth's error is below this
     lights_truth_error: float = 0.004
@@ -55,7 +55,7 @@ QUICK = Settings(
     precision_rounds=3,
     truth_spp=4096,
     max_errors=(0.03, 0.01, 0.003),
-    lights_spp=(4, 16, 64, 256),
+    lights_spp=(4, 16, 32, 64, 256),
     lights_max_errors=(0.5, 0.3, 0.1),
     lights_truth_spp=16384,
     lights_truth_error=0.02,

@@ -67,13 +67,14 @@ void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
 // Which samples those are, for lights that are sampled.
 void NumberUnits(const PixelSampler* samplers, const Window& cell, const std::vector<Unit>& units,
                  int first, int count, SampleNumbers* numbers) {
+  numbers->pixel_count = units.size();
   size_t ray = 0;
-  for (const Unit& unit : units) {
-    const FilmPixel pixel = PixelOf(cell, unit.pixel);
-    const uint64_t seed = PixelSeed(pixel.x, pixel.y, samplers[unit.replicate].seed);
+  for (uint32_t i = 0; i < units.size(); ++i) {
+    const FilmPixel pixel = PixelOf(cell, units[i].pixel);
+    numbers->seeds[i] = PixelSeed(pixel.x, pixel.y, samplers[units[i].replicate].seed);
     for (int k = 0; k < count; ++k, ++ray) {
       numbers->number[ray] = static_cast<uint32_t>(first + k);
-      numbers->pixel[ray] = seed;
+      numbers->pixel[ray] = i;
     }
   }
 }
@@ -251,8 +252,11 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
   s.samples.count = pixels.size();
   if (s.sampled) {
     // Only where they lie is of interest: no footprint is plain under sampled lights.
-    std::fill_n(s.sampled->numbers.number.data(), pixels.size(), 0u);
-    std::fill_n(s.sampled->numbers.pixel.data(), pixels.size(), uint64_t{0});
+    SampleNumbers& numbers = s.sampled->numbers;
+    std::fill_n(numbers.number.data(), pixels.size(), 0u);
+    std::fill_n(numbers.pixel.data(), pixels.size(), 0u);
+    numbers.pixel_count = 1;
+    numbers.seeds[0] = 0;
   }
   TraceAndShade(plan, &s, clock, stats);
   uint32_t hit_of_ray[kCellPixels];

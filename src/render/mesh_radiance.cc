@@ -119,6 +119,15 @@ int SamplesOf(const RenderPlan& plan) {
   return plan.sampled_lights.empty() ? 1 : static_cast<int>(plan.pairs.samples);
 }
 
+void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* numbers) {
+  numbers->pixel_count = count;
+  for (uint32_t i = 0; i < count; ++i) {
+    numbers->number[i] = static_cast<uint32_t>(sample);
+    numbers->pixel[i] = i;
+    numbers->seeds[i] = Combine(points[i].primitive, points[i].index);
+  }
+}
+
 void ShadePoints(const RenderPlan& plan, const Point* points, size_t count, MeshRadiance* to,
                  TileScratch* s) {
   RenderStats stats;
@@ -129,12 +138,7 @@ void ShadePoints(const RenderPlan& plan, const Point* points, size_t count, Mesh
   Sums sums(count, plan.light_layer_count);
   const int samples = SamplesOf(plan);
   for (int k = 0; k < samples; ++k) {
-    if (s->sampled) {
-      for (size_t i = 0; i < count; ++i) {
-        s->sampled->numbers.number[i] = static_cast<uint32_t>(k);
-        s->sampled->numbers.pixel[i] = Combine(points[i].primitive, points[i].index);
-      }
-    }
+    if (s->sampled) NumberPoints(points, count, k, &s->sampled->numbers);
     ShadeHits(plan, s, &clock, &stats);
     AddTo(s->total.diffuse, &sums.diffuse);
     AddTo(s->total.specular, &sums.specular);

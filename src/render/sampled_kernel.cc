@@ -15,6 +15,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
+using DD = hn::ScalableTag<double>;
 
 HWY_INLINE Vec3V<V> LoadAt(const Soa3<float>& soa, size_t i) {
   return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
@@ -52,6 +53,24 @@ void FindDiffuseDensityT(const DiffuseWays& ways, const LightDirections& directi
   }
   if (flat == nullptr) return;
   for (size_t i = 0; i < count; ++i) density[i] = flat[i] != 0 ? 0 : density[i];
+}
+
+HWY_INLINE void Widen(hn::Vec<hn::Rebind<float, DD>> v, double* to) {
+  hn::StoreU(hn::PromoteTo(DD(), v), DD(), to);
+}
+
+void AimShadowRaysT(const LightDirections& directions, const float* irradiance, size_t count,
+                    ShadowRayBatch* rays) {
+  const hn::Rebind<float, DD> d;
+  const Soa3<float>& l = directions.to_light;
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    Widen(hn::LoadU(d, l.x.data() + i), rays->direction.x.data() + i);
+    Widen(hn::LoadU(d, l.y.data() + i), rays->direction.y.data() + i);
+    Widen(hn::LoadU(d, l.z.data() + i), rays->direction.z.data() + i);
+    const auto lit = hn::Gt(hn::LoadU(d, irradiance + i), hn::Zero(d));
+    const auto end = hn::IfThenElseZero(lit, hn::LoadU(d, directions.distance.data() + i));
+    Widen(end, rays->t_max.data() + i);
+  }
 }
 
 void FindWeightsT(const float* irradiance, const float* density, size_t count, float* weight) {
@@ -96,6 +115,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(ShineAlongT);
 HWY_EXPORT(FindDiffuseDensityT);
+HWY_EXPORT(AimShadowRaysT);
 HWY_EXPORT(FindWeightsT);
 HWY_EXPORT(AddWeightedT);
 
@@ -107,6 +127,11 @@ void ShineAlong(const LightDirections& directions, const Surface& surface, size_
 void FindDiffuseDensity(const DiffuseWays& ways, const LightDirections& directions,
                         const Surface& surface, const uint8_t* flat, size_t count, float* density) {
   HWY_DYNAMIC_DISPATCH(FindDiffuseDensityT)(ways, directions, surface, flat, count, density);
+}
+
+void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
+                   ShadowRayBatch* rays) {
+  HWY_DYNAMIC_DISPATCH(AimShadowRaysT)(directions, irradiance, count, rays);
 }
 
 void FindWeights(const float* irradiance, const float* density, size_t count, float* weight) {

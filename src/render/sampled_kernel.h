@@ -22,6 +22,11 @@ struct DiffuseWays {
 void FindDiffuseDensity(const DiffuseWays& ways, const LightDirections& directions,
                         const Surface& surface, const uint8_t* flat, size_t count, float* density);
 
+// Aims shadow rays along the directions. Those of lit hits end at the light, and the others where
+// they start.
+void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
+                   ShadowRayBatch* rays);
+
 // weight = 1 / density; 0 where no light comes from, or no direction is chosen.
 void FindWeights(const float* irradiance, const float* density, size_t count, float* weight);
 

@@ -75,20 +75,15 @@ size_t MakeShadowRays(const Lit& lit) {
   TileScratch& s = lit.s;
   const HitBatch& hits = s.hits;
   ShadowRayBatch& rays = s.shadow_rays;
-  const Soa3<float>& l = lit.c.directions.to_light;
   rays.count = hits.count;
   std::copy_n(hits.primitive.data(), hits.count, rays.primitive.data());
   CopySoa(hits.position, hits.count, &rays.origin);
-  std::copy_n(l.x.data(), hits.count, rays.direction.x.data());
-  std::copy_n(l.y.data(), hits.count, rays.direction.y.data());
-  std::copy_n(l.z.data(), hits.count, rays.direction.z.data());
+  AimShadowRays(lit.c.directions, s.light.irradiance.data(), hits.count, &rays);
   const bool all = lit.planned.trace_all || lit.planned.shadowed.empty();
   size_t asked = 0;
   for (size_t i = 0; i < hits.count; ++i) {
-    const bool asks =
-        s.light.irradiance[i] > 0 && (all || !NeverShadowed(lit.planned, hits.primitive[i]));
-    rays.t_max[i] = asks ? lit.c.directions.distance[i] : 0.0;
-    asked += asks ? 1 : 0;
+    if (!all && NeverShadowed(lit.planned, hits.primitive[i])) rays.t_max[i] = 0;
+    asked += rays.t_max[i] > 0 ? 1 : 0;
   }
   if (!lit.plan.lift_shadows) return asked;
   for (size_t i = 0; i < hits.count; ++i) LiftRay(s, i, &rays);
@@ -107,8 +102,10 @@ void CastShadows(const Lit& lit) {
   rays.target = lit.planned.primitives;
   lit.plan.intersector->Occluded(&rays);
   rays.target = {};
+  float* const irradiance = s.light.irradiance.data();
+  const uint8_t* const occluded = rays.occluded.data();
   for (size_t i = 0; i < rays.count; ++i) {
-    s.light.irradiance[i] = rays.occluded[i] != 0 ? 0.0f : s.light.irradiance[i];
+    irradiance[i] = occluded[i] != 0 ? 0.0f : irradiance[i];
   }
 }
 
@@ -185,18 +182,32 @@ void AddDirections(const Lit& lit, const Ways& ways, const Parts& parts) {
   lit.clock->Charge(Stage::kShade);
 }
 
-// Which hits reflect the light in closed form: those that see all of it, and whose diffuse
-// reflection does not ask where it comes from. Returns whether all do.
-bool FindFlat(const Lit& lit) {
-  bool all = true;
-  for (const MaterialRun& run : lit.s.runs) {
-    const bool flat = lit.planned.closed_form && DiffuseIsFlat(lit.MaterialOf(run));
-    for (size_t i = run.begin; i < run.end; ++i) {
-      lit.c.flat[i] = flat && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
-      all = all && lit.c.flat[i] != 0;
-    }
+// Marks the hits of a run that always see all of the light, if `marks`, and no others. Returns how
+// many.
+size_t MarkUnshadowed(const Lit& lit, const MaterialRun& run, bool marks,
+                      AlignedArray<uint8_t>* marked) {
+  uint8_t* const to = marked->data();
+  if (!marks || (lit.planned.shadow_rays && lit.planned.shadowed.empty())) {
+    std::fill(to + run.begin, to + run.end, uint8_t{0});
+    return 0;
   }
-  return all;
+  size_t count = 0;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    to[i] = NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
+    count += to[i];
+  }
+  return count;
+}
+
+// Which hits reflect the light in closed form: those that see all of it, and whose diffuse
+// reflection does not ask where it comes from. Returns how many do.
+size_t FindFlat(const Lit& lit) {
+  size_t flat = 0;
+  for (const MaterialRun& run : lit.s.runs) {
+    const bool may_be = lit.planned.closed_form && DiffuseIsFlat(lit.MaterialOf(run));
+    flat += MarkUnshadowed(lit, run, may_be, &lit.c.flat);
+  }
+  return flat;
 }
 
 // The diffuse part of those: as if all light came along the normal.
@@ -222,19 +233,21 @@ bool HasAnyFastLobe(const SampledLight& light, const ShadingMaterial& material) 
   return HasFastLobe(light, material) || HasTransformedLobe(light, material);
 }
 
-// Which hits' lobes are in the light's fast mode. Returns whether any is left to be sampled.
-bool FindFast(const Lit& lit) {
-  bool sampled = false;
+// How many hits' lobes are in the light's fast mode, and how many are left to be sampled.
+struct LobeCounts {
+  size_t fast = 0, sampled = 0;
+};
+
+LobeCounts FindFast(const Lit& lit) {
+  LobeCounts counts;
   for (const MaterialRun& run : lit.s.runs) {
     const ShadingMaterial& material = lit.MaterialOf(run);
-    const bool fast = lit.planned.closed_form && HasAnyFastLobe(lit.planned.light, material),
-               has_lobe = HasSampledLobe(material);
-    for (size_t i = run.begin; i < run.end; ++i) {
-      lit.c.fast[i] = fast && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
-      sampled = sampled || (has_lobe && lit.c.fast[i] == 0);
-    }
+    const bool may_be = lit.planned.closed_form && HasAnyFastLobe(lit.planned.light, material);
+    const size_t fast = MarkUnshadowed(lit, run, may_be, &lit.c.fast);
+    counts.fast += fast;
+    counts.sampled += HasSampledLobe(material) ? run.end - run.begin - fast : 0;
   }
-  return sampled;
+  return counts;
 }
 
 // What the lobe sees, a mean or a share of it, times what it reflects in all.
@@ -314,18 +327,16 @@ void AddByMirror(const Lit& lit) {
   lit.clock->Charge(Stage::kShade);
 }
 
-bool AnyOf(const AlignedArray<uint8_t>& flags, size_t count) {
-  return std::find(flags.data(), flags.data() + count, uint8_t{1}) != flags.data() + count;
-}
-
 void ShadeByOne(const Lit& lit) {
   bool mirrors = false;
   for (const MaterialRun& run : lit.s.runs) {
     mirrors = mirrors || HasDeltaLobe(lit.MaterialOf(run));
   }
-  const bool sampled_diffuse = !FindFlat(lit), lobes = FindFast(lit);
-  if (AnyOf(lit.c.flat, lit.count())) AddClosedForm(lit);
-  if (AnyOf(lit.c.fast, lit.count())) AddFastLobes(lit);
+  const size_t flat = FindFlat(lit);
+  const LobeCounts counts = FindFast(lit);
+  const bool sampled_diffuse = flat < lit.count(), lobes = counts.sampled > 0;
+  if (flat > 0) AddClosedForm(lit);
+  if (counts.fast > 0) AddFastLobes(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
     AddByLight(lit, {sampled_diffuse, lobes});
   }

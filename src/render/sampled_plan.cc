@@ -85,6 +85,7 @@ PlanItem PlanListed(const RenderSettings& settings, RenderPlan* plan, PlannedSam
   } else if (light->shadow_rays) {
     item.reason += fmt::format(", each by {} others at most: no tree", lists.longest);
   }
+  if (static_cast<size_t>(count) == spheres) light->shadowed.clear();
   return item;
 }
 

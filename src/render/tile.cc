@@ -2,6 +2,7 @@
 #include "render/tile.h"
 
 #include <algorithm>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -24,20 +25,24 @@ void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int coun
   }
 }
 
-// Which samples those are, for lights that are sampled.
-void NumberSamples(const RenderPlan& plan, const Window& tile, int first, int count,
-                   SampleNumbers* numbers) {
-  const size_t pixels = tile.pixel_count();
-  size_t i = 0;
+// The pixels and samples of a tile's rounds, for lights that are sampled.
+void NumberPixels(const RenderPlan& plan, const Window& tile, SampleNumbers* numbers) {
+  numbers->pixel_count = 0;
   for (int y = tile.y0; y < tile.y1; ++y) {
-    for (int x = tile.x0; x < tile.x1; ++x, ++i) {
-      const uint64_t seed = PixelSeed(x, y, plan.sampler.seed);
-      for (int k = 0; k < count; ++k) {
-        const size_t ray = static_cast<size_t>(k) * pixels + i;
-        numbers->number[ray] = static_cast<uint32_t>(first + k);
-        numbers->pixel[ray] = seed;
-      }
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      numbers->seeds[numbers->pixel_count++] = PixelSeed(x, y, plan.sampler.seed);
     }
+  }
+  for (int k = 0; k < plan.samples_per_round; ++k) {
+    uint32_t* const from = numbers->pixel.data() + static_cast<size_t>(k) * numbers->pixel_count;
+    std::iota(from, from + numbers->pixel_count, 0u);
+  }
+}
+
+void NumberSamples(int first, int count, SampleNumbers* numbers) {
+  for (int k = 0; k < count; ++k) {
+    std::fill_n(numbers->number.data() + static_cast<size_t>(k) * numbers->pixel_count,
+                numbers->pixel_count, static_cast<uint32_t>(first + k));
   }
 }
 
@@ -239,10 +244,11 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
   StartTile(plan, tile, &s.film);
   clock.Charge(Stage::kFilm);
   ShiftPixels(plan.sampler, tile, &s.shifts);
+  if (s.sampled) NumberPixels(plan, tile, &s.sampled->numbers);
   for (int first = 0; first < spp; first += plan.samples_per_round) {
     const int count = std::min(plan.samples_per_round, spp - first);
     MakeSamples(plan, tile, first, count, &s);
-    if (s.sampled) NumberSamples(plan, tile, first, count, &s.sampled->numbers);
+    if (s.sampled) NumberSamples(first, count, &s.sampled->numbers);
     TraceAndShade(plan, &s, &clock, stats);
     SeeSky(plan, &s);
     AddToFilm(plan, &s);

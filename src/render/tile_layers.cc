@@ -9,12 +9,15 @@
 namespace nacre {
 namespace {
 
+// The arrays do not overlap, which lets the compiler use vectors.
+void AddArray(const float* __restrict a, size_t count, float* __restrict sum) {
+  for (size_t i = 0; i < count; ++i) sum[i] += a[i];
+}
+
 void AddSoa(const Soa3<float>& a, size_t count, Soa3<float>* sum) {
-  for (size_t i = 0; i < count; ++i) {
-    sum->x[i] += a.x[i];
-    sum->y[i] += a.y[i];
-    sum->z[i] += a.z[i];
-  }
+  AddArray(a.x.data(), count, sum->x.data());
+  AddArray(a.y.data(), count, sum->y.data());
+  AddArray(a.z.data(), count, sum->z.data());
 }
 
 // Where a layer's values come from: the sum of two arrays of floats and two constants, in double.

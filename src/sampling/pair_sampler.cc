@@ -28,10 +28,13 @@ void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& sa
   const uint32_t* const v_bits = sampler.v_bits.data() + pair * sampler.samples;
   // Odd, and so a bijection of the seeds; the pixel sampler's own shift is pair 0's, unmixed.
   const uint64_t key = (pair + 1) * 0x9e3779b97f4a7c15u;
+  for (size_t i = 0; i < samples.pixel_count; ++i) {
+    points->shifts[i] = Mix64(samples.seeds[i] + key);
+  }
   for (size_t i = 0; i < count; ++i) {
     const uint32_t entry = entries[i];
     const uint32_t number = samples.number[entry];
-    const uint64_t shift = Mix64(samples.pixel[entry] + key);
+    const uint64_t shift = points->shifts[samples.pixel[entry]];
     points->u_bits[i] = u_bits[number] ^ static_cast<uint32_t>(shift);
     points->v_bits[i] = v_bits[number] ^ static_cast<uint32_t>(shift >> 32);
   }

@@ -23,19 +23,22 @@ struct PairSampler {
 // samples in [1, 65536].
 PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed);
 
-// Which sample each entry is: its number among its pixel's, and the pixel's PixelSeed.
+// Which sample each entry is: its number among its pixel's, and which of the pixels that is, whose
+// PixelSeeds are `seeds`.
 struct SampleNumbers {
-  explicit SampleNumbers(size_t capacity) : number(capacity), pixel(capacity) {}
-  AlignedArray<uint32_t> number;
-  AlignedArray<uint64_t> pixel;
+  explicit SampleNumbers(size_t capacity) : number(capacity), pixel(capacity), seeds(capacity) {}
+  AlignedArray<uint32_t> number, pixel;
+  size_t pixel_count = 0;
+  AlignedArray<uint64_t> seeds;
 };
 
 // Points in [0, 1)^2: 32 bits after the point, and as floats, which have 24.
 struct UnitPoints {
   explicit UnitPoints(size_t capacity)
-      : u_bits(capacity), v_bits(capacity), u(capacity), v(capacity) {}
+      : u_bits(capacity), v_bits(capacity), u(capacity), v(capacity), shifts(capacity) {}
   AlignedArray<uint32_t> u_bits, v_bits;
   AlignedArray<float> u, v;
+  AlignedArray<uint64_t> shifts;  // the pixels': u's are the low bits, v's the high ones
 };
 
 // The pair's points of the samples entries[0..count).

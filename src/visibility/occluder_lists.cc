@@ -96,18 +96,22 @@ bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const L
 
 // Centre and point are rounded by 2^-24 of themselves a coordinate, and so is their difference,
 // which is no longer than the two together: 4 2^-24 of that at most. Nothing is sure of spheres
-// that coincide: rays start on them.
+// that coincide: rays start on them. Squares below 1e-34 and above 1e37 are too near to where
+// floats end.
 OccluderProposal Propose(const TraceSphere& sphere, const TraceSphere& from) {
   const Vec3d offset = sphere.center - from.center;
-  const double error = 5 * kFloatUnit * (offset.length() + from.radius);
+  const double reach = offset.length() + from.radius;
+  const double error = 5 * kFloatUnit * reach;
   const double outer = sphere.radius + error;
   const double inner = std::max(sphere.radius - error, 0.0);
-  const bool coincide = Coincide(sphere, from);
-  constexpr double kMore = 1 + 1e-6, kLess = 1 - 1e-6;
-  return {
-      {static_cast<float>(offset.x), static_cast<float>(offset.y), static_cast<float>(offset.z)},
-      coincide ? std::numeric_limits<float>::infinity() : static_cast<float>(outer * outer * kMore),
-      coincide ? 0 : static_cast<float>(inner * inner * kLess)};
+  const bool unsure = Coincide(sphere, from) || reach * reach > 1e37;
+  constexpr double kMore = 1 + 1e-6, kLess = 1 - 1e-6, kLeast = 1e-34;
+  OccluderProposal proposal;
+  for (int c = 0; c < 3; ++c) proposal.center[c] = static_cast<float>(offset[c]);
+  proposal.outer2 = unsure ? std::numeric_limits<float>::infinity()
+                           : static_cast<float>(outer * outer * kMore + kLeast);
+  proposal.inner2 = unsure ? 0 : static_cast<float>(inner * inner * kLess - kLeast);
+  return proposal;
 }
 
 // The list of every sphere, of those spheres j for which may_block(i, j).

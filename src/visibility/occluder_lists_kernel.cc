@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "visibility/occluder_lists_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "base/target_ops-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
 
@@ -21,68 +22,80 @@ using V = hn::Vec<D>;
 using F = hn::ScalableTag<float>;
 using VF = hn::Vec<F>;
 
-// Rays are asked for a vector of floats at a time.
-constexpr size_t kMaxBlock = kVectorBytes / sizeof(float);
-
-// The rays of a block that start on one sphere, in float, from its centre.
+// The rays of a block that start on one sphere, in float.
 struct FloatRays {
-  Vec3V<VF> origin, direction;
-  VF inverse_dd, t_max;
+  Vec3V<VF> to_own;     // from the origin to that sphere's centre
+  Vec3V<VF> direction;  // unit
+  VF length;            // of the ray, up to t_max
+  uint32_t asked;       // bits: those that do not end where they start
 };
 
-HWY_INLINE VF LoadFloats(const double* from, double less) {
-  const D d;
-  const hn::Rebind<float, D> half;
-  alignas(kVectorBytes) float floats[kMaxBlock];
-  for (size_t i = 0; i < hn::Lanes(F()); i += hn::Lanes(d)) {
-    const V v = hn::Sub(hn::LoadU(d, from + i), hn::Set(d, less));
-    hn::StoreU(hn::DemoteTo(half, v), half, floats + i);
-  }
-  return hn::Load(F(), floats);
+HWY_INLINE Vec3V<VF> SubtractAndRound3(const Vec3d& minuend, const Soa3<double>& from,
+                                       size_t first) {
+  return {SubtractAndRound(F(), minuend.x, from.x.data() + first),
+          SubtractAndRound(F(), minuend.y, from.y.data() + first),
+          SubtractAndRound(F(), minuend.z, from.z.data() + first)};
 }
 
-HWY_INLINE FloatRays LoadFloatRays(const ShadowRayBatch& rays, size_t first, const Vec3d& center) {
+// Directions whose squares floats cannot tell are NaN, of which nothing is sure.
+HWY_INLINE FloatRays LoadFloatRays(const ShadowRayBatch& rays, size_t first, const Vec3d& own) {
+  const F d;
   FloatRays loaded;
-  loaded.origin = {LoadFloats(rays.origin.x.data() + first, center.x),
-                   LoadFloats(rays.origin.y.data() + first, center.y),
-                   LoadFloats(rays.origin.z.data() + first, center.z)};
-  loaded.direction = {LoadFloats(rays.direction.x.data() + first, 0),
-                      LoadFloats(rays.direction.y.data() + first, 0),
-                      LoadFloats(rays.direction.z.data() + first, 0)};
-  loaded.inverse_dd = hn::Div(hn::Set(F(), 1.0f), Dot(loaded.direction, loaded.direction));
-  loaded.t_max = LoadFloats(rays.t_max.data() + first, 0);
+  loaded.to_own = SubtractAndRound3(own, rays.origin, first);
+  const Vec3V<VF> back = SubtractAndRound3(Vec3d(0, 0, 0), rays.direction, first);
+  const VF length2 = FusedDot(back, back);
+  const VF scale =
+      hn::IfThenElse(hn::And(hn::Gt(length2, hn::Set(d, 1e-30f)), hn::Lt(length2, hn::Inf(d))),
+                     ReciprocalSqrt(d, length2), hn::NaN(d));
+  loaded.direction = Scale(back, hn::Neg(scale));
+  const VF t_max = hn::Neg(SubtractAndRound(d, 0, rays.t_max.data() + first));
+  loaded.length = hn::Mul(t_max, hn::Mul(length2, scale));
+  loaded.asked = BitsOfMask(d, hn::Gt(t_max, hn::Zero(d)));
   return loaded;
 }
 
-struct Verdict {
-  hn::Mask<F> met, missed;  // both surely; in neither, doubles must tell
+// Where rays are from a sphere's centre.
+struct Approach {
+  VF distance2;  // of the origin
+  VF along;      // how far along the ray it comes closest; behind the origin where < 0
 };
+
+HWY_INLINE Approach FindApproach(const OccluderProposal& sphere, const FloatRays& rays) {
+  const F d;
+  const Vec3V<VF> to_center{hn::Add(hn::Set(d, sphere.center[0]), rays.to_own.x),
+                            hn::Add(hn::Set(d, sphere.center[1]), rays.to_own.y),
+                            hn::Add(hn::Set(d, sphere.center[2]), rays.to_own.z)};
+  return {FusedDot(to_center, to_center), FusedDot(to_center, rays.direction)};
+}
 
 // Sums, products and the direction's own rounding make the squared distance from the line err by
 // less than 32 2^-24 of that of the centres, and the sine of a ray's slope towards the sphere by
-// less than 1e-5. Comparisons are false, and nothing is sure, where anything overflows.
-HWY_INLINE Verdict Propose(const OccluderProposal& sphere, const FloatRays& rays) {
+// less than 1e-5; the slope's square is far below what the distance errs by. Of a direction that is
+// NaN comparisons are false, and nothing is sure.
+constexpr float kSlack = 2e-6f;
+
+// The rays whose nearest point, the origin for those that leave, is surely outside of the sphere.
+HWY_INLINE hn::Mask<F> Missed(const OccluderProposal& sphere, const Approach& approach) {
   const F d;
-  const Vec3V<VF> to_center{hn::Sub(hn::Set(d, sphere.center[0]), rays.origin.x),
-                            hn::Sub(hn::Set(d, sphere.center[1]), rays.origin.y),
-                            hn::Sub(hn::Set(d, sphere.center[2]), rays.origin.z)};
-  const VF along = FusedDot(to_center, rays.direction);
-  const VF closest = hn::Mul(along, rays.inverse_dd);
-  const VF way2 = hn::Mul(along, closest);
-  const VF distance2 = FusedDot(to_center, to_center);
-  const VF line2 = hn::Sub(distance2, way2);
-  const VF slack = hn::Mul(distance2, hn::Set(d, 2e-6f));
-  const VF outer2 = hn::Add(hn::Set(d, sphere.outer2), slack);
-  const VF inner2 = hn::Sub(hn::Set(d, sphere.inner2), slack);
-  const auto far = hn::Gt(line2, outer2);
-  const auto outside = hn::Gt(distance2, outer2);
-  const auto steep = hn::Gt(way2, hn::Mul(distance2, hn::Set(d, 1e-10f)));
-  const auto ahead = hn::Gt(along, hn::Zero(d));
-  const auto clear = hn::And(outside, steep);
-  const auto before_end = hn::Lt(hn::Mul(closest, hn::Set(d, 1 + 1e-5f)), rays.t_max);
-  const auto near = hn::Lt(line2, inner2);
-  return {hn::And(hn::And(clear, ahead), hn::And(near, before_end)),
-          hn::Or(far, hn::AndNot(ahead, clear))};
+  const VF ahead = hn::Max(approach.along, hn::Zero(d));
+  const VF distance2 = hn::Mul(approach.distance2, hn::Set(d, 1 - kSlack));
+  return hn::Gt(hn::NegMulAdd(ahead, approach.along, distance2), hn::Set(d, sphere.outer2));
+}
+
+// The rays that start outside of the sphere and surely meet it before they end.
+HWY_INLINE hn::Mask<F> Met(const OccluderProposal& sphere, const Approach& approach,
+                           const VF& length) {
+  const F d;
+  const VF along = approach.along;
+  const VF along2 = hn::Mul(along, along);
+  const VF nearer = hn::Mul(approach.distance2, hn::Set(d, 1 - kSlack));
+  const VF farther = hn::Mul(approach.distance2, hn::Set(d, 1 + kSlack));
+  const auto outside = hn::Gt(nearer, hn::Set(d, sphere.outer2));
+  const auto near = hn::Lt(hn::Sub(farther, along2), hn::Set(d, sphere.inner2));
+  const auto steep = hn::Gt(along2, hn::Mul(farther, hn::Set(d, 1e-10f)));
+  const auto ahead = hn::And(steep, hn::Gt(along, hn::Zero(d)));
+  const auto before_end = hn::Lt(hn::Mul(along, hn::Set(d, 1 + 1e-5f)), length);
+  return hn::And(hn::And(outside, near), hn::And(ahead, before_end));
 }
 
 // Those of the block's rays `pending`, as bits, that a sphere of the list is in the way of, which
@@ -109,6 +122,20 @@ struct ListPart {
   size_t count;
 };
 
+// Of the part, those that any of the rays `pending` may meet. Kept without a branch: which they are
+// follows no pattern.
+HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, const FloatRays& rays,
+                           uint32_t pending, uint32_t* near) {
+  size_t count = 0;
+  for (size_t k = 0; k < part.count; ++k) {
+    const OccluderProposal& proposal = lists.proposals[part.entries[k]];
+    const uint32_t missed = BitsOfMask(F(), Missed(proposal, FindApproach(proposal, rays)));
+    near[count] = part.entries[k];
+    count += (pending & ~missed) != 0 ? 1 : 0;
+  }
+  return count;
+}
+
 // The rays `pending` of a block, which all start on sphere `start`, that something is in the way
 // of.
 HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const OccluderLists& lists,
@@ -117,15 +144,17 @@ HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const Occluder
   const F d;
   const TraceSphere& own = geometry.spheres[start];
   const FloatRays floats = LoadFloatRays(rays, first, own.center);
-  pending &= BitsOfMask(d, hn::Gt(floats.t_max, hn::Zero(d)));
+  pending &= floats.asked;
   uint32_t occluded = 0;
-  for (size_t k = 0; k < part.count && pending != 0; ++k) {
-    const uint32_t i = part.entries[k];
-    const Verdict verdict = Propose(lists.proposals[i], floats);
-    uint32_t blocked = BitsOfMask(d, verdict.met) & pending;
-    const uint32_t open = pending & ~(blocked | BitsOfMask(d, verdict.missed));
+  uint32_t near[kMaxListedSpheres];
+  const size_t count = FindNear(lists, part, floats, pending, near);
+  for (size_t k = 0; k < count && pending != 0; ++k) {
+    const OccluderProposal& proposal = lists.proposals[near[k]];
+    const Approach approach = FindApproach(proposal, floats);
+    uint32_t blocked = BitsOfMask(d, Met(proposal, approach, floats.length)) & pending;
+    const uint32_t open = pending & ~(blocked | BitsOfMask(d, Missed(proposal, approach)));
     if (open != 0) {
-      const TraceSphere& sphere = geometry.spheres[lists.spheres[i]];
+      const TraceSphere& sphere = geometry.spheres[lists.spheres[near[k]]];
       blocked |= OccludedExactly(sphere, own, rays, first, open);
     }
     occluded |= blocked;

@@ -9,6 +9,9 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <limits>
 
 #include "visibility/packet.h"
@@ -21,9 +24,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D>
 HWY_INLINE uint32_t BitsOfMask(D d, hn::Mask<D> mask) {
-  uint8_t bytes[4] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0] | static_cast<uint32_t>(bytes[1]) << 8;
+  std::array<uint8_t, 4> bytes{};
+  hn::StoreMaskBits(d, mask, bytes.data());
+  static_assert(std::endian::native == std::endian::little);
+  return std::bit_cast<uint32_t>(bytes);
 }
 
 // The mask of the lanes from `first` on.

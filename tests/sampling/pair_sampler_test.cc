@@ -16,8 +16,10 @@ TEST_CASE("pairs of points are a net of every pixel") {
   for (const uint64_t pixel : {uint64_t{1}, uint64_t{0x123456789abcdef0}}) {
     for (uint32_t i = 0; i < 16; ++i) {
       numbers.number[i] = entries[i] = i;
-      numbers.pixel[i] = pixel;
+      numbers.pixel[i] = 0;
     }
+    numbers.pixel_count = 1;
+    numbers.seeds[0] = pixel;
     uint32_t last_shift = 0;
     for (size_t pair = 0; pair < 9; ++pair) {
       UnitPoints points(16);

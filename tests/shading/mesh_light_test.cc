@@ -39,6 +39,7 @@ UnitPoints Points() {
   SampleNumbers numbers(kBatchCapacity);
   AlignedArray<uint32_t> entries(kBatchCapacity);
   for (uint32_t i = 0; i < kBatchCapacity; ++i) entries[i] = numbers.number[i] = i;
+  numbers.pixel_count = 1;
   UnitPoints points(kBatchCapacity);
   SamplePair(sampler, 0, numbers, entries.data(), kBatchCapacity, &points);
   return points;

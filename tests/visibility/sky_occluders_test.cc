@@ -64,7 +64,7 @@ void CheckSky(const Scene& scene, const Vec3d& eye, Random* random) {
 
 TEST_CASE("shadow rays all over are brute force's, to the rims of spheres") {
   Random random(61);
-  for (const double size : {1e-6, 1.0, 1e6}) {
+  for (const double size : {1e-19, 1e-17, 1e-6, 1.0, 1e6, 1e19}) {
     CAPTURE(size);
     Scene scene;
     for (int i = 0; i < 60; ++i) {
