@@ -63,19 +63,23 @@ if(NACRE_WERROR)
   target_compile_options(nacre_options INTERFACE -Werror)
 endif()
 
-# nacre_one_unit(TARGET [EXCEPT FILES...]): with NACRE_UNITY, compiles the target's files as one, but
-# for SIMD files, which are compiled once for every target, and those named, which have helpers of
-# the same name as others'. Half of a file's compile time goes into reading headers.
+# nacre_one_unit(TARGET [SECOND FILES...] [ALONE FILES...]): with NACRE_UNITY, compiles the target's
+# files as one, but for SIMD files, which are compiled once for every target; those that have helpers
+# of the same name as others' are a second one, or alone. Half of a file's compile time goes into
+# reading headers.
 function(nacre_one_unit target)
-  cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SECOND;ALONE" ${ARGN})
   if(NOT NACRE_UNITY)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  list(TRANSFORM ARG_SECOND PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(TRANSFORM ARG_ALONE PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
   get_target_property(sources ${target} SOURCES)
-  list(FILTER sources INCLUDE REGEX "_kernel\\.cc$|/version\\.cc$")
-  list(TRANSFORM ARG_EXCEPT PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
-  set_source_files_properties(${sources} ${ARG_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  list(FILTER sources EXCLUDE REGEX "_kernel\\.cc$|/version\\.cc$")
+  list(REMOVE_ITEM sources ${ARG_SECOND} ${ARG_ALONE})
+  set_source_files_properties(${sources} PROPERTIES UNITY_GROUP first)
+  set_source_files_properties(${ARG_SECOND} PROPERTIES UNITY_GROUP second)
 endfunction()
 
 # nacre_library(NAME DEPENDS... ): the library nacre_<NAME> from all of src/<NAME>/*.cc.

@@ -21,7 +21,7 @@
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxBytes = uint64_t{1} << 30;
+constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
 constexpr int kFormat = 1;  // the version of scene files
 
 // What is wrong with a version that this program does not read, and the way to one that it does.
@@ -151,7 +151,7 @@ bool IsModelFile(const std::filesystem::path& path) {
 
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
   if (IsModelFile(path)) return LoadModel(path, options);
-  const std::string text = ReadTextFile(path, kMaxBytes);
+  const std::string text = ReadTextFile(path, kMaxSceneBytes);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
 }
 

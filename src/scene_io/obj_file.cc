@@ -18,9 +18,9 @@
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxBytes = uint64_t{4} << 30;
+constexpr uint64_t kMaxObjBytes = uint64_t{4} << 30;
 
-[[noreturn]] void Refuse(const std::string& where, std::string what, std::string hint = {}) {
+[[noreturn]] void RefuseObj(const std::string& where, std::string what, std::string hint = {}) {
   throw Error(ExitCode::kBadInput, where, std::move(what), std::move(hint));
 }
 
@@ -77,10 +77,10 @@ ObjFile Parse(std::string text, const std::string& file, tinyobj::MaterialReader
   }
   if (!is_read || !error.empty()) {
     while (!error.empty() && error.back() == '\n') error.pop_back();
-    Refuse(file, error.empty() ? "is not an OBJ file" : error);
+    RefuseObj(file, error.empty() ? "is not an OBJ file" : error);
   }
   if (warning.find("Degenerated face") != std::string::npos) {
-    Refuse(file, "a face has fewer than three corners");
+    RefuseObj(file, "a face has fewer than three corners");
   }
   return obj;
 }
@@ -91,7 +91,7 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
   const size_t uvs = obj.attributes.texcoords.size() / 2;
   const auto check = [&](int index, size_t count, const char* what) {
     if (index < -1 || (index >= 0 && static_cast<size_t>(index) >= count)) {
-      Refuse(file, fmt::format("a face has {} {}", what, int64_t{index} + 1),
+      RefuseObj(file, fmt::format("a face has {} {}", what, int64_t{index} + 1),
              fmt::format("there are {}", count));
     }
   };
@@ -105,11 +105,11 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
     }
     // Release 2.0.0rc10 counts them modulo 256; the bound is the same with all.
     if (most > 255 || expected != shape.mesh.indices.size()) {
-      Refuse(file, "a face has more than 255 corners", "cut it into triangles before");
+      RefuseObj(file, "a face has more than 255 corners", "cut it into triangles before");
     }
     for (const tinyobj::index_t& corner : shape.mesh.indices) {
       if (corner.vertex_index < 0 || static_cast<size_t>(corner.vertex_index) >= positions) {
-        Refuse(file, fmt::format("a face has position {}", int64_t{corner.vertex_index} + 1),
+        RefuseObj(file, fmt::format("a face has position {}", int64_t{corner.vertex_index} + 1),
                fmt::format("there are {}", positions));
       }
       check(corner.normal_index, normals, "normal");
@@ -117,7 +117,7 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
     }
     corners += expected;
   }
-  if (corners == 0) Refuse(file, "has no faces");
+  if (corners == 0) RefuseObj(file, "has no faces");
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ void CheckObjNumbers(std::string_view line, std::string_view keyword, int fewest
   for (int i = 0; i < most; ++i) {
     const std::string_view word = NextObjWord(&line);
     if (IsFiniteNumber(word) || (word.empty() && i >= fewest)) continue;
-    Refuse(place, fmt::format("\"{}\" is not a finite number", word),
+    RefuseObj(place, fmt::format("\"{}\" is not a finite number", word),
            fmt::format("\"{}\" is followed by {}", keyword,
                        kNumberNames[static_cast<size_t>(fewest)]));
   }
@@ -145,7 +145,7 @@ void CheckObjNumbers(std::string_view line, std::string_view keyword, int fewest
 
 ObjFile ReadObjFile(const std::filesystem::path& path, tinyobj::MaterialReader* materials) {
   const std::string file = path.string();
-  std::string text = ReadTextFile(path, kMaxBytes);
+  std::string text = ReadTextFile(path, kMaxObjBytes);
   Prepare(file, &text);
   ObjFile obj = Parse(std::move(text), file, materials);
   CheckIndices(obj, file);

@@ -18,7 +18,7 @@
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
+constexpr uint64_t kMaxMtlBytes = uint64_t{64} << 20;
 
 // Of an image: tinyobjloader lets the exponents of its options overflow.
 void CheckOptions(std::string_view line, const std::string& place) {
@@ -98,7 +98,7 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
     throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
   }
   if (!libraries_.insert(path.string()).second) return true;  // a file may name it a million times
-  std::istringstream stream(Prepare(ReadTextFile(path, kMaxBytes), path.string()));
+  std::istringstream stream(Prepare(ReadTextFile(path, kMaxMtlBytes), path.string()));
   tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
   return true;
 }

@@ -13,7 +13,7 @@
 namespace nacre {
 namespace {
 
-[[noreturn]] void Refuse(const std::string& pointer, std::string what, std::string hint) {
+[[noreturn]] void RefuseOverride(const std::string& pointer, std::string what, std::string hint) {
   throw Error(ExitCode::kUsage, "--set " + pointer, std::move(what), std::move(hint));
 }
 
@@ -26,9 +26,9 @@ std::vector<std::string> Split(const std::string& pointer) {
     std::reverse(tokens.begin(), tokens.end());
     if (tokens.size() <= kMaxJsonDepth) return tokens;
   } catch (const Json::exception&) {
-    Refuse(pointer, "is not a JSON pointer", "for example /image/spp or /materials/gold/roughness");
+    RefuseOverride(pointer, "is not a JSON pointer", "for example /image/spp or /materials/gold/roughness");
   }
-  Refuse(pointer.substr(0, 40) + "...", fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
+  RefuseOverride(pointer.substr(0, 40) + "...", fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
 }
 
 Json ParseValue(const std::string& pointer, const std::string& text) {
@@ -38,18 +38,18 @@ Json ParseValue(const std::string& pointer, const std::string& text) {
     if (faults.count() == 0) return value;
   } catch (const Error&) {
   }
-  Refuse(pointer, fmt::format("{} is not JSON", text),
+  RefuseOverride(pointer, fmt::format("{} is not JSON", text),
          fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, text));
 }
 
 Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
   if (parent->is_object()) return &(*parent)[token];  // made if missing
-  if (!parent->is_array()) Refuse(pointer, fmt::format("there is no \"{}\" in a value", token), {});
+  if (!parent->is_array()) RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", token), {});
   size_t index = 0;
   const char* const last = token.data() + token.size();
   const auto [end, error] = std::from_chars(token.data(), last, index);
   if (error != std::errc() || end != last || index >= parent->size()) {
-    Refuse(pointer, fmt::format("there is no element \"{}\"", token),
+    RefuseOverride(pointer, fmt::format("there is no element \"{}\"", token),
            fmt::format("the array has {}, counted from 0", parent->size()));
   }
   return &(*parent)[index];

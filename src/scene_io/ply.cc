@@ -24,7 +24,7 @@
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxBytes = uint64_t{4} << 30;
+constexpr uint64_t kMaxPlyBytes = uint64_t{4} << 30;
 
 // What a file holds, as it is.
 struct PlyData {
@@ -39,7 +39,7 @@ class PlyReader {
  public:
   explicit PlyReader(const std::filesystem::path& path)
       : file_(path.string()),
-        bytes_(ReadTextFile(path, kMaxBytes)),
+        bytes_(ReadTextFile(path, kMaxPlyBytes)),
         header_(ReadPlyHeader(bytes_, file_)),
         numbers_(bytes_, header_, file_) {}
 

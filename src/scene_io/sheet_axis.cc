@@ -19,7 +19,7 @@ constexpr char kExample[] =
     "for example roughness=0.1:0.9:5, shininess=1:1024:6:log, base_color=#ff0000,#0000ff or "
     "material=phong,lambert";
 
-[[noreturn]] void Refuse(const std::string& option, std::string what, std::string hint = kExample) {
+[[noreturn]] void RefuseAxis(const std::string& option, std::string what, std::string hint = kExample) {
   throw Error(ExitCode::kUsage, option, std::move(what), std::move(hint));
 }
 
@@ -111,26 +111,26 @@ std::string RangeLabel(const Json& value) {
 void ParseRange(const std::string& option, const std::vector<std::string>& parts, SheetAxis* axis) {
   const std::string scale = parts.size() == 4 ? parts[3] : "linear";
   if (parts.size() > 4 || (scale != "log" && scale != "linear")) {
-    Refuse(option, fmt::format("\"{}\" is not FROM:TO:COUNT or FROM:TO:COUNT:log", axis->name));
+    RefuseAxis(option, fmt::format("\"{}\" is not FROM:TO:COUNT or FROM:TO:COUNT:log", axis->name));
   }
   const Json from_json = ParseValue(parts[0]);
   const Json to_json = ParseValue(parts[1]);
   const std::optional<Rgb> from = ToRgb(from_json);
   const std::optional<Rgb> to = ToRgb(to_json);
   if (!from || !to) {
-    Refuse(option, fmt::format("{} is not a number or a colour", from ? parts[1] : parts[0]));
+    RefuseAxis(option, fmt::format("{} is not a number or a colour", from ? parts[1] : parts[0]));
   }
   int count = 0;
   const std::string& text = parts[2];
   const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (error != std::errc() || rest != text.data() + text.size() || count < 1 ||
       count > kMaxSheetCount) {
-    Refuse(option, fmt::format("\"{}\" is not a count", text),
+    RefuseAxis(option, fmt::format("\"{}\" is not a count", text),
            fmt::format("from 1 to {} spheres along an axis", kMaxSheetCount));
   }
   const bool logarithmic = scale == "log";
   if (logarithmic && std::min({from->x, from->y, from->z, to->x, to->y, to->z}) <= 0) {
-    Refuse(option, "a logarithmic axis reaches 0", "both ends must be greater than 0");
+    RefuseAxis(option, "a logarithmic axis reaches 0", "both ends must be greater than 0");
   }
   const bool is_number = from_json.is_number() && to_json.is_number();
   const GridAxis values = logarithmic ? LogarithmicAxis(axis->name, *from, *to, count)
@@ -148,7 +148,7 @@ void ParseList(const std::string& option, const std::string& text, SheetAxis* ax
   const bool is_list = list.is_array() && !list.empty() && !list[0].is_number();
   if (is_list) items = Split(text.substr(1, text.rfind(']') - 1), ',');
   if (items.size() > static_cast<size_t>(kMaxSheetCount)) {
-    Refuse(option, fmt::format("{} values", items.size()),
+    RefuseAxis(option, fmt::format("{} values", items.size()),
            fmt::format("from 1 to {} spheres along an axis", kMaxSheetCount));
   }
   for (const std::string& item : items) {
@@ -164,7 +164,7 @@ void ParseList(const std::string& option, const std::string& text, SheetAxis* ax
       continue;
     }
     const Json value = ParseValue(trimmed);
-    if (value.is_null()) Refuse(option, fmt::format("\"{}\" is not a value", trimmed));
+    if (value.is_null()) RefuseAxis(option, fmt::format("\"{}\" is not a value", trimmed));
     axis->values.push_back(value);
     axis->labels.push_back(ItemLabel(value, trimmed));
   }
@@ -177,7 +177,7 @@ SheetAxis ParseSheetAxis(const std::string& option, const std::string& text) {
   const size_t equals = text.find('=');
   axis.name = text.substr(0, equals);
   if (equals == std::string::npos || axis.name.empty() || equals + 1 == text.size()) {
-    Refuse(option, fmt::format("\"{}\" is not PARAMETER=FROM:TO:COUNT or PARAMETER=A,B,C", text));
+    RefuseAxis(option, fmt::format("\"{}\" is not PARAMETER=FROM:TO:COUNT or PARAMETER=A,B,C", text));
   }
   if (axis.name == "material") axis.kind = SheetAxis::Kind::kMaterial;
   const std::string values = text.substr(equals + 1);
@@ -194,7 +194,7 @@ Json ParseMaterialText(const std::string& option, const std::string& text) {
   if (text.find_first_of("{[\" ") == std::string::npos && !text.empty()) return {{"model", text}};
   Json material = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!material.is_object()) {
-    Refuse(option, "\"" + text + "\" is not a material",
+    RefuseAxis(option, "\"" + text + "\" is not a material",
            "give a model's name or JSON, e.g. '{\"model\": \"phong\", \"shininess\": 64}'");
   }
   return material;
@@ -203,7 +203,7 @@ Json ParseMaterialText(const std::string& option, const std::string& text) {
 Json ParseColorText(const std::string& option, const std::string& text) {
   Json value = ParseValue(text);
   if (ToRgb(value)) return value;
-  Refuse(option, "\"" + text + "\" is not a colour", "for example #202020, 0.18 or [0.1,0.2,0.3]");
+  RefuseAxis(option, "\"" + text + "\" is not a colour", "for example #202020, 0.18 or [0.1,0.2,0.3]");
 }
 
 std::string MaterialLabel(const Json& material) {

@@ -12,7 +12,7 @@
 namespace nacre {
 namespace {
 
-[[noreturn]] void Refuse(const std::string& option, std::string what, std::string hint) {
+[[noreturn]] void RefuseMaterial(const std::string& option, std::string what, std::string hint) {
   throw Error(ExitCode::kBadInput, option, std::move(what), std::move(hint));
 }
 
@@ -29,7 +29,7 @@ const MaterialModel& ModelOfJson(const std::string& option, const Json& material
   if (const MaterialModel* model = FindModel(name)) return *model;
   std::vector<std::string> names;
   for (const MaterialModel& model : MaterialModels()) names.emplace_back(model.name);
-  Refuse(option, fmt::format("\"{}\" is no model", name), NearestOrAll(name, names));
+  RefuseMaterial(option, fmt::format("\"{}\" is no model", name), NearestOrAll(name, names));
 }
 
 void CheckParameter(const std::string& option, const MaterialParameter& parameter,
@@ -37,12 +37,12 @@ void CheckParameter(const std::string& option, const MaterialParameter& paramete
   for (const Json& value : axis.values) {
     const bool fits = value.is_number() || (value.is_array() && parameter.is_color);
     if (!fits) {
-      Refuse(option, fmt::format("{} is no value of {}", value.dump(), axis.name),
+      RefuseMaterial(option, fmt::format("{} is no value of {}", value.dump(), axis.name),
              parameter.is_color ? "a colour is #rrggbb, [r,g,b] or one number" : "give numbers");
     }
     const auto check = [&](const Json& number) {
       if (parameter.range.Contains(number.get<double>())) return;
-      Refuse(option, fmt::format("{} is out of range for {}", number.dump(), axis.name),
+      RefuseMaterial(option, fmt::format("{} is out of range for {}", number.dump(), axis.name),
              Describe(parameter.range));
     };
     if (value.is_number()) check(value);
@@ -57,7 +57,7 @@ void CheckChoice(const std::string& option, const MaterialChoice& choice, const 
   for (const Json& value : axis.values) {
     const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
     if (std::find(names.begin(), names.end(), word) == names.end()) {
-      Refuse(option, fmt::format("\"{}\" is no {}", word, axis.name), NearestOrAll(word, names));
+      RefuseMaterial(option, fmt::format("\"{}\" is no {}", word, axis.name), NearestOrAll(word, names));
     }
   }
 }
@@ -78,7 +78,7 @@ SheetAxis::Kind CheckAgainst(const std::string& option, const MaterialModel& mod
     names.emplace_back(choice.name);
   }
   names.emplace_back("material");
-  Refuse(option, fmt::format("{} has no parameter \"{}\"", model.name, axis.name),
+  RefuseMaterial(option, fmt::format("{} has no parameter \"{}\"", model.name, axis.name),
          NearestOrAll(axis.name, names));
 }
 
