@@ -60,3 +60,14 @@ def steepest_step(sizes, values):
     steps = [(math.log(values[i + 1] / values[i]) / math.log(sizes[i + 1] / sizes[i]),
               sizes[i], sizes[i + 1]) for i in range(len(sizes) - 1)]
     return max(steps)
+
+
+def seconds_to(points, error):
+    """When the error is reached, between two points on the straight line of their logarithms; None
+    beyond the last one."""
+    best = None
+    for a, b in zip(points, points[1:]):
+        if a["error"] > error >= b["error"]:
+            share = math.log(a["error"] / error) / math.log(a["error"] / b["error"])
+            best = a["seconds"] * (b["seconds"] / a["seconds"]) ** share
+    return best if best or points[0]["error"] > error else points[0]["seconds"]

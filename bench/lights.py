@@ -98,22 +98,11 @@ def measure(runner, scenes, folder, settings):
     return found
 
 
-def seconds_to(points, error):
-    """When the error is reached, between two points on the straight line of their logarithms; None
-    beyond the last one."""
-    best = None
-    for a, b in zip(points, points[1:]):
-        if a["error"] > error >= b["error"]:
-            share = math.log(a["error"] / error) / math.log(a["error"] / b["error"])
-            best = a["seconds"] * (b["seconds"] / a["seconds"]) ** share
-    return best if best or points[0]["error"] > error else points[0]["seconds"]
-
-
 def headlines(series):
     """(name, milliseconds) for each goal, by the faster of the two ways to sample."""
     for name, goals in GOALS.items():
         for goal in goals:
             curves = series[name]["curves"].values() if name in series else ()
-            seconds = [seconds_to(points, goal) for points in curves]
+            seconds = [estimates.seconds_to(points, goal) for points in curves]
             found = min((time for time in seconds if time is not None), default=None)
             yield (f"{name}_ms_to_{100 * goal:g}_percent", None if found is None else 1e3 * found)

@@ -2,6 +2,7 @@
 """Run time against error: pictures of fewer samples beside one of very many."""
 import json
 
+import adaptive
 import estimates
 import others
 from processes import Failed, output_of, say
@@ -92,7 +93,8 @@ def frame_series(benchmarks, target_errors, size):
 
 
 def measure(runner, scenes, folder, settings, benchmarks, targets):
-    """{"frame": series, "process": series}, a series being {label: [point...]}."""
+    """{"frame": series, "process": series}, a series being {label: [point...]}, and {"adaptive":
+    adaptive.measure's}."""
     truth = folder / "truth.exr"
     say(f"  truth: {settings.truth_spp} samples a pixel")
     runner.run(_render(runner.nacre, scenes, settings, truth, "--spp", settings.truth_spp,
@@ -105,4 +107,6 @@ def measure(runner, scenes, folder, settings, benchmarks, targets):
         except (others.Absent, Failed) as reason:
             say(f"  {reason}")
     return {"frame": frame_series(benchmarks, by_target, settings.precision_size),
-            "process": process}
+            "process": process,
+            "adaptive": adaptive.measure(runner, scenes / f"{SCENE}.json", folder, settings, errors,
+                                         truth)}

@@ -4,6 +4,7 @@
 `_over_` between two ways to do the same work is how many times faster the first is; names that end
 in _time, _ms, _s or _mib are what they say.
 """
+import adaptive
 import estimates
 import lights
 
@@ -126,7 +127,9 @@ def headlines(results):
     times = _Times(results.get("benchmarks", {}))
     best = results.get("best_target", "avx3")
     pairs = [*_kernels(times, best), *_visibility(times), *_frames(times, best),
-             *_processes(results.get("processes", {})), *lights.headlines(results.get("lights", {})),
+             *_processes(results.get("processes", {})),
+             *adaptive.headlines(results.get("precision", {}).get("adaptive", {})),
+             *lights.headlines(results.get("lights", {})),
              *_scaling(results.get("scaling", {}))]
     return ({name: value for name, value in pairs if value is not None},
             [name for name, value in pairs if value is None])

@@ -79,9 +79,14 @@ void NumberUnits(const PixelSampler* samplers, const Window& cell, const std::ve
   }
 }
 
+// In four sums, of every fourth product each. `count`: a power of two.
 double SumOfPiece(const double* values, const double* weights, size_t count) {
+  if (count == 1) return weights[0] * values[0];
+  if (count == 2) return weights[0] * values[0] + weights[1] * values[1];
   double sums[4] = {};
-  for (size_t i = 0; i < count; ++i) sums[i % 4] += weights[i] * values[i];
+  for (size_t i = 0; i < count; i += 4) {
+    for (size_t k = 0; k < 4; ++k) sums[k] += weights[i + k] * values[i + k];
+  }
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
@@ -96,21 +101,22 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
     Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
-      // The beauty's sum is that of its replicates.
-      const auto sum_of = [&](const Unit& unit) {
-        return layer.kind == LayerKind::kBeauty ? c->replicate[unit.replicate][channel]
-                                                : s.film.sums[sum].data();
-      };
+      double* sums[kReplicates];
+      for (size_t r = 0; r < kReplicates; ++r) {
+        // The beauty's sum is that of its replicates.
+        sums[r] = layer.kind == LayerKind::kBeauty ? c->replicate[r][channel]
+                                                   : s.film.sums[sum].data();
+      }
       if (count == 1) {
         // Units are of whole blocks, which stand in a row in the sums as well.
         for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
-          double* const to = sum_of(units[i]) + units[i].pixel;
+          double* const to = sums[units[i].replicate] + units[i].pixel;
           for (size_t k = 0; k < kBlockPixels; ++k) to[k] += s.weights[0] * value[k];
         }
         continue;
       }
       for (const Unit& unit : units) {
-        sum_of(unit)[unit.pixel] += SumOfPiece(value, s.weights.data(), count);
+        sums[unit.replicate][unit.pixel] += SumOfPiece(value, s.weights.data(), count);
         value += count;
       }
     }

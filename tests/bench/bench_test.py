@@ -23,10 +23,10 @@ import summary
 class Lights(unittest.TestCase):
     def test_time_to_an_error_lies_on_the_line_of_logarithms(self):
         points = [{"error": 0.1 / 2 ** i, "seconds": 4.0 ** i} for i in range(4)]
-        self.assertAlmostEqual(lights.seconds_to(points, 0.05), 4)
-        self.assertAlmostEqual(lights.seconds_to(points, 0.1 / 2 ** 1.5), 8)
-        self.assertEqual(lights.seconds_to(points, 0.2), 1)
-        self.assertIsNone(lights.seconds_to(points, 0.01))
+        self.assertAlmostEqual(estimates.seconds_to(points, 0.05), 4)
+        self.assertAlmostEqual(estimates.seconds_to(points, 0.1 / 2 ** 1.5), 8)
+        self.assertEqual(estimates.seconds_to(points, 0.2), 1)
+        self.assertIsNone(estimates.seconds_to(points, 0.01))
 
     def test_error_is_that_of_the_spheres_pixels(self):
         # A quarter of the picture, of value 2, off by 0.1 everywhere; the rest is black.
