@@ -39,6 +39,7 @@ def headlines(series):
         name = point["what"].split()[-1]
         for key, suffix in (("seconds", ""), ("camera_rays", "_in_rays")):
             uniform = [{"error": p["error"], "seconds": p[key]} for p in series["uniform"]]
-            cost = estimates.seconds_to(uniform, point["error"])
+            reached = uniform[0]["error"] >= point["error"]
+            cost = estimates.seconds_to(uniform, point["error"]) if reached else None
             yield (f"adaptive_{name}_over_uniform{suffix}",
                    None if cost is None else cost / point[key])

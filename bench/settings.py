@@ -26,7 +26,7 @@ class Settings:
     max_errors: tuple = (0.03, 0.01, 0.003, 0.001, 0.0003)
     # Adaptive sampling against uniform at the same RMSE, of so many seeds.
     adaptive_seeds: int = 6
-    adaptive_spp: tuple = (64, 256, 1024)
+    adaptive_spp: tuple = (16, 64, 256, 1024)
     adaptive_max_errors: tuple = (0.1, 0.03)
     # The same under lights that are sampled.
     lights_spp: tuple = (1, 4, 16, 32, 64, 256, 1024)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The headline numbers, one name and one value each, out of what a run measured.
 
-`_over_` between two ways to do the same work is how many times faster the first is; names that end
-in _time, _ms, _s or _mib are what they say.
+`_over_` between two ways to do the same work is how many times faster the first is, or with fewer
+rays where the name ends in _in_rays; names that end in _time, _ms, _s or _mib are what they say.
 """
 import adaptive
 import estimates

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <set>
 
+#include "api/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/labels.h"
-#include "api/metadata.h"
 #include "image_io/output_file.h"
 
 namespace nacre {

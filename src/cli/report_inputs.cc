@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "api/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
-#include "api/metadata.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "image_io/image_reader.h"

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "api/metadata.h"
 #include "base/target.h"
 #include "base/version.h"
-#include "api/metadata.h"
 
 namespace nacre {
 

@@ -79,9 +79,8 @@ void NumberUnits(const PixelSampler* samplers, const Window& cell, const std::ve
   }
 }
 
-// In four sums, of every fourth product each. `count`: a power of two.
+// In four sums, of every fourth product each. `count`: a power of two, not 1.
 double SumOfPiece(const double* values, const double* weights, size_t count) {
-  if (count == 1) return weights[0] * values[0];
   if (count == 2) return weights[0] * values[0] + weights[1] * values[1];
   double sums[4] = {};
   for (size_t i = 0; i < count; i += 4) {
@@ -104,8 +103,8 @@ void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit
       double* sums[kReplicates];
       for (size_t r = 0; r < kReplicates; ++r) {
         // The beauty's sum is that of its replicates.
-        sums[r] = layer.kind == LayerKind::kBeauty ? c->replicate[r][channel]
-                                                   : s.film.sums[sum].data();
+        sums[r] =
+            layer.kind == LayerKind::kBeauty ? c->replicate[r][channel] : s.film.sums[sum].data();
       }
       if (count == 1) {
         // Units are of whole blocks, which stand in a row in the sums as well.

@@ -92,7 +92,7 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
   const auto check = [&](int index, size_t count, const char* what) {
     if (index < -1 || (index >= 0 && static_cast<size_t>(index) >= count)) {
       RefuseObj(file, fmt::format("a face has {} {}", what, int64_t{index} + 1),
-             fmt::format("there are {}", count));
+                fmt::format("there are {}", count));
     }
   };
   size_t corners = 0;
@@ -110,7 +110,7 @@ void CheckIndices(const ObjFile& obj, const std::string& file) {
     for (const tinyobj::index_t& corner : shape.mesh.indices) {
       if (corner.vertex_index < 0 || static_cast<size_t>(corner.vertex_index) >= positions) {
         RefuseObj(file, fmt::format("a face has position {}", int64_t{corner.vertex_index} + 1),
-               fmt::format("there are {}", positions));
+                  fmt::format("there are {}", positions));
       }
       check(corner.normal_index, normals, "normal");
       check(corner.texcoord_index, uvs, "uv");
@@ -138,8 +138,8 @@ void CheckObjNumbers(std::string_view line, std::string_view keyword, int fewest
     const std::string_view word = NextObjWord(&line);
     if (IsFiniteNumber(word) || (word.empty() && i >= fewest)) continue;
     RefuseObj(place, fmt::format("\"{}\" is not a finite number", word),
-           fmt::format("\"{}\" is followed by {}", keyword,
-                       kNumberNames[static_cast<size_t>(fewest)]));
+              fmt::format("\"{}\" is followed by {}", keyword,
+                          kNumberNames[static_cast<size_t>(fewest)]));
   }
 }
 

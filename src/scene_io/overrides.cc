@@ -26,9 +26,11 @@ std::vector<std::string> Split(const std::string& pointer) {
     std::reverse(tokens.begin(), tokens.end());
     if (tokens.size() <= kMaxJsonDepth) return tokens;
   } catch (const Json::exception&) {
-    RefuseOverride(pointer, "is not a JSON pointer", "for example /image/spp or /materials/gold/roughness");
+    RefuseOverride(pointer, "is not a JSON pointer",
+                   "for example /image/spp or /materials/gold/roughness");
   }
-  RefuseOverride(pointer.substr(0, 40) + "...", fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
+  RefuseOverride(pointer.substr(0, 40) + "...",
+                 fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
 }
 
 Json ParseValue(const std::string& pointer, const std::string& text) {
@@ -39,18 +41,19 @@ Json ParseValue(const std::string& pointer, const std::string& text) {
   } catch (const Error&) {
   }
   RefuseOverride(pointer, fmt::format("{} is not JSON", text),
-         fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, text));
+                 fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, text));
 }
 
 Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
   if (parent->is_object()) return &(*parent)[token];  // made if missing
-  if (!parent->is_array()) RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", token), {});
+  if (!parent->is_array())
+    RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", token), {});
   size_t index = 0;
   const char* const last = token.data() + token.size();
   const auto [end, error] = std::from_chars(token.data(), last, index);
   if (error != std::errc() || end != last || index >= parent->size()) {
     RefuseOverride(pointer, fmt::format("there is no element \"{}\"", token),
-           fmt::format("the array has {}, counted from 0", parent->size()));
+                   fmt::format("the array has {}, counted from 0", parent->size()));
   }
   return &(*parent)[index];
 }

@@ -19,7 +19,8 @@ constexpr char kExample[] =
     "for example roughness=0.1:0.9:5, shininess=1:1024:6:log, base_color=#ff0000,#0000ff or "
     "material=phong,lambert";
 
-[[noreturn]] void RefuseAxis(const std::string& option, std::string what, std::string hint = kExample) {
+[[noreturn]] void RefuseAxis(const std::string& option, std::string what,
+                             std::string hint = kExample) {
   throw Error(ExitCode::kUsage, option, std::move(what), std::move(hint));
 }
 
@@ -126,7 +127,7 @@ void ParseRange(const std::string& option, const std::vector<std::string>& parts
   if (error != std::errc() || rest != text.data() + text.size() || count < 1 ||
       count > kMaxSheetCount) {
     RefuseAxis(option, fmt::format("\"{}\" is not a count", text),
-           fmt::format("from 1 to {} spheres along an axis", kMaxSheetCount));
+               fmt::format("from 1 to {} spheres along an axis", kMaxSheetCount));
   }
   const bool logarithmic = scale == "log";
   if (logarithmic && std::min({from->x, from->y, from->z, to->x, to->y, to->z}) <= 0) {
@@ -149,7 +150,7 @@ void ParseList(const std::string& option, const std::string& text, SheetAxis* ax
   if (is_list) items = Split(text.substr(1, text.rfind(']') - 1), ',');
   if (items.size() > static_cast<size_t>(kMaxSheetCount)) {
     RefuseAxis(option, fmt::format("{} values", items.size()),
-           fmt::format("from 1 to {} spheres along an axis", kMaxSheetCount));
+               fmt::format("from 1 to {} spheres along an axis", kMaxSheetCount));
   }
   for (const std::string& item : items) {
     std::string trimmed = item.substr(std::min(item.find_first_not_of(' '), item.size()));
@@ -177,7 +178,8 @@ SheetAxis ParseSheetAxis(const std::string& option, const std::string& text) {
   const size_t equals = text.find('=');
   axis.name = text.substr(0, equals);
   if (equals == std::string::npos || axis.name.empty() || equals + 1 == text.size()) {
-    RefuseAxis(option, fmt::format("\"{}\" is not PARAMETER=FROM:TO:COUNT or PARAMETER=A,B,C", text));
+    RefuseAxis(option,
+               fmt::format("\"{}\" is not PARAMETER=FROM:TO:COUNT or PARAMETER=A,B,C", text));
   }
   if (axis.name == "material") axis.kind = SheetAxis::Kind::kMaterial;
   const std::string values = text.substr(equals + 1);
@@ -195,7 +197,7 @@ Json ParseMaterialText(const std::string& option, const std::string& text) {
   Json material = Json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!material.is_object()) {
     RefuseAxis(option, "\"" + text + "\" is not a material",
-           "give a model's name or JSON, e.g. '{\"model\": \"phong\", \"shininess\": 64}'");
+               "give a model's name or JSON, e.g. '{\"model\": \"phong\", \"shininess\": 64}'");
   }
   return material;
 }
@@ -203,7 +205,8 @@ Json ParseMaterialText(const std::string& option, const std::string& text) {
 Json ParseColorText(const std::string& option, const std::string& text) {
   Json value = ParseValue(text);
   if (ToRgb(value)) return value;
-  RefuseAxis(option, "\"" + text + "\" is not a colour", "for example #202020, 0.18 or [0.1,0.2,0.3]");
+  RefuseAxis(option, "\"" + text + "\" is not a colour",
+             "for example #202020, 0.18 or [0.1,0.2,0.3]");
 }
 
 std::string MaterialLabel(const Json& material) {

@@ -37,13 +37,14 @@ void CheckParameter(const std::string& option, const MaterialParameter& paramete
   for (const Json& value : axis.values) {
     const bool fits = value.is_number() || (value.is_array() && parameter.is_color);
     if (!fits) {
-      RefuseMaterial(option, fmt::format("{} is no value of {}", value.dump(), axis.name),
-             parameter.is_color ? "a colour is #rrggbb, [r,g,b] or one number" : "give numbers");
+      RefuseMaterial(
+          option, fmt::format("{} is no value of {}", value.dump(), axis.name),
+          parameter.is_color ? "a colour is #rrggbb, [r,g,b] or one number" : "give numbers");
     }
     const auto check = [&](const Json& number) {
       if (parameter.range.Contains(number.get<double>())) return;
       RefuseMaterial(option, fmt::format("{} is out of range for {}", number.dump(), axis.name),
-             Describe(parameter.range));
+                     Describe(parameter.range));
     };
     if (value.is_number()) check(value);
     if (value.is_array()) {
@@ -57,7 +58,8 @@ void CheckChoice(const std::string& option, const MaterialChoice& choice, const 
   for (const Json& value : axis.values) {
     const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
     if (std::find(names.begin(), names.end(), word) == names.end()) {
-      RefuseMaterial(option, fmt::format("\"{}\" is no {}", word, axis.name), NearestOrAll(word, names));
+      RefuseMaterial(option, fmt::format("\"{}\" is no {}", word, axis.name),
+                     NearestOrAll(word, names));
     }
   }
 }
@@ -79,7 +81,7 @@ SheetAxis::Kind CheckAgainst(const std::string& option, const MaterialModel& mod
   }
   names.emplace_back("material");
   RefuseMaterial(option, fmt::format("{} has no parameter \"{}\"", model.name, axis.name),
-         NearestOrAll(axis.name, names));
+                 NearestOrAll(axis.name, names));
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ void NormalizeDirectionsT(const Soa3<double>& directions, size_t count, Soa3<flo
   const hn::ScalableTag<double> dd;
   const hn::Rebind<float, decltype(dd)> d;
   for (size_t i = 0; i < count; i += hn::Lanes(dd)) {
-    const auto from = LoadU3(dd, directions.x.data() + i, directions.y.data() + i,
-                             directions.z.data() + i);
+    const auto from =
+        LoadU3(dd, directions.x.data() + i, directions.y.data() + i, directions.z.data() + i);
     const Vec3V<hn::Vec<decltype(d)>> v{hn::DemoteTo(d, from.x), hn::DemoteTo(d, from.y),
                                         hn::DemoteTo(d, from.z)};
     const auto inverse = hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(v, v)));

@@ -69,9 +69,9 @@ HWY_INLINE Approach FindApproach(const OccluderProposal& sphere, const FloatRays
 }
 
 // Sums, products and the direction's own rounding make the squared distance from the line err by
-// less than 32 2^-24 of that of the centres, and the sine of a ray's slope towards the sphere by
-// less than 1e-5; the slope's square is far below what the distance errs by. Of a direction that is
-// NaN comparisons are false, and nothing is sure.
+// less than 32 2^-24 of that of the centres. Rays that start outside of a sphere and come near its
+// centre slope towards it by far more than that. Of a direction that is NaN comparisons are false,
+// and nothing is sure.
 constexpr float kSlack = 2e-6f;
 
 // The rays whose nearest point, the origin for those that leave, is surely outside of the sphere.
@@ -92,8 +92,7 @@ HWY_INLINE hn::Mask<F> Met(const OccluderProposal& sphere, const Approach& appro
   const VF farther = hn::Mul(approach.distance2, hn::Set(d, 1 + kSlack));
   const auto outside = hn::Gt(nearer, hn::Set(d, sphere.outer2));
   const auto near = hn::Lt(hn::Sub(farther, along2), hn::Set(d, sphere.inner2));
-  const auto steep = hn::Gt(along2, hn::Mul(farther, hn::Set(d, 1e-10f)));
-  const auto ahead = hn::And(steep, hn::Gt(along, hn::Zero(d)));
+  const auto ahead = hn::Gt(along, hn::Zero(d));
   const auto before_end = hn::Lt(hn::Mul(along, hn::Set(d, 1 + 1e-5f)), length);
   return hn::And(hn::And(outside, near), hn::And(ahead, before_end));
 }

@@ -9,6 +9,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 
+import adaptive
 import estimates
 import google
 import lights
@@ -33,6 +34,20 @@ class Lights(unittest.TestCase):
         layers = {"A": {"mean_reference": 0.25},
                   "beauty": {"rmse": 0.1 * 0.5, "mean_reference": 0.5}}
         self.assertAlmostEqual(lights.relative_rmse(layers), 0.05)
+
+
+class Adaptive(unittest.TestCase):
+    def test_headlines_are_ratios_at_the_same_error(self):
+        uniform = [{"error": 0.1 / 2 ** i, "seconds": 4.0 ** i, "camera_rays": 100 * 4 ** i}
+                   for i in range(3)]
+        def point(error):
+            return {"what": f"--max-error {error}", "error": error, "seconds": 2, "camera_rays": 40}
+        found = dict(adaptive.headlines({"uniform": uniform, "adaptive": [point(0.05)]}))
+        self.assertAlmostEqual(found["adaptive_0.05_over_uniform"], 2)
+        self.assertAlmostEqual(found["adaptive_0.05_over_uniform_in_rays"], 10)
+        for beyond in (0.2, 0.01):  # uniform sampling was not measured there
+            found = dict(adaptive.headlines({"uniform": uniform, "adaptive": [point(beyond)]}))
+            self.assertEqual(set(found.values()), {None})
 
 
 class Intervals(unittest.TestCase):

@@ -6,6 +6,7 @@ Usage: tiles_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
 """
 import json
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -178,13 +179,16 @@ class TilesTest(unittest.TestCase):
 
     def test_tiles_that_differ_are_refused(self):
         first, _ = self.tiles(2, *SMALL)
+        targets = re.search(r'SIMD targets here +(.*)', run('info').stdout).group(1).split(', ')
         other = ['--tile', '1/2', '--reproducible', '--size', '64x100']
         brighter = ['--set', '/lights/key/intensity=150']
         for options, message in (
                 ([*other, '--spp', '2', *brighter], 'nacre:sceneHash'),
                 ([*other, '--spp', '4'], 'nacre:settings'),
                 ([*other, '--spp', '2', '--max-error', '0.1'], 'nacre:maxError'),
-                ([*other, '--spp', '2', '--target', 'scalar'], 'nacre:target'),
+                # Only where the build has another target than the one that is chosen by itself.
+                *([([*other, '--spp', '2', '--target', targets[0]], 'nacre:target')]
+                  if len(targets) > 1 else []),
                 ([*other, '--spp', '2', '--layers', 'Z'], 'layers'),
                 ([*other, '--spp', '2', '--depth', 'float'], 'layers'),
                 ([*other, '--spp', '2', '--compression', 'piz'], 'compression'),

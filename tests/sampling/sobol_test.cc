@@ -199,8 +199,9 @@ TEST_CASE("Scrambled Sobol' converges faster than N^-1.3 on a smooth function", 
       [](uint32_t i, int seed) { return SobolSample2D(i, 0, Mix64(static_cast<uint64_t>(seed))); });
   std::mt19937_64 engine(5);
   std::uniform_real_distribution<double> uniform;
-  const double random =
-      ConvergenceSlope([&](uint32_t, int) { return Vec2d{uniform(engine), uniform(engine)}; });
+  const double random = ConvergenceSlope([&](uint32_t, int) {
+    return Vec2d{uniform(engine), uniform(engine)};
+  });
   INFO("slopes: Sobol " << sobol << ", random " << random);
   CHECK(sobol < -1.3);
   CHECK(std::abs(random + 0.5) < 0.05);

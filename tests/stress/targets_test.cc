@@ -40,7 +40,7 @@ Image Render(const Scene& scene) {
 
 void CheckTargets(const Scene& scene, const TruthPicture* truth) {
   const TargetGuard guard;
-  PinTarget(Target::kScalar);
+  PinTarget(SupportedTargets().front());  // scalar, where it is built
   const Image scalar = Render(scene);
   ForEachTarget([&](Target) { CheckAgainst(scalar, Render(scene), truth); });
 }

@@ -68,8 +68,8 @@ TEST_CASE("shadow rays all over are brute force's, to the rims of spheres") {
     CAPTURE(size);
     Scene scene;
     for (int i = 0; i < 60; ++i) {
-      scene.spheres.push_back(MakeSphere(random.InBox(Vec3d(-size), Vec3d(size)),
-                                         size * random.Magnitude(1e-4, 0.2)));
+      scene.spheres.push_back(
+          MakeSphere(random.InBox(Vec3d(-size), Vec3d(size)), size * random.Magnitude(1e-4, 0.2)));
     }
     CheckSky(scene, Vec3d(0, 0, 3 * size), &random);
   }
