@@ -90,7 +90,8 @@ std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, in
   using Json = nlohmann::ordered_json;
   Json attributes = Json::object();
   for (const auto& [name, value] : header.attributes) {
-    std::visit([&](const auto& plain) { attributes[name] = plain; }, value);
+    Json& attribute = attributes[name];  // Clang 14 does not capture structured bindings
+    std::visit([&](const auto& plain) { attribute = plain; }, value);
   }
   const auto type_name = [](PixelType type) {
     return type == PixelType::kHalf ? "half" : type == PixelType::kFloat ? "float" : "uint";
