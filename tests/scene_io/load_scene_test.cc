@@ -247,7 +247,7 @@ TEST_CASE("lights with an extent and skies") {
   CHECK(std::get<QuadraticSky>(sky.sky).linear == -1);
   const auto& window = std::get<RectangleAreaLight>(scene.lights[0].kind);
   CHECK(window.two_sided);
-  for (const size_t i : {0, 1, 2}) CHECK(scene.lights[i].fast);
+  for (const size_t i : {0u, 1u, 2u}) CHECK(scene.lights[i].fast);
   CHECK(!scene.lights[3].fast);
   CHECK(window.up == Vec3d(0, 0, -1));  // a light that faces down has no other
   CHECK(window.radiance == Rgb(3, 2, 1));

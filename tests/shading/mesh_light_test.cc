@@ -201,8 +201,9 @@ TEST_CASE("the irradiance of a convex mesh is the sum of its fronts'") {
   std::mt19937 random(8);
   std::normal_distribution<double> gauss;
   const auto draw = [&] { return Vec3d(gauss(random), gauss(random), gauss(random)); };
-  for (const auto& [light, has_outline] : lights) {
-    CHECK(!light.mesh->outline.edges.empty() == has_outline);
+  for (const auto& item : lights) {
+    const SampledLight& light = item.first;
+    CHECK(!light.mesh->outline.edges.empty() == item.second);
     HitBatch hits;
     Surface surface;
     std::vector<Fronts> expected;
