@@ -9,15 +9,17 @@ import estimates
 FRAME = ("--depth", "float")
 
 
-def _point(runner, scene, folder, settings, errors, truth, option):
-    found = []
-    for seed in range(1, settings.adaptive_seeds + 1):
-        frame = runner.frame(scene, folder, (*FRAME, "--size", settings.precision_size, "--seed", seed,
-                                             *option))
-        counts = json.loads((folder / "stats.json").read_text())["counts"]
-        found.append((frame["frame"], errors(runner.nacre, folder / "frame.exr", truth)["rmse"],
-                      counts["camera_rays"]))
-    seconds, rmse, rays = zip(*found)
+def _frame(runner, scene, folder, settings, errors, truth, option, seed):
+    """(seconds, RMSE, camera rays) of one picture."""
+    frame = runner.frame(scene, folder, (*FRAME, "--size", settings.precision_size, "--seed", seed,
+                                         *option))
+    counts = json.loads((folder / "stats.json").read_text())["counts"]
+    return (frame["frame"], errors(runner.nacre, folder / "frame.exr", truth)["rmse"],
+            counts["camera_rays"])
+
+
+def _point(option, frames):
+    seconds, rmse, rays = zip(*frames)
     return {"what": " ".join(map(str, option)), "seconds": estimates.median(seconds),
             "error": math.sqrt(math.fsum(e * e for e in rmse) / len(rmse)),
             "camera_rays": estimates.median(rays)}
@@ -25,11 +27,15 @@ def _point(runner, scene, folder, settings, errors, truth, option):
 
 def measure(runner, scene, folder, settings, errors, truth):
     """{"uniform" and "adaptive": [{"what", "seconds" of a frame on one thread, "error",
-    "camera_rays"}...]}. `errors`(nacre, image, truth) has the "rmse"."""
+    "camera_rays"}...]}. `errors`(nacre, image, truth) has the "rmse". The ways to sample take
+    turns, seed by seed, so that what disturbs the machine disturbs all."""
     options = {"uniform": [("--spp", spp) for spp in settings.adaptive_spp],
                "adaptive": [("--max-error", error) for error in settings.adaptive_max_errors]}
-    return {kind: [_point(runner, scene, folder, settings, errors, truth, option)
-                   for option in options[kind]] for kind in options}
+    frames = {option: [] for kind in options for option in options[kind]}
+    for seed in range(1, settings.adaptive_seeds + 1):
+        for option, found in frames.items():
+            found.append(_frame(runner, scene, folder, settings, errors, truth, option, seed))
+    return {kind: [_point(option, frames[option]) for option in options[kind]] for kind in options}
 
 
 def headlines(series):
