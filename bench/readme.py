@@ -42,7 +42,8 @@ def markdown(results):
         lines.append(f"| {model.replace('_', ' ')} | {ns:.2f} | {rate / 1e6:.0f} | "
                      f"{f'{ratio:.1f}' if ratio else ''} | "
                      f"{report.share_of_bound(results, model, best, ns)} | {avx2} |")
-    lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is; in memory "
+    lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is, or in how "
+              "many times fewer rays if its name ends in `in_rays`; in memory "
               "unless it says process. Embree's spheres are traced bare, in float, their tree "
               "built before.", "", "| headline | value |", "|---|---|"]
     lines += [f"| `{name}` | {_number(value)} |" for name, value in results["summary"].items()

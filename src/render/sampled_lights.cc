@@ -334,7 +334,8 @@ void ShadeByOne(const Lit& lit) {
   }
   const size_t flat = FindFlat(lit);
   const LobeCounts counts = FindFast(lit);
-  const bool sampled_diffuse = flat<lit.count(), lobes = counts.sampled> 0;
+  const bool sampled_diffuse = flat < lit.count();
+  const bool lobes = counts.sampled > 0;
   if (flat > 0) AddClosedForm(lit);
   if (counts.fast > 0) AddFastLobes(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {

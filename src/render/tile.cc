@@ -39,6 +39,7 @@ void NumberPixels(const RenderPlan& plan, const Window& tile, SampleNumbers* num
   }
 }
 
+// The round that begins with sample `first`.
 void NumberSamples(int first, int count, SampleNumbers* numbers) {
   for (int k = 0; k < count; ++k) {
     std::fill_n(numbers->number.data() + static_cast<size_t>(k) * numbers->pixel_count,
