@@ -7,7 +7,7 @@ namespace {
 // Rows of blocks into rows of the strip, as far as they lie in `part`: convert(i) is the cell's
 // pixel i.
 template <typename T, typename Convert>
-void PutCell(const Window& cell, const Window& part, const Strip& strip, std::vector<T>* to,
+void PutCell(const Window& cell, const Window& part, const Strip& strip, AlignedArray<T>* to,
              const Convert& convert) {
   for (size_t b = 0; b < kCellBlocks; ++b) {
     const Window block = BlockWindow(cell, b);

@@ -11,12 +11,19 @@ namespace {
 
 template <typename T>
 void CopyTile(const Window& tile, const Window& strip, const AlignedArray<T>& from,
-              std::vector<T>* to) {
+              AlignedArray<T>* to) {
   for (int y = tile.y0; y < tile.y1; ++y) {
     const auto tile_row = static_cast<size_t>(y - tile.y0) * static_cast<size_t>(tile.width());
     const auto strip_row = static_cast<size_t>(y - strip.y0) * static_cast<size_t>(strip.width());
     std::copy_n(from.data() + tile_row, tile.width(),
                 to->data() + strip_row + static_cast<size_t>(tile.x0 - strip.x0));
+  }
+}
+
+template <typename T>
+void GiveRoom(size_t pixels, std::vector<AlignedArray<T>>* channels) {
+  for (AlignedArray<T>& channel : *channels) {
+    if (channel.size() < pixels) channel = AlignedArray<T>(pixels);
   }
 }
 
@@ -40,8 +47,8 @@ void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip) {
   strip->window = window;
   strip->colors.resize(plan.channels.size() - ids);
   strip->ids.resize(ids);
-  for (std::vector<float>& channel : strip->colors) channel.resize(window.pixel_count());
-  for (std::vector<uint32_t>& channel : strip->ids) channel.resize(window.pixel_count());
+  GiveRoom(window.pixel_count(), &strip->colors);
+  GiveRoom(window.pixel_count(), &strip->ids);
 }
 
 void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
@@ -98,7 +105,7 @@ void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
   for (const Layer& layer : plan.layers) {
     const Rgb background = BackgroundOf(layer, plan);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      std::vector<float>& channel = strip->colors[color++];
+      AlignedArray<float>& channel = strip->colors[color++];
       if (IsAveraged(layer.kind)) {
         RoundSums(film.sums[sum++].data(), coverage, {background[c], weight, 1.0 / spp}, width,
                   height, channel.data() + place, stride);

@@ -29,8 +29,9 @@ inline constexpr size_t kAlphaSum = 3;
 // A finished strip, channels in the order of StripChannels. Id channels hold uint32_t.
 struct Strip {
   Window window;
-  std::vector<std::vector<float>> colors;  // all float channels, in order
-  std::vector<std::vector<uint32_t>> ids;  // all uint channels, in order
+  // Row by row; the arrays may be larger than the window.
+  std::vector<AlignedArray<float>> colors;  // all float channels, in order
+  std::vector<AlignedArray<uint32_t>> ids;  // all uint channels, in order
 };
 
 // The channels of a strip's files: float channels first, then ids.

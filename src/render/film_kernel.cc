@@ -2,6 +2,8 @@
 // render/film_kernel.cc: the kernels of film_kernel.h.
 #include "render/film_kernel.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/film_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -53,6 +55,17 @@ void RoundSumsT(const double* sums, const double* coverage, const RoundedBy& by,
                 size_t height, float* out, size_t stride) {
   for (size_t y = 0; y < height; ++y, sums += width, coverage += width, out += stride) {
     RoundRow(sums, coverage, by, width, out);
+  }
+}
+
+// By whole vectors: with a store of four floats at a time this is a sixth of a plain frame.
+void FillPixelsT(float value, size_t width, size_t height, float* out, size_t stride) {
+  const hn::ScalableTag<float> d;
+  const auto filled = hn::Set(d, value);
+  for (size_t y = 0; y < height; ++y, out += stride) {
+    size_t i = 0;
+    for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) hn::StoreU(filled, d, out + i);
+    std::fill(out + i, out + width, value);
   }
 }
 
@@ -126,6 +139,7 @@ namespace nacre {
 HWY_EXPORT(AddSamplesT);
 HWY_EXPORT(AddHitsT);
 HWY_EXPORT(RoundSumsT);
+HWY_EXPORT(FillPixelsT);
 HWY_EXPORT(AddFloatsT);
 HWY_EXPORT(AddFloatsByHitT);
 
@@ -142,6 +156,10 @@ void AddHits(const float* a, const float* b, double constant, double further,
 void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
                size_t height, float* out, size_t stride) {
   HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, width, height, out, stride);
+}
+
+void FillPixels(float value, size_t width, size_t height, float* out, size_t stride) {
+  HWY_DYNAMIC_DISPATCH(FillPixelsT)(value, width, height, out, stride);
 }
 
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,

@@ -36,6 +36,9 @@ struct RoundedBy {
 void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
                size_t height, float* out, size_t stride);
 
+// Sets the pixels of a tile; `stride` between the rows of `out`.
+void FillPixels(float value, size_t width, size_t height, float* out, size_t stride);
+
 // to[i] = double(a[i]) + double(b[i]) + constant + further for i in [begin, end); what lies after,
 // up to a whole vector, is overwritten.
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,

@@ -106,14 +106,13 @@ Image RenderImage(const RenderPlan& plan, const RenderSettings& settings, Render
   const RenderStats rendered = Render(plan, settings, [&](const Strip& strip) {
     const size_t offset = static_cast<size_t>(strip.window.y0 - plan.window.y0) *
                           static_cast<size_t>(plan.window.width());
+    const size_t pixels = strip.window.pixel_count();
     auto channel = image.channels.begin();
-    for (const std::vector<float>& plane : strip.colors) {
-      std::copy(plane.begin(), plane.end(),
-                (channel++)->samples.begin() + static_cast<std::ptrdiff_t>(offset));
+    for (const AlignedArray<float>& plane : strip.colors) {
+      std::copy_n(plane.data(), pixels, (channel++)->samples.data() + offset);
     }
-    for (const std::vector<uint32_t>& plane : strip.ids) {
-      std::transform(plane.begin(), plane.end(),
-                     (channel++)->samples.begin() + static_cast<std::ptrdiff_t>(offset),
+    for (const AlignedArray<uint32_t>& plane : strip.ids) {
+      std::transform(plane.data(), plane.data() + pixels, (channel++)->samples.data() + offset,
                      [](uint32_t id) { return static_cast<float>(id); });
     }
   });

@@ -272,24 +272,24 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
 
 void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {
   const double spp = plan.scene->image.spp;
-  const auto fill = [&](auto value, auto* channel) {
-    for (int y = tile.y0; y < tile.y1; ++y) {
-      const auto row =
-          static_cast<size_t>(y - strip->window.y0) * static_cast<size_t>(strip->window.width());
-      std::fill_n(channel->data() + row + static_cast<size_t>(tile.x0 - strip->window.x0),
-                  tile.width(), value);
-    }
-  };
+  const auto stride = static_cast<size_t>(strip->window.width());
+  const size_t place = static_cast<size_t>(tile.y0 - strip->window.y0) * stride +
+                       static_cast<size_t>(tile.x0 - strip->window.x0);
+  const auto width = static_cast<size_t>(tile.width()), height = static_cast<size_t>(tile.height());
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
     const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
     // As the film averages it: the sum of spp floats, at most 2^16, is exact.
     const Rgb mean = background * spp * (1.0 / spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      fill(static_cast<float>(mean[c]), &strip->colors[color++]);
+      FillPixels(static_cast<float>(mean[c]), width, height, strip->colors[color++].data() + place,
+                 stride);
     }
   }
-  for (std::vector<uint32_t>& channel : strip->ids) fill(uint32_t{0}, &channel);
+  for (AlignedArray<uint32_t>& channel : strip->ids) {
+    uint32_t* row = channel.data() + place;
+    for (size_t y = 0; y < height; ++y, row += stride) std::fill_n(row, width, 0u);
+  }
 }
 
 }  // namespace nacre

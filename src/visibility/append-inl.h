@@ -15,17 +15,42 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The most lanes that doubles fill.
+inline constexpr uint32_t kMaxDoubles = kVectorBytes / sizeof(double);
+
+// The lanes of each set of bits, in their order; then lane 0, as often as there is room.
+struct SetLanes {
+  uint8_t lanes[kMaxDoubles];
+};
+
+inline constexpr auto kSetLanes = [] {
+  std::array<SetLanes, 1 << kMaxDoubles> sets{};
+  for (uint32_t bits = 0; bits < sets.size(); ++bits) {
+    size_t count = 0;
+    for (uint8_t lane = 0; lane < kMaxDoubles; ++lane) {
+      if ((bits >> lane & 1) != 0) sets[bits].lanes[count++] = lane;
+    }
+  }
+  return sets;
+}();
+
 // Appends the lanes of `bits` to arrays that are `count` long. What lies behind them, up to a whole
 // vector, may be overwritten.
+//
+// Not by Highway's Compress: GCC 12 copies its table, 2 KiB, to the stack at every call. Nor by
+// CompressStore: the instruction behind it is microcode on Zen 4.
 class Appender {
  public:
-  Appender(size_t count, uint32_t bits)
-      : count_(count), bits_(bits), all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {}
+  HWY_INLINE Appender(size_t count, uint32_t bits)
+      : count_(count), all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {
+    const hn::Rebind<uint8_t, CameraDouble> d8;
+    lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kSetLanes[bits].lanes));
+    lanes64_ = hn::PromoteTo(D64(), lanes32_);
+  }
 
   template <class D, class T>
   HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
-    // Not CompressStore: the instruction behind it is microcode on Zen 4.
-    hn::StoreU(all_ ? value : hn::Compress(value, MaskOfBits(d, bits_, 0)), d, to->data() + count_);
+    hn::StoreU(all_ ? value : hn::TableLookupLanes(value, Order(d)), d, to->data() + count_);
   }
 
   template <class D, class T>
@@ -36,9 +61,22 @@ class Appender {
   }
 
  private:
+  using D32 = hn::Rebind<uint32_t, CameraDouble>;
+  using D64 = hn::Rebind<uint64_t, CameraDouble>;
+
+  template <class D>
+  HWY_INLINE auto Order(D d) const {
+    if constexpr (sizeof(hn::TFromD<D>) == sizeof(double)) {
+      return hn::IndicesFromVec(d, lanes64_);
+    } else {
+      return hn::IndicesFromVec(d, lanes32_);
+    }
+  }
+
   size_t count_;
-  uint32_t bits_;
   bool all_;
+  hn::Vec<D32> lanes32_;
+  hn::Vec<D64> lanes64_;
 };
 
 // Appends all of a group's hits but their primitives, with which the hits will be counted. `ray` is

@@ -9,9 +9,9 @@
 #endif
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "visibility/packet.h"
@@ -22,19 +22,26 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// Both go through memory, as wide on the way in as on the way out: a load of more than the last
+// store wrote waits until that has left the store buffer, which took a seventh of the tiles' time.
+static_assert(std::endian::native == std::endian::little);
+
 template <class D>
 HWY_INLINE uint32_t BitsOfMask(D d, hn::Mask<D> mask) {
-  std::array<uint8_t, 4> bytes{};
-  hn::StoreMaskBits(d, mask, bytes.data());
-  static_assert(std::endian::native == std::endian::little);
-  return std::bit_cast<uint32_t>(bytes);
+  uint8_t bytes[8];
+  hn::StoreMaskBits(d, mask, bytes);
+  if constexpr (hn::MaxLanes(D()) <= 8) return bytes[0];
+  uint16_t bits;
+  std::memcpy(&bits, bytes, sizeof(bits));
+  return bits;
 }
 
 // The mask of the lanes from `first` on.
 template <class D>
 HWY_INLINE hn::Mask<D> MaskOfBits(D d, uint32_t bits, int first) {
-  const uint32_t own = (bits >> first) & ((1u << hn::Lanes(d)) - 1);
-  const uint8_t bytes[8] = {static_cast<uint8_t>(own), static_cast<uint8_t>(own >> 8)};
+  const auto own = static_cast<uint16_t>((bits >> first) & ((1u << hn::Lanes(d)) - 1));
+  uint8_t bytes[8];
+  std::memcpy(bytes, &own, sizeof(own));
   return hn::LoadMaskBits(d, bytes);
 }
 
