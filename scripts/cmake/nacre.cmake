@@ -121,6 +121,12 @@ function(nacre_test folder)
   # runs at a sixth of its speed. At -O1 it takes a variant's other alternatives for read.
   target_compile_options(nacre_${folder}_test PRIVATE
     -O1 $<$<CXX_COMPILER_ID:GNU>:-fexpensive-optimizations;-Wno-maybe-uninitialized>)
+  # Reading Catch2 takes more than a second, and every file of tests does.
+  if(NACRE_UNITY AND folder STREQUAL "base")
+    target_precompile_headers(nacre_base_test PRIVATE ${CMAKE_SOURCE_DIR}/tests/catch.h)
+  elseif(NACRE_UNITY)
+    target_precompile_headers(nacre_${folder}_test REUSE_FROM nacre_base_test)
+  endif()
   add_test(NAME ${folder} COMMAND nacre_${folder}_test ~[table])
   if(ARG_TABLES)
     add_test(NAME ${folder}_table COMMAND nacre_${folder}_test [table])
