@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "render/cell_film.h"
 #include "render/footprint.h"
@@ -39,9 +40,8 @@ FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
 
 // The units' samples [first, first + count), one unit after the other. `samplers`: of each
 // replicate.
-void MakeUnitSamples(const PixelSampler* samplers, const Window& cell,
-                     const std::vector<Unit>& units, int first, int count, TileScratch* s,
-                     CellScratch* c) {
+void MakeUnitSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
+                     int first, int count, TileScratch* s, CellScratch* c) {
   c->pixels.clear();
   for (const Unit& unit : units) {
     const FilmPixel pixel = PixelOf(cell, unit.pixel);
@@ -52,8 +52,8 @@ void MakeUnitSamples(const PixelSampler* samplers, const Window& cell,
 }
 
 // The same where units take one sample and come by whole blocks.
-void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
-                      const std::vector<Unit>& units, int index, TileScratch* s, CellScratch* c) {
+void MakeBlockSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
+                      int index, TileScratch* s, CellScratch* c) {
   for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[units[ray].replicate];
@@ -65,7 +65,7 @@ void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
 }
 
 // Which samples those are, for lights that are sampled.
-void NumberUnits(const PixelSampler* samplers, const Window& cell, const std::vector<Unit>& units,
+void NumberUnits(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
                  int first, int count, SampleNumbers* numbers) {
   numbers->pixel_count = units.size();
   size_t ray = 0;
@@ -89,7 +89,7 @@ double SumOfPiece(const double* values, const double* weights, size_t count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-void AddUnits(const RenderPlan& plan, const Window& cell, const std::vector<Unit>& units,
+void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> units,
               TileScratch* scratch, CellScratch* c) {
   TileScratch& s = *scratch;
   const size_t count = s.weights.size();
@@ -136,15 +136,16 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
   const int count = std::min(piece.count, kPiece);
   const bool by_blocks = level < kCommonLevels && piece.count == 1;
   const size_t most = kBatchCapacity / static_cast<size_t>(count);
-  std::vector<Unit>& units = c->units;
-  units.clear();
+  c->units.resize(most);
   for (int first = piece.first; first < end; first += count) {
     s->weights.resize(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i) {
       s->weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
     }
+    size_t listed = 0;
     const auto flush = [&] {
-      if (units.empty()) return;
+      if (listed == 0) return;
+      const std::span<const Unit> units(c->units.data(), listed);
       if (by_blocks) {
         MakeBlockSamples(samplers.data(), cell, units, first, s, c);
       } else {
@@ -157,14 +158,14 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
       SeeSky(plan, s);
       AddUnits(plan, cell, units, s, c);
       clock->Charge(Stage::kFilm);
-      units.clear();
+      listed = 0;
     };
     // Groups of 16 pixels, whole blocks in the common levels, or single ones, by replicates.
     const size_t group = by_blocks ? kBlockPixels : 1;
     for (size_t i = 0; i < c->active.size(); i += group) {
       for (uint32_t replicate = 0; replicate < kReplicates; ++replicate) {
-        for (size_t k = i; k < i + group; ++k) units.push_back({c->active[k], replicate});
-        if (units.size() == most) flush();
+        for (size_t k = i; k < i + group; ++k) c->units[listed++] = {c->active[k], replicate};
+        if (listed == most) flush();
       }
     }
     flush();
@@ -177,7 +178,9 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
 void MeasurePixel(const RenderPlan& plan, uint32_t pixel, CellScratch* c) {
   const double scale = 1.0 / c->samples[pixel];
   PixelInterval& interval = c->intervals[pixel];
-  interval = {true, 0, std::numeric_limits<double>::infinity()};
+  interval.wanted = std::numeric_limits<double>::infinity();
+  double widest = 0;
+  bool narrow = true;
   for (size_t channel = 0; channel < 3; ++channel) {
     double mean = 0;
     for (const auto& replicate : c->replicate) mean += replicate[channel][pixel];
@@ -187,12 +190,15 @@ void MeasurePixel(const RenderPlan& plan, uint32_t pixel, CellScratch* c) {
       const double difference = replicate[channel][pixel] * scale - mean;
       squares += difference * difference;
     }
-    const double half_width = kStudent * std::sqrt(squares / ((kReplicates - 1) * kReplicates));
+    constexpr double kFactor = kStudent * kStudent / ((kReplicates - 1) * kReplicates);
+    const double half_width2 = kFactor * squares;
     const double wanted = plan.adaptive.max_error * std::max(std::abs(mean), kDarkest);
-    interval.narrow = interval.narrow && half_width <= wanted;
-    interval.half_width = std::max(interval.half_width, half_width);
+    narrow = narrow && half_width2 <= wanted * wanted;
+    widest = std::max(widest, half_width2);
     interval.wanted = std::min(interval.wanted, wanted);
   }
+  interval.narrow = narrow;
+  interval.half_width = std::sqrt(widest);
 }
 
 // The widest interval of the pixels around one, in its block, that are not yet as narrow as wanted.
@@ -306,13 +312,6 @@ uint32_t BlocksOf(const Window& cell, const Window& part) {
 }
 
 }  // namespace
-
-Window BlockWindow(const Window& cell, size_t block) {
-  constexpr size_t kAcross = kCellSide / kBlockSide;
-  const int x = cell.x0 + static_cast<int>(block % kAcross) * kBlockSide;
-  const int y = cell.y0 + static_cast<int>(block / kAcross) * kBlockSide;
-  return {x, y, x + kBlockSide, y + kBlockSide};
-}
 
 void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
                 TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, RenderStats* stats) {

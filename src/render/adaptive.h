@@ -53,7 +53,12 @@ struct CellScratch {
 };
 
 // The window of a cell's block.
-Window BlockWindow(const Window& cell, size_t block);
+inline Window BlockWindow(const Window& cell, size_t block) {
+  constexpr size_t kAcross = kCellSide / kBlockSide;
+  const int x = cell.x0 + static_cast<int>(block % kAcross) * kBlockSide;
+  const int y = cell.y0 + static_cast<int>(block / kAcross) * kBlockSide;
+  return {x, y, x + kBlockSide, y + kBlockSide};
+}
 
 // Renders the pixels of `part` of a cell of the frame into the strip.
 void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
