@@ -26,6 +26,9 @@ struct AloneBlock {
   size_t first_ray;
   const double* film_x;
   const double* film_y;
+  // The packets, as bits, that all hit when the last block's rays were tested: most likely, as
+  // inside a sphere's outline, they do so again, in the next row or sample.
+  uint32_t likely = 0;
   // The groups of lanes that some ray was proposed in: where they begin, and which lanes.
   int groups;
   int lane[kAloneBlock];
@@ -46,9 +49,9 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int lane,
   Store3(v, CameraDouble(), to[0] + lane, to[1] + lane, to[2] + lane);
 }
 
-// Proposes lanes; with `likely`, all, unasked: the exact test decides whatever they are told.
-HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate, bool likely,
-                              size_t rays, CameraPacket* packet, AloneBlock* block) {
+// Proposes lanes; those of likely packets all, unasked: the exact test decides whatever it is told.
+HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate, size_t rays,
+                              CameraPacket* packet, AloneBlock* block) {
   const int step = static_cast<int>(hn::Lanes(CameraDouble()));
   const uint32_t group_bits = (1u << step) - 1;
   block->groups = 0;
@@ -56,7 +59,7 @@ HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& can
     const size_t left = rays - static_cast<size_t>(first);
     packet->lanes = left >= kCameraPacket ? 0xffffu : (1u << left) - 1;
     uint32_t lanes = packet->lanes;
-    if (!likely) {
+    if ((block->likely >> (first / kCameraPacket) & 1) == 0) {
       packet->film_x = block->film_x + first;
       packet->film_y = block->film_y + first;
       FillFloatRays<true>(frame, packet);
@@ -108,6 +111,17 @@ HWY_INLINE void TestLines(const TileCandidate& candidate, AloneBlock* block) {
   }
 }
 
+HWY_INLINE void FindLikely(AloneBlock* block) {
+  uint32_t hit[kAloneBlock / kCameraPacket] = {};
+  for (int g = 0; g < block->groups; ++g) {
+    hit[block->lane[g] / kCameraPacket] |= block->bits[g] << (block->lane[g] % kCameraPacket);
+  }
+  block->likely = 0;
+  for (int p = 0; p < kAloneBlock / kCameraPacket; ++p) {
+    block->likely |= static_cast<uint32_t>(hit[p] == 0xffff) << p;
+  }
+}
+
 HWY_INLINE void AppendBlock(const TileCandidate& candidate, const AloneBlock& block,
                             const HitsTo& to) {
   const CameraDouble d;
@@ -130,18 +144,16 @@ HWY_INLINE void AppendBlock(const TileCandidate& candidate, const AloneBlock& bl
 HWY_INLINE void TraceAlone(const CameraFrame& frame, const TileCandidate& candidate,
                            const FilmBatch& film, size_t first_ray, size_t rays,
                            CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
-  bool likely = false;  // all rays of the block before hit: inside a sphere's outline, all do
   for (size_t i = 0; i < rays; i += kAloneBlock) {
     const size_t count = std::min<size_t>(kAloneBlock, rays - i);
-    const size_t hits_before = to.hits->count;
     block->first_ray = first_ray + i;
     block->film_x = film.x.data() + block->first_ray;
     block->film_y = film.y.data() + block->first_ray;
-    ProposeGroups(frame, candidate, likely, count, packet, block);
+    ProposeGroups(frame, candidate, count, packet, block);
     FillRays(frame, block);
     TestLines(candidate, block);
+    FindLikely(block);
     AppendBlock(candidate, *block, to);
-    likely = to.hits->count - hits_before == count;
   }
 }
 
