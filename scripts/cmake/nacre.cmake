@@ -58,6 +58,10 @@ target_compile_options(nacre_options INTERFACE ${NACRE_BASELINE})
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Highway passes vectors between its own inlined functions only.
   target_compile_options(nacre_options INTERFACE -Wno-psabi)
+  if(NACRE_UNITY)
+    # GCC collects no garbage below 1 GiB: a tenth to a fifth of a large file's compile time.
+    target_compile_options(nacre_options INTERFACE --param=ggc-min-heapsize=1048576)
+  endif()
 endif()
 if(NACRE_WERROR)
   target_compile_options(nacre_options INTERFACE -Werror)
