@@ -83,11 +83,15 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   rays.count = 0;
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
+  // Without a branch, which would go either way from hit to hit.
+  const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
   for (size_t i = 0; i < hits.count; ++i) {
-    if (!(light.irradiance[i] > 0)) continue;
-    if (NeverShadowed(planned, hits.primitive[i])) continue;
-    const size_t ray = rays.count++;
-    s->shadow_hits[ray] = static_cast<uint32_t>(i);
+    s->shadow_hits[rays.count] = static_cast<uint32_t>(i);
+    const bool asked = all || !NeverShadowed(planned, hits.primitive[i]);
+    rays.count += static_cast<size_t>(asked & (light.irradiance[i] > 0));
+  }
+  for (size_t ray = 0; ray < rays.count; ++ray) {
+    const size_t i = s->shadow_hits[ray];
     rays.primitive[ray] = hits.primitive[i];
     rays.origin.x[ray] = origin.x[i];
     rays.origin.y[ray] = origin.y[i];
