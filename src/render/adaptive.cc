@@ -136,7 +136,6 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
   const int count = std::min(piece.count, kPiece);
   const bool by_blocks = level < kCommonLevels && piece.count == 1;
   const size_t most = kBatchCapacity / static_cast<size_t>(count);
-  c->units.resize(most);
   for (int first = piece.first; first < end; first += count) {
     s->weights.resize(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i) {

@@ -47,7 +47,7 @@ struct CellScratch {
   double replicate[kReplicates][3][kCellPixels];
   PixelInterval intervals[kCellPixels];
   std::vector<SampledPixel> pixels;
-  std::vector<Unit> units;  // of a batch
+  std::vector<Unit> units = std::vector<Unit>(kBatchCapacity);  // room for those of a batch
   PixelShifts shifts{kBlockPixels + kBatchPadding};
   FilmBatch corners;
 };

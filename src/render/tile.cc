@@ -77,18 +77,17 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
                  RenderStats* stats) {
   const HitBatch& hits = s->hits;
   const Soa3<double>& origin = plan.lift_shadows ? s->shadow_origin : hits.position;
-  const LightBatch& light = s->light;
   const double t_max = planned.light.TMax();
   ShadowRayBatch& rays = s->shadow_rays;
   rays.count = 0;
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
-  // Without a branch, which would go either way from hit to hit.
+  // Without a branch on what is lit, which would go either way from hit to hit.
   const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
   for (size_t i = 0; i < hits.count; ++i) {
     s->shadow_hits[rays.count] = static_cast<uint32_t>(i);
     const bool asked = all || !NeverShadowed(planned, hits.primitive[i]);
-    rays.count += static_cast<size_t>(asked & (light.irradiance[i] > 0));
+    rays.count += static_cast<size_t>(asked & (s->light.irradiance[i] > 0));
   }
   for (size_t ray = 0; ray < rays.count; ++ray) {
     const size_t i = s->shadow_hits[ray];

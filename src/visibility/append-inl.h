@@ -7,6 +7,10 @@
 #define NACRE_VISIBILITY_APPEND_INL_H_
 #endif
 
+#include <array>
+#include <bit>
+#include <cstdint>
+
 #include "visibility/camera_packet-inl.h"
 #include "visibility/surface-inl.h"
 
@@ -18,7 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 // The most lanes that doubles fill.
 inline constexpr uint32_t kMaxDoubles = kVectorBytes / sizeof(double);
 
-// The lanes of each set of bits, in their order; then lane 0, as often as there is room.
+// The lanes of each set of bits, in their order; then the first of them again, whose values are
+// those of a hit.
 struct SetLanes {
   uint8_t lanes[kMaxDoubles];
 };
@@ -26,6 +31,8 @@ struct SetLanes {
 inline constexpr auto kSetLanes = [] {
   std::array<SetLanes, 1 << kMaxDoubles> sets{};
   for (uint32_t bits = 0; bits < sets.size(); ++bits) {
+    const int first = bits == 0 ? 0 : std::countr_zero(bits);
+    for (uint8_t& lane : sets[bits].lanes) lane = static_cast<uint8_t>(first);
     size_t count = 0;
     for (uint8_t lane = 0; lane < kMaxDoubles; ++lane) {
       if ((bits >> lane & 1) != 0) sets[bits].lanes[count++] = lane;

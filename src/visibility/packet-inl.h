@@ -22,12 +22,14 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Both go through memory, as wide on the way in as on the way out: a load of more than the last
-// store wrote waits until that has left the store buffer, which took a seventh of the tiles' time.
+// Masks and bits, of 16 lanes at most, go to each other through memory, and are never loaded wider
+// than they were stored: such a load waits until the stores have left their buffer, which took a
+// seventh of the tiles' time. The first byte has the lowest lanes.
 static_assert(std::endian::native == std::endian::little);
 
 template <class D>
 HWY_INLINE uint32_t BitsOfMask(D d, hn::Mask<D> mask) {
+  static_assert(hn::MaxLanes(D()) <= 16);
   uint8_t bytes[8];
   hn::StoreMaskBits(d, mask, bytes);
   if constexpr (hn::MaxLanes(D()) <= 8) return bytes[0];
@@ -39,6 +41,7 @@ HWY_INLINE uint32_t BitsOfMask(D d, hn::Mask<D> mask) {
 // The mask of the lanes from `first` on.
 template <class D>
 HWY_INLINE hn::Mask<D> MaskOfBits(D d, uint32_t bits, int first) {
+  static_assert(hn::MaxLanes(D()) <= 16);
   const auto own = static_cast<uint16_t>((bits >> first) & ((1u << hn::Lanes(d)) - 1));
   uint8_t bytes[8];
   std::memcpy(bytes, &own, sizeof(own));
