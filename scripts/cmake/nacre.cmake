@@ -59,7 +59,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Highway passes vectors between its own inlined functions only.
   target_compile_options(nacre_options INTERFACE -Wno-psabi)
   if(NACRE_UNITY)
-    # GCC collects no garbage below twice this, 1 GiB: a twelfth of a large file's compile time.
+    # GCC collects no garbage below twice this, 1 GiB: large files compile faster.
     target_compile_options(nacre_options INTERFACE --param=ggc-min-heapsize=524288)
   endif()
 endif()
@@ -125,7 +125,7 @@ function(nacre_test folder)
   # runs at a sixth of its speed. At -O1 it takes a variant's other alternatives for read.
   target_compile_options(nacre_${folder}_test PRIVATE
     -O1 $<$<CXX_COMPILER_ID:GNU>:-fexpensive-optimizations;-Wno-maybe-uninitialized>)
-  # Reading Catch2 takes more than a second, and every file of tests does. Its users must define all
+  # Every file of tests reads Catch2, which is large. Users of the header must define all
   # macros that the first test does.
   if(NACRE_UNITY AND folder STREQUAL "base")
     target_precompile_headers(nacre_base_test PRIVATE ${CMAKE_SOURCE_DIR}/tests/catch.h)

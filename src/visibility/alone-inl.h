@@ -111,6 +111,7 @@ HWY_INLINE void TestLines(const TileCandidate& candidate, AloneBlock* block) {
   }
 }
 
+// After TestLines.
 HWY_INLINE void FindLikely(AloneBlock* block) {
   uint32_t hit[kAloneBlock / kCameraPacket] = {};
   for (int g = 0; g < block->groups; ++g) {

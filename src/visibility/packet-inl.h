@@ -23,8 +23,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Masks and bits, of 16 lanes at most, go to each other through memory, and are never loaded wider
-// than they were stored: such a load waits until the stores have left their buffer, which took a
-// seventh of the tiles' time. The first byte has the lowest lanes.
+// than they were stored: such a load waits until the stores have left their buffer. The first byte
+// has the lowest lanes.
 static_assert(std::endian::native == std::endian::little);
 
 template <class D>
