@@ -2,11 +2,10 @@
 #include "render/adaptive.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <span>
 
 #include "render/cell_film.h"
+#include "render/convergence.h"
 #include "render/footprint.h"
 #include "render/tile_layers.h"
 #include "sampling/hash.h"
@@ -14,29 +13,11 @@
 namespace nacre {
 namespace {
 
-// Student's t: 97.5 % of the distribution with three degrees of freedom lie below.
-constexpr double kStudent = 3.182446305;
-
 // Samples of a pixel that are added up before they are added to its sum: fixed, so that the order
 // of the additions is.
 constexpr int kPiece = 16;
 
-// Levels that every block takes whose footprint is not plain (footprint.h), 16 samples a pixel: an
-// edge that cuts a corner off shows in none of four samples too often. After them a block stops as
-// a whole, or its pixels one by one.
-constexpr size_t kCommonLevels = 3;
-
-// A peak narrower than a pixel may fall between its samples, but its neighbours' see the flanks: a
-// pixel goes on while they go on, too, with intervals wider than this many times what it wants.
-constexpr double kNeighbourSlack = 8;
-
 using Unit = CellScratch::Unit;
-
-FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
-  const Window block = BlockWindow(cell, pixel / kBlockPixels);
-  const auto in_block = static_cast<int>(pixel % kBlockPixels);
-  return {pixel, block.x0 + in_block % kBlockSide, block.y0 + in_block / kBlockSide};
-}
 
 // The units' samples [first, first + count), one unit after the other. `samplers`: of each
 // replicate.
@@ -89,6 +70,31 @@ double SumOfPiece(const double* values, const double* weights, size_t count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+// Adds a sample of each of a block's pixels.
+void AddBlock(const double* values, double weight, double* sums) {
+  for (size_t k = 0; k < kBlockPixels; ++k) sums[k] += weight * values[k];
+}
+
+// Takes such samples into the pixels' ranges, but for the background.
+void WidenRanges(const double* values, double background, double* low, double* high) {
+  for (size_t k = 0; k < kBlockPixels; ++k) {
+    const bool misses = values[k] == background;
+    low[k] = std::min(low[k], misses ? low[k] : values[k]);
+    high[k] = std::max(high[k], misses ? high[k] : values[k]);
+  }
+}
+
+// Where an averaged layer's channel is summed up, by replicates: coverage and the beauty have sums
+// for each, from which pixels know when they have converged.
+void FindSums(LayerKind layer, int channel, double* film_sum, CellScratch* c,
+              double* (&sums)[kReplicates]) {
+  for (size_t r = 0; r < kReplicates; ++r) {
+    sums[r] = layer == LayerKind::kBeauty  ? c->replicate[r][channel]
+              : layer == LayerKind::kAlpha ? c->replicate[r][kAlphaSum]
+                                           : film_sum;
+  }
+}
+
 void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> units,
               TileScratch* scratch, CellScratch* c) {
   TileScratch& s = *scratch;
@@ -97,20 +103,21 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
+    const bool beauty = layer.kind == LayerKind::kBeauty;
+    const Rgb background = BackgroundOf(layer, plan);
+    Soa3<double>& values = GatherLayer(plan, layer, light_layer, background, &s);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
-      for (size_t r = 0; r < kReplicates; ++r) {
-        // The beauty's sum is that of its replicates.
-        sums[r] =
-            layer.kind == LayerKind::kBeauty ? c->replicate[r][channel] : s.film.sums[sum].data();
-      }
+      FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
       if (count == 1) {
         // Units are of whole blocks, which stand in a row in the sums as well.
         for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
-          double* const to = sums[units[i].replicate] + units[i].pixel;
-          for (size_t k = 0; k < kBlockPixels; ++k) to[k] += s.weights[0] * value[k];
+          const uint32_t pixel = units[i].pixel;
+          AddBlock(value, s.weights[0], sums[units[i].replicate] + pixel);
+          if (!beauty) continue;
+          WidenRanges(value, background[channel], c->low[channel] + pixel,
+                      c->high[channel] + pixel);
         }
         continue;
       }
@@ -170,71 +177,6 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
     flush();
   }
   for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(piece.count);
-}
-
-// The pixel's interval and what is wanted of it. NaN never converges: it is counted where the
-// picture is written.
-void MeasurePixel(const RenderPlan& plan, uint32_t pixel, CellScratch* c) {
-  const double scale = 1.0 / c->samples[pixel];
-  PixelInterval& interval = c->intervals[pixel];
-  interval.wanted = std::numeric_limits<double>::infinity();
-  double widest = 0;
-  bool narrow = true;
-  for (size_t channel = 0; channel < 3; ++channel) {
-    double mean = 0;
-    for (const auto& replicate : c->replicate) mean += replicate[channel][pixel];
-    mean *= scale / kReplicates;
-    double squares = 0;
-    for (const auto& replicate : c->replicate) {
-      const double difference = replicate[channel][pixel] * scale - mean;
-      squares += difference * difference;
-    }
-    constexpr double kFactor = kStudent * kStudent / ((kReplicates - 1) * kReplicates);
-    const double half_width2 = kFactor * squares;
-    const double wanted = plan.adaptive.max_error * std::max(std::abs(mean), kDarkest);
-    narrow = narrow && half_width2 <= wanted * wanted;
-    widest = std::max(widest, half_width2);
-    interval.wanted = std::min(interval.wanted, wanted);
-  }
-  interval.narrow = narrow;
-  interval.half_width = std::sqrt(widest);
-}
-
-// The widest interval of the pixels around one, in its block, that are not yet as narrow as wanted.
-double WidestAround(const CellScratch& c, uint32_t pixel) {
-  const uint32_t first = pixel - pixel % uint32_t{kBlockPixels};
-  const int x = static_cast<int>(pixel % kBlockSide);
-  const int y = static_cast<int>(pixel % kBlockPixels) / kBlockSide;
-  double widest = 0;
-  for (int row = std::max(y - 1, 0); row <= std::min(y + 1, kBlockSide - 1); ++row) {
-    for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
-      const auto i = first + static_cast<uint32_t>(row * kBlockSide + column);
-      if (!c.intervals[i].narrow) widest = std::max(widest, c.intervals[i].half_width);
-    }
-  }
-  return widest;
-}
-
-// Takes the pixels that have converged from the active ones: whole blocks after the common levels,
-// and then the pixels whose neighbours, too, are not far from what they want.
-void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
-  if (level + 1 < kCommonLevels) return;
-  for (const uint32_t pixel : c->active) MeasurePixel(plan, pixel, c);
-  if (level >= kCommonLevels) {
-    std::erase_if(c->active, [&](uint32_t pixel) {
-      const PixelInterval& interval = c->intervals[pixel];
-      return interval.narrow && WidestAround(*c, pixel) <= kNeighbourSlack * interval.wanted;
-    });
-    return;
-  }
-  // Whole blocks, one after the other, are active.
-  auto kept = c->active.begin();
-  for (auto block = c->active.begin(); block != c->active.end(); block += kBlockPixels) {
-    const bool converged = std::all_of(block, block + kBlockPixels,
-                                       [&](uint32_t pixel) { return c->intervals[pixel].narrow; });
-    if (!converged) kept = std::copy(block, block + kBlockPixels, kept);
-  }
-  c->active.erase(kept, c->active.end());
 }
 
 // The pixels of the blocks in `blocks` (bits).
@@ -329,12 +271,14 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   std::fill_n(c.samples, kCellPixels, 0u);
   clock.Charge(Stage::kFilm);
   const uint32_t blocks = BlocksOf(cell, part);
-  const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
+  c.pictures = PicturesOf(plan.camera, s.candidates);
+  const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c, &c.outlines_only);
   clock.Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance.size() > 0;
   const uint32_t smooth =
       AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
   ListPixels(blocks & ~smooth, &c.active);
+  FindOutlines(plan, cell, &c);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, &clock, stats);
     DropConverged(plan, level, &c);

@@ -8,10 +8,19 @@
 // block stops as a whole, or its pixels one by one, where in each channel the half-width of the 95
 // % confidence interval from the spread of four independent scramblings (Student's t with three
 // degrees of freedom) is below the wanted error times max(|L|, 0.05), and no neighbour in the block
-// is far from that.
+// is far from that (convergence.h).
+//
+// Most of the error of a picture of spheres is in the pixels on their outlines, where samples tell
+// how much of the pixel is covered. Of a pixel that one outline crosses before the background this
+// is known (outline_coverage.h), and samples need only tell what the covered part looks like.
 #pragma once
 
+#include <optional>
+#include <vector>
+
+#include "render/sphere_pictures.h"
 #include "render/tile.h"
+#include "render/tile_layers.h"
 
 namespace nacre {
 
@@ -33,6 +42,10 @@ struct PixelInterval {
   double wanted = 0;      // of its strictest
 };
 
+struct PixelRange {
+  double low, high;
+};
+
 // Pixels are numbered block by block, row by row within a block.
 struct CellScratch {
   // Samples of one replicate of one pixel.
@@ -43,9 +56,17 @@ struct CellScratch {
 
   std::vector<uint32_t> active;   // pixels that need more samples
   uint32_t samples[kCellPixels];  // of each pixel in each replicate; 0: its centre
-  // Sums of the beauty's samples in each replicate.
-  double replicate[kReplicates][3][kCellPixels];
+  // Sums of the samples in each replicate: of the beauty, and of coverage (kAlphaSum).
+  double replicate[kReplicates][4][kCellPixels];
   PixelInterval intervals[kCellPixels];
+  std::optional<std::vector<SpherePicture>> pictures;  // of the cell's spheres, unless too many
+  uint32_t outlines_only;        // blocks, as bits, that no edge crosses but spheres' outlines
+  bool on_outline[kCellPixels];  // a sphere's outline crosses the pixel
+  double covered[kCellPixels];   // the share that the sphere covers, or -1 where it is not known
+  // The range of a pixel's samples that hit, if they were added by whole blocks; and that of all of
+  // them on the outlines of a block.
+  double low[3][kCellPixels], high[3][kCellPixels];
+  PixelRange outline_range[3][kCellBlocks];
   std::vector<SampledPixel> pixels;
   std::vector<Unit> units = std::vector<Unit>(kBatchCapacity);  // room for those of a batch
   PixelShifts shifts{kBlockPixels + kBatchPadding};
@@ -58,6 +79,12 @@ inline Window BlockWindow(const Window& cell, size_t block) {
   const int x = cell.x0 + static_cast<int>(block % kAcross) * kBlockSide;
   const int y = cell.y0 + static_cast<int>(block / kAcross) * kBlockSide;
   return {x, y, x + kBlockSide, y + kBlockSide};
+}
+
+inline FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
+  const Window block = BlockWindow(cell, pixel / kBlockPixels);
+  const auto in_block = static_cast<int>(pixel % kBlockPixels);
+  return {pixel, block.x0 + in_block % kBlockSide, block.y0 + in_block / kBlockSide};
 }
 
 // Renders the pixels of `part` of a cell of the frame into the strip.

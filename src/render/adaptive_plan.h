@@ -29,6 +29,9 @@ struct AdaptivePlan {
   std::vector<std::array<PixelSampler, kReplicates>> patterns;
   // Where the footprint test may stop a block at the pixels' centres:
   bool footprints = false;
+  // Half the side of the square that a pixel is the mean of, where it may be known what share of it
+  // a sphere covers before the background; or 0.
+  double square = 0;
   PixelSampler center;
   double reach = 0.5;          // of the pixel filter, from the centre
   double center_error = 0;     // of a centre's value, in units of its second differences

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cell_film.h"
 
+#include <vector>
+
 namespace nacre {
 namespace {
 
@@ -26,7 +28,7 @@ void PutCell(const Window& cell, const Window& part, const Strip& strip, Aligned
 }  // namespace
 
 void AddReplicates(const CellScratch& c, TileFilm* film) {
-  for (size_t channel = 0; channel < 3; ++channel) {
+  for (size_t channel = 0; channel < 4; ++channel) {
     double* const sums = film->sums[channel].data();
     for (const auto& replicate : c.replicate) {
       for (size_t i = 0; i < kCellPixels; ++i) sums[i] += replicate[channel][i];
@@ -34,18 +36,35 @@ void AddReplicates(const CellScratch& c, TileFilm* film) {
   }
 }
 
+// Where n samples, h of which hit, fall on a share s of a pixel that is covered, its value is s
+// times the mean of the hits and 1 - s times the background, which all others see: of their sum,
+// s / h, and of the background 1 - s n / h. Elsewhere it is the mean of all.
 void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& c, Strip* strip) {
-  double scale[kCellPixels];
+  double of_sum[kCellPixels], of_background[kCellPixels];
+  const double* const hits = film.sums[kAlphaSum].data();
   for (size_t i = 0; i < kCellPixels; ++i) {
-    scale[i] = c.samples[i] == 0 ? 1 : 1 / (double{kReplicates} * c.samples[i]);
+    const double samples = double{kReplicates} * c.samples[i];
+    of_sum[i] = c.samples[i] == 0 ? 1 : 1 / samples;
+    of_background[i] = 0;
+    if (c.samples[i] == 0 || c.covered[i] < 0) continue;
+    of_sum[i] = hits[i] > 0 ? c.covered[i] / hits[i] : 0;
+    of_background[i] = 1 - of_sum[i] * samples;
+  }
+  std::vector<double> backgrounds;  // of the averaged channels
+  for (const Layer& layer : plan.layers) {
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
+    const int channels = IsAveraged(layer.kind) ? FloatChannels(layer.kind) : 0;
+    for (int channel = 0; channel < channels; ++channel) backgrounds.push_back(background[channel]);
   }
   size_t sum = 0, nearest = 0, id = 0, color = 0;
   for (const ChannelKind kind : plan.channels) {
     if (kind == ChannelKind::kAveraged) {
-      const double* const sums = film.sums[sum++].data();
-      PutCell(cell, part, *strip, &strip->colors[color++],
-              [&](size_t i) { return static_cast<float>(sums[i] * scale[i]); });
+      const double* const sums = film.sums[sum].data();
+      const double background = backgrounds[sum++];
+      PutCell(cell, part, *strip, &strip->colors[color++], [&](size_t i) {
+        return static_cast<float>(sums[i] * of_sum[i] + background * of_background[i]);
+      });
     } else if (kind == ChannelKind::kNearest) {
       const float* const values = film.nearest[nearest++].data();
       PutCell(cell, part, *strip, &strip->colors[color++], [&](size_t i) { return values[i]; });

@@ -7,10 +7,12 @@
 
 namespace nacre {
 
-// Adds the replicates' sums to the film's first three channels, the beauty.
+// Adds the replicates' sums to the film's first four channels, the beauty and coverage.
 void AddReplicates(const CellScratch& cell_scratch, TileFilm* film);
 
-// Divides by the numbers of samples and puts the cell's pixels that lie in `part` into the strip.
+// Divides by the numbers of samples, or weighs what hits and the background by the shares of the
+// pixels that are known to be covered, and puts the cell's pixels that lie in `part` into the
+// strip.
 void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& cell_scratch, Strip* strip);
 

@@ -19,32 +19,6 @@ Footprint FootprintOf(const Window& block, double reach) {
           block.y1 - 0.5 + reach};
 }
 
-// More candidates than this are not looked through.
-constexpr size_t kMostCandidates = 8;
-
-// A sphere's picture, inside bounds on the film and, seen in perspective, inside a cone.
-struct Picture {
-  const TileCandidate* candidate;
-  FilmBounds bounds;
-  Vec3d axis;  // unit, towards the centre
-  double half_angle;
-};
-
-std::vector<Picture> PicturesOf(const RenderPlan& plan, const TileCandidates& candidates) {
-  std::vector<Picture> pictures;
-  const Projector projector(plan.camera);
-  for (const auto& cell : candidates.cells) {
-    for (const TileCandidate& candidate : cell) {
-      const TraceSphere& sphere = candidate.sphere;
-      const double distance = sphere.center.length();
-      const double sine = std::min(sphere.radius / distance, 1.0);
-      pictures.push_back(
-          {&candidate, projector.Project(sphere), sphere.center / distance, std::asin(sine)});
-    }
-  }
-  return pictures;
-}
-
 // The cone around a footprint: the film is flat, so the farthest ray goes through a corner.
 struct FootprintCone {
   Vec3d axis;
@@ -66,7 +40,7 @@ FootprintCone ConeOf(const CameraFrame& frame, const Footprint& f) {
 }
 
 bool IsBeside(const RenderPlan& plan, const Footprint& f, const FootprintCone& cone,
-              const Picture& picture) {
+              const SpherePicture& picture) {
   const FilmBounds& b = picture.bounds;
   if (!b.visible || f.x1 < b.x0 || b.x1 < f.x0 || f.y1 < b.y0 || b.y1 < f.y0) return true;
   if (plan.camera.projection != Projection::kPerspective) return false;
@@ -97,6 +71,23 @@ void CountCorners(const RenderPlan& plan, const Window& cell, TileScratch* scrat
 bool IsNeverShadowed(const RenderPlan& plan, uint32_t sphere) {
   return std::all_of(plan.lights.begin(), plan.lights.end(),
                      [&](const PlannedLight& light) { return NeverShadowed(light, sphere); });
+}
+
+// Whether the spheres' surfaces may meet: in a curve that is no outline.
+bool Touch(const TraceSphere& a, const TraceSphere& b) {
+  return !((a.center - b.center).length() > (a.radius + b.radius) * (1 + 1e-9));
+}
+
+// Whether only outlines can cross a part of the film where no more than these spheres are seen.
+bool HasNoEdgeBetweenOutlines(const RenderPlan& plan,
+                              const std::vector<const TileCandidate*>& spheres) {
+  for (size_t i = 0; i < spheres.size(); ++i) {
+    if (!IsNeverShadowed(plan, spheres[i]->primitive)) return false;
+    for (size_t k = 0; k < i; ++k) {
+      if (Touch(spheres[i]->sphere, spheres[k]->sphere)) return false;
+    }
+  }
+  return true;
 }
 
 // The largest second differences of a block's values along rows and columns, added.
@@ -140,28 +131,26 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 }  // namespace
 
 uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
-                         TileScratch* scratch, CellScratch* cell_scratch) {
-  if (!plan.adaptive.footprints) return 0;
-  const std::vector<Picture> pictures = PicturesOf(plan, scratch->candidates);
-  if (pictures.size() > kMostCandidates) return 0;
+                         TileScratch* scratch, CellScratch* cell_scratch, uint32_t* outlines_only) {
+  *outlines_only = 0;
+  if (!plan.adaptive.footprints || !cell_scratch->pictures) return 0;
   int corners[kCellBlocks] = {};
   CountCorners(plan, cell, scratch, cell_scratch, corners);
   uint32_t plain = 0;
+  std::vector<const TileCandidate*> met;
   for (uint32_t left = blocks; left != 0; left &= left - 1) {
     const auto block = static_cast<size_t>(__builtin_ctz(left));
-    if (corners[block] != 0 && corners[block] != 4) continue;
+    const uint32_t bit = 1u << block;
     const Footprint f = FootprintOf(BlockWindow(cell, block), plan.adaptive.reach);
     const FootprintCone cone = ConeOf(plan.camera, f);
-    const TileCandidate* only = nullptr;
-    int met = 0;
-    for (const Picture& picture : pictures) {
-      if (IsBeside(plan, f, cone, picture)) continue;
-      only = picture.candidate;
-      ++met;
+    met.clear();
+    for (const SpherePicture& picture : *cell_scratch->pictures) {
+      if (!IsBeside(plan, f, cone, picture)) met.push_back(picture.candidate);
     }
-    const bool covered = met == 1 && corners[block] == 4 && !only->around_camera &&
-                         IsNeverShadowed(plan, only->primitive);
-    if (met == 0 || covered) plain |= 1u << block;
+    if (!HasNoEdgeBetweenOutlines(plan, met)) continue;
+    *outlines_only |= bit;
+    const bool covered = met.size() == 1 && corners[block] == 4 && !met[0]->around_camera;
+    if ((met.empty() && corners[block] == 0) || covered) plain |= bit;
   }
   return plain;
 }

@@ -240,14 +240,20 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
     // A texture may hold anything between pixel centres, and triangles are not binned.
     plan.adaptive.footprints = plan.adaptive.footprints && plan.binned && scene.meshes.empty() &&
                                !plan.splits && !plan.textured;
+    const PixelFilter& filter = scene.image.filter;
+    const bool square = filter.kind == FilterKind::kBox && filter.width <= 1;
+    if (square && plan.adaptive.footprints) plan.adaptive.square = filter.width / 2;
     plan.substitutions.push_back(
         {"adaptive sampling", true,
          fmt::format(
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
-             "of max(|L|, 0.05); {}",
+             "of max(|L|, 0.05); {}{}",
              settings.max_error,
              plan.adaptive.footprints ? "those on one smooth hit stop at their pixels' centres"
-                                      : "none is known to be smooth")});
+                                      : "none is known to be smooth",
+             plan.adaptive.square > 0 ? "; pixels that one outline crosses weigh their hits by the "
+                                        "share that is covered"
+                                      : "")});
   }
   PlanMeshes(scene, settings, &plan);
   NoteMaterials(scene, &plan);

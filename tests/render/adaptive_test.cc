@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/adaptive_test.cc: pictures to a wanted error: that it holds, what it costs, and what
 // a block's bits may not depend on.
+#include <algorithm>
 #include <cmath>
 
 #include "pictures.h"
+#include "render/camera.h"
+#include "render/outline_coverage.h"
 #include "render/render.h"
 #include "targets.h"
 
@@ -165,6 +168,67 @@ TEST_CASE("shadows that fall between the pixels' centres are found") {
   CHECK(shadowed >= kShadows);
   // A pixel's first 16 samples all miss a tenth of it in 1 of 5 cases, a third in 1 of 600.
   CHECK(missed <= shadowed / 4);
+}
+
+size_t CountCovered(const Image& image) {
+  const std::vector<float>& covered = image.Find("A")->samples;
+  return static_cast<size_t>(
+      std::count_if(covered.begin(), covered.end(), [](float a) { return a > 0; }));
+}
+
+// Student's t with three degrees of freedom lies beyond four times its 95 % interval in 0.1 % of
+// cases.
+TEST_CASE("outlines that all samples of a pixel may miss are not forgotten") {
+  Scene scene = MakeScene();
+  scene.image.width = 240;
+  scene.image.height = 176;
+  for (const PixelFilter filter :
+       {PixelFilter{FilterKind::kBox, 1}, PixelFilter{FilterKind::kGaussian, 3}}) {
+    scene.image.filter = filter;
+    const Image truth = Truth(scene);
+    for (const double max_error : {0.05, 0.01}) {
+      const Image image = RenderImage(scene, Adaptive(max_error), nullptr);
+      const double pixels = static_cast<double>(truth.channels[0].samples.size());
+      const double beyond = (1 - ShareWithin(image, truth, 4 * max_error)) * pixels;
+      CAPTURE(static_cast<int>(filter.kind), max_error);
+      CHECK(beyond < 0.001 * static_cast<double>(CountCovered(truth)));
+    }
+  }
+}
+
+// A sphere of one radiance everywhere, before a background of another.
+TEST_CASE("pixels on an outline weigh what hits by the share that is covered") {
+  Scene scene = OneSphere(LambertMaterial{Rgb(0.5)}, 120);
+  scene.lights = {Named("ambient", AmbientLight{Rgb(1, 1, 1)})};
+  scene.background = {0.125, 0.125, 0.125};  // a float
+  const double of_sphere = 0.5;
+  const double max_error = 0.02;
+  const CameraFrame frame = MakeCameraFrame(scene.camera, 120, 120);
+  const TraceSphere sphere{scene.spheres[0].center - scene.camera.position,
+                           scene.spheres[0].radius};
+  const Image image = RenderImage(scene, Adaptive(max_error), nullptr);
+  int partial = 0;
+  for (int y = 0; y < 120; ++y) {
+    for (int x = 0; x < 120; ++x) {
+      const OutlineForm outline = OutlineAround(frame, sphere, x + 0.5, y + 0.5);
+      REQUIRE(BendsLittle(outline));
+      if (std::abs(outline.one) > 2 * std::hypot(outline.x, outline.y)) continue;
+      const double share = CoveredShare(outline, 0.5);
+      partial += share > 0 && share < 1 ? 1 : 0;
+      const auto at = static_cast<size_t>(y * 120 + x);
+      const double wanted = 0.125 + share * (of_sphere - 0.125);
+      const double alpha = image.Find("A")->samples[at], red = image.Find("R")->samples[at];
+      CAPTURE(x, y, share);
+      if (alpha == 0) {  // nothing hit, but then hardly anything could
+        CHECK(wanted - red <= max_error * 0.125);
+      } else {
+        // Floats below 1 are rounded by 3e-8, a share errs by 1e-8.
+        CHECK(std::abs(alpha - share) < 5e-8);
+        CHECK(std::abs(red - wanted) < 5e-8);
+      }
+    }
+  }
+  CHECK(partial > 200);
 }
 
 double RootMeanSquare(const Image& image, const Image& truth) {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/convergence.h: when a pixel of adaptive sampling has samples enough.
+#pragma once
+
+#include "render/adaptive.h"
+
+namespace nacre {
+
+// Levels after which blocks are asked first whether they have converged, at the latest: all samples
+// of level 0 and 1 are then added by whole blocks.
+inline constexpr size_t kCommonLevels = 3;
+
+// Finds, before their first sample, the active pixels that outlines cross, and what is covered of
+// those that the outline of one sphere crosses before the background.
+void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* cell_scratch);
+
+// Takes the pixels that have converged from the active ones, after a level: whole blocks after
+// their common levels, and then the pixels whose neighbours, too, are not far from what they want.
+void DropConverged(const RenderPlan& plan, size_t level, CellScratch* cell_scratch);
+
+}  // namespace nacre

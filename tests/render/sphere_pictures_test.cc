@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/sphere_pictures_test.cc: which outlines a part of the film may see.
+#include "render/sphere_pictures.h"
+
+#include <cmath>
+#include <initializer_list>
+
+#include "catch.h"
+#include "render/camera.h"
+
+namespace nacre {
+namespace {
+
+// 200 x 200 pixels, a unit each, or in perspective a fiftieth of a unit at distance 1.
+CameraFrame Frame(Projection projection) {
+  Camera camera;
+  camera.projection = projection;
+  camera.position = {0, 0, 10};
+  camera.height = 200;
+  camera.fov_y_deg = 2 * std::atan(2.0) * 180 / std::acos(-1.0);
+  return MakeCameraFrame(camera, 200, 200);
+}
+
+TileCandidates Candidates(std::initializer_list<TraceSphere> spheres) {
+  TileCandidates candidates;
+  std::vector<TileCandidate>& cell = candidates.cells.emplace_back();
+  for (const TraceSphere& sphere : spheres) {
+    TileCandidate& candidate = cell.emplace_back();
+    candidate.sphere = sphere;
+    candidate.around_camera = sphere.center.length() < sphere.radius;
+  }
+  return candidates;
+}
+
+SeenOutlines Around(const CameraFrame& frame, const TileCandidates& candidates, double x,
+                    double y) {
+  const auto pictures = PicturesOf(frame, candidates);
+  REQUIRE(pictures);
+  return OutlinesAround(frame, *pictures, x, y, 0.5);
+}
+
+TEST_CASE("outlines are seen where they are") {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    const CameraFrame frame = Frame(projection);
+    CAPTURE(static_cast<int>(projection));
+    const bool perspective = projection == Projection::kPerspective;
+    const TraceSphere near{{0, 0, -50}, 15};
+    const double edge = 100 + (perspective ? 50 * 15 / std::sqrt(50.0 * 50 - 15 * 15) : 15);
+    const TileCandidates alone = Candidates({near});
+    CHECK(Around(frame, alone, edge, 100).any);
+    CHECK(Around(frame, alone, edge, 100).alone != nullptr);
+    CHECK(Around(frame, alone, edge + 0.4, 100).any);
+    CHECK(Around(frame, alone, edge - 0.4, 100).any);
+    CHECK_FALSE(Around(frame, alone, edge + 1.5, 100).any);
+    CHECK_FALSE(Around(frame, alone, edge - 1.5, 100).any);
+    CHECK_FALSE(Around(frame, alone, 100, 100).any);
+
+    // Another one behind it, whose outline it hides, and one whose picture holds it.
+    const TraceSphere hidden{{0, 0, -200}, 10}, behind{{0, 0, -200}, 150};
+    const double hidden_edge = 100 + (perspective ? 50 * 10 / std::sqrt(200.0 * 200 - 100) : 10);
+    CHECK(Around(frame, Candidates({hidden}), hidden_edge, 100).any);
+    CHECK_FALSE(Around(frame, Candidates({near, hidden}), hidden_edge, 100).any);
+    CHECK_FALSE(Around(frame, Candidates({hidden, near}), hidden_edge, 100).any);
+    for (const auto& candidates : {Candidates({near, behind}), Candidates({behind, near})}) {
+      CHECK(Around(frame, candidates, edge, 100).any);
+      CHECK(Around(frame, candidates, edge, 100).alone == nullptr);
+    }
+  }
+}
+
+TEST_CASE("a sphere around the camera is seen everywhere and has no outline") {
+  const CameraFrame frame = Frame(Projection::kPerspective);
+  const TraceSphere around{{0, 0, 1}, 50}, before{{0, 0, -10}, 8};
+  const double edge = 100 + 50 * 8.0 / 6.0;  // tan(asin(0.8)) = 8 / 6
+  CHECK_FALSE(Around(frame, Candidates({around}), 30, 40).any);
+  CHECK(Around(frame, Candidates({around, before}), edge, 100).any);
+  CHECK(Around(frame, Candidates({around, before}), edge, 100).alone == nullptr);
+}
+
+TEST_CASE("parallel rays that begin inside a sphere see its outline where they do") {
+  const CameraFrame frame = Frame(Projection::kOrthographic);
+  const TileCandidates before = Candidates({{{0, 0, -1}, 15}});
+  CHECK(Around(frame, before, 115, 100).alone != nullptr);
+  const TileCandidates behind = Candidates({{{0, 0, 9}, 15}});  // 12 = sqrt(15^2 - 9^2)
+  CHECK_FALSE(Around(frame, behind, 115, 100).any);
+  CHECK(Around(frame, behind, 112, 100).any);
+  CHECK(Around(frame, behind, 112, 100).alone == nullptr);
+}
+
+TEST_CASE("many spheres are not looked through") {
+  const TraceSphere sphere{{0, 0, -10}, 1};
+  const CameraFrame frame = Frame(Projection::kPerspective);
+  CHECK(PicturesOf(frame, Candidates({sphere, sphere, sphere})));
+  CHECK_FALSE(PicturesOf(
+      frame, Candidates({sphere, sphere, sphere, sphere, sphere, sphere, sphere, sphere, sphere})));
+}
+
+}  // namespace
+}  // namespace nacre
