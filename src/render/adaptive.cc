@@ -115,7 +115,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
         for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
           const uint32_t pixel = units[i].pixel;
           AddBlock(value, s.weights[0], sums[units[i].replicate] + pixel);
-          if (!beauty) continue;
+          if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
           WidenRanges(value, background[channel], c->low[channel] + pixel,
                       c->high[channel] + pixel);
         }

@@ -61,6 +61,7 @@ struct CellScratch {
   PixelInterval intervals[kCellPixels];
   std::optional<std::vector<SpherePicture>> pictures;  // of the cell's spheres, unless too many
   uint32_t outlines_only;        // blocks, as bits, that no edge crosses but spheres' outlines
+  uint32_t outlined;             // blocks, as bits, with such pixels:
   bool on_outline[kCellPixels];  // a sphere's outline crosses the pixel
   double covered[kCellPixels];   // the share that the sphere covers, or -1 where it is not known
   // The range of a pixel's samples that hit, if they were added by whole blocks; and that of all of

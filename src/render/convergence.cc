@@ -96,37 +96,43 @@ Measured MeasureCovered(const double (&values)[kReplicates], const double (&hits
   return measured;
 }
 
+// The spread of a pixel in a channel of the beauty.
+Measured Measure(const CellScratch& c, uint32_t pixel, int channel, double background) {
+  const double scale = 1.0 / c.samples[pixel], samples = double{kReplicates} * c.samples[pixel];
+  double values[kReplicates];
+  for (size_t r = 0; r < kReplicates; ++r) values[r] = c.replicate[r][channel][pixel] * scale;
+  if (!c.on_outline[pixel]) return MeasureSpread(values);
+  const PixelRange& range = c.outline_range[channel][pixel / kBlockPixels];
+  if (c.covered[pixel] < 0) return MeasureOnOutline(values, range, background, samples);
+  double hits[kReplicates];
+  for (size_t r = 0; r < kReplicates; ++r) hits[r] = c.replicate[r][kAlphaSum][pixel] * scale;
+  return MeasureCovered(values, hits, c.covered[pixel], range, background, samples);
+}
+
 // The pixel's interval and what is wanted of it. NaN never converges: it is counted where the
 // picture is written.
-void MeasurePixel(const RenderPlan& plan, uint32_t pixel, CellScratch* c) {
-  const double scale = 1.0 / c->samples[pixel], samples = double{kReplicates} * c->samples[pixel];
-  const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
-  double hits[kReplicates];
-  for (size_t r = 0; r < kReplicates; ++r) hits[r] = c->replicate[r][kAlphaSum][pixel] * scale;
+void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellScratch* c) {
   PixelInterval& interval = c->intervals[pixel];
   interval.wanted = kInfinity;
   double widest = 0;
   bool narrow = true;
   for (int channel = 0; channel < 3; ++channel) {
-    double values[kReplicates];
-    for (size_t r = 0; r < kReplicates; ++r) values[r] = c->replicate[r][channel][pixel] * scale;
-    const PixelRange& range = c->outline_range[channel][pixel / kBlockPixels];
-    Measured measured;
-    if (c->covered[pixel] >= 0) {
-      measured =
-          MeasureCovered(values, hits, c->covered[pixel], range, background[channel], samples);
-    } else if (c->on_outline[pixel]) {
-      measured = MeasureOnOutline(values, range, background[channel], samples);
-    } else {
-      measured = MeasureSpread(values);
-    }
-    const double wanted = plan.adaptive.max_error * std::max(std::abs(measured.mean), kDarkest);
+    const Measured measured = Measure(*c, pixel, channel, background[channel]);
+    const double wanted = max_error * std::max(std::abs(measured.mean), kDarkest);
     narrow = narrow && measured.half_width2 <= wanted * wanted;
     widest = std::max(widest, measured.half_width2);
     interval.wanted = std::min(interval.wanted, wanted);
   }
   interval.narrow = narrow;
   interval.half_width = std::sqrt(widest);
+}
+
+// What is covered of the pixel around (x, y), which the outline of the sphere may cross; -1 where
+// that is not known.
+double CoveredOf(const RenderPlan& plan, const TraceSphere* sphere, double x, double y) {
+  if (sphere == nullptr || plan.adaptive.square == 0) return -1;
+  const OutlineForm outline = OutlineAround(plan.camera, *sphere, x, y);
+  return BendsLittle(outline) ? CoveredShare(outline, plan.adaptive.square) : -1;
 }
 
 // The widest interval of the pixels around one, in its block, that are not yet as narrow as wanted.
@@ -147,6 +153,7 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
 }  // namespace
 
 void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
+  c->outlined = 0;
   std::fill_n(c->on_outline, kCellPixels, false);
   std::fill_n(c->covered, kCellPixels, -1.0);
   std::fill_n(&c->low[0][0], 3 * kCellPixels, kInfinity);
@@ -157,22 +164,22 @@ void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
     const FilmPixel pixel = PixelOf(cell, i);
     const double x = pixel.x + 0.5, y = pixel.y + 0.5;
     const SeenOutlines seen = OutlinesAround(plan.camera, *c->pictures, x, y, reach);
-    c->on_outline[i] = seen.any;
-    if (seen.alone == nullptr || plan.adaptive.square == 0) continue;
-    const OutlineForm outline = OutlineAround(plan.camera, *seen.alone, x, y);
-    if (!BendsLittle(outline)) continue;
-    const double covered = CoveredShare(outline, plan.adaptive.square);
-    c->on_outline[i] = covered > 0 && covered < 1;
-    if (c->on_outline[i]) c->covered[i] = covered;
+    if (!seen.any) continue;
+    const double covered = CoveredOf(plan, seen.alone, x, y);
+    if (covered == 0 || covered == 1) continue;
+    c->on_outline[i] = true;
+    c->covered[i] = covered;
+    c->outlined |= 1u << i / kBlockPixels;
   }
 }
 
 void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
   if (level + 2 < kCommonLevels) return;
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
-  uint32_t open = 0;  // blocks, as bits
+  const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
+  uint32_t open = 0;                                          // blocks, as bits
   for (const uint32_t pixel : c->active) {
-    MeasurePixel(plan, pixel, c);
+    MeasurePixel(plan.adaptive.max_error, background, pixel, c);
     if (!c->intervals[pixel].narrow) open |= 1u << pixel / kBlockPixels;
   }
   std::erase_if(c->active, [&](uint32_t pixel) {
