@@ -27,7 +27,7 @@ class Settings:
     # Adaptive sampling against uniform at the same RMSE, of so many seeds.
     adaptive_seeds: int = 6
     adaptive_spp: tuple = (16, 64, 256, 1024)
-    adaptive_max_errors: tuple = (0.1, 0.03)
+    adaptive_max_errors: tuple = (0.1, 0.03, 0.01)
     # The same under lights that are sampled.
     lights_spp: tuple = (1, 4, 16, 32, 64, 256, 1024)
     lights_max_errors: tuple = (0.5, 0.3, 0.1, 0.03, 0.01)

@@ -47,8 +47,13 @@ constexpr Job kJobs[] = {
 
 long HeapKib() { return static_cast<long>(mallinfo2().uordblks / 1024); }
 
+// What is free is no leak, but resident. malloc_trim gives it back, all but the top of arenas other
+// than the first: threads' own. That goes back as it grows beyond a threshold, which malloc raises
+// to megabytes by itself unless it is set.
+void GiveBackWhatIsFree() { mallopt(M_TRIM_THRESHOLD, 128 * 1024); }
+
 long ResidentKib() {
-  malloc_trim(0);  // what is free is no leak
+  malloc_trim(0);
   std::FILE* const file = std::fopen("/proc/self/statm", "r");
   long pages = 0;
   const int read = file != nullptr ? std::fscanf(file, "%*d %ld", &pages) : 0;
@@ -158,6 +163,7 @@ int main(int argc, char** argv) {
   if (renders <= kWarmUp) {
     Fail("usage: nacre_load SCENES_FOLDER RENDERS, more than " + std::to_string(kWarmUp));
   }
+  GiveBackWhatIsFree();
   try {
     const Memory memory = Run(argv[1], renders);
     std::printf("%d renders\n", renders);
