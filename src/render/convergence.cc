@@ -11,7 +11,7 @@
 namespace nacre {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 // Student's t: 97.5 % of the distribution with three degrees of freedom lie below.
 constexpr double kStudent = 3.182446305;
@@ -30,7 +30,7 @@ size_t CommonLevels(const CellScratch& c, size_t block) {
 // The ranges of the samples that hit in the pixels on outlines.
 void FindOutlineRanges(CellScratch* c) {
   for (size_t channel = 0; channel < 3; ++channel) {
-    std::fill_n(c->outline_range[channel], kCellBlocks, PixelRange{kInfinity, -kInfinity});
+    std::fill_n(c->outline_range[channel], kCellBlocks, PixelRange{kUnbounded, -kUnbounded});
     for (const uint32_t pixel : c->active) {
       if (!c->on_outline[pixel]) continue;
       PixelRange& range = c->outline_range[channel][pixel / kBlockPixels];
@@ -113,7 +113,7 @@ Measured Measure(const CellScratch& c, uint32_t pixel, int channel, double backg
 // picture is written.
 void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellScratch* c) {
   PixelInterval& interval = c->intervals[pixel];
-  interval.wanted = kInfinity;
+  interval.wanted = kUnbounded;
   double widest = 0;
   bool narrow = true;
   for (int channel = 0; channel < 3; ++channel) {
@@ -156,8 +156,8 @@ void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
   c->outlined = 0;
   std::fill_n(c->on_outline, kCellPixels, false);
   std::fill_n(c->covered, kCellPixels, -1.0);
-  std::fill_n(&c->low[0][0], 3 * kCellPixels, kInfinity);
-  std::fill_n(&c->high[0][0], 3 * kCellPixels, -kInfinity);
+  std::fill_n(&c->low[0][0], 3 * kCellPixels, kUnbounded);
+  std::fill_n(&c->high[0][0], 3 * kCellPixels, -kUnbounded);
   if (!c->pictures) return;
   const double reach = plan.adaptive.reach;
   for (const uint32_t i : c->active) {
