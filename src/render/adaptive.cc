@@ -75,13 +75,18 @@ void AddBlock(const double* values, double weight, double* sums) {
   for (size_t k = 0; k < kBlockPixels; ++k) sums[k] += weight * values[k];
 }
 
-// Takes such samples into the pixels' ranges, but for the background.
-void WidenRanges(const double* values, double background, double* low, double* high) {
+// Takes those of such samples that hit into the pixels' ranges.
+void WidenRanges(const double* values, const double* hits, double* low, double* high) {
   for (size_t k = 0; k < kBlockPixels; ++k) {
-    const bool misses = values[k] == background;
-    low[k] = std::min(low[k], misses ? low[k] : values[k]);
-    high[k] = std::max(high[k], misses ? high[k] : values[k]);
+    if (hits[k] == 0) continue;
+    low[k] = std::min(low[k], values[k]);
+    high[k] = std::max(high[k], values[k]);
   }
+}
+
+void MarkHits(const TileScratch& s, std::vector<double>* hits) {
+  std::fill_n(hits->begin(), s.samples.count, 0.0);
+  for (size_t i = 0; i < s.hits.count; ++i) (*hits)[s.hits.ray[i]] = 1;
 }
 
 // Where an averaged layer's channel is summed up, by replicates: coverage and the beauty have sums
@@ -99,13 +104,13 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
               TileScratch* scratch, CellScratch* c) {
   TileScratch& s = *scratch;
   const size_t count = s.weights.size();
+  if (count == 1 && c->outlined != 0) MarkHits(s, &c->hits);
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
     const bool beauty = layer.kind == LayerKind::kBeauty;
-    const Rgb background = BackgroundOf(layer, plan);
-    Soa3<double>& values = GatherLayer(plan, layer, light_layer, background, &s);
+    Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
@@ -116,8 +121,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
           const uint32_t pixel = units[i].pixel;
           AddBlock(value, s.weights[0], sums[units[i].replicate] + pixel);
           if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
-          WidenRanges(value, background[channel], c->low[channel] + pixel,
-                      c->high[channel] + pixel);
+          WidenRanges(value, c->hits.data() + i, c->low[channel] + pixel, c->high[channel] + pixel);
         }
         continue;
       }
@@ -243,6 +247,44 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
   return smooth;
 }
 
+// One hit more for every sliver, before its first sample. Of the hits of a pixel whose covered
+// share is known only the mean counts, so one that is sought out does no harm, where the share is
+// small enough to look alike.
+void AddSlivers(const RenderPlan& plan, TileScratch* scratch, CellScratch* c, StageClock* clock,
+                RenderStats* stats) {
+  if (c->slivers.empty()) return;
+  TileScratch& s = *scratch;
+  for (size_t i = 0; i < c->slivers.size(); ++i) {
+    s.samples.x[i] = c->slivers[i].x;
+    s.samples.y[i] = c->slivers[i].y;
+  }
+  s.samples.count = c->slivers.size();
+  TraceAndShade(plan, &s, clock, stats);
+  MarkHits(s, &c->hits);
+  size_t sum = 0;
+  size_t light_layer = 0;
+  for (const Layer& layer : plan.layers) {
+    if (!IsAveraged(layer.kind)) continue;
+    const bool beauty = layer.kind == LayerKind::kBeauty;
+    const Rgb background = BackgroundOf(layer, plan);
+    Soa3<double>& values = GatherLayer(plan, layer, light_layer, background, &s);
+    for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
+      const double* const value = ChannelOf(values, channel).data();
+      double* sums[kReplicates];
+      FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
+      for (size_t i = 0; i < c->slivers.size(); ++i) {
+        if (c->hits[i] == 0) continue;
+        const uint32_t pixel = c->slivers[i].pixel;
+        // A hit in place of a miss: the number of samples stays.
+        sums[0][pixel] += value[i] - background[channel];
+        if (beauty) c->low[channel][pixel] = c->high[channel][pixel] = value[i];
+      }
+    }
+    if (layer.kind == LayerKind::kLight) ++light_layer;
+  }
+  clock->Charge(Stage::kFilm);
+}
+
 // The blocks, as bits, that have pixels in `part`.
 uint32_t BlocksOf(const Window& cell, const Window& part) {
   uint32_t blocks = 0;
@@ -279,6 +321,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
       AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
   ListPixels(blocks & ~smooth, &c.active);
   FindOutlines(plan, cell, &c);
+  AddSlivers(plan, &s, &c, &clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, &clock, stats);
     DropConverged(plan, level, &c);

@@ -18,6 +18,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/interval.h"
 #include "render/sphere_pictures.h"
 #include "render/tile.h"
 #include "render/tile_layers.h"
@@ -32,18 +33,11 @@ inline constexpr size_t kCellBlocks =
     size_t{kCellSide / kBlockSide} * size_t{kCellSide / kBlockSide};
 inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
 
-// Below this value an error is absolute: what a display shows as near black.
-inline constexpr double kDarkest = 0.05;
-
 // What is known of a pixel's error.
 struct PixelInterval {
   bool narrow = false;    // its interval is as narrow as wanted, in every channel
   double half_width = 0;  // of its widest channel
   double wanted = 0;      // of its strictest
-};
-
-struct PixelRange {
-  double low, high;
 };
 
 // Pixels are numbered block by block, row by row within a block.
@@ -60,14 +54,23 @@ struct CellScratch {
   double replicate[kReplicates][4][kCellPixels];
   PixelInterval intervals[kCellPixels];
   std::optional<std::vector<SpherePicture>> pictures;  // of the cell's spheres, unless too many
-  uint32_t outlines_only;        // blocks, as bits, that no edge crosses but spheres' outlines
-  uint32_t outlined;             // blocks, as bits, with such pixels:
-  bool on_outline[kCellPixels];  // a sphere's outline crosses the pixel
-  double covered[kCellPixels];   // the share that the sphere covers, or -1 where it is not known
+  uint32_t outlines_only;             // blocks, as bits, that no edge crosses but spheres' outlines
+  uint32_t outlined;                  // blocks, as bits, with such pixels:
+  bool on_outline[kCellPixels];       // a sphere's outline crosses the pixel
+  bool sees_background[kCellPixels];  // of these: no sphere covers all of the pixel
+  double covered[kCellPixels];  // the share that the sphere covers, or -1 where it is not known
   // The range of a pixel's samples that hit, if they were added by whole blocks; and that of all of
   // them on the outlines of a block.
   double low[3][kCellPixels], high[3][kCellPixels];
   PixelRange outline_range[3][kCellBlocks];
+  // Pixels that so little is covered of that their first samples may well miss, and a place on the
+  // film in each that hits.
+  struct Sliver {
+    uint32_t pixel;
+    double x, y;
+  };
+  std::vector<Sliver> slivers;
+  std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
   std::vector<SampledPixel> pixels;
   std::vector<Unit> units = std::vector<Unit>(kBatchCapacity);  // room for those of a batch
   PixelShifts shifts{kBlockPixels + kBatchPadding};

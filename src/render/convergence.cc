@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "render/film.h"
+#include "render/interval.h"
 #include "render/outline_coverage.h"
 
 namespace nacre {
@@ -13,18 +14,15 @@ namespace {
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-// Student's t: 97.5 % of the distribution with three degrees of freedom lie below.
-constexpr double kStudent = 3.182446305;
-
 // A peak narrower than a pixel may fall between its samples, but its neighbours' see the flanks: a
 // pixel goes on while they go on, too, with intervals wider than this many times what it wants.
 constexpr double kNeighbourSlack = 8;
 
-// Levels that a block takes, 16 samples a pixel, before it may stop: an edge that cuts a corner off
-// shows in none of four samples too often. Half of them do where all edges are outlines, of which
-// the pixels know. Then it stops as a whole, or its pixels one by one.
+// Levels that a block takes before it may stop, of most filters 16 samples a pixel: an edge that
+// cuts a corner off shows in none of four samples too often. Half of them do for a block of
+// outlines, of which the pixels know. Then it stops as a whole, or its pixels one by one.
 size_t CommonLevels(const CellScratch& c, size_t block) {
-  return kCommonLevels - (c.outlines_only >> block & 1);
+  return kCommonLevels - ((c.outlines_only & c.outlined) >> block & 1);
 }
 
 // The ranges of the samples that hit in the pixels on outlines.
@@ -40,62 +38,6 @@ void FindOutlineRanges(CellScratch* c) {
   }
 }
 
-// The mean of a pixel's samples in a channel, and the half-width of its interval, squared.
-struct Measured {
-  double mean, half_width2;
-};
-
-Measured MeasureSpread(const double (&values)[kReplicates]) {
-  double mean = 0, squares = 0;
-  for (const double value : values) mean += value;
-  mean *= 1.0 / kReplicates;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  constexpr double kFactor = kStudent * kStudent / ((kReplicates - 1) * kReplicates);
-  return {mean, kFactor * squares};
-}
-
-// The most by which samples of a pixel on an outline may differ from `mean`: as much as those on
-// the block's outlines that hit, as the background, or as black does.
-double Contrast(const PixelRange& range, double background, double mean) {
-  return std::max(
-      {range.high - mean, mean - range.low, std::abs(background - mean), std::abs(mean), kDarkest});
-}
-
-// A pixel that an outline crosses. All samples may miss a sliver, and then agree; and so may the
-// replicates' shares of hits. The interval is never narrower than what one more sample might tell.
-Measured MeasureOnOutline(const double (&values)[kReplicates], const PixelRange& range,
-                          double background, double samples) {
-  Measured measured = MeasureSpread(values);
-  const double least = Contrast(range, background, measured.mean) / samples;
-  measured.half_width2 = std::max(measured.half_width2, least * least);
-  return measured;
-}
-
-// The same where it is known what share of the pixel is covered. What is measured is then the mean
-// of the samples that hit: a share of them that is wrong by chance is taken back from each
-// replicate. One hit tells nothing of the others: they may differ as those around do.
-Measured MeasureCovered(const double (&values)[kReplicates], const double (&hits)[kReplicates],
-                        double covered, const PixelRange& range, double background,
-                        double samples) {
-  double all_hits = 0, excess = 0;
-  for (size_t r = 0; r < kReplicates; ++r) {
-    all_hits += hits[r];
-    excess += values[r] - background;
-  }
-  if (all_hits == 0) {
-    const double least = covered * Contrast(range, background, background);
-    return {background, least * least};
-  }
-  const double of_hit = excess / all_hits;
-  double corrected[kReplicates];
-  for (size_t r = 0; r < kReplicates; ++r) corrected[r] = values[r] - of_hit * (hits[r] - covered);
-  Measured measured = MeasureSpread(corrected);
-  const double spread = range.low <= range.high ? range.high - range.low : std::abs(of_hit);
-  const double least = covered * spread / (all_hits * samples / kReplicates);
-  measured.half_width2 = std::max(measured.half_width2, least * least);
-  return measured;
-}
-
 // The spread of a pixel in a channel of the beauty.
 Measured Measure(const CellScratch& c, uint32_t pixel, int channel, double background) {
   const double scale = 1.0 / c.samples[pixel], samples = double{kReplicates} * c.samples[pixel];
@@ -103,7 +45,10 @@ Measured Measure(const CellScratch& c, uint32_t pixel, int channel, double backg
   for (size_t r = 0; r < kReplicates; ++r) values[r] = c.replicate[r][channel][pixel] * scale;
   if (!c.on_outline[pixel]) return MeasureSpread(values);
   const PixelRange& range = c.outline_range[channel][pixel / kBlockPixels];
-  if (c.covered[pixel] < 0) return MeasureOnOutline(values, range, background, samples);
+  if (c.covered[pixel] < 0) {
+    return MeasureOnOutline(values, range, c.sees_background[pixel] ? &background : nullptr,
+                            samples);
+  }
   double hits[kReplicates];
   for (size_t r = 0; r < kReplicates; ++r) hits[r] = c.replicate[r][kAlphaSum][pixel] * scale;
   return MeasureCovered(values, hits, c.covered[pixel], range, background, samples);
@@ -127,12 +72,27 @@ void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellS
   interval.half_width = std::sqrt(widest);
 }
 
-// What is covered of the pixel around (x, y), which the outline of the sphere may cross; -1 where
-// that is not known.
-double CoveredOf(const RenderPlan& plan, const TraceSphere* sphere, double x, double y) {
-  if (sphere == nullptr || plan.adaptive.square == 0) return -1;
-  const OutlineForm outline = OutlineAround(plan.camera, *sphere, x, y);
-  return BendsLittle(outline) ? CoveredShare(outline, plan.adaptive.square) : -1;
+// A share of a pixel this small is missed by eight samples in a third of cases.
+constexpr double kSliver = 1.0 / 8;
+
+// A pixel that an outline may cross.
+void FindCovered(const RenderPlan& plan, const SeenOutlines& seen, uint32_t pixel, double x,
+                 double y, CellScratch* c) {
+  const double square = plan.adaptive.square;
+  double covered = -1;
+  if (seen.alone != nullptr && square > 0) {
+    const OutlineForm outline = OutlineAround(plan.camera, *seen.alone, x, y);
+    if (BendsLittle(outline)) covered = CoveredShare(outline, square);
+    if (covered > 0 && covered < kSliver) {
+      const FilmStep step = CoveredPlace(outline, square);
+      c->slivers.push_back({pixel, x + step.dx, y + step.dy});
+    }
+  }
+  if (covered == 0 || covered == 1) return;  // it does not
+  c->on_outline[pixel] = true;
+  c->sees_background[pixel] = seen.background;
+  c->covered[pixel] = covered;
+  c->outlined |= 1u << pixel / kBlockPixels;
 }
 
 // The widest interval of the pixels around one, in its block, that are not yet as narrow as wanted.
@@ -154,6 +114,7 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
 
 void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
   c->outlined = 0;
+  c->slivers.clear();
   std::fill_n(c->on_outline, kCellPixels, false);
   std::fill_n(c->covered, kCellPixels, -1.0);
   std::fill_n(&c->low[0][0], 3 * kCellPixels, kUnbounded);
@@ -164,12 +125,7 @@ void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
     const FilmPixel pixel = PixelOf(cell, i);
     const double x = pixel.x + 0.5, y = pixel.y + 0.5;
     const SeenOutlines seen = OutlinesAround(plan.camera, *c->pictures, x, y, reach);
-    if (!seen.any) continue;
-    const double covered = CoveredOf(plan, seen.alone, x, y);
-    if (covered == 0 || covered == 1) continue;
-    c->on_outline[i] = true;
-    c->covered[i] = covered;
-    c->outlined |= 1u << i / kBlockPixels;
+    if (seen.any) FindCovered(plan, seen, i, x, y, c);
   }
 }
 

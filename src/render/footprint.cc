@@ -78,11 +78,18 @@ bool Touch(const TraceSphere& a, const TraceSphere& b) {
   return !((a.center - b.center).length() > (a.radius + b.radius) * (1 + 1e-9));
 }
 
+// Whether the plane in which parallel rays begin cuts the sphere: where it does is an edge.
+bool IsCut(const CameraFrame& frame, const TraceSphere& sphere) {
+  return frame.projection == Projection::kOrthographic &&
+         !(std::abs(sphere.center.dot(frame.forward)) > sphere.radius);
+}
+
 // Whether only outlines can cross a part of the film where no more than these spheres are seen.
 bool HasNoEdgeBetweenOutlines(const RenderPlan& plan,
                               const std::vector<const TileCandidate*>& spheres) {
   for (size_t i = 0; i < spheres.size(); ++i) {
     if (!IsNeverShadowed(plan, spheres[i]->primitive)) return false;
+    if (IsCut(plan.camera, spheres[i]->sphere)) return false;
     for (size_t k = 0; k < i; ++k) {
       if (Touch(spheres[i]->sphere, spheres[k]->sphere)) return false;
     }

@@ -21,6 +21,12 @@ constexpr double kNode[kNodes] = {-0.90617984593866399, -0.53846931010568309, 0,
 constexpr double kWeight[kNodes] = {0.23692688505618909, 0.47862867049936647, 0.56888888888888889,
                                     0.47862867049936647, 0.23692688505618909};
 
+// Whether the outline is closer to the y axis; else it is followed along x.
+bool IsSteep(const OutlineForm& outline) { return std::abs(outline.x) > std::abs(outline.y); }
+
+// The same with x for y.
+OutlineForm Turned(const OutlineForm& f) { return {f.yy, f.xy, f.xx, f.y, f.x, f.one}; }
+
 // The root nearer to 0 of a t^2 + 2 b t + c, for a curve that passes on both sides of it.
 double NearRoot(double a, double b, double c) {
   const double root = std::sqrt(std::max(b * b - a * c, 0.0));
@@ -95,12 +101,7 @@ bool BendsLittle(const OutlineForm& f) {
 }
 
 double CoveredShare(const OutlineForm& outline, double reach) {
-  OutlineForm f = outline;
-  // Along x, from now on, goes what the outline is closer to.
-  if (std::abs(f.x) > std::abs(f.y)) {
-    std::swap(f.x, f.y);
-    std::swap(f.xx, f.yy);
-  }
+  const OutlineForm f = IsSteep(outline) ? Turned(outline) : outline;
   // Where it crosses the square's sides, its height is cut off.
   Cuts cuts;
   for (const double side : {-reach, reach}) {
@@ -119,6 +120,18 @@ double CoveredShare(const OutlineForm& outline, double reach) {
     }
   }
   return area / (4 * reach * reach);
+}
+
+// Half-way from the outline to the side of the square that lies farthest inside, where that side
+// does.
+FilmStep CoveredPlace(const OutlineForm& outline, double reach) {
+  const bool steep = IsSteep(outline);
+  const OutlineForm f = steep ? Turned(outline) : outline;
+  const double side = std::copysign(reach, f.y);
+  const double along = std::clamp(-(f.x + f.xy * side) / f.xx, -reach, reach);
+  const double edge = NearRoot(f.yy, f.y + f.xy * along, f.one + along * (2 * f.x + f.xx * along));
+  const double across = (std::clamp(edge, -reach, reach) + side) / 2;
+  return steep ? FilmStep{across, along} : FilmStep{along, across};
 }
 
 }  // namespace nacre

@@ -23,7 +23,14 @@ OutlineForm OutlineAround(const CameraFrame& frame, const TraceSphere& sphere, d
 bool BendsLittle(const OutlineForm& outline);
 
 // The share, in [0, 1], of the square within `reach` pixels of the place, reach <= 0.5, that is
-// covered, to 1e-8, if the outline bends little.
+// where the form is not negative, to 1e-8, if the outline bends little.
 double CoveredShare(const OutlineForm& outline, double reach);
+
+// A place within that part of the square, from the square's middle: well inside of it where the
+// part is small. Needs a share above 0.
+struct FilmStep {
+  double dx, dy;
+};
+FilmStep CoveredPlace(const OutlineForm& outline, double reach);
 
 }  // namespace nacre

@@ -101,9 +101,11 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   tell(0.15);
   const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   plan->mesh_windows = FindMeshWindows(scene, plan->camera, reach);
-  // Footprints are looked for in the bins, whoever traces: the bits must not depend on that.
+  // Footprints and outlines are looked for in the bins, whoever traces: the bits must not depend on
+  // that, nor on the crop, whose bins may fit where the frame's do not.
   if (want_tiles || settings.max_error > 0) {
-    const Window binned = settings.max_error > 0 ? WholeCells(plan->window) : plan->window;
+    const Window frame{0, 0, scene.image.width, scene.image.height};
+    const Window binned = settings.max_error > 0 ? WholeCells(frame) : plan->window;
     plan->binned = plan->intersector->BinForCamera(plan->camera, binned, reach);
     plan->tiles = want_tiles && plan->binned;
   }

@@ -11,22 +11,32 @@ namespace {
 // More candidates than this are not looked through.
 constexpr size_t kMostPictures = 8;
 
-// How far a ray passes outside the outline, and by how much that may change along a unit of the
-// film; both times the ray's length. Seen in perspective, the ray along d, from the camera to the
-// film, passes a centre c at |c| sin(c, d) = |c x d| / |d|, and a step on the film turns it by an
-// angle whose sine is the step over |d| at most.
+// How far a ray passes outside the outline, and by how much that may change along a step on the
+// film, in any unit.
 struct OutlineDistance {
-  double outside, slope;
+  double outside, slack;
+
+  bool IsOutside() const { return outside > slack; }
+  bool IsInside() const { return outside < -slack; }
 };
 
+// The ray along d, from the camera to the film, passes a centre c at |c| sin(c, d) = |c x d| / |d|,
+// and a step on the film turns it by an angle whose sine is the step over |d| at most. This is
+// enough for most rays; that angle itself is what tells about a sphere that is seen under nearly
+// 180 degrees, as the ground that one stands on, along whose outline the sine hardly changes.
 OutlineDistance DistanceFrom(const CameraFrame& frame, const SpherePicture& picture,
-                             const Vec3d& own) {
+                             const Vec3d& own, double step) {
   const Vec3d& center = picture.candidate->sphere.center;
   if (frame.projection == Projection::kOrthographic) {
-    return {(center - own).cross(frame.forward).length() - picture.outline_radius, 1};
+    return {(center - own).cross(frame.forward).length() - picture.outline_radius, step};
   }
-  if (center.dot(own) <= 0) return {std::numeric_limits<double>::infinity(), 1};
-  return {center.cross(own).length() - picture.outline_radius * own.length(), center.length()};
+  const double length = own.length(), to_center = center.length();
+  const double beside = center.cross(own).length(), along = center.dot(own);
+  // Beyond a right angle, where the sine falls again, its mirror image goes on.
+  const double distance = along > 0 ? beside : 2 * to_center * length - beside;
+  const OutlineDistance by_sine{distance - picture.outline_radius * length, to_center * step};
+  if (by_sine.IsOutside() || by_sine.IsInside()) return by_sine;
+  return {std::atan2(beside, along) - picture.half_angle, std::asin(std::min(step / length, 1.0))};
 }
 
 SpherePicture PictureOf(const CameraFrame& frame, const Projector& projector,
@@ -46,9 +56,9 @@ SpherePicture PictureOf(const CameraFrame& frame, const Projector& projector,
   }
   const double depth = sphere.center.dot(frame.forward);
   picture.has_outline = true;
-  picture.whole = depth >= 0;
+  picture.whole = depth >= sphere.radius;
   picture.outline_depth = depth;
-  if (!picture.whole) picture.outline_radius = std::sqrt(std::max(radius2 - depth * depth, 0.0));
+  if (depth < 0) picture.outline_radius = std::sqrt(std::max(radius2 - depth * depth, 0.0));
   return picture;
 }
 
@@ -70,27 +80,28 @@ std::optional<std::vector<SpherePicture>> PicturesOf(const CameraFrame& frame,
 SeenOutlines OutlinesAround(const CameraFrame& frame, const std::vector<SpherePicture>& pictures,
                             double x, double y, double reach) {
   const Vec3d own = frame.corner + frame.step_x * x + frame.step_y * y;
-  const double step = std::sqrt(2.0) * reach * frame.step_x.length();
+  const double step = std::sqrt(2.0) * reach * frame.step_x.length();  // to a corner
   double nearest = std::numeric_limits<double>::infinity(), covered = nearest;
   const SpherePicture* seen = nullptr;
   int count = 0;
+  SeenOutlines outlines;
   for (const SpherePicture& picture : pictures) {
     if (!picture.has_outline) {
       ++count;
+      outlines.background = false;
       continue;
     }
-    const OutlineDistance distance = DistanceFrom(frame, picture, own);
-    const double slack = distance.slope * step;
-    if (distance.outside > slack) continue;
+    const OutlineDistance distance = DistanceFrom(frame, picture, own, step);
+    if (distance.IsOutside()) continue;
     ++count;
-    if (distance.outside < -slack) {
-      covered = std::min(covered, picture.outline_depth);
+    if (distance.IsInside()) {
+      outlines.background = false;
+      if (picture.whole) covered = std::min(covered, picture.outline_depth);
     } else if (picture.outline_depth < nearest) {
       nearest = picture.outline_depth;
       seen = &picture;
     }
   }
-  SeenOutlines outlines;
   outlines.any = nearest < covered;
   if (outlines.any && count == 1 && seen->whole) outlines.alone = &seen->candidate->sphere;
   return outlines;

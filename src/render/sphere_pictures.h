@@ -17,13 +17,13 @@ struct SpherePicture {
   FilmBounds bounds;
   Vec3d axis;         // unit, towards the centre
   double half_angle;  // of the cone
-  // The outline: the circle whose centre is the sphere's, as seen from the camera, and whose radius
-  // is this. Where parallel rays begin behind the sphere's middle, its edge is where they do.
-  bool has_outline;  // false: the camera is inside
-  bool whole;        // no ray begins behind the outline
+  bool has_outline;   // false: the camera is inside
+  bool whole;  // false: the plane in which parallel rays begin cuts the sphere, or it is behind
+  // The outline is a circle around the centre, as seen from the camera. Where parallel rays begin
+  // behind the middle of the sphere, it is where their plane cuts the sphere.
   double outline_radius;
   // How far from the camera the outline is, or, where all rays are parallel, the centre along them:
-  // all that is seen of the sphere is nearer.
+  // all that is seen of a whole sphere is nearer.
   double outline_depth;
 };
 
@@ -34,6 +34,7 @@ std::optional<std::vector<SpherePicture>> PicturesOf(const CameraFrame& frame,
 // The outlines that may be seen in a square of the film.
 struct SeenOutlines {
   bool any = false;
+  bool background = true;  // false: a sphere covers all of the square
   // The sphere, if there is one outline, a whole one, and no other sphere is seen.
   const TraceSphere* alone = nullptr;
 };

@@ -79,12 +79,35 @@ TEST_CASE("a sphere around the camera is seen everywhere and has no outline") {
 
 TEST_CASE("parallel rays that begin inside a sphere see its outline where they do") {
   const CameraFrame frame = Frame(Projection::kOrthographic);
-  const TileCandidates before = Candidates({{{0, 0, -1}, 15}});
-  CHECK(Around(frame, before, 115, 100).alone != nullptr);
+  CHECK(Around(frame, Candidates({{{0, 0, -16}, 15}}), 115, 100).alone != nullptr);
+  const TileCandidates cut = Candidates({{{0, 0, -1}, 15}});
+  CHECK(Around(frame, cut, 115, 100).any);
+  CHECK(Around(frame, cut, 115, 100).alone == nullptr);
+  // They see its back, behind what is in it.
+  const TileCandidates inside = Candidates({{{0, 0, -1}, 15}, {{0, 0, -5}, 2}});
+  CHECK(Around(frame, inside, 102, 100).any);
   const TileCandidates behind = Candidates({{{0, 0, 9}, 15}});  // 12 = sqrt(15^2 - 9^2)
   CHECK_FALSE(Around(frame, behind, 115, 100).any);
   CHECK(Around(frame, behind, 112, 100).any);
   CHECK(Around(frame, behind, 112, 100).alone == nullptr);
+}
+
+TEST_CASE("the horizon is seen where it is, and hides what is below it") {
+  const CameraFrame frame = Frame(Projection::kPerspective);
+  const double radius = 1e6, height = 1.7;
+  const TraceSphere ground{{0, -radius - height, 0}, radius}, ball{{0, -1.2, -10}, 0.5};
+  // Its dip is sqrt(2 height / radius), 0.09 pixels below the middle: above it, too, pixels see it.
+  const TileCandidates candidates = Candidates({ground});
+  CHECK(Around(frame, candidates, 60, 99.8).any);
+  CHECK(Around(frame, candidates, 60, 100.3).any);
+  CHECK_FALSE(Around(frame, candidates, 60, 98).any);
+  CHECK_FALSE(Around(frame, candidates, 60, 102).any);
+  CHECK_FALSE(Around(frame, candidates, 60, 102).background);
+  CHECK(Around(frame, candidates, 60, 98).background);
+  // Of two spheres none is alone.
+  const double top = 100 + 50 * (0.12 - 0.05);
+  CHECK(Around(frame, Candidates({ground, ball}), 100, top).any);
+  CHECK(Around(frame, Candidates({ground, ball}), 100, top).alone == nullptr);
 }
 
 TEST_CASE("many spheres are not looked through") {

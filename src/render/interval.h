@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/interval.h: what a pixel's replicates tell of its error: a channel's mean and the 95 %
+// interval around it.
+#pragma once
+
+#include "render/adaptive_plan.h"
+
+namespace nacre {
+
+// Below this value an error is absolute: what a display shows as near black.
+inline constexpr double kDarkest = 0.05;
+
+struct PixelRange {
+  double low, high;  // none if low > high
+};
+
+struct Measured {
+  double mean;
+  double half_width2;  // of the interval, squared
+};
+
+// `values`: the mean of each replicate's samples.
+Measured MeasureSpread(const double (&values)[kReplicates]);
+
+// A pixel that an outline crosses, of `samples` in all. All may miss a sliver, and then agree; and
+// so may the replicates' shares of hits. The interval is never narrower than what one more sample
+// might tell that differs from the mean as much as those in `range` (of the outlines around that
+// hit), as the background, which is null where it cannot be seen, or as black does.
+Measured MeasureOnOutline(const double (&values)[kReplicates], const PixelRange& range,
+                          const double* background, double samples);
+
+// The same where it is known what share of the pixel is covered. What is measured is then the mean
+// of the samples that hit, `hits` of each replicate's: a share of them that is wrong by chance is
+// taken back. Few hits may agree by chance, too: the mean of n is not better than a n-th of the
+// range; and one alone tells nothing of the others.
+Measured MeasureCovered(const double (&values)[kReplicates], const double (&hits)[kReplicates],
+                        double covered, const PixelRange& range, double background, double samples);
+
+}  // namespace nacre
