@@ -247,18 +247,18 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
   return smooth;
 }
 
-// One hit more for every sliver, before its first sample. Of the hits of a pixel whose covered
-// share is known only the mean counts, so one that is sought out does no harm, where the share is
-// small enough to look alike.
-void AddSlivers(const RenderPlan& plan, TileScratch* scratch, CellScratch* c, StageClock* clock,
-                RenderStats* stats) {
-  if (c->slivers.empty()) return;
+// One hit for every pixel whose covered share is known, before its first sample: all of these may
+// miss. Of its hits only the mean counts, so one that is sought out in the middle of what is
+// covered does no harm.
+void SeekHits(const RenderPlan& plan, TileScratch* scratch, CellScratch* c, StageClock* clock,
+              RenderStats* stats) {
+  if (c->sought.empty()) return;
   TileScratch& s = *scratch;
-  for (size_t i = 0; i < c->slivers.size(); ++i) {
-    s.samples.x[i] = c->slivers[i].x;
-    s.samples.y[i] = c->slivers[i].y;
+  for (size_t i = 0; i < c->sought.size(); ++i) {
+    s.samples.x[i] = c->sought[i].x;
+    s.samples.y[i] = c->sought[i].y;
   }
-  s.samples.count = c->slivers.size();
+  s.samples.count = c->sought.size();
   TraceAndShade(plan, &s, clock, stats);
   MarkHits(s, &c->hits);
   size_t sum = 0;
@@ -272,9 +272,9 @@ void AddSlivers(const RenderPlan& plan, TileScratch* scratch, CellScratch* c, St
       const double* const value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
       FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
-      for (size_t i = 0; i < c->slivers.size(); ++i) {
+      for (size_t i = 0; i < c->sought.size(); ++i) {
         if (c->hits[i] == 0) continue;
-        const uint32_t pixel = c->slivers[i].pixel;
+        const uint32_t pixel = c->sought[i].pixel;
         // A hit in place of a miss: the number of samples stays.
         sums[0][pixel] += value[i] - background[channel];
         if (beauty) c->low[channel][pixel] = c->high[channel][pixel] = value[i];
@@ -321,7 +321,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
       AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
   ListPixels(blocks & ~smooth, &c.active);
   FindOutlines(plan, cell, &c);
-  AddSlivers(plan, &s, &c, &clock, stats);
+  SeekHits(plan, &s, &c, &clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, &clock, stats);
     DropConverged(plan, level, &c);

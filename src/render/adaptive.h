@@ -63,13 +63,12 @@ struct CellScratch {
   // them on the outlines of a block.
   double low[3][kCellPixels], high[3][kCellPixels];
   PixelRange outline_range[3][kCellBlocks];
-  // Pixels that so little is covered of that their first samples may well miss, and a place on the
-  // film in each that hits.
-  struct Sliver {
+  // Pixels whose covered share is known, and a place on the film in each that hits.
+  struct SoughtHit {
     uint32_t pixel;
     double x, y;
   };
-  std::vector<Sliver> slivers;
+  std::vector<SoughtHit> sought;
   std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
   std::vector<SampledPixel> pixels;
   std::vector<Unit> units = std::vector<Unit>(kBatchCapacity);  // room for those of a batch

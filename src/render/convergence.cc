@@ -72,9 +72,6 @@ void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellS
   interval.half_width = std::sqrt(widest);
 }
 
-// A share of a pixel this small is missed by eight samples in a third of cases.
-constexpr double kSliver = 1.0 / 8;
-
 // A pixel that an outline may cross.
 void FindCovered(const RenderPlan& plan, const SeenOutlines& seen, uint32_t pixel, double x,
                  double y, CellScratch* c) {
@@ -83,9 +80,9 @@ void FindCovered(const RenderPlan& plan, const SeenOutlines& seen, uint32_t pixe
   if (seen.alone != nullptr && square > 0) {
     const OutlineForm outline = OutlineAround(plan.camera, *seen.alone, x, y);
     if (BendsLittle(outline)) covered = CoveredShare(outline, square);
-    if (covered > 0 && covered < kSliver) {
+    if (covered > 0 && covered < 1) {
       const FilmStep step = CoveredPlace(outline, square);
-      c->slivers.push_back({pixel, x + step.dx, y + step.dy});
+      c->sought.push_back({pixel, x + step.dx, y + step.dy});
     }
   }
   if (covered == 0 || covered == 1) return;  // it does not
@@ -114,7 +111,7 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
 
 void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
   c->outlined = 0;
-  c->slivers.clear();
+  c->sought.clear();
   std::fill_n(c->on_outline, kCellPixels, false);
   std::fill_n(c->covered, kCellPixels, -1.0);
   std::fill_n(&c->low[0][0], 3 * kCellPixels, kUnbounded);

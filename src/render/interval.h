@@ -31,7 +31,7 @@ Measured MeasureOnOutline(const double (&values)[kReplicates], const PixelRange&
 
 // The same where it is known what share of the pixel is covered. What is measured is then the mean
 // of the samples that hit, `hits` of each replicate's: a share of them that is wrong by chance is
-// taken back. Few hits may agree by chance, too: the mean of n is not better than a n-th of the
+// taken back. Few hits may agree by chance, too: the mean of n is not better than an n-th of the
 // range; and one alone tells nothing of the others.
 Measured MeasureCovered(const double (&values)[kReplicates], const double (&hits)[kReplicates],
                         double covered, const PixelRange& range, double background, double samples);

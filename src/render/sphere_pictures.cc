@@ -22,11 +22,14 @@ struct OutlineDistance {
 
 // The ray along d, from the camera to the film, passes a centre c at |c| sin(c, d) = |c x d| / |d|,
 // and a step on the film turns it by an angle whose sine is the step over |d| at most. This is
-// enough for most rays; that angle itself is what tells about a sphere that is seen under nearly
-// 180 degrees, as the ground that one stands on, along whose outline the sine hardly changes.
+// enough for most rays. The others take the angle (c, d) itself, and how it changes along the
+// film's axes to the square's corners, with a bound of what the square of such a turn adds: an
+// outline along an axis crosses no more squares than it does, and one that is seen under nearly
+// 180 degrees, where the sine hardly changes, as the horizon of the ground, neither.
 OutlineDistance DistanceFrom(const CameraFrame& frame, const SpherePicture& picture,
-                             const Vec3d& own, double step) {
+                             const Vec3d& own, double reach) {
   const Vec3d& center = picture.candidate->sphere.center;
+  const double step = std::sqrt(2.0) * reach * frame.step_x.length();  // to a corner
   if (frame.projection == Projection::kOrthographic) {
     return {(center - own).cross(frame.forward).length() - picture.outline_radius, step};
   }
@@ -36,7 +39,13 @@ OutlineDistance DistanceFrom(const CameraFrame& frame, const SpherePicture& pict
   const double distance = along > 0 ? beside : 2 * to_center * length - beside;
   const OutlineDistance by_sine{distance - picture.outline_radius * length, to_center * step};
   if (by_sine.IsOutside() || by_sine.IsInside()) return by_sine;
-  return {std::atan2(beside, along) - picture.half_angle, std::asin(std::min(step / length, 1.0))};
+  const Vec3d change = (center - own * (along / (length * length))) / beside;  // per step
+  const double straight =
+      reach * (std::abs(change.dot(frame.step_x)) + std::abs(change.dot(frame.step_y)));
+  const double turn = step / length;
+  const double bent = turn * turn * (1 + std::abs(along) / beside);
+  return {std::atan2(beside, along) - picture.half_angle,
+          std::min(straight + bent, std::asin(std::min(turn, 1.0)))};
 }
 
 SpherePicture PictureOf(const CameraFrame& frame, const Projector& projector,
@@ -80,7 +89,6 @@ std::optional<std::vector<SpherePicture>> PicturesOf(const CameraFrame& frame,
 SeenOutlines OutlinesAround(const CameraFrame& frame, const std::vector<SpherePicture>& pictures,
                             double x, double y, double reach) {
   const Vec3d own = frame.corner + frame.step_x * x + frame.step_y * y;
-  const double step = std::sqrt(2.0) * reach * frame.step_x.length();  // to a corner
   double nearest = std::numeric_limits<double>::infinity(), covered = nearest;
   const SpherePicture* seen = nullptr;
   int count = 0;
@@ -91,7 +99,7 @@ SeenOutlines OutlinesAround(const CameraFrame& frame, const std::vector<SpherePi
       outlines.background = false;
       continue;
     }
-    const OutlineDistance distance = DistanceFrom(frame, picture, own, step);
+    const OutlineDistance distance = DistanceFrom(frame, picture, own, reach);
     if (distance.IsOutside()) continue;
     ++count;
     if (distance.IsInside()) {

@@ -100,6 +100,8 @@ TEST_CASE("the horizon is seen where it is, and hides what is below it") {
   const TileCandidates candidates = Candidates({ground});
   CHECK(Around(frame, candidates, 60, 99.8).any);
   CHECK(Around(frame, candidates, 60, 100.3).any);
+  CHECK_FALSE(Around(frame, candidates, 60, 99.5).any);
+  CHECK_FALSE(Around(frame, candidates, 60, 100.7).any);
   CHECK_FALSE(Around(frame, candidates, 60, 98).any);
   CHECK_FALSE(Around(frame, candidates, 60, 102).any);
   CHECK_FALSE(Around(frame, candidates, 60, 102).background);
