@@ -250,8 +250,8 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
 // One hit for every pixel whose covered share is known, before its first sample: all of these may
 // miss. Of its hits only the mean counts, so one that is sought out in the middle of what is
 // covered does no harm.
-void SeekHits(const RenderPlan& plan, TileScratch* scratch, CellScratch* c, StageClock* clock,
-              RenderStats* stats) {
+void SeekHits(const RenderPlan& plan, const Window& cell, TileScratch* scratch, CellScratch* c,
+              StageClock* clock, RenderStats* stats) {
   if (c->sought.empty()) return;
   TileScratch& s = *scratch;
   for (size_t i = 0; i < c->sought.size(); ++i) {
@@ -281,6 +281,10 @@ void SeekHits(const RenderPlan& plan, TileScratch* scratch, CellScratch* c, Stag
       }
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
+  }
+  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
+    AddNearest(
+        plan, [&](uint32_t ray) { return PixelOf(cell, c->sought[ray].pixel); }, &s);
   }
   clock->Charge(Stage::kFilm);
 }
@@ -321,7 +325,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
       AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
   ListPixels(blocks & ~smooth, &c.active);
   FindOutlines(plan, cell, &c);
-  SeekHits(plan, &s, &c, &clock, stats);
+  SeekHits(plan, cell, &s, &c, &clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, &clock, stats);
     DropConverged(plan, level, &c);

@@ -180,19 +180,20 @@ template <bool kPerspective>
 HWY_INLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
                          const TileCandidates& candidates, const FilmBatch& film, size_t row,
                          CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
-  const int tile_width = candidates.tile.width();
+  const int row_width =
+      static_cast<int>(std::min(static_cast<size_t>(candidates.tile.width()), film.count - row));
   const int left = candidates.tile.x0 - bins.window.x0;
   const auto cell_at = [&](int column) {
     return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
   };
-  for (int x = 0; x < tile_width;) {
-    const int width = std::min(kCameraPacket, tile_width - x);
+  for (int x = 0; x < row_width;) {
+    const int width = std::min(kCameraPacket, row_width - x);
     const std::vector<TileCandidate>* begin = cell_at(x);
     const std::vector<TileCandidate>* const end = cell_at(x + width - 1) + 1;
     const size_t first = row + static_cast<size_t>(x);
     const TileCandidate* const alone = end - begin == 1 ? AloneIn<kPerspective>(*begin) : nullptr;
     if (alone != nullptr) {
-      const int until = AloneUntil<kPerspective>(*alone, x, tile_width, cell_at);
+      const int until = AloneUntil<kPerspective>(*alone, x, row_width, cell_at);
       TraceAlone(frame, *alone, film, first, static_cast<size_t>(until - x), packet, block, to);
       x = until;
       continue;

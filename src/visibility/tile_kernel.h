@@ -35,8 +35,8 @@ struct TileCandidates {
 bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const CameraFrame& frame,
                 const Window& tile, TileCandidates* candidates);
 
-// The first hits of the camera rays through `film`, whole samples of the tile's pixels, in the
-// order of the rays.
+// The first hits of the camera rays through `film`, in the order of the rays. They are whole
+// samples of the tile's pixels, or any rays through the one cell that the tile lies in.
 void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
                const FilmBatch& film, const HitsTo& to);
 

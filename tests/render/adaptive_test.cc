@@ -206,7 +206,9 @@ TEST_CASE("pixels on an outline weigh what hits by the share that is covered") {
   const CameraFrame frame = MakeCameraFrame(scene.camera, 120, 120);
   const TraceSphere sphere{scene.spheres[0].center - scene.camera.position,
                            scene.spheres[0].radius};
-  const Image image = RenderImage(scene, Adaptive(max_error), nullptr);
+  RenderSettings settings = Adaptive(max_error);
+  settings.layers = {"Z", "id.object"};
+  const Image image = RenderImage(scene, settings, nullptr);
   int partial = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 120; ++x) {
@@ -222,6 +224,9 @@ TEST_CASE("pixels on an outline weigh what hits by the share that is covered") {
       // Floats below 1 are rounded by 3e-8, a share errs by 1e-8.
       CHECK(std::abs(alpha - share) < 5e-8);
       CHECK(std::abs(red - wanted) < 5e-8);
+      // However little is covered, it is known what by.
+      CHECK((image.Find("id.object")->samples[at] == 1) == (alpha > 0));
+      CHECK((image.Find("Z")->samples[at] > 0) == (alpha > 0));
     }
   }
   CHECK(partial > 200);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/render/intersectors_test.cc: however camera rays find spheres, the picture's bits are the
 // same: random scenes that are hard to bin, and every scene that ships.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -8,9 +9,11 @@
 
 #include "base/error.h"
 #include "pictures.h"
+#include "render/camera.h"
 #include "render/render.h"
 #include "scene_io/load_scene.h"
 #include "targets.h"
+#include "visibility/intersector.h"
 
 namespace nacre {
 namespace {
@@ -286,6 +289,38 @@ TEST_CASE("Embree is there where it is needed, and only there") {
   CHECK(uses(scene, {}) == std::pair(false, true));
   forced.intersector = IntersectorChoice::kTiles;
   CHECK(uses(scene, forced) == std::pair(false, true));
+}
+
+// Adaptive sampling's batches may end within a row of the cell; behind them lies what the one
+// before left there.
+TEST_CASE("a tile's hits are of the batch's own rays, wherever it ends") {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    Scene scene = OneSphere(LambertMaterial{}, 16);
+    scene.camera.projection = projection;
+    // One beside it and one behind it.
+    scene.spheres.push_back(scene.spheres[0]);
+    scene.spheres[1].center.x += 2.5 * scene.spheres[0].radius;
+    scene.spheres.push_back(scene.spheres[0]);
+    scene.spheres[2].center.z -= 4 * scene.spheres[0].radius;
+    Intersector intersector(scene, scene.camera.position);
+    const Window cell{0, 0, 16, 16};
+    REQUIRE(intersector.BinForCamera(MakeCameraFrame(scene.camera, 16, 16), cell, 0.5));
+    TileCandidates candidates;
+    REQUIRE(intersector.EnterTile(cell, &candidates));
+    REQUIRE(candidates.cells[0].size() > 1);
+    FilmBatch film;
+    std::fill(film.x.begin(), film.x.end(), 8.0);
+    std::fill(film.y.begin(), film.y.end(), 8.0);
+    HitBatch hits;
+    HitDirections directions;
+    ForEachTarget([&](Target) {
+      for (film.count = 1; film.count <= 40; ++film.count) {
+        intersector.HitsInTile(candidates, film, {&hits, &directions, false});
+        CAPTURE(film.count);
+        CHECK(hits.count == film.count);
+      }
+    });
+  }
 }
 
 }  // namespace
