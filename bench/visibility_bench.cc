@@ -60,7 +60,7 @@ void BenchTiles(benchmark::State& state, const SphereScene& which) {
       for (int x0 = 0; x0 < kWidth; x0 += kTileWidth) {
         const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
                           std::min(y0 + kCellSize, kHeight)};
-        if (!intersector.EnterTile(tile, &candidates)) continue;
+        if (!intersector.EnterTile(tile, TileRays::kSamples, &candidates)) continue;
         film.count = 0;
         for (int y = tile.y0; y < tile.y1; ++y) {
           for (int x = tile.x0; x < tile.x1; ++x, ++film.count) {

@@ -134,8 +134,9 @@ void AddTriangles(const RenderPlan& plan, TileScratch* s) {
 
 bool EnterShapes(const RenderPlan& plan, const Window& tile, TileScratch* scratch) {
   TileScratch& s = *scratch;
+  const TileRays rays = plan.adaptive.max_error > 0 ? TileRays::kAny : TileRays::kSamples;
   const bool spheres = !plan.scene->spheres.empty() &&
-                       (!plan.binned || plan.intersector->EnterTile(tile, &s.candidates));
+                       (!plan.binned || plan.intersector->EnterTile(tile, rays, &s.candidates));
   s.triangles_in_sight =
       std::any_of(plan.mesh_windows.begin(), plan.mesh_windows.end(),
                   [&](const Window& window) { return !Intersect(window, tile).empty(); });

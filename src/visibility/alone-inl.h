@@ -21,18 +21,16 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kAloneBlock = 8 * kCameraPacket;
 
-// Rays of a batch that follow one another, on their way through the steps.
+// Groups of lanes on their way through the steps, each of rays that follow one another in a batch
+// and may hit one sphere.
 struct AloneBlock {
-  size_t first_ray;
-  const double* film_x;
-  const double* film_y;
-  // The packets, as bits, that all hit when the last block's rays were tested: most likely, as
-  // inside a sphere's outline, they do so again, in the next row or sample.
+  int groups = 0;
+  uint32_t ray[kAloneBlock];   // of a group's first lane
+  uint32_t bits[kAloneBlock];  // its lanes that are proposed, then those that hit
+  const TileCandidate* candidate[kAloneBlock];
+  // The packets, as bits, of the last block of a batch in any order, that all hit: most likely
+  // they do so again in the next.
   uint32_t likely = 0;
-  // The groups of lanes that some ray was proposed in: where they begin, and which lanes.
-  int groups;
-  int lane[kAloneBlock];
-  uint32_t bits[kAloneBlock];
   alignas(kVectorBytes) double direction[3][kAloneBlock];
   alignas(kVectorBytes) double dd[kAloneBlock];
   alignas(kVectorBytes) double inverse_dd[kAloneBlock];
@@ -40,82 +38,126 @@ struct AloneBlock {
   alignas(kVectorBytes) double perpendicular[3][kAloneBlock];
 };
 
-HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadGroup(const double (&from)[3][kAloneBlock], int lane) {
-  return Load3(CameraDouble(), from[0] + lane, from[1] + lane, from[2] + lane);
+inline constexpr int kGroupLanes = static_cast<int>(hn::MaxLanes(CameraDouble()));
+inline constexpr uint32_t kAllOfGroup = (1u << kGroupLanes) - 1;
+
+HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadGroup(const double (&from)[3][kAloneBlock], int place) {
+  return Load3(CameraDouble(), from[0] + place, from[1] + place, from[2] + place);
 }
 
-HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int lane,
+HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
                            double (&to)[3][kAloneBlock]) {
-  Store3(v, CameraDouble(), to[0] + lane, to[1] + lane, to[2] + lane);
+  Store3(v, CameraDouble(), to[0] + place, to[1] + place, to[2] + place);
 }
 
-// Proposes lanes; those of likely packets all, unasked: the exact test decides whatever it is told.
-HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate, size_t rays,
-                              CameraPacket* packet, AloneBlock* block) {
-  const int step = static_cast<int>(hn::Lanes(CameraDouble()));
-  const uint32_t group_bits = (1u << step) - 1;
-  block->groups = 0;
-  for (int first = 0; static_cast<size_t>(first) < rays; first += kCameraPacket) {
-    const size_t left = rays - static_cast<size_t>(first);
-    packet->lanes = left >= kCameraPacket ? 0xffffu : (1u << left) - 1;
-    uint32_t lanes = packet->lanes;
-    if ((block->likely >> (first / kCameraPacket) & 1) == 0) {
-      packet->film_x = block->film_x + first;
-      packet->film_y = block->film_y + first;
-      FillFloatRays<true>(frame, packet);
-      lanes = ProposedLanes<true, true>(frame, candidate, *packet);
-    }
-    for (int lane = 0; lane < kCameraPacket; lane += step) {
-      const uint32_t bits = lanes >> lane & group_bits;
-      block->lane[block->groups] = first + lane;
-      block->bits[block->groups] = bits;
-      block->groups += bits != 0 ? 1 : 0;
-    }
-  }
-}
-
-// The exact rays of the proposed groups.
-HWY_INLINE void FillRays(const CameraFrame& frame, AloneBlock* block) {
+// The groups' exact rays.
+HWY_INLINE void FillRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
   const CameraDouble d;
   const auto corner = SetVec3(d, frame.corner);
   const auto step_x = SetVec3(d, frame.step_x);
   const auto step_y = SetVec3(d, frame.step_y);
   const auto one = hn::Set(d, 1.0);
   for (int g = 0; g < block->groups; ++g) {
-    const int lane = block->lane[g];
-    const auto x = hn::LoadU(d, block->film_x + lane);
-    const auto y = hn::LoadU(d, block->film_y + lane);
+    const int place = g * kGroupLanes;
+    const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
+    const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
     // The operations of MakeCameraRays.
     const auto direction = Add(Add(corner, Scale(step_x, x)), Scale(step_y, y));
     const auto dd = Dot(direction, direction);
-    StoreGroup(direction, lane, block->direction);
-    hn::Store(dd, d, block->dd + lane);
-    hn::Store(hn::Div(one, dd), d, block->inverse_dd + lane);
+    StoreGroup(direction, place, block->direction);
+    hn::Store(dd, d, block->dd + place);
+    hn::Store(hn::Div(one, dd), d, block->inverse_dd + place);
   }
 }
 
 // Leaves the lanes that hit. No depth is needed, and the line's test and its direction decide,
 // which spares a division.
-HWY_INLINE void TestLines(const TileCandidate& candidate, AloneBlock* block) {
+HWY_INLINE void TestLines(AloneBlock* block) {
   const CameraDouble d;
-  const auto center = SetVec3(d, candidate.sphere.center);
-  const auto radius = hn::Set(d, candidate.sphere.radius);
   const auto zero = hn::Zero(d);
   for (int g = 0; g < block->groups; ++g) {
-    const int lane = block->lane[g];
-    const auto hit = TestLine(d, center, LoadGroup(block->direction, lane),
-                              hn::Load(d, block->inverse_dd + lane), radius);
-    hn::Store(hit.half_chord, d, block->half_chord + lane);
-    StoreGroup(hit.perpendicular, lane, block->perpendicular);
+    const int place = g * kGroupLanes;
+    const TraceSphere& sphere = block->candidate[g]->sphere;
+    const auto hit = TestLine(d, SetVec3(d, sphere.center), LoadGroup(block->direction, place),
+                              hn::Load(d, block->inverse_dd + place), hn::Set(d, sphere.radius));
+    hn::Store(hit.half_chord, d, block->half_chord + place);
+    StoreGroup(hit.perpendicular, place, block->perpendicular);
     block->bits[g] &= BitsOfMask(d, hn::And(hit.hit, hn::Gt(hit.closest, zero)));
   }
 }
 
-// After TestLines.
-HWY_INLINE void FindLikely(AloneBlock* block) {
+HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
+  const CameraDouble d;
+  for (int g = 0; g < block.groups; ++g) {
+    if (block.bits[g] == 0) continue;
+    const int place = g * kGroupLanes;
+    const TileCandidate& candidate = *block.candidate[g];
+    const auto direction = LoadGroup(block.direction, place);
+    const SurfaceV<CameraDouble> surface =
+        SphereSurface(d, direction, hn::Neg(hn::Load(d, block.half_chord + place)),
+                      LoadGroup(block.perpendicular, place), SetVec3(d, candidate.sphere.center),
+                      hn::Set(d, candidate.inverse_radius));
+    AppendSurface(surface, ToView(d, direction, hn::Load(d, block.dd + place)), block.bits[g],
+                  block.ray[g], to);
+    AppendPrimitive(candidate.primitive, block.bits[g], to.hits);
+  }
+}
+
+// Appends the hits of the block's groups, and empties it.
+HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block,
+                           const HitsTo& to) {
+  if (block->groups == 0) return;
+  FillRays(frame, film, block);
+  TestLines(block);
+  AppendBlock(*block, to);
+  block->groups = 0;
+}
+
+// Puts `count` rays into the block, which is traced whenever it is full.
+HWY_INLINE void PutRays(const CameraFrame& frame, const FilmBatch& film,
+                        const TileCandidate& candidate, uint32_t first, uint32_t count,
+                        AloneBlock* block, const HitsTo& to) {
+  for (uint32_t i = 0; i < count; i += kGroupLanes) {
+    const int g = block->groups++;
+    block->ray[g] = first + i;
+    block->bits[g] = count - i >= kGroupLanes ? kAllOfGroup : (1u << (count - i)) - 1;
+    block->candidate[g] = &candidate;
+    if (block->groups * kGroupLanes == kAloneBlock) TraceBlock(frame, film, block, to);
+  }
+}
+
+// Puts the lanes of up to kAloneBlock rays, in any order, that are proposed; those of likely
+// packets all, unasked: the exact test decides whatever it is told.
+HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate,
+                              const FilmBatch& film, size_t first, size_t rays,
+                              CameraPacket* packet, AloneBlock* block) {
+  for (size_t i = 0; i < rays; i += kCameraPacket) {
+    const size_t left = rays - i;
+    packet->lanes = left >= kCameraPacket ? 0xffffu : (1u << left) - 1;
+    uint32_t lanes = packet->lanes;
+    if ((block->likely >> (i / kCameraPacket) & 1) == 0) {
+      packet->film_x = film.x.data() + first + i;
+      packet->film_y = film.y.data() + first + i;
+      FillFloatRays<true>(frame, packet);
+      lanes = ProposedLanes<true, true>(frame, candidate, *packet);
+    }
+    for (int lane = 0; lane < kCameraPacket; lane += kGroupLanes) {
+      const uint32_t bits = lanes >> lane & kAllOfGroup;
+      const int g = block->groups;
+      block->ray[g] = static_cast<uint32_t>(first + i) + static_cast<uint32_t>(lane);
+      block->bits[g] = bits;
+      block->candidate[g] = &candidate;
+      block->groups += bits != 0 ? 1 : 0;
+    }
+  }
+}
+
+// After TestLines, of rays from `first` on.
+HWY_INLINE void FindLikely(size_t first, AloneBlock* block) {
   uint32_t hit[kAloneBlock / kCameraPacket] = {};
   for (int g = 0; g < block->groups; ++g) {
-    hit[block->lane[g] / kCameraPacket] |= block->bits[g] << (block->lane[g] % kCameraPacket);
+    const size_t ray = block->ray[g] - first;
+    hit[ray / kCameraPacket] |= block->bits[g] << (ray % kCameraPacket);
   }
   block->likely = 0;
   for (int p = 0; p < kAloneBlock / kCameraPacket; ++p) {
@@ -123,38 +165,18 @@ HWY_INLINE void FindLikely(AloneBlock* block) {
   }
 }
 
-HWY_INLINE void AppendBlock(const TileCandidate& candidate, const AloneBlock& block,
-                            const HitsTo& to) {
-  const CameraDouble d;
-  const auto center = SetVec3(d, candidate.sphere.center);
-  const auto inverse_radius = hn::Set(d, candidate.inverse_radius);
-  for (int g = 0; g < block.groups; ++g) {
-    if (block.bits[g] == 0) continue;
-    const int lane = block.lane[g];
-    const auto direction = LoadGroup(block.direction, lane);
-    const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, hn::Neg(hn::Load(d, block.half_chord + lane)),
-                      LoadGroup(block.perpendicular, lane), center, inverse_radius);
-    AppendSurface(surface, ToView(d, direction, hn::Load(d, block.dd + lane)), block.bits[g],
-                  block.first_ray + static_cast<size_t>(lane), to);
-    AppendPrimitive(candidate.primitive, block.bits[g], to.hits);
-  }
-}
-
-// Appends the hits of `rays` perspective rays, from outside the candidate, from first_ray on.
+// Appends the hits of a batch of perspective rays in any order, from outside the candidate.
 HWY_INLINE void TraceAlone(const CameraFrame& frame, const TileCandidate& candidate,
-                           const FilmBatch& film, size_t first_ray, size_t rays,
-                           CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
-  for (size_t i = 0; i < rays; i += kAloneBlock) {
-    const size_t count = std::min<size_t>(kAloneBlock, rays - i);
-    block->first_ray = first_ray + i;
-    block->film_x = film.x.data() + block->first_ray;
-    block->film_y = film.y.data() + block->first_ray;
-    ProposeGroups(frame, candidate, count, packet, block);
-    FillRays(frame, block);
-    TestLines(candidate, block);
-    FindLikely(block);
-    AppendBlock(candidate, *block, to);
+                           const FilmBatch& film, CameraPacket* packet, AloneBlock* block,
+                           const HitsTo& to) {
+  for (size_t i = 0; i < film.count; i += kAloneBlock) {
+    const size_t count = std::min<size_t>(kAloneBlock, film.count - i);
+    ProposeGroups(frame, candidate, film, i, count, packet, block);
+    FillRays(frame, film, block);
+    TestLines(block);
+    FindLikely(i, block);
+    AppendBlock(*block, to);
+    block->groups = 0;
   }
 }
 

@@ -170,8 +170,8 @@ bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, d
                     &state_->bins);
 }
 
-bool Intersector::EnterTile(const Window& tile, TileCandidates* candidates) const {
-  return GatherTile(state_->geometry, state_->bins, state_->camera, tile, candidates);
+bool Intersector::EnterTile(const Window& tile, TileRays rays, TileCandidates* candidates) const {
+  return GatherTile(state_->geometry, state_->bins, state_->camera, tile, rays, candidates);
 }
 
 void Intersector::HitsInTile(const TileCandidates& candidates, const FilmBatch& film,

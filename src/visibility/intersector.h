@@ -76,7 +76,7 @@ class Intersector {
   // Then, instead of Closest and Refine, for a tile that lies within one row of cells
   // (sphere_bins.h): the spheres that its rays may hit, false if none; and the hits of the rays
   // through `film` on spheres, in their order. The same bits as Closest's and Refine's.
-  bool EnterTile(const Window& tile, TileCandidates* candidates) const;
+  bool EnterTile(const Window& tile, TileRays rays, TileCandidates* candidates) const;
   void HitsInTile(const TileCandidates& candidates, const FilmBatch& film, const HitsTo& to) const;
 
   // Fills `to` from the rays ray_indices[0..count), in that order, all of which hit something;

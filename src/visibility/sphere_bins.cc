@@ -66,10 +66,22 @@ FilmBounds Projector::Project(const TraceSphere& sphere) const {
   return bounds;
 }
 
+// By slopes u = x / z, v = y / z the outline is (x u + y v + z)^2 = (|c|^2 - r^2) (u^2 + v^2 + 1):
+// an ellipse about z (x, y) / (z^2 - r^2), with half its width squared, the skew and half its
+// height squared for the entries of the inverse of its matrix.
+double Projector::Skew(const TraceSphere& sphere) const {
+  const double x = sphere.center.dot(right_);
+  const double y = sphere.center.dot(down_);
+  const double z = sphere.center.dot(forward_);
+  const double scale = sphere.radius * inverse_pixel_ / ((z - sphere.radius) * (z + sphere.radius));
+  return x * y * scale * scale;
+}
+
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double reach, size_t max_entries, int threads, SphereBins* bins) {
   *bins = {};
   bins->window = window;
+  bins->reach = reach;
   bins->columns = (window.width() + kCellSize - 1) / kCellSize;
   bins->rows = (window.height() + kCellSize - 1) / kCellSize;
   const Projector projector(frame);

@@ -20,6 +20,7 @@ inline constexpr int kCellSize = 16;
 // For each cell the spheres that any of its camera rays could hit, in ascending order.
 struct SphereBins {
   Window window;              // the pixels that are binned
+  double reach = 0;           // of their samples
   int columns = 0, rows = 0;  // of cells, from the window's corner
   std::vector<uint32_t> end;  // of each cell's spheres, row by row
   HugeArray<uint32_t> spheres;
@@ -41,6 +42,10 @@ class Projector {
  public:
   explicit Projector(const CameraFrame& frame);
   FilmBounds Project(const TraceSphere& sphere) const;
+
+  // Of the ellipse that a sphere before a perspective camera is seen as: half its height, times how
+  // far to the right of its middle its lowest point lies. In square pixels.
+  double Skew(const TraceSphere& sphere) const;
 
  private:
   bool perspective_;

@@ -10,6 +10,7 @@
 #include "hwy/foreach_target.h"
 
 #include "visibility/alone-inl.h"
+#include "visibility/pixel_spans.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -164,41 +165,21 @@ HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) 
   return kPerspective && cell.size() == 1 && !cell[0].around_camera ? &cell[0] : nullptr;
 }
 
-// The part of a tile's row from column x on, at most, whose cells have this candidate alone.
-template <bool kPerspective, class CellAt>
-HWY_INLINE int AloneUntil(const TileCandidate& candidate, int x, int width, const CellAt& cell_at) {
-  for (x += kCameraPacket; x < width; x += kCameraPacket) {
-    const std::vector<TileCandidate>* const cell = cell_at(x);
-    const TileCandidate* const other = AloneIn<kPerspective>(*cell);
-    if (other == nullptr || other->primitive != candidate.primitive) return x;
-    if (cell_at(std::min(x + kCameraPacket, width) - 1) != cell) return x;
-  }
-  return width;
-}
-
+// The rays of a row's columns from x to x_end, whichever sphere they hit. `row`: the row's first
+// ray.
 template <bool kPerspective>
 HWY_INLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
-                         const TileCandidates& candidates, const FilmBatch& film, size_t row,
-                         CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
-  const int row_width =
-      static_cast<int>(std::min(static_cast<size_t>(candidates.tile.width()), film.count - row));
+                         const TileCandidates& candidates, const FilmBatch& film, size_t row, int x,
+                         int x_end, CameraPacket* packet, const HitsTo& to) {
   const int left = candidates.tile.x0 - bins.window.x0;
   const auto cell_at = [&](int column) {
     return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
   };
-  for (int x = 0; x < row_width;) {
-    const int width = std::min(kCameraPacket, row_width - x);
+  for (; x < x_end; x += kCameraPacket) {
+    const int width = std::min(kCameraPacket, x_end - x);
     const std::vector<TileCandidate>* begin = cell_at(x);
     const std::vector<TileCandidate>* const end = cell_at(x + width - 1) + 1;
     const size_t first = row + static_cast<size_t>(x);
-    const TileCandidate* const alone = end - begin == 1 ? AloneIn<kPerspective>(*begin) : nullptr;
-    if (alone != nullptr) {
-      const int until = AloneUntil<kPerspective>(*alone, x, row_width, cell_at);
-      TraceAlone(frame, *alone, film, first, static_cast<size_t>(until - x), packet, block, to);
-      x = until;
-      continue;
-    }
-    x += kCameraPacket;
     while (begin != end && begin->empty()) ++begin;
     if (begin == end) continue;
     packet->lanes = (1u << width) - 1;
@@ -210,19 +191,50 @@ HWY_INLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
 }
 
 template <bool kPerspective>
-HWY_INLINE void TraceRows(const CameraFrame& frame, const SphereBins& bins,
+HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
+                             const TileCandidates& candidates, const FilmBatch& film,
+                             CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
+  const auto width = static_cast<uint32_t>(candidates.tile.width());
+  for (size_t sample = 0; sample < film.count; sample += candidates.tile.pixel_count()) {
+    for (const PixelSpan& span : candidates.spans) {
+      if (kPerspective && span.alone != nullptr) {
+        PutRays(frame, film, *span.alone, static_cast<uint32_t>(sample) + span.first, span.count,
+                block, to);
+        continue;
+      }
+      TraceBlock(frame, film, block, to);
+      const auto x = static_cast<int>(span.first % width);
+      TraceRow<kPerspective>(frame, bins, candidates, film,
+                             sample + span.first - static_cast<size_t>(x), x,
+                             x + static_cast<int>(span.count), packet, to);
+    }
+  }
+  TraceBlock(frame, film, block, to);
+}
+
+template <bool kPerspective>
+HWY_INLINE void TraceAny(const CameraFrame& frame, const SphereBins& bins,
+                         const TileCandidates& candidates, const FilmBatch& film,
+                         CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
+  const TileCandidate* const alone = AloneIn<kPerspective>(candidates.cells[0]);
+  if (alone != nullptr) return TraceAlone(frame, *alone, film, packet, block, to);
+  const size_t width = kCameraPacket;
+  for (size_t first = 0; first < film.count; first += width) {
+    const auto rays = static_cast<int>(std::min(width, film.count - first));
+    TraceRow<kPerspective>(frame, bins, candidates, film, first, 0, rays, packet, to);
+  }
+}
+
+template <bool kPerspective>
+HWY_INLINE void TraceRays(const CameraFrame& frame, const SphereBins& bins,
                           const TileCandidates& candidates, const FilmBatch& film,
                           const HitsTo& to) {
   CameraPacket packet;
   AloneBlock block;
-  const TileCandidate* const alone =
-      candidates.cells.size() == 1 ? AloneIn<kPerspective>(candidates.cells[0]) : nullptr;
-  if (alone != nullptr) {
-    return TraceAlone(frame, *alone, film, 0, film.count, &packet, &block, to);
-  }
-  const auto width = static_cast<size_t>(candidates.tile.width());
-  for (size_t row = 0; row < film.count; row += width) {
-    TraceRow<kPerspective>(frame, bins, candidates, film, row, &packet, &block, to);
+  if (candidates.rays == TileRays::kSamples) {
+    TraceSamples<kPerspective>(frame, bins, candidates, film, &packet, &block, to);
+  } else {
+    TraceAny<kPerspective>(frame, bins, candidates, film, &packet, &block, to);
   }
 }
 
@@ -231,9 +243,9 @@ void TraceTileT(const CameraFrame& frame, const SphereBins& bins, const TileCand
   to.hits->count = 0;
   to.hits->one_primitive = true;
   if (frame.projection == Projection::kPerspective) {
-    TraceRows<true>(frame, bins, candidates, film, to);
+    TraceRays<true>(frame, bins, candidates, film, to);
   } else {
-    TraceRows<false>(frame, bins, candidates, film, to);
+    TraceRays<false>(frame, bins, candidates, film, to);
   }
   PadHits(to);
 }
@@ -298,12 +310,13 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, const
 HWY_EXPORT(TraceTileT);
 
 bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const CameraFrame& frame,
-                const Window& tile, TileCandidates* candidates) {
+                const Window& tile, TileRays rays, TileCandidates* candidates) {
   const int row = (tile.y0 - bins.window.y0) / kCellSize;
   const int first = (tile.x0 - bins.window.x0) / kCellSize;
   const int last = (tile.x1 - 1 - bins.window.x0) / kCellSize;
   const double own = OwnBound(frame, bins.window);
   candidates->tile = tile;
+  candidates->rays = rays;
   candidates->first_column = first;
   candidates->cells.resize(static_cast<size_t>(last - first) + 1);
   bool any = false;
@@ -319,6 +332,8 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
     any = any || !cell.empty();
   }
+  candidates->spans.clear();
+  if (any && rays == TileRays::kSamples) FindPixelSpans(frame, bins.reach, candidates);
   return any;
 }
 

@@ -23,20 +23,31 @@ struct TileCandidate {
   float reach;
 };
 
+// Pixels of a row of a tile that rays may hit something in.
+struct PixelSpan {
+  uint32_t first, count;       // counted row by row
+  const TileCandidate* alone;  // the only sphere that they may hit, from outside; null: any
+};
+
+// Which rays come of a tile: whole samples of its pixels, row by row, or any in any order, where
+// the tile lies in one cell.
+enum class TileRays : uint8_t { kSamples, kAny };
+
 // The candidates of each of a tile's cells, from left to right, nearest first. One for each worker,
 // reused from tile to tile.
 struct TileCandidates {
   Window tile;
+  TileRays rays = TileRays::kSamples;
   int first_column = 0;  // of cells
   std::vector<std::vector<TileCandidate>> cells;
+  std::vector<PixelSpan> spans;  // of samples: in the order of the pixels
 };
 
 // Fills `candidates` for a tile that lies within one row of cells; false if there are none.
 bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const CameraFrame& frame,
-                const Window& tile, TileCandidates* candidates);
+                const Window& tile, TileRays rays, TileCandidates* candidates);
 
-// The first hits of the camera rays through `film`, in the order of the rays. They are whole
-// samples of the tile's pixels, or any rays through the one cell that the tile lies in.
+// The first hits of the camera rays through `film`, in the order of the rays.
 void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
                const FilmBatch& film, const HitsTo& to);
 

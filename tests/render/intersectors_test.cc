@@ -306,7 +306,7 @@ TEST_CASE("a tile's hits are of the batch's own rays, wherever it ends") {
     const Window cell{0, 0, 16, 16};
     REQUIRE(intersector.BinForCamera(MakeCameraFrame(scene.camera, 16, 16), cell, 0.5));
     TileCandidates candidates;
-    REQUIRE(intersector.EnterTile(cell, &candidates));
+    REQUIRE(intersector.EnterTile(cell, TileRays::kAny, &candidates));
     REQUIRE(candidates.cells[0].size() > 1);
     FilmBatch film;
     std::fill(film.x.begin(), film.x.end(), 8.0);

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// visibility/pixel_spans.h: which pixels of a tile's rows each sphere's outline reaches. Where
+// outlines do not overlap, a ray need be asked nothing but one sphere's exact test.
+#pragma once
+
+#include "hit/camera_frame.h"
+#include "visibility/tile_kernel.h"
+
+namespace nacre {
+
+// Puts the spans of the candidates' tile, at most kCellSize rows, behind those that are there.
+// `reach`: how far a pixel's samples lie outside it, in pixels.
+void FindPixelSpans(const CameraFrame& frame, double reach, TileCandidates* candidates);
+
+}  // namespace nacre
