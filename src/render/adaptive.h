@@ -19,26 +19,18 @@
 #include <vector>
 
 #include "render/interval.h"
+#include "render/interval_kernel.h"
 #include "render/sphere_pictures.h"
 #include "render/tile.h"
 #include "render/tile_layers.h"
 
 namespace nacre {
 
-inline constexpr int kBlockSide = 4;
-inline constexpr size_t kBlockPixels = size_t{kBlockSide} * kBlockSide;
 // Blocks are taken together by cells of the intersector's bins.
 inline constexpr int kCellSide = kCellSize;
 inline constexpr size_t kCellBlocks =
     size_t{kCellSide / kBlockSide} * size_t{kCellSide / kBlockSide};
 inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
-
-// What is known of a pixel's error.
-struct PixelInterval {
-  bool narrow = false;    // its interval is as narrow as wanted, in every channel
-  double half_width = 0;  // of its widest channel
-  double wanted = 0;      // of its strictest
-};
 
 // Pixels are numbered block by block, row by row within a block.
 struct CellScratch {
@@ -52,7 +44,7 @@ struct CellScratch {
   uint32_t samples[kCellPixels];  // of each pixel in each replicate; 0: its centre
   // Sums of the samples in each replicate: of the beauty, and of coverage (kAlphaSum).
   double replicate[kReplicates][4][kCellPixels];
-  PixelInterval intervals[kCellPixels];
+  BlockIntervals intervals[kCellBlocks];               // of blocks with active pixels
   std::optional<std::vector<SpherePicture>> pictures;  // of the cell's spheres, unless too many
   uint32_t outlines_only;             // blocks, as bits, that no edge crosses but spheres' outlines
   uint32_t outlined;                  // blocks, as bits, with such pixels:

@@ -38,12 +38,11 @@ void FindOutlineRanges(CellScratch* c) {
   }
 }
 
-// The spread of a pixel in a channel of the beauty.
+// The spread of a pixel on an outline in a channel of the beauty.
 Measured Measure(const CellScratch& c, uint32_t pixel, int channel, double background) {
   const double scale = 1.0 / c.samples[pixel], samples = double{kReplicates} * c.samples[pixel];
   double values[kReplicates];
   for (size_t r = 0; r < kReplicates; ++r) values[r] = c.replicate[r][channel][pixel] * scale;
-  if (!c.on_outline[pixel]) return MeasureSpread(values);
   const PixelRange& range = c.outline_range[channel][pixel / kBlockPixels];
   if (c.covered[pixel] < 0) {
     return MeasureOnOutline(values, range, c.sees_background[pixel] ? &background : nullptr,
@@ -54,22 +53,65 @@ Measured Measure(const CellScratch& c, uint32_t pixel, int channel, double backg
   return MeasureCovered(values, hits, c.covered[pixel], range, background, samples);
 }
 
-// The pixel's interval and what is wanted of it. NaN never converges: it is counted where the
-// picture is written.
+// Takes a pixel's interval over.
+void SetInterval(const BlockIntervals& from, uint32_t i, BlockIntervals* to) {
+  to->narrow = (to->narrow & ~(1u << i)) | (from.narrow & 1u << i);
+  to->half_width[i] = from.half_width[i];
+  to->wanted[i] = from.wanted[i];
+}
+
+// The interval of a pixel on an outline and what is wanted of it. NaN never converges: it is
+// counted where the picture is written.
 void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellScratch* c) {
-  PixelInterval& interval = c->intervals[pixel];
-  interval.wanted = kUnbounded;
-  double widest = 0;
+  BlockIntervals& intervals = c->intervals[pixel / kBlockPixels];
+  const size_t i = pixel % kBlockPixels;
+  double widest = 0, strictest = kUnbounded;
   bool narrow = true;
   for (int channel = 0; channel < 3; ++channel) {
     const Measured measured = Measure(*c, pixel, channel, background[channel]);
     const double wanted = max_error * std::max(std::abs(measured.mean), kDarkest);
     narrow = narrow && measured.half_width2 <= wanted * wanted;
     widest = std::max(widest, measured.half_width2);
-    interval.wanted = std::min(interval.wanted, wanted);
+    strictest = std::min(strictest, wanted);
   }
-  interval.narrow = narrow;
-  interval.half_width = std::sqrt(widest);
+  intervals.wanted[i] = strictest;
+  intervals.half_width[i] = std::sqrt(widest);
+  intervals.narrow = (intervals.narrow & ~(1u << i)) | uint32_t{narrow} << i;
+}
+
+// Measures a block's pixels; of those on outlines only the active ones, whose samples are new.
+void MeasureOneBlock(double max_error, const Rgb& background, size_t block, uint32_t active,
+                     CellScratch* c) {
+  const auto first = static_cast<uint32_t>(block * kBlockPixels);
+  const double* sums[kReplicates][3];
+  for (size_t r = 0; r < kReplicates; ++r) {
+    for (size_t channel = 0; channel < 3; ++channel) {
+      sums[r][channel] = c->replicate[r][channel] + first;
+    }
+  }
+  const BlockIntervals before = c->intervals[block];
+  MeasureBlock(sums, c->samples + first, max_error, &c->intervals[block]);
+  if ((c->outlined >> block & 1) == 0) return;
+  for (uint32_t i = 0; i < kBlockPixels; ++i) {
+    if (!c->on_outline[first + i]) continue;
+    if ((active >> i & 1) != 0) {
+      MeasurePixel(max_error, background, first + i, c);
+    } else {
+      SetInterval(before, i, &c->intervals[block]);
+    }
+  }
+}
+
+void MeasureActive(double max_error, const Rgb& background, CellScratch* c) {
+  uint32_t active[kCellBlocks] = {};  // pixels, as bits
+  for (const uint32_t pixel : c->active) active[pixel / kBlockPixels] |= 1u << pixel % kBlockPixels;
+  for (size_t block = 0; block < kCellBlocks; ++block) {
+    if (active[block] != 0) MeasureOneBlock(max_error, background, block, active[block], c);
+  }
+}
+
+bool IsNarrow(const CellScratch& c, uint32_t pixel) {
+  return (c.intervals[pixel / kBlockPixels].narrow >> pixel % kBlockPixels & 1) != 0;
 }
 
 // A pixel that an outline may cross.
@@ -94,14 +136,14 @@ void FindCovered(const RenderPlan& plan, const SeenOutlines& seen, uint32_t pixe
 
 // The widest interval of the pixels around one, in its block, that are not yet as narrow as wanted.
 double WidestAround(const CellScratch& c, uint32_t pixel) {
-  const uint32_t first = pixel - pixel % uint32_t{kBlockPixels};
+  const BlockIntervals& intervals = c.intervals[pixel / kBlockPixels];
   const int x = static_cast<int>(pixel % kBlockSide);
   const int y = static_cast<int>(pixel % kBlockPixels) / kBlockSide;
   double widest = 0;
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, kBlockSide - 1); ++row) {
     for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
-      const auto i = first + static_cast<uint32_t>(row * kBlockSide + column);
-      if (!c.intervals[i].narrow) widest = std::max(widest, c.intervals[i].half_width);
+      const int i = row * kBlockSide + column;
+      if ((intervals.narrow >> i & 1) == 0) widest = std::max(widest, intervals.half_width[i]);
     }
   }
   return widest;
@@ -130,17 +172,17 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
   if (level + 2 < kCommonLevels) return;
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
   const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
-  uint32_t open = 0;                                          // blocks, as bits
+  MeasureActive(plan.adaptive.max_error, background, c);
+  uint32_t open = 0;  // blocks, as bits
   for (const uint32_t pixel : c->active) {
-    MeasurePixel(plan.adaptive.max_error, background, pixel, c);
-    if (!c->intervals[pixel].narrow) open |= 1u << pixel / kBlockPixels;
+    if (!IsNarrow(*c, pixel)) open |= 1u << pixel / kBlockPixels;
   }
   std::erase_if(c->active, [&](uint32_t pixel) {
     const size_t block = pixel / kBlockPixels, common = CommonLevels(*c, block);
     if (level + 1 < common) return false;
     if (level + 1 == common) return (open >> block & 1) == 0;
-    const PixelInterval& interval = c->intervals[pixel];
-    return interval.narrow && WidestAround(*c, pixel) <= kNeighbourSlack * interval.wanted;
+    const double wanted = c->intervals[block].wanted[pixel % kBlockPixels];
+    return IsNarrow(*c, pixel) && WidestAround(*c, pixel) <= kNeighbourSlack * wanted;
   });
 }
 

@@ -7,9 +7,6 @@
 namespace nacre {
 namespace {
 
-// Student's t: 97.5 % of the distribution with three degrees of freedom lie below.
-constexpr double kStudent = 3.182446305;
-
 // The most by which samples of a pixel on an outline may differ from `mean`: as much as those on
 // the block's outlines that hit, as the background if it may be seen, or as black does.
 double Contrast(const PixelRange& range, const double* background, double mean) {
@@ -24,8 +21,7 @@ Measured MeasureSpread(const double (&values)[kReplicates]) {
   for (const double value : values) mean += value;
   mean *= 1.0 / kReplicates;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  constexpr double kFactor = kStudent * kStudent / ((kReplicates - 1) * kReplicates);
-  return {mean, kFactor * squares};
+  return {mean, kOfSquares * squares};
 }
 
 Measured MeasureOnOutline(const double (&values)[kReplicates], const PixelRange& range,

@@ -10,6 +10,11 @@ namespace nacre {
 // Below this value an error is absolute: what a display shows as near black.
 inline constexpr double kDarkest = 0.05;
 
+// Student's t, squared, over the number of sums: 97.5 % of the distribution with three degrees of
+// freedom lie below 3.182446305. The sum of the replicates' squared differences from their mean,
+// times this, is the square of the interval's half-width.
+inline constexpr double kOfSquares = 3.182446305 * 3.182446305 / ((kReplicates - 1) * kReplicates);
+
 struct PixelRange {
   double low, high;  // none if low > high
 };
@@ -19,7 +24,7 @@ struct Measured {
   double half_width2;  // of the interval, squared
 };
 
-// `values`: the mean of each replicate's samples.
+// `values`: the mean of each replicate's samples. SIMD twin, for blocks: interval_kernel.h.
 Measured MeasureSpread(const double (&values)[kReplicates]);
 
 // A pixel that an outline crosses, of `samples` in all. All may miss a sliver, and then agree; and

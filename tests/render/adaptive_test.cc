@@ -8,6 +8,7 @@
 #include "render/camera.h"
 #include "render/outline_coverage.h"
 #include "render/render.h"
+#include "scene_io/load_scene.h"
 #include "targets.h"
 
 namespace nacre {
@@ -248,6 +249,13 @@ TEST_CASE("a pixel that has converged keeps no neighbour going") {
   settings.max_samples = 4096;
   RenderStats stats;
   RenderImage(scene, settings, &stats);
+  CHECK(stats.unsettled_pixels == 0);
+  // Outlines before a dark background, and all kinds of lobes.
+  Scene grid = LoadScene(NACRE_SOURCE_DIR "/scenes/material_grid.json");
+  grid.image.width = 480;
+  grid.image.height = 270;
+  settings.max_error = 0.1;
+  RenderImage(grid, settings, &stats);
   CHECK(stats.unsettled_pixels == 0);
 }
 
