@@ -254,7 +254,7 @@ TEST_CASE("a pixel that has converged keeps no neighbour going") {
   Scene grid = LoadScene(NACRE_SOURCE_DIR "/scenes/material_grid.json");
   grid.image.width = 480;
   grid.image.height = 270;
-  settings.max_error = 0.1;
+  settings.max_error = 0.03;
   RenderImage(grid, settings, &stats);
   CHECK(stats.unsettled_pixels == 0);
 }
