@@ -313,7 +313,6 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
     return;
   }
   StartTile(plan, cell, &s.film);
-  std::fill_n(&c.replicate[0][0][0], sizeof(c.replicate) / sizeof(double), 0.0);
   std::fill_n(c.samples, kCellPixels, 0u);
   clock.Charge(Stage::kFilm);
   const uint32_t blocks = BlocksOf(cell, part);
@@ -323,7 +322,9 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   const bool all_centers = s.film.nearest_distance.size() > 0;
   const uint32_t smooth =
       AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
-  ListPixels(blocks & ~smooth, &c.active);
+  const uint32_t sampled = blocks & ~smooth;
+  ClearReplicates(sampled, &c);
+  ListPixels(sampled, &c.active);
   FindOutlines(plan, cell, &c);
   SeekHits(plan, cell, &s, &c, &clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
@@ -332,7 +333,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
     clock.Charge(Stage::kFilm);
   }
   stats->unsettled_pixels += c.active.size();
-  AddReplicates(c, &s.film);
+  AddReplicates(sampled, c, &s.film);
   ResolveCell(plan, cell, part, s.film, c, strip);
   clock.Charge(Stage::kFilm);
 }

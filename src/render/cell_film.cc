@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/cell_film.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace nacre {
@@ -25,15 +26,33 @@ void PutCell(const Window& cell, const Window& part, const Strip& strip, Aligned
   }
 }
 
+// Calls body(first) for the first pixel of each of the blocks in `blocks` (bits).
+template <class Body>
+void ForEachBlock(uint32_t blocks, const Body& body) {
+  for (; blocks != 0; blocks &= blocks - 1) {
+    body(static_cast<size_t>(__builtin_ctz(blocks)) * kBlockPixels);
+  }
+}
+
 }  // namespace
 
-void AddReplicates(const CellScratch& c, TileFilm* film) {
-  for (size_t channel = 0; channel < 4; ++channel) {
-    double* const sums = film->sums[channel].data();
-    for (const auto& replicate : c.replicate) {
-      for (size_t i = 0; i < kCellPixels; ++i) sums[i] += replicate[channel][i];
+void ClearReplicates(uint32_t blocks, CellScratch* c) {
+  ForEachBlock(blocks, [&](size_t first) {
+    for (auto& replicate : c->replicate) {
+      for (auto& channel : replicate) std::fill_n(channel + first, kBlockPixels, 0.0);
     }
-  }
+  });
+}
+
+void AddReplicates(uint32_t blocks, const CellScratch& c, TileFilm* film) {
+  ForEachBlock(blocks, [&](size_t first) {
+    for (size_t channel = 0; channel < 4; ++channel) {
+      double* const sums = film->sums[channel].data() + first;
+      for (const auto& replicate : c.replicate) {
+        for (size_t i = 0; i < kBlockPixels; ++i) sums[i] += replicate[channel][first + i];
+      }
+    }
+  });
 }
 
 // Where n samples, h of which hit, fall on a share s of a pixel that is covered, its value is s

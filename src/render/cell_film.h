@@ -7,8 +7,11 @@
 
 namespace nacre {
 
-// Adds the replicates' sums to the film's first four channels, the beauty and coverage.
-void AddReplicates(const CellScratch& cell_scratch, TileFilm* film);
+// Empties the replicates' sums in the blocks in `blocks` (bits).
+void ClearReplicates(uint32_t blocks, CellScratch* cell_scratch);
+
+// Adds them to the film's first four channels, the beauty and coverage.
+void AddReplicates(uint32_t blocks, const CellScratch& cell_scratch, TileFilm* film);
 
 // Divides by the numbers of samples, or weighs what hits and the background by the shares of the
 // pixels that are known to be covered, and puts the cell's pixels that lie in `part` into the
