@@ -35,13 +35,14 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
     throw Error(ExitCode::kBadInput, path.string(),
                 std::string("cannot be opened: ") + std::strerror(errno));
   }
-  // In pieces, because a pipe does not tell its size.
+  // In pieces, because a pipe does not tell its size: each as long as all before it, so that a
+  // short file is not paid for as a long one.
   std::string text;
-  constexpr size_t kPiece = 1 << 20;
+  constexpr size_t kFirstPiece = 1 << 16;
   while (file) {
-    const size_t before = text.size();
-    text.resize(before + kPiece);
-    file.read(text.data() + before, kPiece);
+    const size_t before = text.size(), piece = std::max(before, kFirstPiece);
+    text.resize(before + piece);
+    file.read(text.data() + before, static_cast<std::streamsize>(piece));
     text.resize(before + static_cast<size_t>(file.gcount()));
     if (text.size() > max_bytes) {
       throw Error(
