@@ -69,8 +69,8 @@ void PrintScene(const std::string& path, bool allow_paths) {
   size_t triangles = 0;
   for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
   PrintOut(fmt::format("{}\n", path));
-  PrintOut(fmt::format("  image       {}x{}, {} samples a pixel\n", scene.image.width,
-                       scene.image.height, scene.image.spp));
+  PrintOut(fmt::format("  image       {}x{}, {} sample{} a pixel\n", scene.image.width,
+                       scene.image.height, scene.image.spp, scene.image.spp == 1 ? "" : "s"));
   PrintOut(fmt::format("  spheres     {}\n", scene.spheres.size()));
   PrintOut(fmt::format("  meshes      {} with {} triangles\n", scene.meshes.size(), triangles));
   PrintOut(fmt::format("  materials   {}\n", CountAndNames(scene.materials)));

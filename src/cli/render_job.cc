@@ -64,9 +64,9 @@ void Summarize(const RenderOptions& options, const RenderPlan& plan, const Rende
           ? fmt::format("{:.1f}", static_cast<double>(stats.camera_rays) / pixels)
           : fmt::format("{}", plan.scene->image.spp);
   PrintError(fmt::format(
-      "{}: {}x{}, {} samples a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
-      plan.window.width(), plan.window.height(), samples, 1e3 * times.total_seconds,
-      1e3 * stats.render_seconds,
+      "{}: {}x{}, {} sample{} a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
+      plan.window.width(), plan.window.height(), samples, samples == "1" ? "" : "s",
+      1e3 * times.total_seconds, 1e3 * stats.render_seconds,
       1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds));
 }
 

@@ -69,43 +69,81 @@ void FillPixelsT(float value, size_t width, size_t height, float* out, size_t st
   }
 }
 
-// Adds value(i), for i from a hit on, to the sums of the spans' pixels.
-template <class Value>
-HWY_INLINE void AddSpans(std::span<const HitSpan> spans, double* HWY_RESTRICT sums,
-                         const Value& value) {
-  const D d;
-  for (const HitSpan& span : spans) {
-    const V weight = hn::Set(d, span.weight);
-    double* const to = sums + span.pixel;
-    size_t i = 0;
-    for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
-      const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
-      hn::StoreU(sum, d, to + i);
-    }
-    if (i == span.count) continue;
-    const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
-    hn::BlendedStore(sum, hn::FirstN(d, span.count - i), d, to + i);
-  }
-}
+// Adds what hits are worth to the sums of the spans' pixels.
+struct ToSums {
+  double* HWY_RESTRICT sums;
 
-void AddHitsT(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, double constant,
-              double further, std::span<const HitSpan> spans, double* HWY_RESTRICT sums) {
+  // value(i): that of the hits from i on.
+  template <class Value>
+  HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
+    const D d;
+    for (const HitSpan& span : spans) {
+      const V weight = hn::Set(d, span.weight);
+      double* const to = sums + span.pixel;
+      size_t i = 0;
+      for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
+        const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
+        hn::StoreU(sum, d, to + i);
+      }
+      if (i == span.count) continue;
+      const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
+      hn::BlendedStore(sum, hn::FirstN(d, span.count - i), d, to + i);
+    }
+  }
+};
+
+// Puts it into the spans' pixels.
+struct ToRows {
+  const PixelRows& rows;
+
+  template <class Value>
+  HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
+    const D d;
+    const F f;
+    for (const HitSpan& span : spans) {
+      float* const to =
+          rows.first + span.pixel / rows.width * rows.stride + span.pixel % rows.width;
+      // A sum that begins with 0 is never -0.
+      const auto rounded = [&](size_t i)
+                               HWY_ATTR { return hn::DemoteTo(f, hn::Add(value(i), hn::Zero(d))); };
+      size_t i = 0;
+      for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
+        hn::StoreU(rounded(span.hit + i), f, to + i);
+      }
+      if (i == span.count) continue;
+      hn::BlendedStore(rounded(span.hit + i), hn::FirstN(f, span.count - i), f, to + i);
+    }
+  }
+};
+
+template <class To>
+HWY_INLINE void BringHits(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, double constant,
+                          double further, std::span<const HitSpan> spans, const To& to) {
   const D d;
   const V first = hn::Set(d, constant);
   const V second = hn::Set(d, further);
   if (a == nullptr) {
     const V both = hn::Add(first, second);
-    return AddSpans(spans, sums, [&](size_t) HWY_ATTR { return both; });
+    return to(spans, [&](size_t) HWY_ATTR { return both; });
   }
   if (b == nullptr) {
-    return AddSpans(spans, sums,
-                    [&](size_t i) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), a + i)); });
+    return to(spans, [&](size_t i) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), a + i)); });
   }
-  AddSpans(spans, sums, [&](size_t i) HWY_ATTR {
+  to(spans, [&](size_t i) HWY_ATTR {
     const V sum =
         hn::Add(hn::PromoteTo(d, hn::LoadU(F(), a + i)), hn::PromoteTo(d, hn::LoadU(F(), b + i)));
     return hn::Add(hn::Add(sum, first), second);
   });
+}
+
+void AddHitsT(const float* a, const float* b, double constant, double further,
+              std::span<const HitSpan> spans, double* sums) {
+  BringHits(a, b, constant, further, spans, ToSums{sums});
+}
+
+void PutHitsT(const float* a, const float* b, double constant, double further,
+              std::span<const HitSpan> spans, const PixelRows& rows) {
+  BringHits(a, b, constant, further, spans, ToRows{rows});
 }
 
 void AddFloatsT(const float* a, const float* b, double constant, double further, size_t begin,
@@ -138,6 +176,7 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(AddSamplesT);
 HWY_EXPORT(AddHitsT);
+HWY_EXPORT(PutHitsT);
 HWY_EXPORT(RoundSumsT);
 HWY_EXPORT(FillPixelsT);
 HWY_EXPORT(AddFloatsT);
@@ -151,6 +190,11 @@ void AddSamples(const double* values, const double* weights, int samples, size_t
 void AddHits(const float* a, const float* b, double constant, double further,
              std::span<const HitSpan> spans, double* sums) {
   HWY_DYNAMIC_DISPATCH(AddHitsT)(a, b, constant, further, spans, sums);
+}
+
+void PutHits(const float* a, const float* b, double constant, double further,
+             std::span<const HitSpan> spans, const PixelRows& rows) {
+  HWY_DYNAMIC_DISPATCH(PutHitsT)(a, b, constant, further, spans, rows);
 }
 
 void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, size_t width,

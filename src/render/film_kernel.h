@@ -25,6 +25,18 @@ struct HitSpan {
 void AddHits(const float* a, const float* b, double constant, double further,
              std::span<const HitSpan> spans, double* sums);
 
+// Rows of a picture's channel: pixel p of a tile of this width is
+// first[p / width * stride + p % width].
+struct PixelRows {
+  float* first;
+  size_t width, stride;
+};
+
+// The same for the only sample of each pixel, of weight 1, rounded to float: what RoundSums would
+// make of its sum. No span goes beyond a row.
+void PutHits(const float* a, const float* b, double constant, double further,
+             std::span<const HitSpan> spans, const PixelRows& rows);
+
 // What rounds the sums of a channel to its pixels: `weight` of all samples of a pixel, those that
 // missed showing the background.
 struct RoundedBy {

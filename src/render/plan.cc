@@ -193,6 +193,23 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan
 }
 
 // What the triangles of meshes ask for, after all else.
+// A pixel's only sample, of weight 1, is its value.
+void PlanFilm(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const bool averages =
+      std::all_of(plan->channels.begin(), plan->channels.end(),
+                  [](ChannelKind kind) { return kind == ChannelKind::kAveraged; });
+  const char* const why = settings.max_error > 0  ? "pixels take as many samples as they need"
+                          : scene.image.spp > 1   ? "a pixel takes several samples"
+                          : settings.general_path ? "the general path is asked for"
+                          : !averages             ? "some layers are not averages"
+                          : plan->sky != nullptr  ? "every pixel shows the sky or a hit"
+                          : !HasUnitWeights(plan->sampler) ? "samples have weights"
+                                                           : nullptr;
+  plan->one_sample = why == nullptr;
+  plan->items.push_back({"sums of samples", !plan->one_sample,
+                         plan->one_sample ? "a pixel's only sample is its value" : why});
+}
+
 void PlanMeshes(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   if (scene.meshes.empty() || plan->intersector == nullptr) return;
   const auto casts = [](const auto& light) { return light.shadow_rays; };
@@ -258,6 +275,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
                                       : "")});
   }
   PlanMeshes(scene, settings, &plan);
+  PlanFilm(scene, settings, &plan);
   NoteMaterials(scene, &plan);
   return plan;
 }

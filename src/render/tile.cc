@@ -233,6 +233,28 @@ void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clo
   }
 }
 
+namespace {
+
+// The only sample of each pixel.
+void RenderOnce(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
+                StageClock* clock, RenderStats* stats) {
+  TileScratch& s = *scratch;
+  s.film.window = tile;
+  MakeSamples(plan, tile, 0, 1, &s);
+  if (s.sampled) NumberSamples(0, 1, &s.sampled->numbers);
+  TraceAndShade(plan, &s, clock, stats);
+  if (s.hits.count == 0) {
+    FillBackground(plan, tile, strip);
+  } else if (!PutOnlySamples(plan, &s, strip)) {
+    StartTile(plan, tile, &s.film);
+    AddToFilm(plan, &s);
+    ResolveTile(plan, s.film, strip);
+  }
+  clock->Charge(Stage::kFilm);
+}
+
+}  // namespace
+
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
                 RenderStats* stats) {
   TileScratch& s = *scratch;
@@ -245,10 +267,12 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
     clock.Charge(Stage::kFilm);
     return;
   }
-  StartTile(plan, tile, &s.film);
-  clock.Charge(Stage::kFilm);
   ShiftPixels(plan.sampler, tile, &s.shifts);
   if (s.sampled) NumberPixels(plan, tile, &s.sampled->numbers);
+  if (plan.one_sample) return RenderOnce(plan, tile, &s, strip, &clock, stats);
+  clock.Charge(Stage::kSample);
+  StartTile(plan, tile, &s.film);
+  clock.Charge(Stage::kFilm);
   for (int first = 0; first < spp; first += plan.samples_per_round) {
     const int count = std::min(plan.samples_per_round, spp - first);
     MakeSamples(plan, tile, first, count, &s);

@@ -117,17 +117,22 @@ size_t CountConsecutive(const uint32_t* ray, size_t first, size_t end) {
   return next - first;
 }
 
-// Finds the spans of a batch whose hits are in the order of their rays.
-void FindSpans(TileScratch* scratch) {
+// Whether each of a run's layers is a sum of what its hits reflect and constants.
+bool IsPlain(const RenderPlan& plan, const MaterialRun& run) {
+  return !plan.materials[run.material.index].mapped;
+}
+
+// Finds the spans of a run; none goes beyond `row` pixels, of which a sample's are a multiple.
+void FindSpans(const MaterialRun& run, size_t row, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const size_t pixels = s.film.window.pixel_count();
   const uint32_t* const ray = s.hits.ray.data();
   s.spans.clear();
   size_t sample = 0;
-  for (size_t i = 0; i < s.hits.count;) {
+  for (size_t i = run.begin; i < run.end;) {
     while (ray[i] >= (sample + 1) * pixels) ++sample;
     const size_t pixel = ray[i] - sample * pixels;
-    const size_t end = std::min(s.hits.count, i + (pixels - pixel));
+    const size_t end = std::min(run.end, i + (row - pixel % row));
     const size_t count = CountConsecutive(ray, i, end);
     s.spans.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(pixel),
                        static_cast<uint32_t>(count), s.weights[sample]});
@@ -247,9 +252,8 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
   if (s.hits.count == 0 && plan.sky == nullptr) return;
   // A pixel's samples are added in their order, whatever materials they hit.
-  const bool in_order = s.hits.count > 0 && s.runs.size() == 1;
-  const bool mapped = in_order && plan.materials[s.runs[0].material.index].mapped;
-  if (in_order && !mapped) FindSpans(&s);
+  const bool in_order = s.hits.count > 0 && s.runs.size() == 1 && IsPlain(plan, s.runs[0]);
+  if (in_order) FindSpans(s.runs[0], s.film.window.pixel_count(), &s);
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
@@ -257,7 +261,7 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
     double* sums[3] = {};
     for (int c = 0; c < FloatChannels(layer.kind); ++c) sums[c] = s.film.sums[sum++].data();
     const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
-    if (in_order && !mapped && !sees_sky) {
+    if (in_order && !sees_sky) {
       AddRun(plan, layer, light_layer, sums, s);
     } else if (s.hits.count > 0 || sees_sky) {
       AddRays(plan, layer, light_layer, sums, &s);
@@ -268,6 +272,32 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
     AddNearest(
         plan, [&](uint32_t ray) { return RowPixel(s.film.window, ray); }, &s);
   }
+}
+
+bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) {
+  TileScratch& s = *scratch;
+  const auto plain = [&](const MaterialRun& run) { return IsPlain(plan, run); };
+  if (!std::all_of(s.runs.begin(), s.runs.end(), plain)) return false;
+  const Window& tile = s.film.window;
+  FillBackground(plan, tile, strip);
+  const auto width = static_cast<size_t>(tile.width());
+  const auto stride = static_cast<size_t>(strip->window.width());
+  const size_t place = static_cast<size_t>(tile.y0 - strip->window.y0) * stride +
+                       static_cast<size_t>(tile.x0 - strip->window.x0);
+  for (const MaterialRun& run : s.runs) {
+    FindSpans(run, width, &s);
+    const ShadingMaterial& constants = plan.materials[run.material.index];
+    size_t color = 0, light_layer = 0;
+    for (const Layer& layer : plan.layers) {
+      const LayerTerms terms = TermsOf(layer, light_layer, constants, s);
+      for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+        PutHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
+                terms.further[c], s.spans, {strip->colors[color++].data() + place, width, stride});
+      }
+      if (layer.kind == LayerKind::kLight) ++light_layer;
+    }
+  }
+  return true;
 }
 
 void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {

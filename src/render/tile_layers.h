@@ -59,6 +59,10 @@ void AddNearest(const RenderPlan& plan, const PixelOf& pixel_of, TileScratch* sc
 // Adds a round's samples to every layer of the tile's film.
 void AddToFilm(const RenderPlan& plan, TileScratch* scratch);
 
+// Puts a round into the strip that is all of the samples of its tile's pixels (RenderPlan::
+// one_sample), without sums: the same bits. False, and nothing is put, if it takes more than that.
+bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip);
+
 // Fills a tile that nothing is hit in, under samples of weight 1, with what its film would resolve
 // to: to the bit, because the background is a float and sums of it are exact.
 void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip);

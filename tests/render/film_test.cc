@@ -6,7 +6,9 @@
 #include <set>
 
 #include "catch.h"
+#include "pictures.h"
 #include "render/render.h"
+#include "shipped_scenes.h"
 
 namespace nacre {
 namespace {
@@ -76,6 +78,34 @@ TEST_CASE("all samples of a pixel differ, also where they take several batches")
   // A round's samples alone would give no more than 16 shares of coverage beside 0.
   const std::vector<float>& alpha = image.Find("A")->samples;
   CHECK(std::set<float>(alpha.begin(), alpha.end()).size() > 17);
+}
+
+TEST_CASE("a pixel's only sample has the bits of its sum") {
+  ForEachShippedScene([](const Scene& scene) {
+    RenderSettings settings;
+    settings.layers = {"N", "diffuse", "specular", "ambient", "emission", "albedo"};
+    for (const Light& light : scene.lights) {
+      if (std::holds_alternative<AmbientLight>(light.kind)) continue;  // a layer of its own
+      settings.layers.push_back("light." + light.name);
+    }
+    settings.region = {5, 3, 90, 51};  // tiles that the picture's edges cut
+    RenderSettings general = settings;
+    general.general_path = true;
+    CHECK_FALSE(MakePlan(scene, general).one_sample);
+    CHECK(SameBits(RenderImage(scene, settings), RenderImage(scene, general)));
+  });
+}
+
+TEST_CASE("sums are left out where one sample is all there is") {
+  Scene scene = MakeScene(8, 1);
+  CHECK(MakePlan(scene, {}).one_sample);
+  CHECK_FALSE(MakePlan(scene, OneThread({"Z"})).one_sample);
+  CHECK_FALSE(MakePlan(scene, OneThread({"id.object"})).one_sample);
+  RenderSettings adaptive;
+  adaptive.max_error = 0.1;
+  CHECK_FALSE(MakePlan(scene, adaptive).one_sample);
+  scene.image.spp = 2;
+  CHECK_FALSE(MakePlan(scene, {}).one_sample);
 }
 
 TEST_CASE("depth is measured along the view") {

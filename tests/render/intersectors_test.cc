@@ -4,21 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <random>
 
 #include "base/error.h"
 #include "pictures.h"
 #include "render/camera.h"
 #include "render/render.h"
-#include "scene_io/load_scene.h"
+#include "shipped_scenes.h"
 #include "targets.h"
 #include "visibility/intersector.h"
 
 namespace nacre {
 namespace {
-
-namespace fs = std::filesystem;
 
 void CheckSame(const Scene& scene, RenderSettings settings) {
   settings.layers = {"N", "P", "Z", "id.object"};
@@ -242,21 +239,11 @@ TEST_CASE("the eye on a sphere, in one, and behind all of them") {
 }
 
 TEST_CASE("every scene that ships has the same bits with Embree alone") {
-  for (const fs::directory_entry& entry :
-       fs::recursive_directory_iterator(fs::path(NACRE_SOURCE_DIR) / "scenes")) {
-    const fs::path& path = entry.path();
-    if (path.extension() != ".json" || path.filename() == "nacre.schema.json") continue;
-    CAPTURE(path.string());
-    LoadOptions options;
-    options.overrides = {{"/image/width", "96"}, {"/image/height", "54"}, {"/image/spp", "1"}};
-    if (path.filename() == "million_spheres.json") {
-      options.overrides.emplace_back("/shapes/1/count", "3000");
-    }
-    const Scene scene = LoadScene(path.string(), options);
+  ForEachShippedScene([](const Scene& scene) {
     RenderSettings settings;
     settings.intersector = IntersectorChoice::kEmbree;
     CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, settings)));
-  }
+  });
 }
 
 TEST_CASE("Embree is there where it is needed, and only there") {
