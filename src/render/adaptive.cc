@@ -317,7 +317,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   clock.Charge(Stage::kFilm);
   const uint32_t blocks = BlocksOf(cell, part);
   c.pictures = PicturesOf(plan.camera, s.candidates);
-  const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c, &c.outlines_only);
+  const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
   clock.Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance.size() > 0;
   const uint32_t smooth =

@@ -46,7 +46,7 @@ struct CellScratch {
   double replicate[kReplicates][4][kCellPixels];
   BlockIntervals intervals[kCellBlocks];               // of blocks with active pixels
   std::optional<std::vector<SpherePicture>> pictures;  // of the cell's spheres, unless too many
-  uint32_t outlines_only;             // blocks, as bits, that no edge crosses but spheres' outlines
+  uint32_t outlines_only;             // blocks, as bits, whose only edges are outlines of spheres
   uint32_t outlined;                  // blocks, as bits, with such pixels:
   bool on_outline[kCellPixels];       // a sphere's outline crosses the pixel
   bool sees_background[kCellPixels];  // of these: no sphere covers all of the pixel

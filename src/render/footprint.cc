@@ -138,8 +138,8 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 }  // namespace
 
 uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
-                         TileScratch* scratch, CellScratch* cell_scratch, uint32_t* outlines_only) {
-  *outlines_only = 0;
+                         TileScratch* scratch, CellScratch* cell_scratch) {
+  cell_scratch->outlines_only = 0;
   if (!plan.adaptive.footprints || !cell_scratch->pictures) return 0;
   int corners[kCellBlocks] = {};
   CountCorners(plan, cell, scratch, cell_scratch, corners);
@@ -155,7 +155,7 @@ uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t bl
       if (!IsBeside(plan, f, cone, picture)) met.push_back(picture.candidate);
     }
     if (!HasNoEdgeBetweenOutlines(plan, met)) continue;
-    *outlines_only |= bit;
+    cell_scratch->outlines_only |= bit;
     const bool covered = met.size() == 1 && corners[block] == 4 && !met[0]->around_camera;
     if ((met.empty() && corners[block] == 0) || covered) plain |= bit;
   }

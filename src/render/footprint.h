@@ -7,11 +7,11 @@
 namespace nacre {
 
 // Marks, as bits, the blocks of `blocks` (bits) that lie wholly on one sphere or wholly beside all
-// of them, by the filter's reach around them: those that may be smooth; and in `outlines_only`
-// those that no edge crosses but the outlines of spheres: no shadow's. `scratch->candidates` are
-// the cell's, and cell_scratch->pictures their pictures.
+// of them, by the filter's reach around them: those that may be smooth. Sets
+// cell_scratch->outlines_only. `scratch->candidates` are the cell's, and cell_scratch->pictures
+// their pictures.
 uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
-                         TileScratch* scratch, CellScratch* cell_scratch, uint32_t* outlines_only);
+                         TileScratch* scratch, CellScratch* cell_scratch);
 
 // Whether the values at the centres of a plain block's pixels are within the wanted error of the
 // pixels' means: its second differences are small, and no lobe is too narrow for its normals to
