@@ -18,15 +18,33 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The polynomial in x of kTerms coefficients, lowest power first: even and odd powers each by
+// Horner's rule, two chains of dependent steps half as long as one.
+template <size_t kTerms, class D, class V = hn::Vec<D>>
+HWY_INLINE V EvaluateByHalves(D d, const float (&coefficients)[kTerms], V x) {
+  const auto coefficient = [&](size_t i) HWY_ATTR { return hn::Set(d, coefficients[i]); };
+  const V x2 = hn::Mul(x, x);
+  V last = coefficient(kTerms - 1), before = coefficient(kTerms - 2);
+  size_t i = kTerms - 2;
+  for (; i >= 2; i -= 2) {
+    last = hn::MulAdd(last, x2, coefficient(i - 1));
+    before = hn::MulAdd(before, x2, coefficient(i - 2));
+  }
+  // An odd number of terms leaves the lowest.
+  if (i == 1) {
+    const V first = hn::MulAdd(last, x2, coefficient(0));
+    return hn::MulAdd(before, x, first);
+  }
+  return hn::MulAdd(last, x, before);
+}
+
 // log2(1 + f) for f in [sqrt(1/2) - 1, sqrt(2) - 1]: relative error 2e-8 before rounding.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2OnePlusPolynomial(D d, V f) {
   constexpr float kCoefficients[] = {1.44269502f,  -0.721347332f, 0.480898529f, -0.360696554f,
                                      0.288552552f, -0.239608124f, 0.204857647f, -0.191388384f,
                                      0.184760332f, -0.107497893f};
-  V p = hn::Set(d, kCoefficients[9]);
-  for (int i = 8; i >= 0; --i) p = hn::MulAdd(p, f, hn::Set(d, kCoefficients[i]));
-  return hn::Mul(p, f);
+  return hn::Mul(EvaluateByHalves(d, kCoefficients, f), f);
 }
 
 // Splits x > 0 into 2^exponent * (1 + f) with 1 + f in [sqrt(1/2), sqrt(2)).
@@ -72,8 +90,7 @@ HWY_INLINE V Exp2(D d, V y) {
   const V shifter = hn::Set(d, 0x1.8p23f);
   const V shifted = hn::Add(clamped, shifter);
   const V f = hn::Sub(clamped, hn::Sub(shifted, shifter));
-  V p = hn::Set(d, kCoefficients[6]);
-  for (int i = 5; i >= 0; --i) p = hn::MulAdd(p, f, hn::Set(d, kCoefficients[i]));
+  const V p = EvaluateByHalves(d, kCoefficients, f);
   const auto bits = hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(hn::BitCast(di, shifted)));
   return hn::BitCast(d, bits);
 }

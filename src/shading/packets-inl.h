@@ -53,6 +53,15 @@ class IncidentBlock {
     if (kWithLv) hn::Store(half.lv_squared, d, lv_squared_ + at);
   }
 
+  HWY_INLINE void StoreLobe(FloatTag d, size_t at, const LobeCosineV<FloatV>& lobe) {
+    hn::Store(lobe.one_minus_c, d, one_minus_c_ + at);
+    hn::Store(lobe.c, d, c_ + at);
+  }
+
+  HWY_INLINE LobeCosineV<FloatV> LoadLobe(FloatTag d, size_t at) const {
+    return {hn::Load(d, one_minus_c_ + at), hn::Load(d, c_ + at)};
+  }
+
   HWY_INLINE HalfAnglesV<FloatV> LoadHalf(FloatTag d, size_t at) const {
     return {hn::Load(d, n_dot_u_ + at), hn::Load(d, u_squared_ + at),
             hn::Load(d, nxu_squared_ + at), hn::Load(d, lv_squared_ + at)};
@@ -64,6 +73,7 @@ class IncidentBlock {
   alignas(kAlignment) float n_dot_l_[kHits], irradiance_[kHits], weight_[kHits];
   alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits];
   alignas(kAlignment) float lv_squared_[kHits] = {};
+  alignas(kAlignment) float one_minus_c_[kHits] = {}, c_[kHits] = {};
 };
 
 // The light of hits [begin, end). Not inlined, as it is the same for all models.
@@ -90,19 +100,35 @@ HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
   }
 }
 
+// The cosines of their Phong or Blinn lobes.
+template <class Model>
+HWY_NOINLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
+                           IncidentBlock* block) {
+  const FloatTag d;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, i);
+    block->StoreLobe(d, i - begin, Model::WideLobe(d, p, block->ToLight(d, i - begin)));
+  }
+}
+
 template <class Model>
 HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& range,
                            const RangeArrays& arrays, size_t k, size_t begin, size_t end,
                            IncidentBlock* block) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
+  constexpr bool kLobe = std::is_same_v<typename Model::Incident, LobeIncidentV>;
   FillLight(range.lights[k], range.hits, arrays, begin, end, block);
   if constexpr (kHalf) {
     const auto fill = model.ReadsLv() ? FillHalf<true> : FillHalf<false>;
     fill(arrays, begin, end, block);
+  } else if constexpr (kLobe) {
+    if (model.ReadsLobe()) FillLobe<Model>(arrays, begin, end, block);
   }
   ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
     if constexpr (kHalf) {
       return HalfIncidentV{block->Load(d, p.i - begin), block->LoadHalf(d, p.i - begin)};
+    } else if constexpr (kLobe) {
+      return LobeIncidentV{block->Load(d, p.i - begin), block->LoadLobe(d, p.i - begin)};
     } else {
       return block->Load(d, p.i - begin);
     }
@@ -113,8 +139,9 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 // lights.
 //   view = model.SeenBy(packet, surface)             what does not depend on the light
 //   model.Reflect(view, packet, incident, k)         what it makes of light k
-// `Model::Incident`: IncidentV, or HalfIncidentV. With the latter model.ReadsLv() tells whether
-// HalfAnglesV::lv_squared has a meaning to the model; else it need not be there.
+// `Model::Incident`: IncidentV, HalfIncidentV or LobeIncidentV. model.ReadsLv() tells whether
+// HalfAnglesV::lv_squared has a meaning to the model, and model.ReadsLobe() whether the lobe has,
+// which model.WideLobe(packet, to_light) makes; else they need not be there.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);

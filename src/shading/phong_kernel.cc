@@ -18,24 +18,26 @@ namespace HWY_NAMESPACE {
 template <PhongModel kModel, class Number>
 struct PhongFamily {
   static constexpr bool kHasSpecular = true;
-  using Incident = std::conditional_t<kModel == PhongModel::kBlinnPhong, HalfIncidentV, IncidentV>;
+  using Incident = LobeIncidentV;
   struct View {};
   const PhongUniformsOf<Number>& uniforms;
 
-  static constexpr bool ReadsLv() { return false; }
+  // Lobes of one exponent are all narrow, and theirs come from elsewhere, or none.
+  HWY_INLINE bool ReadsLobe() const {
+    return !std::is_same_v<Number, float> || uniforms.narrow == nullptr;
+  }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
-  HWY_INLINE LobeCosineV<FloatV> Cosine(FloatTag d, const PacketV& p, const Incident& in) const {
+  HWY_INLINE LobeCosineV<FloatV> Lobe(FloatTag d, const PacketV& p, const Incident& in) const {
     const NarrowLobes* const narrow = uniforms.narrow;
     if constexpr (std::is_same_v<Number, float>) {
-      return narrow != nullptr ? LoadNarrow(d, *narrow, p.i) : WideCosine(d, p, in);
+      return narrow != nullptr ? LoadNarrow(d, *narrow, p.i) : in.lobe;
     } else {
-      const LobeCosineV<FloatV> wide = WideCosine(d, p, in);
-      if (narrow == nullptr) return wide;
+      if (narrow == nullptr) return in.lobe;
       const LobeCosineV<FloatV> exact = LoadNarrow(d, *narrow, p.i);
       const auto is_narrow = hn::Ge(exact.one_minus_c, hn::Zero(d));
-      return {hn::IfThenElse(is_narrow, exact.one_minus_c, wide.one_minus_c),
-              hn::IfThenElse(is_narrow, exact.c, wide.c)};
+      return {hn::IfThenElse(is_narrow, exact.one_minus_c, in.lobe.one_minus_c),
+              hn::IfThenElse(is_narrow, exact.c, in.lobe.c)};
     }
   }
 
@@ -44,18 +46,18 @@ struct PhongFamily {
     return {hn::LoadU(d, narrow.first.data() + i), hn::LoadU(d, narrow.second.data() + i)};
   }
 
-  static HWY_INLINE LobeCosineV<FloatV> WideCosine(FloatTag d, const PacketV& p,
-                                                   const Incident& in) {
+  static HWY_INLINE LobeCosineV<FloatV> WideLobe(FloatTag d, const PacketV& p,
+                                                 const Vec3V<FloatV>& to_light) {
     if constexpr (kModel == PhongModel::kBlinnPhong) {
-      return BlinnSquaredCosine(d, in.half);
+      return BlinnSquaredCosine(d, ComputeHalfAngles(d, p.normal, to_light, p.to_view));
     } else {
-      return PhongCosine(d, p.normal, in.to_light, p.to_view);
+      return PhongCosine(d, p.normal, to_light, p.to_view);
     }
   }
 
   HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
                                size_t k) const {
-    const LobeCosineV<FloatV> cosine = Cosine(d, p, in);
+    const LobeCosineV<FloatV> cosine = Lobe(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
                                                           : PhongLobe(d, cosine, shininess);

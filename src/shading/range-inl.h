@@ -11,6 +11,7 @@
 #include <span>
 
 #include "brdf/angles-inl.h"
+#include "brdf/phong-inl.h"
 #include "shading/kernels.h"
 #include "shading/light_at-inl.h"
 
@@ -80,6 +81,11 @@ struct IncidentV {
 // The same with the angles of the half vector.
 struct HalfIncidentV : IncidentV {
   HalfAnglesV<FloatV> half;
+};
+
+// With the cosine of Phong's or Blinn's lobe.
+struct LobeIncidentV : IncidentV {
+  LobeCosineV<FloatV> lobe;
 };
 
 HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
