@@ -51,7 +51,7 @@ void MeasureBlockT(const double* const (&sums)[kReplicates][3], const uint32_t* 
     const V taken =
         hn::PromoteTo(d, hn::BitCast(di, hn::LoadU(hn::Rebind<uint32_t, D>(), samples + i)));
     const V scale = hn::Div(hn::Set(d, 1.0), taken);
-    auto narrow = hn::Eq(taken, taken);
+    auto narrow = hn::Eq(taken, taken);  // all
     V widest = hn::Zero(d), strictest = hn::Set(d, std::numeric_limits<double>::infinity());
     for (size_t channel = 0; channel < 3; ++channel) {
       const auto load = [&](size_t r) HWY_ATTR { return hn::LoadU(d, sums[r][channel] + i); };

@@ -192,7 +192,6 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan
                    count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
 }
 
-// What the triangles of meshes ask for, after all else.
 // A pixel's only sample, of weight 1, is its value.
 void PlanFilm(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   const bool averages =
@@ -210,6 +209,7 @@ void PlanFilm(const Scene& scene, const RenderSettings& settings, RenderPlan* pl
                          plan->one_sample ? "a pixel's only sample is its value" : why});
 }
 
+// What the triangles of meshes ask for, after all else.
 void PlanMeshes(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   if (scene.meshes.empty() || plan->intersector == nullptr) return;
   const auto casts = [](const auto& light) { return light.shadow_rays; };

@@ -122,7 +122,8 @@ bool IsPlain(const RenderPlan& plan, const MaterialRun& run) {
   return !plan.materials[run.material.index].mapped;
 }
 
-// Finds the spans of a run; none goes beyond `row` pixels, of which a sample's are a multiple.
+// Finds the spans of a run, whose rays ascend; none goes beyond a row of `row` pixels, into which
+// those of a sample fall.
 void FindSpans(const MaterialRun& run, size_t row, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const size_t pixels = s.film.window.pixel_count();

@@ -22,8 +22,8 @@ namespace {
 // sqrt(1 - t^2) with t = (y - middle_y) / half_height from -1 to 1. Its rightmost point is at
 // t = turn, its leftmost at -turn.
 struct Outline {
-  const TileCandidate* candidate;
-  double left, right;  // infinite where it is no ellipse
+  bool is_ellipse;  // else nothing else has a meaning
+  double left, right;
   double middle_x, middle_y;
   double inverse_half_height, half_chord;
   double lean, turn;
@@ -95,15 +95,24 @@ namespace {
 // Beyond these, most spans overlap.
 constexpr size_t kMaxOutlines = 32;
 
+// Beyond this coordinate, in pixels, an ellipse is left to be any row: that of a sphere that nearly
+// touches the plane of the camera ends so far away that its near end is lost in roundings.
+constexpr double kFarthest = 1e6;
+
+// With a margin all around: half the width and half the height grow by as much, about the same
+// middle and with the same skew, so what was the outline lies inside.
 Outline OutlineOf(const Projector& projector, const TileCandidate& candidate) {
-  const FilmBounds bounds = projector.Project(candidate.sphere);
-  const double half_width = (bounds.x1 - bounds.x0) / 2, half_height = (bounds.y1 - bounds.y0) / 2;
+  const FilmBounds b = projector.Tangents(candidate.sphere);
+  const double farthest =
+      std::max({std::abs(b.x0), std::abs(b.x1), std::abs(b.y0), std::abs(b.y1)});
+  const double margin = projector.Margin(farthest);
+  const double half_width = (b.x1 - b.x0) / 2 + margin, half_height = (b.y1 - b.y0) / 2 + margin;
   Outline outline{};
-  outline.candidate = &candidate;
-  outline.left = bounds.x0;
-  outline.right = bounds.x1;
-  outline.middle_x = (bounds.x0 + bounds.x1) / 2;
-  outline.middle_y = (bounds.y0 + bounds.y1) / 2;
+  outline.is_ellipse = farthest <= kFarthest;
+  outline.left = b.x0 - margin;
+  outline.right = b.x1 + margin;
+  outline.middle_x = (b.x0 + b.x1) / 2;
+  outline.middle_y = (b.y0 + b.y1) / 2;
   outline.inverse_half_height = 1 / half_height;
   outline.lean = projector.Skew(candidate.sphere) * outline.inverse_half_height;
   outline.half_chord =
@@ -178,7 +187,7 @@ void FindPixelSpans(const CameraFrame& frame, double reach, TileCandidates* cand
       const Outline outline = OutlineOf(projector, *candidate);
       alone[count] = candidate->around_camera ? nullptr : candidate;
       OutlineSpans& spans = of_outline[count++];
-      if (std::isfinite(outline.left + outline.right)) {
+      if (outline.is_ellipse) {
         HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(outline, reach, tile, &spans);
       } else {
         std::fill_n(spans.begin, kCellSize, tile.x0);

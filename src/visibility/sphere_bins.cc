@@ -40,7 +40,7 @@ Projector::Projector(const CameraFrame& frame)
       middle_x_(-frame.corner.dot(right_) * inverse_pixel_),
       middle_y_(-frame.corner.dot(down_) * inverse_pixel_) {}
 
-FilmBounds Projector::Project(const TraceSphere& sphere) const {
+FilmBounds Projector::Tangents(const TraceSphere& sphere) const {
   const double x = sphere.center.dot(right_);
   const double y = sphere.center.dot(down_);
   const double z = sphere.center.dot(forward_);
@@ -53,16 +53,25 @@ FilmBounds Projector::Project(const TraceSphere& sphere) const {
     across = Slopes(x, z, sphere.radius);
     along = Slopes(y, z, sphere.radius);
   }
-  // A thousandth of a pixel, and a billionth of the distance on the film, are far more than all the
-  // roundings here and of the rays.
-  const auto place = [&](double slope, double middle, double sign) {
-    const double at = slope * inverse_pixel_;
-    return at + middle + sign * (1e-3 + 1e-9 * std::abs(at));
-  };
-  bounds.x0 = place(across.low, middle_x_, -1);
-  bounds.x1 = place(across.high, middle_x_, 1);
-  bounds.y0 = place(along.low, middle_y_, -1);
-  bounds.y1 = place(along.high, middle_y_, 1);
+  bounds.x0 = across.low * inverse_pixel_ + middle_x_;
+  bounds.x1 = across.high * inverse_pixel_ + middle_x_;
+  bounds.y0 = along.low * inverse_pixel_ + middle_y_;
+  bounds.y1 = along.high * inverse_pixel_ + middle_y_;
+  return bounds;
+}
+
+// A thousandth of a pixel, and a billionth of the distance on the film. Under a telephoto lens,
+// whose pixels are that small, what rounds directions of length 1 counts, too.
+double Projector::Margin(double at) const {
+  return 1e-3 + 1e-9 * std::abs(at) + 1e-15 * inverse_pixel_;
+}
+
+FilmBounds Projector::Project(const TraceSphere& sphere) const {
+  FilmBounds bounds = Tangents(sphere);
+  bounds.x0 -= Margin(bounds.x0);
+  bounds.x1 += Margin(bounds.x1);
+  bounds.y0 -= Margin(bounds.y0);
+  bounds.y1 += Margin(bounds.y1);
   return bounds;
 }
 

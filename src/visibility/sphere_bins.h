@@ -41,10 +41,19 @@ struct FilmBounds {
 class Projector {
  public:
   explicit Projector(const CameraFrame& frame);
+
+  // The bounds, with a margin at each side: for a box that the outline is in.
   FilmBounds Project(const TraceSphere& sphere) const;
 
+  // The same without margins, for the outline itself.
+  FilmBounds Tangents(const TraceSphere& sphere) const;
+
+  // More than all roundings of bounds and rays come to at this coordinate of the film.
+  double Margin(double at) const;
+
   // Of the ellipse that a sphere before a perspective camera is seen as: half its height, times how
-  // far to the right of its middle its lowest point lies. In square pixels.
+  // far to the right of its middle its lowest point lies. In square pixels; undefined where a bound
+  // is infinite.
   double Skew(const TraceSphere& sphere) const;
 
  private:

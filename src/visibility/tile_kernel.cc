@@ -166,7 +166,7 @@ HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) 
 }
 
 // The rays of a row's columns from x to x_end, whichever sphere they hit. `row`: the row's first
-// ray.
+// ray. In a tile of one cell any rays that follow one another are as good as a row's.
 template <bool kPerspective>
 HWY_INLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
                          const TileCandidates& candidates, const FilmBatch& film, size_t row, int x,

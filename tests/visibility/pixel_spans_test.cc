@@ -58,7 +58,8 @@ size_t CheckSpans(const CameraFrame& frame, const Scene& scene, double reach, co
   }
   size_t wrong = 0;
   for (size_t i = 0; i < of_pixel.size(); ++i) {
-    const auto x = static_cast<double>(i % kWidth), y = tile.y0 + static_cast<double>(i / kWidth);
+    const double x = tile.x0 + static_cast<double>(i % kWidth);
+    const double y = tile.y0 + static_cast<double>(i / kWidth);
     const PixelSpan* const span = of_pixel[i];
     if (span != nullptr && span->alone == nullptr) continue;
     for (int k = 0; k < 25; ++k) {
@@ -99,6 +100,34 @@ TEST_CASE("no sample outside a sphere's span hits it") {
     });
   }
   CHECK(pixels > 10000);  // not in vain
+}
+
+// Its outline's near end is in the picture, its far one up to a billion pixels away.
+TEST_CASE("a sphere that nearly touches the camera's plane has whole spans") {
+  constexpr int kSide = 4000;
+  CameraFrame frame;
+  frame.projection = Projection::kPerspective;
+  frame.forward = {0, 0, -1};
+  frame.step_x = {0.5358983848622454 / kSide, 0, 0};  // 30 degrees
+  frame.step_y = {0, -0.5358983848622454 / kSide, 0};
+  frame.corner = frame.forward - (frame.step_x + frame.step_y) * (kSide / 2.0);
+  for (const double gap : {1e-7, 1.1e-6, 1e-5, 1e-4, 1e-3}) {
+    Scene scene;
+    scene.spheres = {MakeSphere({0.75, 0.75, -(1 + gap)}, 1)};
+    Intersector intersector(scene, Vec3d(0), {.embree = false});
+    REQUIRE(intersector.BinForCamera(frame, {0, 0, kSide, kSide}, 0));
+    CAPTURE(gap);
+    size_t pixels = 0;
+    for (int y = 1664; y < 1712; y += kCellSize) {
+      for (int x = 2240; x < 2400; x += kWidth) {  // about (2311, 1689)
+        const Window tile{x, y, x + kWidth, y + kCellSize};
+        TileCandidates candidates;
+        if (!intersector.EnterTile(tile, TileRays::kSamples, &candidates)) continue;
+        pixels += CheckSpans(frame, scene, 0, tile, candidates);
+      }
+    }
+    CHECK(pixels > 1000);
+  }
 }
 
 // Of a sphere before the camera a span has no more than the pixels that the outline reaches, which
