@@ -18,14 +18,13 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The polynomial in x of kTerms coefficients, lowest power first: even and odd powers each by
-// Horner's rule, two chains of dependent steps half as long as one.
-template <size_t kTerms, class D, class V = hn::Vec<D>>
-HWY_INLINE V EvaluateByHalves(D d, const float (&coefficients)[kTerms], V x) {
-  const auto coefficient = [&](size_t i) HWY_ATTR { return hn::Set(d, coefficients[i]); };
+// The polynomial in x of kTerms terms, an even number, whose coefficient(i) is that of x^i: even
+// and odd powers each by Horner's rule, two chains of dependent steps half as long as one.
+template <size_t kTerms, class V, class Coefficient>
+HWY_INLINE V EvaluateByHalves(const Coefficient& coefficient, V x) {
+  static_assert(kTerms % 2 == 0);
   const V x2 = hn::Mul(x, x);
   V last = coefficient(kTerms - 1), before = coefficient(kTerms - 2);
-  static_assert(kTerms % 2 == 0);
   for (size_t i = kTerms - 2; i != 0; i -= 2) {
     last = hn::MulAdd(last, x2, coefficient(i - 1));
     before = hn::MulAdd(before, x2, coefficient(i - 2));
@@ -39,7 +38,8 @@ HWY_INLINE V Log2OnePlusPolynomial(D d, V f) {
   constexpr float kCoefficients[] = {1.44269502f,  -0.721347332f, 0.480898529f, -0.360696554f,
                                      0.288552552f, -0.239608124f, 0.204857647f, -0.191388384f,
                                      0.184760332f, -0.107497893f};
-  return hn::Mul(EvaluateByHalves(d, kCoefficients, f), f);
+  const auto coefficient = [&](size_t i) HWY_ATTR { return hn::Set(d, kCoefficients[i]); };
+  return hn::Mul(EvaluateByHalves<10>(coefficient, f), f);
 }
 
 // Splits x > 0 into 2^exponent * (1 + f) with 1 + f in [sqrt(1/2), sqrt(2)).

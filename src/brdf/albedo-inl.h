@@ -8,6 +8,7 @@
 #define NACRE_BRDF_ALBEDO_INL_H_
 #endif
 
+#include "base/math-inl.h"
 #include "brdf/albedo.h"
 #include "brdf/fresnel-inl.h"
 
@@ -87,18 +88,10 @@ HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shape& shape, V
   return {z, mu, factor};
 }
 
-// Even and odd powers each by Horner's rule: of one chain of dependent steps, two half as long.
 template <class D, class Polynomial, class V = hn::Vec<D>>
 HWY_INLINE V EvaluateAlbedoPolynomial(D d, const Polynomial& polynomial, V z) {
-  static_assert(kAlbedoTerms % 2 == 0);
-  const V z2 = hn::Mul(z, z);
-  V even = AlbedoCoefficient(d, polynomial, kAlbedoTerms - 2);
-  V odd = AlbedoCoefficient(d, polynomial, kAlbedoTerms - 1);
-  for (size_t i = kAlbedoTerms - 2; i != 0; i -= 2) {
-    even = hn::MulAdd(even, z2, AlbedoCoefficient(d, polynomial, i - 2));
-    odd = hn::MulAdd(odd, z2, AlbedoCoefficient(d, polynomial, i - 1));
-  }
-  return hn::MulAdd(odd, z, even);
+  return EvaluateByHalves<kAlbedoTerms>(
+      [&](size_t i) HWY_ATTR { return AlbedoCoefficient(d, polynomial, i); }, z);
 }
 
 // 1 - E.
