@@ -5,9 +5,11 @@ import dataclasses
 
 @dataclasses.dataclass(frozen=True)
 class Settings:
-    # Google Benchmark: repetitions of each benchmark in random order, and seconds of each.
-    repetitions: int = 9
-    min_time: float = 0.1
+    # Google Benchmark: repetitions of each benchmark in random order, and seconds of each. Many short
+    # ones: a shared machine is fast for some seconds and slow for others, and the median of few
+    # repetitions falls now among these, now among those.
+    repetitions: int = 27
+    min_time: float = 0.03
     # Rounds of whole processes; every round runs each case once.
     process_rounds: int = 15
     slow_process_rounds: int = 5  # of those that take a second or more
@@ -46,8 +48,8 @@ class Settings:
 
 FULL = Settings()
 QUICK = Settings(
-    repetitions=5,
-    min_time=0.01,
+    repetitions=15,
+    min_time=0.005,
     process_rounds=7,
     slow_process_rounds=2,
     scaling_rounds=1,

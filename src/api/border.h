@@ -11,8 +11,8 @@
 #define NACRE_OWN_SOURCE
 #include "base/error.h"
 #include "base/image.h"
+#include "base/vec.h"
 #include "nacre.h"
-#include "scene/scene.h"
 
 namespace nacre::v0 {
 

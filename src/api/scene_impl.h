@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/border.h"
+#include "scene/scene.h"
 
 namespace nacre::v0 {
 

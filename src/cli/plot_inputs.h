@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/light.h"
 #include "study/material_curves.h"
 
 namespace nacre {

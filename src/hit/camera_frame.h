@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/vec.h"
-#include "scene/scene.h"
+#include "scene/camera.h"
 
 namespace nacre {
 

@@ -301,41 +301,41 @@ uint32_t BlocksOf(const Window& cell, const Window& part) {
 }  // namespace
 
 void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
-                TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, RenderStats* stats) {
+                TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, StageClock* clock,
+                RenderStats* stats) {
   TileScratch& s = *scratch;
   CellScratch& c = *cell_scratch;
-  StageClock clock(stats);
   const bool anything = EnterTile(plan, cell, &s);
-  clock.Charge(Stage::kIntersect);
+  clock->Charge(Stage::kIntersect);
   if (!anything) {
     FillBackground(plan, part, strip);
-    clock.Charge(Stage::kFilm);
+    clock->Charge(Stage::kFilm);
     return;
   }
   StartTile(plan, cell, &s.film);
   std::fill_n(c.samples, kCellPixels, 0u);
-  clock.Charge(Stage::kFilm);
+  clock->Charge(Stage::kFilm);
   const uint32_t blocks = BlocksOf(cell, part);
   c.pictures = PicturesOf(plan.camera, s.candidates);
   const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
-  clock.Charge(Stage::kIntersect);
+  clock->Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance.size() > 0;
   const uint32_t smooth =
-      AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, &clock, stats);
+      AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, clock, stats);
   const uint32_t sampled = blocks & ~smooth;
   ClearReplicates(sampled, &c);
   ListPixels(sampled, &c.active);
   FindOutlines(plan, cell, &c);
-  SeekHits(plan, cell, &s, &c, &clock, stats);
+  SeekHits(plan, cell, &s, &c, clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
-    AddLevel(plan, cell, level, &s, &c, &clock, stats);
+    AddLevel(plan, cell, level, &s, &c, clock, stats);
     DropConverged(plan, level, &c);
-    clock.Charge(Stage::kFilm);
+    clock->Charge(Stage::kFilm);
   }
   stats->unsettled_pixels += c.active.size();
   AddReplicates(sampled, c, &s.film);
   ResolveCell(plan, cell, part, s.film, c, strip);
-  clock.Charge(Stage::kFilm);
+  clock->Charge(Stage::kFilm);
 }
 
 }  // namespace nacre

@@ -84,6 +84,7 @@ inline FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
 
 // Renders the pixels of `part` of a cell of the frame into the strip.
 void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
-                TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, RenderStats* stats);
+                TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, StageClock* clock,
+                RenderStats* stats);
 
 }  // namespace nacre

@@ -4,7 +4,7 @@
 
 #include "hit/batch.h"
 #include "hit/camera_frame.h"
-#include "scene/scene.h"
+#include "scene/camera.h"
 
 namespace nacre {
 

@@ -4,19 +4,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "render/film_kernel.h"
-
 namespace nacre {
 namespace {
 
 template <typename T>
-void CopyTile(const Window& tile, const Window& strip, const AlignedArray<T>& from,
-              AlignedArray<T>* to) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const auto tile_row = static_cast<size_t>(y - tile.y0) * static_cast<size_t>(tile.width());
-    const auto strip_row = static_cast<size_t>(y - strip.y0) * static_cast<size_t>(strip.width());
-    std::copy_n(from.data() + tile_row, tile.width(),
-                to->data() + strip_row + static_cast<size_t>(tile.x0 - strip.x0));
+void CopyTile(const AlignedArray<T>& from, const PixelRows<T>& rows) {
+  for (size_t y = 0; y < rows.height; ++y) {
+    std::copy_n(from.data() + y * rows.width, rows.width, rows.first + y * rows.stride);
   }
 }
 
@@ -92,11 +86,6 @@ Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan) {
 }
 
 void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
-  const Window& tile = film.window;
-  const auto width = static_cast<size_t>(tile.width()), height = static_cast<size_t>(tile.height());
-  const auto stride = static_cast<size_t>(strip->window.width());
-  const size_t place = static_cast<size_t>(tile.y0 - strip->window.y0) * stride +
-                       static_cast<size_t>(tile.x0 - strip->window.x0);
   const int spp = plan.scene->image.spp;
   double weight = 0;
   for (int i = 0; i < spp; ++i) weight += SampleWeight(plan.sampler, i);
@@ -105,17 +94,16 @@ void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
   for (const Layer& layer : plan.layers) {
     const Rgb background = BackgroundOf(layer, plan);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      AlignedArray<float>& channel = strip->colors[color++];
+      const PixelRows<float> rows = RowsIn(strip->window, film.window, &strip->colors[color++]);
       if (IsAveraged(layer.kind)) {
-        RoundSums(film.sums[sum++].data(), coverage, {background[c], weight, 1.0 / spp}, width,
-                  height, channel.data() + place, stride);
+        RoundSums(film.sums[sum++].data(), coverage, {background[c], weight, 1.0 / spp}, rows);
       } else {
-        CopyTile(tile, strip->window, film.nearest[nearest++], &channel);
+        CopyTile(film.nearest[nearest++], rows);
       }
     }
   }
   for (size_t id = 0; id < strip->ids.size(); ++id) {
-    CopyTile(tile, strip->window, film.ids[id], &strip->ids[id]);
+    CopyTile(film.ids[id], RowsIn(strip->window, film.window, &strip->ids[id]));
   }
 }
 

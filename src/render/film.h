@@ -7,6 +7,7 @@
 
 #include "base/aligned.h"
 #include "base/image.h"
+#include "render/film_kernel.h"
 #include "render/plan.h"
 
 namespace nacre {
@@ -33,6 +34,15 @@ struct Strip {
   std::vector<AlignedArray<float>> colors;  // all float channels, in order
   std::vector<AlignedArray<uint32_t>> ids;  // all uint channels, in order
 };
+
+// The rows of a tile in a channel of the strip that it lies in.
+template <typename T>
+PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* channel) {
+  const auto stride = static_cast<size_t>(strip.width());
+  return {channel->data() + static_cast<size_t>(tile.y0 - strip.y0) * stride +
+              static_cast<size_t>(tile.x0 - strip.x0),
+          static_cast<size_t>(tile.width()), static_cast<size_t>(tile.height()), stride};
+}
 
 // The channels of a strip's files: float channels first, then ids.
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type);

@@ -51,21 +51,22 @@ HWY_INLINE void RoundRow(const double* sums, const double* coverage, const Round
   }
 }
 
-void RoundSumsT(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
-                size_t height, float* out, size_t stride) {
-  for (size_t y = 0; y < height; ++y, sums += width, coverage += width, out += stride) {
-    RoundRow(sums, coverage, by, width, out);
+void RoundSumsT(const double* sums, const double* coverage, const RoundedBy& by,
+                const PixelRows<float>& rows) {
+  for (size_t y = 0; y < rows.height; ++y, sums += rows.width, coverage += rows.width) {
+    RoundRow(sums, coverage, by, rows.width, rows.first + y * rows.stride);
   }
 }
 
 // By whole vectors: the compiler's own loop stores four floats at a time.
-void FillPixelsT(float value, size_t width, size_t height, float* out, size_t stride) {
+void FillPixelsT(float value, const PixelRows<float>& rows) {
   const hn::ScalableTag<float> d;
   const auto filled = hn::Set(d, value);
-  for (size_t y = 0; y < height; ++y, out += stride) {
+  float* row = rows.first;
+  for (size_t y = 0; y < rows.height; ++y, row += rows.stride) {
     size_t i = 0;
-    for (; i + hn::Lanes(d) <= width; i += hn::Lanes(d)) hn::StoreU(filled, d, out + i);
-    std::fill(out + i, out + width, value);
+    for (; i + hn::Lanes(d) <= rows.width; i += hn::Lanes(d)) hn::StoreU(filled, d, row + i);
+    std::fill(row + i, row + rows.width, value);
   }
 }
 
@@ -94,7 +95,7 @@ struct ToSums {
 
 // Puts it into the spans' pixels.
 struct ToRows {
-  const PixelRows& rows;
+  const PixelRows<float>& rows;
 
   template <class Value>
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
@@ -142,7 +143,7 @@ void AddHitsT(const float* a, const float* b, double constant, double further,
 }
 
 void PutHitsT(const float* a, const float* b, double constant, double further,
-              std::span<const HitSpan> spans, const PixelRows& rows) {
+              std::span<const HitSpan> spans, const PixelRows<float>& rows) {
   BringHits(a, b, constant, further, spans, ToRows{rows});
 }
 
@@ -193,17 +194,17 @@ void AddHits(const float* a, const float* b, double constant, double further,
 }
 
 void PutHits(const float* a, const float* b, double constant, double further,
-             std::span<const HitSpan> spans, const PixelRows& rows) {
+             std::span<const HitSpan> spans, const PixelRows<float>& rows) {
   HWY_DYNAMIC_DISPATCH(PutHitsT)(a, b, constant, further, spans, rows);
 }
 
-void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
-               size_t height, float* out, size_t stride) {
-  HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, width, height, out, stride);
+void RoundSums(const double* sums, const double* coverage, const RoundedBy& by,
+               const PixelRows<float>& rows) {
+  HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, rows);
 }
 
-void FillPixels(float value, size_t width, size_t height, float* out, size_t stride) {
-  HWY_DYNAMIC_DISPATCH(FillPixelsT)(value, width, height, out, stride);
+void FillPixels(float value, const PixelRows<float>& rows) {
+  HWY_DYNAMIC_DISPATCH(FillPixelsT)(value, rows);
 }
 
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,

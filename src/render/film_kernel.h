@@ -25,17 +25,17 @@ struct HitSpan {
 void AddHits(const float* a, const float* b, double constant, double further,
              std::span<const HitSpan> spans, double* sums);
 
-// Rows of a picture's channel: pixel p of a tile of this width is
-// first[p / width * stride + p % width].
+// A tile's rows in a channel of the picture: pixel p is first[p / width * stride + p % width].
+template <typename T>
 struct PixelRows {
-  float* first;
-  size_t width, stride;
+  T* first;
+  size_t width, height, stride;
 };
 
 // The same for the only sample of each pixel, of weight 1, rounded to float: what RoundSums would
 // make of its sum. No span goes beyond a row.
 void PutHits(const float* a, const float* b, double constant, double further,
-             std::span<const HitSpan> spans, const PixelRows& rows);
+             std::span<const HitSpan> spans, const PixelRows<float>& rows);
 
 // What rounds the sums of a channel to its pixels: `weight` of all samples of a pixel, those that
 // missed showing the background.
@@ -43,13 +43,12 @@ struct RoundedBy {
   double background, weight, scale;
 };
 
-// out = float((sum + background (weight - coverage)) scale) for each pixel of a tile; `stride`
-// between the rows of `out`.
-void RoundSums(const double* sums, const double* coverage, const RoundedBy& by, size_t width,
-               size_t height, float* out, size_t stride);
+// float((sum + background (weight - coverage)) scale) for each pixel of a tile.
+void RoundSums(const double* sums, const double* coverage, const RoundedBy& by,
+               const PixelRows<float>& rows);
 
-// Sets the pixels of a tile; `stride` between the rows of `out`.
-void FillPixels(float value, size_t width, size_t height, float* out, size_t stride);
+// Sets all pixels of a tile.
+void FillPixels(float value, const PixelRows<float>& rows);
 
 // to[i] = double(a[i]) + double(b[i]) + constant + further for i in [begin, end); what lies after,
 // up to a whole vector, is overwritten.

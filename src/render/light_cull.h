@@ -6,7 +6,7 @@
 
 #include "base/vec.h"
 #include "hit/batch.h"
-#include "scene/scene.h"
+#include "scene/light.h"
 
 namespace nacre {
 

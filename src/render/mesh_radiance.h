@@ -8,7 +8,7 @@
 
 #include "base/vec.h"
 #include "render/settings.h"
-#include "scene/scene.h"
+#include "scene/handle.h"
 
 namespace nacre {
 

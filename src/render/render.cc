@@ -45,24 +45,26 @@ class WorkerPool {
 };
 
 // The cells of adaptive sampling lie on a grid of the frame.
-void RenderCells(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
+void RenderCells(const RenderPlan& plan, const Window& window, Worker* worker, StageClock* clock,
+                 RenderStats* stats) {
   if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
   const auto first = [](int pixel) { return pixel / kCellSide * kCellSide; };
   for (int y = first(window.y0); y < window.y1; y += kCellSide) {
     for (int x = first(window.x0); x < window.x1; x += kCellSide) {
       const Window cell{x, y, x + kCellSide, y + kCellSide};
       RenderCell(plan, cell, Intersect(cell, window), &worker->scratch, worker->cell.get(),
-                 &worker->strip, stats);
+                 &worker->strip, clock, stats);
     }
   }
 }
 
 void RenderStrip(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
+  StageClock clock(stats);
   StartStrip(plan, window, &worker->strip);
-  if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, stats);
+  if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, &clock, stats);
   for (int x = window.x0; x < window.x1; x += plan.tile_width) {
     const Window tile{x, window.y0, std::min(x + plan.tile_width, window.x1), window.y1};
-    RenderTile(plan, tile, &worker->scratch, &worker->strip, stats);
+    RenderTile(plan, tile, &worker->scratch, &worker->strip, &clock, stats);
   }
 }
 

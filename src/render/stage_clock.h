@@ -9,7 +9,7 @@
 
 namespace nacre {
 
-// Charges the time since the last call to a stage; what a tile took is in the stats when its clock
+// Charges the time since the last call to a stage; what a strip took is in the stats when its clock
 // goes out of scope. The processor's own counter tells how the time is shared: asking the system,
 // as is done once for the whole, would take a twentieth of it.
 class StageClock {

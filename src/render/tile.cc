@@ -256,34 +256,33 @@ void RenderOnce(const RenderPlan& plan, const Window& tile, TileScratch* scratch
 }  // namespace
 
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
-                RenderStats* stats) {
+                StageClock* clock, RenderStats* stats) {
   TileScratch& s = *scratch;
-  StageClock clock(stats);
   const int spp = plan.scene->image.spp;
   const bool anything = EnterTile(plan, tile, &s);
-  clock.Charge(Stage::kIntersect);
+  clock->Charge(Stage::kIntersect);
   if (!anything && HasUnitWeights(plan.sampler)) {
     FillBackground(plan, tile, strip);
-    clock.Charge(Stage::kFilm);
+    clock->Charge(Stage::kFilm);
     return;
   }
   ShiftPixels(plan.sampler, tile, &s.shifts);
   if (s.sampled) NumberPixels(plan, tile, &s.sampled->numbers);
-  if (plan.one_sample) return RenderOnce(plan, tile, &s, strip, &clock, stats);
-  clock.Charge(Stage::kSample);
+  if (plan.one_sample) return RenderOnce(plan, tile, &s, strip, clock, stats);
+  clock->Charge(Stage::kSample);
   StartTile(plan, tile, &s.film);
-  clock.Charge(Stage::kFilm);
+  clock->Charge(Stage::kFilm);
   for (int first = 0; first < spp; first += plan.samples_per_round) {
     const int count = std::min(plan.samples_per_round, spp - first);
     MakeSamples(plan, tile, first, count, &s);
     if (s.sampled) NumberSamples(first, count, &s.sampled->numbers);
-    TraceAndShade(plan, &s, &clock, stats);
+    TraceAndShade(plan, &s, clock, stats);
     SeeSky(plan, &s);
     AddToFilm(plan, &s);
-    clock.Charge(Stage::kFilm);
+    clock->Charge(Stage::kFilm);
   }
   ResolveTile(plan, s.film, strip);
-  clock.Charge(Stage::kFilm);
+  clock->Charge(Stage::kFilm);
 }
 
 }  // namespace nacre

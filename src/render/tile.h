@@ -78,6 +78,6 @@ void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clo
 
 // Renders the pixels of `tile`, which lies within the strip and has at most kBatchCapacity of them.
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
-                RenderStats* stats);
+                StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -281,19 +281,15 @@ bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) 
   if (!std::all_of(s.runs.begin(), s.runs.end(), plain)) return false;
   const Window& tile = s.film.window;
   FillBackground(plan, tile, strip);
-  const auto width = static_cast<size_t>(tile.width());
-  const auto stride = static_cast<size_t>(strip->window.width());
-  const size_t place = static_cast<size_t>(tile.y0 - strip->window.y0) * stride +
-                       static_cast<size_t>(tile.x0 - strip->window.x0);
   for (const MaterialRun& run : s.runs) {
-    FindSpans(run, width, &s);
+    FindSpans(run, static_cast<size_t>(tile.width()), &s);
     const ShadingMaterial& constants = plan.materials[run.material.index];
     size_t color = 0, light_layer = 0;
     for (const Layer& layer : plan.layers) {
       const LayerTerms terms = TermsOf(layer, light_layer, constants, s);
       for (int c = 0; c < FloatChannels(layer.kind); ++c) {
         PutHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
-                terms.further[c], s.spans, {strip->colors[color++].data() + place, width, stride});
+                terms.further[c], s.spans, RowsIn(strip->window, tile, &strip->colors[color++]));
       }
       if (layer.kind == LayerKind::kLight) ++light_layer;
     }
@@ -303,23 +299,20 @@ bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) 
 
 void FillBackground(const RenderPlan& plan, const Window& tile, Strip* strip) {
   const double spp = plan.scene->image.spp;
-  const auto stride = static_cast<size_t>(strip->window.width());
-  const size_t place = static_cast<size_t>(tile.y0 - strip->window.y0) * stride +
-                       static_cast<size_t>(tile.x0 - strip->window.x0);
-  const auto width = static_cast<size_t>(tile.width()), height = static_cast<size_t>(tile.height());
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
     const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
     // As the film averages it: the sum of spp floats, at most 2^16, is exact.
     const Rgb mean = background * spp * (1.0 / spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-      FillPixels(static_cast<float>(mean[c]), width, height, strip->colors[color++].data() + place,
-                 stride);
+      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));
     }
   }
   for (AlignedArray<uint32_t>& channel : strip->ids) {
-    uint32_t* row = channel.data() + place;
-    for (size_t y = 0; y < height; ++y, row += stride) std::fill_n(row, width, 0u);
+    const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, &channel);
+    for (size_t y = 0; y < rows.height; ++y) {
+      std::fill_n(rows.first + y * rows.stride, rows.width, 0u);
+    }
   }
 }
 

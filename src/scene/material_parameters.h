@@ -9,8 +9,9 @@
 #include <string_view>
 
 #include "base/vec.h"
+#include "scene/handle.h"
 #include "scene/limits.h"
-#include "scene/scene.h"
+#include "scene/material.h"
 
 namespace nacre {
 

@@ -3,7 +3,7 @@
 // are the sphere's own; faces are counter-clockwise from outside.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/shapes.h"
 
 namespace nacre {
 

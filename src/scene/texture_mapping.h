@@ -3,7 +3,7 @@
 // scalar, for work done once. The SIMD twin, for hits, is shading/coordinates_kernel.cc.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/texture.h"
 
 namespace nacre {
 

@@ -6,8 +6,8 @@
 
 #include "base/vec.h"
 #include "scene/fault_list.h"
+#include "scene/handle.h"
 #include "scene/limits.h"
-#include "scene/scene.h"
 
 namespace nacre {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "scene/scene.h"
+#include "scene/material.h"
 #include "scene_io/json_text.h"
 
 namespace nacre {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "light/punctual.h"
-#include "scene/scene.h"
+#include "scene/light.h"
 
 namespace nacre {
 

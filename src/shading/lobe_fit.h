@@ -3,7 +3,7 @@
 // the width by search, the strength of each channel for that width exactly.
 #pragma once
 
-#include "scene/scene.h"
+#include "scene/material.h"
 
 namespace nacre {
 

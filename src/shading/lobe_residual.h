@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/material.h"
 #include "shading/scalar_material.h"
 
 namespace nacre {

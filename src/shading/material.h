@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "brdf/albedo.h"
-#include "scene/scene.h"
+#include "scene/material.h"
 
 namespace nacre {
 

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/material.h"
 #include "shading/lobe_residual.h"
 
 namespace nacre {

@@ -16,7 +16,7 @@
 #include "light/mesh_light.h"
 #include "light/sky.h"
 #include "sampling/pair_sampler.h"
-#include "scene/scene.h"
+#include "scene/light.h"
 #include "shading/shade.h"
 
 namespace nacre {

@@ -13,7 +13,6 @@
 #include <span>
 
 #include "hit/batch.h"
-#include "scene/scene.h"
 #include "shading/light.h"
 #include "shading/material.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/image.h"
-#include "scene/scene.h"
+#include "scene/shapes.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "report/plot.h"
-#include "scene/scene.h"
+#include "scene/light.h"
 
 namespace nacre {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "report/plot.h"
-#include "scene/scene.h"
+#include "scene/material.h"
 
 namespace nacre {
 

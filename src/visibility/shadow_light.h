@@ -3,7 +3,7 @@
 #pragma once
 
 #include "base/vec.h"
-#include "scene/scene.h"
+#include "scene/light.h"
 
 namespace nacre {
 

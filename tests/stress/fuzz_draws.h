@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "base/vec.h"
+#include "scene/material.h"
 #include "scene/material_parameters.h"
-#include "scene/scene.h"
 
 namespace nacre {
 

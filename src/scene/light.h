@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene/light.h: lights, from points to skies.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace nacre {
+
+// Fall-off with the distance d of a point or spot light: 1 / (constant + linear d + quadratic d^2).
+struct Attenuation {
+  double constant = 0;   // >= 0
+  double linear = 0;     // >= 0
+  double quadratic = 1;  // >= 0; not all three 0
+
+  static Attenuation None() { return {1, 0, 0}; }
+  static Attenuation InverseSquare() { return {0, 0, 1}; }
+  bool operator==(const Attenuation&) const = default;
+};
+
+struct AmbientLight {
+  Rgb radiance{0, 0, 0};
+};
+
+struct DirectionalLight {
+  Vec3d direction_of_travel{0, -1, 0};  // any length > 0
+  Rgb irradiance{1, 1, 1};              // on a surface facing the light
+};
+
+struct PointLight {
+  Vec3d position{0, 0, 0};
+  Rgb intensity{1, 1, 1};
+  Attenuation attenuation;
+};
+
+// The curve from cutoff to inner angle, over the cosine t scaled to [0, 1] in between.
+enum class SpotEdge : uint8_t {
+  kSmoothstep,  // t^2 (3 - 2 t)
+  kSquare,      // t^2, as glTF's KHR_lights_punctual has it
+};
+
+// Intensity times cos(a)^exponent within the cone (a: angle from the axis), dark at and beyond
+// cutoff_deg; between inner_deg and cutoff_deg a smooth penumbra. inner_deg == cutoff_deg is the
+// hard cone.
+struct SpotLight {
+  Vec3d position{0, 0, 0};
+  Vec3d direction_of_travel{0, -1, 0};  // the axis, any length > 0
+  Rgb intensity{1, 1, 1};
+  Attenuation attenuation;
+  double cutoff_deg = 30;  // half-angle, in (0, 180]
+  double inner_deg = 30;   // in [0, cutoff_deg]
+  double exponent = 0;     // >= 0
+  SpotEdge edge = SpotEdge::kSmoothstep;
+};
+
+// Surfaces that emit the same radiance everywhere and in all directions. `visible`: the camera sees
+// them, and they block the light of others.
+
+// Emits outwards.
+struct SphereAreaLight {
+  Vec3d center{0, 0, 0};
+  double radius = 1;  // > 0
+  Rgb radiance{1, 1, 1};
+  bool visible = true;
+};
+
+struct RectangleAreaLight {
+  Vec3d center{0, 0, 0};
+  Vec3d facing{0, -1, 0};        // the side that emits, any length > 0
+  Vec3d up{0, 0, -1};            // along its height, made perpendicular to `facing`
+  double width = 1, height = 1;  // > 0
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+struct DiskAreaLight {
+  Vec3d center{0, 0, 0};
+  Vec3d facing{0, -1, 0};  // the side that emits, any length > 0
+  double radius = 1;       // > 0
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+struct Mesh;
+
+// Triangles that emit on the side where their corners run counter-clockwise. Along a direction the
+// nearest of them is seen, by the camera and by what it shines on.
+struct MeshAreaLight {
+  // Its positions and triangles count. Shared by copies of the scene, never changed.
+  std::shared_ptr<const Mesh> mesh;
+  Rgb radiance{1, 1, 1};
+  bool two_sided = false;
+  bool visible = true;
+};
+
+// What an environment looks like. Directions are unit vectors; +y is up.
+struct ConstantSky {
+  Rgb radiance{1, 1, 1};
+};
+
+// From the horizon's colour to the zenith's with the height y of the direction, mix(horizon,
+// zenith, y); below the horizon likewise to the ground's.
+struct GradientSky {
+  Rgb zenith{0.3, 0.5, 1}, horizon{1, 1, 1}, ground{0.2, 0.2, 0.2};
+};
+
+// radiance (constant + linear c + quadratic c^2), c the cosine of the angle from `axis`; >= 0 for
+// every c in [-1, 1].
+struct QuadraticSky {
+  Rgb radiance{1, 1, 1};
+  Vec3d axis{0, 1, 0};  // any length > 0
+  double constant = 1, linear = 0, quadratic = 0;
+};
+
+// Linear radiance by direction, row by row from +y down to -y: the texel at (u, v) in [0, 1)^2 is
+// seen in the direction (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v). A texel has one
+// value all over.
+struct SkyPicture {
+  int width = 0, height = 0;
+  std::vector<float> rgb;  // 3 width height, each >= 0
+};
+
+struct PictureSky {
+  std::shared_ptr<const SkyPicture> picture;  // shared by copies of the scene, never changed
+  Rgb scale{1, 1, 1};
+};
+
+// Light from infinitely far, all around.
+struct EnvironmentLight {
+  std::variant<ConstantSky, GradientSky, QuadraticSky, PictureSky> sky;
+  double rotate_deg = 0;   // about +y, right-handed
+  bool background = true;  // seen where nothing is hit, in place of Scene::background
+};
+
+struct Light {
+  std::string name;  // unique; names the layer light.<name>
+  bool shadows = true;
+  bool fast = false;  // approximations, whose error is told, in the place of samples
+  std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
+               RectangleAreaLight, DiskAreaLight, EnvironmentLight, MeshAreaLight>
+      kind;
+};
+
+// True for lights without extent, which reach a point from one direction.
+inline bool IsPunctual(const Light& light) {
+  return std::holds_alternative<DirectionalLight>(light.kind) ||
+         std::holds_alternative<PointLight>(light.kind) ||
+         std::holds_alternative<SpotLight>(light.kind);
+}
+
+}  // namespace nacre

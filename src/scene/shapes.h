@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene/shapes.h: spheres and meshes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "scene/handle.h"
+
+namespace nacre {
+
+struct Sphere {
+  Vec3d center{0, 0, 0};
+  double radius = 1;  // > 0
+  MaterialId material;
+};
+
+// What is interpolated across a triangle.
+enum class Interpolation : uint8_t {
+  kPhong,    // the vertices' normals, renormalised at each point (Phong 1975)
+  kGouraud,  // what the vertices reflect (Gouraud 1971), diffuse and specular apart
+  kFlat,     // nothing: all of it reflects what its centroid does under the face normal
+  kFaceted,  // nothing but the position: the face normal at each point
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Vec3d> positions;     // world space
+  std::vector<Vec3d> normals;       // unit, one per position; empty: face normals
+  std::vector<Vec2d> uvs;           // one per position, or empty; (0, 0) is an image's bottom left
+  std::vector<Vec2d> second_uvs;    // likewise, of textures that ask for them
+  std::vector<Vec3f> colors;        // linear, each in [0, 1], one per position, or empty
+  std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
+  MaterialId material;
+  Interpolation interpolation = Interpolation::kPhong;
+  // Shadow rays of smooth normals start on the surface that the normals tell of, not in the
+  // triangle (Hanika 2021): no jagged shadows along the terminator of coarse meshes.
+  bool smooth_terminator = true;
+};
+
+// Whether hits have normals of their own, interpolated from the vertices.
+inline bool HasSmoothNormals(const Mesh& mesh) {
+  return !mesh.normals.empty() && (mesh.interpolation == Interpolation::kPhong ||
+                                   mesh.interpolation == Interpolation::kGouraud);
+}
+
+}  // namespace nacre
