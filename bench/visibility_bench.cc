@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "render/camera.h"
+#include "sampling/pixel_sampler.h"
 #include "visibility/intersector.h"
 #include "visibility_scenes.h"
 
@@ -41,14 +42,16 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
   state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
 }
 
-// The same frame by tiles, with the binning of every frame and the hits' points and normals;
-// Embree's tree above is built before.
+// The same frame by tiles as the renderer goes about it: with the binning of every frame, the film
+// positions, and the hits' points and normals. Embree's tree above is built before.
 void BenchTiles(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
   Intersector intersector(scene, scene.camera.position, {.embree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   const Window frame{0, 0, kWidth, kHeight};
+  const PixelSampler sampler = MakePixelSampler(scene.image.filter, 1, 0);
+  PixelShifts shifts{kBatchCapacity};
   TileCandidates candidates;
   FilmBatch film;
   HitBatch hits;
@@ -61,13 +64,8 @@ void BenchTiles(benchmark::State& state, const SphereScene& which) {
         const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
                           std::min(y0 + kCellSize, kHeight)};
         if (!intersector.EnterTile(tile, TileRays::kSamples, &candidates)) continue;
-        film.count = 0;
-        for (int y = tile.y0; y < tile.y1; ++y) {
-          for (int x = tile.x0; x < tile.x1; ++x, ++film.count) {
-            film.x[film.count] = x + 0.5;
-            film.y[film.count] = y + 0.5;
-          }
-        }
+        film.count = tile.pixel_count();
+        SamplePixels(sampler, tile, shifts, 0, 1, film.x.data(), film.y.data());
         intersector.HitsInTile(candidates, film, {&hits, &directions, false});
         benchmark::DoNotOptimize(hits.count);
       }
