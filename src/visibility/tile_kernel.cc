@@ -10,6 +10,7 @@
 #include "hwy/foreach_target.h"
 
 #include "visibility/alone-inl.h"
+#include "visibility/many-inl.h"
 #include "visibility/pixel_spans.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,55 +19,6 @@ namespace HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-HWY_INLINE float LargestDepth(const CameraPacket& packet) {
-  const CameraFloat d;
-  auto largest = hn::Load(d, packet.depth);
-  for (size_t i = hn::Lanes(d); i < kCameraPacket; i += hn::Lanes(d)) {
-    largest = hn::Max(largest, hn::Load(d, packet.depth + i));
-  }
-  return hn::GetLane(hn::MaxOfLanes(d, largest));
-}
-
-HWY_INLINE float SmallestLength(const CameraPacket& packet) {
-  const CameraFloat d;
-  auto smallest = hn::Load(d, packet.dd);
-  for (size_t i = hn::Lanes(d); i < kCameraPacket; i += hn::Lanes(d)) {
-    smallest = hn::Min(smallest, hn::Load(d, packet.dd + i));
-  }
-  return std::sqrt(hn::GetLane(hn::MinOfLanes(d, smallest))) * (1 - 0x1p-20f);
-}
-
-// Candidates come nearest first: those beyond every lane's hit end it. t |direction| of a hit is
-// its distance from the camera, and t |direction|^2 its depth.
-template <bool kPerspective>
-HWY_INLINE void TraceCell(const CameraFrame& frame, const std::vector<TileCandidate>& candidates,
-                          CameraPacket* packet) {
-  const float length = SmallestLength(*packet);
-  float depth = LargestDepth(*packet);
-  for (const TileCandidate& candidate : candidates) {
-    if (candidate.near * length > depth) return;
-    if (TestOneOfMany<kPerspective>(frame, candidate, packet)) depth = LargestDepth(*packet);
-  }
-}
-
-// Traces the packet's rays against the cells that its pixels lie in.
-template <bool kPerspective>
-HWY_INLINE void TracePacket(const CameraFrame& frame, const std::vector<TileCandidate>* begin,
-                            const std::vector<TileCandidate>* end, CameraPacket* packet) {
-  FillFloatRays<kPerspective>(frame, packet);
-  packet->hit = 0;
-  const CameraFloat d;
-  const float infinity = std::numeric_limits<float>::infinity();
-  for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
-    const auto used = MaskOfBits(d, packet->lanes, static_cast<int>(i));
-    hn::Store(hn::IfThenElse(used, hn::Set(d, infinity), hn::Set(d, -infinity)), d,
-              packet->depth + i);
-  }
-  packet->exact = 0;
-  std::fill_n(packet->t, kCameraPacket, std::numeric_limits<double>::infinity());
-  for (; begin != end; ++begin) TraceCell<kPerspective>(frame, *begin, packet);
-}
-
 // The one sphere that the lanes hit, or null.
 HWY_INLINE const TileCandidate* OnlySphere(const CameraPacket& packet, int lane, uint32_t bits) {
   const TileCandidate* const first = packet.best[lane + __builtin_ctz(bits)];
@@ -74,26 +26,6 @@ HWY_INLINE const TileCandidate* OnlySphere(const CameraPacket& packet, int lane,
     if (packet.best[lane + __builtin_ctz(bits)] != first) return nullptr;
   }
   return first;
-}
-
-// The spheres that a group of lanes hit.
-struct HitSpheres {
-  Vec3V<hn::Vec<CameraDouble>> center;
-  hn::Vec<CameraDouble> inverse_radius;
-};
-
-HWY_INLINE HitSpheres GatherSpheres(const CameraPacket& packet, int lane, uint32_t bits) {
-  const CameraDouble d;
-  alignas(kVectorBytes) double gathered[4][kCameraPacket] = {};
-  for (; bits != 0; bits &= bits - 1) {
-    const int i = __builtin_ctz(bits);
-    const TileCandidate& candidate = *packet.best[lane + i];
-    gathered[0][i] = candidate.sphere.center.x;
-    gathered[1][i] = candidate.sphere.center.y;
-    gathered[2][i] = candidate.sphere.center.z;
-    gathered[3][i] = candidate.inverse_radius;
-  }
-  return {Load3(d, gathered[0], gathered[1], gathered[2]), hn::Load(d, gathered[3])};
 }
 
 // Appends the primitives, and with them counts the hits.
@@ -118,12 +50,14 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
         Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
               packet.perpendicular[2] + lane);
     const TileCandidate* const only = OnlySphere(packet, lane, bits);
-    const HitSpheres spheres = only != nullptr ? HitSpheres{SetVec3(d, only->sphere.center),
-                                                            hn::Set(d, only->inverse_radius)}
-                                               : GatherSpheres(packet, lane, bits);
+    const SpheresV spheres =
+        only != nullptr
+            ? SpheresV{SetVec3(d, only->sphere.center), hn::Set(d, only->inverse_radius)}
+            : GatherBest(packet, lane, bits,
+                         [](const TileCandidate& best) { return best.inverse_radius; });
     const SurfaceV<CameraDouble> surface =
         SphereSurface(d, direction, hn::Load(d, packet.along + lane), perpendicular, spheres.center,
-                      spheres.inverse_radius);
+                      spheres.size);
     const auto to_view = ToView(d, direction, hn::Load(d, packet.exact_dd + lane));
     AppendSurface(surface, to_view, bits, first_ray + static_cast<size_t>(lane), to);
     if (only != nullptr) {
@@ -168,9 +102,9 @@ HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) 
 // The rays of a row's columns from x to x_end, whichever sphere they hit. `row`: the row's first
 // ray. In a tile of one cell any rays that follow one another are as good as a row's.
 template <bool kPerspective>
-HWY_INLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
-                         const TileCandidates& candidates, const FilmBatch& film, size_t row, int x,
-                         int x_end, CameraPacket* packet, const HitsTo& to) {
+HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
+                           const TileCandidates& candidates, const FilmBatch& film, size_t row,
+                           int x, int x_end, CameraPacket* packet, const HitsTo& to) {
   const int left = candidates.tile.x0 - bins.window.x0;
   const auto cell_at = [&](int column) {
     return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
