@@ -43,9 +43,9 @@ def markdown(results):
                      f"{f'{ratio:.1f}' if ratio else ''} | "
                      f"{report.share_of_bound(results, model, best, ns)} | {avx2} |")
     lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is, or in how "
-              "many times fewer rays if its name ends in `in_rays`; in memory "
-              "unless it says process. Embree's spheres are traced bare, in float, their tree "
-              "built before.", "", "| headline | value |", "|---|---|"]
+              "many times fewer rays if its name ends in `in_rays`; in memory, each frame in that "
+              "of the one before, unless it says process. Embree's spheres are traced bare, in "
+              "float, their tree built before.", "", "| headline | value |", "|---|---|"]
     lines += [f"| `{name}` | {_number(value)} |" for name, value in results["summary"].items()
               if not name.startswith(("growth", "steepest"))]
     return "\n".join(lines)
