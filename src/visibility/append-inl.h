@@ -115,6 +115,16 @@ HWY_INLINE void AppendPrimitive(uint32_t primitive, uint32_t bits, HitBatch* hit
   hits->count += static_cast<size_t>(__builtin_popcount(bits));
 }
 
+// The same of lanes that may hit one each.
+HWY_INLINE void AppendPrimitives(const uint32_t* primitives, uint32_t bits, HitBatch* hits) {
+  const hn::Rebind<uint32_t, CameraDouble> du;
+  const auto each = hn::Load(du, primitives);
+  const uint32_t first = hits->count == 0 ? primitives[std::countr_zero(bits)] : hits->primitive[0];
+  if ((BitsOfMask(du, hn::Ne(each, hn::Set(du, first))) & bits) != 0) hits->one_primitive = false;
+  Appender(hits->count, bits)(du, each, &hits->primitive);
+  hits->count += static_cast<size_t>(__builtin_popcount(bits));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();

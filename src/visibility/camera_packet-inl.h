@@ -26,6 +26,7 @@ using CameraFloat = hn::CappedTag<float, kCameraPacket>;
 // corner + x step_x + y step_y of the frame. The other vector is the same for all.
 struct CameraPacket {
   uint32_t lanes;        // that hold rays, as bits
+  uint32_t pixel_rows;   // of their cells that the rays may lie in, as bits
   const double* film_x;  // the packet's piece of the batch
   const double* film_y;
   // In float, for proposals: the own vectors, and the squared length of the directions.
@@ -43,8 +44,34 @@ struct CameraPacket {
   alignas(kVectorBytes) double along[kCameraPacket];  // half the chord, negative where the ray
                                                       // starts outside
   alignas(kVectorBytes) double perpendicular[3][kCameraPacket];
-  const TileCandidate* best[kCameraPacket];
+  // The spheres that the lanes are proposed, then hit.
+  alignas(kVectorBytes) uint32_t primitive[kCameraPacket] = {};
+  alignas(kVectorBytes) double center[3][kCameraPacket] = {};
+  alignas(kVectorBytes) double radius[kCameraPacket] = {};
+  alignas(kVectorBytes) double inverse_radius[kCameraPacket] = {};
 };
+
+// The candidate becomes the sphere of the lanes in `bits`, of the group from `lane` on. Whole
+// vectors are stored: they are read as such soon.
+HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bits,
+                          CameraPacket* packet) {
+  const auto set = [&](auto d, auto value, auto* to) HWY_ATTR {
+    hn::Store(hn::IfThenElse(MaskOfBits(d, bits, 0), hn::Set(d, value), hn::Load(d, to + lane)), d,
+              to + lane);
+  };
+  const CameraDouble d;
+  set(d, candidate.sphere.center.x, packet->center[0]);
+  set(d, candidate.sphere.center.y, packet->center[1]);
+  set(d, candidate.sphere.center.z, packet->center[2]);
+  set(d, candidate.sphere.radius, packet->radius);
+  set(d, candidate.inverse_radius, packet->inverse_radius);
+  set(hn::Rebind<uint32_t, CameraDouble>(), candidate.primitive, packet->primitive);
+}
+
+HWY_INLINE Vec3V<hn::Vec<CameraDouble>> Centers(const CameraPacket& packet, int lane) {
+  return Load3(CameraDouble(), packet.center[0] + lane, packet.center[1] + lane,
+               packet.center[2] + lane);
+}
 
 // A vector of floats from doubles.
 HWY_INLINE hn::Vec<CameraFloat> LoadRounded(const double* from) {
@@ -154,7 +181,7 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
   uint32_t ties = BitsOfMask(d, hn::And(found, hn::Eq(hit.t, best)));
   for (; ties != 0; ties &= ties - 1) {
     const int tie = __builtin_ctz(ties);
-    if (candidate.primitive < packet->best[lane + tie]->primitive) bits |= 1u << tie;
+    if (candidate.primitive < packet->primitive[lane + tie]) bits |= 1u << tie;
   }
   if (bits == 0) return;
   nearer = MaskOfBits(d, bits, 0);
@@ -170,7 +197,7 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
   hn::StoreU(UpperDepth(d, hn::Load(d, packet->t + lane), hn::Load(d, packet->exact_dd + lane)), df,
              packet->depth + lane);
   packet->hit |= bits << lane;
-  for (; bits != 0; bits &= bits - 1) packet->best[lane + __builtin_ctz(bits)] = &candidate;
+  SetSphere(candidate, lane, bits, packet);
 }
 
 // One of several candidates.

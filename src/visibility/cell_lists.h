@@ -28,7 +28,7 @@ inline CellListRange CellListPiece(size_t items, size_t piece) {
 
 // for_cells(item, emit) calls emit(cell) for each cell of the item, each time in the same way; it
 // is called twice. Then end[cell] is where the cell's list ends, allocate(entries) is called once,
-// and place(item, position) for each entry, from several threads. Returns false, with nothing
+// and place(item, cell, position) for each entry, from several threads. Returns false, with nothing
 // allocated, if there would be more than max_entries, which is below 2^32.
 template <class ForCells, class Allocate, class Place>
 bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
@@ -61,7 +61,7 @@ bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
   ParallelFor(pieces, threads, [&](size_t piece) {
     const auto [begin, end_of_piece] = CellListPiece(items, piece);
     for (size_t item = begin; item < end_of_piece; ++item) {
-      for_cells(item, [&](size_t cell) { place(item, next[piece][cell]++); });
+      for_cells(item, [&](size_t cell) { place(item, cell, next[piece][cell]++); });
     }
   });
   return true;

@@ -246,7 +246,7 @@ class Binner {
           block_spheres_ = HugeArray<BinnedSphere>(entries);
           block_numbers_ = HugeArray<uint32_t>(entries);
         },
-        [&](size_t i, uint32_t position) {
+        [&](size_t i, size_t, uint32_t position) {
           block_spheres_[position] = Place(i);
           block_numbers_[position] = static_cast<uint32_t>(i);
         });

@@ -48,36 +48,14 @@ HWY_INLINE void TraceCell(const CameraFrame& frame, const std::vector<TileCandid
   float depth = LargestDepth(*packet);
   for (const TileCandidate& candidate : candidates) {
     if (candidate.near * length > depth) return;
+    if ((candidate.pixel_rows & packet->pixel_rows) == 0) continue;
     if (TestOneOfMany<kPerspective>(frame, candidate, packet)) depth = LargestDepth(*packet);
   }
 }
 
-// The spheres of a group of lanes.
-struct SpheresV {
-  Vec3V<hn::Vec<CameraDouble>> center;
-  hn::Vec<CameraDouble> size;  // radius or its inverse
-};
-
-// The best ones of the lanes in `bits`; 0 elsewhere.
-template <class SizeOf>
-HWY_INLINE SpheresV GatherBest(const CameraPacket& packet, int lane, uint32_t bits,
-                               const SizeOf& size_of) {
-  const CameraDouble d;
-  alignas(kVectorBytes) double gathered[4][hn::MaxLanes(d)] = {};
-  for (; bits != 0; bits &= bits - 1) {
-    const int i = __builtin_ctz(bits);
-    const TileCandidate& candidate = *packet.best[lane + i];
-    gathered[0][i] = candidate.sphere.center.x;
-    gathered[1][i] = candidate.sphere.center.y;
-    gathered[2][i] = candidate.sphere.center.z;
-    gathered[3][i] = size_of(candidate);
-  }
-  return {Load3(d, gathered[0], gathered[1], gathered[2]), hn::Load(d, gathered[3])};
-}
-
 // Lanes by what they are proposed.
 struct Proposals {
-  uint32_t one = 0;   // a single sphere, CameraPacket::best
+  uint32_t one = 0;   // a single sphere, the packet's
   uint32_t many = 0;  // several
 };
 
@@ -88,17 +66,20 @@ template <bool kPerspective>
 HWY_INLINE Proposals ProposeSpheres(const CameraFrame& frame,
                                     const std::vector<TileCandidate>* begin,
                                     const std::vector<TileCandidate>* end, CameraPacket* packet) {
+  const int step = static_cast<int>(hn::Lanes(CameraDouble()));
   uint32_t any = 0, many = 0;
   for (; begin != end; ++begin) {
     for (const TileCandidate& candidate : *begin) {
+      if ((candidate.pixel_rows & packet->pixel_rows) == 0) continue;
       const uint32_t lanes = ProposedLanes<kPerspective, true>(frame, candidate, *packet);
-      for (uint32_t fresh = lanes & ~any; fresh != 0; fresh &= fresh - 1) {
-        packet->best[__builtin_ctz(fresh)] = &candidate;
+      for (int lane = 0; lane < kCameraPacket; lane += step) {
+        const uint32_t fresh = (lanes & ~any) >> lane & ((1u << step) - 1);
+        if (fresh != 0) SetSphere(candidate, lane, fresh, packet);
       }
       // Not where the same sphere comes from the next cell.
       for (uint32_t again = lanes & any & ~many; again != 0; again &= again - 1) {
         const int lane = __builtin_ctz(again);
-        if (packet->best[lane]->primitive != candidate.primitive) many |= 1u << lane;
+        if (packet->primitive[lane] != candidate.primitive) many |= 1u << lane;
       }
       any |= lanes;
       if (__builtin_popcount(many) > kFewLanes) return {0, packet->lanes};
@@ -117,17 +98,15 @@ HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t one, CameraPacke
     if (bits == 0) continue;
     FillExactRays<kPerspective>(d, frame, lane, packet);
     packet->exact |= 1u << lane;
-    const SpheresV spheres = GatherBest(
-        *packet, lane, bits, [](const TileCandidate& best) { return best.sphere.radius; });
+    const auto center = Centers(*packet, lane);
     const auto to_center =
-        kPerspective
-            ? spheres.center
-            : Sub(spheres.center, Load3(d, packet->exact_own[0] + lane, packet->exact_own[1] + lane,
-                                        packet->exact_own[2] + lane));
-    const auto hit = TestSphere(d, to_center, ExactDirection<kPerspective>(d, frame, lane, *packet),
-                                hn::Load(d, packet->inverse_dd + lane), spheres.size);
-    // A lane without a sphere, of radius 0, hits nothing.
-    packet->hit |= BitsOfMask(d, hit.hit) << lane;
+        kPerspective ? center
+                     : Sub(center, Load3(d, packet->exact_own[0] + lane,
+                                         packet->exact_own[1] + lane, packet->exact_own[2] + lane));
+    const auto hit =
+        TestSphere(d, to_center, ExactDirection<kPerspective>(d, frame, lane, *packet),
+                   hn::Load(d, packet->inverse_dd + lane), hn::Load(d, packet->radius + lane));
+    packet->hit |= (BitsOfMask(d, hit.hit) & bits) << lane;
     hn::Store(hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)), d,
               packet->along + lane);
     Store3(hit.perpendicular, d, packet->perpendicular[0] + lane, packet->perpendicular[1] + lane,

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/pixel_spans_kernel.cc: the outlines' spans in all rows of a tile at once.
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <limits>
 
 #include "visibility/pixel_spans.h"
 #include "visibility/sphere_bins.h"
@@ -13,20 +12,30 @@
 
 #include "hwy/highway.h"
 
+#include "base/geometry-inl.h"
+
 #ifndef NACRE_VISIBILITY_PIXEL_SPANS_KERNEL_ONCE_
 #define NACRE_VISIBILITY_PIXEL_SPANS_KERNEL_ONCE_
 namespace nacre {
 namespace {
 
-// A sphere's outline on the film, in pixels: an ellipse, x = middle_x + lean t -+ half_chord
-// sqrt(1 - t^2) with t = (y - middle_y) / half_height from -1 to 1. Its rightmost point is at
-// t = turn, its leftmost at -turn.
-struct Outline {
-  bool is_ellipse;  // else nothing else has a meaning
-  double left, right;
-  double middle_x, middle_y;
-  double inverse_half_height, half_chord;
-  double lean, turn;
+// Beyond these, most spans overlap.
+constexpr size_t kMaxOutlines = 32;
+
+// Beyond this coordinate, in pixels, an ellipse is left to be any row: that of a sphere that nearly
+// touches the plane of the camera ends so far away that its near end is lost in roundings.
+constexpr double kFarthest = 1e6;
+
+// Spheres as they are seen on the film, in pixels: each an ellipse, x = middle_x + lean t -+
+// half_chord sqrt(1 - t^2) with t = (y - middle_y) inverse_half_height from -1 to 1. Its rightmost
+// point is at t = turn, its leftmost at -turn. What is no ellipse is a strip that covers all.
+struct Outlines {
+  size_t count = 0;
+  alignas(kVectorBytes) double sphere[4][kMaxOutlines];  // centre and radius; the rest follows
+  alignas(kVectorBytes) double left[kMaxOutlines], right[kMaxOutlines];
+  alignas(kVectorBytes) double middle_x[kMaxOutlines], middle_y[kMaxOutlines];
+  alignas(kVectorBytes) double inverse_half_height[kMaxOutlines], half_chord[kMaxOutlines];
+  alignas(kVectorBytes) double lean[kMaxOutlines], turn[kMaxOutlines];
 };
 
 // The pixels from `begin` to `end` that an outline reaches in each of a tile's rows.
@@ -44,16 +53,75 @@ namespace HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// What the sphere's outline reaches along one axis: its middle and half its size, in pixels.
+template <class V>
+struct ExtentV {
+  V middle, half;
+};
+
+// By slopes u = x / z, v = y / z the outline is (x u + y v + z)^2 = (|c|^2 - r^2) (u^2 + v^2 + 1):
+// an ellipse about z (x, y) / (z^2 - r^2), with half its width squared, the skew and half its
+// height squared for the entries of the inverse of its matrix.
+//
+// With a margin all around: half the width and half the height grow by as much, about the same
+// middle and with the same skew, so what was the outline lies inside.
+void FindOutlines(const Projector& projector, Outlines* o) {
+  const hn::CappedTag<double, kMaxOutlines> d;
+  using V = hn::Vec<decltype(d)>;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const auto set3 = [&](const Vec3d& v) HWY_ATTR { return SetVec3(d, v); };
+  const auto right = set3(projector.right()), down = set3(projector.down());
+  const auto forward = set3(projector.forward());
+  const V inverse_pixel = hn::Set(d, projector.inverse_pixel());
+  for (size_t i = 0; i < o->count; i += hn::Lanes(d)) {
+    const auto center = Load3(d, o->sphere[0] + i, o->sphere[1] + i, o->sphere[2] + i);
+    const V radius = hn::Load(d, o->sphere[3] + i);
+    const V x = Dot(center, right), y = Dot(center, down), z = Dot(center, forward);
+    const V product = hn::Mul(hn::Sub(z, radius), hn::Add(z, radius));
+    const V scale = hn::Div(inverse_pixel, product);  // from slopes times the product to pixels
+    const auto extent = [&](V at, double film_middle) HWY_ATTR {
+      const V root = hn::Sqrt(hn::Max(hn::MulAdd(at, at, product), zero));
+      return ExtentV<V>{hn::MulAdd(hn::Mul(at, z), scale, hn::Set(d, film_middle)),
+                        hn::Mul(hn::Mul(radius, root), scale)};
+    };
+    const auto across = extent(x, projector.middle_x()), along = extent(y, projector.middle_y());
+    const V farthest = hn::Max(hn::Add(hn::Abs(across.middle), across.half),
+                               hn::Add(hn::Abs(along.middle), along.half));
+    const V margin = hn::MulAdd(hn::Set(d, Projector::kMarginOfPlace), farthest,
+                                hn::Set(d, projector.Margin(0)));
+    const V half_width = hn::Add(across.half, margin), half_height = hn::Add(along.half, margin);
+    const V inverse_half_height = hn::Div(one, half_height);
+    const V skew = hn::Mul(hn::Mul(x, y), hn::Mul(hn::Mul(radius, scale), hn::Mul(radius, scale)));
+    const V lean = hn::Mul(skew, inverse_half_height);
+    const V chord2 = hn::Sub(hn::Mul(half_width, half_width), hn::Mul(lean, lean));
+    const auto is_ellipse =
+        hn::And(hn::Gt(z, hn::Mul(radius, hn::Set(d, 1 + 1e-6))),
+                hn::And(hn::Gt(product, zero), hn::Le(farthest, hn::Set(d, kFarthest))));
+    const auto store = [&](V value, double otherwise, double* to) HWY_ATTR {
+      hn::Store(hn::IfThenElse(is_ellipse, value, hn::Set(d, otherwise)), d, to + i);
+    };
+    const double infinity = std::numeric_limits<double>::infinity();
+    store(hn::Sub(across.middle, half_width), -infinity, o->left);
+    store(hn::Add(across.middle, half_width), infinity, o->right);
+    store(across.middle, 0, o->middle_x);
+    store(along.middle, 0, o->middle_y);
+    store(inverse_half_height, 0, o->inverse_half_height);
+    store(hn::Sqrt(hn::Max(chord2, zero)), 0, o->half_chord);
+    store(lean, 0, o->lean);
+    store(hn::Div(lean, half_width), 0, o->turn);
+  }
+}
+
 // Samples lie up to `reach` outside their pixels.
-void FindOutlineSpansT(const Outline& o, double reach, const Window& tile, OutlineSpans* spans) {
+void FindSpans(const Outlines& o, size_t i, double reach, const Window& tile, OutlineSpans* spans) {
   const hn::CappedTag<double, kCellSize> d;
   const hn::Rebind<int32_t, decltype(d)> di;
   const auto one = hn::Set(d, 1.0), minus_one = hn::Set(d, -1.0);
   const auto x0 = hn::Set(d, tile.x0), x1 = hn::Set(d, tile.x1);
-  const auto middle_x = hn::Set(d, o.middle_x), middle_y = hn::Set(d, o.middle_y);
-  const auto half_chord = hn::Set(d, o.half_chord), lean = hn::Set(d, o.lean);
-  const auto turn = hn::Set(d, o.turn);
-  const auto inverse = hn::Set(d, o.inverse_half_height);
+  const auto middle_x = hn::Set(d, o.middle_x[i]), middle_y = hn::Set(d, o.middle_y[i]);
+  const auto half_chord = hn::Set(d, o.half_chord[i]), lean = hn::Set(d, o.lean[i]);
+  const auto turn = hn::Set(d, o.turn[i]);
+  const auto inverse = hn::Set(d, o.inverse_half_height[i]);
   for (int row = 0; row < kCellSize; row += static_cast<int>(hn::Lanes(d))) {
     const auto y = hn::Iota(d, tile.y0 + row);
     // The outline from the row's upper edge to its lower one.
@@ -69,10 +137,10 @@ void FindOutlineSpansT(const Outline& o, double reach, const Window& tile, Outli
     const auto high_middle = hn::MulAdd(lean, high, middle_x);
     const auto turns_at = [&](auto t) HWY_ATTR { return hn::And(hn::Le(low, t), hn::Le(t, high)); };
     const auto right =
-        hn::IfThenElse(turns_at(turn), hn::Set(d, o.right),
+        hn::IfThenElse(turns_at(turn), hn::Set(d, o.right[i]),
                        hn::Max(hn::Add(low_middle, low_chord), hn::Add(high_middle, high_chord)));
     const auto left =
-        hn::IfThenElse(turns_at(hn::Neg(turn)), hn::Set(d, o.left),
+        hn::IfThenElse(turns_at(hn::Neg(turn)), hn::Set(d, o.left[i]),
                        hn::Min(hn::Sub(low_middle, low_chord), hn::Sub(high_middle, high_chord)));
     const auto store = [&](auto x, int32_t* to) HWY_ATTR {
       const auto inside = hn::IfThenElse(met, hn::Min(hn::Max(x, x0), x1), x0);
@@ -83,6 +151,12 @@ void FindOutlineSpansT(const Outline& o, double reach, const Window& tile, Outli
   }
 }
 
+void FindOutlineSpansT(const Projector& projector, double reach, const Window& tile,
+                       Outlines* outlines, OutlineSpans* spans) {
+  FindOutlines(projector, outlines);
+  for (size_t i = 0; i < outlines->count; ++i) FindSpans(*outlines, i, reach, tile, spans + i);
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -90,63 +164,9 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
+HWY_EXPORT(FindOutlineSpansT);
+
 namespace {
-
-// Beyond these, most spans overlap.
-constexpr size_t kMaxOutlines = 32;
-
-// Beyond this coordinate, in pixels, an ellipse is left to be any row: that of a sphere that nearly
-// touches the plane of the camera ends so far away that its near end is lost in roundings.
-constexpr double kFarthest = 1e6;
-
-// With a margin all around: half the width and half the height grow by as much, about the same
-// middle and with the same skew, so what was the outline lies inside.
-Outline OutlineOf(const Projector& projector, const TileCandidate& candidate) {
-  const FilmBounds b = projector.Tangents(candidate.sphere);
-  const double farthest =
-      std::max({std::abs(b.x0), std::abs(b.x1), std::abs(b.y0), std::abs(b.y1)});
-  const double margin = projector.Margin(farthest);
-  const double half_width = (b.x1 - b.x0) / 2 + margin, half_height = (b.y1 - b.y0) / 2 + margin;
-  Outline outline{};
-  outline.is_ellipse = farthest <= kFarthest;
-  outline.left = b.x0 - margin;
-  outline.right = b.x1 + margin;
-  outline.middle_x = (b.x0 + b.x1) / 2;
-  outline.middle_y = (b.y0 + b.y1) / 2;
-  outline.inverse_half_height = 1 / half_height;
-  outline.lean = projector.Skew(candidate.sphere) * outline.inverse_half_height;
-  outline.half_chord =
-      std::sqrt(std::max(half_width * half_width - outline.lean * outline.lean, 0.0));
-  outline.turn = outline.lean / half_width;
-  return outline;
-}
-
-// Each of the tile's candidates once; nothing if there are too many.
-class DistinctCandidates {
- public:
-  explicit DistinctCandidates(const TileCandidates& candidates) {
-    for (const std::vector<TileCandidate>& cell : candidates.cells) {
-      for (const TileCandidate& candidate : cell) Put(candidate);
-    }
-  }
-  bool fit() const { return fit_; }
-  const TileCandidate* const* begin() const { return list_.data(); }
-  const TileCandidate* const* end() const { return list_.data() + count_; }
-
- private:
-  void Put(const TileCandidate& candidate) {
-    const auto same = [&](const TileCandidate* other) {
-      return other->primitive == candidate.primitive;
-    };
-    if (!fit_ || std::any_of(begin(), end(), same)) return;
-    fit_ = count_ < kMaxOutlines;
-    if (fit_) list_[count_++] = &candidate;
-  }
-
-  std::array<const TileCandidate*, kMaxOutlines> list_;
-  size_t count_ = 0;
-  bool fit_ = true;
-};
 
 struct RowSpan {
   int begin, end;
@@ -155,10 +175,8 @@ struct RowSpan {
 
 // Those that overlap become one.
 void PutRow(RowSpan* row, size_t count, const Window& tile, int y, std::vector<PixelSpan>* spans) {
-  if (count > 1) {
-    std::sort(row, row + count,
-              [](const RowSpan& a, const RowSpan& b) { return a.begin < b.begin; });
-  }
+  const auto further_left = [](const RowSpan& a, const RowSpan& b) { return a.begin < b.begin; };
+  if (!std::is_sorted(row, row + count, further_left)) std::sort(row, row + count, further_left);
   const int place = (y - tile.y0) * tile.width() - tile.x0;
   for (size_t i = 0; i < count;) {
     RowSpan span = row[i++];
@@ -170,40 +188,50 @@ void PutRow(RowSpan* row, size_t count, const Window& tile, int y, std::vector<P
   }
 }
 
-}  // namespace
+void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    RowSpan row{tile.x0, tile.x1, nullptr};
+    PutRow(&row, 1, tile, y, spans);
+  }
+}
 
-HWY_EXPORT(FindOutlineSpansT);
+// The tile's spheres, each once. `alone`: of rays from outside.
+void PutSpheres(const TileCandidates& candidates, Outlines* outlines, const TileCandidate** alone) {
+  for (const std::vector<TileCandidate>& cell : candidates.cells) {
+    for (const TileCandidate& candidate : cell) {
+      if (candidate.in_cell_before) continue;
+      const size_t i = outlines->count++;
+      for (int c = 0; c < 3; ++c) outlines->sphere[c][i] = candidate.sphere.center[c];
+      outlines->sphere[3][i] = candidate.sphere.radius;
+      alone[i] = candidate.around_camera ? nullptr : &candidate;
+    }
+  }
+  // Whole vectors are worked on.
+  for (size_t i = outlines->count; i % (kVectorBytes / sizeof(double)) != 0; ++i) {
+    for (auto& values : outlines->sphere) values[i] = values[0];
+  }
+}
+
+}  // namespace
 
 void FindPixelSpans(const CameraFrame& frame, double reach, TileCandidates* candidates) {
   const Window& tile = candidates->tile;
-  const DistinctCandidates distinct(*candidates);
-  const bool by_outlines = frame.projection == Projection::kPerspective && distinct.fit();
-  OutlineSpans of_outline[kMaxOutlines];
-  const TileCandidate* alone[kMaxOutlines];
-  size_t count = 0;
-  if (by_outlines) {
-    const Projector projector(frame);
-    for (const TileCandidate* candidate : distinct) {
-      const Outline outline = OutlineOf(projector, *candidate);
-      alone[count] = candidate->around_camera ? nullptr : candidate;
-      OutlineSpans& spans = of_outline[count++];
-      if (outline.is_ellipse) {
-        HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(outline, reach, tile, &spans);
-      } else {
-        std::fill_n(spans.begin, kCellSize, tile.x0);
-        std::fill_n(spans.end, kCellSize, tile.x1);
-      }
-    }
+  if (frame.projection != Projection::kPerspective || candidates->spheres > kMaxOutlines) {
+    return PutWholeRows(tile, &candidates->spans);
   }
+  Outlines outlines;
+  const TileCandidate* alone[kMaxOutlines];
+  OutlineSpans of_outline[kMaxOutlines];
+  PutSpheres(*candidates, &outlines, alone);
+  HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(Projector(frame), reach, tile, &outlines, of_outline);
   RowSpan row[kMaxOutlines];
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    if (!by_outlines) row[0] = {tile.x0, tile.x1, nullptr};
-    size_t in_row = by_outlines ? 0 : 1;
-    for (size_t i = 0; i < count; ++i) {
-      const int begin = of_outline[i].begin[y - tile.y0], end = of_outline[i].end[y - tile.y0];
-      if (begin < end) row[in_row++] = {begin, end, alone[i]};
+  for (int y = 0; y < tile.height(); ++y) {
+    size_t in_row = 0;
+    for (size_t i = 0; i < outlines.count; ++i) {
+      row[in_row] = {of_outline[i].begin[y], of_outline[i].end[y], alone[i]};
+      in_row += row[in_row].begin < row[in_row].end ? 1 : 0;
     }
-    PutRow(row, in_row, tile, y, &candidates->spans);
+    PutRow(row, in_row, tile, tile.y0 + y, &candidates->spans);
   }
 }
 }  // namespace nacre

@@ -24,6 +24,7 @@ struct SphereBins {
   int columns = 0, rows = 0;  // of cells, from the window's corner
   std::vector<uint32_t> end;  // of each cell's spheres, row by row
   HugeArray<uint32_t> spheres;
+  HugeArray<uint16_t> pixel_rows;  // of the cell that the sphere's outline reaches, as bits
 
   size_t Cell(int column, int row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
@@ -45,16 +46,17 @@ class Projector {
   // The bounds, with a margin at each side: for a box that the outline is in.
   FilmBounds Project(const TraceSphere& sphere) const;
 
-  // The same without margins, for the outline itself.
-  FilmBounds Tangents(const TraceSphere& sphere) const;
-
   // More than all roundings of bounds and rays come to at this coordinate of the film.
   double Margin(double at) const;
+  static constexpr double kMarginOfPlace = 1e-9;  // what grows with the coordinate
 
-  // Of the ellipse that a sphere before a perspective camera is seen as: half its height, times how
-  // far to the right of its middle its lowest point lies. In square pixels; undefined where a bound
-  // is infinite.
-  double Skew(const TraceSphere& sphere) const;
+  // The camera's axes, pixels per slope, and where the axis meets the film, in pixels.
+  const Vec3d& right() const { return right_; }
+  const Vec3d& down() const { return down_; }
+  const Vec3d& forward() const { return forward_; }
+  double inverse_pixel() const { return inverse_pixel_; }
+  double middle_x() const { return middle_x_; }
+  double middle_y() const { return middle_y_; }
 
  private:
   bool perspective_;

@@ -19,24 +19,6 @@ namespace HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The one sphere that the lanes hit, or null.
-HWY_INLINE const TileCandidate* OnlySphere(const CameraPacket& packet, int lane, uint32_t bits) {
-  const TileCandidate* const first = packet.best[lane + __builtin_ctz(bits)];
-  for (; bits != 0; bits &= bits - 1) {
-    if (packet.best[lane + __builtin_ctz(bits)] != first) return nullptr;
-  }
-  return first;
-}
-
-// Appends the primitives, and with them counts the hits.
-HWY_INLINE void AppendPrimitives(const CameraPacket& packet, int lane, uint32_t bits,
-                                 HitBatch* hits) {
-  hits->one_primitive = false;
-  for (; bits != 0; bits &= bits - 1) {
-    hits->primitive[hits->count++] = packet.best[lane + __builtin_ctz(bits)]->primitive;
-  }
-}
-
 template <bool kPerspective>
 HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet, size_t first_ray,
                            const HitsTo& to) {
@@ -49,22 +31,12 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const Vec3V<hn::Vec<CameraDouble>> perpendicular =
         Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
               packet.perpendicular[2] + lane);
-    const TileCandidate* const only = OnlySphere(packet, lane, bits);
-    const SpheresV spheres =
-        only != nullptr
-            ? SpheresV{SetVec3(d, only->sphere.center), hn::Set(d, only->inverse_radius)}
-            : GatherBest(packet, lane, bits,
-                         [](const TileCandidate& best) { return best.inverse_radius; });
     const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, hn::Load(d, packet.along + lane), perpendicular, spheres.center,
-                      spheres.size);
+        SphereSurface(d, direction, hn::Load(d, packet.along + lane), perpendicular,
+                      Centers(packet, lane), hn::Load(d, packet.inverse_radius + lane));
     const auto to_view = ToView(d, direction, hn::Load(d, packet.exact_dd + lane));
     AppendSurface(surface, to_view, bits, first_ray + static_cast<size_t>(lane), to);
-    if (only != nullptr) {
-      AppendPrimitive(only->primitive, bits, to.hits);
-    } else {
-      AppendPrimitives(packet, lane, bits, to.hits);
-    }
+    AppendPrimitives(packet.primitive + lane, bits, to.hits);
   }
 }
 
@@ -100,7 +72,8 @@ HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) 
 }
 
 // The rays of a row's columns from x to x_end, whichever sphere they hit. `row`: the row's first
-// ray. In a tile of one cell any rays that follow one another are as good as a row's.
+// ray; `packet` knows which of the cells' pixel rows it is. In a tile of one cell any rays that
+// follow one another are as good as a row's, of all pixel rows.
 template <bool kPerspective>
 HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
                            const TileCandidates& candidates, const FilmBatch& film, size_t row,
@@ -129,6 +102,7 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
                              CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
   const auto width = static_cast<uint32_t>(candidates.tile.width());
+  const auto first_row = static_cast<uint32_t>((candidates.tile.y0 - bins.window.y0) % kCellSize);
   for (size_t sample = 0; sample < film.count; sample += candidates.tile.pixel_count()) {
     for (const PixelSpan& span : candidates.spans) {
       if (kPerspective && span.alone != nullptr) {
@@ -138,6 +112,7 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
       }
       TraceBlock(frame, film, block, to);
       const auto x = static_cast<int>(span.first % width);
+      packet->pixel_rows = 1u << (first_row + span.first / width);
       TraceRow<kPerspective>(frame, bins, candidates, film,
                              sample + span.first - static_cast<size_t>(x), x,
                              x + static_cast<int>(span.count), packet, to);
@@ -153,6 +128,7 @@ HWY_INLINE void TraceAny(const CameraFrame& frame, const SphereBins& bins,
   const TileCandidate* const alone = AloneIn<kPerspective>(candidates.cells[0]);
   if (alone != nullptr) return TraceAlone(frame, *alone, film, packet, block, to);
   const size_t width = kCameraPacket;
+  packet->pixel_rows = ~0u;
   for (size_t first = 0; first < film.count; first += width) {
     const auto rays = static_cast<int>(std::min(width, film.count - first));
     TraceRow<kPerspective>(frame, bins, candidates, film, first, 0, rays, packet, to);
@@ -225,12 +201,13 @@ float Reach(const TraceSphere& sphere, const CameraFrame& frame, double own) {
   return RoundUp(sphere.radius + kFloatUnit * error);
 }
 
-TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, const CameraFrame& frame,
-                            double own) {
+TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint16_t pixel_rows,
+                            const CameraFrame& frame, double own) {
   TileCandidate candidate;
   candidate.sphere = sphere;
   candidate.inverse_radius = 1 / sphere.radius;
   candidate.primitive = primitive;
+  candidate.pixel_rows = pixel_rows;
   // The sign of the product of TestSphere's roots.
   candidate.around_camera = !(sphere.center.dot(sphere.center) - sphere.radius * sphere.radius > 0);
   candidate.near = NearBound(sphere, frame);
@@ -253,20 +230,27 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   candidates->rays = rays;
   candidates->first_column = first;
   candidates->cells.resize(static_cast<size_t>(last - first) + 1);
-  bool any = false;
+  candidates->spheres = 0;
+  uint32_t before = 0, before_end = 0;  // the cell to the left, as far as it has been compared
   for (int column = first; column <= last; ++column) {
     std::vector<TileCandidate>& cell = candidates->cells[static_cast<size_t>(column - first)];
     cell.clear();
     const size_t number = bins.Cell(column, row);
     for (uint32_t i = bins.Begin(number); i < bins.end[number]; ++i) {
       const uint32_t sphere = bins.spheres[i];
-      cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, frame, own));
+      cell.push_back(
+          MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame, own));
+      while (before < before_end && bins.spheres[before] < sphere) ++before;
+      cell.back().in_cell_before = before < before_end && bins.spheres[before] == sphere;
+      candidates->spheres += cell.back().in_cell_before ? 0 : 1;
     }
+    before = bins.Begin(number);
+    before_end = bins.end[number];
     std::sort(cell.begin(), cell.end(),
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
-    any = any || !cell.empty();
   }
   candidates->spans.clear();
+  const bool any = candidates->spheres > 0;
   if (any && rays == TileRays::kSamples) FindPixelSpans(frame, bins.reach, candidates);
   return any;
 }

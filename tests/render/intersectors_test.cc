@@ -310,5 +310,47 @@ TEST_CASE("a tile's hits are of the batch's own rays, wherever it ends") {
   }
 }
 
+// The primitives that the rays through the middles of a tile's pixels hit.
+std::vector<uint32_t> HitsOf(const Intersector& intersector, const Window& tile) {
+  TileCandidates candidates;
+  REQUIRE(intersector.EnterTile(tile, TileRays::kSamples, &candidates));
+  FilmBatch film;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      film.x[film.count] = x + 0.5;
+      film.y[film.count++] = y + 0.5;
+    }
+  }
+  HitBatch hits;
+  HitDirections directions;
+  intersector.HitsInTile(candidates, film, {&hits, &directions, false});
+  return {hits.primitive.begin(), hits.primitive.begin() + hits.count};
+}
+
+// So small and many that each row has spheres of its own, and spans tell nothing.
+TEST_CASE("a tile that begins within a cell hits what the cell's own rows do") {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    Scene scene = OneSphere(LambertMaterial{}, 16);
+    scene.camera.projection = projection;
+    const Sphere whole = scene.spheres[0];
+    scene.spheres.clear();
+    for (int i = 0; i < 256; ++i) {
+      const Vec3d place(i % 16 / 8.0 - 0.94, i / 16 / 8.0 - 0.94, 0);
+      scene.spheres.push_back(
+          {whole.center + place * whole.radius, 0.05 * whole.radius, whole.material});
+    }
+    Intersector intersector(scene, scene.camera.position);
+    REQUIRE(intersector.BinForCamera(MakeCameraFrame(scene.camera, 16, 16), {0, 0, 16, 16}, 0.5));
+    ForEachTarget([&](Target) {
+      const std::vector<uint32_t> all = HitsOf(intersector, {0, 0, 16, 16});
+      CHECK(all.size() > 50);  // not in vain
+      std::vector<uint32_t> halves = HitsOf(intersector, {0, 0, 16, 5});
+      const std::vector<uint32_t> lower = HitsOf(intersector, {0, 5, 16, 16});
+      halves.insert(halves.end(), lower.begin(), lower.end());
+      CHECK(halves == all);
+    });
+  }
+}
+
 }  // namespace
 }  // namespace nacre
