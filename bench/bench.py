@@ -68,7 +68,7 @@ def measure(build, sizes, summary_only):
     results["scalar_baseline"] = context["scalar_baseline"]
     if port_bound.available() and not summary_only:
         say("port bounds of the kernels")
-        results["port_bounds"] = port_bound.measure(
+        results["port_bounds"], results["port_model"] = port_bound.measure(
             build / "bench" / "nacre_bench", results["benchmarks"], results["best_target"])
     with scratch_folder() as name:
         folder = pathlib.Path(name)

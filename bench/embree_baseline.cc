@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench/embree_baseline.cc: what Embree alone needs for a frame of camera rays: its built-in
-// spheres, packets of 16 rays made in float, the coherent flag, the closest hit and nothing after
-// it. Building the tree is left out. One thread.
+// spheres, or user geometry with a test in float; packets of 16 rays made in float, the coherent
+// flag, the closest hit and nothing after it. Building the tree is left out. One thread.
+#include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "float_visibility.h"
 #include "render/camera.h"
 #include "visibility/embree_api.h"
 #include "visibility_scenes.h"
@@ -24,25 +28,47 @@ struct ReleaseScene {
 using DevicePointer = std::unique_ptr<RTCDeviceTy, ReleaseDevice>;
 using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
-// The spheres relative to the camera, as RTC_GEOMETRY_TYPE_SPHERE_POINT wants them.
-ScenePointer BuildTree(const Scene& scene, RTCDevice device) {
+ScenePointer BuildTree(RTCGeometry spheres, RTCDevice device) {
   ScenePointer tree(rtcNewScene(device));
-  RTCGeometry spheres = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(spheres, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                               RTC_FORMAT_FLOAT4, 4 * sizeof(float),
-                                                               scene.spheres.size()));
-  for (const Sphere& sphere : scene.spheres) {
-    const Vec3d center = sphere.center - scene.camera.position;
-    *vertices++ = static_cast<float>(center.x);
-    *vertices++ = static_cast<float>(center.y);
-    *vertices++ = static_cast<float>(center.z);
-    *vertices++ = static_cast<float>(sphere.radius);
-  }
   rtcCommitGeometry(spheres);
   rtcAttachGeometry(tree.get(), spheres);
   rtcReleaseGeometry(spheres);
   rtcCommitScene(tree.get());
   return tree;
+}
+
+ScenePointer BuildSpherePoints(const Scene& scene, const std::vector<FloatSphere>& spheres,
+                               RTCDevice device) {
+  RTCGeometry points = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
+      points, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), spheres.size()));
+  for (size_t i = 0; i < spheres.size(); ++i) {
+    vertices = std::copy_n(spheres[i].center, 3, vertices);
+    *vertices++ = static_cast<float>(scene.spheres[i].radius);
+  }
+  return BuildTree(points, device);
+}
+
+void SphereBounds(const RTCBoundsFunctionArguments* args) {
+  const auto& sphere = static_cast<const FloatSphere*>(args->geometryUserPtr)[args->primID];
+  const float radius = std::sqrt(sphere.radius2) * (1 + 0x1p-20f);
+  RTCBounds& box = *args->bounds_o;
+  box.lower_x = sphere.center[0] - radius;
+  box.lower_y = sphere.center[1] - radius;
+  box.lower_z = sphere.center[2] - radius;
+  box.upper_x = sphere.center[0] + radius;
+  box.upper_y = sphere.center[1] + radius;
+  box.upper_z = sphere.center[2] + radius;
+}
+
+ScenePointer BuildUserSpheres(const Scene&, const std::vector<FloatSphere>& spheres,
+                              RTCDevice device) {
+  RTCGeometry user = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(user, static_cast<unsigned>(spheres.size()));
+  rtcSetGeometryUserData(user, const_cast<FloatSphere*>(spheres.data()));
+  rtcSetGeometryBoundsFunction(user, SphereBounds, nullptr);
+  rtcSetGeometryIntersectFunction(user, IntersectFloatSphere);
+  return BuildTree(user, device);
 }
 
 // A perspective camera in float: the direction through a pixel's centre is
@@ -75,29 +101,38 @@ void MakePacket(const FloatCamera& camera, int x0, int y, RTCRayHit16* packet) {
   }
 }
 
-void BenchSpherePoint(benchmark::State& state, const SphereScene& which) {
+// Traces the frame's packets; returns the hits.
+int64_t TraceFrame(const FloatCamera& camera, RTCScene tree, EmbreeContext* context) {
+  alignas(64) int valid[kPacket];
+  std::fill(valid, valid + kPacket, -1);
+  RTCRayHit16 packet;
+  int64_t hits = 0;
+  for (int y = 0; y < kFrameHeight; ++y) {
+    for (int x = 0; x < kFrameWidth; x += static_cast<int>(kPacket)) {
+      MakePacket(camera, x, y, &packet);
+      IntersectPacket(static_cast<int>(kPacket), valid, tree, context, &packet);
+      for (const unsigned id : packet.hit.geomID) hits += id != RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+  return hits;
+}
+
+using MakeTree = ScenePointer (*)(const Scene&, const std::vector<FloatSphere>&, RTCDevice);
+
+void BenchEmbree(benchmark::State& state, const SphereScene& which, MakeTree make_tree) {
   const FlushDenormals flush;
   const DevicePointer device(rtcNewDevice("verbose=0,set_affinity=0"));
   const Scene scene = MakeSphereScene(which);
-  const ScenePointer tree = BuildTree(scene, device.get());
+  const std::vector<FloatSphere> spheres = FloatSpheres(scene);
+  const ScenePointer tree = make_tree(scene, spheres, device.get());
   const CameraFrame frame = MakeCameraFrame(scene.camera, kFrameWidth, kFrameHeight);
   const FloatCamera camera{Imath::V3f(frame.corner), Imath::V3f(frame.step_x),
                            Imath::V3f(frame.step_y)};
   EmbreeContext context;
   InitContext(&context);
-  alignas(64) int valid[kPacket];
-  std::fill(valid, valid + kPacket, -1);
-  RTCRayHit16 packet;
   int64_t hits = 0;
   for (auto _ : state) {
-    hits = 0;
-    for (int y = 0; y < kFrameHeight; ++y) {
-      for (int x = 0; x < kFrameWidth; x += static_cast<int>(kPacket)) {
-        MakePacket(camera, x, y, &packet);
-        IntersectPacket(static_cast<int>(kPacket), valid, tree.get(), &context, &packet);
-        for (const unsigned id : packet.hit.geomID) hits += id != RTC_INVALID_GEOMETRY_ID;
-      }
-    }
+    hits = TraceFrame(camera, tree.get(), &context);
     benchmark::DoNotOptimize(hits);
   }
   state.SetItemsProcessed(state.iterations() * kFrameWidth * kFrameHeight);
@@ -106,9 +141,12 @@ void BenchSpherePoint(benchmark::State& state, const SphereScene& which) {
 
 const bool kRegistered = [] {
   for (const SphereScene& which : SphereScenes()) {
-    benchmark::RegisterBenchmark(
-        (std::string("visibility/embree_sphere_point/") + which.name).c_str(), BenchSpherePoint,
-        which)
+    const std::string scene = which.name;
+    benchmark::RegisterBenchmark(("visibility/embree_sphere_point/" + scene).c_str(), BenchEmbree,
+                                 which, BuildSpherePoints)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("visibility/embree_float_user/" + scene).c_str(), BenchEmbree,
+                                 which, BuildUserSpheres)
         ->Unit(benchmark::kMillisecond);
   }
   return true;

@@ -3,20 +3,23 @@
 
 perf samples which loops of nacre_bench run, objdump gives their instructions, llvm-mca the cycles
 that the busiest port needs for one turn when nothing waits for anything. The clock is measured: a
-chain of multiplications takes three cycles each. Without perf and llvm-mca, both of Debian's
-packages linux-perf and llvm, there is no such column.
+chain of multiplications takes three cycles each. Without perf and llvm-mca, of Debian's packages
+linux-perf and llvm-19, there is no such column. An llvm that does not know this processor, as
+Debian 12's 14 does not know Zen 4, counts for another one: the tables say for which.
 """
 import bisect
 import collections
 import itertools
+import os
 import pathlib
 import re
 import shutil
 import subprocess
 import tempfile
 
-# llvm 14's newest model of a processor with AVX-512 whose ports are like those of its successors.
-PROCESSOR = "icelake-server"
+# The processors to count for: the first one whose model has vectors of 512 bits, if this one has.
+_PROCESSORS = ("native", "icelake-server")
+_WIDE = "vaddps %zmm0, %zmm1, %zmm2\n"
 # Hits that a loop's turn shades: ShadeTag of src/base/target_ops-inl.h.
 _HITS_A_TURN = {"avx3": 32, "avx2": 8, "sse4": 4}
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
@@ -29,12 +32,47 @@ _JUMP = re.compile(r"j\w+\s+([0-9a-f]+)")
 _NOT_COUNTED = re.compile(r"(j|call|ret|nop|data16|cs nop|xchg)")
 
 
+def _newest_mca():
+    """The path of llvm-mca, of the newest llvm that is installed; None without any."""
+    found = [pathlib.Path(folder, name) for folder in os.get_exec_path() if os.path.isdir(folder)
+             for name in os.listdir(folder) if re.fullmatch(r"llvm-mca(-\d+)?", name)]
+    return max(found, key=lambda path: int((re.findall(r"\d+", path.name) or [0])[0]),
+               default=None)
+
+
 def available():
-    return all(shutil.which(tool) for tool in ("perf", "llvm-mca", "objdump"))
+    return bool(_newest_mca()) and all(shutil.which(tool) for tool in ("perf", "objdump"))
 
 
-def _output(command):
-    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+def _output(command, text=None):
+    return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
+
+
+class PortModel:
+    """What llvm-mca counts cycles with: program, processor; `name` tells which one that is."""
+
+    def __init__(self, wide):
+        self._program = _newest_mca()
+        self._processor = next(p for p in _PROCESSORS if not wide or self._knows_wide(p))
+        version = _output([self._program, "--version"])
+        host = re.search(r"Host CPU:\s+(\S+)", version)
+        number = re.search(r"version (\d+)", version)
+        known = host[1] if self._processor == "native" and host else self._processor
+        self.name = f"llvm-mca {number[1]} for {known}"
+
+    def _run(self, processor, instructions):
+        return _output([self._program, f"-mcpu={processor}", "-iterations=2"], instructions)
+
+    def _knows_wide(self, processor):
+        try:
+            return "Block RThroughput" in self._run(processor, _WIDE)
+        except subprocess.CalledProcessError:
+            return False
+
+    def cycles(self, instructions):
+        """Of the busiest port, a turn."""
+        text = self._run(self._processor, "\n".join(instructions) + "\n")
+        return float(re.search(r"Block RThroughput:\s+([\d.]+)", text)[1])
 
 
 def disassemble(program):
@@ -95,16 +133,7 @@ def _taken(code, begin, end, samples):
             yield from (text for _, text in code[first:last] if not _NOT_COUNTED.match(text))
 
 
-def _cycles(instructions):
-    """Of the busiest port, a turn."""
-    with tempfile.NamedTemporaryFile("w", suffix=".s") as file:
-        file.write("\n".join(instructions) + "\n")
-        file.flush()
-        text = _output(["llvm-mca", f"-mcpu={PROCESSOR}", "-iterations=2", file.name])
-    return float(re.search(r"Block RThroughput:\s+([\d.]+)", text)[1])
-
-
-def cycles_a_hit(program, code, benchmark, target):
+def cycles_a_hit(model, program, code, benchmark, target):
     """Least cycles a hit of all its loops together, or None where no loop was seen."""
     samples = _sample(program, benchmark)
     total = sum(samples.values())
@@ -121,18 +150,20 @@ def cycles_a_hit(program, code, benchmark, target):
     loops = [list(_taken(code, begin, end, samples)) for begin, end in _innermost(spans)]
     loops = [loop for loop in loops
              if sum(_REGISTERS[target] in text for text in loop) >= _LEAST_VECTORS]
-    return sum(_cycles(loop) for loop in loops) / _HITS_A_TURN[target] if loops else None
+    return sum(model.cycles(loop) for loop in loops) / _HITS_A_TURN[target] if loops else None
 
 
 def measure(program, benchmarks, target):
-    """{benchmark: least ns a hit} of the shading kernels for a target, at the measured clock."""
+    """({benchmark: least ns a hit} of the shading kernels for a target, at the measured clock; the
+    model's name)."""
     hertz = benchmarks["machine/multiply_chain"]["counters"]["cycles"]
+    model = PortModel(wide=target == "avx3")
     code = disassemble(program)
     found = {}
     for name in benchmarks:
         parts = name.split("/")
         if parts[0] == "shade" and len(parts) == 3 and parts[2] == target:
-            cycles = cycles_a_hit(program, code, name, target)
+            cycles = cycles_a_hit(model, program, code, name, target)
             if cycles:
                 found[name] = 1e9 * cycles / hertz
-    return found
+    return found, model.name

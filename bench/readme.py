@@ -31,9 +31,10 @@ def markdown(results):
     for model, _, target, ns, rate, ratio, _ in rows:
         by_model.setdefault(model, {})[target] = (ns, rate, ratio)
     lines = [f"Measured by `{results['command']}`: {machine.line(results['machine'])}.", "",
-             f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}.", "",
-             f"| kernel | {best}, ns | million/s | times plain | of port bound | avx2, ns |",
-             "|---|---|---|---|---|---|"]
+             f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}"
+             + (f"; {report.ports(results)}." if report.ports(results) else "."), "",
+             f"| kernel | {best}, ns | million/s | times plain | of port bound | times plain at it "
+             "| avx2, ns |", "|---|---|---|---|---|---|---|"]
     for model, found in by_model.items():
         if best not in found:
             continue
@@ -41,7 +42,8 @@ def markdown(results):
         avx2 = f"{found['avx2'][0]:.2f}" if "avx2" in found else ""
         lines.append(f"| {model.replace('_', ' ')} | {ns:.2f} | {rate / 1e6:.0f} | "
                      f"{f'{ratio:.1f}' if ratio else ''} | "
-                     f"{report.share_of_bound(results, model, best, ns)} | {avx2} |")
+                     f"{report.share_of_bound(results, model, best, ns)} | "
+                     f"{report.ratio_at_bound(results, model, best, ns, ratio)} | {avx2} |")
     lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is, or in how "
               "many times fewer rays if its name ends in `in_rays`; in memory, each frame in that "
               "of the one before, unless it says process. Embree's spheres are traced bare, in "

@@ -68,13 +68,26 @@ def share_of_bound(results, model, target, ns):
     return f"{100 * bound / ns:.0f} %" if bound else ""
 
 
+def ratio_at_bound(results, model, target, ns, ratio):
+    """How many times as fast as plain C++ the kernel would be if nothing but ports held it up."""
+    bound = results.get("port_bounds", {}).get(f"shade/{model}/{target}")
+    return f"{ratio * ns / bound:.1f}" if bound and ratio else ""
+
+
+def ports(results):
+    """Which processor's ports those are."""
+    name = results.get("port_model")
+    return f"of port bound: what {name} counts for the busiest port, nothing waiting" if name else None
+
+
 def _kernels(results):
     rows = [(model, mode, target, f"{ns:.2f}", f"{rate / 1e6:.0f}",
              f"{ratio:.1f}" if ratio else "",
              share_of_bound(results, model, target, ns) if mode == "cached" else "",
+             ratio_at_bound(results, model, target, ns, ratio) if mode == "cached" else "",
              f"{spread:.0f} %")
             for model, mode, target, ns, rate, ratio, spread in kernel_rows(results["benchmarks"])]
-    return table(("kernel", "hits", "target", "ns", "M/s", "x scalar", "of port bound", "+-"), rows)
+    return table(("kernel", "hits", "target", "ns", "M/s", "x scalar", "of port bound", "x at it", "+-"), rows)
 
 
 def _plain(benchmarks, prefix, unit, scale):
@@ -158,7 +171,7 @@ def text(results):
     benchmarks = results["benchmarks"]
     math = _plain({name: r for name, r in benchmarks.items()}, "math/", "us per 512 hits", 1e-3)
     parts = [machine.line(results["machine"]),
-             f"x scalar: times as fast as {results['scalar_baseline']}",
+             f"x scalar: times as fast as {results['scalar_baseline']}", ports(results),
              _kernels(results), _plain(benchmarks, "visibility/", "ms", 1e-6),
              _frames(benchmarks), math, _processes(results["processes"]),
              _scaling(results.get("scaling", {})) or None,

@@ -7,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "float_visibility.h"
 #include "render/camera.h"
 #include "sampling/pixel_sampler.h"
 #include "visibility/intersector.h"
@@ -42,42 +43,114 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
   state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
 }
 
-// The same frame by tiles as the renderer goes about it: with the binning of every frame, the film
-// positions, and the hits' points and normals. Embree's tree above is built before.
+// Calls trace(tile) for the frame's tiles that rays may hit something in; they are in `candidates`.
+template <class Trace>
+void ForEachTile(const Intersector& intersector, TileCandidates* candidates, const Trace& trace) {
+  constexpr int kTileWidth = static_cast<int>(kBatchCapacity) / kCellSize;
+  for (int y0 = 0; y0 < kHeight; y0 += kCellSize) {
+    for (int x0 = 0; x0 < kWidth; x0 += kTileWidth) {
+      const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
+                        std::min(y0 + kCellSize, kHeight)};
+      if (intersector.EnterTile(tile, TileRays::kSamples, candidates)) trace(tile);
+    }
+  }
+}
+
+// The exact hits of tiles, as the renderer goes about them.
+class ExactTiles {
+ public:
+  explicit ExactTiles(const Scene& scene)
+      : sampler_(MakePixelSampler(scene.image.filter, 1, 0)), shifts_(kBatchCapacity) {}
+
+  const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
+    film_.count = candidates.tile.pixel_count();
+    SamplePixels(sampler_, candidates.tile, shifts_, 0, 1, film_.x.data(), film_.y.data());
+    intersector.HitsInTile(candidates, film_, {&hits_, &directions_, false});
+    return hits_;
+  }
+
+ private:
+  PixelSampler sampler_;
+  PixelShifts shifts_;
+  FilmBatch film_;
+  HitBatch hits_;
+  HitDirections directions_;
+};
+
+// The same frame by tiles: with the binning of every frame, the film positions, and the hits'
+// points and normals. Embree's tree above is built before.
 void BenchTiles(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
   Intersector intersector(scene, scene.camera.position, {.embree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
-  const Window frame{0, 0, kWidth, kHeight};
-  const PixelSampler sampler = MakePixelSampler(scene.image.filter, 1, 0);
-  PixelShifts shifts{kBatchCapacity};
   TileCandidates candidates;
-  FilmBatch film;
-  HitBatch hits;
-  HitDirections directions;
-  constexpr int kTileWidth = static_cast<int>(kBatchCapacity) / kCellSize;
+  ExactTiles tiles(scene);
   for (auto _ : state) {
-    intersector.BinForCamera(camera, frame, 0);
-    for (int y0 = 0; y0 < kHeight; y0 += kCellSize) {
-      for (int x0 = 0; x0 < kWidth; x0 += kTileWidth) {
-        const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
-                          std::min(y0 + kCellSize, kHeight)};
-        if (!intersector.EnterTile(tile, TileRays::kSamples, &candidates)) continue;
-        film.count = tile.pixel_count();
-        SamplePixels(sampler, tile, shifts, 0, 1, film.x.data(), film.y.data());
-        intersector.HitsInTile(candidates, film, {&hits, &directions, false});
-        benchmark::DoNotOptimize(hits.count);
-      }
-    }
+    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, 0);
+    ForEachTile(intersector, &candidates, [&](const Window&) {
+      benchmark::DoNotOptimize(tiles.Trace(intersector, candidates).count);
+    });
   }
   state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
+}
+
+// The same tiles in float alone, and how far its hits are off: pixels whose nearest sphere is
+// another one, and the largest error of a depth, over the sphere's radius.
+void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
+  const FlushDenormals flush;
+  const Scene scene = MakeSphereScene(which);
+  Intersector intersector(scene, scene.camera.position, {.embree = false});
+  const std::vector<FloatSphere> spheres = FloatSpheres(scene);
+  const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
+  TileCandidates candidates;
+  FloatHits hits;
+  for (auto _ : state) {
+    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, 0);
+    ForEachTile(intersector, &candidates, [&](const Window&) {
+      TraceFloatTile(camera, spheres, candidates, &hits);
+      benchmark::DoNotOptimize(hits.sphere.data());
+    });
+  }
+  state.SetItemsProcessed(state.iterations() * kWidth * kHeight);
+
+  int64_t wrong = 0, found = 0;
+  double error = 0;
+  ExactTiles exact_tiles(scene);
+  ForEachTile(intersector, &candidates, [&](const Window& tile) {
+    TraceFloatTile(camera, spheres, candidates, &hits);
+    const HitBatch& exact = exact_tiles.Trace(intersector, candidates);
+    found += static_cast<int64_t>(exact.count);
+    size_t next = 0;
+    for (uint32_t ray = 0; ray < tile.pixel_count(); ++ray) {
+      const bool is_hit = next < exact.count && exact.ray[next] == ray;
+      const uint32_t sphere = is_hit ? exact.primitive[next] : kNoPrimitive;
+      wrong += hits.sphere[ray] != sphere;
+      if (is_hit && hits.sphere[ray] == sphere) {
+        const Vec3d position{exact.position.x[next], exact.position.y[next],
+                             exact.position.z[next]};
+        const Vec3d direction =
+            camera.corner +
+            camera.step_x * (tile.x0 + ray % static_cast<uint32_t>(tile.width()) + 0.5) +
+            camera.step_y * (tile.y0 + ray / static_cast<uint32_t>(tile.width()) + 0.5);
+        error = std::max(error, std::abs(position.length() - hits.t[ray] * direction.length()) /
+                                    scene.spheres[sphere].radius);
+      }
+      next += is_hit ? 1 : 0;
+    }
+  });
+  state.counters["hits"] = static_cast<double>(found);
+  state.counters["wrong_pixels"] = static_cast<double>(wrong);
+  state.counters["depth_error"] = error;
 }
 
 const bool kRegistered = [] {
   for (const SphereScene& which : SphereScenes()) {
     const std::string scene = which.name;
     benchmark::RegisterBenchmark(("visibility/tiles/" + scene).c_str(), BenchTiles, which)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("visibility/float_tiles/" + scene).c_str(), BenchFloatTiles,
+                                 which)
         ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("visibility/embree_user/" + scene).c_str(), BenchClosest, which)
         ->Unit(benchmark::kMillisecond);
