@@ -44,11 +44,14 @@ def kernels(results, path):
 
 
 def visibility(results, path):
-    """A frame's camera rays against spheres: nacre, Embree with its own test, bare Embree."""
+    """A frame's camera rays against spheres: nacre, Embree with its own test, bare Embree; exact
+    and in float."""
     series = []
     for key, label in (("embree_sphere_point", "Embree's spheres, bare trace in float"),
                        ("embree_user", "nacre on Embree's tree, exact"),
-                       ("tiles", "nacre's tiles, exact, binning included")):
+                       ("embree_float_user", "Embree's tree with our test in float, bare trace"),
+                       ("tiles", "nacre's tiles, exact, binning included"),
+                       ("float_tiles", "nacre's tiles in float, binning included, depths alone")):
         points = [(count, 1e-6 * estimates.median(results["benchmarks"][name]["ns"]))
                   for scene, count in _SPHERES.items()
                   if (name := f"visibility/{key}/{scene}") in results["benchmarks"]]

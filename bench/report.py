@@ -77,7 +77,8 @@ def ratio_at_bound(results, model, target, ns, ratio):
 def ports(results):
     """Which processor's ports those are."""
     name = results.get("port_model")
-    return f"of port bound: what {name} counts for the busiest port, nothing waiting" if name else None
+    return (f"of port bound: what {name} counts for the busiest port, nothing waiting" if name
+            else None)
 
 
 def _kernels(results):
@@ -87,7 +88,8 @@ def _kernels(results):
              ratio_at_bound(results, model, target, ns, ratio) if mode == "cached" else "",
              f"{spread:.0f} %")
             for model, mode, target, ns, rate, ratio, spread in kernel_rows(results["benchmarks"])]
-    return table(("kernel", "hits", "target", "ns", "M/s", "x scalar", "of port bound", "x at it", "+-"), rows)
+    return table(("kernel", "hits", "target", "ns", "M/s", "x scalar", "of port bound", "x at it",
+                  "+-"), rows)
 
 
 def _plain(benchmarks, prefix, unit, scale):
@@ -95,6 +97,15 @@ def _plain(benchmarks, prefix, unit, scale):
              f"{_spread(r['ns']):.0f} %")
             for name, r in benchmarks.items() if name.startswith(prefix)]
     return table((prefix.strip("/"), unit, "+-"), rows) if rows else None
+
+
+def _float_visibility(benchmarks):
+    rows = [(name.split("/")[-1], f"{c['hits']:.0f}", f"{c['wrong_pixels']:.0f}",
+             f"{c['depth_error']:.1e}")
+            for name, result in benchmarks.items() if name.startswith("visibility/float_tiles/")
+            for c in (result["counters"],)]
+    return table(("tiles in float", "hits", "of another sphere or none",
+                  "largest error of a depth, radii"), rows) if rows else None
 
 
 def stages_of(result):
@@ -173,6 +184,7 @@ def text(results):
     parts = [machine.line(results["machine"]),
              f"x scalar: times as fast as {results['scalar_baseline']}", ports(results),
              _kernels(results), _plain(benchmarks, "visibility/", "ms", 1e-6),
+             _float_visibility(benchmarks),
              _frames(benchmarks), math, _processes(results["processes"]),
              _scaling(results.get("scaling", {})) or None,
              _precision(results["precision"]) if "precision" in results else None,

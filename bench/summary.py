@@ -74,6 +74,11 @@ def _visibility(times):
         yield f"{name}_over_embree_spheres", times.ratio(
             (f"visibility/embree_sphere_point/{scene}",), tiles)
         yield f"{name}_over_embree_user", times.ratio((f"visibility/embree_user/{scene}",), tiles)
+        in_float = (f"visibility/float_tiles/{scene}",)
+        yield f"{name}_in_float_over_embree_spheres", times.ratio(
+            (f"visibility/embree_sphere_point/{scene}",), in_float)
+        yield f"{name}_in_float_over_embree_float_user", times.ratio(
+            (f"visibility/embree_float_user/{scene}",), in_float)
 
 
 def _frames(times, best):

@@ -15,9 +15,10 @@ constexpr uint64_t Mix64(uint64_t x) {
 }
 
 // A hash of two integers in order: Combine(a, b) and Combine(b, a) are unrelated.
-constexpr uint64_t Combine(uint64_t a, uint64_t b) {
-  return Mix64(Mix64(a + 0x9e3779b97f4a7c15u) ^ b);  // the offset keeps (0, 0) from giving 0
+constexpr uint64_t MixFirst(uint64_t a) {
+  return Mix64(a + 0x9e3779b97f4a7c15u);  // the offset keeps (0, 0) from giving 0
 }
+constexpr uint64_t Combine(uint64_t a, uint64_t b) { return Mix64(MixFirst(a) ^ b); }
 
 // The seed of one pixel: of its absolute coordinates and the user's seed, and of nothing else, so
 // that crops and tiles of an image have the samples of the whole.

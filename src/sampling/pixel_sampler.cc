@@ -78,16 +78,4 @@ double SampleWeight(const PixelSampler& sampler, int index) {
   return index < sampler.positive_count ? sampler.positive_weight : sampler.negative_weight;
 }
 
-void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts) {
-  if (sampler.centered) return;
-  size_t i = 0;
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    for (int x = pixels.x0; x < pixels.x1; ++x, ++i) {
-      const uint64_t shift = PixelSeed(x, y, sampler.seed);
-      shifts->x[i] = static_cast<uint32_t>(shift);
-      shifts->y[i] = static_cast<uint32_t>(shift >> 32);
-    }
-  }
-}
-
 }  // namespace nacre

@@ -58,7 +58,8 @@ struct PixelShifts {
   AlignedArray<uint32_t> x, y;
 };
 
-// For the pixels of a tile, at most as many as there is room for.
+// For the pixels of a tile, at most as many as there is room for: to the bit what SamplePixel
+// takes.
 void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts);
 
 // Samples [first, first + count) of each of `pixels`, sample by sample, each row by row: film

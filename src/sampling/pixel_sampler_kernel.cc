@@ -165,6 +165,35 @@ void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const Pixe
   });
 }
 
+// Mix64 of sampling/hash.h.
+template <class DU64>
+HWY_INLINE hn::Vec<DU64> MixEach(DU64 d, hn::Vec<DU64> x) {
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<30>(x)), hn::Set(d, 0xbf58476d1ce4e5b9u));
+  x = hn::Mul(hn::Xor(x, hn::ShiftRight<27>(x)), hn::Set(d, 0x94d049bb133111ebu));
+  return hn::Xor(x, hn::ShiftRight<31>(x));
+}
+
+// PixelSeed of each pixel, in halves. Whole vectors are stored, as in SamplePlane.
+void ShiftPixelsT(uint32_t seed, const Window& pixels, PixelShifts* shifts) {
+  const hn::Rebind<uint64_t, D> du64;
+  const DU32 du32;
+  const auto first = hn::Set(du64, MixFirst(seed));
+  size_t row = 0;
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const auto high = hn::Set(du64, static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32);
+    size_t i = row;
+    for (int x = pixels.x0; x < pixels.x1; x += static_cast<int>(hn::Lanes(du64))) {
+      const auto columns = hn::Iota(du32, static_cast<uint32_t>(x));  // modulo 2^32, as PixelSeed's
+      const auto pixel = hn::Or(high, hn::PromoteTo(du64, columns));
+      const auto shift = MixEach(du64, hn::Xor(first, pixel));
+      hn::StoreU(hn::TruncateTo(du32, shift), du32, shifts->x.data() + i);
+      hn::StoreU(hn::TruncateTo(du32, hn::ShiftRight<32>(shift)), du32, shifts->y.data() + i);
+      i += hn::Lanes(du64);
+    }
+    row += static_cast<size_t>(pixels.width());
+  }
+}
+
 // Samples of one pixel and one part of the filter.
 template <class Filter>
 HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int x, int y,
@@ -207,8 +236,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
+HWY_EXPORT(ShiftPixelsT);
 HWY_EXPORT(SamplePixelsT);
 HWY_EXPORT(SamplePixelListT);
+void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts) {
+  if (sampler.centered) return;
+  HWY_DYNAMIC_DISPATCH(ShiftPixelsT)(sampler.seed, pixels, shifts);
+}
+
 void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
                   int first, int count, double* film_x, double* film_y) {
   HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, shifts, first, count, film_x, film_y);

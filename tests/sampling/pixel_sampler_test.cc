@@ -125,9 +125,9 @@ TEST_CASE("SamplePixels is SamplePixel to the bit on every target", "[sampling]"
   for (const PixelFilter& filter : kFilters) {
     for (const int spp : {1, 2, 3, 16, 61}) {
       const PixelSampler sampler = MakePixelSampler(filter, spp, 9);
-      PixelShifts shifts(pixels.pixel_count());
-      ShiftPixels(sampler, pixels, &shifts);
       ForEachTarget([&](Target) {
+        PixelShifts shifts(pixels.pixel_count());
+        ShiftPixels(sampler, pixels, &shifts);
         for (const auto& [first, count] : {std::pair{0, spp}, {spp / 2, spp - spp / 2}, {0, 1}}) {
           const size_t size = pixels.pixel_count() * static_cast<size_t>(count);
           // Exactly as large as promised, for the address sanitizer.
