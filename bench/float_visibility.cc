@@ -36,7 +36,8 @@ struct FloatHit {
 };
 
 // The distance of the centre from the line by a cross product: the discriminant loses nothing but
-// what float's coordinates have lost.
+// what float's coordinates have lost. kOutside: the rays start outside the sphere.
+template <bool kOutside>
 HWY_INLINE FloatHit TestFloat(const FloatSphere& sphere, const FloatRays& rays) {
   const D d;
   const V zero = hn::Zero(d);
@@ -45,11 +46,14 @@ HWY_INLINE FloatHit TestFloat(const FloatSphere& sphere, const FloatRays& rays) 
   const Vec3V<V> cross = FusedCross(center, rays.direction);
   const V along = FusedDot(center, rays.direction);
   const V discriminant = hn::MulSub(hn::Set(d, sphere.radius2), rays.dd, FusedDot(cross, cross));
-  const V root = hn::Sqrt(hn::Max(discriminant, zero));
+  const V root = SquareRoot(d, hn::Max(discriminant, hn::Set(d, 1e-30f)));
+  const auto met = hn::Ge(discriminant, zero);
   const V near = hn::Sub(along, root);
+  if constexpr (kOutside) {
+    return {hn::And(met, hn::Gt(along, zero)), hn::Mul(near, rays.inverse_dd)};
+  }
   const V ahead = hn::IfThenElse(hn::Gt(near, zero), near, hn::Add(along, root));
-  return {hn::And(hn::Ge(discriminant, zero), hn::Gt(ahead, zero)),
-          hn::Mul(ahead, rays.inverse_dd)};
+  return {hn::And(met, hn::Gt(ahead, zero)), hn::Mul(ahead, rays.inverse_dd)};
 }
 
 // The rays of one row of pixels.
@@ -91,7 +95,7 @@ HWY_INLINE void TraceCells(const std::vector<FloatSphere>& spheres,
     for (const TileCandidate& candidate : candidates.cells[static_cast<size_t>(cell)]) {
       if (hn::AllTrue(d, hn::Lt(hn::Mul(t, length), hn::Set(d, candidate.near)))) break;
       if ((candidate.pixel_rows & row.pixel_row) == 0) continue;
-      const FloatHit found = TestFloat(spheres[candidate.primitive], rays);
+      const FloatHit found = TestFloat<false>(spheres[candidate.primitive], rays);
       const auto nearer = hn::And(found.hit, hn::Lt(found.t, t));
       t = hn::IfThenElse(nearer, found.t, t);
       nearest =
@@ -107,7 +111,6 @@ void TraceFloatTileT(const CameraFrame& frame, const std::vector<FloatSphere>& s
   const hn::RebindToUnsigned<D> du;
   const int step = static_cast<int>(hn::Lanes(d));
   const int width = candidates.tile.width();
-  std::fill_n(hits->sphere.data(), candidates.tile.pixel_count(), kNoPrimitive);
   const Vec3d corner = frame.corner + frame.step_x * (candidates.tile.x0 + 0.5);
   for (const PixelSpan& span : candidates.spans) {
     const int y = static_cast<int>(span.first) / width;
@@ -118,7 +121,7 @@ void TraceFloatTileT(const CameraFrame& frame, const std::vector<FloatSphere>& s
     for (int x = begin; x < end; x += step) {
       const size_t place = span.first + static_cast<size_t>(x - begin);
       if (span.alone != nullptr) {
-        const FloatHit found = TestFloat(spheres[span.alone->primitive], RaysAt(row, x));
+        const FloatHit found = TestFloat<true>(spheres[span.alone->primitive], RaysAt(row, x));
         StoreHits(hn::And(found.hit, hn::FirstN(d, static_cast<size_t>(end - x))), found.t,
                   hn::Set(du, span.alone->primitive), place, hits);
       } else {
@@ -134,7 +137,7 @@ void IntersectFloatSphereT(const RTCIntersectFunctionNArguments* args) {
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
   const auto& sphere = static_cast<const FloatSphere*>(args->geometryUserPtr)[args->primID];
   for (unsigned i = 0; i < args->N; i += static_cast<unsigned>(hn::Lanes(d))) {
-    const FloatHit found = TestFloat(
+    const FloatHit found = TestFloat<false>(
         sphere, RaysOf(LoadU3(d, &RTCRayN_dir_x(rays, args->N, i), &RTCRayN_dir_y(rays, args->N, i),
                               &RTCRayN_dir_z(rays, args->N, i))));
     float* const depth = &RTCRayN_tfar(rays, args->N, i);

@@ -22,7 +22,7 @@ struct FloatSphere {
 
 std::vector<FloatSphere> FloatSpheres(const Scene& scene);
 
-// The nearest sphere of each pixel of a tile, row by row; room for a vector more.
+// The nearest sphere of each pixel of a tile's spans, row by row; room for a vector more.
 struct FloatHits {
   AlignedArray<float> t{kBatchCapacity + kBatchPadding};  // in lengths of the ray's direction
   AlignedArray<uint32_t> sphere{kBatchCapacity +

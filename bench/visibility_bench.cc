@@ -118,6 +118,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
   double error = 0;
   ExactTiles exact_tiles(scene);
   ForEachTile(intersector, &candidates, [&](const Window& tile) {
+    std::fill_n(hits.sphere.data(), tile.pixel_count(), kNoPrimitive);
     TraceFloatTile(camera, spheres, candidates, &hits);
     const HitBatch& exact = exact_tiles.Trace(intersector, candidates);
     found += static_cast<int64_t>(exact.count);
