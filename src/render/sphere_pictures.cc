@@ -54,7 +54,7 @@ SpherePicture PictureOf(const CameraFrame& frame, const Projector& projector,
   const double distance = sphere.center.length(), radius2 = sphere.radius * sphere.radius;
   SpherePicture picture;
   picture.candidate = &candidate;
-  picture.bounds = projector.Project(sphere);
+  picture.bounds = Project(projector, sphere);
   picture.axis = sphere.center / distance;
   picture.half_angle = std::asin(std::min(sphere.radius / distance, 1.0));
   picture.outline_radius = sphere.radius;
@@ -76,7 +76,7 @@ SpherePicture PictureOf(const CameraFrame& frame, const Projector& projector,
 std::optional<std::vector<SpherePicture>> PicturesOf(const CameraFrame& frame,
                                                      const TileCandidates& candidates) {
   std::vector<SpherePicture> pictures;
-  const Projector projector(frame);
+  const Projector projector = MakeProjector(frame);
   for (const auto& cell : candidates.cells) {
     if (pictures.size() + cell.size() > kMostPictures) return std::nullopt;
     for (const TileCandidate& candidate : cell) {

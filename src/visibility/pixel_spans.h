@@ -3,13 +3,11 @@
 // outlines do not overlap, a ray need be asked nothing but one sphere's exact test.
 #pragma once
 
-#include "hit/camera_frame.h"
 #include "visibility/tile_kernel.h"
 
 namespace nacre {
 
 // Puts the spans of the candidates' tile, at most kCellSize rows, behind those that are there.
-// `reach`: how far a pixel's samples lie outside it, in pixels.
-void FindPixelSpans(const CameraFrame& frame, double reach, TileCandidates* candidates);
+void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates);
 
 }  // namespace nacre

@@ -70,9 +70,9 @@ void FindOutlines(const Projector& projector, Outlines* o) {
   using V = hn::Vec<decltype(d)>;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
   const auto set3 = [&](const Vec3d& v) HWY_ATTR { return SetVec3(d, v); };
-  const auto right = set3(projector.right()), down = set3(projector.down());
-  const auto forward = set3(projector.forward());
-  const V inverse_pixel = hn::Set(d, projector.inverse_pixel());
+  const auto right = set3(projector.right), down = set3(projector.down);
+  const auto forward = set3(projector.forward);
+  const V inverse_pixel = hn::Set(d, projector.inverse_pixel);
   for (size_t i = 0; i < o->count; i += hn::Lanes(d)) {
     const auto center = Load3(d, o->sphere[0] + i, o->sphere[1] + i, o->sphere[2] + i);
     const V radius = hn::Load(d, o->sphere[3] + i);
@@ -84,11 +84,11 @@ void FindOutlines(const Projector& projector, Outlines* o) {
       return ExtentV<V>{hn::MulAdd(hn::Mul(at, z), scale, hn::Set(d, film_middle)),
                         hn::Mul(hn::Mul(radius, root), scale)};
     };
-    const auto across = extent(x, projector.middle_x()), along = extent(y, projector.middle_y());
+    const auto across = extent(x, projector.middle_x), along = extent(y, projector.middle_y);
     const V farthest = hn::Max(hn::Add(hn::Abs(across.middle), across.half),
                                hn::Add(hn::Abs(along.middle), along.half));
-    const V margin = hn::MulAdd(hn::Set(d, Projector::kMarginOfPlace), farthest,
-                                hn::Set(d, projector.Margin(0)));
+    const V margin =
+        hn::MulAdd(hn::Set(d, kMarginOfPlace), farthest, hn::Set(d, FilmMargin(projector, 0)));
     const V half_width = hn::Add(across.half, margin), half_height = hn::Add(along.half, margin);
     const V inverse_half_height = hn::Div(one, half_height);
     const V skew = hn::Mul(hn::Mul(x, y), hn::Mul(hn::Mul(radius, scale), hn::Mul(radius, scale)));
@@ -214,16 +214,16 @@ void PutSpheres(const TileCandidates& candidates, Outlines* outlines, const Tile
 
 }  // namespace
 
-void FindPixelSpans(const CameraFrame& frame, double reach, TileCandidates* candidates) {
+void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   const Window& tile = candidates->tile;
-  if (frame.projection != Projection::kPerspective || candidates->spheres > kMaxOutlines) {
+  if (!bins.projector.perspective || candidates->spheres > kMaxOutlines) {
     return PutWholeRows(tile, &candidates->spans);
   }
   Outlines outlines;
   const TileCandidate* alone[kMaxOutlines];
   OutlineSpans of_outline[kMaxOutlines];
   PutSpheres(*candidates, &outlines, alone);
-  HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(Projector(frame), reach, tile, &outlines, of_outline);
+  HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(bins.projector, bins.reach, tile, &outlines, of_outline);
   RowSpan row[kMaxOutlines];
   for (int y = 0; y < tile.height(); ++y) {
     size_t in_row = 0;

@@ -39,42 +39,45 @@ uint16_t RowsOfCell(const Range& rows, size_t cell_row) {
 
 }  // namespace
 
-Projector::Projector(const CameraFrame& frame)
-    : perspective_(frame.projection == Projection::kPerspective),
-      forward_(frame.forward),
-      inverse_pixel_(1 / frame.step_x.length()),
-      right_(frame.step_x * inverse_pixel_),
-      down_(frame.step_y * inverse_pixel_),
-      middle_x_(-frame.corner.dot(right_) * inverse_pixel_),
-      middle_y_(-frame.corner.dot(down_) * inverse_pixel_) {}
+Projector MakeProjector(const CameraFrame& frame) {
+  Projector p;
+  p.perspective = frame.projection == Projection::kPerspective;
+  p.inverse_pixel = 1 / frame.step_x.length();
+  p.right = frame.step_x * p.inverse_pixel;
+  p.down = frame.step_y * p.inverse_pixel;
+  p.forward = frame.forward;
+  p.middle_x = -frame.corner.dot(p.right) * p.inverse_pixel;
+  p.middle_y = -frame.corner.dot(p.down) * p.inverse_pixel;
+  return p;
+}
 
 // A thousandth of a pixel, and a billionth of the distance on the film. Under a telephoto lens,
 // whose pixels are that small, what rounds directions of length 1 counts, too.
-double Projector::Margin(double at) const {
-  return 1e-3 + kMarginOfPlace * std::abs(at) + 1e-15 * inverse_pixel_;
+double FilmMargin(const Projector& projector, double at) {
+  return 1e-3 + kMarginOfPlace * std::abs(at) + 1e-15 * projector.inverse_pixel;
 }
 
-FilmBounds Projector::Project(const TraceSphere& sphere) const {
-  const double x = sphere.center.dot(right_);
-  const double y = sphere.center.dot(down_);
-  const double z = sphere.center.dot(forward_);
+FilmBounds Project(const Projector& p, const TraceSphere& sphere) {
+  const double x = sphere.center.dot(p.right);
+  const double y = sphere.center.dot(p.down);
+  const double z = sphere.center.dot(p.forward);
   FilmBounds bounds{};
   bounds.visible = z + sphere.radius > 0;
   if (!bounds.visible) return bounds;
   Interval across{x - sphere.radius, x + sphere.radius};
   Interval along{y - sphere.radius, y + sphere.radius};
-  if (perspective_) {
+  if (p.perspective) {
     across = Slopes(x, z, sphere.radius);
     along = Slopes(y, z, sphere.radius);
   }
-  bounds.x0 = across.low * inverse_pixel_ + middle_x_;
-  bounds.x1 = across.high * inverse_pixel_ + middle_x_;
-  bounds.y0 = along.low * inverse_pixel_ + middle_y_;
-  bounds.y1 = along.high * inverse_pixel_ + middle_y_;
-  bounds.x0 -= Margin(bounds.x0);
-  bounds.x1 += Margin(bounds.x1);
-  bounds.y0 -= Margin(bounds.y0);
-  bounds.y1 += Margin(bounds.y1);
+  bounds.x0 = across.low * p.inverse_pixel + p.middle_x;
+  bounds.x1 = across.high * p.inverse_pixel + p.middle_x;
+  bounds.y0 = along.low * p.inverse_pixel + p.middle_y;
+  bounds.y1 = along.high * p.inverse_pixel + p.middle_y;
+  bounds.x0 -= FilmMargin(p, bounds.x0);
+  bounds.x1 += FilmMargin(p, bounds.x1);
+  bounds.y0 -= FilmMargin(p, bounds.y0);
+  bounds.y1 += FilmMargin(p, bounds.y1);
   return bounds;
 }
 
@@ -85,12 +88,12 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
   bins->reach = reach;
   bins->columns = (window.width() + kCellSize - 1) / kCellSize;
   bins->rows = (window.height() + kCellSize - 1) / kCellSize;
-  const Projector projector(frame);
+  bins->projector = MakeProjector(frame);
   HugeArray<SphereBox> boxes(geometry.spheres.size());
   ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
     const auto [begin, end] = CellListPiece(boxes.size(), piece);
     for (size_t i = begin; i < end; ++i) {
-      const FilmBounds b = projector.Project(geometry.spheres[i]);
+      const FilmBounds b = Project(bins->projector, geometry.spheres[i]);
       boxes[i] = {PlacesOf(b.x0 - reach, b.x1 + reach, window.x0, kCellSize, bins->columns),
                   PlacesOf(b.y0 - reach, b.y1 + reach, window.y0, 1, window.height())};
       if (!b.visible) boxes[i].rows = {1, 0};

@@ -17,8 +17,32 @@ namespace nacre {
 // Cells are as high as the strips that a picture is rendered in.
 inline constexpr int kCellSize = 16;
 
+// A camera as spheres are projected by it.
+struct Projector {
+  bool perspective;
+  Vec3d right, down, forward;  // unit axes
+  double inverse_pixel;        // pixels per slope; orthographic: per length
+  double middle_x, middle_y;   // where `forward` through the camera meets the film, in pixels
+};
+
+Projector MakeProjector(const CameraFrame& frame);
+
+// A sphere's bounds on the film, in pixels; infinite where it reaches beside or behind the camera.
+struct FilmBounds {
+  double x0, x1, y0, y1;
+  bool visible;  // false: no camera ray can hit the sphere; the bounds are undefined
+};
+
+// With a margin at each side: for a box that the outline is in.
+FilmBounds Project(const Projector& projector, const TraceSphere& sphere);
+
+// More than all roundings of bounds and rays come to at this coordinate of the film.
+double FilmMargin(const Projector& projector, double at);
+inline constexpr double kMarginOfPlace = 1e-9;  // what grows with the coordinate
+
 // For each cell the spheres that any of its camera rays could hit, in ascending order.
 struct SphereBins {
+  Projector projector;        // of their camera
   Window window;              // the pixels that are binned
   double reach = 0;           // of their samples
   int columns = 0, rows = 0;  // of cells, from the window's corner
@@ -30,40 +54,6 @@ struct SphereBins {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
   }
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
-};
-
-// A sphere's bounds on the film, in pixels; infinite where it reaches beside or behind the camera.
-struct FilmBounds {
-  double x0, x1, y0, y1;
-  bool visible;  // false: no camera ray can hit the sphere; the bounds are undefined
-};
-
-// Spheres as a camera sees them.
-class Projector {
- public:
-  explicit Projector(const CameraFrame& frame);
-
-  // The bounds, with a margin at each side: for a box that the outline is in.
-  FilmBounds Project(const TraceSphere& sphere) const;
-
-  // More than all roundings of bounds and rays come to at this coordinate of the film.
-  double Margin(double at) const;
-  static constexpr double kMarginOfPlace = 1e-9;  // what grows with the coordinate
-
-  // The camera's axes, pixels per slope, and where the axis meets the film, in pixels.
-  const Vec3d& right() const { return right_; }
-  const Vec3d& down() const { return down_; }
-  const Vec3d& forward() const { return forward_; }
-  double inverse_pixel() const { return inverse_pixel_; }
-  double middle_x() const { return middle_x_; }
-  double middle_y() const { return middle_y_; }
-
- private:
-  bool perspective_;
-  Vec3d forward_;
-  double inverse_pixel_;
-  Vec3d right_, down_;
-  double middle_x_, middle_y_;  // of the film, in pixels
 };
 
 // `reach`: how far a pixel's samples lie outside it, in pixels. Fails, with empty bins, if there

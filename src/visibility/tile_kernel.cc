@@ -225,16 +225,19 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   const int row = (tile.y0 - bins.window.y0) / kCellSize;
   const int first = (tile.x0 - bins.window.x0) / kCellSize;
   const int last = (tile.x1 - 1 - bins.window.x0) / kCellSize;
-  const double own = OwnBound(frame, bins.window);
   candidates->tile = tile;
   candidates->rays = rays;
   candidates->first_column = first;
   candidates->cells.resize(static_cast<size_t>(last - first) + 1);
+  for (std::vector<TileCandidate>& cell : candidates->cells) cell.clear();
   candidates->spheres = 0;
+  candidates->spans.clear();
+  // A row's cells follow one another.
+  if (bins.Begin(bins.Cell(first, row)) == bins.end[bins.Cell(last, row)]) return false;
+  const double own = OwnBound(frame, bins.window);
   uint32_t before = 0, before_end = 0;  // the cell to the left, as far as it has been compared
   for (int column = first; column <= last; ++column) {
     std::vector<TileCandidate>& cell = candidates->cells[static_cast<size_t>(column - first)];
-    cell.clear();
     const size_t number = bins.Cell(column, row);
     for (uint32_t i = bins.Begin(number); i < bins.end[number]; ++i) {
       const uint32_t sphere = bins.spheres[i];
@@ -249,10 +252,8 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
     std::sort(cell.begin(), cell.end(),
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
   }
-  candidates->spans.clear();
-  const bool any = candidates->spheres > 0;
-  if (any && rays == TileRays::kSamples) FindPixelSpans(frame, bins.reach, candidates);
-  return any;
+  if (rays == TileRays::kSamples) FindPixelSpans(bins, candidates);
+  return true;
 }
 
 void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,

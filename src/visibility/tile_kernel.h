@@ -15,9 +15,9 @@ struct TileCandidate {
   TraceSphere sphere;
   double inverse_radius;
   uint32_t primitive;
-  uint16_t pixel_rows;  // of its cell that its outline reaches, as bits
-  bool in_cell_before;  // it is in the tile's cell to the left, too
-  bool around_camera;   // the camera is inside
+  uint16_t pixel_rows;          // of its cell that its outline reaches, as bits
+  bool in_cell_before = false;  // it is in the tile's cell to the left, too
+  bool around_camera;           // the camera is inside
   // For proposals, in float: no ray meets the sphere nearer to the camera than `near`, and rays
   // that hit it come within `reach` of `center`: radius and rounding errors.
   float near;
