@@ -130,10 +130,10 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
       if (is_hit && hits.sphere[ray] == sphere) {
         const Vec3d position{exact.position.x[next], exact.position.y[next],
                              exact.position.z[next]};
+        const int x = tile.x0 + static_cast<int>(ray) % tile.width();
+        const int y = tile.y0 + static_cast<int>(ray) / tile.width();
         const Vec3d direction =
-            camera.corner +
-            camera.step_x * (tile.x0 + ray % static_cast<uint32_t>(tile.width()) + 0.5) +
-            camera.step_y * (tile.y0 + ray / static_cast<uint32_t>(tile.width()) + 0.5);
+            camera.corner + camera.step_x * (x + 0.5) + camera.step_y * (y + 0.5);
         error = std::max(error, std::abs(position.length() - hits.t[ray] * direction.length()) /
                                     scene.spheres[sphere].radius);
       }

@@ -12,17 +12,17 @@ namespace nacre {
 namespace {
 
 // Places from first to last; none if first > last.
-struct Range {
+struct PlaceRange {
   uint16_t first, last;
 };
 
 // Of cells across and of pixels down; of the latter are 65536 at most.
 struct SphereBox {
-  Range columns, rows;
+  PlaceRange columns, rows;
 };
 
 // Places of `size` pixels, `count` in all from `begin` on, that the pixels [low, high] lie in.
-Range PlacesOf(double low, double high, int begin, int size, int count) {
+PlaceRange PlacesOf(double low, double high, int begin, int size, int count) {
   const double first = std::max((low - begin) / size, 0.0);
   const double last = std::min((high - begin) / size, count - 1.0);
   if (!(last >= 0 && first < count)) return {1, 0};
@@ -30,7 +30,7 @@ Range PlacesOf(double low, double high, int begin, int size, int count) {
 }
 
 // A cell's pixel rows that lie in the range, as bits.
-uint16_t RowsOfCell(const Range& rows, size_t cell_row) {
+uint16_t RowsOfCell(const PlaceRange& rows, size_t cell_row) {
   const int cell_begin = static_cast<int>(cell_row) * kCellSize;
   const int first = std::max(rows.first - cell_begin, 0);
   const int last = std::min(rows.last - cell_begin, kCellSize - 1);
