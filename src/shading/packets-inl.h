@@ -159,7 +159,8 @@ template <class Model>
 HWY_INLINE void ShadeBriefly(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);
   for (size_t k = 0; k < range.lights.size(); ++k) {
-    VisitLight(d, range.lights[k], range.hits, [&](const auto& light) HWY_ATTR {
+    VisitLight(d, range.lights[k], range.hits, [&](const auto& visited) HWY_ATTR {
+      const auto light = visited;  // kept in registers: what is stored cannot be this copy
       ReflectLight(d, model, range, arrays, k, range.begin, range.end,
                    [&](const PacketV& p)
                        HWY_ATTR { return MakeIncident(d, light.At(d, p.i), p.normal); });

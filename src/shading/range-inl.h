@@ -199,8 +199,11 @@ HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& r
     const PacketV packet = arrays.Packet(d, i);
     const auto view = model.SeenBy(d, packet, range.surface);
     const RadianceV of_light = model.Reflect(d, view, packet, incident_at(packet), k);
-    if (replace) {
+    if (replace && Model::kHasSpecular) {
       arrays.Store<true>(d, of_light, i);
+    } else if (replace) {
+      const FloatV zero = hn::Zero(d);  // of_light's go through memory, asked for or not
+      arrays.Store<true>(d, {of_light.diffuse, {zero, zero, zero}}, i);
     } else {
       const RadianceV sum = arrays.Load(d, i);
       arrays.Store<Model::kHasSpecular>(

@@ -38,9 +38,25 @@ struct Outlines {
   alignas(kVectorBytes) double lean[kMaxOutlines], turn[kMaxOutlines];
 };
 
-// The pixels from `begin` to `end` that an outline reaches in each of a tile's rows.
+// The pixels of a tile's row that an outline reaches, from begin() to end(), counted from the
+// tile's left edge, and the outline's number: in one word, so that words are sorted as spans are.
+struct RowSpan {
+  uint32_t bits;
+
+  static constexpr uint32_t kNone = ~0u;  // it reaches none
+  static constexpr int kOutlineBits = 5, kPixelBits = 11, kBeginBits = kOutlineBits + kPixelBits;
+  static_assert(kMaxOutlines <= 1 << kOutlineBits);
+  static_assert(kBatchCapacity < 1 << kPixelBits);  // no tile has as many pixels
+
+  uint32_t begin() const { return bits >> kBeginBits; }
+  uint32_t end() const { return bits >> kOutlineBits & ((1u << kPixelBits) - 1); }
+  uint32_t outline() const { return bits & ((1u << kOutlineBits) - 1); }
+  bool operator<(const RowSpan& other) const { return bits < other.bits; }
+};
+
+// Those of an outline in each of a tile's rows.
 struct OutlineSpans {
-  alignas(64) int32_t begin[kCellSize], end[kCellSize];
+  alignas(64) uint32_t rows[kCellSize];
 };
 
 }  // namespace
@@ -116,8 +132,10 @@ void FindOutlines(const Projector& projector, Outlines* o) {
 void FindSpans(const Outlines& o, size_t i, double reach, const Window& tile, OutlineSpans* spans) {
   const hn::CappedTag<double, kCellSize> d;
   const hn::Rebind<int32_t, decltype(d)> di;
-  const auto one = hn::Set(d, 1.0), minus_one = hn::Set(d, -1.0);
-  const auto x0 = hn::Set(d, tile.x0), x1 = hn::Set(d, tile.x1);
+  const hn::Rebind<uint32_t, decltype(d)> du;
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0), minus_one = hn::Set(d, -1.0);
+  const auto x0 = hn::Set(d, tile.x0), width = hn::Set(d, tile.width());
+  const auto outline = hn::Set(du, static_cast<uint32_t>(i)), none = hn::Set(du, RowSpan::kNone);
   const auto middle_x = hn::Set(d, o.middle_x[i]), middle_y = hn::Set(d, o.middle_y[i]);
   const auto half_chord = hn::Set(d, o.half_chord[i]), lean = hn::Set(d, o.lean[i]);
   const auto turn = hn::Set(d, o.turn[i]);
@@ -130,7 +148,7 @@ void FindSpans(const Outlines& o, size_t i, double reach, const Window& tile, Ou
     const auto met = hn::And(hn::Lt(upper, one), hn::Gt(lower, minus_one));
     const auto low = hn::Max(upper, minus_one), high = hn::Min(lower, one);
     const auto chord = [&](auto t) HWY_ATTR {
-      return hn::Mul(half_chord, hn::Sqrt(hn::Max(hn::Sub(one, hn::Mul(t, t)), hn::Zero(d))));
+      return hn::Mul(half_chord, hn::Sqrt(hn::Max(hn::Sub(one, hn::Mul(t, t)), zero)));
     };
     const auto low_chord = chord(low), high_chord = chord(high);
     const auto low_middle = hn::MulAdd(lean, low, middle_x);
@@ -142,12 +160,15 @@ void FindSpans(const Outlines& o, size_t i, double reach, const Window& tile, Ou
     const auto left =
         hn::IfThenElse(turns_at(hn::Neg(turn)), hn::Set(d, o.left[i]),
                        hn::Min(hn::Sub(low_middle, low_chord), hn::Sub(high_middle, high_chord)));
-    const auto store = [&](auto x, int32_t* to) HWY_ATTR {
-      const auto inside = hn::IfThenElse(met, hn::Min(hn::Max(x, x0), x1), x0);
-      hn::StoreU(hn::DemoteTo(di, inside), di, to + row);  // rounded down: none is below 0
+    const auto pixel = [&](auto x) HWY_ATTR {
+      const auto inside = hn::Min(hn::Max(hn::Sub(x, x0), zero), width);
+      return hn::BitCast(du, hn::DemoteTo(di, inside));  // rounded down: none is below 0
     };
-    store(hn::Sub(left, hn::Set(d, reach)), spans->begin);
-    store(hn::Add(right, hn::Set(d, reach + 1)), spans->end);
+    const auto begin = pixel(hn::Sub(left, hn::Set(d, reach)));
+    const auto end = pixel(hn::IfThenElse(met, hn::Add(right, hn::Set(d, reach + 1)), x0));
+    const auto bits = hn::Or(hn::ShiftLeft<RowSpan::kBeginBits>(begin),
+                             hn::Or(hn::ShiftLeft<RowSpan::kOutlineBits>(end), outline));
+    hn::StoreU(hn::IfThenElse(hn::Lt(begin, end), bits, none), du, spans->rows + row);
   }
 }
 
@@ -168,30 +189,26 @@ HWY_EXPORT(FindOutlineSpansT);
 
 namespace {
 
-struct RowSpan {
-  int begin, end;
-  const TileCandidate* alone;
-};
-
-// Those that overlap become one.
-void PutRow(RowSpan* row, size_t count, const Window& tile, int y, std::vector<PixelSpan>* spans) {
-  const auto further_left = [](const RowSpan& a, const RowSpan& b) { return a.begin < b.begin; };
-  if (!std::is_sorted(row, row + count, further_left)) std::sort(row, row + count, further_left);
-  const int place = (y - tile.y0) * tile.width() - tile.x0;
+// Those that overlap become one. `first`: the row's first pixel.
+void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint32_t first,
+            std::vector<PixelSpan>* spans) {
+  if (!std::is_sorted(row, row + count)) std::sort(row, row + count);
   for (size_t i = 0; i < count;) {
-    RowSpan span = row[i++];
-    for (; i < count && row[i].begin < span.end; ++i) {
-      span = {span.begin, std::max(span.end, row[i].end), nullptr};
+    const RowSpan& span = row[i++];
+    const TileCandidate* only = alone[span.outline()];
+    uint32_t end = span.end();
+    for (; i < count && row[i].begin() < end; ++i) {
+      end = std::max(end, row[i].end());
+      only = nullptr;
     }
-    spans->push_back({static_cast<uint32_t>(place + span.begin),
-                      static_cast<uint32_t>(span.end - span.begin), span.alone});
+    spans->push_back({first + span.begin(), end - span.begin(), only});
   }
 }
 
 void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    RowSpan row{tile.x0, tile.x1, nullptr};
-    PutRow(&row, 1, tile, y, spans);
+  const auto width = static_cast<uint32_t>(tile.width());
+  for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
+    spans->push_back({y * width, width, nullptr});
   }
 }
 
@@ -228,10 +245,10 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   for (int y = 0; y < tile.height(); ++y) {
     size_t in_row = 0;
     for (size_t i = 0; i < outlines.count; ++i) {
-      row[in_row] = {of_outline[i].begin[y], of_outline[i].end[y], alone[i]};
-      in_row += row[in_row].begin < row[in_row].end ? 1 : 0;
+      row[in_row] = {of_outline[i].rows[y]};
+      in_row += row[in_row].bits != RowSpan::kNone ? 1 : 0;
     }
-    PutRow(row, in_row, tile, tile.y0 + y, &candidates->spans);
+    PutRow(row, in_row, alone, static_cast<uint32_t>(y * tile.width()), &candidates->spans);
   }
 }
 }  // namespace nacre
