@@ -17,10 +17,11 @@
 namespace nacre {
 namespace {
 
-// The material grid in three forms, and other scenes as they are.
-//   material_grid          the default material; nothing is in anything's shadow, which nacre
-//   proves material_grid_plain    Schlick's shadowing, no compensation: the sum of the usual two
-//   terms material_grid_shadows  the light beside the grid, so that spheres shadow one another
+// Scenes as they are, and the material grid in two further forms.
+//   material_grid           the default material; nacre finds that 2 of the 25 spheres can lie in
+//                           another's shadow, and casts shadow rays there
+//   material_grid_plain     Schlick's shadowing, no compensation: the sum of the usual two terms
+//   material_grid_shadows   the light beside the grid, so that spheres shadow one another
 Scene LoadBenchScene(const std::string& name) {
   const std::string grid = "material_grid";
   const bool is_grid = name.compare(0, grid.size(), grid) == 0;
