@@ -90,6 +90,11 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   CheckPathsDiffer(paths);
 
   std::vector<std::string> warnings;
+  for (const IdleOption& idle : options.idle_options) {
+    if (options.quiet) break;
+    warnings.push_back(fmt::format("{} changes nothing: it is for {} files, and none is written",
+                                   idle.name, idle.extension));
+  }
   const Scene scene = [&] {
     Progress progress(EarlyProgressForm(options), "reading", 0, "");
     load_options.on_warning = [&](const std::string& text) {

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <initializer_list>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "base/target.h"
 #include "color/tone.h"
 #include "image_io/exr_compress.h"
@@ -180,6 +182,20 @@ void AddTellingOptions(CLI::App* command, RenderOptions* o) {
   command->add_flag("--quiet", o->quiet, "Print nothing but errors")->group(telling);
 }
 
+void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
+  const auto find = [&](std::initializer_list<const char*> names, const char* extension) {
+    if (std::any_of(o->outputs.begin(), o->outputs.end(),
+                    [&](const std::string& path) { return HasExtension(path, extension); })) {
+      return;
+    }
+    for (const char* name : names) {
+      if (command.get_option(name)->count() > 0) o->idle_options.push_back({name, extension});
+    }
+  };
+  find({"--layers", "--depth", "--compression"}, ".exr");
+  find({"--tonemap", "--exposure", "--labels"}, ".png");
+}
+
 }  // namespace
 
 void AddRenderOptions(CLI::App* command, RenderOptions* o) {
@@ -196,6 +212,7 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
   AddExrOptions(command, o);
   AddMachineOptions(command, o);
   AddTellingOptions(command, o);
+  command->parse_complete_callback([command, o] { FindIdleOptions(*command, o); });
 }
 
 LoadOptions MakeLoadOptions(const RenderOptions& options) {

@@ -16,6 +16,11 @@
 
 namespace nacre {
 
+// An option that was given for files of a kind that is not written.
+struct IdleOption {
+  std::string name, extension;
+};
+
 struct RenderOptions {
   std::vector<std::string> outputs;
   std::string size;  // "WxH"; empty: the scene's
@@ -44,6 +49,7 @@ struct RenderOptions {
   bool fast = false;
   std::string intersector = "auto";
   int tile_size = 0;  // 0: chosen by the plan
+  std::vector<IdleOption> idle_options;
 };
 
 // Adds all of them to `command`.

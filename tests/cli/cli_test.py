@@ -60,6 +60,19 @@ class CliTest(unittest.TestCase):
     def test_quiet_says_nothing(self):
         self.assertEqual(self.render('-o', self.out / 'a.png', '--quiet', *SMALL).stderr, '')
 
+    def test_options_for_files_that_are_not_written_are_told(self):
+        for kind, other, options in (
+                ('png', 'exr', (['--layers', 'N'], ['--depth', 'float'], ['--compression', 'piz'])),
+                ('exr', 'png', (['--tonemap', 'aces'], ['--exposure', '1'], ['--labels']))):
+            for option in options:
+                with self.subTest(option=option):
+                    one = ['-o', self.out / f'a.{kind}', *option, *SMALL]
+                    told = f'warning: {option[0]} changes nothing: it is for .{other} files'
+                    self.assertIn(told, self.render(*one).stderr)
+                    self.assertEqual(self.render(*one, '--quiet').stderr, '')
+                    both = ['-o', self.out / f'a.{other}', *one]
+                    self.assertNotIn('warning', self.render(*both).stderr)
+
     def test_reproducible_files_are_equal_to_the_byte(self):
         for name in 'a.exr', 'b.exr', 'a.png', 'b.png':
             threads = '1' if name[0] == 'a' else '2'
