@@ -218,6 +218,7 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
 LoadOptions MakeLoadOptions(const RenderOptions& options) {
   LoadOptions load;
   load.allow_paths = options.allow_paths;
+  load.threads = options.threads;
   for (const std::string& set : options.sets) {
     const size_t equals = set.find('=');
     if (equals == std::string::npos || set.empty() || set.front() != '/') {

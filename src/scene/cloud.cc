@@ -68,7 +68,7 @@ void CheckCloud(const Cloud& cloud) {
 
 }  // namespace
 
-void AddCloud(const Cloud& cloud, Scene* scene) {
+void AddCloud(const Cloud& cloud, int threads, Scene* scene) {
   CheckCloud(cloud);
   constexpr uint64_t kBlock = 1 << 16;
   const size_t first = scene->spheres.size();
@@ -76,7 +76,7 @@ void AddCloud(const Cloud& cloud, Scene* scene) {
   AdviseHugePages(scene->spheres.data() + first, cloud.count * sizeof(Sphere));
   scene->spheres.resize(first + cloud.count);
   Sphere* const spheres = scene->spheres.data() + first;
-  ParallelFor((cloud.count + kBlock - 1) / kBlock, 0, [&](size_t block) {
+  ParallelFor((cloud.count + kBlock - 1) / kBlock, threads, [&](size_t block) {
     const uint64_t end = std::min(cloud.count, (block + 1) * kBlock);
     for (uint64_t i = block * kBlock; i < end; ++i) spheres[i] = CloudSphere(cloud, i);
   });

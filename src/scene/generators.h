@@ -81,6 +81,7 @@ struct Cloud {
   std::vector<MaterialId> materials;  // equally likely, not empty
 };
 
-void AddCloud(const Cloud& cloud, Scene* scene);
+// `threads`: as ParallelFor's; they change no bits.
+void AddCloud(const Cloud& cloud, int threads, Scene* scene);
 
 }  // namespace nacre

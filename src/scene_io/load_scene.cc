@@ -112,6 +112,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   SceneContext context;
   context.folder = folder;
   context.allow_paths = options.allow_paths;
+  context.threads = options.threads;
   context.scene = &scene;
   SceneBudget budget(options.max_primitives);
   context.budget = &budget;

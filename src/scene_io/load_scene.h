@@ -24,6 +24,9 @@ struct LoadOptions {
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;
 
+  // To make large shapes on; 0: as many as the machine has.
+  int threads = 0;
+
   // How many spheres and triangles the file may be made into, all shapes and lights together. A
   // sphere with a material of its own, as grids have them, counts as 16.
   uint64_t max_primitives = limits::kMaxPrimitivesMade;

@@ -211,7 +211,7 @@ void ReadCloud(JsonObject* shape, SceneContext* context) {
   }
   if (shape->faults()->count() != 0) return;
   context->budget->Spend(cloud.count);
-  AddCloud(cloud, context->scene);
+  AddCloud(cloud, context->threads, context->scene);
 }
 
 }  // namespace nacre

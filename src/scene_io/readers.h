@@ -29,6 +29,7 @@ void ReadImage(const JsonValue& value, ImageSettings* image);
 struct SceneContext {
   std::filesystem::path folder;  // of the scene file
   bool allow_paths = false;
+  int threads = 0;
   Scene* scene = nullptr;
   SceneBudget* budget = nullptr;
   std::unordered_map<std::string, MaterialId> materials;  // by name

@@ -217,7 +217,7 @@ Cloud SomeCloud(uint64_t count) {
 TEST_CASE("no two spheres of a large cloud are alike") {
   Cloud cloud = SomeCloud(200000);  // more than what one task makes
   Scene scene;
-  AddCloud(cloud, &scene);
+  AddCloud(cloud, 0, &scene);
   std::vector<double> x;
   x.reserve(scene.spheres.size());
   for (const Sphere& sphere : scene.spheres) x.push_back(sphere.center.x);
@@ -232,7 +232,7 @@ TEST_CASE("a cloud is the same everywhere") {
   cloud.min = Vec3d(0, 0, 0);
   cloud.max = Vec3d(1, 2, 4);
   Scene scene;
-  AddCloud(cloud, &scene);
+  AddCloud(cloud, 0, &scene);
   REQUIRE(scene.spheres.size() == 3);
   CHECK(scene.spheres[0].center.x == 0x1.e67b8d7aabff5p-1);
   CHECK(scene.spheres[0].center.y == 0x1.c26654fb68258p+0);
@@ -246,8 +246,8 @@ TEST_CASE("a cloud does not depend on how long it is or what was there before") 
   Scene one;
   Scene other;
   other.spheres.resize(5);
-  AddCloud(SomeCloud(kLong), &one);
-  AddCloud(SomeCloud(1000), &other);
+  AddCloud(SomeCloud(kLong), 0, &one);
+  AddCloud(SomeCloud(1000), 1, &other);
   REQUIRE(one.spheres.size() == kLong);
   REQUIRE(other.spheres.size() == 1005);
   bool same = true;
@@ -262,7 +262,7 @@ TEST_CASE("a cloud does not depend on how long it is or what was there before") 
 TEST_CASE("a cloud fills its box evenly") {
   constexpr size_t kCount = 100000;
   Scene scene;
-  AddCloud(SomeCloud(kCount), &scene);
+  AddCloud(SomeCloud(kCount), 0, &scene);
   Vec3d sum(0, 0, 0);
   double radii = 0;
   size_t of_material_2 = 0;
@@ -288,9 +288,9 @@ TEST_CASE("a cloud fills its box evenly") {
 TEST_CASE("seeds give other clouds") {
   Scene scene;
   Cloud cloud = SomeCloud(100);
-  AddCloud(cloud, &scene);
+  AddCloud(cloud, 0, &scene);
   cloud.seed = 8;
-  AddCloud(cloud, &scene);
+  AddCloud(cloud, 0, &scene);
   size_t equal = 0;
   for (size_t i = 0; i < 100; ++i) {
     for (size_t j = 100; j < 200; ++j) {
@@ -305,7 +305,7 @@ TEST_CASE("clouds that make no sense are refused") {
     Cloud cloud = SomeCloud(10);
     spoil(cloud);
     Scene scene;
-    return ErrorOf([&] { AddCloud(cloud, &scene); });
+    return ErrorOf([&] { AddCloud(cloud, 0, &scene); });
   };
   CHECK(Contains(error_of([](Cloud& c) { c.count = 0; }), "number of spheres"));
   CHECK(Contains(error_of([](Cloud& c) { c.count = 100000001; }), "number of spheres"));
