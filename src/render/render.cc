@@ -22,6 +22,7 @@ struct Worker {
   TileScratch scratch;
   std::unique_ptr<CellScratch> cell;  // of adaptive sampling
   Strip strip;
+  std::vector<uint8_t> blank;  // of each of its tiles, as RenderTile says
 };
 
 // Hands workers out and takes them back.
@@ -60,11 +61,17 @@ void RenderCells(const RenderPlan& plan, const Window& window, Worker* worker, S
 
 void RenderStrip(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
   StageClock clock(stats);
+  const int rows_before = worker->strip.window.height();
   StartStrip(plan, window, &worker->strip);
   if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, &clock, stats);
-  for (int x = window.x0; x < window.x1; x += plan.tile_width) {
+  // What the strip before this one showed still stands, where it had these rows: most tiles of the
+  // background lie below others.
+  const auto tiles = static_cast<size_t>((window.width() - 1) / plan.tile_width + 1);
+  if (rows_before < window.height()) worker->blank.assign(tiles, 0);
+  for (size_t i = 0; i < tiles; ++i) {
+    const int x = window.x0 + static_cast<int>(i) * plan.tile_width;
     const Window tile{x, window.y0, std::min(x + plan.tile_width, window.x1), window.y1};
-    RenderTile(plan, tile, &worker->scratch, &worker->strip, &clock, stats);
+    RenderTile(plan, tile, &worker->scratch, &worker->strip, &worker->blank[i], &clock, stats);
   }
 }
 

@@ -235,20 +235,28 @@ void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clo
 
 namespace {
 
+void ShowBackground(const RenderPlan& plan, const Window& tile, Strip* strip, uint8_t* blank) {
+  if (*blank == 0) FillBackground(plan, tile, strip);
+  *blank = 1;
+}
+
 // The only sample of each pixel.
 void RenderOnce(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
-                StageClock* clock, RenderStats* stats) {
+                uint8_t* blank, StageClock* clock, RenderStats* stats) {
   TileScratch& s = *scratch;
   s.film.window = tile;
   MakeSamples(plan, tile, 0, 1, &s);
   if (s.sampled) NumberSamples(0, 1, &s.sampled->numbers);
   TraceAndShade(plan, &s, clock, stats);
   if (s.hits.count == 0) {
-    FillBackground(plan, tile, strip);
-  } else if (!PutOnlySamples(plan, &s, strip)) {
-    StartTile(plan, tile, &s.film);
-    AddToFilm(plan, &s);
-    ResolveTile(plan, s.film, strip);
+    ShowBackground(plan, tile, strip, blank);
+  } else {
+    *blank = 0;
+    if (!PutOnlySamples(plan, &s, strip)) {
+      StartTile(plan, tile, &s.film);
+      AddToFilm(plan, &s);
+      ResolveTile(plan, s.film, strip);
+    }
   }
   clock->Charge(Stage::kFilm);
 }
@@ -256,19 +264,20 @@ void RenderOnce(const RenderPlan& plan, const Window& tile, TileScratch* scratch
 }  // namespace
 
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
-                StageClock* clock, RenderStats* stats) {
+                uint8_t* blank, StageClock* clock, RenderStats* stats) {
   TileScratch& s = *scratch;
   const int spp = plan.scene->image.spp;
   const bool anything = EnterTile(plan, tile, &s);
   clock->Charge(Stage::kIntersect);
   if (!anything && HasUnitWeights(plan.sampler)) {
-    FillBackground(plan, tile, strip);
+    ShowBackground(plan, tile, strip, blank);
     clock->Charge(Stage::kFilm);
     return;
   }
   ShiftPixels(plan.sampler, tile, &s.shifts);
   if (s.sampled) NumberPixels(plan, tile, &s.sampled->numbers);
-  if (plan.one_sample) return RenderOnce(plan, tile, &s, strip, clock, stats);
+  if (plan.one_sample) return RenderOnce(plan, tile, &s, strip, blank, clock, stats);
+  *blank = 0;
   clock->Charge(Stage::kSample);
   StartTile(plan, tile, &s.film);
   clock->Charge(Stage::kFilm);

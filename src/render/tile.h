@@ -77,7 +77,8 @@ void TraceAndShade(const RenderPlan& plan, TileScratch* scratch, StageClock* clo
                    RenderStats* stats);
 
 // Renders the pixels of `tile`, which lies within the strip and has at most kBatchCapacity of them.
+// `blank`: 1 if they show nothing but the background already; then whether they do.
 void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch, Strip* strip,
-                StageClock* clock, RenderStats* stats);
+                uint8_t* blank, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre
