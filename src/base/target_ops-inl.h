@@ -84,7 +84,13 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<floa
 #else
   const hn::Half<hn::ScalableTag<float>> dh;
   const auto high = hn::Sub(m, hn::LoadU(dd, from + hn::Lanes(dd)));
+#if HWY_TARGET <= HWY_AVX3
+  // hn::Combine zeroes the upper half first, which no compiler finds to be for nothing.
+  const __m512 lower = _mm512_castps256_ps512(hn::DemoteTo(dh, low).raw);
+  return hn::Vec<hn::ScalableTag<float>>{_mm512_insertf32x8(lower, hn::DemoteTo(dh, high).raw, 1)};
+#else
   return hn::Combine(d, hn::DemoteTo(dh, high), hn::DemoteTo(dh, low));
+#endif
 #endif
 }
 

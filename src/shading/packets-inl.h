@@ -72,8 +72,9 @@ class IncidentBlock {
   alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits];
   alignas(kAlignment) float n_dot_l_[kHits], irradiance_[kHits], weight_[kHits];
   alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits];
-  alignas(kAlignment) float lv_squared_[kHits] = {};
-  alignas(kAlignment) float one_minus_c_[kHits] = {}, c_[kHits] = {};
+  // Loaded by all models, used by those alone for which they were stored.
+  alignas(kAlignment) float lv_squared_[kHits];
+  alignas(kAlignment) float one_minus_c_[kHits], c_[kHits];
 };
 
 // The light of hits [begin, end). Not inlined, as it is the same for all models.

@@ -82,7 +82,8 @@ bool EvaluatedInPlace(const ShadingLight& light);
 void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                    LightBatch* result);
 
-// Adds to `radiance` what hits [begin, end), all of `material`, reflect of the lights.
+// Adds to `radiance` what hits [begin, end), all of `material`, reflect of the lights; or stores
+// it (LitHits::replace).
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               NarrowLobes* scratch, ReflectedRadiance* radiance);
 
