@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a processor's ports allow the shading kernels, and how much of that they reach.
 
-perf samples which loops of nacre_bench run, objdump gives their instructions, llvm-mca the cycles
-that the busiest port needs for one turn when nothing waits for anything. The clock is measured: a
-chain of multiplications takes three cycles each. Without perf and llvm-mca, of Debian's packages
-linux-perf and llvm-19, there is no such column. An llvm that does not know this processor, as
-Debian 12's 14 does not know Zen 4, counts for another one: the tables say for which.
+perf samples which loops of nacre_bench run, objdump gives their instructions, llvm-mca the ports
+that each can go to; the busiest ports are those that any assignment must load most. The clock is
+measured: a chain of multiplications takes three cycles each. Without perf and llvm-mca, of Debian's
+packages linux-perf and llvm-19, there is no such column. An llvm that does not know this processor,
+as Debian 12's 14 does not know Zen 4 and as none knows the Xeons that multiply two vectors of 512
+bits a cycle by their own names, counts for one that does as many products a cycle as are measured:
+the tables say for which.
 """
 import bisect
 import collections
 import itertools
+import math
 import os
 import pathlib
 import re
@@ -17,9 +20,11 @@ import shutil
 import subprocess
 import tempfile
 
-# The processors to count for: the first one whose model has vectors of 512 bits, if this one has.
-_PROCESSORS = ("native", "icelake-server")
-_WIDE = "vaddps %zmm0, %zmm1, %zmm2\n"
+# The processors to count for: the first one whose model agrees with what is measured of this one.
+_PROCESSORS = ("native", "icelake-server", "skylake-avx512")
+_PRODUCT = "vmulps %{0}0, %{0}1, %{0}2\n"
+_LOAD_AND_STORE = "vmovups (%rdi), %xmm0\nvmovups %xmm0, (%rdi)\n"
+_AGREE = 1.5  # the models say one or two products a cycle; measured ones miss their number by a tenth
 # Hits that a loop's turn shades: ShadeTag of src/base/target_ops-inl.h.
 _HITS_A_TURN = {"avx3": 32, "avx2": 8, "sse4": 4}
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
@@ -29,7 +34,8 @@ _LEAST_SHARE = 0.01  # of the samples, of a loop that counts
 _LEAST_DENSITY = 0.1  # of its loop's samples an instruction, of a basic block that a turn takes
 _LONGEST_LOOP = 1000  # instructions; longer ones are loops over loops
 _JUMP = re.compile(r"j\w+\s+([0-9a-f]+)")
-_NOT_COUNTED = re.compile(r"(j|call|ret|nop|data16|cs nop|xchg)")
+# Jumps, padding, and copies between registers, which are renamed and go to no port.
+NOT_COUNTED = re.compile(r"(j|call|ret|nop|data16|cs nop|xchg|v?mov(ap[sd]|dqa\d*)?\s+%\w+,%\w+$)")
 
 
 def _newest_mca():
@@ -48,31 +54,72 @@ def _output(command, text=None):
     return subprocess.run(command, input=text, capture_output=True, text=True, check=True).stdout
 
 
+def most_loaded(instructions):
+    """Cycles a turn that some set of ports cannot do with less: the work that has nowhere else to
+    go, shared evenly. `instructions`: {port: cycles} of each."""
+    work = collections.Counter()
+    for ports in instructions:
+        if ports:
+            work[frozenset(ports)] += sum(ports.values())
+    sets = set()
+    for ports in work:
+        sets |= {ports | other for other in sets} | {ports}
+    return max((sum(work[ports] for ports in work if ports <= group) / len(group)
+                for group in sets), default=0)
+
+
 class PortModel:
     """What llvm-mca counts cycles with: program, processor; `name` tells which one that is."""
 
-    def __init__(self, wide):
+    def __init__(self, registers, products):
+        """`products`: of these registers, that this processor starts in a cycle."""
         self._program = _newest_mca()
-        self._processor = next(p for p in _PROCESSORS if not wide or self._knows_wide(p))
+        off = {p: self._disagreement(p, registers, products) for p in _PROCESSORS}
+        self._processor = next((p for p in _PROCESSORS if off[p] < _AGREE), min(off, key=off.get))
         version = _output([self._program, "--version"])
         host = re.search(r"Host CPU:\s+(\S+)", version)
         number = re.search(r"version (\d+)", version)
         known = host[1] if self._processor == "native" and host else self._processor
+        self._beside = frozenset().union(*self._port_table(_LOAD_AND_STORE))
         self.name = f"llvm-mca {number[1]} for {known}"
 
-    def _run(self, processor, instructions):
-        return _output([self._program, f"-mcpu={processor}", "-iterations=2"], instructions)
+    def _run(self, processor, instructions, *options):
+        return _output([self._program, f"-mcpu={processor}", "-iterations=2", *options],
+                       instructions)
 
-    def _knows_wide(self, processor):
+    def _disagreement(self, processor, registers, products):
+        """How many times more or fewer products a cycle the model says than are measured."""
         try:
-            return "Block RThroughput" in self._run(processor, _WIDE)
+            ratio = products * self._block(processor, _PRODUCT.format(registers))
+            return max(ratio, 1 / ratio)
         except subprocess.CalledProcessError:
-            return False
+            return math.inf
+
+    def _block(self, processor, instructions):
+        found = re.search(r"Block RThroughput:\s+([\d.]+)", self._run(processor, instructions))
+        return float(found[1]) if found else math.inf
+
+    def _port_table(self, instructions):
+        """{port: cycles} of each instruction. Dividers, which work beside the port that feeds them,
+        are left to llvm-mca's own number."""
+        text = self._run(self._processor, instructions, "-instruction-tables",
+                         "-instruction-info=0")
+        names = re.findall(r"^\[([\d.]+)\]\s+- (\S+)$", text, re.MULTILINE)
+        rows = text.split("Resource pressure by instruction:")[1].splitlines()[2:]
+        for row in rows:
+            cells = row.split()[:len(names)]
+            if len(cells) == len(names):
+                yield {number: float(cell) for (number, name), cell in zip(names, cells)
+                       if cell != "-" and "Divider" not in name}
 
     def cycles(self, instructions):
-        """Of the busiest port, a turn."""
-        text = self._run(self._processor, "\n".join(instructions) + "\n")
-        return float(re.search(r"Block RThroughput:\s+([\d.]+)", text)[1])
+        """Of the busiest ports, a turn. llvm-mca's own number looks at each port and at each group
+        of ports that an instruction may choose from by itself; here they are taken together, but
+        for those of loads and stores, which an instruction takes beside others, not instead."""
+        text = "\n".join(instructions) + "\n"
+        table = [{port: cycles for port, cycles in row.items() if port not in self._beside}
+                 for row in self._port_table(text)]
+        return max(self._block(self._processor, text), most_loaded(table))
 
 
 def disassemble(program):
@@ -130,7 +177,7 @@ def _taken(code, begin, end, samples):
     least = _LEAST_DENSITY * seen(begin, end + 1)
     for first, last in zip(edges, edges[1:]):
         if seen(first, last) > least:
-            yield from (text for _, text in code[first:last] if not _NOT_COUNTED.match(text))
+            yield from (text for _, text in code[first:last] if not NOT_COUNTED.match(text))
 
 
 def cycles_a_hit(model, program, code, benchmark, target):
@@ -157,7 +204,8 @@ def measure(program, benchmarks, target):
     """({benchmark: least ns a hit} of the shading kernels for a target, at the measured clock; the
     model's name)."""
     hertz = benchmarks["machine/multiply_chain"]["counters"]["cycles"]
-    model = PortModel(wide=target == "avx3")
+    products = benchmarks["machine/products"]["counters"]["products"] / hertz
+    model = PortModel(_REGISTERS[target], products)
     code = disassemble(program)
     found = {}
     for name in benchmarks:

@@ -14,6 +14,7 @@ import estimates
 import google
 import lights
 import plots
+import port_bound
 import precision
 import readme
 import report
@@ -199,6 +200,24 @@ class Headlines(unittest.TestCase):
 
     def test_lines(self):
         self.assertEqual(summary.lines({"a": 1.23456, "b": 123456.7}), ["a: 1.235", "b: 123457"])
+
+
+class Ports(unittest.TestCase):
+    def test_work_that_only_some_ports_do_is_shared_by_these(self):
+        either, second, any_of_three = {"0": 0.5, "5": 0.5}, {"5": 1.0}, {"0": .3, "1": .4, "5": .3}
+        self.assertEqual(port_bound.most_loaded([either] * 4), 2)
+        self.assertEqual(port_bound.most_loaded([either] * 4 + [second] * 2), 3)
+        self.assertEqual(port_bound.most_loaded([either] * 2 + [second] * 6), 6)
+        self.assertEqual(port_bound.most_loaded([any_of_three] * 9 + [{}]), 3)
+        self.assertEqual(port_bound.most_loaded([either] * 4 + [any_of_three] * 20), 8)
+        self.assertEqual(port_bound.most_loaded([]), 0)
+
+    def test_copies_are_not_counted(self):
+        for copy in ("vmovaps %zmm1,%zmm2", "mov    %rax,%rbx", "movaps %xmm1,%xmm0", "jne    10"):
+            self.assertTrue(port_bound.NOT_COUNTED.match(copy), copy)
+        for work in ("vmovaps (%rax),%zmm2", "vmovaps %zmm1,%zmm2{%k1}{z}", "vmovq  %xmm0,%rax",
+                     "vmovups %zmm1,(%rdi)", "vmulps %zmm1,%zmm2,%zmm3"):
+            self.assertFalse(port_bound.NOT_COUNTED.match(work), work)
 
 
 class Precision(unittest.TestCase):
