@@ -104,9 +104,7 @@ struct ToRows {
     for (const HitSpan& span : spans) {
       float* const to =
           rows.first + span.pixel / rows.width * rows.stride + span.pixel % rows.width;
-      // A sum that begins with 0 is never -0.
-      const auto rounded = [&](size_t i)
-                               HWY_ATTR { return hn::DemoteTo(f, hn::Add(value(i), hn::Zero(d))); };
+      const auto rounded = [&](size_t i) HWY_ATTR { return hn::DemoteTo(f, value(i)); };
       size_t i = 0;
       for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
         hn::StoreU(rounded(span.hit + i), f, to + i);
@@ -117,24 +115,30 @@ struct ToRows {
   }
 };
 
+// No value is -0, as no sum that begins with 0 is.
 template <class To>
 HWY_INLINE void BringHits(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, double constant,
                           double further, std::span<const HitSpan> spans, const To& to) {
   const D d;
-  const V first = hn::Set(d, constant);
+  const V zero = hn::Zero(d);
+  const V first = hn::Add(zero, hn::Set(d, constant));  // nor is a sum to which this was added
   const V second = hn::Set(d, further);
   if (a == nullptr) {
     const V both = hn::Add(first, second);
     return to(spans, [&](size_t) HWY_ATTR { return both; });
   }
   if (b == nullptr) {
-    return to(spans, [&](size_t i) HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), a + i)); });
+    return to(spans, [&](size_t i) HWY_ATTR {
+      return hn::Add(zero, hn::PromoteTo(d, hn::LoadU(F(), a + i)));
+    });
   }
-  to(spans, [&](size_t i) HWY_ATTR {
+  const auto with_first = [&](size_t i) HWY_ATTR {
     const V sum =
         hn::Add(hn::PromoteTo(d, hn::LoadU(F(), a + i)), hn::PromoteTo(d, hn::LoadU(F(), b + i)));
-    return hn::Add(hn::Add(sum, first), second);
-  });
+    return hn::Add(sum, first);
+  };
+  if (further == 0) return to(spans, with_first);
+  to(spans, [&](size_t i) HWY_ATTR { return hn::Add(with_first(i), second); });
 }
 
 void AddHitsT(const float* a, const float* b, double constant, double further,

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "render/mesh_points.h"
+#include "render/shadow_rays_kernel.h"
 #include "render/sort_hits.h"
 #include "render/tile_layers.h"
 #include "sampling/hash.h"
@@ -77,32 +78,21 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
                  RenderStats* stats) {
   const HitBatch& hits = s->hits;
   const Soa3<double>& origin = plan.lift_shadows ? s->shadow_origin : hits.position;
-  const double t_max = planned.light.TMax();
   ShadowRayBatch& rays = s->shadow_rays;
-  rays.count = 0;
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
   // Without a branch on what is lit, which would go either way from hit to hit.
   const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
+  size_t count = 0;
   for (size_t i = 0; i < hits.count; ++i) {
-    s->shadow_hits[rays.count] = static_cast<uint32_t>(i);
+    s->shadow_hits[count] = static_cast<uint32_t>(i);
     const bool asked = all || !NeverShadowed(planned, hits.primitive[i]);
-    rays.count += static_cast<size_t>(asked & (s->light.irradiance[i] > 0));
+    count += static_cast<size_t>(asked & (s->light.irradiance[i] > 0));
   }
-  for (size_t ray = 0; ray < rays.count; ++ray) {
-    const size_t i = s->shadow_hits[ray];
-    rays.primitive[ray] = hits.primitive[i];
-    rays.origin.x[ray] = origin.x[i];
-    rays.origin.y[ray] = origin.y[i];
-    rays.origin.z[ray] = origin.z[i];
-    const Vec3d offset = planned.light.OffsetFrom(Vec3d(origin.x[i], origin.y[i], origin.z[i]));
-    rays.direction.x[ray] = offset.x;
-    rays.direction.y[ray] = offset.y;
-    rays.direction.z[ray] = offset.z;
-    rays.t_max[ray] = t_max;
-  }
-  stats->shadow_rays += rays.count;
-  if (rays.count == 0) return;
+  rays.count = count;
+  stats->shadow_rays += count;
+  if (count == 0) return;
+  FillShadowRays(planned.light, hits, origin, s->shadow_hits, &rays);
   plan.intersector->Occluded(&rays);
   for (size_t ray = 0; ray < rays.count; ++ray) {
     if (rays.occluded[ray] != 0) s->light.irradiance[s->shadow_hits[ray]] = 0;
@@ -119,7 +109,7 @@ void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, boo
 
 // A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
 // of its own.
-void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
+void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, bool replace, TileScratch* s,
                 StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
   if (s->turned) HideTurned(plan, s);
@@ -130,7 +120,7 @@ void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, TileScratch
   }
   const LightOnBatch light{&planned.light, &s->light};
   const bool apart = planned.layer >= 0;
-  ShadeRuns(plan, {&light, 1}, apart, s, apart ? &s->single : &s->total);
+  ShadeRuns(plan, {&light, 1}, apart || replace, s, apart ? &s->single : &s->total);
   if (apart) KeepLight(planned.layer, s);
 }
 
@@ -170,8 +160,9 @@ void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, Re
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();
-      clear_if_dark();
-      ShadeByOne(plan, planned, s, clock, stats);
+      if (planned.layer >= 0) clear_if_dark();
+      ShadeByOne(plan, planned, dark, s, clock, stats);
+      dark = false;
     }
     stats->shades += s->hits.count;
   }

@@ -130,10 +130,12 @@ void FindSpans(const MaterialRun& run, size_t row, TileScratch* scratch) {
   const uint32_t* const ray = s.hits.ray.data();
   s.spans.clear();
   size_t sample = 0;
+  size_t row_end = row;
   for (size_t i = run.begin; i < run.end;) {
     while (ray[i] >= (sample + 1) * pixels) ++sample;
     const size_t pixel = ray[i] - sample * pixels;
-    const size_t end = std::min(run.end, i + (row - pixel % row));
+    while (ray[i] >= row_end) row_end += row;  // a division takes longer
+    const size_t end = std::min(run.end, i + (row_end - ray[i]));
     const size_t count = CountConsecutive(ray, i, end);
     s.spans.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(pixel),
                        static_cast<uint32_t>(count), s.weights[sample]});
@@ -280,7 +282,7 @@ bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) 
   const auto plain = [&](const MaterialRun& run) { return IsPlain(plan, run); };
   if (!std::all_of(s.runs.begin(), s.runs.end(), plain)) return false;
   const Window& tile = s.film.window;
-  FillBackground(plan, tile, strip);
+  if (s.hits.count < s.samples.count) FillBackground(plan, tile, strip);
   for (const MaterialRun& run : s.runs) {
     FindSpans(run, static_cast<size_t>(tile.width()), &s);
     const ShadingMaterial& constants = plan.materials[run.material.index];

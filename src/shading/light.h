@@ -28,11 +28,8 @@ struct ShadingLight {
   float inverse_quadratic = 1;  // kInverseSquare: 1 / quadratic
   ConeTerms<float> cone{-1, -1, 0};
 
-  // From a hit towards the light, in world units and not normalised; the unit direction to a
-  // light that is infinitely far. A shadow ray along it ends at TMax().
-  Vec3d OffsetFrom(const Vec3d& hit) const {
-    return form == LightForm::kDirectional ? to_light : position - hit;
-  }
+  // Where a shadow ray ends: 1 for one that goes from a hit to `position`, infinity along
+  // `to_light`.
   double TMax() const;
 };
 

@@ -86,6 +86,7 @@ HWY_INLINE void TestLines(AloneBlock* block) {
   }
 }
 
+// The rays start outside, so the normals point outward.
 HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
   const CameraDouble d;
   for (int g = 0; g < block.groups; ++g) {

@@ -58,7 +58,7 @@ HWY_INLINE SurfaceV<D> RefineSphere(const Gathered& in, size_t i, const Vec3V<V>
   const auto hit = TestSphere(d, Sub(center, origin), direction, inverse_dd, radius);
   const V along = hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord));
   return SphereSurface(d, direction, along, hit.perpendicular, center,
-                       hn::Div(hn::Set(d, 1.0), radius));
+                       TurnedInverse(hn::Div(hn::Set(d, 1.0), radius), along));
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {

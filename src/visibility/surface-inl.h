@@ -21,17 +21,23 @@ struct SurfaceV {
   Vec3V<V> normal;  // unit, on the ray's side
 };
 
-// Of a sphere's hit. `along`: half the chord, negative where the ray starts outside; then the
-// normal points outward. The hit is centre + radius x normal: the point on the ray, whose rounding
+// 1 / radius of a sphere; negative where `along`, half the chord that is negative where the ray
+// starts outside, is not: normals then point inward.
+template <class V>
+HWY_INLINE V TurnedInverse(V inverse_radius, V along) {
+  return hn::CopySign(inverse_radius, hn::Neg(along));
+}
+
+// Of a sphere's hit. The hit is centre + radius x normal: the point on the ray, whose rounding
 // grows with its distance, is never formed.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SurfaceV<D> SphereSurface(D /*d*/, const Vec3V<V>& direction, V along,
                                      const Vec3V<V>& perpendicular, const Vec3V<V>& center,
-                                     V inverse_radius) {
+                                     V turned_inverse) {
   const Vec3V<V> from_center = Sub(Scale(direction, along), perpendicular);
   SurfaceV<D> surface;
   surface.position = Add(center, from_center);
-  surface.normal = Scale(from_center, hn::CopySign(inverse_radius, hn::Neg(along)));
+  surface.normal = Scale(from_center, turned_inverse);
   return surface;
 }
 

@@ -31,9 +31,10 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const Vec3V<hn::Vec<CameraDouble>> perpendicular =
         Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
               packet.perpendicular[2] + lane);
+    const auto along = hn::Load(d, packet.along + lane);
+    const auto inverse = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), along);
     const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, hn::Load(d, packet.along + lane), perpendicular,
-                      Centers(packet, lane), hn::Load(d, packet.inverse_radius + lane));
+        SphereSurface(d, direction, along, perpendicular, Centers(packet, lane), inverse);
     const auto to_view = ToView(d, direction, hn::Load(d, packet.exact_dd + lane));
     AppendSurface(surface, to_view, bits, first_ray + static_cast<size_t>(lane), to);
     AppendPrimitives(packet.primitive + lane, bits, to.hits);

@@ -196,7 +196,7 @@ TEST_CASE("lights and hits meet in the camera's space") {
     LightBatch batch;
     const ShadingLight prepared = PrepareLight(light, camera);
     EvaluateLight(prepared, hits, surface, &batch);
-    CHECK(prepared.OffsetFrom(Vec3d(0)) == position);
+    CHECK(prepared.position == position);
     CHECK(batch.irradiance[0] == Approx(1 / position.length2()).epsilon(1e-6));
   }
 }
