@@ -26,16 +26,24 @@ constexpr size_t kMaxOutlines = 32;
 // touches the plane of the camera ends so far away that its near end is lost in roundings.
 constexpr double kFarthest = 1e6;
 
-// Spheres as they are seen on the film, in pixels: each an ellipse, x = middle_x + lean t -+
-// half_chord sqrt(1 - t^2) with t = (y - middle_y) inverse_half_height from -1 to 1. Its rightmost
-// point is at t = turn, its leftmost at -turn. What is no ellipse is a strip that covers all.
+// What floats may be off by, of the sum of an outline's distance from the tile, half its size and
+// 32 pixels: 16 roundings. The most that one side of FindSpans adds up is 8: of x, those of the
+// middle, the lean and the chord, whose own are a root's and a product's; of y, those of the
+// middle, of the row's edge and of t, with the turn's that t is compared with.
+constexpr double kFloatSlack = 16 * 0x1p-24;
+
+// Spheres as they are seen on the film, in pixels from the tile's top left corner: each an ellipse,
+// x = middle + lean t -+ half_chord sqrt(1 - t^2) with t = (y - middle_y) inverse_half_height from
+// -1 to 1. Its rightmost point is at t = turn, its leftmost at -turn. What is no ellipse is a strip
+// that covers all. Of each middle there are two, so far apart that roundings lie between them.
 struct Outlines {
   size_t count = 0;
   alignas(kVectorBytes) double sphere[4][kMaxOutlines];  // centre and radius; the rest follows
-  alignas(kVectorBytes) double left[kMaxOutlines], right[kMaxOutlines];
-  alignas(kVectorBytes) double middle_x[kMaxOutlines], middle_y[kMaxOutlines];
-  alignas(kVectorBytes) double inverse_half_height[kMaxOutlines], half_chord[kMaxOutlines];
-  alignas(kVectorBytes) double lean[kMaxOutlines], turn[kMaxOutlines];
+  alignas(kVectorBytes) float left[kMaxOutlines], right[kMaxOutlines];
+  alignas(kVectorBytes) float left_middle[kMaxOutlines], right_middle[kMaxOutlines];
+  alignas(kVectorBytes) float upper_middle[kMaxOutlines], lower_middle[kMaxOutlines];
+  alignas(kVectorBytes) float inverse_half_height[kMaxOutlines], half_chord[kMaxOutlines];
+  alignas(kVectorBytes) float lean[kMaxOutlines], turn[kMaxOutlines];
 };
 
 // The pixels of a tile's row that an outline reaches, from begin() to end(), counted from the
@@ -81,8 +89,9 @@ struct ExtentV {
 //
 // With a margin all around: half the width and half the height grow by as much, about the same
 // middle and with the same skew, so what was the outline lies inside.
-void FindOutlines(const Projector& projector, Outlines* o) {
+void FindOutlines(const Projector& projector, const Window& tile, Outlines* o) {
   const hn::CappedTag<double, kMaxOutlines> d;
+  const hn::Rebind<float, decltype(d)> df;
   using V = hn::Vec<decltype(d)>;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
   const auto set3 = [&](const Vec3d& v) HWY_ATTR { return SetVec3(d, v); };
@@ -113,14 +122,25 @@ void FindOutlines(const Projector& projector, Outlines* o) {
     const auto is_ellipse =
         hn::And(hn::Gt(z, hn::Mul(radius, hn::Set(d, 1 + 1e-6))),
                 hn::And(hn::Gt(product, zero), hn::Le(farthest, hn::Set(d, kFarthest))));
-    const auto store = [&](V value, double otherwise, double* to) HWY_ATTR {
-      hn::Store(hn::IfThenElse(is_ellipse, value, hn::Set(d, otherwise)), d, to + i);
+    const auto store = [&](V value, double otherwise, float* to) HWY_ATTR {
+      const V stored = hn::IfThenElse(is_ellipse, value, hn::Set(d, otherwise));
+      hn::Store(hn::DemoteTo(df, stored), df, to + i);
     };
+    const V middle_x = hn::Sub(across.middle, hn::Set(d, tile.x0));
+    const V middle_y = hn::Sub(along.middle, hn::Set(d, tile.y0));
+    const auto slack_of = [&](V middle, V half) HWY_ATTR {
+      const V size = hn::Add(hn::Add(hn::Abs(middle), half), hn::Set(d, 32.0));
+      return hn::Mul(size, hn::Set(d, kFloatSlack));
+    };
+    const V slack_x = slack_of(middle_x, half_width), slack_y = slack_of(middle_y, half_height);
+    const V left_middle = hn::Sub(middle_x, slack_x), right_middle = hn::Add(middle_x, slack_x);
     const double infinity = std::numeric_limits<double>::infinity();
-    store(hn::Sub(across.middle, half_width), -infinity, o->left);
-    store(hn::Add(across.middle, half_width), infinity, o->right);
-    store(across.middle, 0, o->middle_x);
-    store(along.middle, 0, o->middle_y);
+    store(hn::Sub(left_middle, half_width), -infinity, o->left);
+    store(hn::Add(right_middle, half_width), infinity, o->right);
+    store(left_middle, 0, o->left_middle);
+    store(right_middle, 0, o->right_middle);
+    store(hn::Add(middle_y, slack_y), 0, o->upper_middle);
+    store(hn::Sub(middle_y, slack_y), 0, o->lower_middle);
     store(inverse_half_height, 0, o->inverse_half_height);
     store(hn::Sqrt(hn::Max(chord2, zero)), 0, o->half_chord);
     store(lean, 0, o->lean);
@@ -128,44 +148,49 @@ void FindOutlines(const Projector& projector, Outlines* o) {
   }
 }
 
-// Samples lie up to `reach` outside their pixels.
-void FindSpans(const Outlines& o, size_t i, double reach, const Window& tile, OutlineSpans* spans) {
-  const hn::CappedTag<double, kCellSize> d;
+// Samples lie up to `reach` outside their pixels. `width`: the tile's.
+void FindSpans(const Outlines& o, size_t i, float reach, int width, OutlineSpans* spans) {
+  const hn::CappedTag<float, kCellSize> d;
   const hn::Rebind<int32_t, decltype(d)> di;
   const hn::Rebind<uint32_t, decltype(d)> du;
-  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0), minus_one = hn::Set(d, -1.0);
-  const auto x0 = hn::Set(d, tile.x0), width = hn::Set(d, tile.width());
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f), minus_one = hn::Set(d, -1.0f);
+  const auto columns = hn::Set(d, static_cast<float>(width));
   const auto outline = hn::Set(du, static_cast<uint32_t>(i)), none = hn::Set(du, RowSpan::kNone);
-  const auto middle_x = hn::Set(d, o.middle_x[i]), middle_y = hn::Set(d, o.middle_y[i]);
+  const auto left_middle = hn::Set(d, o.left_middle[i]);
+  const auto right_middle = hn::Set(d, o.right_middle[i]);
+  const auto upper_middle = hn::Set(d, o.upper_middle[i] + reach);
+  const auto lower_middle = hn::Set(d, o.lower_middle[i] - (1 + reach));
   const auto half_chord = hn::Set(d, o.half_chord[i]), lean = hn::Set(d, o.lean[i]);
   const auto turn = hn::Set(d, o.turn[i]);
   const auto inverse = hn::Set(d, o.inverse_half_height[i]);
   for (int row = 0; row < kCellSize; row += static_cast<int>(hn::Lanes(d))) {
-    const auto y = hn::Iota(d, tile.y0 + row);
+    const auto y = hn::Iota(d, static_cast<float>(row));
     // The outline from the row's upper edge to its lower one.
-    const auto upper = hn::Mul(hn::Sub(hn::Sub(y, hn::Set(d, reach)), middle_y), inverse);
-    const auto lower = hn::Mul(hn::Sub(hn::Add(y, hn::Set(d, 1 + reach)), middle_y), inverse);
+    const auto upper = hn::Mul(hn::Sub(y, upper_middle), inverse);
+    const auto lower = hn::Mul(hn::Sub(y, lower_middle), inverse);
     const auto met = hn::And(hn::Lt(upper, one), hn::Gt(lower, minus_one));
     const auto low = hn::Max(upper, minus_one), high = hn::Min(lower, one);
     const auto chord = [&](auto t) HWY_ATTR {
-      return hn::Mul(half_chord, hn::Sqrt(hn::Max(hn::Sub(one, hn::Mul(t, t)), zero)));
+      const auto squared = hn::Mul(hn::Sub(one, t), hn::Add(one, t));  // 1 - t^2 loses digits
+      return hn::Mul(half_chord, hn::Sqrt(hn::Max(squared, zero)));
     };
     const auto low_chord = chord(low), high_chord = chord(high);
-    const auto low_middle = hn::MulAdd(lean, low, middle_x);
-    const auto high_middle = hn::MulAdd(lean, high, middle_x);
     const auto turns_at = [&](auto t) HWY_ATTR { return hn::And(hn::Le(low, t), hn::Le(t, high)); };
+    const auto right_at = [&](auto t, auto half)
+                              HWY_ATTR { return hn::Add(hn::MulAdd(lean, t, right_middle), half); };
+    const auto left_at = [&](auto t, auto half)
+                             HWY_ATTR { return hn::Sub(hn::MulAdd(lean, t, left_middle), half); };
     const auto right =
         hn::IfThenElse(turns_at(turn), hn::Set(d, o.right[i]),
-                       hn::Max(hn::Add(low_middle, low_chord), hn::Add(high_middle, high_chord)));
-    const auto left =
-        hn::IfThenElse(turns_at(hn::Neg(turn)), hn::Set(d, o.left[i]),
-                       hn::Min(hn::Sub(low_middle, low_chord), hn::Sub(high_middle, high_chord)));
+                       hn::Max(right_at(low, low_chord), right_at(high, high_chord)));
+    const auto left = hn::IfThenElse(turns_at(hn::Neg(turn)), hn::Set(d, o.left[i]),
+                                     hn::Min(left_at(low, low_chord), left_at(high, high_chord)));
     const auto pixel = [&](auto x) HWY_ATTR {
-      const auto inside = hn::Min(hn::Max(hn::Sub(x, x0), zero), width);
-      return hn::BitCast(du, hn::DemoteTo(di, inside));  // rounded down: none is below 0
+      const auto inside = hn::Min(hn::Max(x, zero), columns);
+      return hn::BitCast(du, hn::ConvertTo(di, inside));  // rounded down: none is below 0
     };
     const auto begin = pixel(hn::Sub(left, hn::Set(d, reach)));
-    const auto end = pixel(hn::IfThenElse(met, hn::Add(right, hn::Set(d, reach + 1)), x0));
+    const auto end = pixel(hn::IfThenElse(met, hn::Add(right, hn::Set(d, reach + 1)), zero));
     const auto bits = hn::Or(hn::ShiftLeft<RowSpan::kBeginBits>(begin),
                              hn::Or(hn::ShiftLeft<RowSpan::kOutlineBits>(end), outline));
     hn::StoreU(hn::IfThenElse(hn::Lt(begin, end), bits, none), du, spans->rows + row);
@@ -174,8 +199,10 @@ void FindSpans(const Outlines& o, size_t i, double reach, const Window& tile, Ou
 
 void FindOutlineSpansT(const Projector& projector, double reach, const Window& tile,
                        Outlines* outlines, OutlineSpans* spans) {
-  FindOutlines(projector, outlines);
-  for (size_t i = 0; i < outlines->count; ++i) FindSpans(*outlines, i, reach, tile, spans + i);
+  FindOutlines(projector, tile, outlines);
+  for (size_t i = 0; i < outlines->count; ++i) {
+    FindSpans(*outlines, i, static_cast<float>(reach), tile.width(), spans + i);
+  }
 }
 
 }  // namespace
