@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "api/metadata.h"
 #include "base/path.h"
 #include "cli/commands.h"
 #include "cli/merge_tiles.h"
@@ -47,8 +48,10 @@ class MergedFiles {
       if (HasExtension(path, ".exr")) {
         exr_.push_back(std::make_unique<ExrBandWriter>(path, whole));
       } else {
-        png_.push_back(
-            std::make_unique<PngWriter>(path, png, PngOptions{.small = arguments.small}));
+        png_.push_back(std::make_unique<PngWriter>(
+            path, png,
+            PngOptions{.small = arguments.small,
+                       .reproducible = !attributes.contains(kRenderTimeAttribute)}));
       }
     }
   }

@@ -72,7 +72,8 @@ Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan,
   display_.exposure_ev = options.exposure;
   const ExrHeader header = MakeOutputHeader(options, plan);
   const ExrOptions exr_options{.compression = ParseCompression(options.compression),
-                               .small = options.small};
+                               .small = options.small,
+                               .reproducible = options.reproducible};
   PngHeader png_header;
   png_header.width = plan.window.width();
   png_header.height = plan.window.height();
@@ -83,8 +84,9 @@ Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan,
     if (IsExr(path)) {
       exr_.push_back(std::make_unique<ExrWriter>(path, header, exr_options));
     } else {
-      png_.push_back(
-          std::make_unique<PngWriter>(path, png_header, PngOptions{.small = options.small}));
+      png_.push_back(std::make_unique<PngWriter>(
+          path, png_header,
+          PngOptions{.small = options.small, .reproducible = options.reproducible}));
     }
   }
   if (options.labels && !png_.empty()) picture_.resize(3 * plan.window.pixel_count());

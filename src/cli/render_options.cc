@@ -127,7 +127,8 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
       ->group(exr);
   command
       ->add_flag("--reproducible", o->reproducible,
-                 "Leave times out of the files: equal pictures make equal files")
+                 "Leave times out of the files and deflate them by zlib, some times slower: equal "
+                 "pictures make equal files")
       ->group(exr);
 }
 

@@ -136,7 +136,8 @@ void WritePng(const TextbookPicture& picture, const std::vector<uint8_t>& codes,
 // All files are open before any is written, and complete before any gets its name.
 void WriteOutputs(const TextbookPicture& picture, const RenderOptions& options, PixelType type) {
   const ExrOptions exr_options{.compression = ParseCompression(options.compression),
-                               .small = options.small};
+                               .small = options.small,
+                               .reproducible = options.reproducible};
   const PngHeader png_header{picture.width,
                              picture.height,
                              {{"Software", fmt::format("nacre {}", kVersion)},
@@ -148,8 +149,9 @@ void WriteOutputs(const TextbookPicture& picture, const RenderOptions& options, 
     if (HasExtension(path, ".exr")) {
       exr.push_back(std::make_unique<ExrWriter>(path, MakeHeader(picture, type), exr_options));
     } else {
-      png.push_back(
-          std::make_unique<PngWriter>(path, png_header, PngOptions{.small = options.small}));
+      png.push_back(std::make_unique<PngWriter>(
+          path, png_header,
+          PngOptions{.small = options.small, .reproducible = options.reproducible}));
     }
   }
   for (const auto& file : exr) WriteExr(picture, file.get());

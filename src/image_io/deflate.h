@@ -15,9 +15,11 @@ enum class DeflateForm {
   kLastPart,  // raw deflate that ends the stream
 };
 
-// Level 1 is ISA-L's: several times as fast as zlib's fastest, at 12 to 25 % more bytes.
-// 2 .. 9 are zlib's.
+// Level 1 is ISA-L's: several times as fast as zlib's fastest, at 12 to 25 % more bytes. On
+// AVX-512, one process in some thousands makes other bytes of the same input (ISA-L 2.30), which
+// inflate to the same. 2 .. 9 are zlib's: always the same bytes.
 inline constexpr int kFastDeflate = 1;
+inline constexpr int kReproducibleDeflate = 2;
 
 // At most 2^31 bytes. Parts refer to nothing before them, so several threads may each make one.
 std::vector<uint8_t> Deflate(std::span<const uint8_t> bytes, DeflateForm form, int level);

@@ -87,7 +87,9 @@ void ExrWriter::State::CheckStrip(const StripView& strip) const {
 
 Chunks ExrWriter::State::CompressStrip(const StripView& strip,
                                        std::span<const uint16_t> words) const {
-  const int level = options.small ? kSmallDeflate : kFastDeflate;
+  const int level = options.small          ? kSmallDeflate
+                    : options.reproducible ? kReproducibleDeflate
+                                           : kFastDeflate;
   if (options.compression == Compression::kZip) return {{strip.y, CompressZip(words, level)}};
   Chunks chunks;
   for (int row = 0; row < strip.rows; ++row) {

@@ -13,8 +13,9 @@ namespace nacre {
 
 struct ExrOptions {
   Compression compression = Compression::kZip;
-  bool small = false;  // ZIP and ZIPS: smaller and several times slower
-  bool sync = false;   // Finish returns when the file has reached the disk
+  bool small = false;         // ZIP and ZIPS: smaller and several times slower
+  bool reproducible = false;  // ZIP and ZIPS: equal pictures make equal chunks, some times slower
+  bool sync = false;          // Finish returns when the file has reached the disk
 };
 
 // A single-part scanline file. Strips are compressed in the threads that bring them and written

@@ -155,7 +155,9 @@ PngStrip PngWriter::State::MakeStrip(size_t index, size_t rows, const uint8_t* r
   const bool last = index + 1 == strip_count();
   Bytes deflated =
       Deflate({filtered.data(), filtered_size}, last ? DeflateForm::kLastPart : DeflateForm::kPart,
-              options.small ? kSmallDeflate : kFastDeflate);
+              options.small          ? kSmallDeflate
+              : options.reproducible ? kReproducibleDeflate
+                                     : kFastDeflate);
   // The stream's header: deflate with a window of 32 KiB, and its check bits.
   if (index == 0) deflated.insert(deflated.begin(), {0x78, 0x01});
   return {MakeChunk("IDAT", deflated), isal_adler32(1, filtered.data(), filtered_size),

@@ -20,8 +20,9 @@ struct PngHeader {
 };
 
 struct PngOptions {
-  bool small = false;  // zlib's best instead of ISA-L: a quarter smaller, many times slower
-  bool sync = false;   // Finish returns when the file has reached the disk
+  bool small = false;         // zlib's best instead of ISA-L: a quarter smaller, many times slower
+  bool reproducible = false;  // equal pictures make equal files, some times slower
+  bool sync = false;          // Finish returns when the file has reached the disk
 };
 
 // A file of sRGB codes, tagged as such. Strips are filtered and deflated, each by itself, in the
