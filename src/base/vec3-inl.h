@@ -53,6 +53,12 @@ HWY_INLINE Vec3V<V> Scale(const Vec3V<V>& a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
 
+// a b + c, fused where the target can.
+template <class V>
+HWY_INLINE Vec3V<V> MulAdd3(const Vec3V<V>& a, V b, const Vec3V<V>& c) {
+  return {hn::MulAdd(a.x, b, c.x), hn::MulAdd(a.y, b, c.y), hn::MulAdd(a.z, b, c.z)};
+}
+
 template <class V>
 HWY_INLINE V SumOfAbs(const Vec3V<V>& a) {
   return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));

@@ -39,25 +39,6 @@ CameraFrame MakeCameraFrame(const Camera& camera, int width, int height) {
   return frame;
 }
 
-void MakeCameraRays(const CameraFrame& frame, const double* film_x, const double* film_y,
-                    size_t count, RayBatch* rays) {
-  const bool perspective = frame.projection == Projection::kPerspective;
-  Soa3<double>& varying = perspective ? rays->direction : rays->origin;
-  Soa3<double>& constant = perspective ? rays->origin : rays->direction;
-  const Vec3d fixed = perspective ? Vec3d(0, 0, 0) : frame.forward;
-  rays->count = count;
-  for (size_t i = 0; i < count; ++i) {
-    const double x = film_x[i];
-    const double y = film_y[i];
-    varying.x[i] = frame.corner.x + frame.step_x.x * x + frame.step_y.x * y;
-    varying.y[i] = frame.corner.y + frame.step_x.y * x + frame.step_y.y * y;
-    varying.z[i] = frame.corner.z + frame.step_x.z * x + frame.step_y.z * y;
-    constant.x[i] = fixed.x;
-    constant.y[i] = fixed.y;
-    constant.z[i] = fixed.z;
-  }
-}
-
 Imath::M44d WorldToCamera(const Camera& camera) {
   const Basis b = MakeBasis(camera);
   const Vec3d& p = camera.position;

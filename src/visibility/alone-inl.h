@@ -32,9 +32,9 @@ struct AloneBlock {
   // they do so again in the next.
   uint32_t likely = 0;
   alignas(kVectorBytes) double direction[3][kAloneBlock];
-  alignas(kVectorBytes) double dd[kAloneBlock];
+  alignas(kVectorBytes) double inverse_length[kAloneBlock];
   alignas(kVectorBytes) double inverse_dd[kAloneBlock];
-  alignas(kVectorBytes) double half_chord[kAloneBlock];
+  alignas(kVectorBytes) double half_chord_squared[kAloneBlock];
   alignas(kVectorBytes) double perpendicular[3][kAloneBlock];
 };
 
@@ -56,17 +56,16 @@ HWY_INLINE void FillRays(const CameraFrame& frame, const FilmBatch& film, AloneB
   const auto corner = SetVec3(d, frame.corner);
   const auto step_x = SetVec3(d, frame.step_x);
   const auto step_y = SetVec3(d, frame.step_y);
-  const auto one = hn::Set(d, 1.0);
   for (int g = 0; g < block->groups; ++g) {
     const int place = g * kGroupLanes;
     const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
     const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
     // The operations of MakeCameraRays.
-    const auto direction = Add(Add(corner, Scale(step_x, x)), Scale(step_y, y));
-    const auto dd = Dot(direction, direction);
+    const auto direction = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
+    const auto inverse = InverseLength(d, FusedDot(direction, direction));
     StoreGroup(direction, place, block->direction);
-    hn::Store(dd, d, block->dd + place);
-    hn::Store(hn::Div(one, dd), d, block->inverse_dd + place);
+    hn::Store(inverse.once, d, block->inverse_length + place);
+    hn::Store(inverse.squared, d, block->inverse_dd + place);
   }
 }
 
@@ -80,7 +79,7 @@ HWY_INLINE void TestLines(AloneBlock* block) {
     const TraceSphere& sphere = block->candidate[g]->sphere;
     const auto hit = TestLine(d, SetVec3(d, sphere.center), LoadGroup(block->direction, place),
                               hn::Load(d, block->inverse_dd + place), hn::Set(d, sphere.radius));
-    hn::Store(hit.half_chord, d, block->half_chord + place);
+    hn::Store(hit.half_chord_squared, d, block->half_chord_squared + place);
     StoreGroup(hit.perpendicular, place, block->perpendicular);
     block->bits[g] &= BitsOfMask(d, hn::And(hit.hit, hn::Gt(hit.closest, zero)));
   }
@@ -94,12 +93,12 @@ HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
     const int place = g * kGroupLanes;
     const TileCandidate& candidate = *block.candidate[g];
     const auto direction = LoadGroup(block.direction, place);
+    const auto half_chord = hn::Sqrt(hn::Load(d, block.half_chord_squared + place));
     const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, hn::Neg(hn::Load(d, block.half_chord + place)),
-                      LoadGroup(block.perpendicular, place), SetVec3(d, candidate.sphere.center),
-                      hn::Set(d, candidate.inverse_radius));
-    AppendSurface(surface, ToView(d, direction, hn::Load(d, block.dd + place)), block.bits[g],
-                  block.ray[g], to);
+        SphereSurface(d, direction, hn::Neg(half_chord), LoadGroup(block.perpendicular, place),
+                      SetVec3(d, candidate.sphere.center), hn::Set(d, candidate.inverse_radius));
+    AppendSurface(surface, ToView(direction, hn::Load(d, block.inverse_length + place)),
+                  block.bits[g], block.ray[g], to);
     AppendPrimitive(candidate.primitive, block.bits[g], to.hits);
   }
 }

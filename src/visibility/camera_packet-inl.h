@@ -9,6 +9,7 @@
 #endif
 
 #include "base/geometry-inl.h"
+#include "visibility/inverse_length-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/tile_kernel.h"
@@ -36,6 +37,7 @@ struct CameraPacket {
   uint32_t exact;
   alignas(kVectorBytes) double exact_own[3][kCameraPacket];
   alignas(kVectorBytes) double exact_dd[kCameraPacket];
+  alignas(kVectorBytes) double inverse_length[kCameraPacket];  // of the direction
   alignas(kVectorBytes) double inverse_dd[kCameraPacket];
   // The best hits so far, of the lanes in `hit`.
   uint32_t hit;
@@ -145,8 +147,8 @@ HWY_INLINE Vec3V<hn::Vec<D>> ExactOwn(D d, const CameraFrame& frame, int lane,
                                       const CameraPacket& packet) {
   const auto x = hn::LoadU(d, packet.film_x + lane);
   const auto y = hn::LoadU(d, packet.film_y + lane);
-  return Add(Add(SetVec3(d, frame.corner), Scale(SetVec3(d, frame.step_x), x)),
-             Scale(SetVec3(d, frame.step_y), y));
+  return MulAdd3(SetVec3(d, frame.step_y), y,
+                 MulAdd3(SetVec3(d, frame.step_x), x, SetVec3(d, frame.corner)));
 }
 
 // The double rays of the lanes from `lane` on.
@@ -155,11 +157,13 @@ HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPac
   using V = hn::Vec<D>;
   const Vec3V<V> own = ExactOwn(d, frame, lane, *packet);
   const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
-  const V dd = Dot(direction, direction);
+  const V dd = FusedDot(direction, direction);
+  const auto inverse = InverseLength(d, dd);
   Store3(own, d, packet->exact_own[0] + lane, packet->exact_own[1] + lane,
          packet->exact_own[2] + lane);
   hn::Store(dd, d, packet->exact_dd + lane);
-  hn::Store(hn::Div(hn::Set(d, 1.0), dd), d, packet->inverse_dd + lane);
+  hn::Store(inverse.once, d, packet->inverse_length + lane);
+  hn::Store(inverse.squared, d, packet->inverse_dd + lane);
 }
 
 template <bool kPerspective, class D>

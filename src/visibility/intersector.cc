@@ -15,7 +15,6 @@
 #include "visibility/packet.h"
 #include "visibility/refine_kernel.h"
 #include "visibility/sphere_kernel.h"
-#include "visibility/sphere_test.h"
 #include "visibility/trace_kernel.h"
 #include "visibility/triangle_kernel.h"
 
@@ -158,8 +157,7 @@ void Intersector::NearerTriangles(const RayBatch& rays, ClosestHits* hits) const
 
 bool Intersector::SphereIsFirst(uint32_t sphere, const Vec3d& origin, const Vec3d& direction,
                                 double t) const {
-  const TraceSphere& tested = state_->geometry.spheres[sphere];
-  return TestSphere(tested.center - origin, direction, tested.radius).t <= t;
+  return DepthOn(state_->geometry.spheres[sphere], origin, direction) <= t;
 }
 
 bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, double reach) {

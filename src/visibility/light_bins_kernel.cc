@@ -9,9 +9,9 @@
 #define HWY_TARGET_INCLUDE "visibility/light_bins_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "base/geometry-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
-#include "visibility/sphere_test.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -37,16 +37,20 @@ HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
           rays.outward};
 }
 
-// InTheWay's scalar twin.
+// OccludedLanes of one ray, which the float test has proposed.
 HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const OneRay& ray) {
-  if (ray.outward && number == ray.start) return false;
+  const bool own =
+      number == ray.start || Coincide(geometry.spheres[number], geometry.spheres[ray.start]);
+  if (ray.outward && own) return false;
   const TraceSphere& sphere = geometry.spheres[number];
-  const auto hit = nacre::TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius);
-  if (number == ray.start || Coincide(sphere, geometry.spheres[ray.start])) {
-    const double t = hit.closest + hit.closest;
-    return !ray.outward && t > 0 && t < ray.t_max;
-  }
-  return hit.hit && hit.t < ray.t_max;
+  const hn::CappedTag<double, 1> d;
+  const auto direction = SetVec3(d, ray.direction);
+  const auto inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
+  const auto hit = TestSphere(d, SetVec3(d, sphere.center - ray.origin), direction, inverse_dd,
+                              hn::Set(d, sphere.radius));
+  const auto in_the_way =
+      InTheWay(d, hit, MaskOfBits(d, own ? 1 : 0, 0), false, hn::Set(d, ray.t_max));
+  return !hn::AllFalse(d, in_the_way);
 }
 
 // The rays of a batch as cells and the float tests have them, in the coordinates of BinnedSphere.

@@ -46,7 +46,7 @@ HWY_INLINE ShadowRaysV<D> LoadShadowRays(D d, const ShadowRayBatch& rays, size_t
       LoadU3(d, rays.origin.x.data() + i, rays.origin.y.data() + i, rays.origin.z.data() + i);
   loaded.direction = LoadU3(d, rays.direction.x.data() + i, rays.direction.y.data() + i,
                             rays.direction.z.data() + i);
-  loaded.inverse_dd = hn::Div(hn::Set(d, 1.0), Dot(loaded.direction, loaded.direction));
+  loaded.inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(loaded.direction, loaded.direction));
   loaded.t_max = hn::LoadU(d, rays.t_max.data() + i);
   return loaded;
 }

@@ -11,6 +11,7 @@
 #include "hwy/foreach_target.h"
 
 #include "base/geometry-inl.h"
+#include "visibility/inverse_length-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/surface-inl.h"
 #include "visibility/triangle_test-inl.h"
@@ -155,9 +156,9 @@ HWY_INLINE void StoreHits(const SurfaceV<D>& surface, const Vec3V<V>& to_view, s
 HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const HitsTo& to) {
   const D d;
   const Vec3V<V> origin = in.origin.Load(i), direction = in.direction.Load(i);
-  const V dd = Dot(direction, direction);
-  const V inverse_dd = hn::Div(hn::Set(d, 1.0), dd);
-  const Vec3V<V> to_view = ToView(d, direction, dd);
+  const auto inverse = InverseLength(d, FusedDot(direction, direction));
+  const V inverse_dd = inverse.squared;
+  const Vec3V<V> to_view = ToView(direction, inverse.once);
   if (!in.any_triangle) {
     StoreHits(RefineSphere(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else if (!in.any_sphere) {
@@ -184,6 +185,17 @@ void Refine(const RefineRequest& request, const HitsTo& to) {
   }
 }
 
+double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction) {
+  const D d;
+  const Vec3V<V> along = SetVec3(d, direction);
+  const V inverse_dd = InverseLength(d, FusedDot(along, along)).squared;
+  const auto hit = TestSphere(d, SetVec3(d, sphere.center - origin), along, inverse_dd,
+                              hn::Set(d, sphere.radius));
+  return hn::GetLane(hit.t);
+}
+
+Products ProductsHere() { return HWY_NATIVE_FMA ? Products::kFused : Products::kRounded; }
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -192,9 +204,17 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(Refine);
+HWY_EXPORT(Depth);
+HWY_EXPORT(ProductsHere);
 
 void RefineHits(const RefineRequest& request, const HitsTo& to) {
   HWY_DYNAMIC_DISPATCH(Refine)(request, to);
 }
+
+double DepthOn(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction) {
+  return HWY_DYNAMIC_DISPATCH(Depth)(sphere, origin, direction);
+}
+
+Products TargetProducts() { return HWY_DYNAMIC_DISPATCH(ProductsHere)(); }
 }  // namespace nacre
 #endif

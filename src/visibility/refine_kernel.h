@@ -4,6 +4,7 @@
 
 #include "hit/batch.h"
 #include "visibility/geometry.h"
+#include "visibility/two_product.h"
 
 namespace nacre {
 
@@ -17,5 +18,11 @@ struct RefineRequest {
 };
 
 void RefineHits(const RefineRequest& request, const HitsTo& to);
+
+// The t of a camera ray on a sphere, as Closest finds it; 0 if it misses.
+double DepthOn(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction);
+
+// What the active target makes of products: for the scalar twins of the hit tests.
+Products TargetProducts();
 
 }  // namespace nacre

@@ -25,29 +25,34 @@ struct SphereHitV {
   Vec3V<V> perpendicular;
 };
 
-// What the ray's whole line does: `hit` is whether it meets the sphere; `inside` and `t` are not
-// set. inverse_dd is 1 / |direction|^2.
+// What the ray's whole line does.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SphereHitV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
-                                  V inverse_dd, V radius) {
+struct LineHitV {
+  hn::Mask<D> hit;  // it meets the sphere
+  V closest;
+  V half_chord_squared;
+  Vec3V<V> perpendicular;
+};
+
+// inverse_dd is 1 / |direction|^2.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE LineHitV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
+                                V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
-  SphereHitV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
-  const V first_closest = hn::Mul(Dot(to_center, direction), inverse_dd);
-  const auto along_x = TwoProduct(d, first_closest, direction.x);
-  const auto along_y = TwoProduct(d, first_closest, direction.y);
-  const auto along_z = TwoProduct(d, first_closest, direction.z);
-  const Vec3V<V> rough{hn::Sub(hn::Sub(to_center.x, along_x.product), along_x.error),
-                       hn::Sub(hn::Sub(to_center.y, along_y.product), along_y.error),
-                       hn::Sub(hn::Sub(to_center.z, along_z.product), along_z.error)};
-  const V correction = hn::Mul(Dot(rough, direction), inverse_dd);
-  result.perpendicular.x = hn::Sub(rough.x, hn::Mul(direction.x, correction));
-  result.perpendicular.y = hn::Sub(rough.y, hn::Mul(direction.y, correction));
-  result.perpendicular.z = hn::Sub(rough.z, hn::Mul(direction.z, correction));
+  LineHitV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
+  const V first_closest = hn::Mul(FusedDot(to_center, direction), inverse_dd);
+  const Vec3V<V> rough{SubtractProduct(d, to_center.x, first_closest, direction.x),
+                       SubtractProduct(d, to_center.y, first_closest, direction.y),
+                       SubtractProduct(d, to_center.z, first_closest, direction.z)};
+  const V correction = hn::Mul(FusedDot(rough, direction), inverse_dd);
+  result.perpendicular.x = hn::NegMulAdd(direction.x, correction, rough.x);
+  result.perpendicular.y = hn::NegMulAdd(direction.y, correction, rough.y);
+  result.perpendicular.z = hn::NegMulAdd(direction.z, correction, rough.z);
   result.closest = hn::Add(first_closest, correction);
   const V discriminant =
-      hn::Sub(hn::Mul(radius, radius), Dot(result.perpendicular, result.perpendicular));
+      hn::Sub(hn::Mul(radius, radius), FusedDot(result.perpendicular, result.perpendicular));
   result.hit = hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero));
-  result.half_chord = hn::Sqrt(hn::Mul(hn::Max(discriminant, zero), inverse_dd));
+  result.half_chord_squared = hn::Mul(hn::Max(discriminant, zero), inverse_dd);
   return result;
 }
 
@@ -55,21 +60,25 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
                                     V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
-  SphereHitV<D> result = TestLine(d, to_center, direction, inverse_dd, radius);
+  const LineHitV<D> line = TestLine(d, to_center, direction, inverse_dd, radius);
+  SphereHitV<D> result;
+  result.closest = line.closest;
+  result.half_chord = hn::Sqrt(line.half_chord_squared);
+  result.perpendicular = line.perpendicular;
   const V closest = result.closest;
   // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
   const auto ahead = hn::Gt(closest, zero);
   const V half_chord = result.half_chord;
   const V larger = hn::Add(closest, hn::IfThenElse(ahead, half_chord, hn::Neg(half_chord)));
   const V product =
-      hn::Mul(hn::Sub(Dot(to_center, to_center), hn::Mul(radius, radius)), inverse_dd);
+      hn::Mul(hn::Sub(FusedDot(to_center, to_center), hn::Mul(radius, radius)), inverse_dd);
   const V smaller = hn::Div(product, larger);
   const V near = hn::IfThenElse(ahead, smaller, larger);
   const V far = hn::IfThenElse(ahead, larger, smaller);
   const auto outside = hn::Gt(near, zero);
   result.inside = hn::Not(outside);
   result.t = hn::IfThenElse(outside, near, far);
-  result.hit = hn::And(result.hit, hn::Gt(result.t, zero));
+  result.hit = hn::And(line.hit, hn::Gt(result.t, zero));
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_test.h: the ray-sphere test that decides every hit. SIMD twin:
-// sphere_test-inl.h, the same operations in the same order: in double both give the same bits.
+// sphere_test-inl.h, the same operations in the same order: in double both give the same bits, if
+// the twin is told what the target makes of products.
 #pragma once
 
 #include <cmath>
@@ -26,7 +27,7 @@ struct SphereHit {
 //
 // The discriminant is radius^2 - |perpendicular|^2 (Haines et al. 2019, Ray Tracing Gems ch. 7),
 // so the distance to the sphere does not enter it, but through the rounding of the perpendicular:
-// the products closest * direction cancel against to_center and are therefore formed exactly, and
+// the products closest * direction cancel against to_center and are therefore not rounded, and
 // the component along the ray that the rounding of `closest` leaves is taken off once more. What
 // remains is a few roundings of the radius at any distance.
 //
@@ -34,28 +35,29 @@ struct SphereHit {
 // so the one near the origin does not cancel: a sphere of radius 1e6 under the eye is right.
 template <typename Real>
 SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3<Real>& direction,
-                           Real radius) {
-  const Real inverse_dd = 1 / direction.dot(direction);
+                           Real radius, Products products = Products::kFused) {
+  const Real inverse_dd = 1 / Dot(direction, direction, products);
   SphereHit<Real> result;
-  Real closest = to_center.dot(direction) * inverse_dd;
+  Real closest = Dot(to_center, direction, products) * inverse_dd;
   Imath::Vec3<Real> perpendicular;
   for (int i = 0; i < 3; ++i) {
-    const auto along = TwoProduct(closest, direction[i]);
-    perpendicular[i] = (to_center[i] - along.product) - along.error;
+    perpendicular[i] = SubtractProduct(to_center[i], closest, direction[i], products);
   }
-  const Real correction = perpendicular.dot(direction) * inverse_dd;
-  perpendicular -= direction * correction;
+  const Real correction = Dot(perpendicular, direction, products) * inverse_dd;
+  for (int i = 0; i < 3; ++i) {
+    perpendicular[i] = MulAdd(-direction[i], correction, perpendicular[i], products);
+  }
   closest = closest + correction;
   result.closest = closest;
   result.perpendicular = perpendicular;
 
   const Real radius2 = radius * radius;
-  const Real discriminant = radius2 - perpendicular.dot(perpendicular);
+  const Real discriminant = radius2 - Dot(perpendicular, perpendicular, products);
   if (!(discriminant >= 0 && radius > 0)) return result;
   const Real half_chord = std::sqrt(discriminant * inverse_dd);
   // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
   const Real larger = closest > 0 ? closest + half_chord : closest - half_chord;
-  const Real product = (to_center.dot(to_center) - radius2) * inverse_dd;
+  const Real product = (Dot(to_center, to_center, products) - radius2) * inverse_dd;
   const Real smaller = product / larger;
   const Real near = closest > 0 ? smaller : larger;
   const Real far = closest > 0 ? larger : smaller;
@@ -69,9 +71,12 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
 // From the sphere's centre to the hit: radius times the outward normal, without forming the hit
 // point, whose rounding error would grow with its distance.
 template <typename Real>
-Imath::Vec3<Real> CenterToHit(const SphereHit<Real>& hit, const Imath::Vec3<Real>& direction) {
-  const Imath::Vec3<Real> along = direction * hit.half_chord;
-  return hit.inside ? along - hit.perpendicular : -along - hit.perpendicular;
+Imath::Vec3<Real> CenterToHit(const SphereHit<Real>& hit, const Imath::Vec3<Real>& direction,
+                              Products products = Products::kFused) {
+  const Real along = hit.inside ? hit.half_chord : -hit.half_chord;
+  const Imath::Vec3<Real>& p = hit.perpendicular;
+  return {MulAdd(direction.x, along, -p.x, products), MulAdd(direction.y, along, -p.y, products),
+          MulAdd(direction.z, along, -p.z, products)};
 }
 
 }  // namespace nacre

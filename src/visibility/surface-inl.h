@@ -34,36 +34,19 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE SurfaceV<D> SphereSurface(D /*d*/, const Vec3V<V>& direction, V along,
                                      const Vec3V<V>& perpendicular, const Vec3V<V>& center,
                                      V turned_inverse) {
-  const Vec3V<V> from_center = Sub(Scale(direction, along), perpendicular);
+  const Vec3V<V> from_center{hn::MulSub(direction.x, along, perpendicular.x),
+                             hn::MulSub(direction.y, along, perpendicular.y),
+                             hn::MulSub(direction.z, along, perpendicular.z)};
   SurfaceV<D> surface;
   surface.position = Add(center, from_center);
   surface.normal = Scale(from_center, turned_inverse);
   return surface;
 }
 
-// 1 / sqrt(v) to at least 14 bits, for v within float's range. AVX-512 has an instruction for that,
-// several times faster than the root and the quotient.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V RoughInverseSqrt(D d, V v) {
-#if HWY_TARGET <= HWY_AVX3
-  (void)d;
-  return V{_mm512_maskz_rsqrt14_pd(0xff, v.raw)};  // GCC 12 warns of the plain one
-#else
-  const hn::Rebind<float, D> df;
-  return hn::PromoteTo(d, hn::Div(hn::Set(df, 1.0f), hn::Sqrt(hn::DemoteTo(df, v))));
-#endif
-}
-
-// Minus the direction, made a unit vector. dd = |direction|^2 of a camera ray: well within float's
-// range. Two of Newton's steps take the first guess, good to 14 bits, to double's precision.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> ToView(D d, const Vec3V<V>& direction, V dd) {
-  const V half_dd = hn::Mul(dd, hn::Set(d, 0.5));
-  const V three_halves = hn::Set(d, 1.5);
-  V root = RoughInverseSqrt(d, dd);
-  root = hn::Mul(root, hn::Sub(three_halves, hn::Mul(half_dd, hn::Mul(root, root))));
-  root = hn::Mul(root, hn::Sub(three_halves, hn::Mul(half_dd, hn::Mul(root, root))));
-  return Scale(direction, hn::Neg(root));
+// Minus the direction, made a unit vector.
+template <class V>
+HWY_INLINE Vec3V<V> ToView(const Vec3V<V>& direction, V inverse_length) {
+  return Scale(direction, hn::Neg(inverse_length));
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -35,7 +35,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const auto inverse = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), along);
     const SurfaceV<CameraDouble> surface =
         SphereSurface(d, direction, along, perpendicular, Centers(packet, lane), inverse);
-    const auto to_view = ToView(d, direction, hn::Load(d, packet.exact_dd + lane));
+    const auto to_view = ToView(direction, hn::Load(d, packet.inverse_length + lane));
     AppendSurface(surface, to_view, bits, first_ray + static_cast<size_t>(lane), to);
     AppendPrimitives(packet.primitive + lane, bits, to.hits);
   }

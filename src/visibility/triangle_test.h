@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/triangle_test.h: the watertight ray-triangle test that decides every hit. SIMD twin:
-// triangle_test-inl.h, the same operations in the same order: in double both give the same bits.
+// triangle_test-inl.h, the same operations in the same order: in double both give the same bits, if
+// the twin is told what the target makes of the products in |direction|^2, which spheres need, too.
+// Elsewhere products are rounded on every target: the signs of edges must not depend on which of
+// two is fused.
 #pragma once
 
 #include <cmath>
@@ -48,7 +51,7 @@ struct TriangleHit {
 template <typename Real>
 TriangleHit<Real> TestTriangle(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& b,
                                const Imath::Vec3<Real>& c, const Imath::Vec3<Real>& direction,
-                               const RayShear<Real>& shear) {
+                               const RayShear<Real>& shear, Products products = Products::kFused) {
   const Real ax = a.dot(shear.x_axis), ay = a.dot(shear.y_axis);
   const Real bx = b.dot(shear.x_axis), by = b.dot(shear.y_axis);
   const Real cx = c.dot(shear.x_axis), cy = c.dot(shear.y_axis);
@@ -60,7 +63,7 @@ TriangleHit<Real> TestTriangle(const Imath::Vec3<Real>& a, const Imath::Vec3<Rea
   const bool front = u >= 0 && v >= 0 && w >= 0;
   const bool back = u <= 0 && v <= 0 && w <= 0;
   if (!(front || back) || sum == 0) return result;  // sum 0: seen edge-on, or without area
-  const Real inverse_dd = 1 / direction.dot(direction);
+  const Real inverse_dd = 1 / Dot(direction, direction, products);
   const Real inverse_sum = 1 / sum;
   result.weights = {u * inverse_sum, v * inverse_sum, w * inverse_sum};
   result.t =

@@ -48,6 +48,18 @@ HWY_INLINE TwoProductV<V> TwoProduct(D d, V a, V b) {
 }
 #endif
 
+// c - a b, the product unrounded: rounded once where the target fuses, twice elsewhere.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V SubtractProduct(D d, V c, V a, V b) {
+#if HWY_NATIVE_FMA
+  (void)d;
+  return hn::NegMulAdd(a, b, c);
+#else
+  const auto ab = TwoProduct(d, a, b);
+  return hn::Sub(hn::Sub(c, ab.product), ab.error);
+#endif
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V DifferenceOfProducts(D d, V a, V b, V c, V e) {
   const auto ab = TwoProduct(d, a, b);

@@ -1,10 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/two_product.h: products without rounding error. SIMD twin: two_product-inl.h.
+// visibility/two_product.h: products without rounding error, and whether those that are added are
+// rounded first. SIMD twin: two_product-inl.h.
 #pragma once
 
 #include <cmath>
 
+#include "base/vec.h"
+
 namespace nacre {
+
+// What a target makes of a product that is added to something.
+enum class Products {
+  kFused,    // it is not rounded: targets with an instruction for both operations
+  kRounded,  // SSE4 and plain C++
+};
+
+// a b + c.
+template <typename Real>
+Real MulAdd(Real a, Real b, Real c, Products products) {
+  return products == Products::kFused ? std::fma(a, b, c) : a * b + c;
+}
+
+// FusedDot's twin (base/vec3-inl.h).
+template <typename Real>
+Real Dot(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& b, Products products) {
+  return MulAdd(a.z, b.z, MulAdd(a.y, b.y, a.x * b.x, products), products);
+}
 
 // a b = product + error exactly, barring overflow and underflow (Dekker 1971).
 template <typename Real>
@@ -17,6 +38,14 @@ template <typename Real>
 TwoProductResult<Real> TwoProduct(Real a, Real b) {
   const Real product = a * b;
   return {product, std::fma(a, b, -product)};
+}
+
+// c - a b, the product unrounded: rounded once where the target fuses, twice elsewhere.
+template <typename Real>
+Real SubtractProduct(Real c, Real a, Real b, Products products) {
+  if (products == Products::kFused) return std::fma(-a, b, c);
+  const auto [product, error] = TwoProduct(a, b);
+  return (c - product) - error;
 }
 
 // a b - c d with the sign of the exact value, 0 only if that is 0, and a relative error of a few

@@ -15,20 +15,17 @@ namespace {
 // Checks that the intersector finds what brute force finds, to the bit, on every target.
 void CheckClosest(const Scene& scene, const Vec3d& eye, const std::vector<Ray>& rays) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
-  std::vector<Hit> expected;
-  bool any = false;
-  for (const Ray& ray : rays) {
-    expected.push_back(BruteForce(geometry, ray));
-    any = any || expected.back().primitive != kNoPrimitive;
-  }
-  CHECK(any);
   ForEachTarget([&](Target) {
     const std::vector<Hit> hits = Trace(Intersector(scene, eye), rays);
+    bool any = false;
     for (size_t i = 0; i < rays.size(); ++i) {
-      INFO("ray " << i << " t " << hits[i].t << " expected " << expected[i].t);
-      REQUIRE(hits[i].primitive == expected[i].primitive);
-      REQUIRE(hits[i].t == expected[i].t);
+      const Hit expected = BruteForce(geometry, rays[i]);
+      INFO("ray " << i << " t " << hits[i].t << " expected " << expected.t);
+      REQUIRE(hits[i].primitive == expected.primitive);
+      REQUIRE(hits[i].t == expected.t);
+      any = any || expected.primitive != kNoPrimitive;
     }
+    CHECK(any);
   });
 }
 

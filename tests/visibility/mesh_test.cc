@@ -92,9 +92,9 @@ TEST_CASE("triangle hits are brute force's, on every target") {
     rays.insert(rays.end(), seams.begin(), seams.end());
   }
   const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
-  std::vector<Hit> expected;
-  for (const Ray& ray : rays) expected.push_back(BruteForce(geometry, ray));
   ForEachTarget([&](Target) {
+    std::vector<Hit> expected;
+    for (const Ray& ray : rays) expected.push_back(BruteForce(geometry, ray));
     const Intersector intersector(scene, Vec3d(0));
     CHECK(Trace(intersector, rays) == expected);
     CHECK(Trace(intersector, rays, 1) == expected);

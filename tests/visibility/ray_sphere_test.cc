@@ -202,8 +202,8 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
       const Surface& surface = surfaces[i];
       const auto& [center, radius] = geometry.spheres[surface.primitive];
       const Vec3d& direction = rays[i].direction;
-      const auto hit = TestSphere(center, direction, radius);
-      const Vec3d from_center = CenterToHit(hit, direction);
+      const auto hit = TestSphere(center, direction, radius, TargetProducts());
+      const Vec3d from_center = CenterToHit(hit, direction, TargetProducts());
       REQUIRE(hit.hit);
       REQUIRE(surface.position == center + from_center);
       REQUIRE(surface.normal == from_center * (hit.inside ? -1 / radius : 1 / radius));

@@ -12,6 +12,7 @@
 #include "hit/batch.h"
 #include "visibility/geometry.h"
 #include "visibility/intersector.h"
+#include "visibility/refine_kernel.h"
 #include "visibility/sphere_test.h"
 #include "visibility/triangle_test.h"
 
@@ -118,19 +119,21 @@ inline std::vector<bool> TraceShadows(const Intersector& intersector,
   return occluded;
 }
 
+// By the active target's products, as all that follow.
 inline TriangleHit<double> TestTriangle(const TraceGeometry& geometry, size_t triangle,
                                         const Ray& ray) {
   const auto& v = geometry.triangles[triangle];
   return TestTriangle(geometry.positions[v[0]] - ray.origin, geometry.positions[v[1]] - ray.origin,
                       geometry.positions[v[2]] - ray.origin, ray.direction,
-                      MakeShear(ray.direction));
+                      MakeShear(ray.direction), TargetProducts());
 }
 
 inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
   Hit best;
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
     const TraceSphere& sphere = geometry.spheres[i];
-    const auto hit = TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius);
+    const auto hit =
+        TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
     if (hit.hit && hit.t < best.t) best = {i, hit.t};
   }
   for (size_t i = 0; i < geometry.triangles.size(); ++i) {
@@ -148,7 +151,8 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
   const auto& [ray, t_max, start] = shadow;
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
     const TraceSphere& sphere = geometry.spheres[i];
-    const auto hit = TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius);
+    const auto hit =
+        TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
     const bool own = start < geometry.SphereCount() &&
                      geometry.spheres[start].center == sphere.center &&
                      geometry.spheres[start].radius == sphere.radius;
