@@ -92,6 +92,36 @@ TEST_CASE("Any count and alignment gives the same pixels and nothing beyond", "[
   });
 }
 
+TEST_CASE("Pixels that repeat those before them are encoded as any others", "[color]") {
+  // Stretches of one colour, a pattern that repeats, and repetitions but for one channel, all of
+  // 128 pixels; of the colours one is NaN, which is counted each time.
+  std::vector<float> planes[3];
+  for (int stretch = 0; stretch < 32; ++stretch) {
+    for (int i = 0; i < 128; ++i) {
+      for (int c = 0; c < 3; ++c) {
+        const int color = stretch / 2 % 3 + (c == stretch % 5 ? stretch / 5 % 2 : 0);
+        const float pattern = stretch > 20 ? static_cast<float>(i % 9) / 20 : 0.0f;
+        planes[c].push_back(color == 3 ? kNan : static_cast<float>(color) / 4 + pattern);
+      }
+    }
+  }
+  const size_t count = planes[0].size();
+  ForEachTarget([&](Target) {
+    std::vector<uint8_t> all(3 * count), one(3 * count);
+    const size_t nans =
+        EncodeDisplay({}, planes[0].data(), planes[1].data(), planes[2].data(), count, all.data());
+    size_t nans_one_by_one = 0;
+    for (size_t i = 0; i < count; ++i) {
+      nans_one_by_one +=
+          EncodeDisplay({}, &planes[0][i], &planes[1][i], &planes[2][i], 1, &one[3 * i]);
+    }
+    CHECK(all == one);
+    CHECK(nans == nans_one_by_one);
+    CHECK(nans >= 2 * 128);
+    CHECK(nans < count / 2);
+  });
+}
+
 TEST_CASE("NaN pixels are magenta and counted, infinities are light or dark", "[color]") {
   std::vector<float> r(301, 0.5f), g(301, 0.5f), b(301, 0.5f);
   r[0] = g[130] = b[300] = kNan;
