@@ -200,6 +200,14 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
   }
 }
 
+// A metal's base reflects nothing, whatever share of the light it would get.
+void SkipBlackBase(ShadingMaterial* prepared) {
+  auto* const model = std::get_if<MicrofacetModel>(&prepared->model);
+  if (model == nullptr || prepared->mapped || model->diffuse != Rgb(0)) return;
+  model->coupling = DiffuseCoupling::kNone;
+  model->base_form = DiffuseForm::kLambert;
+}
+
 }  // namespace
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
@@ -248,6 +256,7 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
   prepared.ambient = of_ambient * ambient_radiance;
   prepared.ambient_radiance = ambient_radiance;
   FindMaps(material, &prepared);
+  SkipBlackBase(&prepared);
   if (auto* microfacet = std::get_if<MicrofacetModel>(&prepared.model)) {
     microfacet->prepared = microfacet->compensation != Compensation::kNone ||
                            microfacet->coupling == DiffuseCoupling::kAlbedoScaled;

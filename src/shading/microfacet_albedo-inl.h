@@ -22,9 +22,8 @@ struct AlbedoV {
 };
 
 HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV f90,
-                                  FloatV cosine) {
+                                  const AlbedoVariablesV<FloatV>& x) {
   const AlbedoFit& fit = model.albedo.lobe;
-  const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
   const FloatV one = AlbedoOne(d, fit, x);
   const FloatV loss = AlbedoLoss(d, fit, x);
   // Vectors, not structs, are what the branch chooses: GCC takes structs through memory.
@@ -42,9 +41,9 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, Floa
 
 // From the fit of each hit, whose second curve is Schlick's, or that of the dielectric.
 HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
-                                  const AlbedoFitLanes& fit, FloatV f90, FloatV cosine) {
+                                  const AlbedoFitLanes& fit, FloatV f90,
+                                  const AlbedoVariablesV<FloatV>& x) {
   const FloatV unit = hn::Set(d, 1.0f);
-  const AlbedoVariablesV<FloatV> x = ComputeAlbedoVariables(d, fit.shape, cosine);
   const FloatV one = AlbedoOne(d, fit, x);
   FloatV scale, bias;
   if (model.fresnel == FresnelForm::kDielectric) {
@@ -58,6 +57,18 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
     bias = hn::Mul(f90, schlick);
   }
   return {one, AlbedoLoss(d, fit, x), scale, bias};
+}
+
+// The same from n.v, or n.l, alone.
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model, FloatV f90,
+                                  FloatV cosine) {
+  const AlbedoFit& fit = model.albedo.lobe;
+  return EvaluateAlbedo(d, model, f90, ComputeAlbedoVariables(d, fit.shape, cosine));
+}
+
+HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
+                                  const AlbedoFitLanes& fit, FloatV f90, FloatV cosine) {
+  return EvaluateAlbedo(d, model, fit, f90, ComputeAlbedoVariables(d, fit.shape, cosine));
 }
 
 // The fits of hits from `fit` on, whose entries are `stride` apart.

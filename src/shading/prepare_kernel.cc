@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/prepare_kernel.cc: what microfacet materials need of a hit whatever the light: the
 // weight of multiple scattering and the base's share of the light, once per hit.
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/prepare_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -14,9 +16,13 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// Stores the lanes of `mask`: a packet may reach into the next run.
-HWY_INLINE void StoreMasked(FloatTag d, hn::Mask<FloatTag> mask, FloatV value, float* to) {
-  hn::StoreU(hn::IfThenElse(mask, value, hn::LoadU(d, to)), d, to);
+// Stores `count` lanes at most: a packet may reach into the next run.
+HWY_INLINE void StoreLanes(FloatTag d, size_t count, FloatV value, float* to) {
+  if (count >= hn::Lanes(d)) {
+    hn::StoreU(value, d, to);
+  } else {
+    hn::BlendedStore(value, hn::FirstN(d, count), d, to);
+  }
 }
 
 // Kulla and Conty's weight carries the scale of their lobe: 1 / (pi (1 - E_avg)) of a smooth
@@ -37,18 +43,26 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
 // A model's numbers for all hits.
 struct SameForAll {
   const MicrofacetModel& model;
-  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t, FloatV n_dot_v) const {
-    return EvaluateAlbedo(d, model, hn::Set(d, static_cast<float>(model.f90)), n_dot_v);
+  float f90, multiple_scale, f0[3], f_multiple[3];  // rounded once
+
+  explicit SameForAll(const MicrofacetModel& of)
+      : model(of),
+        f90(static_cast<float>(of.f90)),
+        multiple_scale(static_cast<float>(of.multiple)) {
+    for (int c = 0; c < 3; ++c) {
+      f0[c] = static_cast<float>(of.f0[c]);
+      f_multiple[c] = static_cast<float>(of.f_multiple[c]);
+    }
   }
-  HWY_INLINE FloatV MultipleScale(FloatTag d, size_t) const {
-    return hn::Set(d, static_cast<float>(model.multiple));
+  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t, FloatV n_dot_v) const {
+    return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
   }
-  HWY_INLINE FloatV F0(FloatTag d, size_t, int c) const {
-    return hn::Set(d, static_cast<float>(model.f0[c]));
+  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t, const AlbedoVariablesV<FloatV>& x) const {
+    return EvaluateAlbedo(d, model, hn::Set(d, f90), x);
   }
-  HWY_INLINE FloatV FMultiple(FloatTag d, size_t, int c) const {
-    return hn::Set(d, static_cast<float>(model.f_multiple[c]));
-  }
+  HWY_INLINE FloatV MultipleScale(FloatTag d, size_t) const { return hn::Set(d, multiple_scale); }
+  HWY_INLINE FloatV F0(FloatTag d, size_t, int c) const { return hn::Set(d, f0[c]); }
+  HWY_INLINE FloatV FMultiple(FloatTag d, size_t, int c) const { return hn::Set(d, f_multiple[c]); }
 };
 
 // Those that maps give to each hit.
@@ -56,11 +70,17 @@ struct ByHit {
   const MicrofacetModel& model;
   const HitTextures& t;
   bool own_fits;
-  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, FloatV n_dot_v) const {
+  HWY_INLINE AlbedoFitLanes Fit(size_t i) const {
+    return FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing);
+  }
+  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t i, FloatV n_dot_v) const {
+    if (!own_fits) return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
+    return ComputeAlbedoVariables(d, Fit(i).shape, n_dot_v);
+  }
+  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, const AlbedoVariablesV<FloatV>& x) const {
     const FloatV f90 = hn::LoadU(d, t.f90.data() + i);
-    if (!own_fits) return EvaluateAlbedo(d, model, f90, n_dot_v);
-    return EvaluateAlbedo(
-        d, model, FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing), f90, n_dot_v);
+    if (!own_fits) return EvaluateAlbedo(d, model, f90, x);
+    return EvaluateAlbedo(d, model, Fit(i), f90, x);
   }
   HWY_INLINE FloatV MultipleScale(FloatTag d, size_t i) const {
     return hn::LoadU(d, t.multiple_scale.data() + i);
@@ -74,32 +94,89 @@ struct ByHit {
   }
 };
 
+// A block of hits on its way through the steps: the albedo is a long chain of dependent operations,
+// cut here as those of lights are (packets-inl.h).
+struct AlbedoBlock {
+  static constexpr size_t kHits = 128;  // a multiple of every target's lanes
+  alignas(64) float z[kHits], n_dot_v[kHits], factor[kHits];
+  alignas(64) float one[kHits], loss[kHits], scale[kHits], bias[kHits];
+
+  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoVariablesV<FloatV>& x) {
+    hn::Store(x.z, d, z + at);
+    hn::Store(x.n_dot_v, d, n_dot_v + at);
+    hn::Store(x.factor, d, factor + at);
+  }
+  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t at) const {
+    return {hn::Load(d, z + at), hn::Load(d, n_dot_v + at), hn::Load(d, factor + at)};
+  }
+  HWY_INLINE void Store(FloatTag d, size_t at, const AlbedoV& albedo) {
+    hn::Store(albedo.one, d, one + at);
+    hn::Store(albedo.loss, d, loss + at);
+    hn::Store(albedo.scale, d, scale + at);
+    hn::Store(albedo.bias, d, bias + at);
+  }
+  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t at) const {
+    return {hn::Load(d, one + at), hn::Load(d, loss + at), hn::Load(d, scale + at),
+            hn::Load(d, bias + at)};
+  }
+};
+
+template <class Numbers>
+HWY_INLINE void FillVariables(const Numbers& numbers, size_t begin, size_t end,
+                              const Surface& surface, AlbedoBlock* block) {
+  const FloatTag d;
+  const auto normal = PointersTo(surface.normal), to_view = PointersTo(surface.to_view);
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const FloatV n_dot_v =
+        hn::Max(FusedDot(LoadAt(d, normal, i), LoadAt(d, to_view, i)), hn::Zero(d));
+    block->Store(d, i - begin, numbers.Variables(d, i, n_dot_v));
+  }
+}
+
+template <class Numbers>
+HWY_INLINE void FillAlbedos(const Numbers& numbers, size_t begin, size_t end, AlbedoBlock* block) {
+  const FloatTag d;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    block->Store(d, i - begin, numbers.Albedo(d, i, block->Variables(d, i - begin)));
+  }
+}
+
+// kScaled: DiffuseCoupling::kAlbedoScaled. Others do not read the base's share.
+template <bool kScaled, class Numbers>
+HWY_INLINE void PrepareBlock(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
+                             size_t end, const AlbedoBlock& block, Surface* surface) {
+  const FloatTag d;
+  float* const HWY_RESTRICT multiples = surface->multiple.data();
+  float* const base[3] = {surface->base.x.data(), surface->base.y.data(), surface->base.z.data()};
+  const Compensation compensation = model.compensation;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const AlbedoV albedo = block.Albedo(d, i - begin);
+    const FloatV multiple = Multiple(d, compensation, albedo, numbers.MultipleScale(d, i));
+    StoreLanes(d, end - i, multiple, multiples + i);
+    if constexpr (!kScaled) continue;
+    for (int c = 0; c < 3; ++c) {
+      const FloatV f0 = numbers.F0(d, i, c);
+      const FloatV left = compensation == Compensation::kKullaConty
+                              ? KullaContyBase(d, albedo, f0, numbers.FMultiple(d, i, c))
+                              : TurquinBase(d, albedo, f0, multiple);
+      StoreLanes(d, end - i, left, base[c] + i);
+    }
+  }
+}
+
 template <class Numbers>
 HWY_INLINE void PrepareRange(const MicrofacetModel& model, const Numbers& numbers, size_t begin,
                              size_t end, Surface* surface) {
-  const FloatTag d;
-  const FloatV one = hn::Set(d, 1.0f);
-  const Soa3<float>& n = surface->normal;
-  const Soa3<float>& v = surface->to_view;
-  float* const base[3] = {surface->base.x.data(), surface->base.y.data(), surface->base.z.data()};
   const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
-  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto mask = hn::FirstN(d, end - i);
-    const FloatV n_dot_v =
-        hn::Max(FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
-                         LoadU3(d, v.x.data() + i, v.y.data() + i, v.z.data() + i)),
-                hn::Zero(d));
-    const AlbedoV albedo = numbers.Albedo(d, i, n_dot_v);
-    const FloatV multiple = Multiple(d, model.compensation, albedo, numbers.MultipleScale(d, i));
-    StoreMasked(d, mask, multiple, surface->multiple.data() + i);
-    for (int c = 0; c < 3; ++c) {
-      const FloatV f0 = numbers.F0(d, i, c);
-      const FloatV f_multiple = numbers.FMultiple(d, i, c);
-      const FloatV left = !scaled       ? one
-                          : kulla_conty ? KullaContyBase(d, albedo, f0, f_multiple)
-                                        : TurquinBase(d, albedo, f0, multiple);
-      StoreMasked(d, mask, left, base[c] + i);
+  AlbedoBlock block;
+  for (; begin < end; begin += AlbedoBlock::kHits) {
+    const size_t block_end = std::min(begin + AlbedoBlock::kHits, end);
+    FillVariables(numbers, begin, block_end, *surface, &block);
+    FillAlbedos(numbers, begin, block_end, &block);
+    if (scaled) {
+      PrepareBlock<true>(model, numbers, begin, block_end, block, surface);
+    } else {
+      PrepareBlock<false>(model, numbers, begin, block_end, block, surface);
     }
   }
 }

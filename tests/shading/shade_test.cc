@@ -296,6 +296,39 @@ TEST_CASE("lights leave the same bits taken together, one by one, in place or ev
   });
 }
 
+TEST_CASE("the black base of a metal is skipped, and no bit changes") {
+  for (const DiffuseCoupling coupling :
+       {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kOneMinusFresnel}) {
+    for (const Compensation compensation :
+         {Compensation::kNone, Compensation::kTurquin, Compensation::kKullaConty}) {
+      MetallicRoughnessMaterial metal;
+      metal.metallic = 1;
+      metal.roughness = 0.4;
+      metal.diffuse_coupling = coupling;
+      metal.compensation = compensation;
+      metal.diffuse = DiffuseForm::kOrenNayar;
+      const ShadingMaterial skipped = Prepare(metal);
+      const auto& model = std::get<MicrofacetModel>(skipped.model);
+      CHECK(model.coupling == DiffuseCoupling::kNone);
+      CHECK(model.base_form == DiffuseForm::kLambert);
+      ShadingMaterial whole = skipped;
+      auto& whole_model = std::get<MicrofacetModel>(whole.model);
+      whole_model.coupling = coupling;
+      whole_model.base_form = metal.diffuse;
+      whole_model.base_roughness = metal.roughness;
+      whole_model.prepared = model.prepared || coupling == DiffuseCoupling::kAlbedoScaled;
+      ForEachTarget([&](Target) {
+        const ReflectedRadiance a = Shade(skipped, MakeLight("point"));
+        const ReflectedRadiance b = Shade(whole, MakeLight("point"));
+        for (size_t i = 0; i < kHits; ++i) {
+          REQUIRE(At(a.diffuse, i) == At(b.diffuse, i));
+          REQUIRE(At(a.specular, i) == At(b.specular, i));
+        }
+      });
+    }
+  }
+}
+
 TEST_CASE("a light near a huge, far surface keeps its direction") {
   // Ground of radius 1e6 around (0, -1e6, 0): a light 1 above it, hits 1 away from its foot.
   ForEachTarget([](Target) {
