@@ -75,12 +75,13 @@ void AddBlock(const double* values, double weight, double* sums) {
   for (size_t k = 0; k < kBlockPixels; ++k) sums[k] += weight * values[k];
 }
 
-// Takes those of such samples that hit into the pixels' ranges.
+// Takes those of such samples that hit into the pixels' ranges: without branches, which would go
+// either way.
 void WidenRanges(const double* values, const double* hits, double* low, double* high) {
   for (size_t k = 0; k < kBlockPixels; ++k) {
-    if (hits[k] == 0) continue;
-    low[k] = std::min(low[k], values[k]);
-    high[k] = std::max(high[k], values[k]);
+    const bool hit = hits[k] != 0;
+    low[k] = hit & (values[k] < low[k]) ? values[k] : low[k];
+    high[k] = hit & (values[k] > high[k]) ? values[k] : high[k];
   }
 }
 

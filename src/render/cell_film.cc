@@ -7,21 +7,20 @@
 namespace nacre {
 namespace {
 
-// Rows of blocks into rows of the strip, as far as they lie in `part`: convert(i) is the cell's
-// pixel i.
-template <typename T, typename Convert>
-void PutCell(const Window& cell, const Window& part, const Strip& strip, AlignedArray<T>* to,
-             const Convert& convert) {
-  for (size_t b = 0; b < kCellBlocks; ++b) {
+// The cell's pixels that lie in `part`, from rows of blocks into rows of the strip.
+template <typename T>
+void PutCell(const Window& cell, const Window& part, const Strip& strip, const T* values,
+             AlignedArray<T>* to) {
+  const auto stride = static_cast<size_t>(strip.window.width());
+  for (size_t b = 0; b < kCellBlocks; ++b, values += kBlockPixels) {
     const Window block = BlockWindow(cell, b);
     const Window shown = Intersect(block, part);
-    for (int y = shown.y0; y < shown.y1; ++y) {
-      const size_t row = b * kBlockPixels + static_cast<size_t>(y - block.y0) * kBlockSide;
-      T* const out = to->data() + static_cast<size_t>(y - strip.window.y0) *
-                                      static_cast<size_t>(strip.window.width());
-      for (int x = shown.x0; x < shown.x1; ++x) {
-        out[x - strip.window.x0] = convert(row + static_cast<size_t>(x - block.x0));
-      }
+    if (shown.empty()) continue;
+    const T* from = values + (shown.y0 - block.y0) * kBlockSide + (shown.x0 - block.x0);
+    T* row = to->data() + static_cast<size_t>(shown.y0 - strip.window.y0) * stride +
+             static_cast<size_t>(shown.x0 - strip.window.x0);
+    for (int y = shown.y0; y < shown.y1; ++y, from += kBlockSide, row += stride) {
+      std::copy_n(from, shown.width(), row);
     }
   }
 }
@@ -81,15 +80,16 @@ void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
     if (kind == ChannelKind::kAveraged) {
       const double* const sums = film.sums[sum].data();
       const double background = backgrounds[sum++];
-      PutCell(cell, part, *strip, &strip->colors[color++], [&](size_t i) {
-        return static_cast<float>(sums[i] * of_sum[i] + background * of_background[i]);
-      });
+      float values[kCellPixels];
+      for (size_t i = 0; i < kCellPixels; ++i) {
+        values[i] = static_cast<float>(sums[i] * of_sum[i] + background * of_background[i]);
+      }
+      PutCell(cell, part, *strip, values, &strip->colors[color++]);
     } else if (kind == ChannelKind::kNearest) {
-      const float* const values = film.nearest[nearest++].data();
-      PutCell(cell, part, *strip, &strip->colors[color++], [&](size_t i) { return values[i]; });
+      PutCell(cell, part, *strip, film.nearest[nearest++].data(), &strip->colors[color++]);
     } else {
-      const uint32_t* const values = film.ids[id].data();
-      PutCell(cell, part, *strip, &strip->ids[id++], [&](size_t i) { return values[i]; });
+      PutCell(cell, part, *strip, film.ids[id].data(), &strip->ids[id]);
+      ++id;
     }
   }
 }

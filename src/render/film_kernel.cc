@@ -70,6 +70,36 @@ void FillPixelsT(float value, const PixelRows<float>& rows) {
   }
 }
 
+// How many hits from `first` on, not beyond `end`, are of rays one after the other.
+HWY_INLINE size_t CountConsecutive(const uint32_t* HWY_RESTRICT ray, size_t first, size_t end) {
+  if (ray[end - 1] - ray[first] == end - 1 - first) return end - first;
+  const hn::ScalableTag<uint32_t> d;
+  const auto lane = hn::Iota(d, 0);
+  for (size_t i = first; i < end; i += hn::Lanes(d)) {
+    const auto next = hn::Add(lane, hn::Set(d, ray[first] + static_cast<uint32_t>(i - first)));
+    const intptr_t other = hn::FindFirstTrue(d, hn::Ne(hn::LoadU(d, ray + i), next));
+    if (other >= 0) return std::min(i + static_cast<size_t>(other), end) - first;
+  }
+  return end - first;
+}
+
+void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* weights,
+                std::vector<HitSpan>* spans) {
+  spans->clear();
+  size_t sample = 0;
+  size_t row_end = row;
+  for (size_t i = hits.begin; i < hits.end;) {
+    const size_t ray = hits.ray[i];
+    while (ray >= (sample + 1) * pixels) ++sample;
+    while (ray >= row_end) row_end += row;  // a division takes longer
+    const size_t end = std::min(hits.end, i + (row_end - ray));
+    const size_t count = CountConsecutive(hits.ray, i, end);
+    spans->push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(ray - sample * pixels),
+                      static_cast<uint32_t>(count), weights[sample]});
+    i += count;
+  }
+}
+
 // Adds what hits are worth to the sums of the spans' pixels.
 struct ToSums {
   double* HWY_RESTRICT sums;
@@ -79,17 +109,27 @@ struct ToSums {
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
     const D d;
     for (const HitSpan& span : spans) {
-      const V weight = hn::Set(d, span.weight);
-      double* const to = sums + span.pixel;
-      size_t i = 0;
-      for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
-        const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
-        hn::StoreU(sum, d, to + i);
+      if (span.weight == 1) {  // of filters that are nowhere negative
+        Add(span, value);
+      } else {
+        const V weight = hn::Set(d, span.weight);
+        Add(span, [&](size_t i) HWY_ATTR { return hn::Mul(weight, value(i)); });
       }
-      if (i == span.count) continue;
-      const V sum = hn::Add(hn::LoadU(d, to + i), hn::Mul(weight, value(span.hit + i)));
-      hn::BlendedStore(sum, hn::FirstN(d, span.count - i), d, to + i);
     }
+  }
+
+  // A copy of the span: for all that the compiler knows, the sums are its numbers.
+  template <class Weighted>
+  HWY_INLINE void Add(HitSpan span, const Weighted& weighted) const {
+    const D d;
+    double* const to = sums + span.pixel;
+    size_t i = 0;
+    for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
+      hn::StoreU(hn::Add(hn::LoadU(d, to + i), weighted(span.hit + i)), d, to + i);
+    }
+    if (i == span.count) return;
+    const V sum = hn::Add(hn::LoadU(d, to + i), weighted(span.hit + i));
+    hn::BlendedStore(sum, hn::FirstN(d, span.count - i), d, to + i);
   }
 };
 
@@ -180,6 +220,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(AddSamplesT);
+HWY_EXPORT(FindSpansT);
 HWY_EXPORT(AddHitsT);
 HWY_EXPORT(PutHitsT);
 HWY_EXPORT(RoundSumsT);
@@ -190,6 +231,11 @@ HWY_EXPORT(AddFloatsByHitT);
 void AddSamples(const double* values, const double* weights, int samples, size_t pixels,
                 double* sums) {
   HWY_DYNAMIC_DISPATCH(AddSamplesT)(values, weights, samples, pixels, sums);
+}
+
+void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
+               std::vector<HitSpan>* spans) {
+  HWY_DYNAMIC_DISPATCH(FindSpansT)(hits, pixels, row, weights, spans);
 }
 
 void AddHits(const float* a, const float* b, double constant, double further,

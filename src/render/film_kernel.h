@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace nacre {
 
@@ -19,6 +20,18 @@ struct HitSpan {
   uint32_t hit, pixel, count;
   double weight;
 };
+
+// Hits [begin, end) of a batch: the numbers of their rays, which ascend. Aligned, and padded to
+// whole vectors.
+struct HitRays {
+  const uint32_t* ray;
+  size_t begin, end;
+};
+
+// Finds their spans. The rays go through all pixels of the first sample first; `weights`: of each
+// sample. `row` divides `pixels`; no span goes beyond a row.
+void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
+               std::vector<HitSpan>* spans);
 
 // The same for hits alone: value i is double(a[i]) + double(b[i]) + constant + further, or only
 // double(a[i]) if b is null, or only the constants if both are.

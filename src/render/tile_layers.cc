@@ -106,41 +106,15 @@ void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* val
   }
 }
 
-// How many hits from `first` on, not beyond `end`, are of rays one after the other.
-size_t CountConsecutive(const uint32_t* ray, size_t first, size_t end) {
-  const auto all = [&](size_t last) { return ray[last] - ray[first] == last - first; };
-  if (all(end - 1)) return end - first;
-  constexpr size_t kStride = 8;
-  size_t next = first + 1;
-  while (next + kStride <= end && all(next + kStride - 1)) next += kStride;
-  while (next < end && all(next)) ++next;
-  return next - first;
-}
-
 // Whether each of a run's layers is a sum of what its hits reflect and constants.
 bool IsPlain(const RenderPlan& plan, const MaterialRun& run) {
   return !plan.materials[run.material.index].mapped;
 }
 
-// Finds the spans of a run, whose rays ascend; none goes beyond a row of `row` pixels, into which
-// those of a sample fall.
-void FindSpans(const MaterialRun& run, size_t row, TileScratch* scratch) {
-  TileScratch& s = *scratch;
-  const size_t pixels = s.film.window.pixel_count();
-  const uint32_t* const ray = s.hits.ray.data();
-  s.spans.clear();
-  size_t sample = 0;
-  size_t row_end = row;
-  for (size_t i = run.begin; i < run.end;) {
-    while (ray[i] >= (sample + 1) * pixels) ++sample;
-    const size_t pixel = ray[i] - sample * pixels;
-    while (ray[i] >= row_end) row_end += row;  // a division takes longer
-    const size_t end = std::min(run.end, i + (row_end - ray[i]));
-    const size_t count = CountConsecutive(ray, i, end);
-    s.spans.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(pixel),
-                       static_cast<uint32_t>(count), s.weights[sample]});
-    i += count;
-  }
+// Finds the spans of a run; none goes beyond a row of `row` pixels.
+void FindSpans(const MaterialRun& run, size_t row, TileScratch* s) {
+  FindSpans({s->hits.ray.data(), run.begin, run.end}, s->film.window.pixel_count(), row,
+            s->weights.data(), &s->spans);
 }
 
 // Adds a layer of a batch that FindSpans was asked about.

@@ -22,12 +22,19 @@ using V = hn::Vec<D>;
 using DU32 = hn::Rebind<uint32_t, D>;
 using VU32 = hn::Vec<DU32>;
 
-// UnitFromBits(bits) - 1/2, exactly: with its top bit flipped a number without sign is, as one
-// with a sign, lower by 2^31.
-HWY_INLINE V CenteredFromBits(VU32 bits) {
+// With its top bit flipped a number without sign is, as one with a sign, lower by 2^31.
+inline constexpr uint32_t kTopBit = 0x80000000u;
+
+// 2^32 (u - 1/2), exactly, where u is UnitFromBits of the bits before their top one was flipped.
+HWY_INLINE V CenteredFromFlipped(VU32 flipped) {
   const hn::Rebind<int32_t, D> di32;
-  const VU32 flipped = hn::Xor(bits, hn::Set(DU32(), 0x80000000u));
-  return hn::Mul(hn::PromoteTo(D(), hn::BitCast(di32, flipped)), hn::Set(D(), 0x1p-32));
+  return hn::PromoteTo(D(), hn::BitCast(di32, flipped));
+}
+
+// u of that.
+HWY_INLINE V UnitFromCentered(V centered) {
+  const D d;
+  return hn::Add(hn::Mul(centered, hn::Set(d, 0x1p-32)), hn::Set(d, 0.5));
 }
 
 // SampleDistance of pixel_filter.cc.
@@ -56,10 +63,10 @@ struct Center {
 };
 
 struct Box {
-  double width;
+  double scale;  // the box's width / 2^32
   HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
-    *dx = hn::Mul(centered_x, hn::Set(D(), width));
-    *dy = hn::Mul(centered_y, hn::Set(D(), width));
+    *dx = hn::Mul(centered_x, hn::Set(D(), scale));
+    *dy = hn::Mul(centered_y, hn::Set(D(), scale));
   }
 };
 
@@ -67,9 +74,8 @@ struct Box {
 struct Positive {
   const double* quantiles;
   HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
-    const V half = hn::Set(D(), 0.5);
-    *dx = Distance(quantiles, hn::Add(centered_x, half));
-    *dy = Distance(quantiles, hn::Add(centered_y, half));
+    *dx = Distance(quantiles, UnitFromCentered(centered_x));
+    *dy = Distance(quantiles, UnitFromCentered(centered_y));
   }
 };
 
@@ -82,9 +88,8 @@ struct Signed {
   double first_share;
   HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
     const D d;
-    const V half = hn::Set(d, 0.5);
-    const V u = hn::Add(centered_x, half);
-    const V v = hn::Add(centered_y, half);
+    const V u = UnitFromCentered(centered_x);
+    const V v = UnitFromCentered(centered_y);
     const V share = hn::Set(d, first_share);
     const auto first = hn::Lt(u, share);
     const V first_u = hn::Div(u, share);
@@ -101,25 +106,29 @@ struct Signed {
 // next one, or is the caller's padding.
 template <class Filter>
 HWY_INLINE void SamplePlane(const Filter& filter, const PixelSampler& sampler, int index,
-                            const Window& pixels, const PixelShifts& shifts, double* film_x,
-                            double* film_y) {
+                            const Window& pixels, const PixelShifts& shifts,
+                            double* HWY_RESTRICT film_x, double* HWY_RESTRICT film_y) {
   const D d;
   const DU32 du32;
-  const VU32 point_x = hn::Set(du32, sampler.points_x[static_cast<size_t>(index)]);
-  const VU32 point_y = hn::Set(du32, sampler.points_y[static_cast<size_t>(index)]);
-  const auto step = static_cast<int>(hn::Lanes(d));
+  const VU32 point_x = hn::Set(du32, sampler.points_x[static_cast<size_t>(index)] ^ kTopBit);
+  const VU32 point_y = hn::Set(du32, sampler.points_y[static_cast<size_t>(index)] ^ kTopBit);
+  const uint32_t* HWY_RESTRICT const shift_x = shifts.x.data();
+  const uint32_t* HWY_RESTRICT const shift_y = shifts.y.data();
+  const auto width = static_cast<size_t>(pixels.width());
+  const V first_column = hn::Iota(d, pixels.x0 + 0.5);
+  const V step = hn::Set(d, static_cast<double>(hn::Lanes(d)));
   size_t row = 0;
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
+  for (int y = pixels.y0; y < pixels.y1; ++y, row += width) {
     const V center_y = hn::Set(d, y + 0.5);
-    size_t i = row;
-    for (int x = pixels.x0; x < pixels.x1; x += step, i += hn::Lanes(d)) {
+    V center_x = first_column;
+    for (size_t i = row; i < row + width; i += hn::Lanes(d)) {
       V dx, dy;
-      filter(CenteredFromBits(hn::Xor(point_x, hn::LoadU(du32, shifts.x.data() + i))),
-             CenteredFromBits(hn::Xor(point_y, hn::LoadU(du32, shifts.y.data() + i))), &dx, &dy);
-      hn::StoreU(hn::Add(hn::Iota(d, x + 0.5), dx), d, film_x + i);
+      filter(CenteredFromFlipped(hn::Xor(point_x, hn::LoadU(du32, shift_x + i))),
+             CenteredFromFlipped(hn::Xor(point_y, hn::LoadU(du32, shift_y + i))), &dx, &dy);
+      hn::StoreU(hn::Add(center_x, dx), d, film_x + i);
       hn::StoreU(hn::Add(center_y, dy), d, film_y + i);
+      center_x = hn::Add(center_x, step);  // exactly: halves
     }
-    row += static_cast<size_t>(pixels.width());
   }
 }
 
@@ -149,7 +158,7 @@ HWY_INLINE void WithFilters(const PixelSampler& sampler, const Sample& sample) {
   if (sampler.centered) {
     sample(Center(), Center());
   } else if (filter.positive.empty()) {
-    sample(Box{filter.filter.width}, Center());
+    sample(Box{filter.filter.width * 0x1p-32}, Center());
   } else if (filter.negative.empty()) {
     sample(Positive{p}, Center());
   } else {
@@ -178,12 +187,14 @@ void ShiftPixelsT(uint32_t seed, const Window& pixels, PixelShifts* shifts) {
   const hn::Rebind<uint64_t, D> du64;
   const DU32 du32;
   const auto first = hn::Set(du64, MixFirst(seed));
+  const auto lane = hn::Iota(du32, 0);
   size_t row = 0;
   for (int y = pixels.y0; y < pixels.y1; ++y) {
     const auto high = hn::Set(du64, static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32);
     size_t i = row;
     for (int x = pixels.x0; x < pixels.x1; x += static_cast<int>(hn::Lanes(du64))) {
-      const auto columns = hn::Iota(du32, static_cast<uint32_t>(x));  // modulo 2^32, as PixelSeed's
+      // Modulo 2^32, as PixelSeed's. Not Iota from x on: that takes the lanes through memory.
+      const auto columns = hn::Add(lane, hn::Set(du32, static_cast<uint32_t>(x)));
       const auto pixel = hn::Or(high, hn::PromoteTo(du64, columns));
       const auto shift = MixEach(du64, hn::Xor(first, pixel));
       hn::StoreU(hn::TruncateTo(du32, shift), du32, shifts->x.data() + i);
@@ -201,12 +212,12 @@ HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int
   const D d;
   const DU32 du32;
   const uint64_t shift = PixelSeed(x, y, sampler.seed);
-  const VU32 shift_x = hn::Set(du32, static_cast<uint32_t>(shift));
-  const VU32 shift_y = hn::Set(du32, static_cast<uint32_t>(shift >> 32));
+  const VU32 shift_x = hn::Set(du32, static_cast<uint32_t>(shift) ^ kTopBit);
+  const VU32 shift_y = hn::Set(du32, static_cast<uint32_t>(shift >> 32) ^ kTopBit);
   for (size_t i = first; i < end; i += hn::Lanes(d)) {
     V dx, dy;
-    filter(CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_x.data() + i), shift_x)),
-           CenteredFromBits(hn::Xor(hn::LoadU(du32, sampler.points_y.data() + i), shift_y)), &dx,
+    filter(CenteredFromFlipped(hn::Xor(hn::LoadU(du32, sampler.points_x.data() + i), shift_x)),
+           CenteredFromFlipped(hn::Xor(hn::LoadU(du32, sampler.points_y.data() + i), shift_y)), &dx,
            &dy);
     hn::StoreU(hn::Add(hn::Set(d, x + 0.5), dx), d, film_x + (i - first));
     hn::StoreU(hn::Add(hn::Set(d, y + 0.5), dy), d, film_y + (i - first));
