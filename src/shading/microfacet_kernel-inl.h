@@ -75,10 +75,13 @@ HWY_INLINE CurveV EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
                                 const MicrofacetLightOf<Number>& light) {
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const FloatV weight = Power5(SchlickBase(d, half, i, uniforms));
-    const RgbV rest = RgbAt(d, light.diffuse_rest, i), fall = RgbAt(d, light.diffuse_fall, i);
+    // Colour by colour: GCC 12 puts whole structs on the stack, asked for or not.
+    const auto left = [&](size_t c) HWY_ATTR {
+      return hn::NegMulAdd(NumberAt(d, light.diffuse_fall[c], i), weight,
+                           NumberAt(d, light.diffuse_rest[c], i));
+    };
     return {MulAddRgb(RgbAt(d, light.specular_rise, i), weight, RgbAt(d, light.specular_f0, i)),
-            {hn::NegMulAdd(fall.r, weight, rest.r), hn::NegMulAdd(fall.g, weight, rest.g),
-             hn::NegMulAdd(fall.b, weight, rest.b)}};
+            {left(0), left(1), left(2)}};
   } else {
     const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, half.u_length);
     const FloatV v_dot_h = VDotH(d, half.u_length);
@@ -124,8 +127,8 @@ struct Microfacet {
   const MicrofacetModel& model;
 
   struct View {
-    FloatV n_dot_v, multiple;
-    RgbV turquin, base;
+    FloatV n_dot_v;
+    const Surface* surface;  // with what was prepared, loaded where it is needed
   };
 
   HWY_INLINE bool ReadsLv() const {
@@ -134,15 +137,7 @@ struct Microfacet {
 
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface& surface) const {
     // Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
-    const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
-    View view;
-    view.n_dot_v = n_dot_v;
-    if constexpr (kPrepared) {
-      view.multiple = hn::LoadU(d, surface.multiple.data() + p.i);
-      view.turquin = TurquinScale(d, RgbAt(d, uniforms.f0, p.i), view.multiple);
-      view.base = LoadRgb(d, surface.base, p.i);
-    }
-    return view;
+    return {hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d)), &surface};
   }
 
   // Distribution, visibility, cosine and irradiance.
@@ -220,14 +215,16 @@ struct Microfacet {
                            const MicrofacetLightOf<Number>& light, RgbV* reflected,
                            RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
-    if (scaled) *base = MulRgb(*base, view.base);
+    const Surface& surface = *view.surface;
+    if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.base, i));
+    const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     if (model.compensation == Compensation::kTurquin) {
-      *reflected = MulRgb(*reflected, view.turquin);
+      *reflected = MulRgb(*reflected, TurquinScale(d, RgbAt(d, uniforms.f0, i), multiple));
     }
     if (model.compensation != Compensation::kKullaConty) return;
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
-    const FloatV amount = hn::Mul(hn::Mul(view.multiple, from_light.loss), in.weight);
+    const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
     *reflected =
         AddRgb(*reflected, ScaleRgb(RgbAt(d, light.multiple, i), hn::Min(amount, largest)));
     if (scaled) {

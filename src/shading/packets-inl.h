@@ -26,12 +26,13 @@ class IncidentBlock {
  public:
   static constexpr size_t kHits = 128;  // a multiple of every target's lanes
 
+  template <bool kWithIrradiance>
   HWY_INLINE void Store(FloatTag d, size_t at, const IncidentV& in) {
     hn::Store(in.to_light.x, d, x_ + at);
     hn::Store(in.to_light.y, d, y_ + at);
     hn::Store(in.to_light.z, d, z_ + at);
     hn::Store(in.n_dot_l, d, n_dot_l_ + at);
-    hn::Store(in.irradiance, d, irradiance_ + at);
+    if (kWithIrradiance) hn::Store(in.irradiance, d, irradiance_ + at);
     hn::Store(in.weight, d, weight_ + at);
   }
 
@@ -70,21 +71,24 @@ class IncidentBlock {
  private:
   static constexpr size_t kAlignment = 64;
   alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits];
-  alignas(kAlignment) float n_dot_l_[kHits], irradiance_[kHits], weight_[kHits];
+  alignas(kAlignment) float n_dot_l_[kHits], weight_[kHits];
   alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits];
   // Loaded by all models, used by those alone for which they were stored.
-  alignas(kAlignment) float lv_squared_[kHits];
+  alignas(kAlignment) float irradiance_[kHits], lv_squared_[kHits];
   alignas(kAlignment) float one_minus_c_[kHits], c_[kHits];
 };
 
-// The light of hits [begin, end). Not inlined, as it is the same for all models.
-inline HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
-                                   const RangeArrays& arrays, size_t begin, size_t end,
-                                   IncidentBlock* block) {
+// The light of hits [begin, end), with or without its irradiance. Not inlined, as it is the same
+// for all models.
+template <bool kWithIrradiance>
+HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
+                            const RangeArrays& arrays, size_t begin, size_t end,
+                            IncidentBlock* block) {
   const FloatTag d;
   VisitLight(d, light, hits, [&](const auto& known) HWY_ATTR {
     for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-      block->Store(d, i - begin, MakeIncident(d, known.At(d, i), arrays.Normal(d, i)));
+      block->Store<kWithIrradiance>(d, i - begin,
+                                    MakeIncident(d, known.At(d, i), arrays.Normal(d, i)));
     }
   });
 }
@@ -118,7 +122,7 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
                            IncidentBlock* block) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
   constexpr bool kLobe = std::is_same_v<typename Model::Incident, LobeIncidentV>;
-  FillLight(range.lights[k], range.hits, arrays, begin, end, block);
+  FillLight<kLobe>(range.lights[k], range.hits, arrays, begin, end, block);
   if constexpr (kHalf) {
     const auto fill = model.ReadsLv() ? FillHalf<true> : FillHalf<false>;
     fill(arrays, begin, end, block);
