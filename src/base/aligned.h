@@ -29,10 +29,19 @@ class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(size_t size) : size_(size) {
-    const size_t bytes = RoundUp(size * sizeof(T), kVectorBytes) + 8 * kVectorBytes;
+    const size_t bytes = Room(size) * sizeof(T);
     data_.reset(static_cast<T*>(std::aligned_alloc(kVectorBytes, bytes)));
     if (!data_) throw std::bad_alloc();
     std::memset(static_cast<void*>(data_.get()), 0, bytes);
+  }
+
+  // A part of an array that outlives it, from an entry on that begins a vector.
+  AlignedArray(AlignedArray* whole, size_t begin, size_t size)
+      : data_(whole->data() + begin, Free{false}), size_(size) {}
+
+  // The entries that an array of this size has memory for.
+  static constexpr size_t Room(size_t size) {
+    return (RoundUp(size * sizeof(T), kVectorBytes) + 8 * kVectorBytes) / sizeof(T);
   }
 
   T* data() { return data_.get(); }
@@ -47,7 +56,10 @@ class AlignedArray {
 
  private:
   struct Free {
-    void operator()(T* p) const { std::free(p); }
+    bool owned = true;
+    void operator()(T* p) const {
+      if (owned) std::free(p);
+    }
   };
   std::unique_ptr<T[], Free> data_;
   size_t size_ = 0;

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "base/aligned.h"
 #include "scene/light_shapes.h"
@@ -23,11 +24,39 @@ static_assert(kBatchCapacity % kBatchPadding == 0);
 // Primitives are numbered spheres first, in scene order, then the triangles of all meshes.
 inline constexpr uint32_t kNoPrimitive = 0xffffffffu;
 
-// Three coordinate arrays.
+// How far the coordinates' arrays lie apart in a Soa3.
+template <typename T>
+inline constexpr size_t kSoaStride = AlignedArray<std::remove_const_t<T>>::Room(kBatchCapacity);
+
+// Three coordinate arrays. They share one piece of memory, so that loops over several of them keep
+// one address for each Soa3 in a register, not three.
 template <typename T>
 struct Soa3 {
-  AlignedArray<T> x{kBatchCapacity}, y{kBatchCapacity}, z{kBatchCapacity};
+  AlignedArray<T> all{3 * kSoaStride<T>};
+  AlignedArray<T> x{&all, 0, kBatchCapacity};
+  AlignedArray<T> y{&all, kSoaStride<T>, kBatchCapacity};
+  AlignedArray<T> z{&all, 2 * kSoaStride<T>, kBatchCapacity};
 };
+
+// Those arrays, for loops to keep in registers: what a loop stores might be an address that a Soa3
+// holds, for all that the compiler knows.
+template <typename T>
+struct Pointers3 {
+  T* __restrict first;
+  T* x() const { return first; }
+  T* y() const { return first + kSoaStride<T>; }
+  T* z() const { return first + 2 * kSoaStride<T>; }
+};
+
+template <typename T>
+Pointers3<const T> PointersTo(const Soa3<T>& soa) {
+  return {soa.all.data()};
+}
+
+template <typename T>
+Pointers3<T> PointersTo(Soa3<T>* soa) {
+  return {soa->all.data()};
+}
 
 // The film positions of a round of samples of a tile, in pixels from the top left corner of the
 // full frame: sample by sample, each of all the tile's pixels row by row.

@@ -95,43 +95,26 @@ HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<Floa
   return {at.to_light, n_dot_l, hn::IfThenElseZero(lit, at.irradiance), weight, lit};
 }
 
-// The arrays of three coordinates, in registers: what a kernel stores might be their pointers, for
-// all that the compiler knows.
-template <typename T>
-struct Pointers3 {
-  T* HWY_RESTRICT x;
-  T* HWY_RESTRICT y;
-  T* HWY_RESTRICT z;
-};
-
-HWY_INLINE Pointers3<const float> PointersTo(const Soa3<float>& soa) {
-  return {soa.x.data(), soa.y.data(), soa.z.data()};
-}
-
-HWY_INLINE Pointers3<float> PointersTo(Soa3<float>* soa) {
-  return {soa->x.data(), soa->y.data(), soa->z.data()};
-}
-
 HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, size_t i) {
-  return LoadU3(d, from.x + i, from.y + i, from.z + i);
+  return LoadU3(d, from.x() + i, from.y() + i, from.z() + i);
 }
 
 HWY_INLINE RgbV LoadAsRgb(FloatTag d, const Pointers3<float>& from, size_t i) {
-  return {hn::LoadU(d, from.x + i), hn::LoadU(d, from.y + i), hn::LoadU(d, from.z + i)};
+  return {hn::LoadU(d, from.x() + i), hn::LoadU(d, from.y() + i), hn::LoadU(d, from.z() + i)};
 }
 
 // Stores `count` lanes at most.
 HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Pointers3<float>& to,
                          size_t i) {
   if (count >= hn::Lanes(d)) {
-    hn::StoreU(value.r, d, to.x + i);
-    hn::StoreU(value.g, d, to.y + i);
-    hn::StoreU(value.b, d, to.z + i);
+    hn::StoreU(value.r, d, to.x() + i);
+    hn::StoreU(value.g, d, to.y() + i);
+    hn::StoreU(value.b, d, to.z() + i);
   } else {
     const auto mask = hn::FirstN(d, count);
-    hn::BlendedStore(value.r, mask, d, to.x + i);
-    hn::BlendedStore(value.g, mask, d, to.y + i);
-    hn::BlendedStore(value.b, mask, d, to.z + i);
+    hn::BlendedStore(value.r, mask, d, to.x() + i);
+    hn::BlendedStore(value.g, mask, d, to.y() + i);
+    hn::BlendedStore(value.b, mask, d, to.z() + i);
   }
 }
 

@@ -88,6 +88,7 @@ HWY_INLINE void TestLines(AloneBlock* block) {
 // The rays start outside, so the normals point outward.
 HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
   const CameraDouble d;
+  HitWriter writer(to);
   for (int g = 0; g < block.groups; ++g) {
     if (block.bits[g] == 0) continue;
     const int place = g * kGroupLanes;
@@ -97,9 +98,9 @@ HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
     const SurfaceV<CameraDouble> surface =
         SphereSurface(d, direction, hn::Neg(half_chord), LoadGroup(block.perpendicular, place),
                       SetVec3(d, candidate.sphere.center), hn::Set(d, candidate.inverse_radius));
-    AppendSurface(surface, ToView(direction, hn::Load(d, block.inverse_length + place)),
-                  block.bits[g], block.ray[g], to);
-    AppendPrimitive(candidate.primitive, block.bits[g], to.hits);
+    writer.Surfaces(surface, ToView(direction, hn::Load(d, block.inverse_length + place)),
+                    block.bits[g], block.ray[g]);
+    writer.Primitive(candidate.primitive, block.bits[g]);
   }
 }
 

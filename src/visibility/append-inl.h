@@ -41,30 +41,29 @@ inline constexpr auto kSetLanes = [] {
   return sets;
 }();
 
-// Appends the lanes of `bits` to arrays that are `count` long. What lies behind them, up to a whole
-// vector, may be overwritten.
+// Stores the lanes of `bits`. What lies behind them, up to a whole vector, may be overwritten.
 //
 // Not by Highway's Compress: GCC 12 copies its table, 2 KiB, to the stack at every call. Nor by
 // CompressStore: the instruction behind it is microcode on Zen 4.
 class Appender {
  public:
-  HWY_INLINE Appender(size_t count, uint32_t bits)
-      : count_(count), all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {
+  HWY_INLINE explicit Appender(uint32_t bits)
+      : all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {
     const hn::Rebind<uint8_t, CameraDouble> d8;
     lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kSetLanes[bits].lanes));
     lanes64_ = hn::PromoteTo(D64(), lanes32_);
   }
 
   template <class D, class T>
-  HWY_INLINE void operator()(D d, hn::Vec<D> value, AlignedArray<T>* to) const {
-    hn::StoreU(all_ ? value : hn::TableLookupLanes(value, Order(d)), d, to->data() + count_);
+  HWY_INLINE void operator()(D d, hn::Vec<D> value, T* to) const {
+    hn::StoreU(all_ ? value : hn::TableLookupLanes(value, Order(d)), d, to);
   }
 
   template <class D, class T>
-  HWY_INLINE void Append3(D d, const Vec3V<hn::Vec<D>>& value, Soa3<T>* to) const {
-    (*this)(d, value.x, &to->x);
-    (*this)(d, value.y, &to->y);
-    (*this)(d, value.z, &to->z);
+  HWY_INLINE void operator()(D d, const Vec3V<hn::Vec<D>>& value, const Pointers3<T>& to) const {
+    (*this)(d, value.x, to.x());
+    (*this)(d, value.y, to.y());
+    (*this)(d, value.z, to.z());
   }
 
  private:
@@ -80,50 +79,89 @@ class Appender {
     }
   }
 
-  size_t count_;
   bool all_;
   hn::Vec<D32> lanes32_;
   hn::Vec<D64> lanes64_;
 };
 
-// Appends all of a group's hits but their primitives, with which the hits will be counted. `ray` is
-// that of the first lane.
-template <class V>
-HWY_INLINE void AppendSurface(const SurfaceV<CameraDouble, V>& surface, const Vec3V<V>& to_view,
-                              uint32_t bits, size_t ray, const HitsTo& to) {
-  const CameraDouble d;
-  const hn::Rebind<float, CameraDouble> df;
-  const hn::Rebind<uint32_t, CameraDouble> du;
-  HitBatch& hits = *to.hits;
-  const Appender append(hits.count, bits);
-  append.Append3(d, surface.position, &hits.position);
-  append.Append3(df, Demote3(d, surface.normal), &to.directions->normal);
-  append.Append3(df, Demote3(d, to_view), &to.directions->to_view);
-  if (to.exact) {
-    append.Append3(d, surface.normal, &hits.normal);
-    append.Append3(d, to_view, &hits.to_view);
+// Appends hits, group of lanes by group, to those that a batch has.
+class HitWriter {
+ public:
+  HWY_INLINE explicit HitWriter(const HitsTo& to)
+      : to_(to),
+        count_(to.hits->count),
+        ray_(to.hits->ray.data() + count_),
+        primitive_(to.hits->primitive.data() + count_),
+        position_(From(PointersTo(&to.hits->position), count_)),
+        normal_(From(PointersTo(&to.directions->normal), count_)),
+        to_view_(From(PointersTo(&to.directions->to_view), count_)) {}
+
+  // All of a group's hits but their primitives, with which the hits will be counted. `ray` is that
+  // of the first lane.
+  template <class V>
+  HWY_INLINE void Surfaces(const SurfaceV<CameraDouble, V>& surface, const Vec3V<V>& to_view,
+                           uint32_t bits, size_t ray) const {
+    const CameraDouble d;
+    const hn::Rebind<float, CameraDouble> df;
+    const D32 du;
+    const Appender append(bits);
+    append(d, surface.position, position_);
+    append(df, Demote3(d, surface.normal), normal_);
+    append(df, Demote3(d, to_view), to_view_);
+    if (to_.exact) {
+      append(d, surface.normal, From(PointersTo(&to_.hits->normal), count_));
+      append(d, to_view, From(PointersTo(&to_.hits->to_view), count_));
+    }
+    // Not Iota from `ray` on: that takes the lanes through memory one by one.
+    append(du, hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<uint32_t>(ray))), ray_);
   }
-  // Not Iota from `ray` on: that takes the lanes through memory one by one.
-  append(du, hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<uint32_t>(ray))), &hits.ray);
-}
 
-// Appends the primitives of lanes that all hit the same, and with them counts the hits.
-HWY_INLINE void AppendPrimitive(uint32_t primitive, uint32_t bits, HitBatch* hits) {
-  const hn::Rebind<uint32_t, CameraDouble> du;
-  hn::StoreU(hn::Set(du, primitive), du, hits->primitive.data() + hits->count);
-  if (hits->primitive[0] != primitive) hits->one_primitive = false;
-  hits->count += static_cast<size_t>(__builtin_popcount(bits));
-}
+  // The primitives of lanes that all hit the same, and with them counts the hits.
+  HWY_INLINE void Primitive(uint32_t primitive, uint32_t bits) {
+    const D32 du;
+    hn::StoreU(hn::Set(du, primitive), du, primitive_);
+    Count(to_.hits->primitive[0] == primitive, bits);
+  }
 
-// The same of lanes that may hit one each.
-HWY_INLINE void AppendPrimitives(const uint32_t* primitives, uint32_t bits, HitBatch* hits) {
-  const hn::Rebind<uint32_t, CameraDouble> du;
-  const auto each = hn::Load(du, primitives);
-  const uint32_t first = hits->count == 0 ? primitives[std::countr_zero(bits)] : hits->primitive[0];
-  if ((BitsOfMask(du, hn::Ne(each, hn::Set(du, first))) & bits) != 0) hits->one_primitive = false;
-  Appender(hits->count, bits)(du, each, &hits->primitive);
-  hits->count += static_cast<size_t>(__builtin_popcount(bits));
-}
+  // The same of lanes that may hit one each.
+  HWY_INLINE void Primitives(const uint32_t* primitives, uint32_t bits) {
+    const D32 du;
+    const auto each = hn::Load(du, primitives);
+    const uint32_t first =
+        count_ == 0 ? primitives[std::countr_zero(bits)] : to_.hits->primitive[0];
+    const bool same = (BitsOfMask(du, hn::Ne(each, hn::Set(du, first))) & bits) == 0;
+    const Appender append(bits);
+    append(du, each, primitive_);
+    Count(same, bits);
+  }
+
+ private:
+  using D32 = hn::Rebind<uint32_t, CameraDouble>;
+
+  HWY_INLINE void Count(bool same_primitive, uint32_t bits) {
+    if (!same_primitive) to_.hits->one_primitive = false;
+    const auto more = static_cast<size_t>(__builtin_popcount(bits));
+    count_ += more;
+    to_.hits->count = count_;
+    ray_ += more;
+    primitive_ += more;
+    position_.first += more;
+    normal_.first += more;
+    to_view_.first += more;
+  }
+
+  template <typename T>
+  static HWY_INLINE Pointers3<T> From(const Pointers3<T>& arrays, size_t i) {
+    return {arrays.first + i};
+  }
+
+  const HitsTo to_;
+  size_t count_;
+  uint32_t* ray_;
+  uint32_t* primitive_;
+  Pointers3<double> position_;
+  Pointers3<float> normal_, to_view_;
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre

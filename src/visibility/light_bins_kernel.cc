@@ -258,7 +258,7 @@ HWY_INLINE void PlaceRays(const LightBins& bins, const ShadowRayBatch& rays, Pla
     bins.positional ? PlaceFrom(bins, rays, i, placed) : PlaceAlong(bins, rays, i, placed);
   }
   const double reach2 = bins.max_reach * bins.max_reach;
-  const auto& [x, y, z] = rays.origin;
+  const AlignedArray<double>&x = rays.origin.x, &y = rays.origin.y, &z = rays.origin.z;
   for (size_t i = 0; i < rays.count; ++i) {
     __builtin_prefetch(bins.end.data() + placed->cell[i]);
     const bool within = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] <= reach2;

@@ -24,6 +24,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
                            const HitsTo& to) {
   const CameraDouble d;
   const int step = static_cast<int>(hn::Lanes(d));
+  HitWriter writer(to);
   for (int lane = 0; lane < kCameraPacket; lane += step) {
     const uint32_t bits = (packet.hit >> lane) & ((1u << step) - 1);
     if (bits == 0) continue;
@@ -36,8 +37,8 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const SurfaceV<CameraDouble> surface =
         SphereSurface(d, direction, along, perpendicular, Centers(packet, lane), inverse);
     const auto to_view = ToView(direction, hn::Load(d, packet.inverse_length + lane));
-    AppendSurface(surface, to_view, bits, first_ray + static_cast<size_t>(lane), to);
-    AppendPrimitives(packet.primitive + lane, bits, to.hits);
+    writer.Surfaces(surface, to_view, bits, first_ray + static_cast<size_t>(lane));
+    writer.Primitives(packet.primitive + lane, bits);
   }
 }
 
