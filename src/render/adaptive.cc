@@ -70,8 +70,9 @@ double SumOfPiece(const double* values, const double* weights, size_t count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// Adds a sample of each of a block's pixels.
-void AddBlock(const double* values, double weight, double* sums) {
+// Adds a sample of each of a block's pixels. The arrays do not overlap, which lets the compiler use
+// vectors.
+void AddBlock(const double* __restrict values, double weight, double* __restrict sums) {
   for (size_t k = 0; k < kBlockPixels; ++k) sums[k] += weight * values[k];
 }
 
