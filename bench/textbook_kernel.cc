@@ -18,6 +18,7 @@ namespace HWY_NAMESPACE {
 
 struct TextbookGgx {
   static constexpr bool kHasSpecular = true;
+  static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   struct View {
     FloatV n_dot_v;
@@ -53,6 +54,7 @@ struct TextbookGgx {
 
 struct NaivePhong {
   static constexpr bool kHasSpecular = true;
+  static constexpr bool kReadsIrradiance = true;
   using Incident = IncidentV;
   struct View {};
   const PhongUniforms& uniforms;
@@ -73,6 +75,7 @@ struct NaivePhong {
 
 struct NaiveBlinnPhong {
   static constexpr bool kHasSpecular = true;
+  static constexpr bool kReadsIrradiance = true;
   using Incident = IncidentV;
   struct View {};
   const PhongUniforms& uniforms;

@@ -121,6 +121,7 @@ HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
 template <FresnelForm kFresnel, class ShadowingOf, bool kPrepared, class Number>
 struct Microfacet {
   static constexpr bool kHasSpecular = true;
+  static constexpr bool kReadsIrradiance = false;
   using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
   const MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it

@@ -122,7 +122,7 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
                            IncidentBlock* block) {
   constexpr bool kHalf = std::is_same_v<typename Model::Incident, HalfIncidentV>;
   constexpr bool kLobe = std::is_same_v<typename Model::Incident, LobeIncidentV>;
-  FillLight<kLobe>(range.lights[k], range.hits, arrays, begin, end, block);
+  FillLight<Model::kReadsIrradiance>(range.lights[k], range.hits, arrays, begin, end, block);
   if constexpr (kHalf) {
     const auto fill = model.ReadsLv() ? FillHalf<true> : FillHalf<false>;
     fill(arrays, begin, end, block);
@@ -144,9 +144,10 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 // lights.
 //   view = model.SeenBy(packet, surface)             what does not depend on the light
 //   model.Reflect(view, packet, incident, k)         what it makes of light k
-// `Model::Incident`: IncidentV, HalfIncidentV or LobeIncidentV. model.ReadsLv() tells whether
-// HalfAnglesV::lv_squared has a meaning to the model, and model.ReadsLobe() whether the lobe has,
-// which model.WideLobe(packet, to_light) makes; else they need not be there.
+// `Model::Incident`: IncidentV, HalfIncidentV or LobeIncidentV. Model::kReadsIrradiance tells
+// whether IncidentV::irradiance has a meaning to the model, model.ReadsLv() whether
+// HalfAnglesV::lv_squared has, and model.ReadsLobe() whether the lobe has, which
+// model.WideLobe(packet, to_light) makes; else they need not be there.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);

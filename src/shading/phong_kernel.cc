@@ -18,6 +18,7 @@ namespace HWY_NAMESPACE {
 template <PhongModel kModel, class Number>
 struct PhongFamily {
   static constexpr bool kHasSpecular = true;
+  static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
   using Incident = LobeIncidentV;
   struct View {};
   const PhongUniformsOf<Number>& uniforms;

@@ -16,6 +16,7 @@ namespace HWY_NAMESPACE {
 template <DiffuseForm kForm, class Number>
 struct RoughMatte {
   static constexpr bool kHasSpecular = false;
+  static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   using View = typename RoughDiffuse<kForm>::View;
   const RoughMatteUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
