@@ -70,17 +70,16 @@ void FillPixelsT(float value, const PixelRows<float>& rows) {
   }
 }
 
-// How many hits from `first` on, not beyond `end`, are of rays one after the other.
+// How many hits from `first` on, not beyond `end`, are of rays one after the other. Rays ascend.
 HWY_INLINE size_t CountConsecutive(const uint32_t* HWY_RESTRICT ray, size_t first, size_t end) {
   if (ray[end - 1] - ray[first] == end - 1 - first) return end - first;
   const hn::ScalableTag<uint32_t> d;
   const auto lane = hn::Iota(d, 0);
-  for (size_t i = first; i < end; i += hn::Lanes(d)) {
+  for (size_t i = first;; i += hn::Lanes(d)) {  // one of them is not
     const auto next = hn::Add(lane, hn::Set(d, ray[first] + static_cast<uint32_t>(i - first)));
     const intptr_t other = hn::FindFirstTrue(d, hn::Ne(hn::LoadU(d, ray + i), next));
-    if (other >= 0) return std::min(i + static_cast<size_t>(other), end) - first;
+    if (other >= 0) return i + static_cast<size_t>(other) - first;
   }
-  return end - first;
 }
 
 void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* weights,
