@@ -329,6 +329,13 @@ TEST_CASE("the black base of a metal is skipped, and no bit changes") {
   }
 }
 
+TEST_CASE("a base that is black in one channel is none that can be skipped") {
+  MetallicRoughnessMaterial material;
+  material.base_color = {0, 0.5, 0.2};
+  const ShadingMaterial prepared = Prepare(material);
+  CHECK(std::get<MicrofacetModel>(prepared.model).coupling == material.diffuse_coupling);
+}
+
 TEST_CASE("a light near a huge, far surface keeps its direction") {
   // Ground of radius 1e6 around (0, -1e6, 0): a light 1 above it, hits 1 away from its foot.
   ForEachTarget([](Target) {
