@@ -7,6 +7,8 @@
 //   ggx_plain_*            glTF's form: no compensation, diffuse 1 - F; the baseline's formula
 //   ggx_default            with Turquin's compensation and a base scaled by the lobe's albedo
 //   *_double_terms         lobes so narrow that their half vector is formed in double
+//   *_by_position          the lights are found from the hits' positions, in double, as near lights
+//                          and those of meshes are; else from their normals (SphereOffset)
 //   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs
 #include <cmath>
 #include <functional>
@@ -27,15 +29,18 @@ constexpr size_t kHits = 512;
 constexpr double kShininess = 37.5;
 constexpr double kRoughness = 0.3;
 
-// Hits all over the visible half of a unit sphere.
+const Sphere kSphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
+
+// Hits all over the visible half of the sphere.
 HitBatch MakeHits() {
   HitBatch hits;
   hits.count = kHits;
+  hits.one_primitive = true;
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (size_t i = 0; i < kHits;) {
     const Vec3d n = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
-    const Vec3d position = n + Vec3d(0, 0, -6);
+    const Vec3d position = n + kSphere.center;
     const Vec3d to_view = -position.normalized();
     if ((n ^ to_view) <= 0) continue;
     hits.position.x[i] = position.x;
@@ -60,9 +65,15 @@ void ReportShades(benchmark::State& state, size_t shades) {
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-// Runs shade(hits, surface, lights, radiance) on a target, with `light_count` point lights.
+// The point lights that hits are shaded by, and how they are found.
+struct Lights {
+  size_t count = 1;
+  bool by_position = false;
+};
+
+// Runs shade(hits, surface, lights, radiance) on a target.
 template <class Shade>
-void BenchShade(benchmark::State& state, Target target, size_t light_count, const Shade& shade) {
+void BenchShade(benchmark::State& state, Target target, const Lights& by, const Shade& shade) {
   PinTarget(target);
   const FlushDenormals flush;
   const HitBatch hits = MakeHits();
@@ -70,12 +81,13 @@ void BenchShade(benchmark::State& state, Target target, size_t light_count, cons
   ReflectedRadiance radiance;
   PrepareSurface(hits, &surface);
   std::vector<ShadingLight> lights;
-  for (size_t i = 0; i < light_count; ++i) {
+  for (size_t i = 0; i < by.count; ++i) {
     Light light;
     light.kind = PointLight{.position = {3, 4 - static_cast<double>(i % 4), 2},
                             .intensity = {60, 60, 60},
                             .attenuation = {}};
     lights.push_back(PrepareLight(light, {0, 0, 0}));
+    if (!by.by_position) OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back());
   }
   std::vector<LightOnBatch> on_hits;
   for (const ShadingLight& light : lights) on_hits.push_back({&light, nullptr});
@@ -84,15 +96,15 @@ void BenchShade(benchmark::State& state, Target target, size_t light_count, cons
     benchmark::DoNotOptimize(radiance.diffuse.x.data());
     benchmark::ClobberMemory();
   }
-  ReportShades(state, kHits * light_count);
+  ReportShades(state, kHits * by.count);
   PinTarget(SupportedTargets().back());
 }
 
 void BenchKernel(benchmark::State& state, const Material& material, Target target,
-                 size_t light_count) {
+                 const Lights& lights) {
   NarrowLobes scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
-  BenchShade(state, target, light_count,
+  BenchShade(state, target, lights,
              [&](const LitHits& lit, Surface* surface, ReflectedRadiance* radiance) {
                PrepareRun(prepared, 0, kHits, surface);
                ShadeRun(prepared, lit, 0, kHits, &scratch, radiance);
@@ -108,7 +120,7 @@ void BenchTextbookGgx(benchmark::State& state, Target target) {
   const float alpha = static_cast<float>(kRoughness * kRoughness);
   const float k = static_cast<float>((kRoughness + 1) * (kRoughness + 1) / 8);
   const TextbookGgxUniforms uniforms{&light, alpha * alpha, k};
-  BenchShade(state, target, 1, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
+  BenchShade(state, target, {}, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
     ShadeTextbookGgx(uniforms, RangeOf(lit, radiance));
   });
 }
@@ -118,7 +130,7 @@ using NaiveKernel = void (*)(const PhongUniforms&, const ShadeRange&);
 void BenchNaive(benchmark::State& state, NaiveKernel kernel, Target target) {
   const PhongLight light{{38, 25, 8}, {30, 30, 30}};
   const PhongUniforms uniforms{PhongModel::kPhong, static_cast<float>(kShininess), &light, nullptr};
-  BenchShade(state, target, 1, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
+  BenchShade(state, target, {}, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
     kernel(uniforms, RangeOf(lit, radiance));
   });
 }
@@ -155,7 +167,7 @@ struct ModelBench {
   const char* name;
   Material material;
   BaselineKernel baseline;  // null: the baseline has no such model
-  size_t light_count = 1;
+  Lights lights = {};
 };
 
 std::vector<ModelBench> MakeModels() {
@@ -191,13 +203,13 @@ std::vector<ModelBench> MakeModels() {
   const baseline::MetallicRoughness scalar_ggx{
       {0.9f, 0.6f, 0.2f}, 0.5f, static_cast<float>(kRoughness)};
   const float shininess = static_cast<float>(kShininess);
+  const Material lambert{.name = {}, .emission = {0, 0, 0}, .model = LambertMaterial{color}};
   Material rough, burley, rough_base = ggx(Shadowing::kHeightCorrelated);
   rough.model = OrenNayarMaterial{.albedo = color};
   burley.model = BurleyMaterial{.albedo = color};
   std::get<MetallicRoughnessMaterial>(rough_base.model).diffuse = DiffuseForm::kOrenNayar;
   return {
-      {"lambert",
-       {.name = {}, .emission = {0, 0, 0}, .model = LambertMaterial{color}},
+      {"lambert", lambert,
        [](const auto& hits, const auto& light) {
          baseline::ShadeLambert(hits, kHits, light, kColor);
        }},
@@ -218,7 +230,13 @@ std::vector<ModelBench> MakeModels() {
        [=](const auto& hits, const auto& light) {
          baseline::ShadeGgxHeightCorrelated(hits, kHits, light, scalar_ggx);
        }},
-      {"ggx_plain_schlick_direct_lights16", plain_ggx(Shadowing::kSchlickDirect), nullptr, 16},
+      {"ggx_plain_schlick_direct_lights16", plain_ggx(Shadowing::kSchlickDirect), nullptr, {16}},
+      {"lambert_by_position", lambert, nullptr, {1, true}},
+      {"phong_by_position", phong(PhongModel::kPhong), nullptr, {1, true}},
+      {"ggx_plain_schlick_direct_by_position",
+       plain_ggx(Shadowing::kSchlickDirect),
+       nullptr,
+       {1, true}},
       {"phong_double_terms", phong(PhongModel::kPhong, 2 * kDoubleTermsShininess), nullptr},
       {"blinn_phong_double_terms", phong(PhongModel::kBlinnPhong, 2 * kDoubleTermsShininess),
        nullptr},
@@ -240,7 +258,7 @@ const bool kRegistered = [] {
     }
     for (const Target target : SupportedTargets()) {
       benchmark::RegisterBenchmark((prefix + TargetName(target)).c_str(), BenchKernel,
-                                   model.material, target, model.light_count);
+                                   model.material, target, model.lights);
     }
   }
   for (const Target target : SupportedTargets()) {

@@ -56,36 +56,40 @@ void ForEachTile(const Intersector& intersector, TileCandidates* candidates, con
   }
 }
 
-// The exact hits of tiles, as the renderer goes about them.
+// The exact hits of tiles, as the renderer goes about them, with or without their positions.
 class ExactTiles {
  public:
-  explicit ExactTiles(const Scene& scene)
-      : sampler_(MakePixelSampler(scene.image.filter, 1, 0)), shifts_(kBatchCapacity) {}
+  ExactTiles(const Scene& scene, bool positions)
+      : sampler_(MakePixelSampler(scene.image.filter, 1, 0)),
+        shifts_(kBatchCapacity),
+        positions_(positions) {}
 
   const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
     film_.count = candidates.tile.pixel_count();
     SamplePixels(sampler_, candidates.tile, shifts_, 0, 1, film_.x.data(), film_.y.data());
-    intersector.HitsInTile(candidates, film_, {&hits_, &directions_, false});
+    intersector.HitsInTile(candidates, film_, {&hits_, &directions_, positions_, false});
     return hits_;
   }
 
  private:
   PixelSampler sampler_;
   PixelShifts shifts_;
+  bool positions_;
   FilmBatch film_;
   HitBatch hits_;
   HitDirections directions_;
 };
 
 // The same frame by tiles: with the binning of every frame, the film positions, and the hits'
-// points and normals. Embree's tree above is built before.
-void BenchTiles(benchmark::State& state, const SphereScene& which) {
+// normals and view directions; and their positions, or without them, as where no light is near and
+// nothing casts a shadow. Embree's tree above is built before.
+void BenchTiles(benchmark::State& state, const SphereScene& which, bool positions) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
   Intersector intersector(scene, scene.camera.position, {.embree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   TileCandidates candidates;
-  ExactTiles tiles(scene);
+  ExactTiles tiles(scene, positions);
   for (auto _ : state) {
     intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, 0);
     ForEachTile(intersector, &candidates, [&](const Window&) {
@@ -116,7 +120,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
 
   int64_t wrong = 0, found = 0;
   double error = 0;
-  ExactTiles exact_tiles(scene);
+  ExactTiles exact_tiles(scene, true);
   ForEachTile(intersector, &candidates, [&](const Window& tile) {
     std::fill_n(hits.sphere.data(), tile.pixel_count(), kNoPrimitive);
     TraceFloatTile(camera, spheres, candidates, &hits);
@@ -148,7 +152,10 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
 const bool kRegistered = [] {
   for (const SphereScene& which : SphereScenes()) {
     const std::string scene = which.name;
-    benchmark::RegisterBenchmark(("visibility/tiles/" + scene).c_str(), BenchTiles, which)
+    benchmark::RegisterBenchmark(("visibility/tiles/" + scene).c_str(), BenchTiles, which, true)
+        ->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark(("visibility/tiles_without_positions/" + scene).c_str(),
+                                 BenchTiles, which, false)
         ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("visibility/float_tiles/" + scene).c_str(), BenchFloatTiles,
                                  which)

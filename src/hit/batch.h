@@ -90,8 +90,9 @@ struct HitBatch {
   bool one_primitive = false;                        // all hits are known to be on the same one
   AlignedArray<uint32_t> ray{kBatchCapacity};        // index into the FilmBatch
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
-  Soa3<double> position;                             // on the surface
-  // HitDirections in double, for the lobes that are too narrow for float; filled where asked for.
+  // These three are filled where asked for (HitsTo).
+  Soa3<double> position;  // on the surface
+  // HitDirections in double, for the lobes that are too narrow for float.
   Soa3<double> normal, to_view;
 };
 
@@ -99,7 +100,8 @@ struct HitBatch {
 struct HitsTo {
   HitBatch* hits;
   HitDirections* directions;
-  bool exact;  // HitBatch::normal and to_view, too
+  bool positions;  // HitBatch::position, too
+  bool exact;      // HitBatch::normal and to_view, too
 };
 
 // Shadow rays origin + t direction, 0 < t < t_max.

@@ -63,7 +63,7 @@ void CountCorners(const RenderPlan& plan, const Window& cell, TileScratch* scrat
   corners.count = 4 * kCellBlocks;
   HitBatch& hits = scratch->unsorted_hits;
   plan.intersector->HitsInTile(scratch->candidates, corners,
-                               {&hits, &scratch->unsorted_directions, false});
+                               {&hits, &scratch->unsorted_directions, false, false});
   for (size_t i = 0; i < hits.count; ++i) ++counts[hits.ray[i] / 4];
 }
 

@@ -11,6 +11,7 @@
 #include "base/target.h"
 #include "render/fast_lights.h"
 #include "render/frame_window.h"
+#include "render/hit_places.h"
 #include "render/mesh_points.h"
 #include "render/mesh_windows.h"
 #include "render/plan_notes.h"
@@ -251,6 +252,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
   PlanTextures(scene, settings, &plan);
+  PlanLightOffsets(scene, settings, &plan);
   PlanFastLobes(scene, settings, &plan);
   plan.black = {static_cast<uint32_t>(plan.materials.size())};
   plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
@@ -276,6 +278,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   }
   PlanMeshes(scene, settings, &plan);
   PlanFilm(scene, settings, &plan);
+  PlanPositions(scene, settings, &plan);
   NoteMaterials(scene, &plan);
   return plan;
 }

@@ -106,6 +106,8 @@ struct RenderPlan {
   bool exact_directions = false;              // some lobe is narrow: hits keep theirs in double
   bool lift_shadows = false;                  // some shadow rays do not start at their hits
   bool eye_outside = false;                   // no camera ray starts in a sphere
+  bool all_positions = true;                  // more than shadow rays reads the hits' positions
+  std::vector<uint8_t> may_be_shadowed;       // else: which spheres shadow rays may start on
   bool one_sample = false;                    // a pixel's only sample is its value: no sums
   int tile_width = 16;                        // pixels; tiles are as high as strips
   int samples_per_round = 1;                  // samples of a tile's pixels that make one batch

@@ -35,6 +35,9 @@ struct RenderSettings {
   // Reflect lights with an extent in closed form where that can be; false: only by samples. For
   // tests that hold the two together.
   bool closed_forms = true;
+  // Find where far lights lie from the normals of hits on spheres (ShadingLight::from_spheres);
+  // false: always from their positions. Likewise.
+  bool offsets_by_normal = true;
   // Put approximations in the place of samples of the lights that have a fast mode; how far off
   // they are is measured while planning.
   bool fast_lights = false;

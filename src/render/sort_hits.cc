@@ -56,7 +56,7 @@ void PermuteHits(bool exact, TileScratch* s) {
   for (size_t i = from.count; i < count; ++i) s->order[i] = s->order[from.count - 1];
   Permute(s->order, count, from.ray, &to.ray);
   Permute(s->order, count, from.primitive, &to.primitive);
-  Permute(s->order, count, from.position, &to.position);
+  if (s->positions) Permute(s->order, count, from.position, &to.position);
   Permute(s->order, count, s->unsorted_directions.normal, &s->surface.normal);
   Permute(s->order, count, s->unsorted_directions.to_view, &s->surface.to_view);
   if (!exact) return;

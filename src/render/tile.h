@@ -30,6 +30,7 @@ struct TileScratch {
   bool in_sight = true;  // some of the scene's shapes may be behind the samples
   // Camera rays: by bins, or by Embree.
   bool triangles_in_sight = true;  // likewise, of meshes
+  bool positions = true;           // hits are asked where they lie
   TileCandidates candidates;
   RayBatch rays;
   ClosestHits closest;

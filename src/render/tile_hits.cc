@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "render/hit_places.h"
 #include "render/tile.h"
 
 namespace nacre {
@@ -87,7 +88,7 @@ void CopyHit(const HitBatch& from, const HitDirections& directions, size_t i, si
 // Puts the hits on triangles among those on spheres that they do not hide, by their rays.
 void JoinHits(const RenderPlan& plan, TileScratch* s) {
   const TriangleHits& triangles = *s->triangle_hits;
-  const HitsTo to{&s->unsorted_hits, &s->unsorted_directions, plan.exact_directions};
+  const HitsTo to{&s->unsorted_hits, &s->unsorted_directions, true, plan.exact_directions};
   size_t i = 0, j = 0, count = 0;
   const auto put = [&](const HitBatch& hits, const HitDirections& directions, size_t k) {
     CopyHit(hits, directions, k, count++, to);
@@ -126,7 +127,7 @@ void AddTriangles(const RenderPlan& plan, TileScratch* s) {
   }
   if (count == 0) return;
   plan.intersector->Refine(s->rays, s->closest, triangles.rays.data(), count,
-                           {&triangles.hits, &triangles.directions, plan.exact_directions});
+                           {&triangles.hits, &triangles.directions, true, plan.exact_directions});
   JoinHits(plan, s);
 }
 
@@ -140,12 +141,13 @@ bool EnterShapes(const RenderPlan& plan, const Window& tile, TileScratch* scratc
   s.triangles_in_sight =
       std::any_of(plan.mesh_windows.begin(), plan.mesh_windows.end(),
                   [&](const Window& window) { return !Intersect(window, tile).empty(); });
+  if (spheres) s.positions = NeedsPositions(plan, s.candidates);
   return spheres || s.triangles_in_sight;
 }
 
 void FindHits(const RenderPlan& plan, TileScratch* scratch) {
   TileScratch& s = *scratch;
-  const HitsTo to{&s.hits, &s.surface, plan.exact_directions};
+  const HitsTo to{&s.hits, &s.surface, s.positions, plan.exact_directions};
   if (!plan.tiles) return FindByEmbree(plan, to, &s);
   plan.intersector->HitsInTile(s.candidates, s.samples, to);
   if (s.triangles_in_sight) AddTriangles(plan, &s);

@@ -63,4 +63,19 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
   return prepared;
 }
 
+bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
+                       ShadingLight* light) {
+  light->from_spheres.clear();
+  if (light->form == LightForm::kDirectional || light->form == LightForm::kGiven) return false;
+  for (const Sphere& sphere : spheres) {
+    const Vec3d offset = light->position - (sphere.center - camera_position);
+    if (!(offset.length() >= kFarRadii * sphere.radius)) {
+      light->from_spheres.clear();
+      return false;
+    }
+    light->from_spheres.push_back({Vec3f(offset), static_cast<float>(sphere.radius)});
+  }
+  return !light->from_spheres.empty();
+}
+
 }  // namespace nacre

@@ -3,8 +3,12 @@
 // into the constants of each form, once per plan.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "light/punctual.h"
 #include "scene/light.h"
+#include "scene/shapes.h"
 
 namespace nacre {
 
@@ -17,6 +21,13 @@ enum class LightForm : uint8_t {
   kGiven,  // LightBatch says it all
 };
 
+// A light's position minus a sphere's centre, and the sphere's radius. A hit with the outward
+// normal n is `radius` n from the centre, so the light is `offset` - `radius` n from the hit.
+struct SphereOffset {
+  Vec3f offset;
+  float radius;
+};
+
 // A punctual light prepared for shading. Positions are relative to the camera.
 struct ShadingLight {
   LightForm form = LightForm::kInverseSquare;
@@ -27,6 +38,9 @@ struct ShadingLight {
   AttenuationTerms<float> attenuation{0, 0, 1};
   float inverse_quadratic = 1;  // kInverseSquare: 1 / quadratic
   ConeTerms<float> cone{-1, -1, 0};
+  // One per sphere of the scene: where the light lies from hits is then found from their normals,
+  // and neither their positions nor doubles are asked for. Empty: from their positions.
+  std::vector<SphereOffset> from_spheres{};
 
   // Where a shadow ray ends: 1 for one that goes from a hit to `position`, infinity along
   // `to_light`.
@@ -35,5 +49,17 @@ struct ShadingLight {
 
 // `light` is punctual.
 ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position);
+
+// Fills `from_spheres`, if the light is a positional one and from each sphere's centre at least
+// kFarRadii of its radii away; or returns false. The shaded hits must all lie on these spheres,
+// with their own normals on the outside.
+//
+// The offset l = a - r n is then off by 3 u |l| at most, u = 2^-24, where what is formed in double
+// and rounded is off by u |l|: |a| <= 4/3 |l| and r <= |l| / 3, so the roundings of a, r, n and of
+// the result leave 4/3 u, 1/3 u, 1/3 u and u of |l|; targets without fused products round r n, too:
+// 1/3 u more.
+inline constexpr double kFarRadii = 4;
+bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
+                       ShadingLight* light);
 
 }  // namespace nacre

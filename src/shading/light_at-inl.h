@@ -7,6 +7,8 @@
 #define NACRE_SHADING_LIGHT_AT_INL_H_
 #endif
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "base/target_ops-inl.h"
@@ -30,11 +32,90 @@ struct LightV {
   FloatV irradiance;
 };
 
-// light - position[i...], formed in double, rounded to float: a light close to a far-away or huge
+// Where a positional light lies from hits i... with these normals: three ways to find out. Formed
+// in double from the hits' positions and rounded to float: a light close to a far-away or huge
 // surface keeps its direction.
-HWY_INLINE FloatV OffsetFrom(FloatTag d, const double* HWY_RESTRICT position, size_t i,
-                             double light) {
-  return SubtractAndRound(d, light, position + i);
+class FromPositions {
+ public:
+  FromPositions(const ShadingLight& light, const HitBatch& hits)
+      : x_(hits.position.x.data()),
+        y_(hits.position.y.data()),
+        z_(hits.position.z.data()),
+        light_(light.position) {}
+
+  HWY_INLINE Vec3V<FloatV> At(FloatTag d, size_t i, const Vec3V<FloatV>&) const {
+    return {SubtractAndRound(d, light_.x, x_ + i), SubtractAndRound(d, light_.y, y_ + i),
+            SubtractAndRound(d, light_.z, z_ + i)};
+  }
+
+ private:
+  const double* HWY_RESTRICT x_;
+  const double* HWY_RESTRICT y_;
+  const double* HWY_RESTRICT z_;
+  Vec3d light_;
+};
+
+HWY_INLINE Vec3V<FloatV> FromCenter(const Vec3V<FloatV>& offset, FloatV radius,
+                                    const Vec3V<FloatV>& normal) {
+  return {hn::NegMulAdd(radius, normal.x, offset.x), hn::NegMulAdd(radius, normal.y, offset.y),
+          hn::NegMulAdd(radius, normal.z, offset.z)};
+}
+
+// By ShadingLight::from_spheres, of hits that are all on one sphere.
+class FromOneSphere {
+ public:
+  FromOneSphere(FloatTag d, const ShadingLight& light, const HitBatch& hits) {
+    const SphereOffset& from = light.from_spheres[hits.primitive[0]];
+    center_ = {hn::Set(d, from.offset.x), hn::Set(d, from.offset.y), hn::Set(d, from.offset.z)};
+    radius_ = hn::Set(d, from.radius);
+  }
+
+  HWY_INLINE Vec3V<FloatV> At(FloatTag, size_t, const Vec3V<FloatV>& normal) const {
+    return FromCenter(center_, radius_, normal);
+  }
+
+ private:
+  Vec3V<FloatV> center_;
+  FloatV radius_;
+};
+
+// The same bits, of hits on any spheres.
+class FromSpheres {
+ public:
+  FromSpheres(const ShadingLight& light, const HitBatch& hits)
+      : spheres_(light.from_spheres.data()), primitive_(hits.primitive.data()), end_(hits.count) {}
+
+  HWY_INLINE Vec3V<FloatV> At(FloatTag d, size_t i, const Vec3V<FloatV>& normal) const {
+    constexpr size_t kMostLanes = 2 * kVectorBytes / sizeof(float);
+    alignas(64) float x[kMostLanes], y[kMostLanes], z[kMostLanes], radius[kMostLanes];
+    for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+      const SphereOffset& from = spheres_[primitive_[std::min(i + lane, end_ - 1)]];
+      x[lane] = from.offset.x;
+      y[lane] = from.offset.y;
+      z[lane] = from.offset.z;
+      radius[lane] = from.radius;
+    }
+    return FromCenter({hn::Load(d, x), hn::Load(d, y), hn::Load(d, z)}, hn::Load(d, radius),
+                      normal);
+  }
+
+ private:
+  const SphereOffset* HWY_RESTRICT spheres_;
+  const uint32_t* HWY_RESTRICT primitive_;
+  size_t end_;
+};
+
+// Calls with_offset(way) with the way that suits the hits.
+template <class WithOffset>
+HWY_INLINE void VisitOffset(FloatTag d, const ShadingLight& light, const HitBatch& hits,
+                            const WithOffset& with_offset) {
+  if (light.from_spheres.empty()) {
+    with_offset(FromPositions(light, hits));
+  } else if (hits.one_primitive) {
+    with_offset(FromOneSphere(d, light, hits));
+  } else {
+    with_offset(FromSpheres(light, hits));
+  }
 }
 
 HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {
@@ -52,12 +133,9 @@ HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset, Float
   return {Scale(offset, inverse), hn::Mul(hn::Mul(inverse, inverse), scale)};
 }
 
+// Of a light of any positional form at `offset` from the hits.
 template <LightForm kForm>
-HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Soa3<double>& position,
-                               size_t i) {
-  const Vec3V<FloatV> offset{OffsetFrom(d, position.x.data(), i, light.position.x),
-                             OffsetFrom(d, position.y.data(), i, light.position.y),
-                             OffsetFrom(d, position.z.data(), i, light.position.z)};
+HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3V<FloatV>& offset) {
   if constexpr (kForm == LightForm::kInverseSquare) {
     return InverseSquareAt(d, offset, hn::Set(d, light.inverse_quadratic));
   } else {
@@ -78,33 +156,26 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Soa3
 }
 
 // PositionalAt<kInverseSquare> with what all packets share in registers.
+template <class Offset>
 class PointLightV {
  public:
-  PointLightV(FloatTag d, const ShadingLight& light, const Soa3<double>& position)
-      : x_(position.x.data()),
-        y_(position.y.data()),
-        z_(position.z.data()),
-        from_(light.position),
-        scale_(hn::Set(d, light.inverse_quadratic)) {}
+  PointLightV(FloatTag d, const ShadingLight& light, const Offset& offset)
+      : offset_(offset), scale_(hn::Set(d, light.inverse_quadratic)) {}
 
-  HWY_INLINE LightV At(FloatTag d, size_t i) const {
-    const Vec3V<FloatV> offset{OffsetFrom(d, x_, i, from_.x), OffsetFrom(d, y_, i, from_.y),
-                               OffsetFrom(d, z_, i, from_.z)};
-    return InverseSquareAt(d, offset, scale_);
+  HWY_INLINE LightV At(FloatTag d, size_t i, const Vec3V<FloatV>& normal) const {
+    return InverseSquareAt(d, offset_.At(d, i, normal), scale_);
   }
 
  private:
-  const double* HWY_RESTRICT x_;
-  const double* HWY_RESTRICT y_;
-  const double* HWY_RESTRICT z_;
-  Vec3d from_;
+  Offset offset_;
   FloatV scale_;
 };
 
 // The light of a batch's hits i..., evaluated before or, in its two most frequent forms, here.
 // Vectors, not structs, are what the branches choose: GCC takes a struct that they choose through
 // memory.
-HWY_INLINE LightV LightAt(FloatTag d, const LightOnBatch& light, const HitBatch& hits, size_t i) {
+HWY_INLINE LightV LightAt(FloatTag d, const LightOnBatch& light, const HitBatch& hits, size_t i,
+                          const Vec3V<FloatV>& normal) {
   FloatV x, y, z, irradiance;
   if (light.evaluated != nullptr) {
     const Soa3<float>& l = light.evaluated->to_light;
@@ -119,7 +190,10 @@ HWY_INLINE LightV LightAt(FloatTag d, const LightOnBatch& light, const HitBatch&
     z = at.to_light.z;
     irradiance = at.irradiance;
   } else {
-    const LightV at = PositionalAt<LightForm::kInverseSquare>(d, *light.light, hits.position, i);
+    const Vec3V<FloatV> offset = light.light->from_spheres.empty()
+                                     ? FromPositions(*light.light, hits).At(d, i, normal)
+                                     : FromSpheres(*light.light, hits).At(d, i, normal);
+    const LightV at = PositionalAt<LightForm::kInverseSquare>(d, *light.light, offset);
     x = at.to_light.x;
     y = at.to_light.y;
     z = at.to_light.z;

@@ -87,8 +87,8 @@ HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
   const FloatTag d;
   VisitLight(d, light, hits, [&](const auto& known) HWY_ATTR {
     for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-      block->Store<kWithIrradiance>(d, i - begin,
-                                    MakeIncident(d, known.At(d, i), arrays.Normal(d, i)));
+      const Vec3V<FloatV> normal = arrays.Normal(d, i);
+      block->Store<kWithIrradiance>(d, i - begin, MakeIncident(d, known.At(d, i, normal), normal));
     }
   });
 }
@@ -169,7 +169,7 @@ HWY_INLINE void ShadeBriefly(FloatTag d, const Model& model, const ShadeRange& r
       const auto light = visited;  // kept in registers: what is stored cannot be this copy
       ReflectLight(d, model, range, arrays, k, range.begin, range.end,
                    [&](const PacketV& p)
-                       HWY_ATTR { return MakeIncident(d, light.At(d, p.i), p.normal); });
+                       HWY_ATTR { return MakeIncident(d, light.At(d, p.i, p.normal), p.normal); });
     });
   }
 }

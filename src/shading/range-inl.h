@@ -158,7 +158,9 @@ struct RangeArrays {
 struct AnyLight {
   const LightOnBatch& light;
   const HitBatch& hits;
-  HWY_INLINE LightV At(FloatTag d, size_t i) const { return LightAt(d, light, hits, i); }
+  HWY_INLINE LightV At(FloatTag d, size_t i, const Vec3V<FloatV>& normal) const {
+    return LightAt(d, light, hits, i, normal);
+  }
 };
 
 // Calls with_light(light): the most frequent form's numbers are then known before the loop.
@@ -166,7 +168,9 @@ template <class WithLight>
 HWY_INLINE void VisitLight(FloatTag d, const LightOnBatch& light, const HitBatch& hits,
                            const WithLight& with_light) {
   if (light.evaluated == nullptr && light.light->form == LightForm::kInverseSquare) {
-    with_light(PointLightV(d, *light.light, hits.position));
+    VisitOffset(d, *light.light, hits, [&](const auto& offset) HWY_ATTR {
+      with_light(PointLightV(d, *light.light, offset));
+    });
   } else {
     with_light(AnyLight{light, hits});
   }

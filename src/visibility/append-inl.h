@@ -105,7 +105,7 @@ class HitWriter {
     const hn::Rebind<float, CameraDouble> df;
     const D32 du;
     const Appender append(bits);
-    append(d, surface.position, position_);
+    if (to_.positions) append(d, surface.position, position_);
     append(df, Demote3(d, surface.normal), normal_);
     append(df, Demote3(d, to_view), to_view_);
     if (to_.exact) {

@@ -144,7 +144,7 @@ HWY_INLINE void StoreHits(const SurfaceV<D>& surface, const Vec3V<V>& to_view, s
   const auto store = [&](const auto& tag, const auto& v, auto& soa) HWY_ATTR {
     Store3(v, tag, soa.x.data() + first, soa.y.data() + first, soa.z.data() + first);
   };
-  store(d, surface.position, hits.position);
+  if (to.positions) store(d, surface.position, hits.position);
   store(df, Demote3(d, surface.normal), rounded.normal);
   store(df, Demote3(d, to_view), rounded.to_view);
   if (!to.exact) return;

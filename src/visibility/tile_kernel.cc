@@ -59,7 +59,7 @@ void PadSoa(size_t count, Soa3<T>* soa) {
 void PadHits(const HitsTo& to) {
   const size_t count = to.hits->count;
   if (count == 0) return;
-  PadSoa(count, &to.hits->position);
+  if (to.positions) PadSoa(count, &to.hits->position);
   PadSoa(count, &to.directions->normal);
   PadSoa(count, &to.directions->to_view);
   if (!to.exact) return;

@@ -302,7 +302,7 @@ TEST_CASE("a tile's hits are of the batch's own rays, wherever it ends") {
     HitDirections directions;
     ForEachTarget([&](Target) {
       for (film.count = 1; film.count <= 40; ++film.count) {
-        intersector.HitsInTile(candidates, film, {&hits, &directions, false});
+        intersector.HitsInTile(candidates, film, {&hits, &directions, true, false});
         CAPTURE(film.count);
         CHECK(hits.count == film.count);
       }
@@ -323,7 +323,7 @@ std::vector<uint32_t> HitsOf(const Intersector& intersector, const Window& tile)
   }
   HitBatch hits;
   HitDirections directions;
-  intersector.HitsInTile(candidates, film, {&hits, &directions, false});
+  intersector.HitsInTile(candidates, film, {&hits, &directions, true, false});
   return {hits.primitive.begin(), hits.primitive.begin() + hits.count};
 }
 

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/hit_places_test.cc: pictures without the positions of their hits.
+#include "render/hit_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "catch.h"
+#include "render/pictures.h"
+#include "render/render.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+// Spheres side by side and one that casts its shadow on another; a lamp far above them.
+Scene LitSpheres() {
+  Scene scene;
+  scene.image.width = 90;
+  scene.image.height = 60;
+  scene.image.spp = 4;
+  scene.materials.emplace_back().model = LambertMaterial{Rgb(0.8, 0.6, 0.4)};
+  scene.materials.emplace_back().model = MetallicRoughnessMaterial{};
+  for (int i = 0; i < 5; ++i) {
+    scene.spheres.push_back({.center = Vec3d(1.5 * i - 3, 0.2 * i, -8),
+                             .radius = 0.7,
+                             .material = {static_cast<uint32_t>(i % 2)}});
+  }
+  scene.spheres.push_back({.center = {0.4, 1.2, -7}, .radius = 0.3, .material = {1}});
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.kind = PointLight{.position = {2, 9, -3}, .intensity = {90, 80, 70}, .attenuation = {}};
+  Light spot;
+  spot.name = "spot";
+  spot.shadows = false;
+  spot.kind = SpotLight{.position = {-6, 5, 3},
+                        .direction_of_travel = {6, -5, -11},
+                        .intensity = {50, 60, 70},
+                        .attenuation = {}};
+  scene.lights = {lamp, spot};
+  scene.camera.position = Vec3d(0, 0, 0);
+  scene.camera.look_at = Vec3d(0, 0, -8);
+  return scene;
+}
+
+const PlanItem& PositionsOf(const RenderPlan& plan) {
+  const auto found = std::find_if(plan.items.begin(), plan.items.end(), [](const PlanItem& item) {
+    return item.what == "positions of hits";
+  });
+  REQUIRE(found != plan.items.end());
+  return *found;
+}
+
+TEST_CASE("pictures without positions have the bits of those with them") {
+  ForEachTarget([](Target) {
+    Scene scene = LitSpheres();
+    for (const bool shadows : {true, false}) {
+      scene.image.shadows = shadows;
+      const RenderPlan plan = MakePlan(scene, {});
+      CHECK_FALSE(plan.all_positions);
+      CHECK(PositionsOf(plan).used == shadows);
+      if (shadows) {
+        // Some are asked, not all.
+        CHECK(std::count(plan.may_be_shadowed.begin(), plan.may_be_shadowed.end(), 1) > 0);
+        CHECK(std::count(plan.may_be_shadowed.begin(), plan.may_be_shadowed.end(), 0) > 0);
+      }
+      RenderSettings settings;
+      settings.threads = 1;
+      settings.layers = {"light.lamp", "light.spot", "N"};
+      const Image got = RenderImage(scene, settings);
+      settings.general_path = true;
+      CHECK(MakePlan(scene, settings).all_positions);
+      CHECK(SameBits(got, RenderImage(scene, settings)));
+      // Embree's batches are never known to be of one sphere.
+      settings.intersector = IntersectorChoice::kEmbree;
+      CHECK(SameBits(got, RenderImage(scene, settings)));
+    }
+  });
+}
+
+TEST_CASE("lights found from normals change no more than the last digits") {
+  const Scene scene = LitSpheres();
+  RenderSettings settings;
+  settings.threads = 1;
+  const Image got = RenderImage(scene, settings);
+  settings.offsets_by_normal = false;
+  const Image by_position = RenderImage(scene, settings);
+  CHECK_FALSE(SameBits(got, by_position));
+  const std::vector<float>& a = got.Find("R")->samples;
+  const std::vector<float>& b = by_position.Find("R")->samples;
+  // A direction to the light turned by 3 u turns what its cosine and lobe make of it: of at most
+  // 1 / alpha = 4 times its angle, where the light grazes in absolute terms.
+  const float brightest = *std::max_element(b.begin(), b.end());
+  float worst = 0;
+  for (size_t i = 0; i < a.size(); ++i) worst = std::max(worst, std::abs(a[i] - b[i]));
+  CHECK(worst <= 16 * 0x1p-24f * brightest);
+}
+
+TEST_CASE("whatever reads positions gets them") {
+  const Scene scene = LitSpheres();
+  const auto all = [](const Scene& changed, const RenderSettings& settings = {}) {
+    return MakePlan(changed, settings).all_positions;
+  };
+  CHECK_FALSE(all(scene));
+  RenderSettings settings;
+  settings.layers = {"P"};
+  CHECK(all(scene, settings));
+  settings.layers = {"N"};
+  CHECK_FALSE(all(scene, settings));
+  settings = {};
+  settings.intersector = IntersectorChoice::kEmbree;
+  CHECK(all(scene, settings));
+  Scene changed = scene;
+  std::get<PointLight>(changed.lights[0].kind).position =
+      changed.spheres[5].center + Vec3d(0, 1, 0);
+  CHECK(all(changed));
+  changed = scene;
+  changed.materials[1].model = MetallicRoughnessMaterial{.roughness = 0.01};
+  CHECK(all(changed));
+  changed = scene;
+  changed.spheres.insert(changed.spheres.end(), 60, scene.spheres[0]);
+  CHECK(all(changed));
+  changed = scene;
+  changed.camera.position = changed.spheres[0].center;
+  CHECK(all(changed));
+}
+
+}  // namespace
+}  // namespace nacre
