@@ -37,6 +37,7 @@ struct LightV {
 // surface keeps its direction.
 class FromPositions {
  public:
+  static constexpr bool kApart = false;  // a light may be at the hit itself
   FromPositions(const ShadingLight& light, const HitBatch& hits)
       : x_(hits.position.x.data()),
         y_(hits.position.y.data()),
@@ -64,6 +65,7 @@ HWY_INLINE Vec3V<FloatV> FromCenter(const Vec3V<FloatV>& offset, FloatV radius,
 // By ShadingLight::from_spheres, of hits that are all on one sphere.
 class FromOneSphere {
  public:
+  static constexpr bool kApart = true;
   FromOneSphere(FloatTag d, const ShadingLight& light, const HitBatch& hits) {
     const SphereOffset& from = light.from_spheres[hits.primitive[0]];
     center_ = {hn::Set(d, from.offset.x), hn::Set(d, from.offset.y), hn::Set(d, from.offset.z)};
@@ -82,6 +84,7 @@ class FromOneSphere {
 // The same bits, of hits on any spheres.
 class FromSpheres {
  public:
+  static constexpr bool kApart = true;
   FromSpheres(const ShadingLight& light, const HitBatch& hits)
       : spheres_(light.from_spheres.data()), primitive_(hits.primitive.data()), end_(hits.count) {}
 
@@ -125,11 +128,19 @@ HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {
           hn::Set(d, 1.0f)};
 }
 
+// 1 / the root of a light's squared distance, 0 for a light at the hit itself; `apart`: none is.
+template <bool kApart>
+HWY_INLINE FloatV InverseDistance(FloatTag d, FloatV squared) {
+  const FloatV inverse = ReciprocalSqrt(d, squared);
+  if constexpr (kApart) return inverse;
+  return hn::IfThenElseZero(hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min())),
+                            inverse);
+}
+
 // Direction and irradiance of an inverse-square light at `offset` from the hits.
+template <bool kApart>
 HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset, FloatV scale) {
-  const FloatV squared = FusedDot(offset, offset);
-  const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
-  const FloatV inverse = hn::IfThenElseZero(apart, ReciprocalSqrt(d, squared));
+  const FloatV inverse = InverseDistance<kApart>(d, FusedDot(offset, offset));
   return {Scale(offset, inverse), hn::Mul(hn::Mul(inverse, inverse), scale)};
 }
 
@@ -137,7 +148,7 @@ HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset, Float
 template <LightForm kForm>
 HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3V<FloatV>& offset) {
   if constexpr (kForm == LightForm::kInverseSquare) {
-    return InverseSquareAt(d, offset, hn::Set(d, light.inverse_quadratic));
+    return InverseSquareAt<false>(d, offset, hn::Set(d, light.inverse_quadratic));
   } else {
     const FloatV squared = FusedDot(offset, offset);
     const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
@@ -163,7 +174,7 @@ class PointLightV {
       : offset_(offset), scale_(hn::Set(d, light.inverse_quadratic)) {}
 
   HWY_INLINE LightV At(FloatTag d, size_t i, const Vec3V<FloatV>& normal) const {
-    return InverseSquareAt(d, offset_.At(d, i, normal), scale_);
+    return InverseSquareAt<Offset::kApart>(d, offset_.At(d, i, normal), scale_);
   }
 
  private:

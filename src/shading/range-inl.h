@@ -179,8 +179,9 @@ HWY_INLINE void VisitLight(FloatTag d, const LightOnBatch& light, const HitBatch
 // What `incident_at(packet)` brings to hits [begin, end) is reflected, and added or stored.
 template <class Model, class IncidentAt>
 HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& range,
-                             const RangeArrays& arrays, size_t k, size_t begin, size_t end,
+                             const RangeArrays& given, size_t k, size_t begin, size_t end,
                              const IncidentAt& incident_at) {
+  const RangeArrays arrays = given;  // kept in registers: what is stored cannot be this copy
   const bool replace = range.replace && k == 0;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const PacketV packet = arrays.Packet(d, i);
