@@ -8,6 +8,7 @@
 // and are padded to whole vectors; entries past `count` hold stale but finite values.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -37,6 +38,13 @@ struct Soa3 {
   AlignedArray<T> y{&all, kSoaStride<T>, kBatchCapacity};
   AlignedArray<T> z{&all, 2 * kSoaStride<T>, kBatchCapacity};
 };
+
+template <typename T>
+void CopySoa(const Soa3<T>& from, size_t count, Soa3<T>* to) {
+  std::copy_n(from.x.data(), count, to->x.data());
+  std::copy_n(from.y.data(), count, to->y.data());
+  std::copy_n(from.z.data(), count, to->z.data());
+}
 
 // Those arrays, for loops to keep in registers: what a loop stores might be an address that a Soa3
 // holds, for all that the compiler knows.

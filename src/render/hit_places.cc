@@ -15,9 +15,7 @@ namespace {
 constexpr size_t kMostSpheres = 64;
 
 bool LieOnSpheres(const Scene& scene, const RenderPlan& plan) {
-  const auto turned = [](const ShadingMaterial& material) { return material.turned; };
-  return scene.meshes.empty() && scene.spheres.size() <= kMostSpheres && plan.eye_outside &&
-         std::none_of(plan.materials.begin(), plan.materials.end(), turned);
+  return scene.meshes.empty() && scene.spheres.size() <= kMostSpheres && plan.eye_outside;
 }
 
 bool ReadsPositions(const PlannedLight& planned) {

@@ -27,12 +27,6 @@ void LiftRay(const TileScratch& s, size_t i, ShadowRayBatch* rays) {
   rays->t_max[i] = 1;
 }
 
-void CopySoa(const Soa3<double>& from, size_t count, Soa3<double>* to) {
-  std::copy_n(from.x.data(), count, to->x.data());
-  std::copy_n(from.y.data(), count, to->y.data());
-  std::copy_n(from.z.data(), count, to->z.data());
-}
-
 // One ray a hit, most of which need one; the others end where they start. Returns how many do not.
 size_t MakeSampledShadowRays(const RenderPlan& plan, const PlannedSampledLight& planned,
                              TileScratch* scratch) {

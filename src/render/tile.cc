@@ -50,15 +50,18 @@ void NumberSamples(int first, int count, SampleNumbers* numbers) {
 
 // Looks up the maps of the materials that have any.
 void TextureRuns(const RenderPlan& plan, TileScratch* s) {
-  s->turned = false;
+  s->surface.turned = false;
   if (!plan.textured) return;
+  for (const MaterialRun& run : s->runs) {
+    s->surface.turned = s->surface.turned || plan.materials[run.material.index].turned;
+  }
+  if (s->surface.turned) CopySoa(s->surface.normal, s->hits.count, &s->surface.unturned);
   for (const MaterialRun& run : s->runs) {
     const ShadingMaterial& material = plan.materials[run.material.index];
     if (material.textured == nullptr) continue;
     if (!s->textures) s->textures = std::make_unique<HitTextures>();
     TextureHits({plan.textures, material, run.begin, run.end}, &s->hits, &s->surface,
                 s->textures.get());
-    s->turned = s->turned || material.turned;
   }
 }
 
@@ -112,7 +115,7 @@ void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, boo
 void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, bool replace, TileScratch* s,
                 StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
-  if (s->turned) HideTurned(plan, s);
+  if (s->surface.turned) HideTurned(plan, s);
   clock->Charge(Stage::kLight);
   if (planned.shadow_rays) {
     CastShadows(plan, planned, s, stats);
@@ -156,7 +159,7 @@ void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, Re
     }
     const bool shadowed =
         s->hits.one_primitive ? !NeverShadowed(planned, s->hits.primitive[0]) : planned.shadow_rays;
-    if (!shadowed && planned.layer < 0 && !s->turned && EvaluatedInPlace(planned.light)) {
+    if (!shadowed && planned.layer < 0 && !s->surface.turned && EvaluatedInPlace(planned.light)) {
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();

@@ -46,7 +46,6 @@ struct TileScratch {
   AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
   AlignedArray<uint32_t> order{kBatchCapacity};
   std::unique_ptr<HitTextures> textures;  // made for the first hit on a material with maps
-  bool turned = false;                    // some hit's normal is not that of its surface
   LightBatch light;
   NarrowLobes narrow;
   std::vector<LightOnBatch> together;       // lights shaded by in one go

@@ -52,7 +52,7 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position);
 
 // Fills `from_spheres`, if the light is a positional one and from each sphere's centre at least
 // kFarRadii of its radii away; or returns false. The shaded hits must all lie on these spheres,
-// with their own normals on the outside.
+// their normals on the outside: Surface::unturned, where maps have turned them.
 //
 // The offset l = a - r n is then off by 3 u |l| at most, u = 2^-24, where what is formed in double
 // and rounded is off by u |l|: |a| <= 4/3 |l| and r <= |l| / 3, so the roundings of a, r, n and of

@@ -34,7 +34,7 @@ void PrepareSurfaceT(const HitBatch& hits, Surface* surface) {
   RoundToFloat3(hits.to_view, hits.count, &surface->to_view);
 }
 
-// Calls at(i, normal) for each packet of hits and stores the light it gives.
+// Calls at(i) for each packet of hits and stores the light it gives.
 template <class At>
 HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, LightBatch* result,
                               const At& at) {
@@ -42,9 +42,9 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
   const Soa3<float>& n = surface.normal;
   Soa3<float>& l = result->to_light;
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
-    const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
-    const LightV light = at(i, normal);
-    const FloatV n_dot_l = FusedDot(normal, light.to_light);
+    const LightV light = at(i);
+    const FloatV n_dot_l =
+        FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i), light.to_light);
     // Nothing here reflects light from below, and no shadow ray need be traced to it.
     const FloatV irradiance = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), light.irradiance);
     hn::StoreU(light.to_light.x, d, l.x.data() + i);
@@ -58,8 +58,10 @@ template <LightForm kForm>
 void EvaluatePositional(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                         LightBatch* result) {
   const FloatTag d;
+  const Soa3<float>& n = surface.turned ? surface.unturned : surface.normal;
   VisitOffset(d, light, hits, [&](const auto& offset) HWY_ATTR {
-    ForEachPacket(hits, surface, result, [&](size_t i, const Vec3V<FloatV>& normal) HWY_ATTR {
+    ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
+      const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
       return PositionalAt<kForm>(d, light, offset.At(d, i, normal));
     });
   });
@@ -69,9 +71,8 @@ void EvaluateLightT(const ShadingLight& light, const HitBatch& hits, const Surfa
                     LightBatch* result) {
   switch (light.form) {
     case LightForm::kDirectional:
-      return ForEachPacket(hits, surface, result, [&](size_t, const Vec3V<FloatV>&) HWY_ATTR {
-        return DirectionalAt(FloatTag(), light);
-      });
+      return ForEachPacket(hits, surface, result,
+                           [&](size_t) HWY_ATTR { return DirectionalAt(FloatTag(), light); });
     case LightForm::kInverseSquare:
       return EvaluatePositional<LightForm::kInverseSquare>(light, hits, surface, result);
     case LightForm::kPoint:

@@ -20,6 +20,9 @@ namespace nacre {
 
 // The hits of a batch as seen by their viewer.
 struct Surface : HitDirections {
+  // Maps have turned the normals of some hits; the surface's own, of all, are then in `unturned`.
+  bool turned = false;
+  Soa3<float> unturned;
   // Of hits on microfacet materials, by PrepareRun:
   AlignedArray<float> multiple{kBatchCapacity};  // the weight of multiple scattering
   Soa3<float> base;                              // the share of light that the diffuse base gets

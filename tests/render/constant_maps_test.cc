@@ -239,9 +239,6 @@ TEST_CASE("a dielectric's roughness map is within its albedo's error of the cons
 }
 
 TEST_CASE("a level normal map, a flat bump map and a constant emission map change no bit") {
-  // Where maps may turn normals, these do not tell where lights are.
-  RenderSettings settings;
-  settings.offsets_by_normal = false;
   ForEachTarget([&](Target) {
     Material plain;
     plain.model = MetallicRoughnessMaterial{.roughness = 0.05};
@@ -252,11 +249,11 @@ TEST_CASE("a level normal map, a flat bump map and a constant emission map chang
     material.emission_map = AddConstant(&scene, Rgb(Held(0.3)));
     material.normal_map.texture = AddConstant(&scene, Rgb(128.0 / 255, 128.0 / 255, 1));
     material.bump_map.texture = AddConstant(&scene, Rgb(0.4));
-    CheckSameBits(AllLayers(scene, settings), AllLayers(TexturedSpheres(plain), settings));
+    CheckSameBits(AllLayers(scene), AllLayers(TexturedSpheres(plain)));
     // Neither does one of length 0, which points nowhere.
     material.normal_map.texture =
         AddConstant(&scene, Rgb(double{128.0f / 255}, double{128.0f / 255}, double{128.0f / 255}));
-    CheckSameBits(AllLayers(scene, settings), AllLayers(TexturedSpheres(plain), settings));
+    CheckSameBits(AllLayers(scene), AllLayers(TexturedSpheres(plain)));
   });
 }
 

@@ -80,7 +80,8 @@ inline Scene TexturedSpheres(const Material& material) {
   return scene;
 }
 
-inline Image AllLayers(const Scene& scene, RenderSettings settings = {}) {
+inline Image AllLayers(const Scene& scene) {
+  RenderSettings settings;
   settings.threads = 1;
   settings.layers = {"all"};
   return RenderImage(scene, settings);
