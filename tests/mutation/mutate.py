@@ -132,8 +132,12 @@ class Workshop:
 
 def first_failure(output):
     """The first case that a test's output tells to have failed."""
-    for pattern in (r"^(?:FAIL|ERROR): (\S+)", r"^-{70,}\n(\S.*)\n", r"^(\S+) +(?:FAIL|ERROR)\b",
-                    r"(took too long)"):
+    # Catch2 names cases that only warn, too.
+    named = re.findall(r"^-{70,}\n(\S.*)\n(?: .*\n)*-{70,}\n", output.partition("FAILED:")[0],
+                       re.MULTILINE)
+    if named:
+        return named[-1]
+    for pattern in (r"^(?:FAIL|ERROR): (\S+)", r"^(\S+) +(?:FAIL|ERROR)\b", r"(took too long)"):
         found = re.search(pattern, output, re.MULTILINE)
         if found:
             return found[1]
