@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-constexpr size_t kHits = 1000;  // not a multiple of any vector
+constexpr size_t kHitsOnSpheres = 1000;  // not a multiple of any vector
 
 Light PointAt(const Vec3d& position) {
   Light light;
@@ -24,14 +24,14 @@ Vec3d RandomUnit(std::mt19937* random) {
 }
 
 // Hits with their outward normals, hit i on sphere i % spheres.size().
-struct Hits {
+struct HitsOnSpheres {
   HitBatch batch;
   Surface surface;
 
-  Hits(const std::vector<Sphere>& spheres, const Vec3d& camera, std::mt19937* random) {
-    batch.count = kHits;
+  HitsOnSpheres(const std::vector<Sphere>& spheres, const Vec3d& camera, std::mt19937* random) {
+    batch.count = kHitsOnSpheres;
     batch.one_primitive = spheres.size() == 1;
-    for (size_t i = 0; i < kHits; ++i) {
+    for (size_t i = 0; i < kHitsOnSpheres; ++i) {
       const Sphere& sphere = spheres[i % spheres.size()];
       const Vec3d n = RandomUnit(random);
       const Vec3d position = (sphere.center - camera) + n * sphere.radius;
@@ -57,9 +57,9 @@ constexpr double kInverseError = kOffsetError + 1.5 + 2;
 constexpr double kDirectionError = kOffsetError + kInverseError + 1;
 constexpr double kIrradianceError = 2 * kInverseError + 2;
 
-void CheckLight(const Vec3d& light, const Hits& hits, const LightBatch& got) {
+void CheckLight(const Vec3d& light, const HitsOnSpheres& hits, const LightBatch& got) {
   double direction_error = 0, irradiance_error = 0;
-  for (size_t i = 0; i < kHits; ++i) {
+  for (size_t i = 0; i < kHitsOnSpheres; ++i) {
     const HitBatch& b = hits.batch;
     const Vec3d offset = light - Vec3d(b.position.x[i], b.position.y[i], b.position.z[i]);
     const Vec3d n(b.normal.x[i], b.normal.y[i], b.normal.z[i]);
@@ -88,7 +88,7 @@ TEST_CASE("lights found from normals are where the positions say, at all scales"
     ShadingLight light = PrepareLight(PointAt(position), camera);
     // Far from the origin its coordinates are rounded, and it may have come nearer.
     if (!OffsetFromSpheres({&sphere, 1}, camera, &light)) continue;
-    const Hits hits({sphere}, camera, &random);
+    const HitsOnSpheres hits({sphere}, camera, &random);
     ForEachTarget([&](Target) {
       LightBatch got;
       EvaluateLight(light, hits.batch, hits.surface, &got);
@@ -98,7 +98,8 @@ TEST_CASE("lights found from normals are where the positions say, at all scales"
 }
 
 // What a material reflects of the light, in place or evaluated ahead.
-ReflectedRadiance Reflect(const ShadingLight& light, Hits* hits, bool in_place) {
+ReflectedRadiance ReflectFromSpheres(const ShadingLight& light, HitsOnSpheres* hits,
+                                     bool in_place) {
   Material material;
   material.model = MetallicRoughnessMaterial{};
   const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
@@ -107,15 +108,16 @@ ReflectedRadiance Reflect(const ShadingLight& light, Hits* hits, bool in_place) 
   const LightOnBatch on_hits{&light, in_place ? nullptr : &evaluated};
   NarrowLobes scratch;
   ReflectedRadiance radiance;
-  PrepareRun(prepared, 0, kHits, &hits->surface);
-  ShadeRun(prepared, {hits->batch, hits->surface, {&on_hits, 1}}, 0, kHits, &scratch, &radiance);
+  PrepareRun(prepared, 0, kHitsOnSpheres, &hits->surface);
+  ShadeRun(prepared, {hits->batch, hits->surface, {&on_hits, 1}}, 0, kHitsOnSpheres, &scratch,
+           &radiance);
   return radiance;
 }
 
 bool SameBits(const Soa3<float>& a, const Soa3<float>& b) {
-  return std::equal(a.x.begin(), a.x.begin() + kHits, b.x.begin()) &&
-         std::equal(a.y.begin(), a.y.begin() + kHits, b.y.begin()) &&
-         std::equal(a.z.begin(), a.z.begin() + kHits, b.z.begin());
+  return std::equal(a.x.begin(), a.x.begin() + kHitsOnSpheres, b.x.begin()) &&
+         std::equal(a.y.begin(), a.y.begin() + kHitsOnSpheres, b.y.begin()) &&
+         std::equal(a.z.begin(), a.z.begin() + kHitsOnSpheres, b.z.begin());
 }
 
 TEST_CASE("lights found from normals give the same bits whichever hits share a batch") {
@@ -127,18 +129,18 @@ TEST_CASE("lights found from normals give the same bits whichever hits share a b
   REQUIRE(OffsetFromSpheres(spheres, camera, &light));
   ForEachTarget([&](Target) {
     std::mt19937 random(11);
-    Hits mixed(spheres, camera, &random);
-    const ReflectedRadiance ahead = Reflect(light, &mixed, false);
-    const ReflectedRadiance here = Reflect(light, &mixed, true);
+    HitsOnSpheres mixed(spheres, camera, &random);
+    const ReflectedRadiance ahead = ReflectFromSpheres(light, &mixed, false);
+    const ReflectedRadiance here = ReflectFromSpheres(light, &mixed, true);
     CHECK(SameBits(ahead.diffuse, here.diffuse));
     CHECK(SameBits(ahead.specular, here.specular));
     // All hits on one of the spheres: as such, and as if they might not be.
     std::fill(mixed.batch.primitive.begin(), mixed.batch.primitive.end(), 2);
-    const ReflectedRadiance unaware = Reflect(light, &mixed, true);
+    const ReflectedRadiance unaware = ReflectFromSpheres(light, &mixed, true);
     CHECK_FALSE(SameBits(unaware.diffuse, here.diffuse));
     mixed.batch.one_primitive = true;
     for (const bool in_place : {false, true}) {
-      const ReflectedRadiance one = Reflect(light, &mixed, in_place);
+      const ReflectedRadiance one = ReflectFromSpheres(light, &mixed, in_place);
       CHECK(SameBits(one.diffuse, unaware.diffuse));
       CHECK(SameBits(one.specular, unaware.specular));
     }
