@@ -81,8 +81,8 @@ void AddBlock(const double* __restrict values, double weight, double* __restrict
 void WidenRanges(const double* values, const double* hits, double* low, double* high) {
   for (size_t k = 0; k < kBlockPixels; ++k) {
     const bool hit = hits[k] != 0;
-    low[k] = hit & (values[k] < low[k]) ? values[k] : low[k];
-    high[k] = hit & (values[k] > high[k]) ? values[k] : high[k];
+    low[k] = (hit & (values[k] < low[k])) ? values[k] : low[k];
+    high[k] = (hit & (values[k] > high[k])) ? values[k] : high[k];
   }
 }
 
