@@ -59,7 +59,7 @@ def visibility(results, path):
         series.append((label, points))
     options = ("set logscale xy\nset format x '10^{%T}'\nset xrange [18:200000]\n"
                "set xlabel 'spheres'\nset ylabel 'ms per frame of 1920x1080 camera rays'\n"
-               "set key bottom right\n")
+               "set yrange [0.02:*]\nset key bottom right\n")  # room for the key below the curves
     plots.draw(path, plots.curves(series, options), 1280, 760)
 
 
