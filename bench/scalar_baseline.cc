@@ -36,10 +36,10 @@ Setup MakeSetup(const Hits& h, size_t i, const PointLight& light) {
   return s;
 }
 
-void Add(const Hits& h, size_t i, float r, float g, float b) {
-  h.r[i] += r;
-  h.g[i] += g;
-  h.b[i] += b;
+void Put(const Hits& h, size_t i, float r, float g, float b) {
+  h.r[i] = r;
+  h.g[i] = g;
+  h.b[i] = b;
 }
 
 float DistributionGgx(float n_dot_h, float roughness) {
@@ -72,7 +72,7 @@ void ShadeGgx(const Hits& h, size_t count, const PointLight& light, const Metall
       const float diffuse = (1 - fresnel) * (1 - m.metallic) * m.base_color[c] / kPi;
       out[c] = (diffuse + fresnel * specular) * color[c] * weight;
     }
-    Add(h, i, out[0], out[1], out[2]);
+    Put(h, i, out[0], out[1], out[2]);
   }
 }
 
@@ -82,7 +82,7 @@ void ShadeLambert(const Hits& h, size_t count, const PointLight& light, const fl
   for (size_t i = 0; i < count; ++i) {
     const Setup s = MakeSetup(h, i, light);
     const float weight = s.n_dot_l * s.falloff / kPi;
-    Add(h, i, albedo[0] * light.r * weight, albedo[1] * light.g * weight,
+    Put(h, i, albedo[0] * light.r * weight, albedo[1] * light.g * weight,
         albedo[2] * light.b * weight);
   }
 }
@@ -95,7 +95,7 @@ void ShadePhong(const Hits& h, size_t count, const PointLight& light, const floa
     const float lobe = s.n_dot_l > 0 ? std::pow(std::max(Dot(r, s.v), 0.0f), shininess) : 0.0f;
     const float diffuse = s.n_dot_l * s.falloff;
     const float specular = ks * lobe * s.falloff;
-    Add(h, i, (kd[0] * diffuse + specular) * light.r, (kd[1] * diffuse + specular) * light.g,
+    Put(h, i, (kd[0] * diffuse + specular) * light.r, (kd[1] * diffuse + specular) * light.g,
         (kd[2] * diffuse + specular) * light.b);
   }
 }
@@ -108,7 +108,7 @@ void ShadeBlinnPhong(const Hits& h, size_t count, const PointLight& light, const
     const float lobe = s.n_dot_l > 0 ? std::pow(std::max(Dot(s.n, half), 0.0f), shininess) : 0.0f;
     const float diffuse = s.n_dot_l * s.falloff;
     const float specular = ks * lobe * s.falloff;
-    Add(h, i, (kd[0] * diffuse + specular) * light.r, (kd[1] * diffuse + specular) * light.g,
+    Put(h, i, (kd[0] * diffuse + specular) * light.r, (kd[1] * diffuse + specular) * light.g,
         (kd[2] * diffuse + specular) * light.b);
   }
 }

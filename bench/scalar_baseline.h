@@ -11,14 +11,14 @@ struct Hits {
   const float *px, *py, *pz;  // positions
   const float *nx, *ny, *nz;  // normals
   const float *vx, *vy, *vz;  // to the viewer
-  float *r, *g, *b;           // sums
+  float *r, *g, *b;           // radiance
 };
 
 struct PointLight {
   float x, y, z, r, g, b;
 };
 
-// Each adds one point light's reflection to hits [0, count).
+// Each stores what hits [0, count) reflect of one point light.
 void ShadeLambert(const Hits& hits, size_t count, const PointLight& light, const float albedo[3]);
 void ShadePhong(const Hits& hits, size_t count, const PointLight& light, const float kd[3],
                 float ks, float shininess);

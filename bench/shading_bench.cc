@@ -92,8 +92,9 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
   std::vector<LightOnBatch> on_hits;
   for (const ShadingLight& light : lights) on_hits.push_back({&light, nullptr});
   for (auto _ : state) {
-    shade(LitHits{hits, surface, on_hits}, &surface, &radiance);
-    benchmark::DoNotOptimize(radiance.diffuse.x.data());
+    shade(LitHits{hits, surface, on_hits, nullptr, by.count == 1 ? Leaves::kSum : Leaves::kParts},
+          &surface, &radiance);
+    benchmark::DoNotOptimize(radiance.sum.x.data());
     benchmark::ClobberMemory();
   }
   ReportShades(state, kHits * by.count);
@@ -112,7 +113,7 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
 }
 
 ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
-  return {lit.hits, lit.surface, lit.lights, 0, kHits, radiance};
+  return {lit.hits, lit.surface, lit.lights, 0, kHits, radiance, lit.leaves};
 }
 
 void BenchTextbookGgx(benchmark::State& state, Target target) {

@@ -17,7 +17,6 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 struct TextbookGgx {
-  static constexpr bool kHasSpecular = true;
   static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   struct View {
@@ -28,8 +27,8 @@ struct TextbookGgx {
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
     return {hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d))};
   }
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
-                               size_t) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                                size_t) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
     const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
@@ -38,51 +37,49 @@ struct TextbookGgx {
     const Vec3V<FloatV> h = Scale(u, scale);
     const FloatV n_dot_h = FusedDot(p.normal, h);
     const FloatV alpha2 = hn::Set(d, uniforms.alpha2);
+    const FloatV pi_over_alpha2 = hn::Set(d, 3.14159265f / uniforms.alpha2);
     const FloatV q = hn::MulAdd(hn::Mul(n_dot_h, n_dot_h), hn::Sub(alpha2, one), one);
-    const FloatV masking =
-        VisibilityDenominatorSchlick(d, in.n_dot_l, view.n_dot_v, hn::Set(d, uniforms.k));
+    const FloatV masking = VisibilityDenominatorSchlick(d, in.n_dot_l, view.n_dot_v,
+                                                        hn::Set(d, uniforms.k), pi_over_alpha2);
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
-    const FloatV numerator = hn::Mul(in.weight, hn::Set(d, uniforms.alpha2 * 0.318309886f));
-    const FloatV lobe = hn::IfThenElseZero(in.lit, hn::Mul(numerator, Reciprocal(d, denominator)));
+    const FloatV lobe = hn::Mul(in.weight, Reciprocal(d, denominator));
     const FloatV weight = Power5(hn::Sub(one, FusedDot(p.to_view, h)));
     const TextbookGgxLight& light = *uniforms.light;
     const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
-    return {ScaleRgb(SetRgb(d, light.diffuse), left), ScaleRgb(fresnel, lobe)};
+    return {{{SetRgb(d, light.diffuse), left}}, {fresnel, lobe}};
   }
 };
 
 struct NaivePhong {
-  static constexpr bool kHasSpecular = true;
   static constexpr bool kReadsIrradiance = true;
   using Incident = IncidentV;
   struct View {};
   const PhongUniforms& uniforms;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                               size_t k) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                                size_t k) const {
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
     const FloatV l_dot_v = FusedDot(in.to_light, p.to_view);
     const FloatV cosine = hn::MulSub(hn::Add(in.n_dot_l, in.n_dot_l), n_dot_v, l_dot_v);
     const FloatV log2 = Log2(d, hn::Max(cosine, hn::Set(d, 1e-30f)));
     const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
     const PhongLight& by = uniforms.lights[k];
-    return {ScaleRgb(SetRgb(d, by.diffuse), in.weight),
-            ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
+    return {{{SetRgb(d, by.diffuse), in.weight}},
+            {SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance)}};
   }
 };
 
 struct NaiveBlinnPhong {
-  static constexpr bool kHasSpecular = true;
   static constexpr bool kReadsIrradiance = true;
   using Incident = IncidentV;
   struct View {};
   const PhongUniforms& uniforms;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                               size_t k) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                                size_t k) const {
     const FloatV smallest = hn::Set(d, 1e-30f);
     const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
                           hn::Add(in.to_light.z, p.to_view.z)};
@@ -91,8 +88,8 @@ struct NaiveBlinnPhong {
     const FloatV log2 = Log2(d, hn::Max(n_dot_h, smallest));
     const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
     const PhongLight& by = uniforms.lights[k];
-    return {ScaleRgb(SetRgb(d, by.diffuse), in.weight),
-            ScaleRgb(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
+    return {{{SetRgb(d, by.diffuse), in.weight}},
+            {SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance)}};
   }
 };
 

@@ -44,29 +44,31 @@ HWY_INLINE V SmithRoot(D d, V n_dot_x, V alpha) {
   return SquareRoot(d, hn::MulAdd(hn::Mul(n_dot_x, n_dot_x), hn::Sub(one, alpha2), alpha2));
 }
 
-// The denominators of the visibility terms, so that a kernel can merge its divisions.
+// The denominators of the visibility terms times `scale`, so that a kernel can merge its divisions.
 // Heitz 2014, eq. 99.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V VisibilityDenominatorHeightCorrelated(D d, V n_dot_l, V n_dot_v, V alpha) {
+HWY_INLINE V VisibilityDenominatorHeightCorrelated(D d, V n_dot_l, V n_dot_v, V alpha, V scale) {
   const V sum = hn::MulAdd(n_dot_l, SmithRoot(d, n_dot_v, alpha),
                            hn::Mul(n_dot_v, SmithRoot(d, n_dot_l, alpha)));
-  return hn::Add(sum, sum);
+  return hn::Mul(sum, hn::Add(scale, scale));
 }
 
 // Walter et al. 2007, eq. 34.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha) {
-  return hn::Mul(hn::Add(n_dot_l, SmithRoot(d, n_dot_l, alpha)),
-                 hn::Add(n_dot_v, SmithRoot(d, n_dot_v, alpha)));
+HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha, V scale) {
+  return hn::Mul(hn::Mul(hn::Add(n_dot_l, SmithRoot(d, n_dot_l, alpha)),
+                         hn::Add(n_dot_v, SmithRoot(d, n_dot_v, alpha))),
+                 scale);
 }
 
 // Karis 2013, k = (roughness + 1)^2 / 8.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k) {
+HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k, V scale) {
   const V one_minus_k = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), k);
-  const V four = hn::Set(d, hn::TFromD<D>(4));  // exact wherever it is multiplied in
+  // Products of what all hits share, mostly.
+  const V scale4 = hn::Mul(hn::Set(d, hn::TFromD<D>(4)), scale);
   return hn::Mul(hn::MulAdd(n_dot_l, one_minus_k, k),
-                 hn::MulAdd(n_dot_v, hn::Mul(four, one_minus_k), hn::Mul(four, k)));
+                 hn::MulAdd(n_dot_v, hn::Mul(scale4, one_minus_k), hn::Mul(scale4, k)));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -159,25 +159,22 @@ template <class To>
 HWY_INLINE void BringHits(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, double constant,
                           double further, std::span<const HitSpan> spans, const To& to) {
   const D d;
-  const V zero = hn::Zero(d);
-  const V first = hn::Add(zero, hn::Set(d, constant));  // nor is a sum to which this was added
+  const V first = hn::Add(hn::Zero(d), hn::Set(d, constant));  // nor is a sum with this
   const V second = hn::Set(d, further);
+  const auto load = [&](const float* from, size_t i)
+                        HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), from + i)); };
+  const auto bring = [&](const auto& with_first) HWY_ATTR {
+    if (further == 0) return to(spans, with_first);
+    to(spans, [&](size_t i) HWY_ATTR { return hn::Add(with_first(i), second); });
+  };
   if (a == nullptr) {
     const V both = hn::Add(first, second);
-    return to(spans, [&](size_t) HWY_ATTR { return both; });
+    to(spans, [&](size_t) HWY_ATTR { return both; });
+  } else if (b == nullptr) {
+    bring([&](size_t i) HWY_ATTR { return hn::Add(load(a, i), first); });
+  } else {
+    bring([&](size_t i) HWY_ATTR { return hn::Add(hn::Add(load(a, i), load(b, i)), first); });
   }
-  if (b == nullptr) {
-    return to(spans, [&](size_t i) HWY_ATTR {
-      return hn::Add(zero, hn::PromoteTo(d, hn::LoadU(F(), a + i)));
-    });
-  }
-  const auto with_first = [&](size_t i) HWY_ATTR {
-    const V sum =
-        hn::Add(hn::PromoteTo(d, hn::LoadU(F(), a + i)), hn::PromoteTo(d, hn::LoadU(F(), b + i)));
-    return hn::Add(sum, first);
-  };
-  if (further == 0) return to(spans, with_first);
-  to(spans, [&](size_t i) HWY_ATTR { return hn::Add(with_first(i), second); });
 }
 
 void AddHitsT(const float* a, const float* b, double constant, double further,
@@ -190,15 +187,20 @@ void PutHitsT(const float* a, const float* b, double constant, double further,
   BringHits(a, b, constant, further, spans, ToRows{rows});
 }
 
+// a[i], and b[i] unless b is null.
+HWY_INLINE V LoadSum(const float* a, const float* b, size_t i) {
+  const D d;
+  const V of_a = hn::PromoteTo(d, hn::LoadU(F(), a + i));
+  return b == nullptr ? of_a : hn::Add(of_a, hn::PromoteTo(d, hn::LoadU(F(), b + i)));
+}
+
 void AddFloatsT(const float* a, const float* b, double constant, double further, size_t begin,
                 size_t end, double* to) {
   const D d;
   const V first = hn::Set(d, constant);
   const V second = hn::Set(d, further);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const V sum =
-        hn::Add(hn::PromoteTo(d, hn::LoadU(F(), a + i)), hn::PromoteTo(d, hn::LoadU(F(), b + i)));
-    hn::StoreU(hn::Add(hn::Add(sum, first), second), d, to + i);
+    hn::StoreU(hn::Add(hn::Add(LoadSum(a, b, i), first), second), d, to + i);
   }
 }
 
@@ -207,7 +209,7 @@ void AddFloatsByHitT(const FloatsToAdd& floats, size_t begin, size_t end, double
   const auto load = [&](const float* from, size_t i)
                         HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), from + i)); };
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const V sum = hn::Add(load(floats.a, i), load(floats.b, i));
+    const V sum = LoadSum(floats.a, floats.b, i);
     hn::StoreU(hn::Add(hn::Add(sum, load(floats.constant, i)), load(floats.further, i)), d, to + i);
   }
 }

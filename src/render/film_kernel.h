@@ -33,8 +33,8 @@ struct HitRays {
 void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
                std::vector<HitSpan>* spans);
 
-// The same for hits alone: value i is double(a[i]) + double(b[i]) + constant + further, or only
-// double(a[i]) if b is null, or only the constants if both are.
+// The same for hits alone: value i is double(a[i]) + double(b[i]) + constant + further. Of null b,
+// or a and b, there is nothing to add.
 void AddHits(const float* a, const float* b, double constant, double further,
              std::span<const HitSpan> spans, double* sums);
 
@@ -64,7 +64,7 @@ void RoundSums(const double* sums, const double* coverage, const RoundedBy& by,
 void FillPixels(float value, const PixelRows<float>& rows);
 
 // to[i] = double(a[i]) + double(b[i]) + constant + further for i in [begin, end); what lies after,
-// up to a whole vector, is overwritten.
+// up to a whole vector, is overwritten. Of a null b there is nothing to add.
 void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,
                size_t end, double* to);
 

@@ -210,6 +210,34 @@ void PlanFilm(const Scene& scene, const RenderSettings& settings, RenderPlan* pl
                          plan->one_sample ? "a pixel's only sample is its value" : why});
 }
 
+// With one light the parts need not be kept to be added up, unless samples might cancel: then the
+// layers must add up to the beauty to the bit.
+void PlanParts(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const auto shows_parts = [](const Layer& layer) {
+    return layer.kind == LayerKind::kDiffuse || layer.kind == LayerKind::kSpecular ||
+           layer.kind == LayerKind::kLight;
+  };
+  const bool interpolated =
+      std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) {
+        return mesh.interpolation == Interpolation::kFlat ||
+               mesh.interpolation == Interpolation::kGouraud;
+      });
+  const char* const many = plan->lights.size() != 1 || !plan->sampled_lights.empty()
+                               ? "what several lights leave, or none, is added up part by part"
+                           : !HasUnitWeights(plan->sampler) ? "samples have weights"
+                           : interpolated ? "what some meshes reflect is interpolated"
+                                          : nullptr;
+  plan->one_light = many == nullptr;
+  const char* const why = many != nullptr         ? many
+                          : settings.general_path ? "the general path is asked for"
+                          : std::any_of(plan->layers.begin(), plan->layers.end(), shows_parts)
+                              ? "layers show them"
+                              : nullptr;
+  if (plan->one_light) plan->leaves = why == nullptr ? Leaves::kSum : Leaves::kPartsAndSum;
+  plan->items.push_back({"diffuse and specular parts", why != nullptr,
+                         why != nullptr ? why : "one light leaves their sum, and no layer asks"});
+}
+
 // What the triangles of meshes ask for, after all else.
 void PlanMeshes(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   if (scene.meshes.empty() || plan->intersector == nullptr) return;
@@ -240,6 +268,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   PlanSampling(scene, settings, &plan);
   PlanLights(scene, settings, &plan);
   PlanSampledLights(scene, settings, &plan);
+  PlanParts(scene, settings, &plan);
   PlanGeometry(scene, settings, &plan);
   const Rgb ambient = SumAmbient(scene);
   plan.items.push_back({"ambient light", !IsBlack(ambient),

@@ -109,8 +109,11 @@ struct RenderPlan {
   bool all_positions = true;                  // more than shadow rays reads the hits' positions
   std::vector<uint8_t> may_be_shadowed;       // else: which spheres shadow rays may start on
   bool one_sample = false;                    // a pixel's only sample is its value: no sums
-  int tile_width = 16;                        // pixels; tiles are as high as strips
-  int samples_per_round = 1;                  // samples of a tile's pixels that make one batch
+  // One light is all that hits reflect: the beauty is the sum that its kernel makes of the parts.
+  bool one_light = false;
+  Leaves leaves = Leaves::kParts;  // what the first light leaves in a hit
+  int tile_width = 16;             // pixels; tiles are as high as strips
+  int samples_per_round = 1;       // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
   std::vector<PlanItem> substitutions;  // choices that agree within a stated error, not to the bit
   std::vector<FastLight> fast_lights;

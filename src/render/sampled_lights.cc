@@ -64,7 +64,8 @@ void ShadeUnit(const Lit& lit) {
   }();
   const LightOnBatch light{&kUnit, &lit.s.light};
   for (const MaterialRun& run : lit.s.runs) {
-    const LitHits hits{lit.s.hits, lit.s.surface, {&light, 1}, lit.s.textures.get(), true};
+    const LitHits hits{
+        lit.s.hits, lit.s.surface, {&light, 1}, lit.s.textures.get(), Leaves::kParts};
     ShadeRun(lit.MaterialOf(run), hits, run.begin, run.end, &lit.s.narrow, &lit.c.unit);
   }
 }

@@ -102,17 +102,17 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   }
 }
 
-void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, bool replace,
+void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, Leaves leaves,
                TileScratch* s, ReflectedRadiance* radiance) {
   for (const MaterialRun& run : s->runs) {
-    const LitHits lit{s->hits, s->surface, lights, s->textures.get(), replace};
+    const LitHits lit{s->hits, s->surface, lights, s->textures.get(), leaves};
     ShadeRun(plan.materials[run.material.index], lit, run.begin, run.end, &s->narrow, radiance);
   }
 }
 
 // A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
 // of its own.
-void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, bool replace, TileScratch* s,
+void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, Leaves leaves, TileScratch* s,
                 StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
   if (s->surface.turned) HideTurned(plan, s);
@@ -122,9 +122,13 @@ void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, bool replac
     clock->Charge(Stage::kShadow);
   }
   const LightOnBatch light{&planned.light, &s->light};
-  const bool apart = planned.layer >= 0;
-  ShadeRuns(plan, {&light, 1}, apart || replace, s, apart ? &s->single : &s->total);
-  if (apart) KeepLight(planned.layer, s);
+  if (planned.layer < 0 || plan.one_light) {
+    ShadeRuns(plan, {&light, 1}, leaves, s, &s->total);
+    if (planned.layer >= 0) ShowLight(s->total, planned.layer, s);
+  } else {
+    ShadeRuns(plan, {&light, 1}, Leaves::kParts, s, &s->single);
+    KeepLight(planned.layer, s);
+  }
 }
 
 // In the order of the lights. Those that need nothing but their sum are taken together while they
@@ -141,9 +145,10 @@ void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, Re
   clock->Charge(Stage::kRefine);
   s->together.clear();
   bool dark = true;  // nothing is in s->total yet
+  const auto leaves = [&] { return dark ? plan.leaves : Leaves::kAddedParts; };
   const auto shade_together = [&] {
     if (s->together.empty()) return;
-    ShadeRuns(plan, s->together, dark, s, &s->total);
+    ShadeRuns(plan, s->together, leaves(), s, &s->total);
     s->together.clear();
     dark = false;
   };
@@ -163,8 +168,8 @@ void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, Re
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();
-      if (planned.layer >= 0) clear_if_dark();
-      ShadeByOne(plan, planned, dark, s, clock, stats);
+      if (planned.layer >= 0 && !plan.one_light) clear_if_dark();
+      ShadeByOne(plan, planned, leaves(), s, clock, stats);
       dark = false;
     }
     stats->shades += s->hits.count;

@@ -22,8 +22,8 @@ void AddSoa(const Soa3<float>& a, size_t count, Soa3<float>* sum) {
 
 // Where a layer's values come from: the sum of two arrays of floats and two constants, in double.
 // The beauty is the exact sum of the other layers' floats, so after the film's average each is
-// rounded once, whatever the filter's weights cancel. It never depends on which layers are asked
-// for.
+// rounded once, whatever the filter's weights cancel; but where RenderPlan::one_light rounds a
+// sample's once more. It never depends on which layers are asked for.
 struct LayerTerms {
   const Soa3<float>* first = nullptr;  // null: zeros
   const Soa3<float>* second = nullptr;
@@ -33,14 +33,21 @@ struct LayerTerms {
   const Soa3<float>* emission = nullptr;
 };
 
+// What hits reflect of all lights.
+LayerTerms BeautyOf(const RenderPlan& plan, const TileScratch& s) {
+  if (plan.one_light) return {.first = &s.total.sum};
+  return {.first = &s.total.diffuse, .second = &s.total.specular};
+}
+
 // The same where maps give each hit its own constants.
-LayerTerms MappedTermsOf(const Layer& layer, const TileScratch& s) {
+LayerTerms MappedTermsOf(const RenderPlan& plan, const Layer& layer, const TileScratch& s) {
   switch (layer.kind) {
-    case LayerKind::kBeauty:
-      return {.first = &s.total.diffuse,
-              .second = &s.total.specular,
-              .ambient = &s.textures->ambient,
-              .emission = &s.textures->emission};
+    case LayerKind::kBeauty: {
+      LayerTerms terms = BeautyOf(plan, s);
+      terms.ambient = &s.textures->ambient;
+      terms.emission = &s.textures->emission;
+      return terms;
+    }
     case LayerKind::kAmbient:
       return {.first = &s.textures->ambient};
     case LayerKind::kEmission:
@@ -57,14 +64,18 @@ bool IsMapped(LayerKind kind) {
          kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
 }
 
-LayerTerms TermsOf(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
-                   const TileScratch& s) {
-  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(layer, s);
+LayerTerms TermsOf(const RenderPlan& plan, const Layer& layer, size_t light_layer,
+                   const ShadingMaterial& constants, const TileScratch& s) {
+  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(plan, layer, s);
   const Rgb ambient = RoundToFloat(constants.ambient);
   const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
-    case LayerKind::kBeauty:
-      return {&s.total.diffuse, &s.total.specular, ambient, emission};
+    case LayerKind::kBeauty: {
+      LayerTerms terms = BeautyOf(plan, s);
+      terms.constant = ambient;
+      terms.further = emission;
+      return terms;
+    }
     case LayerKind::kAlpha:
       return {.constant = {1, 0, 0}};
     case LayerKind::kDiffuse:
@@ -98,8 +109,6 @@ void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* val
               run.begin, run.end, values);
   } else if (first == nullptr) {
     std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
-  } else if (terms.second == nullptr) {
-    std::copy(first + run.begin, first + run.end, values + run.begin);
   } else {
     AddFloats(first, ChannelOrNull(terms.second, c), terms.constant[c], terms.further[c], run.begin,
               run.end, values);
@@ -121,7 +130,7 @@ void FindSpans(const MaterialRun& run, size_t row, TileScratch* s) {
 void AddRun(const RenderPlan& plan, const Layer& layer, size_t light_layer, double* const* sums,
             const TileScratch& s) {
   const ShadingMaterial& constants = plan.materials[s.runs[0].material.index];
-  const LayerTerms terms = TermsOf(layer, light_layer, constants, s);
+  const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, s);
   for (int c = 0; c < FloatChannels(layer.kind); ++c) {
     AddHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
             terms.further[c], s.spans, sums[c]);
@@ -188,14 +197,16 @@ void PutNearest(const RenderPlan& plan, size_t hit, size_t pixel, TileScratch* s
   }
 }
 
+void ShowLight(const ReflectedRadiance& of_light, int light_layer, TileScratch* scratch) {
+  Soa3<float>& layer = scratch->per_light[static_cast<size_t>(light_layer)];
+  AddSoa(of_light.diffuse, scratch->hits.count, &layer);
+  AddSoa(of_light.specular, scratch->hits.count, &layer);
+}
+
 void KeepLight(int light_layer, TileScratch* scratch) {
   TileScratch& s = *scratch;
   const size_t count = s.hits.count;
-  if (light_layer >= 0) {
-    Soa3<float>& layer = s.per_light[static_cast<size_t>(light_layer)];
-    AddSoa(s.single.diffuse, count, &layer);
-    AddSoa(s.single.specular, count, &layer);
-  }
+  if (light_layer >= 0) ShowLight(s.single, light_layer, &s);
   AddSoa(s.single.diffuse, count, &s.total.diffuse);
   AddSoa(s.single.specular, count, &s.total.specular);
 }
@@ -214,7 +225,8 @@ Soa3<double>& GatherLayer(const RenderPlan& plan, const Layer& layer, size_t lig
   const int channels = FloatChannels(layer.kind);
   if (s.hits.count > 0) {
     for (const MaterialRun& run : s.runs) {
-      const LayerTerms terms = TermsOf(layer, light_layer, plan.materials[run.material.index], s);
+      const LayerTerms terms =
+          TermsOf(plan, layer, light_layer, plan.materials[run.material.index], s);
       for (int c = 0; c < channels; ++c) FillRun(terms, c, run, ChannelOf(s.hit_values, c).data());
     }
   }
@@ -262,7 +274,7 @@ bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) 
     const ShadingMaterial& constants = plan.materials[run.material.index];
     size_t color = 0, light_layer = 0;
     for (const Layer& layer : plan.layers) {
-      const LayerTerms terms = TermsOf(layer, light_layer, constants, s);
+      const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, s);
       for (int c = 0; c < FloatChannels(layer.kind); ++c) {
         PutHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
                 terms.further[c], s.spans, RowsIn(strip->window, tile, &strip->colors[color++]));

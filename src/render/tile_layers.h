@@ -11,6 +11,9 @@ namespace nacre {
 // Adds scratch->single, the reflection of one light, to the total and, unless -1, to a light layer.
 void KeepLight(int light_layer, TileScratch* scratch);
 
+// Adds what a light leaves to its layer alone.
+void ShowLight(const ReflectedRadiance& of_light, int light_layer, TileScratch* scratch);
+
 inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
   return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
 }

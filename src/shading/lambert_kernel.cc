@@ -14,15 +14,13 @@ namespace HWY_NAMESPACE {
 
 template <class Number>
 struct Lambert {
-  static constexpr bool kHasSpecular = false;
   struct View {};
   const LambertLightOf<Number>* HWY_RESTRICT lights;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                               size_t k) const {
-    const FloatV zero = hn::Zero(d);
-    return {ScaleRgb(RgbAt(d, lights[k].diffuse, p.i), in.weight), {zero, zero, zero}};
+  HWY_INLINE DiffuseV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                              size_t k) const {
+    return {{RgbAt(d, lights[k].diffuse, p.i), in.weight}};
   }
 };
 

@@ -79,7 +79,7 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   uniforms.model = &model;
   uniforms.lights = &light;
   uniforms.alpha = t.alpha.data();
-  uniforms.alpha2_over_pi = t.alpha2_over_pi.data();
+  uniforms.pi_over_alpha2 = t.pi_over_alpha2.data();
   uniforms.schlick_k = t.schlick_k.data();
   Assign(t.f0, uniforms.f0);
   uniforms.f90 = t.f90.data();
@@ -128,7 +128,7 @@ void ShadeMapped(const ShadingMaterial& material, const ShadeRange& range, Narro
     MakeProducts({material, light.light->color, range.begin, range.end}, textures);
     ShadeRange one = range;
     one.lights = {&light, 1};
-    one.replace = range.replace && &light == range.lights.data();
+    if (&light != range.lights.data()) one.leaves = Leaves::kAddedParts;
     std::visit(
         Overloaded{[](std::monostate) {},
                    [&](const auto& model) { Shade(model, one, own_fits, scratch, *textures); }},

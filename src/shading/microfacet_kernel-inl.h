@@ -21,27 +21,21 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// The shadowing that a kernel is for: one, or whichever its model has, asked at each packet.
-template <Shadowing kShadowing>
-struct OneShadowing {
-  static HWY_INLINE Shadowing Of(const MicrofacetModel&) { return kShadowing; }
+// The models that a kernel is for: those of one shadowing, all of whose hits share a wide lobe over
+// Lambert's base. `kIsPrepared`: with what PrepareMicrofacet has left of every hit: multiple
+// scattering, or a base that gets what the lobe's albedo leaves.
+template <Shadowing kShadowing, bool kIsPrepared>
+struct UsualForm {
+  static constexpr bool kUsual = true;
+  static constexpr bool kPrepared = kIsPrepared;
+  static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel&) { return kShadowing; }
 };
-struct ModelShadowing {
-  static HWY_INLINE Shadowing Of(const MicrofacetModel& model) { return model.shadowing; }
+// Or any, which is asked at each packet what it is.
+struct AnyForm {
+  static constexpr bool kUsual = false;
+  static constexpr bool kPrepared = true;
+  static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel& model) { return model.shadowing; }
 };
-
-HWY_INLINE FloatV VisibilityDenominator(FloatTag d, Shadowing shadowing, FloatV n_dot_l,
-                                        FloatV n_dot_v, FloatV alpha, FloatV schlick_k) {
-  switch (shadowing) {
-    case Shadowing::kHeightCorrelated:
-      return VisibilityDenominatorHeightCorrelated(d, n_dot_l, n_dot_v, alpha);
-    case Shadowing::kSeparable:
-      return VisibilityDenominatorSeparable(d, n_dot_l, n_dot_v, alpha);
-    case Shadowing::kSchlickDirect:
-      break;
-  }
-  return VisibilityDenominatorSchlick(d, n_dot_l, n_dot_v, schlick_k);
-}
 
 // What a Fresnel curve makes of the light on a packet: the part that the lobe reflects, and the
 // part that is left for a base under it (DiffuseCoupling::kOneMinusFresnel), of the light times
@@ -116,14 +110,14 @@ HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
   return MulAddRgb(f0, multiple, {one, one, one});
 }
 
-// kPrepared: with what PrepareMicrofacet has left of every hit: multiple scattering, or a base
-// that gets what the lobe's albedo leaves.
-template <FresnelForm kFresnel, class ShadowingOf, bool kPrepared, class Number>
+template <FresnelForm kFresnel, class Form, class Number>
 struct Microfacet {
-  static constexpr bool kHasSpecular = true;
   static constexpr bool kReadsIrradiance = false;
   using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
+  // The curve's numbers tell what the base gets, coupled to the lobe or not (MakeLight).
+  static constexpr bool kBaseByCurve =
+      Form::kUsual && !Form::kPrepared && kFresnel == FresnelForm::kSchlick;
   const MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
 
@@ -141,6 +135,22 @@ struct Microfacet {
     return {hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d)), &surface};
   }
 
+  // The denominator of the visibility times `scale`.
+  HWY_INLINE FloatV Masking(FloatTag d, const View& view, const PacketV& p, const Incident& in,
+                            FloatV scale) const {
+    const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
+    switch (Form::ShadowingOf(model)) {
+      case Shadowing::kHeightCorrelated:
+        return VisibilityDenominatorHeightCorrelated(d, in.n_dot_l, view.n_dot_v, alpha, scale);
+      case Shadowing::kSeparable:
+        return VisibilityDenominatorSeparable(d, in.n_dot_l, view.n_dot_v, alpha, scale);
+      case Shadowing::kSchlickDirect:
+        break;
+    }
+    return VisibilityDenominatorSchlick(d, in.n_dot_l, view.n_dot_v,
+                                        NumberAt(d, uniforms.schlick_k, p.i), scale);
+  }
+
   // Distribution, visibility, cosine and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const View& view, const PacketV& p, const Incident& in,
                          FloatV u_inverse) const {
@@ -148,50 +158,51 @@ struct Microfacet {
     // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+    if (!Form::kUsual && kSame && uniforms.narrow != nullptr) return NarrowLobe(d, view, p, in);
     // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
     const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
-    const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
-    const FloatV masking =
-        VisibilityDenominator(d, ShadowingOf::Of(model), in.n_dot_l, view.n_dot_v, alpha,
-                              NumberAt(d, uniforms.schlick_k, p.i));
-    if (kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in, masking);
-    const FloatV q = GgxRootDenominator(d, in.half, hn::Mul(u_inverse, u_inverse), alpha);
+    const FloatV q = GgxRootDenominator(d, in.half, hn::Mul(u_inverse, u_inverse),
+                                        NumberAt(d, uniforms.alpha, p.i));
+    const FloatV masking = Masking(d, view, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
-    const FloatV numerator = hn::Mul(in.weight, NumberAt(d, uniforms.alpha2_over_pi, p.i));
-    const FloatV wide = hn::IfThenElseZero(
-        hn::And(in.lit, above), hn::Min(hn::Mul(numerator, Reciprocal(d, denominator)), largest));
-    if (kSame || uniforms.narrow == nullptr) return wide;
+    // Where the surface is not lit, the weight and so the product is 0.
+    const FloatV wide =
+        hn::IfThenElseZero(above, hn::Min(hn::Mul(in.weight, Reciprocal(d, denominator)), largest));
+    if (Form::kUsual || kSame || uniforms.narrow == nullptr) return wide;
     const auto is_narrow = hn::Ge(hn::LoadU(d, uniforms.narrow + p.i), hn::Zero(d));
-    return hn::IfThenElse(is_narrow, NarrowLobe(d, p, in, masking), wide);
+    return hn::IfThenElse(is_narrow, NarrowLobe(d, view, p, in), wide);
   }
 
   // The same with the distribution that was formed in double.
-  HWY_INLINE FloatV NarrowLobe(FloatTag d, const PacketV& p, const IncidentV& in,
-                               FloatV masking) const {
+  HWY_INLINE FloatV NarrowLobe(FloatTag d, const View& view, const PacketV& p,
+                               const Incident& in) const {
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+    const FloatV masking = Masking(d, view, p, in, hn::Set(d, 1.0f));
     const FloatV visibility = hn::Min(hn::Div(in.weight, hn::Max(masking, smallest)), largest);
     const FloatV product = hn::Mul(hn::LoadU(d, uniforms.narrow + p.i), visibility);
     return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
   }
 
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,
-                               size_t k) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,
+                                size_t k) const {
     const MicrofacetLightOf<Number>& light = uniforms.lights[k];
     const FloatV u_squared =
         hn::Max(in.half.u_squared, hn::Set(d, std::numeric_limits<float>::min()));
     const FloatV u_inverse = ReciprocalSqrt(d, u_squared);
     const HalfV half{in.half.lv_squared, hn::Mul(u_squared, u_inverse)};
     const CurveV curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms, light);
-    RgbV reflected = ScaleRgb(curve.reflected, Lobe(d, view, p, in, u_inverse));
+    PartV reflected{curve.reflected, Lobe(d, view, p, in, u_inverse)};
     RgbV base = curve.left;
-    if (model.coupling != DiffuseCoupling::kOneMinusFresnel) base = RgbAt(d, light.diffuse, p.i);
-    if constexpr (kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
-    // Grazing light spreads by as much more as its weight is less: their product stays in range.
-    if (kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
-      return {MulRgb(base, ScaleRgb(SpreadAt(d, p.i), in.weight)), reflected};
+    if (!kBaseByCurve && model.coupling != DiffuseCoupling::kOneMinusFresnel) {
+      base = RgbAt(d, light.diffuse, p.i);
     }
-    return {ScaleRgb(base, in.weight), reflected};
+    if constexpr (Form::kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
+    // Grazing light spreads by as much more as its weight is less: their product stays in range.
+    if (!Form::kUsual && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
+      return {{WholePart(d, MulRgb(base, ScaleRgb(SpreadAt(d, p.i), in.weight)))}, reflected};
+    }
+    return {{{base, in.weight}}, reflected};
   }
 
   HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
@@ -213,21 +224,22 @@ struct Microfacet {
 
   // Adds what bounces more than once, and takes from the base what the lobe's albedo does.
   HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
-                           const MicrofacetLightOf<Number>& light, RgbV* reflected,
+                           const MicrofacetLightOf<Number>& light, PartV* reflected,
                            RgbV* base) const {
     const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
     const Surface& surface = *view.surface;
     if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.base, i));
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     if (model.compensation == Compensation::kTurquin) {
-      *reflected = MulRgb(*reflected, TurquinScale(d, RgbAt(d, uniforms.f0, i), multiple));
+      reflected->color =
+          MulRgb(reflected->color, TurquinScale(d, RgbAt(d, uniforms.f0, i), multiple));
     }
     if (model.compensation != Compensation::kKullaConty) return;
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
     const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
-    *reflected =
-        AddRgb(*reflected, ScaleRgb(RgbAt(d, light.multiple, i), hn::Min(amount, largest)));
+    const RgbV more = ScaleRgb(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
+    *reflected = WholePart(d, AddRgb(RgbOf(*reflected), more));
     if (scaled) {
       const RgbV f0 = RgbAt(d, uniforms.f0, i), f_multiple = RgbAt(d, uniforms.f_multiple, i);
       *base = MulRgb(*base, {KullaContyBase(d, from_light, f0.r, f_multiple.r),
@@ -237,37 +249,41 @@ struct Microfacet {
   }
 };
 
+template <FresnelForm kFresnel, class Form, class Number>
+void ShadeMicrofacetForm(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRange& range) {
+  ShadePackets(FloatTag(), Microfacet<kFresnel, Form, Number>{uniforms, *uniforms.model}, range);
+}
+
 template <FresnelForm kFresnel, Shadowing kShadowing>
-void ShadeMicrofacetForm(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
-  using Form = OneShadowing<kShadowing>;
-  const MicrofacetModel& model = *uniforms.model;
-  if (model.prepared) {
-    ShadePackets(FloatTag(), Microfacet<kFresnel, Form, true, float>{uniforms, model}, range);
+void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  if (uniforms.model->prepared) {
+    ShadeMicrofacetForm<kFresnel, UsualForm<kShadowing, true>>(uniforms, range);
   } else {
-    ShadePackets(FloatTag(), Microfacet<kFresnel, Form, false, float>{uniforms, model}, range);
+    ShadeMicrofacetForm<kFresnel, UsualForm<kShadowing, false>>(uniforms, range);
   }
 }
 
 template <FresnelForm kFresnel>
 void ShadeMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+  if (uniforms.narrow != nullptr || uniforms.spread != nullptr) {
+    return ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
+  }
   switch (uniforms.model->shadowing) {
     case Shadowing::kHeightCorrelated:
-      return ShadeMicrofacetForm<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);
+      return ShadeUsualMicrofacet<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);
     case Shadowing::kSeparable:
-      return ShadeMicrofacetForm<kFresnel, Shadowing::kSeparable>(uniforms, range);
+      return ShadeUsualMicrofacet<kFresnel, Shadowing::kSeparable>(uniforms, range);
     case Shadowing::kSchlickDirect:
-      return ShadeMicrofacetForm<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
+      return ShadeUsualMicrofacet<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
   }
 }
 
 // Hits with numbers of their own, of which looking up and rounding them is most of the work: one
-// kernel for every shadowing, prepared or not, in place of six.
+// kernel for all.
 template <FresnelForm kFresnel>
 void ShadeMicrofacetMaps(const MicrofacetUniformsOf<const float*>& uniforms,
                          const ShadeRange& range) {
-  ShadePackets(FloatTag(),
-               Microfacet<kFresnel, ModelShadowing, true, const float*>{uniforms, *uniforms.model},
-               range);
+  ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

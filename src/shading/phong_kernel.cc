@@ -17,7 +17,6 @@ namespace HWY_NAMESPACE {
 
 template <PhongModel kModel, class Number>
 struct PhongFamily {
-  static constexpr bool kHasSpecular = true;
   static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
   using Incident = LobeIncidentV;
   struct View {};
@@ -56,8 +55,8 @@ struct PhongFamily {
     }
   }
 
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
-                               size_t k) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
+                                size_t k) const {
     const LobeCosineV<FloatV> cosine = Lobe(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
@@ -65,8 +64,8 @@ struct PhongFamily {
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
     const PhongLightOf<Number>& by = uniforms.lights[k];
-    return {ScaleRgb(RgbAt(d, by.diffuse, p.i), in.weight),
-            ScaleRgb(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light))};
+    return {{{RgbAt(d, by.diffuse, p.i), in.weight}},
+            {RgbAt(d, by.specular, p.i), hn::Mul(lobe, light)}};
   }
 };
 

@@ -9,6 +9,7 @@
 #endif
 
 #include <span>
+#include <type_traits>
 
 #include "brdf/angles-inl.h"
 #include "brdf/phong-inl.h"
@@ -118,16 +119,26 @@ HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Poin
   }
 }
 
-// What packets reflect.
-struct RadianceV {
-  RgbV diffuse, specular;
+// What packets reflect: each part is a colour times what falls on it.
+struct PartV {
+  RgbV color;
+  FloatV scale;
 };
+struct DiffuseV {
+  PartV diffuse;
+};
+struct ReflectedV : DiffuseV {
+  PartV specular;
+};
+
+HWY_INLINE RgbV RgbOf(const PartV& part) { return ScaleRgb(part.color, part.scale); }
+HWY_INLINE PartV WholePart(FloatTag d, const RgbV& value) { return {value, hn::Set(d, 1.0f)}; }
 
 // A range's arrays. Arrays are padded to whole vectors and ranges of a batch follow one another, so
 // a packet may reach past its range: the lanes that do are not stored.
 struct RangeArrays {
   Pointers3<const float> normal, to_view;
-  Pointers3<float> diffuse, specular;
+  Pointers3<float> diffuse, specular, sum;
   size_t end;
 
   explicit RangeArrays(const ShadeRange& range)
@@ -135,6 +146,7 @@ struct RangeArrays {
         to_view(PointersTo(range.surface.to_view)),
         diffuse(PointersTo(&range.radiance->diffuse)),
         specular(PointersTo(&range.radiance->specular)),
+        sum(PointersTo(&range.radiance->sum)),
         end(range.end) {}
 
   HWY_INLINE Vec3V<FloatV> Normal(FloatTag d, size_t i) const { return LoadAt(d, normal, i); }
@@ -143,14 +155,8 @@ struct RangeArrays {
     return {i, LoadAt(d, normal, i), LoadAt(d, to_view, i)};
   }
 
-  HWY_INLINE RadianceV Load(FloatTag d, size_t i) const {
-    return {LoadAsRgb(d, diffuse, i), LoadAsRgb(d, specular, i)};
-  }
-
-  template <bool kSpecular>
-  HWY_INLINE void Store(FloatTag d, const RadianceV& sum, size_t i) const {
-    StoreRgb(d, end - i, sum.diffuse, diffuse, i);
-    if constexpr (kSpecular) StoreRgb(d, end - i, sum.specular, specular, i);
+  HWY_INLINE void Store(FloatTag d, const RgbV& value, const Pointers3<float>& to, size_t i) const {
+    StoreRgb(d, end - i, value, to, i);
   }
 };
 
@@ -176,27 +182,46 @@ HWY_INLINE void VisitLight(FloatTag d, const LightOnBatch& light, const HitBatch
   }
 }
 
-// What `incident_at(packet)` brings to hits [begin, end) is reflected, and added or stored.
+// What ShadeRange::leaves says of the packet's reflection of a light, the range's first or not.
+template <class Reflected>
+HWY_INLINE void Leave(FloatTag d, const Reflected& of_light, Leaves leaves,
+                      const RangeArrays& arrays, size_t i) {
+  constexpr bool kHasSpecular = std::is_same_v<Reflected, ReflectedV>;
+  const RgbV diffuse = RgbOf(of_light.diffuse);
+  if (leaves == Leaves::kAddedParts) {
+    arrays.Store(d, AddRgb(LoadAsRgb(d, arrays.diffuse, i), diffuse), arrays.diffuse, i);
+    if constexpr (kHasSpecular) {
+      const RgbV specular = RgbOf(of_light.specular);
+      arrays.Store(d, AddRgb(LoadAsRgb(d, arrays.specular, i), specular), arrays.specular, i);
+    }
+    return;
+  }
+  if (leaves != Leaves::kSum) {
+    const FloatV zero = hn::Zero(d);
+    RgbV specular{zero, zero, zero};
+    if constexpr (kHasSpecular) specular = RgbOf(of_light.specular);
+    arrays.Store(d, diffuse, arrays.diffuse, i);
+    arrays.Store(d, specular, arrays.specular, i);
+    if (leaves == Leaves::kParts) return;
+  }
+  RgbV sum = diffuse;
+  if constexpr (kHasSpecular) {
+    sum = MulAddRgb(of_light.specular.color, of_light.specular.scale, diffuse);
+  }
+  arrays.Store(d, sum, arrays.sum, i);
+}
+
+// What `incident_at(packet)` brings to hits [begin, end) is reflected and left.
 template <class Model, class IncidentAt>
 HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& range,
                              const RangeArrays& given, size_t k, size_t begin, size_t end,
                              const IncidentAt& incident_at) {
   const RangeArrays arrays = given;  // kept in registers: what is stored cannot be this copy
-  const bool replace = range.replace && k == 0;
+  const Leaves leaves = k == 0 ? range.leaves : Leaves::kAddedParts;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const PacketV packet = arrays.Packet(d, i);
     const auto view = model.SeenBy(d, packet, range.surface);
-    const RadianceV of_light = model.Reflect(d, view, packet, incident_at(packet), k);
-    if (replace && Model::kHasSpecular) {
-      arrays.Store<true>(d, of_light, i);
-    } else if (replace) {
-      const FloatV zero = hn::Zero(d);  // of_light's go through memory, asked for or not
-      arrays.Store<true>(d, {of_light.diffuse, {zero, zero, zero}}, i);
-    } else {
-      const RadianceV sum = arrays.Load(d, i);
-      arrays.Store<Model::kHasSpecular>(
-          d, {AddRgb(sum.diffuse, of_light.diffuse), AddRgb(sum.specular, of_light.specular)}, i);
-    }
+    Leave(d, model.Reflect(d, view, packet, incident_at(packet), k), leaves, arrays, i);
   }
 }
 

@@ -15,7 +15,6 @@ namespace HWY_NAMESPACE {
 
 template <DiffuseForm kForm, class Number>
 struct RoughMatte {
-  static constexpr bool kHasSpecular = false;
   static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   using View = typename RoughDiffuse<kForm>::View;
@@ -24,18 +23,17 @@ struct RoughMatte {
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
     return RoughDiffuse<kForm>::SeenBy(d, p);
   }
-  HWY_INLINE RadianceV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
-                               size_t k) const {
-    const FloatV zero = hn::Zero(d);
+  HWY_INLINE DiffuseV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
+                              size_t k) const {
     const FloatV roughness = hn::Set(d, uniforms.roughness);
     const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, roughness);
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const RgbV lambert = RgbAt(d, uniforms.lights[k].diffuse, p.i);
     if constexpr (kForm == DiffuseForm::kBurley) {
-      return {ScaleRgb(lambert, hn::Mul(spread.single, in.weight)), {zero, zero, zero}};
+      return {{lambert, hn::Mul(spread.single, in.weight)}};
     } else {
       const RgbV by_color = SpreadRgb(spread, RgbAt(d, uniforms.ratio, p.i));
-      return {MulRgb(lambert, ScaleRgb(by_color, in.weight)), {zero, zero, zero}};
+      return {WholePart(d, MulRgb(lambert, ScaleRgb(by_color, in.weight)))};
     }
   }
 };

@@ -41,13 +41,15 @@ PhongLight MakeLight(const PhongFamilyModel& model, const Rgb& color) {
 MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
   MicrofacetLight light;
   const Rgb specular = model.delta ? Rgb(0, 0, 0) : color;
-  const Rgb rest = Rgb(1) - model.f0, rise = Rgb(model.f90) - model.f0;
-  Assign(model.diffuse * color, light.diffuse);
+  const Rgb diffuse = model.diffuse * color;
+  const Rgb rise = Rgb(model.f90) - model.f0;
+  const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
+  Assign(diffuse, light.diffuse);
   Assign(specular, light.specular);
   Assign(model.f0 * specular, light.specular_f0);
   Assign(rise * specular, light.specular_rise);
-  Assign(rest * model.diffuse * color, light.diffuse_rest);
-  Assign(rise * model.diffuse * color, light.diffuse_fall);
+  Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_rest);
+  Assign(coupled ? rise * diffuse : Rgb(0), light.diffuse_fall);
   Assign(model.f_multiple * color, light.multiple);
   return light;
 }
@@ -58,7 +60,7 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLi
   uniforms.model = &model;
   uniforms.lights = lights;
   uniforms.alpha = static_cast<float>(alpha);
-  uniforms.alpha2_over_pi = static_cast<float>(alpha * alpha * M_1_PI);
+  uniforms.pi_over_alpha2 = static_cast<float>(M_PI / (alpha * alpha));
   uniforms.schlick_k = static_cast<float>(model.schlick_k);
   Assign(model.f0, uniforms.f0);
   uniforms.is_bright = std::min({uniforms.f0[0], uniforms.f0[1], uniforms.f0[2]}) >= kBrightF0;
@@ -97,7 +99,7 @@ void ForEachGroup(const Model& model, const ShadeRange& range, size_t at_once, c
     }
     ShadeRange group = range;
     group.lights = range.lights.subspan(first, count);
-    group.replace = range.replace && first == 0;
+    if (first > 0) group.leaves = Leaves::kAddedParts;
     shade(lights.data(), group);
   }
 }
@@ -163,7 +165,7 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               NarrowLobes* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.replace};
+  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.leaves};
   if (HasMappedModel(material)) return ShadeMapped(material, range, scratch, lit.textures);
   std::visit(
       Overloaded{[](std::monostate) {}, [&](const LambertModel& lambert) { Shade(lambert, range); },
@@ -181,6 +183,7 @@ void ClearSoa(size_t count, Soa3<float>* soa) {
 void ClearRadiance(size_t count, ReflectedRadiance* radiance) {
   ClearSoa(count, &radiance->diffuse);
   ClearSoa(count, &radiance->specular);
+  ClearSoa(count, &radiance->sum);
 }
 
 }  // namespace nacre

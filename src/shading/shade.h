@@ -42,9 +42,20 @@ struct LightOnBatch {
   const LightBatch* evaluated;  // null: ShadeRun is to evaluate it in place
 };
 
-// What a batch reflects so far, per hit.
+// What a batch reflects so far, per hit: its parts, or their sum, or both.
 struct ReflectedRadiance {
   Soa3<float> diffuse, specular;
+  Soa3<float> sum;
+};
+
+// What ShadeRun leaves in it.
+enum class Leaves : uint8_t {
+  kAddedParts,  // the parts, added to those that are there
+  kParts,       // the parts; those that are there count as 0, whatever they are
+  // Of one light. The specular part is rounded once, as it is added: within an ulp of the parts'
+  // own sum.
+  kSum,
+  kPartsAndSum,  // the bits of both
 };
 
 // How rough bases spread a light: what their Lambertian reflection is multiplied by, single + ratio
@@ -67,7 +78,7 @@ struct LitHits {
   const Surface& surface;
   std::span<const LightOnBatch> lights;
   HitTextures* textures = nullptr;  // of materials with maps
-  bool replace = false;             // the radiance so far counts as 0, whatever it is
+  Leaves leaves = Leaves::kAddedParts;
 };
 
 // Rounds hits whose directions were given in double.
@@ -85,8 +96,7 @@ bool EvaluatedInPlace(const ShadingLight& light);
 void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                    LightBatch* result);
 
-// Adds to `radiance` what hits [begin, end), all of `material`, reflect of the lights; or stores
-// it (LitHits::replace).
+// Brings to `radiance` what hits [begin, end), all of `material`, reflect of the lights.
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               NarrowLobes* scratch, ReflectedRadiance* radiance);
 

@@ -56,9 +56,9 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
         PhongLobe(d, PhongCosine(d, n, l, v), shininess),
         BlinnLobe(d, BlinnSquaredCosine(d, a), shininess),
         GgxDistribution(d, a, alpha),
-        hn::Div(one, VisibilityDenominatorHeightCorrelated(d, a.n_dot_l, n_dot_v, alpha)),
-        hn::Div(one, VisibilityDenominatorSeparable(d, a.n_dot_l, n_dot_v, alpha)),
-        hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, k)),
+        hn::Div(one, VisibilityDenominatorHeightCorrelated(d, a.n_dot_l, n_dot_v, alpha, one)),
+        hn::Div(one, VisibilityDenominatorSeparable(d, a.n_dot_l, n_dot_v, alpha, one)),
+        hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, k, one)),
         FresnelSchlick(d, f0, hn::Set(d, hn::TFromD<D>(1)), SchlickWeight(d, a)),
     };
     float TermOutput::*const members[] = {

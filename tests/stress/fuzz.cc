@@ -72,7 +72,7 @@ void Shade(const ShadingMaterial& material, const Rgb& color, size_t begin, size
 // The bits of a hit's radiance.
 std::array<uint32_t, 6> BitsOf(const Placement& p, size_t hit) {
   const size_t i = p.place[hit];
-  const auto& [diffuse, specular] = p.radiance;
+  const auto& [diffuse, specular, sum] = p.radiance;
   return {std::bit_cast<uint32_t>(diffuse.x[i]),  std::bit_cast<uint32_t>(diffuse.y[i]),
           std::bit_cast<uint32_t>(diffuse.z[i]),  std::bit_cast<uint32_t>(specular.x[i]),
           std::bit_cast<uint32_t>(specular.y[i]), std::bit_cast<uint32_t>(specular.z[i])};
