@@ -47,7 +47,7 @@ struct TextbookGgx {
     const TextbookGgxLight& light = *uniforms.light;
     const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
-    return {{{SetRgb(d, light.diffuse), left}}, {fresnel, lobe}};
+    return {{ScaledPart(SetRgb(d, light.diffuse), left)}, ScaledPart(fresnel, lobe)};
   }
 };
 
@@ -66,8 +66,8 @@ struct NaivePhong {
     const FloatV log2 = Log2(d, hn::Max(cosine, hn::Set(d, 1e-30f)));
     const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
     const PhongLight& by = uniforms.lights[k];
-    return {{{SetRgb(d, by.diffuse), in.weight}},
-            {SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance)}};
+    return {{ScaledPart(SetRgb(d, by.diffuse), in.weight)},
+            ScaledPart(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
   }
 };
 
@@ -88,8 +88,8 @@ struct NaiveBlinnPhong {
     const FloatV log2 = Log2(d, hn::Max(n_dot_h, smallest));
     const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
     const PhongLight& by = uniforms.lights[k];
-    return {{{SetRgb(d, by.diffuse), in.weight}},
-            {SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance)}};
+    return {{ScaledPart(SetRgb(d, by.diffuse), in.weight)},
+            ScaledPart(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
   }
 };
 

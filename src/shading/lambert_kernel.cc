@@ -20,7 +20,7 @@ struct Lambert {
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
   HWY_INLINE DiffuseV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
                               size_t k) const {
-    return {{RgbAt(d, lights[k].diffuse, p.i), in.weight}};
+    return {ScaledPart(RgbAt(d, lights[k].diffuse, p.i), in.weight)};
   }
 };
 

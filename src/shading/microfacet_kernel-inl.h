@@ -192,7 +192,7 @@ struct Microfacet {
     const FloatV u_inverse = ReciprocalSqrt(d, u_squared);
     const HalfV half{in.half.lv_squared, hn::Mul(u_squared, u_inverse)};
     const CurveV curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms, light);
-    PartV reflected{curve.reflected, Lobe(d, view, p, in, u_inverse)};
+    PartV reflected = ScaledPart(curve.reflected, Lobe(d, view, p, in, u_inverse));
     RgbV base = curve.left;
     if (!kBaseByCurve && model.coupling != DiffuseCoupling::kOneMinusFresnel) {
       base = RgbAt(d, light.diffuse, p.i);
@@ -200,9 +200,9 @@ struct Microfacet {
     if constexpr (Form::kPrepared) Complete(d, view, p.i, in, light, &reflected, &base);
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     if (!Form::kUsual && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr) {
-      return {{WholePart(d, MulRgb(base, ScaleRgb(SpreadAt(d, p.i), in.weight)))}, reflected};
+      return {{{base, ScaleRgb(SpreadAt(d, p.i), in.weight)}}, reflected};
     }
-    return {{{base, in.weight}}, reflected};
+    return {{ScaledPart(base, in.weight)}, reflected};
   }
 
   HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
@@ -231,8 +231,8 @@ struct Microfacet {
     if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.base, i));
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     if (model.compensation == Compensation::kTurquin) {
-      reflected->color =
-          MulRgb(reflected->color, TurquinScale(d, RgbAt(d, uniforms.f0, i), multiple));
+      // The lobe first: a bright light's colour times the scale may be beyond float's range.
+      *reflected = {RgbOf(*reflected), TurquinScale(d, RgbAt(d, uniforms.f0, i), multiple)};
     }
     if (model.compensation != Compensation::kKullaConty) return;
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());

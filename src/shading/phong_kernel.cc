@@ -64,8 +64,8 @@ struct PhongFamily {
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
     const PhongLightOf<Number>& by = uniforms.lights[k];
-    return {{{RgbAt(d, by.diffuse, p.i), in.weight}},
-            {RgbAt(d, by.specular, p.i), hn::Mul(lobe, light)}};
+    return {{ScaledPart(RgbAt(d, by.diffuse, p.i), in.weight)},
+            ScaledPart(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light))};
   }
 };
 

@@ -119,10 +119,9 @@ HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Poin
   }
 }
 
-// What packets reflect: each part is a colour times what falls on it.
+// What packets reflect: each part is the product of two, such as a colour and what falls on it.
 struct PartV {
-  RgbV color;
-  FloatV scale;
+  RgbV color, scale;
 };
 struct DiffuseV {
   PartV diffuse;
@@ -131,8 +130,13 @@ struct ReflectedV : DiffuseV {
   PartV specular;
 };
 
-HWY_INLINE RgbV RgbOf(const PartV& part) { return ScaleRgb(part.color, part.scale); }
-HWY_INLINE PartV WholePart(FloatTag d, const RgbV& value) { return {value, hn::Set(d, 1.0f)}; }
+HWY_INLINE PartV ScaledPart(const RgbV& color, FloatV scale) {
+  return {color, {scale, scale, scale}};
+}
+HWY_INLINE PartV WholePart(FloatTag d, const RgbV& value) {
+  return ScaledPart(value, hn::Set(d, 1.0f));
+}
+HWY_INLINE RgbV RgbOf(const PartV& part) { return MulRgb(part.color, part.scale); }
 
 // A range's arrays. Arrays are padded to whole vectors and ranges of a batch follow one another, so
 // a packet may reach past its range: the lanes that do are not stored.
@@ -206,7 +210,9 @@ HWY_INLINE void Leave(FloatTag d, const Reflected& of_light, Leaves leaves,
   }
   RgbV sum = diffuse;
   if constexpr (kHasSpecular) {
-    sum = MulAddRgb(of_light.specular.color, of_light.specular.scale, diffuse);
+    const auto& [color, scale] = of_light.specular;
+    sum = {hn::MulAdd(color.r, scale.r, diffuse.r), hn::MulAdd(color.g, scale.g, diffuse.g),
+           hn::MulAdd(color.b, scale.b, diffuse.b)};
   }
   arrays.Store(d, sum, arrays.sum, i);
 }

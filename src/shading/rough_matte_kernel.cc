@@ -30,10 +30,10 @@ struct RoughMatte {
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const RgbV lambert = RgbAt(d, uniforms.lights[k].diffuse, p.i);
     if constexpr (kForm == DiffuseForm::kBurley) {
-      return {{lambert, hn::Mul(spread.single, in.weight)}};
+      return {ScaledPart(lambert, hn::Mul(spread.single, in.weight))};
     } else {
       const RgbV by_color = SpreadRgb(spread, RgbAt(d, uniforms.ratio, p.i));
-      return {WholePart(d, MulRgb(lambert, ScaleRgb(by_color, in.weight)))};
+      return {{lambert, ScaleRgb(by_color, in.weight)}};
     }
   }
 };

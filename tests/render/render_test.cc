@@ -135,8 +135,7 @@ TEST_CASE("a region without a pixel is refused") {
 
 // Also where a filter's weights cancel: one rounding of the beauty and of each of the four layers,
 // of at most half an ulp of the largest of them, is within the design's 4 ulp.
-void CheckLayers(const PixelFilter& filter) {
-  Scene scene = MakeScene();
+void CheckLayers(Scene scene, const PixelFilter& filter) {
   scene.image.filter = filter;
   const Image alone = RenderImage(scene, Settings(1));
   const Image layered = RenderImage(scene, Settings(1, {"all"}));
@@ -157,7 +156,10 @@ void CheckLayers(const PixelFilter& filter) {
       const float top = static_cast<float>(largest);
       const double ulp = double{std::nextafter(top, INFINITY)} - double{top};
       REQUIRE(std::abs(sum - double{beauty[i]}) <= 4 * ulp);
-      const double lights = layer("light.key") + layer("light.sun") + layer("light.spot");
+      double lights = 0;
+      for (const Light& light : scene.lights) {
+        if (light.name != "sky") lights += layer("light." + light.name);
+      }
       lights_error =
           std::max(lights_error, std::abs(lights - layer("diffuse") - layer("specular")));
     }
@@ -166,10 +168,36 @@ void CheckLayers(const PixelFilter& filter) {
 }
 
 TEST_CASE("layers do not change the beauty, and add up to it") {
-  CheckLayers({});
-  CheckLayers({FilterKind::kGaussian, 3});
-  CheckLayers({FilterKind::kBlackmanHarris, 3.3});
-  CheckLayers({FilterKind::kMitchell, 4});
+  const Scene scene = MakeScene();
+  CheckLayers(scene, {});
+  CheckLayers(scene, {FilterKind::kGaussian, 3});
+  CheckLayers(scene, {FilterKind::kBlackmanHarris, 3.3});
+  CheckLayers(scene, {FilterKind::kMitchell, 4});
+}
+
+// Of which kernels leave the sum, and the parts where a layer shows them.
+TEST_CASE("under one light, too, layers do not change the beauty and add up to it") {
+  for (size_t one = 0; one < 3; ++one) {
+    Scene scene = MakeScene();
+    scene.lights = {scene.lights[one], scene.lights[3]};
+    CAPTURE(scene.lights[0].name);
+    CheckLayers(scene, {});
+    CheckLayers(scene, {FilterKind::kGaussian, 3});
+    CheckLayers(scene, {FilterKind::kMitchell, 4});
+    const Image beauty = RenderImage(scene, Settings(1));
+    const auto same_beauty = [&](const RenderSettings& settings) {
+      const Image image = RenderImage(scene, settings);
+      for (const char* channel : {"R", "G", "B"}) {
+        CHECK(SameBits(beauty.Find(channel)->samples, image.Find(channel)->samples));
+      }
+    };
+    for (const std::string& layer : {std::string("diffuse"), "light." + scene.lights[0].name}) {
+      same_beauty(Settings(1, {layer}));
+    }
+    RenderSettings general = Settings(1);
+    general.general_path = true;
+    same_beauty(general);
+  }
 }
 
 TEST_CASE("in half, too, layers add up to the beauty within half an ulp of each") {

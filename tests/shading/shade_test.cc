@@ -296,6 +296,54 @@ TEST_CASE("lights leave the same bits taken together, one by one, in place or ev
   });
 }
 
+// Under one light.
+ReflectedRadiance Leave(const ShadingMaterial& material, Leaves leaves, Batch* batch) {
+  ReflectedRadiance radiance;
+  for (Soa3<float>* soa : {&radiance.diffuse, &radiance.specular, &radiance.sum}) {
+    for (size_t i = 0; i < kHits; ++i) soa->x[i] = soa->y[i] = soa->z[i] = NAN;
+  }
+  if (leaves == Leaves::kAddedParts) ClearRadiance(kHits, &radiance);
+  const LightOnBatch light{&batch->light, nullptr};
+  PrepareRun(material, 0, kHits, &batch->surface);
+  ShadeRun(material, {batch->hits, batch->surface, {&light, 1}, nullptr, leaves}, 0, kHits,
+           &batch->scratch, &radiance);
+  return radiance;
+}
+
+// `sum` rounds what is added to the diffuse part once, in place of the specular part and then their
+// sum: half an ulp of the result, and of the specular part, is what they may differ by.
+bool IsSumOf(float diffuse, float specular, float sum) {
+  const double ulp = std::nextafter(std::max(specular, sum), INFINITY) - std::max(specular, sum);
+  return std::abs(double{diffuse} + double{specular} - double{sum}) <= ulp;
+}
+
+TEST_CASE("what one light leaves has the same bits as parts, as their sum, and as both") {
+  const FlushDenormals flush;
+  std::vector<Material> materials = MicrofacetMaterials(0.05);
+  for (const Material& material : MicrofacetMaterials(0.4)) materials.push_back(material);
+  for (const MaterialModel& model : MaterialModels()) materials.push_back(model.make());
+  ForEachTarget([&](Target) {
+    Batch batch(MakeLight("point"));
+    for (const Material& material : materials) {
+      const ShadingMaterial prepared = Prepare(material);
+      const ReflectedRadiance added = Leave(prepared, Leaves::kAddedParts, &batch);
+      const ReflectedRadiance parts = Leave(prepared, Leaves::kParts, &batch);
+      const ReflectedRadiance both = Leave(prepared, Leaves::kPartsAndSum, &batch);
+      const ReflectedRadiance sum = Leave(prepared, Leaves::kSum, &batch);
+      for (size_t i = 0; i < kHits; ++i) {
+        REQUIRE(At(parts.diffuse, i) == At(added.diffuse, i));
+        REQUIRE(At(parts.specular, i) == At(added.specular, i));
+        REQUIRE(At(both.diffuse, i) == At(added.diffuse, i));
+        REQUIRE(At(both.specular, i) == At(added.specular, i));
+        REQUIRE(At(both.sum, i) == At(sum.sum, i));
+        REQUIRE(IsSumOf(parts.diffuse.x[i], parts.specular.x[i], sum.sum.x[i]));
+        REQUIRE(IsSumOf(parts.diffuse.y[i], parts.specular.y[i], sum.sum.y[i]));
+        REQUIRE(IsSumOf(parts.diffuse.z[i], parts.specular.z[i], sum.sum.z[i]));
+      }
+    }
+  });
+}
+
 TEST_CASE("the black base of a metal is skipped, and no bit changes") {
   for (const DiffuseCoupling coupling :
        {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kOneMinusFresnel}) {
