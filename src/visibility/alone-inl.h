@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/alone-inl.h: camera rays against the only sphere that they may hit: what most rays of
-// most pictures meet.
+// visibility/alone-inl.h: camera rays against the only sphere that they may hit, in front of the
+// camera: what most rays of most pictures meet.
 //
 // From a film position to a hit it is one long chain of dependent operations, with a division and a
 // root in it, far longer than a processor's window. Blocks of rays therefore take it in steps: each
@@ -31,7 +31,7 @@ struct AloneBlock {
   // The packets, as bits, of the last block of a batch in any order, that all hit: most likely
   // they do so again in the next.
   uint32_t likely = 0;
-  alignas(kVectorBytes) double direction[3][kAloneBlock];
+  alignas(kVectorBytes) double backward[3][kAloneBlock];  // minus the rays' directions
   alignas(kVectorBytes) double inverse_length[kAloneBlock];
   alignas(kVectorBytes) double inverse_dd[kAloneBlock];
   alignas(kVectorBytes) double half_chord_squared[kAloneBlock];
@@ -50,38 +50,41 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
   Store3(v, CameraDouble(), to[0] + place, to[1] + place, to[2] + place);
 }
 
-// The groups' exact rays.
+// The groups' exact rays: turned round, bit for bit, as the way back to the viewer is what hits
+// keep.
 HWY_INLINE void FillRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
   const CameraDouble d;
-  const auto corner = SetVec3(d, frame.corner);
-  const auto step_x = SetVec3(d, frame.step_x);
-  const auto step_y = SetVec3(d, frame.step_y);
+  const auto corner = SetVec3(d, -frame.corner);
+  const auto step_x = SetVec3(d, -frame.step_x);
+  const auto step_y = SetVec3(d, -frame.step_y);
   for (int g = 0; g < block->groups; ++g) {
     const int place = g * kGroupLanes;
     const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
     const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
     // The operations of MakeCameraRays.
-    const auto direction = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
-    const auto inverse = InverseLength(d, FusedDot(direction, direction));
-    StoreGroup(direction, place, block->direction);
+    const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
+    const auto inverse = InverseLength(d, FusedDot(backward, backward));
+    StoreGroup(backward, place, block->backward);
     hn::Store(inverse.once, d, block->inverse_length + place);
     hn::Store(inverse.squared, d, block->inverse_dd + place);
   }
 }
 
-// Leaves the lanes that hit. No depth is needed, and the line's test and its direction decide,
-// which spares a division.
+// Leaves the lanes that hit. No depth is needed, and in front of the camera the line's test
+// decides, which spares a division.
 HWY_INLINE void TestLines(AloneBlock* block) {
   const CameraDouble d;
   const auto zero = hn::Zero(d);
   for (int g = 0; g < block->groups; ++g) {
     const int place = g * kGroupLanes;
     const TraceSphere& sphere = block->candidate[g]->sphere;
-    const auto hit = TestLine(d, SetVec3(d, sphere.center), LoadGroup(block->direction, place),
-                              hn::Load(d, block->inverse_dd + place), hn::Set(d, sphere.radius));
-    hn::Store(hit.half_chord_squared, d, block->half_chord_squared + place);
-    StoreGroup(hit.perpendicular, place, block->perpendicular);
-    block->bits[g] &= BitsOfMask(d, hn::And(hit.hit, hn::Gt(hit.closest, zero)));
+    const auto inverse_dd = hn::Load(d, block->inverse_dd + place);
+    // Of a line there and back, all but the sign of its closest point is the same.
+    const auto line = TestLine(d, SetVec3(d, sphere.center), LoadGroup(block->backward, place),
+                               inverse_dd, hn::Set(d, sphere.radius));
+    hn::Store(hn::Mul(line.discriminant, inverse_dd), d, block->half_chord_squared + place);
+    StoreGroup(line.perpendicular, place, block->perpendicular);
+    block->bits[g] &= BitsOfMask(d, hn::Ge(line.discriminant, zero));
   }
 }
 
@@ -93,12 +96,12 @@ HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
     if (block.bits[g] == 0) continue;
     const int place = g * kGroupLanes;
     const TileCandidate& candidate = *block.candidate[g];
-    const auto direction = LoadGroup(block.direction, place);
+    const auto backward = LoadGroup(block.backward, place);
     const auto half_chord = hn::Sqrt(hn::Load(d, block.half_chord_squared + place));
     const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, hn::Neg(half_chord), LoadGroup(block.perpendicular, place),
+        SphereSurface(d, backward, half_chord, LoadGroup(block.perpendicular, place),
                       SetVec3(d, candidate.sphere.center), hn::Set(d, candidate.inverse_radius));
-    writer.Surfaces(surface, ToView(direction, hn::Load(d, block.inverse_length + place)),
+    writer.Surfaces(surface, Scale(backward, hn::Load(d, block.inverse_length + place)),
                     block.bits[g], block.ray[g]);
     writer.Primitive(candidate.primitive, block.bits[g]);
   }
@@ -166,7 +169,7 @@ HWY_INLINE void FindLikely(size_t first, AloneBlock* block) {
   }
 }
 
-// Appends the hits of a batch of perspective rays in any order, from outside the candidate.
+// Appends the hits of a batch of perspective rays in any order, of a candidate in front of them.
 HWY_INLINE void TraceAlone(const CameraFrame& frame, const TileCandidate& candidate,
                            const FilmBatch& film, CameraPacket* packet, AloneBlock* block,
                            const HitsTo& to) {

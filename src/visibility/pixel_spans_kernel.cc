@@ -239,7 +239,7 @@ void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
   }
 }
 
-// The tile's spheres, each once. `alone`: of rays from outside.
+// The tile's spheres, each once. `alone`: those in front of the camera.
 void PutSpheres(const TileCandidates& candidates, Outlines* outlines, const TileCandidate** alone) {
   for (const std::vector<TileCandidate>& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
@@ -247,7 +247,7 @@ void PutSpheres(const TileCandidates& candidates, Outlines* outlines, const Tile
       const size_t i = outlines->count++;
       for (int c = 0; c < 3; ++c) outlines->sphere[c][i] = candidate.sphere.center[c];
       outlines->sphere[3][i] = candidate.sphere.radius;
-      alone[i] = candidate.around_camera ? nullptr : &candidate;
+      alone[i] = candidate.in_front ? &candidate : nullptr;
     }
   }
   // Whole vectors are worked on.

@@ -25,21 +25,20 @@ struct SphereHitV {
   Vec3V<V> perpendicular;
 };
 
-// What the ray's whole line does.
+// What the ray's whole line does: it meets the sphere if `discriminant`, the squared half chord's
+// length, is not below 0.
 template <class D, class V = hn::Vec<D>>
-struct LineHitV {
-  hn::Mask<D> hit;  // it meets the sphere
+struct LineV {
   V closest;
-  V half_chord_squared;
+  V discriminant;
   Vec3V<V> perpendicular;
 };
 
 // inverse_dd is 1 / |direction|^2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LineHitV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
-                                V inverse_dd, V radius) {
-  const V zero = hn::Zero(d);
-  LineHitV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
+HWY_INLINE LineV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
+                             V inverse_dd, V radius) {
+  LineV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
   const V first_closest = hn::Mul(FusedDot(to_center, direction), inverse_dd);
   const Vec3V<V> rough{SubtractProduct(d, to_center.x, first_closest, direction.x),
                        SubtractProduct(d, to_center.y, first_closest, direction.y),
@@ -49,10 +48,8 @@ HWY_INLINE LineHitV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& 
   result.perpendicular.y = hn::NegMulAdd(direction.y, correction, rough.y);
   result.perpendicular.z = hn::NegMulAdd(direction.z, correction, rough.z);
   result.closest = hn::Add(first_closest, correction);
-  const V discriminant =
+  result.discriminant =
       hn::Sub(hn::Mul(radius, radius), FusedDot(result.perpendicular, result.perpendicular));
-  result.hit = hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero));
-  result.half_chord_squared = hn::Mul(hn::Max(discriminant, zero), inverse_dd);
   return result;
 }
 
@@ -60,10 +57,10 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
                                     V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
-  const LineHitV<D> line = TestLine(d, to_center, direction, inverse_dd, radius);
+  const LineV<D> line = TestLine(d, to_center, direction, inverse_dd, radius);
   SphereHitV<D> result;
   result.closest = line.closest;
-  result.half_chord = hn::Sqrt(line.half_chord_squared);
+  result.half_chord = hn::Sqrt(hn::Mul(hn::Max(line.discriminant, zero), inverse_dd));
   result.perpendicular = line.perpendicular;
   const V closest = result.closest;
   // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
@@ -78,7 +75,8 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   const auto outside = hn::Gt(near, zero);
   result.inside = hn::Not(outside);
   result.t = hn::IfThenElse(outside, near, far);
-  result.hit = hn::And(line.hit, hn::Gt(result.t, zero));
+  result.hit = hn::And(hn::And(hn::Ge(line.discriminant, zero), hn::Gt(radius, zero)),
+                       hn::Gt(result.t, zero));
   return result;
 }
 

@@ -67,10 +67,10 @@ void PadHits(const HitsTo& to) {
   PadSoa(count, &to.hits->to_view);
 }
 
-// The cell's only candidate, if perspective rays through the cell meet it from outside; or null.
+// The cell's only candidate, if it lies in front of perspective rays; or null.
 template <bool kPerspective>
 HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) {
-  return kPerspective && cell.size() == 1 && !cell[0].around_camera ? &cell[0] : nullptr;
+  return kPerspective && cell.size() == 1 && cell[0].in_front ? &cell[0] : nullptr;
 }
 
 // The rays of a row's columns from x to x_end, whichever sphere they hit. `row`: the row's first
@@ -183,6 +183,14 @@ float NearBound(const TraceSphere& sphere, const CameraFrame& frame) {
   return static_cast<float>(std::max(near, 0.0)) * (1 - 0x1p-22f);
 }
 
+// All perspective rays leave the plane through the eye perpendicular to `forward` on one side of
+// it. So must the sphere lie, by far more than TestLine errs: whatever lines meet is then before
+// the eye.
+bool IsInFront(const TraceSphere& sphere, const CameraFrame& frame) {
+  const double margin = 1e-9 * (sphere.center.length() + sphere.radius);
+  return sphere.radius > 0 && sphere.center.dot(frame.forward) - sphere.radius > margin;
+}
+
 double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Bounds the coordinates of the rays' own vectors, and every sum on the way to them. Film positions
@@ -212,6 +220,7 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint1
   candidate.pixel_rows = pixel_rows;
   // The sign of the product of TestSphere's roots.
   candidate.around_camera = !(sphere.center.dot(sphere.center) - sphere.radius * sphere.radius > 0);
+  candidate.in_front = IsInFront(sphere, frame);
   candidate.near = NearBound(sphere, frame);
   for (int c = 0; c < 3; ++c) candidate.center[c] = static_cast<float>(sphere.center[c]);
   candidate.reach = Reach(sphere, frame, own);

@@ -18,6 +18,7 @@ struct TileCandidate {
   uint16_t pixel_rows;          // of its cell that its outline reaches, as bits
   bool in_cell_before = false;  // it is in the tile's cell to the left, too
   bool around_camera;           // the camera is inside
+  bool in_front;                // no perspective ray's line meets it behind the camera
   // For proposals, in float: no ray meets the sphere nearer to the camera than `near`, and rays
   // that hit it come within `reach` of `center`: radius and rounding errors.
   float near;
@@ -28,7 +29,7 @@ struct TileCandidate {
 // Pixels of a row of a tile that rays may hit something in.
 struct PixelSpan {
   uint32_t first, count;       // counted row by row
-  const TileCandidate* alone;  // the only sphere that they may hit, from outside; null: any
+  const TileCandidate* alone;  // the only sphere that they may hit, in front; null: any
 };
 
 // Which rays come of a tile: whole samples of its pixels, row by row, or any in any order, where
