@@ -101,34 +101,58 @@ void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* we
 
 // Adds what hits are worth to the sums of the spans' pixels.
 struct ToSums {
+  // Of a tile's pixels that are all hit, so many samples lie one behind the other in a batch.
+  static constexpr size_t kSamples = 4;
   double* HWY_RESTRICT sums;
 
   // value(i): that of the hits from i on.
   template <class Value>
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
     const D d;
-    for (const HitSpan& span : spans) {
-      if (span.weight == 1) {  // of filters that are nowhere negative
-        Add(span, value);
-      } else {
+    while (!spans.empty()) {
+      const HitSpan& span = spans[0];
+      if (span.weight != 1) {
         const V weight = hn::Set(d, span.weight);
-        Add(span, [&](size_t i) HWY_ATTR { return hn::Mul(weight, value(i)); });
+        Add<1>(spans, [weight, value](size_t i) HWY_ATTR { return hn::Mul(weight, value(i)); });
+        spans = spans.subspan(1);
+      } else if (AreAlike(spans)) {  // of filters that are nowhere negative
+        Add<kSamples>(spans, value);
+        spans = spans.subspan(kSamples);
+      } else {
+        Add<1>(spans, value);
+        spans = spans.subspan(1);
       }
     }
   }
 
-  // A copy of the span: for all that the compiler knows, the sums are its numbers.
-  template <class Weighted>
-  HWY_INLINE void Add(HitSpan span, const Weighted& weighted) const {
-    const D d;
-    double* const to = sums + span.pixel;
-    size_t i = 0;
-    for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
-      hn::StoreU(hn::Add(hn::LoadU(d, to + i), weighted(span.hit + i)), d, to + i);
+  // Whether the first spans are samples of the same pixels and have one weight.
+  static HWY_INLINE bool AreAlike(std::span<const HitSpan> spans) {
+    if (spans.size() < kSamples) return false;
+    for (size_t k = 1; k < kSamples; ++k) {
+      if (spans[k].pixel != spans[0].pixel || spans[k].count != spans[0].count ||
+          spans[k].weight != spans[0].weight) {
+        return false;
+      }
     }
-    if (i == span.count) return;
-    const V sum = hn::Add(hn::LoadU(d, to + i), weighted(span.hit + i));
-    hn::BlendedStore(sum, hn::FirstN(d, span.count - i), d, to + i);
+    return true;
+  }
+
+  // `weighted`: a copy. For all that the compiler knows, the sums are its numbers and the spans'.
+  template <size_t kSpans, class Weighted>
+  HWY_INLINE void Add(std::span<const HitSpan> spans, Weighted weighted) const {
+    const D d;
+    const size_t count = spans[0].count;
+    double* const to = sums + spans[0].pixel;
+    size_t hit[kSpans];
+    for (size_t k = 0; k < kSpans; ++k) hit[k] = spans[k].hit;
+    const auto sum_at = [&](size_t i) HWY_ATTR {
+      V sum = hn::LoadU(d, to + i);
+      for (size_t k = 0; k < kSpans; ++k) sum = hn::Add(sum, weighted(hit[k] + i));
+      return sum;
+    };
+    size_t i = 0;
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) hn::StoreU(sum_at(i), d, to + i);
+    if (i < count) hn::BlendedStore(sum_at(i), hn::FirstN(d, count - i), d, to + i);
   }
 };
 
@@ -143,7 +167,7 @@ struct ToRows {
     for (const HitSpan& span : spans) {
       float* const to =
           rows.first + span.pixel / rows.width * rows.stride + span.pixel % rows.width;
-      const auto rounded = [&](size_t i) HWY_ATTR { return hn::DemoteTo(f, value(i)); };
+      const auto rounded = [f, value](size_t i) HWY_ATTR { return hn::DemoteTo(f, value(i)); };
       size_t i = 0;
       for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
         hn::StoreU(rounded(span.hit + i), f, to + i);
@@ -161,19 +185,20 @@ HWY_INLINE void BringHits(const float* HWY_RESTRICT a, const float* HWY_RESTRICT
   const D d;
   const V first = hn::Add(hn::Zero(d), hn::Set(d, constant));  // nor is a sum with this
   const V second = hn::Set(d, further);
-  const auto load = [&](const float* from, size_t i)
-                        HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), from + i)); };
+  const auto load = [](const float* from, size_t i)
+                        HWY_ATTR { return hn::PromoteTo(D(), hn::LoadU(F(), from + i)); };
+  // By value: what `to` takes is a copy, which need not be loaded again after each store.
   const auto bring = [&](const auto& with_first) HWY_ATTR {
     if (further == 0) return to(spans, with_first);
-    to(spans, [&](size_t i) HWY_ATTR { return hn::Add(with_first(i), second); });
+    to(spans, [=](size_t i) HWY_ATTR { return hn::Add(with_first(i), second); });
   };
   if (a == nullptr) {
     const V both = hn::Add(first, second);
-    to(spans, [&](size_t) HWY_ATTR { return both; });
+    to(spans, [=](size_t) HWY_ATTR { return both; });
   } else if (b == nullptr) {
-    bring([&](size_t i) HWY_ATTR { return hn::Add(load(a, i), first); });
+    bring([=](size_t i) HWY_ATTR { return hn::Add(load(a, i), first); });
   } else {
-    bring([&](size_t i) HWY_ATTR { return hn::Add(hn::Add(load(a, i), load(b, i)), first); });
+    bring([=](size_t i) HWY_ATTR { return hn::Add(hn::Add(load(a, i), load(b, i)), first); });
   }
 }
 

@@ -212,6 +212,13 @@ class Ports(unittest.TestCase):
         self.assertEqual(port_bound.most_loaded([either] * 4 + [any_of_three] * 20), 8)
         self.assertEqual(port_bound.most_loaded([]), 0)
 
+    def test_vectors_slow_the_clock(self):
+        self.assertEqual(port_bound.vector_clock(7e9, 4e9), 3.5e9)  # two a cycle
+        self.assertEqual(port_bound.vector_clock(3.5e9, 4e9), 3.5e9)  # one
+        self.assertEqual(port_bound.vector_clock(4.1e9, 4e9), 4e9)
+        self.assertEqual(port_bound.vector_clock(5e9, 4e9), 4e9)  # disturbed
+        self.assertEqual(port_bound.vector_clock(1e9, 4e9), 1e9)
+
     def test_copies_are_not_counted(self):
         for copy in ("vmovaps %zmm1,%zmm2", "mov    %rax,%rbx", "movaps %xmm1,%xmm0", "jne    10"):
             self.assertTrue(port_bound.NOT_COUNTED.match(copy), copy)

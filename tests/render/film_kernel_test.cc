@@ -73,8 +73,9 @@ TEST_CASE("Spans are as long as hits follow one another, within a row and a samp
 TEST_CASE("Hits add their weight times what they are worth, in doubles", "[render]") {
   std::mt19937 random(6);
   std::uniform_real_distribution<float> value(-1, 3);
-  for (const double weight : {1.0, 0.75, -0.25}) {
-    const double weights[] = {weight, weight, weight, weight};
+  constexpr double kWeights[][4] = {
+      {1, 1, 1, 1}, {0.75, 0.75, 0.75, 0.75}, {-0.25, -0.25, -0.25, -0.25}, {1, 1, -0.25, 1}};
+  for (const auto& weights : kWeights) {
     for (const Rays& rays : kRays) {
       size_t count = 0;
       const AlignedArray<uint32_t> hits = MakeHits(rays, &random, &count);
@@ -89,13 +90,13 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
           std::vector<double> expected(rays.pixels, 0.0);
           for (size_t i = 0; i < count; ++i) {
             const double worth = double{a[i]} + double{b[i]} + constant + further;
-            const double weighted = weight * worth;  // rounded: never fused
+            const double weighted = weights[hits[i] / rays.pixels] * worth;  // rounded: never fused
             expected[hits[i] % rays.pixels] += weighted;
           }
           ForEachTarget([&](Target) {
             AlignedArray<double> sums(rays.pixels);
             AddHits(a.data(), b.data(), constant, further, spans, sums.data());
-            CAPTURE(weight, rays.pixels, rays.hit_share, constant, further);
+            CAPTURE(weights[2], rays.pixels, rays.hit_share, constant, further);
             CHECK(std::vector<double>(sums.begin(), sums.end()) == expected);
           });
         }
