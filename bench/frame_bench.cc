@@ -49,7 +49,8 @@ struct FrameCase {
   int height = 1080;
   int spp = 1;
   Target target = Target::kScalar;
-  std::string variant{};  // "", "embree", "general_path" or "threads2" (see Settings)
+  // "", "no_shadows", or "embree", "general_path" or "threads2" (see Settings).
+  std::string variant{};
 
   std::string Name() const {
     return "frame/" + scene + "/" + std::to_string(width) + "x" + std::to_string(height) + "/" +
@@ -72,6 +73,7 @@ void BenchFrame(benchmark::State& state, const FrameCase& which) {
   scene.image.width = which.width;
   scene.image.height = which.height;
   scene.image.spp = which.spp;
+  if (which.variant == "no_shadows") scene.image.shadows = false;
   const RenderSettings settings = which.Settings();
   RenderStats total;
   for (auto _ : state) {
@@ -102,6 +104,11 @@ std::vector<FrameCase> FullFrames() {
     for (const char* variant : {"embree", "general_path", "threads2"}) {
       if (variant == std::string("threads2") && ThreadCount(0) < 2) continue;
       cases.push_back({.scene = scene, .target = best, .variant = variant});
+    }
+  }
+  for (const char* scene : {"material_grid", "material_grid_plain"}) {
+    for (const int spp : {1, 16}) {
+      cases.push_back({.scene = scene, .spp = spp, .target = best, .variant = "no_shadows"});
     }
   }
   return cases;

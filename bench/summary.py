@@ -91,8 +91,9 @@ def _frames(times, best):
         ("visibility/embree_sphere_point/grid",), frame("material_grid"))
     for kind, scene in (("", "material_grid"), ("plain_", "material_grid_plain")):
         for spp in (1, 16):
-            ns = times.ns(*frame(scene, spp))
-            yield f"frame_ms_{kind}grid_1080p_{spp}spp", None if ns is None else 1e-6 * ns
+            for of, variant in (("", ""), ("_no_shadows", "/no_shadows")):
+                ns = times.ns(*frame(scene, spp, variant=variant))
+                yield f"frame_ms_{kind}grid{of}_1080p_{spp}spp", None if ns is None else 1e-6 * ns
     ns = times.ns(*frame("material_grid_shadows"))
     yield "frame_ms_grid_shadows_1080p_1spp", None if ns is None else 1e-6 * ns
     yield "skips_on_over_off", times.ratio(frame("material_grid", variant="/general_path"),

@@ -210,8 +210,8 @@ void PlanFilm(const Scene& scene, const RenderSettings& settings, RenderPlan* pl
                          plan->one_sample ? "a pixel's only sample is its value" : why});
 }
 
-// With one light the parts need not be kept to be added up, unless samples might cancel: then the
-// layers must add up to the beauty to the bit.
+// With one light the parts need not be kept to be added up, unless samples might cancel: what
+// rounds a sample's sum may then be more than what is left of the pixel.
 void PlanParts(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   const auto shows_parts = [](const Layer& layer) {
     return layer.kind == LayerKind::kDiffuse || layer.kind == LayerKind::kSpecular ||
