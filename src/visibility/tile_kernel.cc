@@ -188,7 +188,7 @@ float NearBound(const TraceSphere& sphere, const CameraFrame& frame) {
 // the eye.
 bool IsInFront(const TraceSphere& sphere, const CameraFrame& frame) {
   const double margin = 1e-9 * (sphere.center.length() + sphere.radius);
-  return sphere.radius > 0 && sphere.center.dot(frame.forward) - sphere.radius > margin;
+  return sphere.center.dot(frame.forward) - sphere.radius > margin;
 }
 
 double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }

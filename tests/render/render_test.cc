@@ -206,6 +206,15 @@ TEST_CASE("under one light, too, layers do not change the beauty and add up to i
   }
 }
 
+TEST_CASE("one light beside one with an extent is not the only one") {
+  Scene scene = MakeScene();
+  Light lamp;
+  lamp.name = "lamp";
+  lamp.kind = SphereAreaLight{.center = {-3, 4, 5}, .radius = 0.5, .radiance = {40, 30, 20}};
+  scene.lights = {scene.lights[0], lamp};
+  CheckLayers(scene, {});
+}
+
 TEST_CASE("in half, too, layers add up to the beauty within half an ulp of each") {
   Image image = RenderImage(MakeScene(), Settings(1, {"all"}));
   for (Channel& channel : image.channels) {
