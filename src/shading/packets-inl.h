@@ -24,7 +24,7 @@ namespace HWY_NAMESPACE {
 // One light on a block of hits.
 class IncidentBlock {
  public:
-  static constexpr size_t kHits = 128;  // a multiple of every target's lanes
+  static constexpr size_t kHits = 256;  // a multiple of every target's lanes
 
   template <bool kWithIrradiance>
   HWY_INLINE void Store(FloatTag d, size_t at, const IncidentV& in) {
