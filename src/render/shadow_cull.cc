@@ -161,7 +161,10 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
                                                           : "others are faster here";
   plan->items.push_back(
       {"intersector lists, for shadow rays", listed > 0,
-       listed > 0 ? "each sphere's few possible occluders need no tree" : why_not});
+       listed > 0
+           ? "each sphere's few possible occluders need no tree, and tiles with none of them "
+             "on the way to the light cast no rays"
+           : why_not});
   plan->items.push_back(
       {"intersector bins, for shadow rays", binned > 0,
        binned > 0 ? "spheres binned as the light sees them need no tree: " + crowd : why_not});

@@ -76,6 +76,13 @@ void HideTurned(const RenderPlan& plan, TileScratch* scratch) {
 
 namespace {
 
+// Whether shadow rays to the light need be cast from the batch.
+bool CastsShadowRays(const RenderPlan& plan, const PlannedLight& planned, const HitBatch& hits) {
+  if (!hits.one_primitive) return planned.shadow_rays;
+  return !NeverShadowed(planned, hits.primitive[0]) &&
+         plan.intersector->MayOcclude(planned.occluders, hits);
+}
+
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
 void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratch* s,
                  RenderStats* stats) {
@@ -112,12 +119,12 @@ void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, Lea
 
 // A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
 // of its own.
-void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, Leaves leaves, TileScratch* s,
-                StageClock* clock, RenderStats* stats) {
+void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, bool shadow_rays,
+                Leaves leaves, TileScratch* s, StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
   if (s->surface.turned) HideTurned(plan, s);
   clock->Charge(Stage::kLight);
-  if (planned.shadow_rays) {
+  if (shadow_rays) {
     CastShadows(plan, planned, s, stats);
     clock->Charge(Stage::kShadow);
   }
@@ -162,14 +169,14 @@ void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, Re
       ++stats->culled_lights;
       continue;
     }
-    const bool shadowed =
-        s->hits.one_primitive ? !NeverShadowed(planned, s->hits.primitive[0]) : planned.shadow_rays;
-    if (!shadowed && planned.layer < 0 && !s->surface.turned && EvaluatedInPlace(planned.light)) {
+    const bool shadow_rays = CastsShadowRays(plan, planned, s->hits);
+    if (!shadow_rays && planned.layer < 0 && !s->surface.turned &&
+        EvaluatedInPlace(planned.light)) {
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();
       if (planned.layer >= 0 && !plan.one_light) clear_if_dark();
-      ShadeByOne(plan, planned, leaves(), s, clock, stats);
+      ShadeByOne(plan, planned, shadow_rays, leaves(), s, clock, stats);
       dark = false;
     }
     stats->shades += s->hits.count;

@@ -191,8 +191,9 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
   const size_t room = kBinRoom / std::max<size_t>(lights.size(), 4);
   s.occluders.resize(lights.size());
   ParallelFor(lights.size(), many ? s.settings.threads : 1, [&](size_t i) {
-    const ShadowLight target = MakeShadowLight(*lights[i], s.camera_position);
     LightOccluders& occluders = s.occluders[i];
+    const ShadowLight target = MakeShadowLight(*lights[i], s.camera_position);
+    occluders.light = target;
     if (few) occluders.lists = ListOccluders(s.geometry, target, outward);
     if (few && occluders.lists.longest <= kMaxListed) return;
     occluders.bins = BinForLight(s.geometry, target, room, inner);
@@ -202,12 +203,19 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
 uint32_t Intersector::FindOccludersOfBall(const std::optional<LightBall>& ball,
                                           const PrimitiveRange& target, bool outward) {
   State& s = *state_;
-  s.occluders.push_back({{}, ListOccludersOfBall(s.geometry, ball, target, outward)});
+  s.occluders.push_back({{}, {}, ListOccludersOfBall(s.geometry, ball, target, outward)});
   return static_cast<uint32_t>(s.occluders.size() - 1);
 }
 
 const LightOccluders& Intersector::Occluders(uint32_t light) const {
   return state_->occluders[light];
+}
+
+bool Intersector::MayOcclude(uint32_t light, const HitBatch& hits) const {
+  if (light == kAnyLight) return true;
+  const State& s = *state_;
+  const LightOccluders& occluders = s.occluders[light];
+  return occluders.bins || MayShadow(s.geometry, occluders.lists, occluders.light, hits);
 }
 
 void Intersector::Occluded(ShadowRayBatch* rays) const {

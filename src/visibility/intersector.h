@@ -30,6 +30,7 @@ struct IntersectorSettings {
 // What can come between the spheres and a light: bins, or else lists; in small scenes both may be
 // there.
 struct LightOccluders {
+  ShadowLight light;  // of FindOccluders
   std::optional<LightBins> bins;
   OccluderLists lists;
 };
@@ -97,6 +98,10 @@ class Intersector {
 
   // What was found for a light. The reference holds until the next FindOccluders.
   const LightOccluders& Occluders(uint32_t light) const;
+
+  // False only if nothing can come between a light of FindOccluders, or kAnyLight, and the hits of
+  // a batch, which are all on one sphere and have their positions.
+  bool MayOcclude(uint32_t light, const HitBatch& hits) const;
 
   // Sets rays->occluded: whether a surface lies at 0 < t < t_max. The surface that a ray starts on
   // is in its way only where a sphere's ray leaves inward.

@@ -94,6 +94,15 @@ bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const L
                       BoundMargin(blocker.radius + sphere.radius, reach + blocker.center.length());
 }
 
+// Whether the blocker reaches into what the ball sweeps on its way to a directional light.
+bool MayBlockBallAlong(const TraceSphere& blocker, const TraceSphere& ball, const Vec3d& to_light) {
+  const Vec3d offset = blocker.center - ball.center;
+  const double along = offset.dot(to_light);
+  const double radii = blocker.radius + ball.radius;
+  const double reach = radii + BoundMargin(radii, blocker.center.length() + ball.center.length());
+  return along + reach >= 0 && (offset - to_light * along).length() <= reach;
+}
+
 // Centre and point are rounded by 2^-24 of themselves a coordinate, and so is their difference,
 // which is no longer than the two together: 4 2^-24 of that at most. Nothing is sure of spheres
 // that coincide: rays start on them. Squares below 1e-34 and above 1e37 are too near to where
@@ -159,6 +168,17 @@ OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& li
                          : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.place);
     return may && !(outward && Coincide(spheres[i], spheres[j]));
   });
+}
+
+bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
+               uint32_t start, const TraceSphere& ball) {
+  for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
+    const TraceSphere& blocker = geometry.spheres[lists.spheres[i]];
+    const bool may = light.positional ? MayBlockBall(blocker, ball, {light.place, 0})
+                                      : MayBlockBallAlong(blocker, ball, light.place);
+    if (may) return true;
+  }
+  return false;
 }
 
 }  // namespace nacre

@@ -50,6 +50,15 @@ OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
                                   const std::optional<LightBall>& ball,
                                   const PrimitiveRange& target, bool outward);
 
+// Whether any sphere of its list can come between a batch's hits, all on one sphere and with their
+// positions, and the light that ListOccluders was asked about.
+bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
+               const HitBatch& hits);
+
+// The same of points of sphere `start` that lie in `ball`.
+bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
+               uint32_t start, const TraceSphere& ball);
+
 // Intersector::Occluded for rays to the lists' light from spheres.
 void OccludedByLists(const TraceGeometry& geometry, const OccluderLists& lists,
                      ShadowRayBatch* rays);

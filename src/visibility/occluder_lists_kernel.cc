@@ -211,6 +211,15 @@ HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& 
   return count;
 }
 
+// A ball that holds all positions of a batch.
+TraceSphere BoundPositionsT(const HitBatch& hits) {
+  const Range x = RangeOf(hits.position.x.data(), 0, hits.count);
+  const Range y = RangeOf(hits.position.y.data(), 0, hits.count);
+  const Range z = RangeOf(hits.position.z.data(), 0, hits.count);
+  const Vec3d low(x.low, y.low, z.low), high(x.high, y.high, z.high);
+  return {(low + high) / 2, (high - low).length() / 2 * (1 + 1e-9)};
+}
+
 HWY_INLINE void StoreOccluded(uint32_t occluded, size_t first, size_t count, ShadowRayBatch* rays) {
   for (size_t lane = 0; lane < count; ++lane) {
     rays->occluded[first + lane] = static_cast<uint8_t>((occluded >> lane) & 1);
@@ -250,7 +259,14 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
+HWY_EXPORT(BoundPositionsT);
 HWY_EXPORT(OccludedByListsT);
+
+bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
+               const HitBatch& hits) {
+  const TraceSphere ball = HWY_DYNAMIC_DISPATCH(BoundPositionsT)(hits);
+  return MayShadow(geometry, lists, light, hits.primitive[0], ball);
+}
 
 void OccludedByLists(const TraceGeometry& geometry, const OccluderLists& lists,
                      ShadowRayBatch* rays) {

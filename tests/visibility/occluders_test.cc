@@ -35,11 +35,42 @@ std::vector<ShadowRay> RaysTo(const Light& light, const Vec3d& eye,
   return rays;
 }
 
-// What stands in the way of each ray: by the tree, and by what was found for the light.
-void CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool outward,
-                const std::vector<Surface>& surfaces) {
+// Batches of up to `most` rays from one sphere: where nothing may be in their way, nothing is.
+// Returns how many have that said of them.
+size_t CheckBatches(const Intersector& intersector, const std::vector<ShadowRay>& rays,
+                    const std::vector<bool>& occluded, size_t most) {
+  size_t clear = 0;
+  HitBatch hits;
+  for (size_t first = 0; first < rays.size(); first += hits.count) {
+    hits.count = 0;
+    bool any = false;
+    for (size_t i = first; i < std::min(first + most, rays.size()); ++i) {
+      if (rays[i].primitive != rays[first].primitive) break;
+      const size_t k = hits.count++;
+      hits.primitive[k] = rays[i].primitive;
+      hits.position.x[k] = rays[i].ray.origin.x;
+      hits.position.y[k] = rays[i].ray.origin.y;
+      hits.position.z[k] = rays[i].ray.origin.z;
+      any = any || occluded[i];
+    }
+    const bool may = intersector.MayOcclude(0, hits);
+    INFO("batch of " << hits.count << " from ray " << first);
+    REQUIRE((may || !any));
+    clear += may ? 0 : 1;
+  }
+  return clear;
+}
+
+// What stands in the way of each ray: by the tree, and by what was found for the light. Returns how
+// many batches of them were known to have nothing in their way.
+size_t CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool outward,
+                  const std::vector<Surface>& surfaces) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
-  const std::vector<ShadowRay> rays = RaysTo(light, eye, surfaces);
+  std::vector<ShadowRay> rays = RaysTo(light, eye, surfaces);
+  std::stable_sort(rays.begin(), rays.end(), [](const ShadowRay& a, const ShadowRay& b) {
+    return a.primitive < b.primitive;
+  });
+  size_t clear = 0;
   ForEachTarget([&](Target) {
     Intersector intersector(scene, eye);
     intersector.FindOccluders({&light}, outward);
@@ -50,7 +81,9 @@ void CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool o
       REQUIRE(found[i] == BruteForceOccluded(geometry, rays[i], 0, outward));
       REQUIRE(by_tree[i] == found[i]);
     }
+    for (const size_t most : {1, 3, 40}) clear += CheckBatches(intersector, rays, found, most);
   });
+  return clear;
 }
 
 std::vector<Ray> RaysAllAround(Random* random, size_t count) {
@@ -66,14 +99,15 @@ bool IsOutside(const Scene& scene, const Vec3d& eye) {
 }
 
 // Lights of all kinds, near, far, in and on the scene's spheres, for what is seen of it. Returns
-// how much that is.
+// how much that is, and adds to `clear` what CheckLight returns.
 size_t CheckLights(const Scene& scene, const Vec3d& eye, Random* random,
-                   const std::vector<Ray>& rays) {
+                   const std::vector<Ray>& rays, size_t* clear = nullptr) {
   const auto surfaces = TraceSurfaces(Intersector(scene, eye), rays);
   const bool outside = IsOutside(scene, eye);
+  size_t found_clear = 0;
   const auto check = [&](const Light& light) {
-    CheckLight(scene, light, eye, false, surfaces);
-    if (outside) CheckLight(scene, light, eye, true, surfaces);
+    found_clear += CheckLight(scene, light, eye, false, surfaces);
+    if (outside) found_clear += CheckLight(scene, light, eye, true, surfaces);
   };
   for (int i = 0; i < 2; ++i) {
     const auto& spheres = scene.spheres;
@@ -87,23 +121,25 @@ size_t CheckLights(const Scene& scene, const Vec3d& eye, Random* random,
     check(PointAt(sphere.center +
                   random->Direction() * (sphere.radius * (1 + random->Magnitude(1e-6, 1)))));
   }
+  if (clear != nullptr) *clear += found_clear;
   return surfaces.size();
 }
 
 TEST_CASE("occluders are brute force's") {
   Random random(41);
-  size_t seen = 0;
+  size_t seen = 0, clear = 0;
   for (const unsigned count : {1u, 2u, 7u, 25u, 100u, 256u, 257u, 1000u}) {
     CAPTURE(count);
     Scene scene = RandomSpheres(&random, count);
     for (int i = 0; i < 2; ++i) {
-      seen += CheckLights(scene, Vec3d(0), &random, CameraRays(&random, 900));
+      seen += CheckLights(scene, Vec3d(0), &random, CameraRays(&random, 900), &clear);
       // From outside.
       std::erase_if(scene.spheres,
                     [](const Sphere& s) { return s.center.length() < s.radius * 1.1; });
     }
   }
   CHECK(seen > 1000);
+  CHECK(clear > 1000);
 }
 
 TEST_CASE("occluders of all sizes and distances") {
