@@ -56,6 +56,19 @@ HWY_INLINE V ReciprocalSqrt(D d, V x) {
   return hn::Div(one, hn::Sqrt(x));
 }
 
+// 2 / sqrt(x) for normal x > 0, within 3 ulp: one operation fewer.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V TwiceReciprocalSqrt(D d, V x) {
+#if HWY_TARGET <= HWY_AVX3
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) {
+    const V estimate = hn::ApproximateReciprocalSqrt(x);
+    const V three = hn::Set(d, hn::TFromD<D>(3));
+    return hn::Mul(estimate, hn::NegMulAdd(hn::Mul(x, estimate), estimate, three));
+  }
+#endif
+  return hn::Div(hn::Set(d, hn::TFromD<D>(2)), hn::Sqrt(x));
+}
+
 // sqrt(x) for normal x > 0, within 1 ulp.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SquareRoot(D d, V x) {

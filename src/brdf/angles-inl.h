@@ -7,6 +7,8 @@
 #define NACRE_BRDF_ANGLES_INL_H_
 #endif
 
+#include <limits>
+
 #include "base/vec3-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -26,6 +28,21 @@ struct AnglesV : HalfAnglesV<V> {
   V n_dot_l, n_dot_v;
 };
 
+// |a|^2, not less than the smallest normal number, which is added for nothing: a sum that is above
+// 1e7 times it stays as it is.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V SquaredLength(D d, const Vec3V<V>& a) {
+  const V smallest = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::min());
+  return hn::MulAdd(a.z, a.z, hn::MulAdd(a.y, a.y, hn::MulAdd(a.x, a.x, smallest)));
+}
+
+// |u|^2 by what u has along n and across: two operations fewer than of its components, and where a
+// lobe is at its peak, what |n| is off by cancels against the same in n.u.
+template <class V>
+HWY_INLINE V USquared(V n_dot_u, V nxu_squared) {
+  return hn::MulAdd(n_dot_u, n_dot_u, nxu_squared);
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l,
                                             const Vec3V<V>& v) {
@@ -38,8 +55,9 @@ HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<
   const V n_dot_u = FusedDot(n, u);
   const Vec3V<V> across{hn::NegMulAdd(n.x, n_dot_u, u.x), hn::NegMulAdd(n.y, n_dot_u, u.y),
                         hn::NegMulAdd(n.z, n_dot_u, u.z)};
-  const V across_squared = FusedDot(across, across);
-  return {n_dot_u, FusedDot(u, u), across_squared, FusedDot(l_minus_v, l_minus_v)};
+  const V across_squared = SquaredLength(d, across);
+  return {n_dot_u, USquared(n_dot_u, across_squared), across_squared,
+          FusedDot(l_minus_v, l_minus_v)};
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -50,9 +50,9 @@ struct MicrofacetLightOf {
   Number diffuse[3];   // MicrofacetModel::diffuse * light
   Number specular[3];  // light; 0 for a delta lobe, which these lights cannot show
   // kSchlick, with its curve multiplied in: `specular` times F0 and F90 - F0, what it starts from
-  // and what it rises by; `diffuse` times 1 - F0 and F90 - F0, which fall to 1 - F90, or times 1
-  // and 0 where the base is not coupled to the lobe.
-  Number specular_f0[3], specular_rise[3], diffuse_rest[3], diffuse_fall[3];
+  // and what it rises by; `diffuse` times 1 - F0 and 1 - F90, what is left at normal incidence and
+  // at grazing angles, or times 1 and 0 where the base is not coupled to the lobe.
+  Number specular_f0[3], specular_rise[3], diffuse_normal[3], diffuse_grazing[3];
   Number multiple[3];  // kKullaConty: F_ms * light
 };
 using MicrofacetLight = MicrofacetLightOf<float>;
@@ -67,7 +67,7 @@ struct MicrofacetUniformsOf {
   const MicrofacetModel* model;
   const MicrofacetLightOf<Number>* lights;
   // The model's, rounded.
-  Number alpha, pi_over_alpha2, schlick_k;
+  Number alpha, pi_over_16_alpha2, schlick_k;
   Number f0[3], f90, f82_slope[3];
   bool is_bright;  // no channel of f0 is below kBrightF0; not of hits with their own
   float eta[3], k[3];

@@ -72,14 +72,14 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   Assign(t.by_specular, light.specular);
   Assign(t.by_specular_f0, light.specular_f0);
   Assign(t.by_specular_rise, light.specular_rise);
-  Assign(t.by_diffuse_rest, light.diffuse_rest);
-  Assign(t.by_diffuse_fall, light.diffuse_fall);
+  Assign(t.by_diffuse_normal, light.diffuse_normal);
+  Assign(t.by_diffuse_grazing, light.diffuse_grazing);
   Assign(t.by_multiple, light.multiple);
   MicrofacetUniformsOf<ByHit> uniforms{};
   uniforms.model = &model;
   uniforms.lights = &light;
   uniforms.alpha = t.alpha.data();
-  uniforms.pi_over_alpha2 = t.pi_over_alpha2.data();
+  uniforms.pi_over_16_alpha2 = t.pi_over_16_alpha2.data();
   uniforms.schlick_k = t.schlick_k.data();
   Assign(t.f0, uniforms.f0);
   uniforms.f90 = t.f90.data();

@@ -156,6 +156,7 @@ void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
   const Hits hits{products.begin, products.end};
   const auto& model = std::get<MicrofacetModel>(products.material.model);
   const float* const not_delta = t->not_delta.data();
+  const double coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel ? 1 : 0;
   for (int c = 0; c < 3; ++c) {
     const double color = products.color[c];
     const double* const diffuse = Channel(t->diffuse, c);
@@ -167,10 +168,10 @@ void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
                 [&](size_t i) { return f0[i] * (double{not_delta[i]} * color); });
       hits.Fill(Channel(t->by_specular_rise, c),
                 [&](size_t i) { return (f90[i] - f0[i]) * (double{not_delta[i]} * color); });
-      hits.Fill(Channel(t->by_diffuse_rest, c),
-                [&](size_t i) { return (1 - f0[i]) * diffuse[i] * color; });
-      hits.Fill(Channel(t->by_diffuse_fall, c),
-                [&](size_t i) { return (f90[i] - f0[i]) * diffuse[i] * color; });
+      hits.Fill(Channel(t->by_diffuse_normal, c),
+                [&](size_t i) { return (1 - coupled * f0[i]) * diffuse[i] * color; });
+      hits.Fill(Channel(t->by_diffuse_grazing, c),
+                [&](size_t i) { return coupled * (1 - f90[i]) * diffuse[i] * color; });
     } else {
       hits.Fill(Channel(t->by_specular, c), [&](size_t i) { return double{not_delta[i]} * color; });
     }

@@ -47,9 +47,10 @@ class IncidentBlock {
   }
 
   template <bool kWithLv>
-  HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half) {
+  HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half,
+                            FloatV n_dot_v) {
+    hn::Store(n_dot_v, d, n_dot_v_ + at);
     hn::Store(half.n_dot_u, d, n_dot_u_ + at);
-    hn::Store(half.u_squared, d, u_squared_ + at);
     hn::Store(half.nxu_squared, d, nxu_squared_ + at);
     if (kWithLv) hn::Store(half.lv_squared, d, lv_squared_ + at);
   }
@@ -63,16 +64,19 @@ class IncidentBlock {
     return {hn::Load(d, one_minus_c_ + at), hn::Load(d, c_ + at)};
   }
 
-  HWY_INLINE HalfAnglesV<FloatV> LoadHalf(FloatTag d, size_t at) const {
-    return {hn::Load(d, n_dot_u_ + at), hn::Load(d, u_squared_ + at),
-            hn::Load(d, nxu_squared_ + at), hn::Load(d, lv_squared_ + at)};
+  HWY_INLINE HalfIncidentV LoadHalf(FloatTag d, size_t at) const {
+    const FloatV n_dot_u = hn::Load(d, n_dot_u_ + at);
+    const FloatV nxu_squared = hn::Load(d, nxu_squared_ + at);
+    return {Load(d, at),
+            {n_dot_u, USquared(n_dot_u, nxu_squared), nxu_squared, hn::Load(d, lv_squared_ + at)},
+            hn::Load(d, n_dot_v_ + at)};
   }
 
  private:
   static constexpr size_t kAlignment = 64;
   alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits];
   alignas(kAlignment) float n_dot_l_[kHits], weight_[kHits];
-  alignas(kAlignment) float n_dot_u_[kHits], u_squared_[kHits], nxu_squared_[kHits];
+  alignas(kAlignment) float n_dot_v_[kHits], n_dot_u_[kHits], nxu_squared_[kHits];
   // Loaded by all models, used by those alone for which they were stored.
   alignas(kAlignment) float irradiance_[kHits], lv_squared_[kHits];
   alignas(kAlignment) float one_minus_c_[kHits], c_[kHits];
@@ -93,7 +97,7 @@ HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
   });
 }
 
-// The angles of their half vectors, with or without |l - v|^2.
+// The angles of their half vectors, with or without |l - v|^2, and to the viewer.
 template <bool kWithLv>
 HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
                            IncidentBlock* block) {
@@ -101,7 +105,8 @@ HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, i);
     block->StoreHalf<kWithLv>(
-        d, i - begin, ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view));
+        d, i - begin, ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view),
+        CosineToView(d, p));
   }
 }
 
@@ -131,7 +136,7 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
   }
   ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
     if constexpr (kHalf) {
-      return HalfIncidentV{block->Load(d, p.i - begin), block->LoadHalf(d, p.i - begin)};
+      return block->LoadHalf(d, p.i - begin);
     } else if constexpr (kLobe) {
       return LobeIncidentV{block->Load(d, p.i - begin), block->LoadLobe(d, p.i - begin)};
     } else {

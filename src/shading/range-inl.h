@@ -70,6 +70,11 @@ struct PacketV {
   Vec3V<FloatV> normal, to_view;
 };
 
+// Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
+HWY_INLINE FloatV CosineToView(FloatTag d, const PacketV& p) {
+  return hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
+}
+
 // One light on them. Where n_dot_l is not above 0 the surface faces away: `irradiance` and
 // `weight`, its share that falls on the surface, are then 0, and whatever else is made of the
 // direction must be kept from the sum by `lit`.
@@ -79,9 +84,10 @@ struct IncidentV {
   hn::Mask<FloatTag> lit;
 };
 
-// The same with the angles of the half vector.
+// The same with the angles of the half vector and to the viewer.
 struct HalfIncidentV : IncidentV {
   HalfAnglesV<FloatV> half;
+  FloatV n_dot_v;
 };
 
 // With the cosine of Phong's or Blinn's lobe.

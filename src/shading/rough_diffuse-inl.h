@@ -26,11 +26,6 @@ HWY_INLINE RgbV SpreadRgb(const SpreadV& spread, const RgbV& ratio) {
   return MulAddRgb(ratio, spread.multiple, {spread.single, spread.single, spread.single});
 }
 
-// Interpolated mesh normals may lean away from the viewer; the cosine then counts as 0.
-HWY_INLINE FloatV CosineToView(FloatTag d, const PacketV& p) {
-  return hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
-}
-
 template <DiffuseForm kForm>
 struct RoughDiffuse;
 

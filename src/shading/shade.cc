@@ -43,13 +43,13 @@ MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
   const Rgb specular = model.delta ? Rgb(0, 0, 0) : color;
   const Rgb diffuse = model.diffuse * color;
   const Rgb rise = Rgb(model.f90) - model.f0;
-  const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
   Assign(diffuse, light.diffuse);
   Assign(specular, light.specular);
   Assign(model.f0 * specular, light.specular_f0);
   Assign(rise * specular, light.specular_rise);
-  Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_rest);
-  Assign(coupled ? rise * diffuse : Rgb(0), light.diffuse_fall);
+  const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
+  Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_normal);
+  Assign(coupled ? (1 - model.f90) * diffuse : Rgb(0), light.diffuse_grazing);
   Assign(model.f_multiple * color, light.multiple);
   return light;
 }
@@ -60,7 +60,7 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLi
   uniforms.model = &model;
   uniforms.lights = lights;
   uniforms.alpha = static_cast<float>(alpha);
-  uniforms.pi_over_alpha2 = static_cast<float>(M_PI / (alpha * alpha));
+  uniforms.pi_over_16_alpha2 = static_cast<float>(M_PI / (16 * alpha * alpha));
   uniforms.schlick_k = static_cast<float>(model.schlick_k);
   Assign(model.f0, uniforms.f0);
   uniforms.is_bright = std::min({uniforms.f0[0], uniforms.f0[1], uniforms.f0[2]}) >= kBrightF0;

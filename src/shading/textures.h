@@ -72,7 +72,7 @@ struct HitTextures {
   Soa3<float> geometric_rounded;                   // for lights below the horizon
   // The constants of models, rounded: alpha or exponent, alpha^2 / pi, Schlick's k; 0 for mirrors
   // and else 1.
-  AlignedArray<float> alpha{kBatchCapacity}, pi_over_alpha2{kBatchCapacity};
+  AlignedArray<float> alpha{kBatchCapacity}, pi_over_16_alpha2{kBatchCapacity};
   AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
   AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
   Soa3<float> f0, f82_slope, f_multiple;
@@ -86,8 +86,8 @@ struct HitTextures {
   static constexpr size_t kFitStride = kBatchCapacity + 3 * kBatchPadding;  // no power of two
   AlignedArray<float> fit{kFitEntries * kFitStride};
   // Products with one light; see MicrofacetLightOf.
-  Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rise, by_diffuse_rest,
-      by_diffuse_fall, by_multiple;
+  Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rise, by_diffuse_normal,
+      by_diffuse_grazing, by_multiple;
 };
 
 // What a material with maps has at hits [begin, end) of the batch, all of it: looks the maps up,

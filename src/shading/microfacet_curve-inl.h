@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/microfacet_curve-inl.h: what a Fresnel curve makes of light: the part that a lobe
+// reflects, and the part that it leaves for a base under it; and the forms of the kernels that are
+// made of them (microfacet_kernel-inl.h).
+#if defined(NACRE_SHADING_MICROFACET_CURVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_MICROFACET_CURVE_INL_H_
+#undef NACRE_SHADING_MICROFACET_CURVE_INL_H_
+#else
+#define NACRE_SHADING_MICROFACET_CURVE_INL_H_
+#endif
+
+#include <type_traits>
+
+#include "brdf/fresnel-inl.h"
+#include "shading/range-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+// The models that a kernel is for: those of one shadowing, all of whose hits share a wide lobe over
+// Lambert's base. `kIsPrepared`: with what PrepareMicrofacet has left of every hit: multiple
+// scattering, or a base that gets what the lobe's albedo leaves. `kIsTypical`: what materials are
+// unless they ask for another: Turquin's compensation and a base that gets what the lobe's albedo
+// leaves, or, not prepared, a base that gets what Schlick's curve leaves, which rises to 1.
+template <Shadowing kShadowing, bool kIsPrepared, bool kIsTypical>
+struct UsualForm {
+  static constexpr bool kUsual = true;
+  static constexpr bool kPrepared = kIsPrepared;
+  static constexpr bool kTypical = kIsTypical;
+  static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel&) { return kShadowing; }
+};
+// Or any, which is asked at each packet what it is.
+struct AnyForm {
+  static constexpr bool kUsual = false;
+  static constexpr bool kPrepared = true;
+  static constexpr bool kTypical = false;
+  static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel& model) { return model.shadowing; }
+};
+
+template <class Form>
+HWY_INLINE DiffuseCoupling CouplingOf(const MicrofacetModel& model) {
+  if constexpr (!Form::kTypical) return model.coupling;
+  return Form::kPrepared ? DiffuseCoupling::kAlbedoScaled : DiffuseCoupling::kOneMinusFresnel;
+}
+
+template <class Form>
+HWY_INLINE Compensation CompensationOf(const MicrofacetModel& model) {
+  if constexpr (!Form::kTypical) return model.compensation;
+  return Form::kPrepared ? Compensation::kTurquin : Compensation::kNone;
+}
+
+// Angles and lengths of the half vector that the curves are functions of.
+struct HalfV {
+  FloatV lv_squared, twice_u_length;
+
+  HWY_INLINE FloatV ULength(FloatTag d) const { return hn::Mul(twice_u_length, hn::Set(d, 0.5f)); }
+};
+
+// A curve's value: Schlick's weight W, F = F0 + (F90 - F0) W, or F of each channel.
+struct SchlickCurveV {
+  FloatV weight;
+};
+struct FresnelCurveV {
+  RgbV fresnel;
+};
+
+// 1 - v.h for Schlick's weight; by kBrightF0.
+template <class Number>
+HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
+                              const MicrofacetUniformsOf<Number>& uniforms) {
+  const FloatV rounded = hn::NegMulAdd(half.twice_u_length, hn::Set(d, 0.25f), hn::Set(d, 1.0f));
+  const auto exact = [&]() HWY_ATTR { return OneMinusVDotH(d, half.lv_squared, half.ULength(d)); };
+  if constexpr (std::is_same_v<Number, float>) {
+    return uniforms.is_bright ? rounded : exact();
+  } else {
+    const RgbV f0 = RgbAt(d, uniforms.f0, i);
+    const auto bright = hn::Ge(hn::Min(hn::Min(f0.r, f0.g), f0.b), hn::Set(d, kBrightF0));
+    return hn::IfThenElse(bright, rounded, exact());
+  }
+}
+
+template <FresnelForm kFresnel, class Number>
+HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
+                              const MicrofacetUniformsOf<Number>& uniforms) {
+  if constexpr (kFresnel == FresnelForm::kSchlick) {
+    return SchlickCurveV{Power5(SchlickBase(d, half, i, uniforms))};
+  } else {
+    const FloatV u_length = half.ULength(d);
+    const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, u_length);
+    const FloatV v_dot_h = VDotH(d, u_length);
+    if constexpr (kFresnel == FresnelForm::kF82) {
+      const RgbV f0 = RgbAt(d, uniforms.f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
+      const FloatV f90 = NumberAt(d, uniforms.f90, i);
+      return FresnelCurveV{{FresnelF82(d, v_dot_h, one_minus_vh, f0.r, f90, slope.r),
+                            FresnelF82(d, v_dot_h, one_minus_vh, f0.g, f90, slope.g),
+                            FresnelF82(d, v_dot_h, one_minus_vh, f0.b, f90, slope.b)}};
+    } else if constexpr (kFresnel == FresnelForm::kDielectric) {
+      const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
+      return FresnelCurveV{{grey, grey, grey}};
+    } else {
+      const RgbV eta = SetRgb(d, uniforms.eta), k = SetRgb(d, uniforms.k);
+      return FresnelCurveV{{FresnelConductor(d, v_dot_h, one_minus_vh, eta.r, k.r),
+                            FresnelConductor(d, v_dot_h, one_minus_vh, eta.g, k.g),
+                            FresnelConductor(d, v_dot_h, one_minus_vh, eta.b, k.b)}};
+    }
+  }
+}
+
+// F times the light.
+template <class Number>
+HWY_INLINE RgbV ReflectedBy(FloatTag d, const SchlickCurveV& curve, size_t i,
+                            const MicrofacetLightOf<Number>& light) {
+  return MulAddRgb(RgbAt(d, light.specular_rise, i), curve.weight, RgbAt(d, light.specular_f0, i));
+}
+template <class Number>
+HWY_INLINE RgbV ReflectedBy(FloatTag d, const FresnelCurveV& curve, size_t i,
+                            const MicrofacetLightOf<Number>& light) {
+  return MulRgb(curve.fresnel, RgbAt(d, light.specular, i));
+}
+
+// What the base gets of the light, times its colour and `weight`: all, or 1 - F of it
+// (DiffuseCoupling::kOneMinusFresnel), which is (1 - F0) (1 - W) + (1 - F90) W by Schlick.
+template <class Form, class Number>
+HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
+                             const MicrofacetModel& model, const MicrofacetLightOf<Number>& light,
+                             FloatV weight) {
+  const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
+  if constexpr (Form::kTypical) {
+    return ScaledPart(RgbAt(d, light.diffuse_normal, i),
+                      coupled ? hn::NegMulAdd(weight, curve.weight, weight) : weight);
+  }
+  // The same bits where F90 is 1. Vectors, not structs, are what the branch chooses: GCC takes a
+  // struct that it chooses through memory.
+  FloatV r = NumberAt(d, light.diffuse_normal[0], i);
+  FloatV g = NumberAt(d, light.diffuse_normal[1], i);
+  FloatV b = NumberAt(d, light.diffuse_normal[2], i);
+  if (coupled) {
+    const FloatV rest = hn::NegMulAdd(weight, curve.weight, weight);
+    const FloatV rise = hn::Mul(weight, curve.weight);
+    r = hn::MulAdd(NumberAt(d, light.diffuse_grazing[0], i), rise, hn::Mul(r, rest));
+    g = hn::MulAdd(NumberAt(d, light.diffuse_grazing[1], i), rise, hn::Mul(g, rest));
+    b = hn::MulAdd(NumberAt(d, light.diffuse_grazing[2], i), rise, hn::Mul(b, rest));
+    weight = hn::Set(d, 1.0f);
+  }
+  return ScaledPart({r, g, b}, weight);
+}
+template <class Form, class Number>
+HWY_INLINE PartV LeftForBase(FloatTag d, const FresnelCurveV& curve, size_t i,
+                             const MicrofacetModel& model, const MicrofacetLightOf<Number>& light,
+                             FloatV weight) {
+  const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
+  // The exact curves may round to just above 1 at grazing angles.
+  const auto left = [&](FloatV fresnel, size_t c) HWY_ATTR {
+    FloatV all = NumberAt(d, light.diffuse[c], i);
+    if (coupled) {
+      all = hn::Mul(hn::Max(hn::Sub(hn::Set(d, 1.0f), fresnel), hn::Zero(d)), all);
+    }
+    return all;
+  };
+  const RgbV& fresnel = curve.fresnel;
+  return ScaledPart({left(fresnel.r, 0), left(fresnel.g, 1), left(fresnel.b, 2)}, weight);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
