@@ -56,7 +56,7 @@ HWY_INLINE V ReciprocalSqrt(D d, V x) {
   return hn::Div(one, hn::Sqrt(x));
 }
 
-// 2 / sqrt(x) for normal x > 0, within 3 ulp: one operation fewer.
+// 2 / sqrt(x) for normal x > 0, within 2 ulp: one operation fewer.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V TwiceReciprocalSqrt(D d, V x) {
 #if HWY_TARGET <= HWY_AVX3

@@ -8,6 +8,7 @@
 
 #include "base/math-inl.h"
 #include "base/math_kernel.h"
+#include "base/target_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -30,6 +31,19 @@ float EvaluateExp2T(float y) {
   return hn::GetLane(Exp2(d, hn::Set(d, y)));
 }
 
+TargetOps EvaluateTargetOpsT(const std::vector<float>& x) {
+  const FloatTag d;
+  TargetOps ops;
+  for (const float number : x) {
+    const auto v = hn::Set(d, number);
+    ops.reciprocal.push_back(hn::GetLane(Reciprocal(d, v)));
+    ops.reciprocal_sqrt.push_back(hn::GetLane(ReciprocalSqrt(d, v)));
+    ops.twice_reciprocal_sqrt.push_back(hn::GetLane(TwiceReciprocalSqrt(d, v)));
+    ops.square_root.push_back(hn::GetLane(SquareRoot(d, v)));
+  }
+  return ops;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -39,11 +53,15 @@ namespace nacre {
 HWY_EXPORT(EvaluateLog2T);
 HWY_EXPORT(EvaluateLog2OneMinusT);
 HWY_EXPORT(EvaluateExp2T);
+HWY_EXPORT(EvaluateTargetOpsT);
 
 float EvaluateLog2(float x) { return HWY_DYNAMIC_DISPATCH(EvaluateLog2T)(x); }
 float EvaluateLog2OneMinus(float x, float c) {
   return HWY_DYNAMIC_DISPATCH(EvaluateLog2OneMinusT)(x, c);
 }
 float EvaluateExp2(float y) { return HWY_DYNAMIC_DISPATCH(EvaluateExp2T)(y); }
+TargetOps EvaluateTargetOps(const std::vector<float>& x) {
+  return HWY_DYNAMIC_DISPATCH(EvaluateTargetOpsT)(x);
+}
 }  // namespace nacre
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/base/math_test.cc: the float logarithms and exponential of base/math-inl.h against those
-// of the library in double, on every target, with the errors that they promise.
+// tests/base/math_test.cc: the float logarithms, exponential and roots of src/base against those of
+// the library in double, on every target, with the errors that they promise.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -51,6 +51,40 @@ TEST_CASE("2^y is right to 1e-7 and 0 where it would be denormal") {
     for (const float y : {-126.0f, -126.5f, -1e3f, -1e30f}) CHECK(EvaluateExp2(y) == 0);
     CHECK(EvaluateExp2(-std::numeric_limits<float>::infinity()) == 0);
     CHECK(EvaluateExp2(0) == 1);
+  });
+}
+
+// In units of the exact value's last place.
+double UlpError(float got, double exact) {
+  return std::abs(got - exact) / std::ldexp(1.0, std::ilogb(exact) - 23);
+}
+
+// Operations on a significand's bits repeat with every octave, those of roots with every second:
+// 64 000 of two octaves' 2^24 floats, and one of every octave.
+std::vector<float> NormalFloats() {
+  std::vector<float> x;
+  for (int i = 0; i < 64000; ++i) x.push_back(static_cast<float>(1 + 3 * (i + 0.37) / 64000));
+  for (int e = -126; e < 126; ++e) x.push_back(static_cast<float>(std::ldexp(1.4142135, e)));
+  return x;
+}
+
+TEST_CASE("reciprocals and roots are right to the last places that they promise") {
+  const std::vector<float> x = NormalFloats();
+  ForEachTarget([&](Target) {
+    const TargetOps ops = EvaluateTargetOps(x);
+    double reciprocal = 0, reciprocal_sqrt = 0, twice = 0, root = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+      const double exact = std::sqrt(double{x[i]});
+      reciprocal = std::max(reciprocal, UlpError(ops.reciprocal[i], 1 / double{x[i]}));
+      reciprocal_sqrt = std::max(reciprocal_sqrt, UlpError(ops.reciprocal_sqrt[i], 1 / exact));
+      twice = std::max(twice, UlpError(ops.twice_reciprocal_sqrt[i], 2 / exact));
+      root = std::max(root, UlpError(ops.square_root[i], exact));
+    }
+    CAPTURE(reciprocal, reciprocal_sqrt, twice, root);
+    CHECK(reciprocal <= 1);
+    CHECK(reciprocal_sqrt <= 2);
+    CHECK(twice <= 2);
+    CHECK(root <= 1);
   });
 }
 
