@@ -127,8 +127,7 @@ HWY_INLINE void FillVariables(const Numbers& numbers, size_t begin, size_t end,
   const FloatTag d;
   const auto normal = PointersTo(surface.normal), to_view = PointersTo(surface.to_view);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const FloatV n_dot_v =
-        hn::Max(FusedDot(LoadAt(d, normal, i), LoadAt(d, to_view, i)), hn::Zero(d));
+    const FloatV n_dot_v = FusedDot(LoadAt(d, normal, i), LoadAt(d, to_view, i));
     block->Store(d, i - begin, numbers.Variables(d, i, n_dot_v));
   }
 }

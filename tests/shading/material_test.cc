@@ -277,5 +277,30 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
   });
 }
 
+TEST_CASE("light exactly opposite the viewer of a normal that leans away: no highlight, no NaN") {
+  const Vec3d to_view(0, -1, 0);  // of a hit whose normal is +y
+  const HitBatch hits = MakeHit(to_view);
+  Light light;
+  light.kind = DirectionalLight{.direction_of_travel = to_view, .irradiance = {1, 1, 1}};
+  const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+  for (const DiffuseCoupling coupling :
+       {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kOneMinusFresnel}) {
+    MetallicRoughnessMaterial material;
+    material.diffuse_coupling = coupling;
+    const ShadingMaterial prepared = Prepare(material);
+    ForEachTarget([&](Target) {
+      Surface surface;
+      PrepareSurface(hits, &surface);
+      PrepareRun(prepared, 0, 1, &surface);
+      const LightOnBatch on_hit{&prepared_light, nullptr};
+      ReflectedRadiance radiance;
+      NarrowLobes scratch;
+      ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
+      CHECK(radiance.specular.x[0] == 0);
+      CHECK(std::isfinite(radiance.diffuse.x[0]));
+    });
+  }
+}
+
 }  // namespace
 }  // namespace nacre

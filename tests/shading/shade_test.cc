@@ -51,6 +51,8 @@ Light MakeLight(const std::string& kind) {
   Light light;
   if (kind == "point") {
     light.kind = PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {}};
+  } else if (kind == "behind") {
+    light.kind = PointLight{.position = {3, 4, -14}, .intensity = kLightColor, .attenuation = {}};
   } else if (kind == "polynomial") {
     light.kind =
         PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {1, 0.1, 0.05}};
@@ -211,8 +213,10 @@ TEST_CASE("microfacet kernels agree with the model in double in every combinatio
     for (const double roughness : {0.1, 0.3, 0.7, 1.0}) {
       for (const Material& material : MicrofacetMaterials(roughness)) {
         const ShadingMaterial prepared = Prepare(material);
-        CheckModel(prepared, std::get<MicrofacetModel>(prepared.model), "point",
-                   8 * 0x1p-24 / (roughness * roughness));
+        const auto& model = std::get<MicrofacetModel>(prepared.model);
+        CheckModel(prepared, model, "point", 8 * 0x1p-24 / (roughness * roughness));
+        // Where Fresnel's curves rise: v.h is about 0.3.
+        CheckModel(prepared, model, "behind", 8 * 0x1p-24 / (roughness * roughness));
       }
     }
     const ShadingMaterial plain = Prepare(MetallicRoughnessMaterial{});
