@@ -172,7 +172,7 @@ void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& 
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const MicrofacetModel& model = *uniforms.model;
     if (model.coupling == CouplingOf<Typical>(model) &&
-        model.compensation == CompensationOf<Typical>(model) && (kPrepared || uniforms.f90 == 1)) {
+        model.compensation == CompensationOf<Typical>(model) && (kPrepared || model.f90 == 1)) {
       return ShadeMicrofacetForm<kFresnel, Typical>(uniforms, range);
     }
   }
