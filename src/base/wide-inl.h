@@ -77,6 +77,11 @@ HWY_INLINE void BlendedStore(const Wide<V>& v, const Wide<M>& mask, WideTag<D>,
   BlendedStore(v.high, mask.high, D(), to + Lanes(D()));
 }
 
+template <class D, class M>
+HWY_INLINE bool AllTrue(WideTag<D>, const Wide<M>& mask) {
+  return AllTrue(D(), mask.low) && AllTrue(D(), mask.high);
+}
+
 template <class D>
 HWY_INLINE Wide<Mask<D>> FirstN(WideTag<D>, size_t count) {
   const size_t half = Lanes(D());

@@ -37,10 +37,10 @@ struct LobeCosineV {
 // r.v, r the reflection of the light, without r and its roundings: the scalar twin tells how.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
-                                      const Vec3V<V>& to_view) {
+                                      const Vec3V<V>& to_view, V n_dot_l, V n_dot_v) {
   const Vec3V<V> u = Add(to_light, to_view);
-  const V along = FusedDot(normal, Sub(to_light, to_view));
-  const V n_dot_u = FusedDot(normal, u);
+  const V along = hn::Sub(n_dot_l, n_dot_v);
+  const V n_dot_u = hn::Add(n_dot_l, n_dot_v);
   const Vec3V<V> across{hn::NegMulAdd(normal.x, n_dot_u, u.x),
                         hn::NegMulAdd(normal.y, n_dot_u, u.y),
                         hn::NegMulAdd(normal.z, n_dot_u, u.z)};
@@ -51,15 +51,20 @@ HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V
 
 // (n.h)^2, of which Blinn's lobe is the power n/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
+HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, V n_dot_u, V nxu_squared) {
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, hn::TFromD<D>(1));
-  const V cos2 = hn::Mul(a.n_dot_u, a.n_dot_u);
-  const V u_squared = hn::Add(cos2, a.nxu_squared);
-  const auto above = hn::And(hn::Gt(a.n_dot_u, zero), hn::Gt(u_squared, zero));
+  const V cos2 = hn::Mul(n_dot_u, n_dot_u);
+  const V u_squared = hn::Add(cos2, nxu_squared);
+  const auto above = hn::And(hn::Gt(n_dot_u, zero), hn::Gt(u_squared, zero));
   const V scale = Reciprocal(d, hn::IfThenElse(above, u_squared, one));
   // Lanes below the surface get cos^2 = 0, the lobe's zero.
-  return {hn::Mul(a.nxu_squared, scale), hn::IfThenElseZero(above, hn::Mul(cos2, scale))};
+  return {hn::Mul(nxu_squared, scale), hn::IfThenElseZero(above, hn::Mul(cos2, scale))};
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
+  return BlinnSquaredCosine(d, a.n_dot_u, a.nxu_squared);
 }
 
 template <class D, class V = hn::Vec<D>>

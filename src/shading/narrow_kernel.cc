@@ -91,9 +91,11 @@ void NarrowGgxMapsT(const double* alphas, const ShadeRange& range, NarrowLobes* 
 
 HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at) {
   const DoubleTag d;
-  return model == PhongModel::kBlinnPhong
-             ? BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view))
-             : PhongCosine(d, at.normal, at.to_light, at.to_view);
+  if (model == PhongModel::kBlinnPhong) {
+    return BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view));
+  }
+  return PhongCosine(d, at.normal, at.to_light, at.to_view, FusedDot(at.normal, at.to_light),
+                     FusedDot(at.normal, at.to_view));
 }
 
 void NarrowPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,

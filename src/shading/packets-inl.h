@@ -40,19 +40,21 @@ class IncidentBlock {
     return {hn::Load(d, x_ + at), hn::Load(d, y_ + at), hn::Load(d, z_ + at)};
   }
 
+  HWY_INLINE FloatV NDotL(FloatTag d, size_t at) const { return hn::Load(d, n_dot_l_ + at); }
+
   HWY_INLINE IncidentV Load(FloatTag d, size_t at) const {
-    const FloatV n_dot_l = hn::Load(d, n_dot_l_ + at);
+    const FloatV n_dot_l = NDotL(d, at);
     return {ToLight(d, at), n_dot_l, hn::Load(d, irradiance_ + at), hn::Load(d, weight_ + at),
             hn::Gt(n_dot_l, hn::Zero(d))};
   }
 
   template <bool kWithLv>
-  HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half,
-                            FloatV n_dot_v) {
+  HWY_INLINE void StoreHalf(FloatTag d, size_t at, FloatV n_dot_u, FloatV nxu_squared,
+                            FloatV lv_squared, FloatV n_dot_v) {
     hn::Store(n_dot_v, d, n_dot_v_ + at);
-    hn::Store(half.n_dot_u, d, n_dot_u_ + at);
-    hn::Store(half.nxu_squared, d, nxu_squared_ + at);
-    if (kWithLv) hn::Store(half.lv_squared, d, lv_squared_ + at);
+    hn::Store(n_dot_u, d, n_dot_u_ + at);
+    hn::Store(nxu_squared, d, nxu_squared_ + at);
+    if (kWithLv) hn::Store(lv_squared, d, lv_squared_ + at);
   }
 
   HWY_INLINE void StoreLobe(FloatTag d, size_t at, const LobeCosineV<FloatV>& lobe) {
@@ -97,28 +99,50 @@ HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
   });
 }
 
+// Calls use(at, n_dot_u, nxu_squared, lv_squared, n_dot_v) with the half vector's angles of all
+// hits of a block. Hits choose how they are formed by their own |u|^2, whatever else is in the
+// block; but as a rule none of a block's needs more than u as it is.
+template <class Use>
+HWY_INLINE void ForHalfAngles(const RangeArrays& given, size_t begin, size_t end,
+                              const IncidentBlock& block, const Use& use) {
+  const FloatTag d;
+  const RangeArrays arrays = given;  // kept in registers: what is stored cannot be this copy
+  const FloatV enough = hn::Set(d, kUprightUSquared);
+  FloatV least = enough;
+  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+    const HalfAnglesV<FloatV> half = UprightHalfAngles(d, p.normal, block.ToLight(d, at), p.to_view,
+                                                       block.NDotL(d, at), n_dot_v);
+    least = hn::Min(half.u_squared, least);
+    use(at, half.n_dot_u, half.nxu_squared, half.lv_squared, n_dot_v);
+  }
+  if (hn::AllTrue(d, hn::Ge(least, enough))) return;
+  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+    const Vec3V<FloatV> to_light = block.ToLight(d, at);
+    const HalfAnglesV<FloatV> upright =
+        UprightHalfAngles(d, p.normal, to_light, p.to_view, block.NDotL(d, at), n_dot_v);
+    const HalfAnglesV<FloatV> any = ComputeHalfAngles(d, p.normal, to_light, p.to_view);
+    const auto is_upright = hn::Ge(upright.u_squared, enough);
+    use(at, hn::IfThenElse(is_upright, upright.n_dot_u, any.n_dot_u),
+        hn::IfThenElse(is_upright, upright.nxu_squared, any.nxu_squared), any.lv_squared, n_dot_v);
+  }
+}
+
 // The angles of their half vectors, with or without |l - v|^2, and to the viewer.
 template <bool kWithLv>
 HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
                            IncidentBlock* block) {
   const FloatTag d;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, i);
-    block->StoreHalf<kWithLv>(
-        d, i - begin, ComputeHalfAngles(d, p.normal, block->ToLight(d, i - begin), p.to_view),
-        CosineToView(d, p));
-  }
-}
-
-// The cosines of their Phong or Blinn lobes.
-template <class Model>
-HWY_NOINLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
-                           IncidentBlock* block) {
-  const FloatTag d;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, i);
-    block->StoreLobe(d, i - begin, Model::WideLobe(d, p, block->ToLight(d, i - begin)));
-  }
+  ForHalfAngles(arrays, begin, end, *block,
+                [&](size_t at, FloatV n_dot_u, FloatV nxu_squared, FloatV lv_squared,
+                    FloatV n_dot_v) HWY_ATTR {
+                  // Interpolated mesh normals may lean away from the viewer: that counts as 0.
+                  block->StoreHalf<kWithLv>(d, at, n_dot_u, nxu_squared, lv_squared,
+                                            hn::Max(n_dot_v, hn::Zero(d)));
+                });
 }
 
 template <class Model>
@@ -132,7 +156,7 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
     const auto fill = model.ReadsLv() ? FillHalf<true> : FillHalf<false>;
     fill(arrays, begin, end, block);
   } else if constexpr (kLobe) {
-    if (model.ReadsLobe()) FillLobe<Model>(arrays, begin, end, block);
+    if (model.ReadsLobe()) model.FillLobe(arrays, begin, end, block);
   }
   ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
     if constexpr (kHalf) {
@@ -152,7 +176,7 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 // `Model::Incident`: IncidentV, HalfIncidentV or LobeIncidentV. Model::kReadsIrradiance tells
 // whether IncidentV::irradiance has a meaning to the model, model.ReadsLv() whether
 // HalfAnglesV::lv_squared has, and model.ReadsLobe() whether the lobe has, which
-// model.WideLobe(packet, to_light) makes; else they need not be there.
+// model.FillLobe(arrays, begin, end, block) stores; else they need not be there.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);

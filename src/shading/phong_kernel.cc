@@ -15,6 +15,27 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
+// The cosines of a block's lobes.
+HWY_NOINLINE void FillPhong(const RangeArrays& arrays, size_t begin, size_t end,
+                            IncidentBlock* block) {
+  const FloatTag d;
+  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    block->StoreLobe(d, at,
+                     PhongCosine(d, p.normal, block->ToLight(d, at), p.to_view, block->NDotL(d, at),
+                                 FusedDot(p.normal, p.to_view)));
+  }
+}
+
+HWY_NOINLINE void FillBlinn(const RangeArrays& arrays, size_t begin, size_t end,
+                            IncidentBlock* block) {
+  const FloatTag d;
+  ForHalfAngles(arrays, begin, end, *block,
+                [&](size_t at, FloatV n_dot_u, FloatV nxu_squared, FloatV, FloatV) HWY_ATTR {
+                  block->StoreLobe(d, at, BlinnSquaredCosine(d, n_dot_u, nxu_squared));
+                });
+}
+
 template <PhongModel kModel, class Number>
 struct PhongFamily {
   static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
@@ -46,13 +67,10 @@ struct PhongFamily {
     return {hn::LoadU(d, narrow.first.data() + i), hn::LoadU(d, narrow.second.data() + i)};
   }
 
-  static HWY_INLINE LobeCosineV<FloatV> WideLobe(FloatTag d, const PacketV& p,
-                                                 const Vec3V<FloatV>& to_light) {
-    if constexpr (kModel == PhongModel::kBlinnPhong) {
-      return BlinnSquaredCosine(d, ComputeHalfAngles(d, p.normal, to_light, p.to_view));
-    } else {
-      return PhongCosine(d, p.normal, to_light, p.to_view);
-    }
+  HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
+                           IncidentBlock* block) const {
+    const auto fill = kModel == PhongModel::kBlinnPhong ? FillBlinn : FillPhong;
+    fill(arrays, begin, end, block);
   }
 
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,

@@ -12,6 +12,7 @@
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "light/punctual.h"
+#include "scene/light.h"
 #include "shading/material.h"
 
 namespace nacre {
