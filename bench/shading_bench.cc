@@ -9,6 +9,8 @@
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_by_position          the lights are found from the hits' positions, in double, as near lights
 //                          and those of meshes are; else from their normals (SphereOffset)
+//   *_from_behind          the light is behind the sphere, and half vectors are formed with care
+//                          (ForHalfAngles in packets-inl.h)
 //   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs
 #include <cmath>
 #include <functional>
@@ -69,6 +71,7 @@ void ReportShades(benchmark::State& state, size_t shades) {
 struct Lights {
   size_t count = 1;
   bool by_position = false;
+  bool from_behind = false;
 };
 
 // Runs shade(hits, surface, lights, radiance) on a target.
@@ -83,9 +86,10 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
   std::vector<ShadingLight> lights;
   for (size_t i = 0; i < by.count; ++i) {
     Light light;
-    light.kind = PointLight{.position = {3, 4 - static_cast<double>(i % 4), 2},
-                            .intensity = {60, 60, 60},
-                            .attenuation = {}};
+    light.kind =
+        PointLight{.position = {3, 4 - static_cast<double>(i % 4), by.from_behind ? -20.0 : 2.0},
+                   .intensity = {60, 60, 60},
+                   .attenuation = {}};
     lights.push_back(PrepareLight(light, {0, 0, 0}));
     if (!by.by_position) OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back());
   }
@@ -238,6 +242,10 @@ std::vector<ModelBench> MakeModels() {
        plain_ggx(Shadowing::kSchlickDirect),
        nullptr,
        {1, true}},
+      {"ggx_plain_schlick_direct_from_behind",
+       plain_ggx(Shadowing::kSchlickDirect),
+       nullptr,
+       {1, false, true}},
       {"phong_double_terms", phong(PhongModel::kPhong, 2 * kDoubleTermsShininess), nullptr},
       {"blinn_phong_double_terms", phong(PhongModel::kBlinnPhong, 2 * kDoubleTermsShininess),
        nullptr},
