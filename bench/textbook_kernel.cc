@@ -51,42 +51,51 @@ struct TextbookGgx {
   }
 };
 
-struct NaivePhong {
-  static constexpr bool kReadsIrradiance = true;
-  using Incident = IncidentV;
-  struct View {};
-  const PhongUniforms& uniforms;
+// A block's cosines as they are written, and what rounding leaves of 1 - c.
+HWY_INLINE void StoreNaive(FloatTag d, size_t at, FloatV cosine, IncidentBlock* block) {
+  block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
+}
 
-  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                                size_t k) const {
+HWY_NOINLINE void FillNaivePhong(const RangeArrays& arrays, size_t begin, size_t end,
+                                 IncidentBlock* block) {
+  const FloatTag d;
+  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    const FloatV n_dot_l = block->NDotL(d, at);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const FloatV l_dot_v = FusedDot(in.to_light, p.to_view);
-    const FloatV cosine = hn::MulSub(hn::Add(in.n_dot_l, in.n_dot_l), n_dot_v, l_dot_v);
-    const FloatV log2 = Log2(d, hn::Max(cosine, hn::Set(d, 1e-30f)));
-    const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
-    const PhongLight& by = uniforms.lights[k];
-    return {{ScaledPart(SetRgb(d, by.diffuse), in.weight)},
-            ScaledPart(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
+    const FloatV l_dot_v = FusedDot(block->ToLight(d, at), p.to_view);
+    StoreNaive(d, at, hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v), block);
   }
-};
+}
 
-struct NaiveBlinnPhong {
+HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, size_t end,
+                                      IncidentBlock* block) {
+  const FloatTag d;
+  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    const Vec3V<FloatV> u = Add(block->ToLight(d, at), p.to_view);
+    const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), hn::Set(d, 1e-30f)));
+    StoreNaive(d, at, hn::Mul(FusedDot(p.normal, u), scale), block);
+  }
+}
+
+// All but the cosine is as in Phong's own kernel.
+template <void (*kFill)(const RangeArrays&, size_t, size_t, IncidentBlock*)>
+struct NaiveLobe {
   static constexpr bool kReadsIrradiance = true;
-  using Incident = IncidentV;
+  using Incident = LobeIncidentV;
   struct View {};
   const PhongUniforms& uniforms;
 
+  HWY_INLINE bool ReadsLobe() const { return true; }
+  HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
+                           IncidentBlock* block) const {
+    kFill(arrays, begin, end, block);
+  }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in,
                                 size_t k) const {
-    const FloatV smallest = hn::Set(d, 1e-30f);
-    const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
-                          hn::Add(in.to_light.z, p.to_view.z)};
-    const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), smallest));
-    const FloatV n_dot_h = hn::Mul(FusedDot(p.normal, u), scale);
-    const FloatV log2 = Log2(d, hn::Max(n_dot_h, smallest));
-    const FloatV lobe = Exp2(d, hn::Mul(hn::Set(d, uniforms.shininess), log2));
+    const FloatV lobe = LobePower(d, in.log2_cosine, hn::Set(d, uniforms.shininess));
     const PhongLight& by = uniforms.lights[k];
     return {{ScaledPart(SetRgb(d, by.diffuse), in.weight)},
             ScaledPart(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
@@ -98,11 +107,11 @@ void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& ra
 }
 
 void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaivePhong{uniforms}, range);
+  ShadePackets(FloatTag(), NaiveLobe<FillNaivePhong>{uniforms}, range);
 }
 
 void ShadeNaiveBlinnPhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaiveBlinnPhong{uniforms}, range);
+  ShadePackets(FloatTag(), NaiveLobe<FillNaiveBlinnPhong>{uniforms}, range);
 }
 
 }  // namespace HWY_NAMESPACE

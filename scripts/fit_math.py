@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the polynomial coefficients of src/base/{math,trig}-inl.h and their errors.
+"""Prints the polynomial coefficients and tables of src/base/{math,trig}-inl.h and their errors.
 
 Interpolates at Chebyshev nodes in exact rational arithmetic, then rounds to float. The error
 printed is that of the rounded polynomial, evaluated exactly, over a dense grid.
 """
+import decimal
 import math
 import struct
 from fractions import Fraction
@@ -48,6 +49,44 @@ def log2_over_f(f):
 
 show('log2(1 + f) / f', log2_over_f, math.sqrt(0.5) - 1, math.sqrt(2) - 1, 9)
 show('2^f', lambda f: 2.0 ** f, -0.5, 0.5, 6)
+
+
+def float_steps(x, steps):
+    return struct.unpack('f', struct.pack('I', struct.unpack('I', struct.pack('f', x))[0] + steps))[0]
+
+
+def log2(x):
+    return decimal.Decimal(x).ln() / decimal.Decimal(2).ln()
+
+
+def log_tables():
+    """Of each 32nd m of [1/2, 1) a float s about 1 / m, of 6000 the one whose 1 - log2(s) is nearest
+    to a float; 1 for the last."""
+    scales, logs, worst, least, most = [], [], 0, 0, 0
+    for i in range(16):
+        low, high = 0.5 + i / 32, 0.5 + (i + 1) / 32
+        about = to_float(2 / (low + high))
+        candidates = [float_steps(about, k) for k in range(-3000, 3000)] if i < 15 else [1.0]
+        exact = {s: 1 - log2(s) for s in candidates}
+        scale = min(candidates, key=lambda s: abs(decimal.Decimal(to_float(exact[s])) - exact[s]))
+        scales.append(scale)
+        logs.append(to_float(exact[scale]))
+        worst = max(worst, abs(decimal.Decimal(logs[-1]) - exact[scale]))
+        least, most = min(least, scale * low - 1), max(most, scale * high - 1)
+    return scales, logs, worst, least, most
+
+
+def show_table(name, numbers):
+    print(f'{name}\n  {{' + ', '.join(f'{x:.9g}f' for x in numbers) + '}')
+
+
+SCALES, LOGS, WORST, LEAST, MOST = log_tables()
+show_table('s', SCALES)
+show_table(f'1 - log2(s), error 2^{math.log2(WORST):.1f}', LOGS)
+show(f'log2(1 + f) / f for s m - 1 from {LEAST:.6g} to {MOST:.6g}', log2_over_f, -1 / 32, 0.0304, 3)
+show_table('2^(k / 16)', [to_float(2 ** (k / 16)) for k in range(16)])
+show('(2^f - 1) / f', lambda f: math.expm1(f * math.log(2)) / f if abs(f) > 1e-9 else math.log(2),
+     -1 / 32, 1 / 32, 2)
 
 
 def atan_remainder(z):

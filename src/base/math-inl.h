@@ -11,7 +11,7 @@
 #define NACRE_BASE_MATH_INL_H_
 #endif
 
-#include "base/wide-inl.h"
+#include "base/target_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -62,10 +62,67 @@ HWY_INLINE V Log2(D d, V x) {
   return hn::Add(Log2OnePlusPolynomial(d, f), exponent);
 }
 
+// The polynomial in x with these coefficients, lowest first, by Horner's rule.
+template <class D, size_t kTerms, class V = hn::Vec<D>>
+HWY_INLINE V EvaluateInOrder(D d, const float (&coefficients)[kTerms], V x) {
+  V p = hn::Set(d, coefficients[kTerms - 1]);
+  for (size_t i = kTerms - 1; i != 0; --i) p = hn::MulAdd(p, x, hn::Set(d, coefficients[i - 1]));
+  return p;
+}
+
+// log2(1 - x) by tables (after Tang 1990): c = 2^(e + 1) m, and s of 16 numbers about 1 / m makes
+// s m = 1 + f with |f| <= 1/32. log2(c) = e + (1 - log2(s)) + log2(1 + f), of which the first two
+// cancel next to c = 1, where s = 1. The other s are such floats that 1 - log2(s) rounds by 2^-36
+// at most (Gal 1986), and f = s (m - 1) + (s - 1) is rounded once.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Log2OneMinusByTables(D d, V x, V c) {
+  alignas(64) static constexpr float kScale[] = {1.93938172f, 1.8283602f,  1.72939241f, 1.64100206f,
+                                                 1.56090307f, 1.48836052f, 1.42248714f, 1.36151564f,
+                                                 1.30610323f, 1.25497186f, 1.20789838f, 1.16394758f,
+                                                 1.12251043f, 1.08502173f, 1.04914939f, 1.0f};
+  alignas(64) static constexpr float kOneMinusLog2[] = {
+      0.0444032103f, 0.12944968f,  0.209734738f, 0.285422951f, 0.357619047f, 0.426275969f,
+      0.49158439f,   0.554786444f, 0.614731073f, 0.672344983f, 0.727500916f, 0.780973911f,
+      0.833271146f,  0.882276058f, 0.930779874f, 1.0f};
+  constexpr float kCoefficients[] = {1.44269502f, -0.721347272f, 0.481172562f, -0.361393839f};
+  constexpr int kFirstOfMantissa = 19;
+  const V one = hn::Set(d, 1.0f);
+  const V below_one = hn::Min(c, hn::Set(d, 1 - 0x1p-24f));  // 1 itself is of another octave
+  const V s = LookUp16<kFirstOfMantissa>(kScale, below_one);
+  const auto small = hn::Lt(x, hn::Set(d, 0.25f));  // m = c there
+  const V m_minus_1 =
+      hn::IfThenElse(small, hn::Sub(hn::Zero(d), x), hn::Sub(HalfMantissa(below_one), one));
+  const V f = hn::MulAdd(s, m_minus_1, hn::Sub(s, one));
+  const V whole =
+      hn::Add(Exponent(below_one), LookUp16<kFirstOfMantissa>(kOneMinusLog2, below_one));
+  return hn::MulAdd(EvaluateInOrder(d, kCoefficients, f), f, whole);
+}
+
+// 2^y = 2^w 2^(k / 16) 2^f with |f| <= 1/32.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V Exp2ByTable(D d, V y) {
+  alignas(64) static constexpr float kRoots[] = {
+      1.0f,        1.04427373f, 1.09050775f, 1.13878858f, 1.18920708f, 1.24185777f,
+      1.29683959f, 1.35425556f, 1.41421354f, 1.47682619f, 1.54221082f, 1.61049032f,
+      1.68179286f, 1.75625217f, 1.8340081f,  1.91520655f};
+  // (2^f - 1) / f.
+  constexpr float kCoefficients[] = {0.693147182f, 0.240233555f, 0.0555050857f};
+  // Adding 1.5 2^19 rounds to the nearest sixteenth; k is then in the sum's last four bits.
+  const V shifter = hn::Set(d, 0x1.8p19f);
+  const V shifted = hn::Add(y, shifter);
+  const V rounded = hn::Sub(shifted, shifter);
+  const V f = hn::Sub(y, rounded);
+  const V root = LookUp16<0>(kRoots, shifted);
+  const V p = EvaluateInOrder(d, kCoefficients, f);
+  return TimesPowerOf2(hn::MulAdd(hn::Mul(root, f), p, root), rounded);
+}
+
 // log2(1 - x) for x in [0, 1), given also c = 1 - x: of the two, whichever is free of
-// cancellation tells the logarithm. Relative error 2e-7 everywhere.
+// cancellation tells the logarithm. Relative error 2e-7 everywhere. For c <= 0 it is finite, or
+// -infinity or NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2OneMinus(D d, V x, V c) {
+  if constexpr (kSplitsFloats<V>) return Log2OneMinusByTables(d, x, c);
   V f, exponent;
   SplitExponent(d, c, &f, &exponent);
   const auto small = hn::Lt(x, hn::Set(d, 0.25f));  // well within the polynomial's range
@@ -73,9 +130,11 @@ HWY_INLINE V Log2OneMinus(D d, V x, V c) {
   return hn::Add(Log2OnePlusPolynomial(d, f), hn::IfThenZeroElse(small, exponent));
 }
 
-// 2^y for y < 128: relative error 1e-7. 0 below -126, where the result would be denormal.
+// 2^y for finite y < 128: relative error 2^-23, of two roundings (by tables; else 1e-7). 0 below
+// -126, where the result would be denormal; AVX-512 leaves that to the processor's mode.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp2(D d, V y) {
+  if constexpr (kSplitsFloats<V>) return Exp2ByTable(d, y);
   constexpr float kCoefficients[] = {1.0f,           0.693147182f,  0.240226507f,   0.0555032715f,
                                      0.00961805694f, 0.0013400428f, 0.000154614449f};
   const hn::RebindToSigned<D> di;
@@ -86,8 +145,7 @@ HWY_INLINE V Exp2(D d, V y) {
   const V shifted = hn::Add(clamped, shifter);
   const V f = hn::Sub(clamped, hn::Sub(shifted, shifter));
   // Not by halves, which would round its results twice as far.
-  V p = hn::Set(d, kCoefficients[6]);
-  for (int i = 5; i >= 0; --i) p = hn::MulAdd(p, f, hn::Set(d, kCoefficients[i]));
+  const V p = EvaluateInOrder(d, kCoefficients, f);
   const auto bits = hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(hn::BitCast(di, shifted)));
   return hn::BitCast(d, bits);
 }

@@ -85,6 +85,56 @@ HWY_INLINE V SquareRoot(D d, V x) {
   return hn::Sqrt(x);
 }
 
+// Whether the target takes whole vectors V of floats apart, puts them together again, and finds 16
+// numbers by their places, in an operation each. The functions that follow are there only if so.
+template <class V>
+constexpr bool kSplitsFloats = false;
+
+#if HWY_TARGET <= HWY_AVX3
+using FloatsV = hn::Vec<hn::ScalableTag<float>>;
+template <>
+constexpr bool kSplitsFloats<FloatsV> = true;
+template <>
+constexpr bool kSplitsFloats<hn::Wide<FloatsV>> = true;
+
+// By masks of all lanes: of the plain intrinsics GCC 12 warns.
+
+// e of |x| = m 2^e, 1 <= m < 2; -infinity for 0.
+HWY_INLINE FloatsV Exponent(FloatsV x) { return FloatsV{_mm512_maskz_getexp_ps(0xffff, x.raw)}; }
+
+// m / 2 of the same for x > 0, 1 for 0; NaN below.
+HWY_INLINE FloatsV HalfMantissa(FloatsV x) {
+  return FloatsV{_mm512_maskz_getmant_ps(0xffff, x.raw, _MM_MANT_NORM_p5_1, _MM_MANT_SIGN_nan)};
+}
+
+// x 2^e, e rounded down.
+HWY_INLINE FloatsV TimesPowerOf2(FloatsV x, FloatsV e) {
+  return FloatsV{_mm512_maskz_scalef_ps(0xffff, x.raw, e.raw)};
+}
+
+// numbers[place], aligned to a vector, where the place is the four bits from kBit on.
+template <int kBit>
+HWY_INLINE FloatsV LookUp16(const float* numbers, FloatsV bits) {
+  __m512i place = _mm512_castps_si512(bits.raw);
+  if constexpr (kBit != 0) place = _mm512_maskz_srli_epi32(0xffff, place, kBit);
+  return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, place, _mm512_load_ps(numbers))};
+}
+
+HWY_INLINE hn::Wide<FloatsV> Exponent(const hn::Wide<FloatsV>& x) {
+  return {Exponent(x.low), Exponent(x.high)};
+}
+HWY_INLINE hn::Wide<FloatsV> HalfMantissa(const hn::Wide<FloatsV>& x) {
+  return {HalfMantissa(x.low), HalfMantissa(x.high)};
+}
+HWY_INLINE hn::Wide<FloatsV> TimesPowerOf2(const hn::Wide<FloatsV>& x, const hn::Wide<FloatsV>& e) {
+  return {TimesPowerOf2(x.low, e.low), TimesPowerOf2(x.high, e.high)};
+}
+template <int kBit>
+HWY_INLINE hn::Wide<FloatsV> LookUp16(const float* numbers, const hn::Wide<FloatsV>& bits) {
+  return {LookUp16<kBit>(numbers, bits.low), LookUp16<kBit>(numbers, bits.high)};
+}
+#endif
+
 // (minus - from[0...]), a vector of floats that are each rounded from doubles once.
 HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<float> d,
                                                             double minuend,

@@ -7,8 +7,6 @@
 #define NACRE_BRDF_PHONG_INL_H_
 #endif
 
-#include <limits>
-
 #include "base/math-inl.h"
 #include "base/target_ops-inl.h"
 #include "brdf/angles-inl.h"
@@ -18,21 +16,22 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// c^n for c = 1 - x; 0 where c <= 0, but 1 everywhere for n = 0.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V LobePower(D d, V x, V c, V n) {
-  // The logarithm of 0 as the lowest float: times any n > 0 it is far below what has a power of 2,
-  // and times 0 it is 0. What Log2OneMinus makes of c <= 0 is finite.
-  const V lowest = hn::Set(d, std::numeric_limits<float>::lowest());
-  const V log2 = hn::IfThenElse(hn::Gt(c, hn::Zero(d)), Log2OneMinus(d, x, c), lowest);
-  return Exp2(d, hn::Mul(n, log2));
-}
-
 // A lobe's cosine c, and 1 - c free of cancellation.
 template <class V>
 struct LobeCosineV {
   V one_minus_c, c;
 };
+
+// log2(c), and where c <= 0 what no power of 2 is as low as, times any exponent that is not 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
+  const V log2 = Log2OneMinus(d, cosine.one_minus_c, cosine.c);
+  const V dark = hn::Set(d, -0x1p96f);  // finite times limits::kExponent
+  // One operation where the logarithm of what is not above 0 is known: of NaN and a number the
+  // maximum is the second.
+  if constexpr (kSplitsFloats<V>) return hn::Max(log2, dark);
+  return hn::IfThenElse(hn::Gt(cosine.c, hn::Zero(d)), log2, dark);
+}
 
 // r.v, r the reflection of the light, without r and its roundings: the scalar twin tells how.
 template <class D, class V = hn::Vec<D>>
@@ -67,15 +66,26 @@ HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
   return BlinnSquaredCosine(d, a.n_dot_u, a.nxu_squared);
 }
 
+// c^n by log2(c): 0 where c <= 0, but 1 everywhere for n = 0.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LobePower(D d, V log2, V n) {
+  return Exp2(d, hn::Mul(n, log2));
+}
+
+// (n.h)^n by log2((n.h)^2).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LobePowerOfSquare(D d, V log2, V n) {
+  return LobePower(d, log2, hn::Mul(n, hn::Set(d, 0.5f)));
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobe(D d, const LobeCosineV<V>& cosine, V shininess) {
-  return LobePower(d, cosine.one_minus_c, cosine.c, shininess);
+  return LobePower(d, LobeLog2(d, cosine), shininess);
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V BlinnLobe(D d, const LobeCosineV<V>& squared_cosine, V shininess) {
-  return LobePower(d, squared_cosine.one_minus_c, squared_cosine.c,
-                   hn::Mul(shininess, hn::Set(d, 0.5f)));
+  return LobePowerOfSquare(d, LobeLog2(d, squared_cosine), shininess);
 }
 
 }  // namespace HWY_NAMESPACE

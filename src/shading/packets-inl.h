@@ -62,8 +62,17 @@ class IncidentBlock {
     hn::Store(lobe.c, d, c_ + at);
   }
 
-  HWY_INLINE LobeCosineV<FloatV> LoadLobe(FloatTag d, size_t at) const {
-    return {hn::Load(d, one_minus_c_ + at), hn::Load(d, c_ + at)};
+  HWY_INLINE FloatV LoadLobeLog2(FloatTag d, size_t at) const {
+    return hn::Load(d, log2_cosine_ + at);
+  }
+
+  // The logarithms of `count` cosines that were stored, in a loop of their own: most kernels' loops
+  // were longer than a processor's window with them.
+  HWY_INLINE void TakeLobeLogs(FloatTag d, size_t count) {
+    for (size_t at = 0; at < count; at += hn::Lanes(d)) {
+      const LobeCosineV<FloatV> cosine{hn::Load(d, one_minus_c_ + at), hn::Load(d, c_ + at)};
+      hn::Store(LobeLog2(d, cosine), d, log2_cosine_ + at);
+    }
   }
 
   HWY_INLINE HalfIncidentV LoadHalf(FloatTag d, size_t at) const {
@@ -81,7 +90,7 @@ class IncidentBlock {
   alignas(kAlignment) float n_dot_v_[kHits], n_dot_u_[kHits], nxu_squared_[kHits];
   // Loaded by all models, used by those alone for which they were stored.
   alignas(kAlignment) float irradiance_[kHits], lv_squared_[kHits];
-  alignas(kAlignment) float one_minus_c_[kHits], c_[kHits];
+  alignas(kAlignment) float one_minus_c_[kHits], c_[kHits], log2_cosine_[kHits];
 };
 
 // The light of hits [begin, end), with or without its irradiance. Not inlined, as it is the same
@@ -156,13 +165,16 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
     const auto fill = model.ReadsLv() ? FillHalf<true> : FillHalf<false>;
     fill(arrays, begin, end, block);
   } else if constexpr (kLobe) {
-    if (model.ReadsLobe()) model.FillLobe(arrays, begin, end, block);
+    if (model.ReadsLobe()) {
+      model.FillLobe(arrays, begin, end, block);
+      block->TakeLobeLogs(d, end - begin);
+    }
   }
   ReflectLight(d, model, range, arrays, k, begin, end, [&](const PacketV& p) HWY_ATTR {
     if constexpr (kHalf) {
       return block->LoadHalf(d, p.i - begin);
     } else if constexpr (kLobe) {
-      return LobeIncidentV{block->Load(d, p.i - begin), block->LoadLobe(d, p.i - begin)};
+      return LobeIncidentV{block->Load(d, p.i - begin), block->LoadLobeLog2(d, p.i - begin)};
     } else {
       return block->Load(d, p.i - begin);
     }
@@ -175,8 +187,8 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 //   model.Reflect(view, packet, incident, k)         what it makes of light k
 // `Model::Incident`: IncidentV, HalfIncidentV or LobeIncidentV. Model::kReadsIrradiance tells
 // whether IncidentV::irradiance has a meaning to the model, model.ReadsLv() whether
-// HalfAnglesV::lv_squared has, and model.ReadsLobe() whether the lobe has, which
-// model.FillLobe(arrays, begin, end, block) stores; else they need not be there.
+// HalfAnglesV::lv_squared has, and model.ReadsLobe() whether LobeIncidentV::log2_cosine has, of
+// the cosines that model.FillLobe(arrays, begin, end, block) stores; else they need not be there.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);

@@ -49,22 +49,15 @@ struct PhongFamily {
   }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
-  HWY_INLINE LobeCosineV<FloatV> Lobe(FloatTag d, const PacketV& p, const Incident& in) const {
+  HWY_INLINE FloatV Log2Cosine(FloatTag d, const PacketV& p, const Incident& in) const {
     const NarrowLobes* const narrow = uniforms.narrow;
-    if constexpr (std::is_same_v<Number, float>) {
-      return narrow != nullptr ? LoadNarrow(d, *narrow, p.i) : in.lobe;
-    } else {
-      if (narrow == nullptr) return in.lobe;
-      const LobeCosineV<FloatV> exact = LoadNarrow(d, *narrow, p.i);
-      const auto is_narrow = hn::Ge(exact.one_minus_c, hn::Zero(d));
-      return {hn::IfThenElse(is_narrow, exact.one_minus_c, in.lobe.one_minus_c),
-              hn::IfThenElse(is_narrow, exact.c, in.lobe.c)};
-    }
-  }
-
-  static HWY_INLINE LobeCosineV<FloatV> LoadNarrow(FloatTag d, const NarrowLobes& narrow,
-                                                   size_t i) {
-    return {hn::LoadU(d, narrow.first.data() + i), hn::LoadU(d, narrow.second.data() + i)};
+    if (narrow == nullptr) return in.log2_cosine;
+    const LobeCosineV<FloatV> exact{hn::LoadU(d, narrow->first.data() + p.i),
+                                    hn::LoadU(d, narrow->second.data() + p.i)};
+    const FloatV log2 = LobeLog2(d, exact);
+    if constexpr (std::is_same_v<Number, float>) return log2;
+    const auto is_narrow = hn::Ge(exact.one_minus_c, hn::Zero(d));
+    return hn::IfThenElse(is_narrow, log2, in.log2_cosine);
   }
 
   HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
@@ -75,10 +68,10 @@ struct PhongFamily {
 
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
                                 size_t k) const {
-    const LobeCosineV<FloatV> cosine = Lobe(d, p, in);
+    const FloatV log2 = Log2Cosine(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);
-    const FloatV lobe = kModel == PhongModel::kBlinnPhong ? BlinnLobe(d, cosine, shininess)
-                                                          : PhongLobe(d, cosine, shininess);
+    const FloatV lobe = kModel == PhongModel::kBlinnPhong ? LobePowerOfSquare(d, log2, shininess)
+                                                          : LobePower(d, log2, shininess);
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
     const PhongLightOf<Number>& by = uniforms.lights[k];

@@ -90,16 +90,17 @@ struct HalfIncidentV : IncidentV {
   FloatV n_dot_v;
 };
 
-// With the cosine of Phong's or Blinn's lobe.
+// With LobeLog2 of the cosine of Phong's lobe, or of the square of Blinn's.
 struct LobeIncidentV : IncidentV {
-  LobeCosineV<FloatV> lobe;
+  FloatV log2_cosine;
 };
 
 HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
   const FloatV n_dot_l = FusedDot(normal, at.to_light);
   const auto lit = hn::Gt(n_dot_l, hn::Zero(d));
-  const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, at.irradiance));
-  return {at.to_light, n_dot_l, hn::IfThenElseZero(lit, at.irradiance), weight, lit};
+  const FloatV irradiance = hn::IfThenElseZero(lit, at.irradiance);
+  const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
+  return {at.to_light, n_dot_l, irradiance, weight, lit};
 }
 
 HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, size_t i) {
