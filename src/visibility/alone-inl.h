@@ -77,11 +77,14 @@ HWY_INLINE void TestLines(AloneBlock* block) {
   const auto zero = hn::Zero(d);
   for (int g = 0; g < block->groups; ++g) {
     const int place = g * kGroupLanes;
-    const TraceSphere& sphere = block->candidate[g]->sphere;
+    const TileCandidate& candidate = *block->candidate[g];
     const auto inverse_dd = hn::Load(d, block->inverse_dd + place);
     // Of a line there and back, all but the sign of its closest point is the same.
-    const auto line = TestLine(d, SetVec3(d, sphere.center), LoadGroup(block->backward, place),
-                               inverse_dd, hn::Set(d, sphere.radius));
+    const auto backward = LoadGroup(block->backward, place);
+    const auto center = SetVec3(d, candidate.sphere.center);
+    auto at = ClosestToCenter(d, center, backward, inverse_dd);
+    if (candidate.is_far) at = CorrectClosest(at, backward, inverse_dd);
+    const auto line = MeetSphere<CameraDouble>(at, hn::Set(d, candidate.sphere.radius));
     hn::Store(hn::Mul(line.discriminant, inverse_dd), d, block->half_chord_squared + place);
     StoreGroup(line.perpendicular, place, block->perpendicular);
     block->bits[g] &= BitsOfMask(d, hn::Ge(line.discriminant, zero));

@@ -76,7 +76,8 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     double extent = 0;
     for (size_t i = block * kBlock; i < end; ++i) {
       const Sphere& sphere = scene.spheres[i];
-      const TraceSphere traced{sphere.center - camera_position, sphere.radius};
+      // -0 becomes 0: it would do so in some tests and not in others (AddCorrection).
+      const TraceSphere traced{sphere.center - camera_position + Vec3d(0), sphere.radius};
       std::construct_at(geometry.spheres.data() + i, traced);
       extent = std::max(extent, traced.center.length() + traced.radius);
     }

@@ -8,6 +8,7 @@
 #define NACRE_VISIBILITY_SPHERE_TEST_INL_H_
 #endif
 
+#include "visibility/sphere_test.h"
 #include "visibility/two_product-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -34,30 +35,63 @@ struct LineV {
   Vec3V<V> perpendicular;
 };
 
-// inverse_dd is 1 / |direction|^2.
+// IsFarSphere of lanes.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LineV<D> TestLine(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
-                             V inverse_dd, V radius) {
-  LineV<D> result;  // filled member by member: GCC 12 copies nested aggregates through memory
-  const V first_closest = hn::Mul(FusedDot(to_center, direction), inverse_dd);
-  const Vec3V<V> rough{SubtractProduct(d, to_center.x, first_closest, direction.x),
-                       SubtractProduct(d, to_center.y, first_closest, direction.y),
-                       SubtractProduct(d, to_center.z, first_closest, direction.z)};
-  const V correction = hn::Mul(FusedDot(rough, direction), inverse_dd);
-  result.perpendicular.x = hn::NegMulAdd(direction.x, correction, rough.x);
-  result.perpendicular.y = hn::NegMulAdd(direction.y, correction, rough.y);
-  result.perpendicular.z = hn::NegMulAdd(direction.z, correction, rough.z);
-  result.closest = hn::Add(first_closest, correction);
-  result.discriminant =
-      hn::Sub(hn::Mul(radius, radius), FusedDot(result.perpendicular, result.perpendicular));
-  return result;
+HWY_INLINE hn::Mask<D> FarSpheres(D d, V to_center_squared, V radius) {
+  const V limit = hn::Mul(hn::Set(d, kNearRadii * kNearRadii), hn::Mul(radius, radius));
+  return hn::Gt(to_center_squared, limit);
+}
+
+template <class V>
+struct ClosestV {
+  V closest;
+  Vec3V<V> perpendicular;
+};
+
+// Of near spheres. inverse_dd is 1 / |direction|^2.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE ClosestV<V> ClosestToCenter(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
+                                       V inverse_dd) {
+  const V closest = hn::Mul(FusedDot(to_center, direction), inverse_dd);
+  return {closest,
+          {SubtractProduct(d, to_center.x, closest, direction.x),
+           SubtractProduct(d, to_center.y, closest, direction.y),
+           SubtractProduct(d, to_center.z, closest, direction.z)}};
+}
+
+// Of far ones, by the same; a correction of 0 leaves its bits.
+template <class V>
+HWY_INLINE ClosestV<V> AddCorrection(const ClosestV<V>& first, const Vec3V<V>& direction,
+                                     V correction) {
+  const Vec3V<V>& p = first.perpendicular;
+  return {hn::Add(first.closest, correction),
+          {hn::NegMulAdd(direction.x, correction, p.x), hn::NegMulAdd(direction.y, correction, p.y),
+           hn::NegMulAdd(direction.z, correction, p.z)}};
+}
+
+template <class V>
+HWY_INLINE ClosestV<V> CorrectClosest(const ClosestV<V>& first, const Vec3V<V>& direction,
+                                      V inverse_dd) {
+  return AddCorrection(first, direction,
+                       hn::Mul(FusedDot(first.perpendicular, direction), inverse_dd));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE LineV<D> MeetSphere(const ClosestV<V>& at, V radius) {
+  const Vec3V<V>& p = at.perpendicular;
+  return {at.closest, hn::Sub(hn::Mul(radius, radius), FusedDot(p, p)), p};
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
                                     V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
-  const LineV<D> line = TestLine(d, to_center, direction, inverse_dd, radius);
+  const V to_center_squared = FusedDot(to_center, to_center);
+  const auto first = ClosestToCenter(d, to_center, direction, inverse_dd);
+  const V correction =
+      hn::IfThenElseZero(FarSpheres(d, to_center_squared, radius),
+                         hn::Mul(FusedDot(first.perpendicular, direction), inverse_dd));
+  const LineV<D> line = MeetSphere<D>(AddCorrection(first, direction, correction), radius);
   SphereHitV<D> result;
   result.closest = line.closest;
   result.half_chord = hn::Sqrt(hn::Mul(hn::Max(line.discriminant, zero), inverse_dd));
@@ -67,8 +101,7 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   const auto ahead = hn::Gt(closest, zero);
   const V half_chord = result.half_chord;
   const V larger = hn::Add(closest, hn::IfThenElse(ahead, half_chord, hn::Neg(half_chord)));
-  const V product =
-      hn::Mul(hn::Sub(FusedDot(to_center, to_center), hn::Mul(radius, radius)), inverse_dd);
+  const V product = hn::Mul(hn::Sub(to_center_squared, hn::Mul(radius, radius)), inverse_dd);
   const V smaller = hn::Div(product, larger);
   const V near = hn::IfThenElse(ahead, smaller, larger);
   const V far = hn::IfThenElse(ahead, larger, smaller);

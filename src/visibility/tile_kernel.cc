@@ -3,6 +3,7 @@
 #include "visibility/tile_kernel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -12,6 +13,7 @@
 #include "visibility/alone-inl.h"
 #include "visibility/many-inl.h"
 #include "visibility/pixel_spans.h"
+#include "visibility/refine_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -175,19 +177,19 @@ namespace {
 float RoundUp(double v) { return static_cast<float>(v) * (1 + 0x1p-22f); }
 
 // A float not above the sphere's nearest distance: along the view where all rays go that way.
-float NearBound(const TraceSphere& sphere, const CameraFrame& frame) {
+float NearBound(const TraceSphere& sphere, double eye_distance, const CameraFrame& frame) {
   const double distance = frame.projection == Projection::kPerspective
-                              ? sphere.center.length()
+                              ? eye_distance
                               : sphere.center.dot(frame.forward);
   const double near = distance - sphere.radius - 1e-6 * (std::abs(distance) + sphere.radius);
   return static_cast<float>(std::max(near, 0.0)) * (1 - 0x1p-22f);
 }
 
 // All perspective rays leave the plane through the eye perpendicular to `forward` on one side of
-// it. So must the sphere lie, by far more than TestLine errs: whatever lines meet is then before
+// it. So must the sphere lie, by far more than its test errs: whatever lines meet is then before
 // the eye.
-bool IsInFront(const TraceSphere& sphere, const CameraFrame& frame) {
-  const double margin = 1e-9 * (sphere.center.length() + sphere.radius);
+bool IsInFront(const TraceSphere& sphere, double eye_distance, const CameraFrame& frame) {
+  const double margin = 1e-9 * (eye_distance + sphere.radius);
   return sphere.center.dot(frame.forward) - sphere.radius > margin;
 }
 
@@ -212,16 +214,19 @@ float Reach(const TraceSphere& sphere, const CameraFrame& frame, double own) {
 }
 
 TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint16_t pixel_rows,
-                            const CameraFrame& frame, double own) {
+                            const CameraFrame& frame, double own, Products products) {
   TileCandidate candidate;
   candidate.sphere = sphere;
   candidate.inverse_radius = 1 / sphere.radius;
   candidate.primitive = primitive;
   candidate.pixel_rows = pixel_rows;
+  const double distance2 = Dot(sphere.center, sphere.center, products);
+  const double distance = std::sqrt(distance2);
   // The sign of the product of TestSphere's roots.
-  candidate.around_camera = !(sphere.center.dot(sphere.center) - sphere.radius * sphere.radius > 0);
-  candidate.in_front = IsInFront(sphere, frame);
-  candidate.near = NearBound(sphere, frame);
+  candidate.around_camera = !(distance2 - sphere.radius * sphere.radius > 0);
+  candidate.is_far = IsFarSphere(distance2, sphere.radius);
+  candidate.in_front = IsInFront(sphere, distance, frame);
+  candidate.near = NearBound(sphere, distance, frame);
   for (int c = 0; c < 3; ++c) candidate.center[c] = static_cast<float>(sphere.center[c]);
   candidate.reach = Reach(sphere, frame, own);
   return candidate;
@@ -246,14 +251,15 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   // A row's cells follow one another.
   if (bins.Begin(bins.Cell(first, row)) == bins.end[bins.Cell(last, row)]) return false;
   const double own = OwnBound(frame, bins.window);
+  const Products products = TargetProducts();
   uint32_t before = 0, before_end = 0;  // the cell to the left, as far as it has been compared
   for (int column = first; column <= last; ++column) {
     std::vector<TileCandidate>& cell = candidates->cells[static_cast<size_t>(column - first)];
     const size_t number = bins.Cell(column, row);
     for (uint32_t i = bins.Begin(number); i < bins.end[number]; ++i) {
       const uint32_t sphere = bins.spheres[i];
-      cell.push_back(
-          MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame, own));
+      cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame, own,
+                                   products));
       while (before < before_end && bins.spheres[before] < sphere) ++before;
       cell.back().in_cell_before = before < before_end && bins.spheres[before] == sphere;
       candidates->spheres += cell.back().in_cell_before ? 0 : 1;

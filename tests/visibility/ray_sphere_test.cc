@@ -208,7 +208,8 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
       REQUIRE(surface.position == center + from_center);
       REQUIRE(surface.normal == from_center * (hit.inside ? -1 / radius : 1 / radius));
       REQUIRE(surface.normal.dot(direction) <= 0);
-      REQUIRE(std::abs(surface.normal.length() - 1) < 8 * kHalfUlpDouble);
+      // What IsFarSphere leaves uncorrected, and a few roundings.
+      REQUIRE(std::abs(surface.normal.length() - 1) < (4 * kNearRadii + 8) * kHalfUlpDouble);
       REQUIRE((surface.to_view + direction.normalized()).length() < 8 * kHalfUlpDouble);
     }
   });
