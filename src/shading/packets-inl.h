@@ -66,8 +66,8 @@ class IncidentBlock {
     return hn::Load(d, log2_cosine_ + at);
   }
 
-  // The logarithms of `count` cosines that were stored, in a loop of their own: most kernels' loops
-  // were longer than a processor's window with them.
+  // The logarithms of `count` cosines that were stored, in a loop of their own: with them either of
+  // the loops around it would be one chain longer than a processor's window overlaps.
   HWY_INLINE void TakeLobeLogs(FloatTag d, size_t count) {
     for (size_t at = 0; at < count; at += hn::Lanes(d)) {
       const LobeCosineV<FloatV> cosine{hn::Load(d, one_minus_c_ + at), hn::Load(d, c_ + at)};

@@ -19,6 +19,7 @@ inline constexpr double kNearRadii = 64;
 
 template <typename Real>
 bool IsFarSphere(Real to_center_squared, Real radius) {
+  if (sizeof(Real) < sizeof(double)) return true;
   return to_center_squared > static_cast<Real>(kNearRadii * kNearRadii) * (radius * radius);
 }
 
