@@ -14,7 +14,7 @@ namespace nacre {
 // Whether a sphere's centre is so many radii away that the rounding of `closest` counts: it is 4 u
 // |to_center| at most, and by as much `perpendicular` is too long or too short along the ray.
 // Within 64 radii that turns normals by 256 u = 2.8e-14 at most, and the discriminant is off by its
-// square.
+// square. That is of doubles: in float, which studies ask for, no sphere is near enough.
 inline constexpr double kNearRadii = 64;
 
 template <typename Real>
