@@ -85,6 +85,9 @@ show_table('s', SCALES)
 show_table(f'1 - log2(s), error 2^{math.log2(WORST):.1f}', LOGS)
 show(f'log2(1 + f) / f for s m - 1 from {LEAST:.6g} to {MOST:.6g}', log2_over_f, -1 / 32, 0.0304, 3)
 show_table('2^(k / 16)', [to_float(2 ** (k / 16)) for k in range(16)])
+show_table('and what that is rounded by', [
+    decimal.Decimal(2) ** (decimal.Decimal(k) / 16) - decimal.Decimal(to_float(2 ** (k / 16)))
+    for k in range(16)])
 show('(2^f - 1) / f', lambda f: math.expm1(f * math.log(2)) / f if abs(f) > 1e-9 else math.log(2),
      -1 / 32, 1 / 32, 2)
 

@@ -105,6 +105,23 @@ HWY_INLINE V Exp2ByTable(D d, V y) {
       1.0f,        1.04427373f, 1.09050775f, 1.13878858f, 1.18920708f, 1.24185777f,
       1.29683959f, 1.35425556f, 1.41421354f, 1.47682619f, 1.54221082f, 1.61049032f,
       1.68179286f, 1.75625217f, 1.8340081f,  1.91520655f};
+  // What they are rounded by.
+  alignas(64) static constexpr float kRootLows[] = {0.0f,
+                                                    4.83347016e-08f,
+                                                    -1.30775399e-08f,
+                                                    5.38622231e-08f,
+                                                    3.79763527e-08f,
+                                                    4.4968381e-08f,
+                                                    -4.01899953e-08f,
+                                                    -1.01233493e-08f,
+                                                    2.4203235e-08f,
+                                                    -4.50089885e-08f,
+                                                    8.07090483e-09f,
+                                                    9.83621717e-09f,
+                                                    -2.47553267e-08f,
+                                                    -9.23577037e-09f,
+                                                    -1.1239278e-08f,
+                                                    9.84532811e-09f};
   // (2^f - 1) / f.
   constexpr float kCoefficients[] = {0.693147182f, 0.240233555f, 0.0555050857f};
   // Adding 1.5 2^19 rounds to the nearest sixteenth; k is then in the sum's last four bits.
@@ -114,7 +131,8 @@ HWY_INLINE V Exp2ByTable(D d, V y) {
   const V f = hn::Sub(y, rounded);
   const V root = LookUp16<0>(kRoots, shifted);
   const V p = EvaluateInOrder(d, kCoefficients, f);
-  return TimesPowerOf2(hn::MulAdd(hn::Mul(root, f), p, root), rounded);
+  const V low = hn::MulAdd(hn::Mul(root, f), p, LookUp16<0>(kRootLows, shifted));
+  return TimesPowerOf2(hn::Add(root, low), rounded);
 }
 
 // log2(1 - x) for x in [0, 1), given also c = 1 - x: of the two, whichever is free of
@@ -130,8 +148,8 @@ HWY_INLINE V Log2OneMinus(D d, V x, V c) {
   return hn::Add(Log2OnePlusPolynomial(d, f), hn::IfThenZeroElse(small, exponent));
 }
 
-// 2^y for finite y < 128: relative error 2^-23, of two roundings (by tables; else 1e-7). 0 below
-// -126, where the result would be denormal; AVX-512 leaves that to the processor's mode.
+// 2^y for finite y < 128: relative error 1e-7. 0 below -126, where the result would be denormal;
+// AVX-512 leaves that to the processor's mode.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp2(D d, V y) {
   if constexpr (kSplitsFloats<V>) return Exp2ByTable(d, y);

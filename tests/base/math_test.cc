@@ -53,12 +53,12 @@ TEST_CASE("log2(1 - x) is right to 2e-7 of itself, however small x is") {
   });
 }
 
-TEST_CASE("2^y is right to two roundings and 0 where it would be denormal") {
+TEST_CASE("2^y is right to 1e-7 and 0 where it would be denormal") {
   ForEachTarget([](Target) {
     for (int i = 0; i < kSteps; ++i) {
       const auto y = static_cast<float>(-125.99 + 253.9 * i / kSteps);
       CAPTURE(y);
-      CHECK(RelativeError(EvaluateExp2(y), std::exp2(double{y})) <= 0x1p-23);
+      CHECK(RelativeError(EvaluateExp2(y), std::exp2(double{y})) <= 1e-7);
     }
     const FlushDenormals flush;  // as in all threads that shade
     for (const float y : {-126.5f, -1e3f, -1e30f}) CHECK(EvaluateExp2(y) == 0);
