@@ -31,8 +31,7 @@ struct TextbookGgx {
                                 size_t) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
-    const Vec3V<FloatV> u{hn::Add(in.to_light.x, p.to_view.x), hn::Add(in.to_light.y, p.to_view.y),
-                          hn::Add(in.to_light.z, p.to_view.z)};
+    const Vec3V<FloatV> u = in.toward.Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), smallest));
     const Vec3V<FloatV> h = Scale(u, scale);
     const FloatV n_dot_h = FusedDot(p.normal, h);
@@ -63,7 +62,7 @@ HWY_NOINLINE void FillNaivePhong(const RangeArrays& arrays, size_t begin, size_t
     const PacketV p = arrays.Packet(d, begin + at);
     const FloatV n_dot_l = block->NDotL(d, at);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const FloatV l_dot_v = FusedDot(block->ToLight(d, at), p.to_view);
+    const FloatV l_dot_v = block->Toward(d, at).Dot(p.to_view);
     StoreNaive(d, at, hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v), block);
   }
 }
@@ -73,7 +72,7 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, s
   const FloatTag d;
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
-    const Vec3V<FloatV> u = Add(block->ToLight(d, at), p.to_view);
+    const Vec3V<FloatV> u = block->Toward(d, at).Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), hn::Set(d, 1e-30f)));
     StoreNaive(d, at, hn::Mul(FusedDot(p.normal, u), scale), block);
   }

@@ -59,6 +59,12 @@ HWY_INLINE Vec3V<V> MulAdd3(const Vec3V<V>& a, V b, const Vec3V<V>& c) {
   return {hn::MulAdd(a.x, b, c.x), hn::MulAdd(a.y, b, c.y), hn::MulAdd(a.z, b, c.z)};
 }
 
+// a b - c, likewise.
+template <class V>
+HWY_INLINE Vec3V<V> MulSub3(const Vec3V<V>& a, V b, const Vec3V<V>& c) {
+  return {hn::MulSub(a.x, b, c.x), hn::MulSub(a.y, b, c.y), hn::MulSub(a.z, b, c.z)};
+}
+
 template <class V>
 HWY_INLINE V SumOfAbs(const Vec3V<V>& a) {
   return hn::Add(hn::Add(hn::Abs(a.x), hn::Abs(a.y)), hn::Abs(a.z));

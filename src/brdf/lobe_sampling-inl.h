@@ -111,7 +111,7 @@ HWY_INLINE Vec3V<V> SamplePhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>&
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobePdf(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                           const Vec3V<V>& to_light, V shininess) {
-  const LobeCosineV<V> cosine = PhongCosine(d, normal, to_light, to_view,
+  const LobeCosineV<V> cosine = PhongCosine(d, normal, Add(to_light, to_view),
                                             FusedDot(normal, to_light), FusedDot(normal, to_view));
   const V scale = hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, 0.159154943f));
   return hn::IfThenElseZero(hn::Gt(cosine.c, hn::Zero(d)),

@@ -33,11 +33,11 @@ HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
   return hn::IfThenElse(hn::Gt(cosine.c, hn::Zero(d)), log2, dark);
 }
 
-// r.v, r the reflection of the light, without r and its roundings: the scalar twin tells how.
+// r.v, r the reflection of the light, without r and its roundings: the scalar twin tells how. u is
+// l + v.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V>& to_light,
-                                      const Vec3V<V>& to_view, V n_dot_l, V n_dot_v) {
-  const Vec3V<V> u = Add(to_light, to_view);
+HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V>& u, V n_dot_l,
+                                      V n_dot_v) {
   const V along = hn::Sub(n_dot_l, n_dot_v);
   const V n_dot_u = hn::Add(n_dot_l, n_dot_v);
   const Vec3V<V> across{hn::NegMulAdd(normal.x, n_dot_u, u.x),

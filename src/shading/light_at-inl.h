@@ -24,11 +24,29 @@ namespace hn = hwy::HWY_NAMESPACE;
 using FloatTag = ShadeTag<float>;
 using FloatV = hn::Vec<FloatTag>;
 
-// Direction and irradiance perpendicular to it, whichever way the surface faces. A light at the
-// hit itself, or farther off than the root of float's range, has no irradiance and a direction
-// that means nothing.
+// The direction l = offset times inverse_length. It is formed only where it is needed as such: n.l
+// and l + v take fewer operations and roundings without, in shorter chains.
+struct TowardV {
+  Vec3V<FloatV> offset;
+  FloatV inverse_length;
+
+  HWY_INLINE FloatV Dot(const Vec3V<FloatV>& v) const {
+    return hn::Mul(FusedDot(v, offset), inverse_length);
+  }
+  HWY_INLINE Vec3V<FloatV> Plus(const Vec3V<FloatV>& v) const {
+    return MulAdd3(offset, inverse_length, v);
+  }
+  HWY_INLINE Vec3V<FloatV> Minus(const Vec3V<FloatV>& v) const {
+    return MulSub3(offset, inverse_length, v);
+  }
+  HWY_INLINE Vec3V<FloatV> Direction() const { return Scale(offset, inverse_length); }
+};
+
+// Where a light is and its irradiance perpendicular to that direction, whichever way the surface
+// faces. A light at the hit itself, or farther off than the root of float's range, has no
+// irradiance and a direction that means nothing.
 struct LightV {
-  Vec3V<FloatV> to_light;
+  TowardV toward;
   FloatV irradiance;
 };
 
@@ -124,8 +142,10 @@ HWY_INLINE void VisitOffset(FloatTag d, const ShadingLight& light, const HitBatc
 HWY_INLINE LightV DirectionalAt(FloatTag d, const ShadingLight& light) {
   const auto component = [&](double value)
                              HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
-  return {{component(light.to_light.x), component(light.to_light.y), component(light.to_light.z)},
-          hn::Set(d, 1.0f)};
+  const FloatV one = hn::Set(d, 1.0f);
+  return {{{component(light.to_light.x), component(light.to_light.y), component(light.to_light.z)},
+           one},
+          one};
 }
 
 // 1 / the root of a light's squared distance, 0 for a light at the hit itself; `apart`: none is.
@@ -137,11 +157,11 @@ HWY_INLINE FloatV InverseDistance(FloatTag d, FloatV squared) {
                             inverse);
 }
 
-// Direction and irradiance of an inverse-square light at `offset` from the hits.
+// An inverse-square light at `offset` from the hits.
 template <bool kApart>
 HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset, FloatV scale) {
   const FloatV inverse = InverseDistance<kApart>(d, FusedDot(offset, offset));
-  return {Scale(offset, inverse), hn::Mul(hn::Mul(inverse, inverse), scale)};
+  return {{offset, inverse}, hn::Mul(hn::Mul(inverse, inverse), scale)};
 }
 
 // Of a light of any positional form at `offset` from the hits.
@@ -153,16 +173,15 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3
     const FloatV squared = FusedDot(offset, offset);
     const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
     const FloatV inverse = hn::IfThenElseZero(apart, ReciprocalSqrt(d, squared));
-    const Vec3V<FloatV> to_light = Scale(offset, inverse);
     const FloatV distance = hn::IfThenElseZero(apart, hn::Mul(squared, inverse));
     FloatV irradiance = AttenuationFactor(d, light.attenuation, distance);
     if constexpr (kForm == LightForm::kSpot) {
       const Vec3V<FloatV> axis{hn::Set(d, light.axis.x), hn::Set(d, light.axis.y),
                                hn::Set(d, light.axis.z)};
-      const FloatV cos_angle = hn::Neg(FusedDot(axis, to_light));
+      const FloatV cos_angle = hn::Mul(FusedDot(axis, offset), hn::Neg(inverse));
       irradiance = hn::Mul(irradiance, SpotFactor(d, light.cone, cos_angle));
     }
-    return {to_light, irradiance};
+    return {{offset, inverse}, irradiance};
   }
 }
 
@@ -187,30 +206,35 @@ class PointLightV {
 // memory.
 HWY_INLINE LightV LightAt(FloatTag d, const LightOnBatch& light, const HitBatch& hits, size_t i,
                           const Vec3V<FloatV>& normal) {
-  FloatV x, y, z, irradiance;
+  FloatV x, y, z, inverse_length, irradiance;
   if (light.evaluated != nullptr) {
     const Soa3<float>& l = light.evaluated->to_light;
     x = hn::LoadU(d, l.x.data() + i);
     y = hn::LoadU(d, l.y.data() + i);
     z = hn::LoadU(d, l.z.data() + i);
+    inverse_length = light.light->form == LightForm::kGiven
+                         ? hn::Set(d, 1.0f)
+                         : hn::LoadU(d, light.evaluated->inverse_length.data() + i);
     irradiance = hn::LoadU(d, light.evaluated->irradiance.data() + i);
   } else if (light.light->form == LightForm::kDirectional) {
     const LightV at = DirectionalAt(d, *light.light);
-    x = at.to_light.x;
-    y = at.to_light.y;
-    z = at.to_light.z;
+    x = at.toward.offset.x;
+    y = at.toward.offset.y;
+    z = at.toward.offset.z;
+    inverse_length = at.toward.inverse_length;
     irradiance = at.irradiance;
   } else {
     const Vec3V<FloatV> offset = light.light->from_spheres.empty()
                                      ? FromPositions(*light.light, hits).At(d, i, normal)
                                      : FromSpheres(*light.light, hits).At(d, i, normal);
     const LightV at = PositionalAt<LightForm::kInverseSquare>(d, *light.light, offset);
-    x = at.to_light.x;
-    y = at.to_light.y;
-    z = at.to_light.z;
+    x = at.toward.offset.x;
+    y = at.toward.offset.y;
+    z = at.toward.offset.z;
+    inverse_length = at.toward.inverse_length;
     irradiance = at.irradiance;
   }
-  return {{x, y, z}, irradiance};
+  return {{{x, y, z}, inverse_length}, irradiance};
 }
 
 }  // namespace HWY_NAMESPACE

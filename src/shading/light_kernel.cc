@@ -43,13 +43,14 @@ HWY_INLINE void ForEachPacket(const HitBatch& hits, const Surface& surface, Ligh
   Soa3<float>& l = result->to_light;
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
     const LightV light = at(i);
-    const FloatV n_dot_l =
-        FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i), light.to_light);
+    const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
+    const FloatV n_dot_l = light.toward.Dot(normal);
     // Nothing here reflects light from below, and no shadow ray need be traced to it.
     const FloatV irradiance = hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), light.irradiance);
-    hn::StoreU(light.to_light.x, d, l.x.data() + i);
-    hn::StoreU(light.to_light.y, d, l.y.data() + i);
-    hn::StoreU(light.to_light.z, d, l.z.data() + i);
+    hn::StoreU(light.toward.offset.x, d, l.x.data() + i);
+    hn::StoreU(light.toward.offset.y, d, l.y.data() + i);
+    hn::StoreU(light.toward.offset.z, d, l.z.data() + i);
+    hn::StoreU(light.toward.inverse_length, d, result->inverse_length.data() + i);
     hn::StoreU(irradiance, d, result->irradiance.data() + i);
   }
 }

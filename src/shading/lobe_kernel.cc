@@ -136,7 +136,7 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
     const AnglesV<V> angles = ComputeAngles(d, normal, to_light, to_view);
     LobeCosineV<V> cosine =
         blinn ? BlinnSquaredCosine(d, angles)
-              : PhongCosine(d, normal, to_light, to_view, angles.n_dot_l, angles.n_dot_v);
+              : PhongCosine(d, normal, Add(to_light, to_view), angles.n_dot_l, angles.n_dot_v);
     if (narrow != nullptr) {
       const V exact = hn::LoadU(d, narrow->first.data() + i);
       const auto is_narrow = hn::Ge(exact, hn::Zero(d));  // others have -1

@@ -94,7 +94,7 @@ HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at)
   if (model == PhongModel::kBlinnPhong) {
     return BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view));
   }
-  return PhongCosine(d, at.normal, at.to_light, at.to_view, FusedDot(at.normal, at.to_light),
+  return PhongCosine(d, at.normal, Add(at.to_light, at.to_view), FusedDot(at.normal, at.to_light),
                      FusedDot(at.normal, at.to_view));
 }
 

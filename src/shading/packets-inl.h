@@ -28,23 +28,25 @@ class IncidentBlock {
 
   template <bool kWithIrradiance>
   HWY_INLINE void Store(FloatTag d, size_t at, const IncidentV& in) {
-    hn::Store(in.to_light.x, d, x_ + at);
-    hn::Store(in.to_light.y, d, y_ + at);
-    hn::Store(in.to_light.z, d, z_ + at);
+    hn::Store(in.toward.offset.x, d, x_ + at);
+    hn::Store(in.toward.offset.y, d, y_ + at);
+    hn::Store(in.toward.offset.z, d, z_ + at);
+    hn::Store(in.toward.inverse_length, d, inverse_length_ + at);
     hn::Store(in.n_dot_l, d, n_dot_l_ + at);
     if (kWithIrradiance) hn::Store(in.irradiance, d, irradiance_ + at);
     hn::Store(in.weight, d, weight_ + at);
   }
 
-  HWY_INLINE Vec3V<FloatV> ToLight(FloatTag d, size_t at) const {
-    return {hn::Load(d, x_ + at), hn::Load(d, y_ + at), hn::Load(d, z_ + at)};
+  HWY_INLINE TowardV Toward(FloatTag d, size_t at) const {
+    return {{hn::Load(d, x_ + at), hn::Load(d, y_ + at), hn::Load(d, z_ + at)},
+            hn::Load(d, inverse_length_ + at)};
   }
 
   HWY_INLINE FloatV NDotL(FloatTag d, size_t at) const { return hn::Load(d, n_dot_l_ + at); }
 
   HWY_INLINE IncidentV Load(FloatTag d, size_t at) const {
     const FloatV n_dot_l = NDotL(d, at);
-    return {ToLight(d, at), n_dot_l, hn::Load(d, irradiance_ + at), hn::Load(d, weight_ + at),
+    return {Toward(d, at), n_dot_l, hn::Load(d, irradiance_ + at), hn::Load(d, weight_ + at),
             hn::Gt(n_dot_l, hn::Zero(d))};
   }
 
@@ -85,7 +87,7 @@ class IncidentBlock {
 
  private:
   static constexpr size_t kAlignment = 64;
-  alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits];
+  alignas(kAlignment) float x_[kHits], y_[kHits], z_[kHits], inverse_length_[kHits];
   alignas(kAlignment) float n_dot_l_[kHits], weight_[kHits];
   alignas(kAlignment) float n_dot_v_[kHits], n_dot_u_[kHits], nxu_squared_[kHits];
   // Loaded by all models, used by those alone for which they were stored.
@@ -121,8 +123,9 @@ HWY_INLINE void ForHalfAngles(const RangeArrays& given, size_t begin, size_t end
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const HalfAnglesV<FloatV> half = UprightHalfAngles(d, p.normal, block.ToLight(d, at), p.to_view,
-                                                       block.NDotL(d, at), n_dot_v);
+    const TowardV toward = block.Toward(d, at);
+    const HalfAnglesV<FloatV> half = UprightHalfAngles(
+        d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view), block.NDotL(d, at), n_dot_v);
     least = hn::Min(half.u_squared, least);
     use(at, half.n_dot_u, half.nxu_squared, half.lv_squared, n_dot_v);
   }
@@ -130,10 +133,10 @@ HWY_INLINE void ForHalfAngles(const RangeArrays& given, size_t begin, size_t end
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const Vec3V<FloatV> to_light = block.ToLight(d, at);
-    const HalfAnglesV<FloatV> upright =
-        UprightHalfAngles(d, p.normal, to_light, p.to_view, block.NDotL(d, at), n_dot_v);
-    const HalfAnglesV<FloatV> any = ComputeHalfAngles(d, p.normal, to_light, p.to_view);
+    const TowardV toward = block.Toward(d, at);
+    const HalfAnglesV<FloatV> upright = UprightHalfAngles(
+        d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view), block.NDotL(d, at), n_dot_v);
+    const HalfAnglesV<FloatV> any = ComputeHalfAngles(d, p.normal, toward.Direction(), p.to_view);
     const auto is_upright = hn::Ge(upright.u_squared, enough);
     use(at, hn::IfThenElse(is_upright, upright.n_dot_u, any.n_dot_u),
         hn::IfThenElse(is_upright, upright.nxu_squared, any.nxu_squared), any.lv_squared, n_dot_v);

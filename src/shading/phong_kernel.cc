@@ -22,8 +22,8 @@ HWY_NOINLINE void FillPhong(const RangeArrays& arrays, size_t begin, size_t end,
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     block->StoreLobe(d, at,
-                     PhongCosine(d, p.normal, block->ToLight(d, at), p.to_view, block->NDotL(d, at),
-                                 FusedDot(p.normal, p.to_view)));
+                     PhongCosine(d, p.normal, block->Toward(d, at).Plus(p.to_view),
+                                 block->NDotL(d, at), FusedDot(p.normal, p.to_view)));
   }
 }
 

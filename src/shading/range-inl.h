@@ -79,7 +79,7 @@ HWY_INLINE FloatV CosineToView(FloatTag d, const PacketV& p) {
 // `weight`, its share that falls on the surface, are then 0, and whatever else is made of the
 // direction must be kept from the sum by `lit`.
 struct IncidentV {
-  Vec3V<FloatV> to_light;
+  TowardV toward;
   FloatV n_dot_l, irradiance, weight;
   hn::Mask<FloatTag> lit;
 };
@@ -96,11 +96,11 @@ struct LobeIncidentV : IncidentV {
 };
 
 HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
-  const FloatV n_dot_l = FusedDot(normal, at.to_light);
+  const FloatV n_dot_l = at.toward.Dot(normal);
   const auto lit = hn::Gt(n_dot_l, hn::Zero(d));
   const FloatV irradiance = hn::IfThenElseZero(lit, at.irradiance);
   const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
-  return {at.to_light, n_dot_l, irradiance, weight, lit};
+  return {at.toward, n_dot_l, irradiance, weight, lit};
 }
 
 HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, size_t i) {

@@ -45,7 +45,7 @@ struct RoughDiffuse<DiffuseForm::kOrenNayar> {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV scale = EonScale(d, roughness);
     const FloatV n_dot_l = hn::IfThenElse(in.lit, in.n_dot_l, one);
-    const Vec3V<FloatV> l_minus_v = Sub(in.to_light, p.to_view);
+    const Vec3V<FloatV> l_minus_v = in.toward.Minus(p.to_view);
     const FloatV l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), FusedDot(l_minus_v, l_minus_v), one);
     return {EonSingleSpread(d, n_dot_l, view.n_dot_v, l_dot_v, roughness, scale),
             EonMultipleSpread(d, EonLoss(d, n_dot_l), view.loss, roughness, scale)};
@@ -65,7 +65,7 @@ struct RoughDiffuse<DiffuseForm::kBurley> {
   static HWY_INLINE SpreadV Spread(FloatTag d, const View& view, const PacketV& p,
                                    const IncidentV& in, FloatV roughness) {
     const FloatV n_dot_l = hn::Max(in.n_dot_l, hn::Zero(d));
-    const Vec3V<FloatV> u = Add(in.to_light, p.to_view);
+    const Vec3V<FloatV> u = in.toward.Plus(p.to_view);
     return {BurleySpread(d, FusedDot(u, u), BurleyGrazing(d, n_dot_l), view.grazing, roughness),
             hn::Zero(d)};
   }

@@ -30,7 +30,10 @@ struct Surface : HitDirections {
 
 // One light as the hits of a batch see it.
 struct LightBatch {
-  Soa3<float> to_light;  // unit
+  // Unit vectors of a LightForm::kGiven, which EvaluateLight does not leave: there they are of any
+  // length, and times inverse_length unit vectors.
+  Soa3<float> to_light;
+  AlignedArray<float> inverse_length{kBatchCapacity};
   // Irradiance perpendicular to the light per unit of its colour: fall-off, cone and visibility.
   // 0 where the surface faces away (n.l <= 0): no model here reflects such light.
   AlignedArray<float> irradiance{kBatchCapacity};

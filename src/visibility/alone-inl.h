@@ -19,7 +19,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-inline constexpr int kAloneBlock = 8 * kCameraPacket;
+inline constexpr int kAloneBlock = 4 * kCameraPacket;
 
 // Groups of lanes on their way through the steps, each of rays that follow one another in a batch
 // and may hit one sphere.
@@ -102,8 +102,9 @@ HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
     const auto backward = LoadGroup(block.backward, place);
     const auto half_chord = hn::Sqrt(hn::Load(d, block.half_chord_squared + place));
     const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, backward, half_chord, LoadGroup(block.perpendicular, place),
-                      SetVec3(d, candidate.sphere.center), hn::Set(d, candidate.inverse_radius));
+        SphereSurface(d, backward, hn::Load(d, block.inverse_dd + place), half_chord,
+                      LoadGroup(block.perpendicular, place), SetVec3(d, candidate.sphere.center),
+                      hn::Set(d, candidate.inverse_radius));
     writer.Surfaces(surface, Scale(backward, hn::Load(d, block.inverse_length + place)),
                     block.bits[g], block.ray[g]);
     writer.Primitive(candidate.primitive, block.bits[g]);

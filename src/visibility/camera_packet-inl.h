@@ -43,8 +43,8 @@ struct CameraPacket {
   uint32_t hit;
   alignas(kVectorBytes) float depth[kCameraPacket];  // no hit beyond this t |direction|^2 counts
   alignas(kVectorBytes) double t[kCameraPacket];
-  alignas(kVectorBytes) double along[kCameraPacket];  // half the chord, negative where the ray
-                                                      // starts outside
+  // Half of the chord; negative where the ray starts outside.
+  alignas(kVectorBytes) double half_chord[kCameraPacket];
   alignas(kVectorBytes) double perpendicular[3][kCameraPacket];
   // The spheres that the lanes are proposed, then hit.
   alignas(kVectorBytes) uint32_t primitive[kCameraPacket] = {};
@@ -193,7 +193,7 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
     hn::Store(hn::IfThenElse(nearer, value, hn::Load(d, to + lane)), d, to + lane);
   };
   keep(hit.t, packet->t);
-  keep(hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)), packet->along);
+  keep(hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)), packet->half_chord);
   keep(hit.perpendicular.x, packet->perpendicular[0]);
   keep(hit.perpendicular.y, packet->perpendicular[1]);
   keep(hit.perpendicular.z, packet->perpendicular[2]);

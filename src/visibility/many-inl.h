@@ -108,7 +108,7 @@ HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t one, CameraPacke
                    hn::Load(d, packet->inverse_dd + lane), hn::Load(d, packet->radius + lane));
     packet->hit |= (BitsOfMask(d, hit.hit) & bits) << lane;
     hn::Store(hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)), d,
-              packet->along + lane);
+              packet->half_chord + lane);
     Store3(hit.perpendicular, d, packet->perpendicular[0] + lane, packet->perpendicular[1] + lane,
            packet->perpendicular[2] + lane);
   }

@@ -57,9 +57,9 @@ HWY_INLINE SurfaceV<D> RefineSphere(const Gathered& in, size_t i, const Vec3V<V>
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
   const auto hit = TestSphere(d, Sub(center, origin), direction, inverse_dd, radius);
-  const V along = hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord));
-  return SphereSurface(d, direction, along, hit.perpendicular, center,
-                       TurnedInverse(hn::Div(hn::Set(d, 1.0), radius), along));
+  const V half_chord = hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord));
+  return SphereSurface(d, direction, inverse_dd, half_chord, hit.perpendicular, center,
+                       TurnedInverse(hn::Div(hn::Set(d, 1.0), radius), half_chord));
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {

@@ -11,11 +11,12 @@
 
 namespace nacre {
 
-// Whether a sphere's centre is so many radii away that the rounding of `closest` counts: it is 4 u
-// |to_center| at most, and by as much `perpendicular` is too long or too short along the ray.
-// Within 64 radii that turns normals by 256 u = 2.8e-14 at most, and the discriminant is off by its
-// square. That is of doubles: in float, which studies ask for, no sphere is near enough.
-inline constexpr double kNearRadii = 64;
+// Whether a sphere's centre is so many radii away that the rounding of `closest` counts where
+// `perpendicular` is squared: it is 4 u |to_center| at most, and by as much `perpendicular` is off
+// along the ray, which the discriminant's terms, of radius^2, feel by its square. Within 2^20 radii
+// that is 2^-62. (Hits feel it as it is: CenterToHit takes it off at any distance.) That is of
+// doubles: in float, which studies ask for, no sphere is near enough.
+inline constexpr double kNearRadii = 0x1p20;
 
 template <typename Real>
 bool IsFarSphere(Real to_center_squared, Real radius) {
@@ -40,8 +41,8 @@ struct SphereHit {
 // The discriminant is radius^2 - |perpendicular|^2 (Haines et al. 2019, Ray Tracing Gems ch. 7),
 // so the distance to the sphere does not enter it, but through the rounding of the perpendicular:
 // the products closest * direction cancel against to_center and are therefore not rounded, and
-// the component along the ray that the rounding of `closest` leaves is taken off once more
-// (IsFarSphere). What remains is a few roundings of the radius at any distance.
+// where the component along the ray that the rounding of `closest` leaves would count, it is taken
+// off once more (IsFarSphere). What remains is a few roundings of the radius at any distance.
 //
 // The roots come from their sum and their product, (|to_center|^2 - radius^2) / |direction|^2,
 // so the one near the origin does not cancel: a sphere of radius 1e6 under the eye is right.
@@ -82,12 +83,15 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
 }
 
 // From the sphere's centre to the hit: radius times the outward normal, without forming the hit
-// point, whose rounding error would grow with its distance.
+// point, whose rounding error would grow with its distance. What `perpendicular` still has along
+// the ray, a rounding of the distance, is taken off.
 template <typename Real>
 Imath::Vec3<Real> CenterToHit(const SphereHit<Real>& hit, const Imath::Vec3<Real>& direction,
                               Products products = Products::kFused) {
-  const Real along = hit.inside ? hit.half_chord : -hit.half_chord;
+  const Real half_chord = hit.inside ? hit.half_chord : -hit.half_chord;
   const Imath::Vec3<Real>& p = hit.perpendicular;
+  const Real inverse_dd = 1 / Dot(direction, direction, products);
+  const Real along = MulAdd(Dot(p, direction, products), inverse_dd, half_chord, products);
   return {MulAdd(direction.x, along, -p.x, products), MulAdd(direction.y, along, -p.y, products),
           MulAdd(direction.z, along, -p.z, products)};
 }

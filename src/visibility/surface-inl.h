@@ -21,19 +21,21 @@ struct SurfaceV {
   Vec3V<V> normal;  // unit, on the ray's side
 };
 
-// 1 / radius of a sphere; negative where `along`, half the chord that is negative where the ray
-// starts outside, is not: normals then point inward.
+// 1 / radius of a sphere; negative where `half_chord`, negative where the ray starts outside, is
+// not: normals then point inward.
 template <class V>
-HWY_INLINE V TurnedInverse(V inverse_radius, V along) {
-  return hn::CopySign(inverse_radius, hn::Neg(along));
+HWY_INLINE V TurnedInverse(V inverse_radius, V half_chord) {
+  return hn::CopySign(inverse_radius, hn::Neg(half_chord));
 }
 
 // Of a sphere's hit. The hit is centre + radius x normal: the point on the ray, whose rounding
-// grows with its distance, is never formed.
+// grows with its distance, is never formed; scalar twin: CenterToHit. `half_chord` is negative
+// where the ray starts outside; inverse_dd is 1 / |direction|^2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE SurfaceV<D> SphereSurface(D /*d*/, const Vec3V<V>& direction, V along,
+HWY_INLINE SurfaceV<D> SphereSurface(D /*d*/, const Vec3V<V>& direction, V inverse_dd, V half_chord,
                                      const Vec3V<V>& perpendicular, const Vec3V<V>& center,
                                      V turned_inverse) {
+  const V along = hn::MulAdd(FusedDot(perpendicular, direction), inverse_dd, half_chord);
   const Vec3V<V> from_center{hn::MulSub(direction.x, along, perpendicular.x),
                              hn::MulSub(direction.y, along, perpendicular.y),
                              hn::MulSub(direction.z, along, perpendicular.z)};

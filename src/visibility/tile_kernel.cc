@@ -34,10 +34,11 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const Vec3V<hn::Vec<CameraDouble>> perpendicular =
         Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
               packet.perpendicular[2] + lane);
-    const auto along = hn::Load(d, packet.along + lane);
-    const auto inverse = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), along);
+    const auto half_chord = hn::Load(d, packet.half_chord + lane);
+    const auto inverse = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), half_chord);
     const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, along, perpendicular, Centers(packet, lane), inverse);
+        SphereSurface(d, direction, hn::Load(d, packet.inverse_dd + lane), half_chord,
+                      perpendicular, Centers(packet, lane), inverse);
     const auto to_view = ToView(direction, hn::Load(d, packet.inverse_length + lane));
     writer.Surfaces(surface, to_view, bits, first_ray + static_cast<size_t>(lane));
     writer.Primitives(packet.primitive + lane, bits);

@@ -102,6 +102,7 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
       evaluated.to_light.x[i] = static_cast<float>(l.x);
       evaluated.to_light.y[i] = static_cast<float>(l.y);
       evaluated.to_light.z[i] = static_cast<float>(l.z);
+      evaluated.inverse_length[i] = 1;
       evaluated.irradiance[i] = static_cast<float>(weight);
     }
     ReflectedRadiance radiance;

@@ -55,6 +55,7 @@ void FillMirrorBatch(double width, MirrorBatch* batch) {
     SetAt(i, n, &batch->hits.normal);
     SetAt(i, v, &batch->hits.to_view);
     SetAt(i, l, &batch->directions.to_light);
+    batch->directions.inverse_length[i] = 1;
     batch->directions.irradiance[i] = 1;
   }
   PrepareSurface(batch->hits, &batch->surface);

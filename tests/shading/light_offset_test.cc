@@ -4,6 +4,7 @@
 #include <random>
 
 #include "catch.h"
+#include "shading/light_batch.h"
 #include "shading/shade.h"
 #include "targets.h"
 
@@ -63,7 +64,7 @@ void CheckLight(const Vec3d& light, const HitsOnSpheres& hits, const LightBatch&
     const HitBatch& b = hits.batch;
     const Vec3d offset = light - Vec3d(b.position.x[i], b.position.y[i], b.position.z[i]);
     const Vec3d n(b.normal.x[i], b.normal.y[i], b.normal.z[i]);
-    const Vec3d to_light(got.to_light.x[i], got.to_light.y[i], got.to_light.z[i]);
+    const Vec3d to_light = DirectionToLight(got, i);
     direction_error = std::max(direction_error, (to_light - offset.normalized()).length());
     if ((offset.normalized() ^ n) < 1e-6) continue;
     const double expected = 1 / offset.length2();

@@ -10,6 +10,7 @@
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
 #include "brdf/quadrature.h"
+#include "shading/light_batch.h"
 #include "shading/lobe_sample.h"
 #include "shading/prepare.h"
 #include "shading/scalar_material.h"
@@ -216,7 +217,7 @@ TEST_CASE("a light beside a far hit keeps its direction") {
     PrepareSurface(hits, &surface);
     EvaluateLight(PrepareLight(light, {0, 0, 0}), hits, surface, &batch);
     // The positions are doubles of 2e-10; the rest is a few roundings to float.
-    CHECK(batch.to_light.x[0] == Approx(offset.normalized().x).epsilon(1e-6));
+    CHECK(DirectionToLight(batch, 0).x == Approx(offset.normalized().x).epsilon(1e-6));
     CHECK(batch.irradiance[0] == Approx(1 / offset.length2()).epsilon(1e-6));
   });
 }

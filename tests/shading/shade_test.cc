@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "scene/material_parameters.h"
+#include "shading/light_batch.h"
 #include "shading/model_twins.h"
 #include "shading/prepare.h"
 #include "targets.h"
@@ -408,8 +409,8 @@ TEST_CASE("a light near a huge, far surface keeps its direction") {
     // Rounding of the difference to float and one normalisation: a few u.
     const Vec3d offset = Vec3d(0, 1, 0) - At(hits.position, 0);
     const Vec3d to_light = offset.normalized();
-    CHECK(batch.to_light.x[0] == Approx(to_light.x).epsilon(8 * 0x1p-24));
-    CHECK(batch.to_light.y[0] == Approx(to_light.y).epsilon(8 * 0x1p-24));
+    CHECK(DirectionToLight(batch, 0).x == Approx(to_light.x).epsilon(8 * 0x1p-24));
+    CHECK(DirectionToLight(batch, 0).y == Approx(to_light.y).epsilon(8 * 0x1p-24));
     CHECK(batch.irradiance[0] == Approx(1 / offset.length2()).epsilon(8 * 0x1p-24));
   });
 }

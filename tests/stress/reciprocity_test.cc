@@ -54,7 +54,9 @@ struct BothSides {
       Set(-d.to_view, i, &back.hits.position);
       Set(d.to_view, i, &back.evaluated.to_light);
       Set(d.to_light, i, &back.hits.to_view, &back.surface.to_view);
-      there.evaluated.irradiance[i] = back.evaluated.irradiance[i] = 1;
+      for (Side* side : {&there, &back}) {
+        side->evaluated.inverse_length[i] = side->evaluated.irradiance[i] = 1;
+      }
       ++i;
     }
   }

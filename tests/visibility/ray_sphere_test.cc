@@ -136,8 +136,8 @@ TEST_CASE("the intersector passes the table, with the scalar test's bits", "[tab
 TEST_CASE("hits are right at any distance, grazing ones too") {
   constexpr double kMaxNormalError = 3e-8;
   constexpr double kMaxDepthError = 1e-15 * 8;  // 64 roundings
-  // Of rays that meet the sphere steeply: what IsFarSphere leaves uncorrected, and 16 roundings.
-  constexpr double kMaxSteepError = (4 * kNearRadii + 16) * kHalfUlpDouble;
+  // Of rays that meet the sphere steeply: 16 roundings.
+  constexpr double kMaxSteepError = 16 * kHalfUlpDouble;
   Random random(1);
   for (const double distance : {2.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7}) {
     double worst_normal = 0, worst_depth = 0, worst_steep = 0;
@@ -214,8 +214,7 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
       REQUIRE(surface.position == center + from_center);
       REQUIRE(surface.normal == from_center * (hit.inside ? -1 / radius : 1 / radius));
       REQUIRE(surface.normal.dot(direction) <= 0);
-      // What IsFarSphere leaves uncorrected, and a few roundings.
-      REQUIRE(std::abs(surface.normal.length() - 1) < (4 * kNearRadii + 8) * kHalfUlpDouble);
+      REQUIRE(std::abs(surface.normal.length() - 1) < 8 * kHalfUlpDouble);
       REQUIRE((surface.to_view + direction.normalized()).length() < 8 * kHalfUlpDouble);
     }
   });
