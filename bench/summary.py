@@ -12,6 +12,7 @@ import lights
 _KERNELS = {
     "lambert": (("lambert",), ("lambert",)),
     "phong": (("phong",), ("phong",)),
+    "phong_in_lobe": (("phong_in_lobe",), ("phong_in_lobe",)),
     "blinn": (("blinn_phong",), ("blinn_phong",)),
     "ggx": (("ggx_plain_schlick_direct", "ggx_schlick_direct"),
             ("ggx_plain_schlick_direct", "ggx_schlick_direct")),

@@ -17,6 +17,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 struct TextbookGgx {
+  static constexpr bool kAtOnce = false;
   static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   struct View {
@@ -81,6 +82,7 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, s
 // All but the cosine is as in Phong's own kernel.
 template <void (*kFill)(const RangeArrays&, size_t, size_t, IncidentBlock*)>
 struct NaiveLobe {
+  static constexpr bool kAtOnce = false;
   static constexpr bool kReadsIrradiance = true;
   using Incident = LobeIncidentV;
   struct View {};

@@ -74,6 +74,11 @@ HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<
 constexpr float kUprightUSquared = 0.25f;
 
 template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> IsUpright(D d, const HalfAnglesV<V>& a) {
+  return hn::Ge(a.u_squared, hn::Set(d, kUprightUSquared));
+}
+
+template <class D, class V = hn::Vec<D>>
 HWY_INLINE HalfAnglesV<V> UprightHalfAngles(D d, const Vec3V<V>& n, const Vec3V<V>& u,
                                             const Vec3V<V>& l_minus_v, V n_dot_l, V n_dot_v) {
   return HalfAnglesOf(d, n, u, hn::Add(n_dot_l, n_dot_v), l_minus_v);

@@ -28,13 +28,13 @@ HWY_INLINE V GgxDistribution(D d, const HalfAnglesV<V>& a, V alpha) {
   return hn::IfThenElseZero(above, squared);
 }
 
-// The same as alpha^2 / (pi q^2), q = sin^2 + alpha^2 cos^2 of the half vector's angle, for a
-// kernel that has 1 / |u|^2 at hand and merges its divisions: q >= alpha^2, so nothing under- or
-// overflows. Says nothing of h below the surface.
+// |u|^2 q, of which the distribution is alpha^2 |u|^4 / (pi (|u|^2 q)^2), for a kernel that merges
+// its divisions: q = sin^2 + alpha^2 cos^2 of the half vector's angle, at least alpha^2. Says
+// nothing of h below the surface.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxRootDenominator(D, const HalfAnglesV<V>& a, V u_squared_inverse, V alpha) {
+HWY_INLINE V GgxRootDenominator(D, const HalfAnglesV<V>& a, V alpha) {
   const V scaled = hn::Mul(a.n_dot_u, alpha);
-  return hn::Mul(hn::MulAdd(scaled, scaled, a.nxu_squared), u_squared_inverse);
+  return hn::MulAdd(scaled, scaled, a.nxu_squared);
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -50,20 +50,13 @@ HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V
 
 // (n.h)^2, of which Blinn's lobe is the power n/2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, V n_dot_u, V nxu_squared) {
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, hn::TFromD<D>(1));
-  const V cos2 = hn::Mul(n_dot_u, n_dot_u);
-  const V u_squared = hn::Add(cos2, nxu_squared);
-  const auto above = hn::And(hn::Gt(n_dot_u, zero), hn::Gt(u_squared, zero));
-  const V scale = Reciprocal(d, hn::IfThenElse(above, u_squared, one));
-  // Lanes below the surface get cos^2 = 0, the lobe's zero.
-  return {hn::Mul(nxu_squared, scale), hn::IfThenElseZero(above, hn::Mul(cos2, scale))};
-}
-
-template <class D, class V = hn::Vec<D>>
 HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
-  return BlinnSquaredCosine(d, a.n_dot_u, a.nxu_squared);
+  // |u|^2 is a normal number.
+  const V scale = Reciprocal(d, a.u_squared);
+  const V cos2 = hn::Mul(hn::Mul(a.n_dot_u, a.n_dot_u), scale);
+  // Lanes below the surface get cos^2 = 0, the lobe's zero.
+  const auto above = hn::Gt(a.n_dot_u, hn::Zero(d));
+  return {hn::Mul(a.nxu_squared, scale), hn::IfThenElseZero(above, cos2)};
 }
 
 // c^n by log2(c): 0 where c <= 0, but 1 everywhere for n = 0.

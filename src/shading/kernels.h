@@ -67,7 +67,7 @@ struct MicrofacetUniformsOf {
   const MicrofacetModel* model;
   const MicrofacetLightOf<Number>* lights;
   // The model's, rounded.
-  Number alpha, pi_over_16_alpha2, schlick_k;
+  Number alpha, pi_over_alpha2, schlick_k;
   Number f0[3], f90, f82_slope[3];
   bool is_bright;  // no channel of f0 is below kBrightF0; not of hits with their own
   float eta[3], k[3];

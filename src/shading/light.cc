@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/overloaded.h"
+#include "scene/limits.h"
 
 namespace nacre {
 namespace {
@@ -26,6 +27,12 @@ ConeTerms<float> ToTerms(const SpotLight& spot) {
           {first, 1 - first}};
 }
 
+// True if products with factors from 0 to 1 are in float's range, or 0.
+bool IsUsual(const Rgb& color) {
+  const auto usual = [](double c) { return c == 0 || (c >= 1e-30 && c <= limits::kRadiance.max); };
+  return usual(color.x) && usual(color.y) && usual(color.z);
+}
+
 }  // namespace
 
 double ShadingLight::TMax() const {
@@ -34,32 +41,31 @@ double ShadingLight::TMax() const {
 
 ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
   ShadingLight prepared;
-  std::visit(Overloaded{[](const auto&) {},
-                        [&](const DirectionalLight& directional) {
-                          prepared.form = LightForm::kDirectional;
-                          prepared.color = directional.irradiance;
-                          prepared.to_light = -directional.direction_of_travel.normalized();
-                        },
-                        [&](const PointLight& point) {
-                          const Attenuation& a = point.attenuation;
-                          prepared.inverse_quadratic = static_cast<float>(1 / a.quadratic);
-                          const bool inverse_square = a.constant == 0 && a.linear == 0 &&
-                                                      std::isfinite(prepared.inverse_quadratic);
-                          prepared.form =
-                              inverse_square ? LightForm::kInverseSquare : LightForm::kPoint;
-                          prepared.color = point.intensity;
-                          prepared.position = point.position - camera_position;
-                          prepared.attenuation = ToTerms(a);
-                        },
-                        [&](const SpotLight& spot) {
-                          prepared.form = LightForm::kSpot;
-                          prepared.color = spot.intensity;
-                          prepared.position = spot.position - camera_position;
-                          prepared.axis = Vec3f(spot.direction_of_travel.normalized());
-                          prepared.attenuation = ToTerms(spot.attenuation);
-                          prepared.cone = ToTerms(spot);
-                        }},
-             light.kind);
+  std::visit(
+      Overloaded{[](const auto&) {},
+                 [&](const DirectionalLight& directional) {
+                   prepared.form = LightForm::kDirectional;
+                   prepared.color = directional.irradiance;
+                   prepared.to_light = -directional.direction_of_travel.normalized();
+                 },
+                 [&](const PointLight& point) {
+                   const Attenuation& a = point.attenuation;
+                   const Rgb at_one = point.intensity / a.quadratic;
+                   const bool inverse_square = a.constant == 0 && a.linear == 0 && IsUsual(at_one);
+                   prepared.form = inverse_square ? LightForm::kInverseSquare : LightForm::kPoint;
+                   prepared.color = inverse_square ? at_one : point.intensity;
+                   prepared.position = point.position - camera_position;
+                   prepared.attenuation = ToTerms(a);
+                 },
+                 [&](const SpotLight& spot) {
+                   prepared.form = LightForm::kSpot;
+                   prepared.color = spot.intensity;
+                   prepared.position = spot.position - camera_position;
+                   prepared.axis = Vec3f(spot.direction_of_travel.normalized());
+                   prepared.attenuation = ToTerms(spot.attenuation);
+                   prepared.cone = ToTerms(spot);
+                 }},
+      light.kind);
   return prepared;
 }
 

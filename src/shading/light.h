@@ -15,7 +15,7 @@ namespace nacre {
 // How a light's direction and fall-off are computed.
 enum class LightForm : uint8_t {
   kDirectional,
-  kInverseSquare,  // a point light's usual fall-off, 1 / (quadratic d^2)
+  kInverseSquare,  // a point light's usual fall-off, 1 / d^2
   kPoint,          // with any attenuation
   kSpot,
   kGiven,  // LightBatch says it all
@@ -31,12 +31,12 @@ struct SphereOffset {
 // A punctual light prepared for shading. Positions are relative to the camera.
 struct ShadingLight {
   LightForm form = LightForm::kInverseSquare;
-  Rgb color{0, 0, 0};       // irradiance of a directional light, intensity of the others
+  // Irradiance of a directional light, intensity of the others: kInverseSquare's over `quadratic`.
+  Rgb color{0, 0, 0};
   Vec3d position{0, 0, 0};  // of all but directional lights
   Vec3d to_light{0, 0, 0};  // directional: unit, towards the light
   Vec3f axis{0, 0, 0};      // spot: unit, from the light into the cone
   AttenuationTerms<float> attenuation{0, 0, 1};
-  float inverse_quadratic = 1;  // kInverseSquare: 1 / quadratic
   ConeTerms<float> cone{-1, -1, 0};
   // One per sphere of the scene: where the light lies from hits is then found from their normals,
   // and neither their positions nor doubles are asked for. Empty: from their positions.

@@ -159,16 +159,16 @@ HWY_INLINE FloatV InverseDistance(FloatTag d, FloatV squared) {
 
 // An inverse-square light at `offset` from the hits.
 template <bool kApart>
-HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset, FloatV scale) {
+HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset) {
   const FloatV inverse = InverseDistance<kApart>(d, FusedDot(offset, offset));
-  return {{offset, inverse}, hn::Mul(hn::Mul(inverse, inverse), scale)};
+  return {{offset, inverse}, hn::Mul(inverse, inverse)};
 }
 
 // Of a light of any positional form at `offset` from the hits.
 template <LightForm kForm>
 HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3V<FloatV>& offset) {
   if constexpr (kForm == LightForm::kInverseSquare) {
-    return InverseSquareAt<false>(d, offset, hn::Set(d, light.inverse_quadratic));
+    return InverseSquareAt<false>(d, offset);
   } else {
     const FloatV squared = FusedDot(offset, offset);
     const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
@@ -189,16 +189,14 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3
 template <class Offset>
 class PointLightV {
  public:
-  PointLightV(FloatTag d, const ShadingLight& light, const Offset& offset)
-      : offset_(offset), scale_(hn::Set(d, light.inverse_quadratic)) {}
+  explicit PointLightV(const Offset& offset) : offset_(offset) {}
 
   HWY_INLINE LightV At(FloatTag d, size_t i, const Vec3V<FloatV>& normal) const {
-    return InverseSquareAt<Offset::kApart>(d, offset_.At(d, i, normal), scale_);
+    return InverseSquareAt<Offset::kApart>(d, offset_.At(d, i, normal));
   }
 
  private:
   Offset offset_;
-  FloatV scale_;
 };
 
 // The light of a batch's hits i..., evaluated before or, in its two most frequent forms, here.

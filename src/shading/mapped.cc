@@ -79,7 +79,7 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   uniforms.model = &model;
   uniforms.lights = &light;
   uniforms.alpha = t.alpha.data();
-  uniforms.pi_over_16_alpha2 = t.pi_over_16_alpha2.data();
+  uniforms.pi_over_alpha2 = t.pi_over_alpha2.data();
   uniforms.schlick_k = t.schlick_k.data();
   Assign(t.f0, uniforms.f0);
   uniforms.f90 = t.f90.data();

@@ -192,7 +192,7 @@ void FinishLobe(const TexturedRun& run, HitTextures* t) {
     const bool delta = IsDeltaLobe(alpha);
     const double shown = delta ? 1 : alpha;
     t->alpha[i] = static_cast<float>(shown);
-    t->pi_over_16_alpha2[i] = static_cast<float>(M_PI / (16 * shown * shown));
+    t->pi_over_alpha2[i] = static_cast<float>(M_PI / (shown * shown));
     t->schlick_k[i] = static_cast<float>((r + 1) * (r + 1) / 8);
     t->not_delta[i] = delta ? 0.0f : 1.0f;
     t->double_alpha[i] = IsNarrow(r, alpha) ? alpha : -1;

@@ -21,8 +21,9 @@ namespace HWY_NAMESPACE {
 // The models that a kernel is for: those of one shadowing, all of whose hits share a wide lobe over
 // Lambert's base. `kIsPrepared`: with what PrepareMicrofacet has left of every hit: multiple
 // scattering, or a base that gets what the lobe's albedo leaves. `kIsTypical`: what materials are
-// unless they ask for another: Turquin's compensation and a base that gets what the lobe's albedo
-// leaves, or, not prepared, a base that gets what Schlick's curve leaves, which rises to 1.
+// unless they ask for another: not darker at normal incidence than kBrightF0; with Turquin's
+// compensation and a base that gets what the lobe's albedo leaves, or, not prepared, a base that
+// gets what Schlick's curve leaves, which rises to 1.
 template <Shadowing kShadowing, bool kIsPrepared, bool kIsTypical>
 struct UsualForm {
   static constexpr bool kUsual = true;
@@ -66,13 +67,13 @@ struct FresnelCurveV {
 };
 
 // 1 - v.h for Schlick's weight; by kBrightF0.
-template <class Number>
+template <class Form, class Number>
 HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
                               const MicrofacetUniformsOf<Number>& uniforms) {
   const FloatV rounded = hn::NegMulAdd(half.twice_u_length, hn::Set(d, 0.25f), hn::Set(d, 1.0f));
   const auto exact = [&]() HWY_ATTR { return OneMinusVDotH(d, half.lv_squared, half.ULength(d)); };
   if constexpr (std::is_same_v<Number, float>) {
-    return uniforms.is_bright ? rounded : exact();
+    return Form::kTypical || uniforms.is_bright ? rounded : exact();
   } else {
     const RgbV f0 = RgbAt(d, uniforms.f0, i);
     const auto bright = hn::Ge(hn::Min(hn::Min(f0.r, f0.g), f0.b), hn::Set(d, kBrightF0));
@@ -80,11 +81,11 @@ HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
   }
 }
 
-template <FresnelForm kFresnel, class Number>
+template <FresnelForm kFresnel, class Form, class Number>
 HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
                               const MicrofacetUniformsOf<Number>& uniforms) {
   if constexpr (kFresnel == FresnelForm::kSchlick) {
-    return SchlickCurveV{Power5(SchlickBase(d, half, i, uniforms))};
+    return SchlickCurveV{Power5(SchlickBase<Form>(d, half, i, uniforms))};
   } else {
     const FloatV u_length = half.ULength(d);
     const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, u_length);

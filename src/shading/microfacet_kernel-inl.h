@@ -32,15 +32,17 @@ struct Microfacet {
   static constexpr bool kReadsIrradiance = false;
   using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
-  const MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
+  MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
+  // Not of hits that were prepared: there most of the time is the preparation's.
+  static constexpr bool kAtOnce = kPacketsAtOnce != 0 && Form::kTypical && !Form::kPrepared;
 
   struct View {
     const Surface* surface;  // with what was prepared, loaded where it is needed
   };
 
   HWY_INLINE bool ReadsLv() const {
-    return kFresnel != FresnelForm::kSchlick || !kSame || !uniforms.is_bright;
+    return kFresnel != FresnelForm::kSchlick || !kSame || !(Form::kTypical || uniforms.is_bright);
   }
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface& surface) const {
@@ -65,23 +67,33 @@ struct Microfacet {
   // Distribution, visibility, cosine and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in,
                          FloatV twice_u_inverse) const {
+    if (!Form::kUsual && kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in);
+    const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
+    const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
+    // As a rule the square of |u|^2 is far from float's limits, and no root need be waited for.
+    FloatV wide = LobeBy(d, hn::Mul(hn::Mul(q, q), masking),
+                         hn::Mul(hn::Mul(in.half.u_squared, in.half.u_squared), in.weight));
+    if (in.any_short) {
+      const FloatV four_q = hn::Mul(q, hn::Mul(twice_u_inverse, twice_u_inverse));
+      const FloatV sixteenth = hn::Mul(masking, hn::Set(d, 0.0625f));
+      const FloatV of_short = LobeBy(d, hn::Mul(hn::Mul(four_q, four_q), sixteenth), in.weight);
+      wide = hn::IfThenElse(IsUpright(d, in.half), wide, of_short);
+    }
+    // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
+    wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f)), wide);
+    if (Form::kUsual || kSame || uniforms.narrow == nullptr) return wide;
+    const auto is_narrow = hn::Ge(hn::LoadU(d, uniforms.narrow + p.i), hn::Zero(d));
+    return hn::IfThenElse(is_narrow, NarrowLobe(d, p, in), wide);
+  }
+
+  // `weight` is 0 where the surface is not lit.
+  static HWY_INLINE FloatV LobeBy(FloatTag d, FloatV denominator, FloatV weight) {
     // Not less than the smallest normal number, for unlit lanes and for cosines below that; nor
     // more than the largest: infinity times a lobe, or a colour, of 0 would be NaN.
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
-    if (!Form::kUsual && kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in);
-    // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
-    const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
-    const FloatV four_q = GgxRootDenominator(d, in.half, hn::Mul(twice_u_inverse, twice_u_inverse),
-                                             NumberAt(d, uniforms.alpha, p.i));
-    const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_16_alpha2, p.i));
-    const FloatV denominator = hn::Max(hn::Mul(hn::Mul(four_q, four_q), masking), smallest);
-    // Where the surface is not lit, the weight and so the product is 0.
-    const FloatV wide =
-        hn::IfThenElseZero(above, hn::Min(hn::Mul(in.weight, Reciprocal(d, denominator)), largest));
-    if (Form::kUsual || kSame || uniforms.narrow == nullptr) return wide;
-    const auto is_narrow = hn::Ge(hn::LoadU(d, uniforms.narrow + p.i), hn::Zero(d));
-    return hn::IfThenElse(is_narrow, NarrowLobe(d, p, in), wide);
+    const FloatV inverse = Reciprocal(d, hn::Max(denominator, smallest));
+    return hn::Min(hn::Mul(weight, inverse), largest);
   }
 
   // The same with the distribution that was formed in double.
@@ -103,7 +115,7 @@ struct Microfacet {
     const bool spreads =
         !Form::kUsual && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
-    const auto curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms);
+    const auto curve = EvaluateCurve<kFresnel, Form>(d, half, p.i, uniforms);
     const FloatV lobe = Lobe(d, p, in, twice_u_inverse);
     if constexpr (!Form::kPrepared) {
       return {{LeftForBase<Form>(d, curve, p.i, model, light, in.weight)},
@@ -172,7 +184,8 @@ void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& 
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const MicrofacetModel& model = *uniforms.model;
     if (model.coupling == CouplingOf<Typical>(model) &&
-        model.compensation == CompensationOf<Typical>(model) && (kPrepared || model.f90 == 1)) {
+        model.compensation == CompensationOf<Typical>(model) && (kPrepared || model.f90 == 1) &&
+        uniforms.is_bright) {
       return ShadeMicrofacetForm<kFresnel, Typical>(uniforms, range);
     }
   }

@@ -51,12 +51,12 @@ class IncidentBlock {
   }
 
   template <bool kWithLv>
-  HWY_INLINE void StoreHalf(FloatTag d, size_t at, FloatV n_dot_u, FloatV nxu_squared,
-                            FloatV lv_squared, FloatV n_dot_v) {
+  HWY_INLINE void StoreHalf(FloatTag d, size_t at, const HalfAnglesV<FloatV>& half,
+                            FloatV n_dot_v) {
     hn::Store(n_dot_v, d, n_dot_v_ + at);
-    hn::Store(n_dot_u, d, n_dot_u_ + at);
-    hn::Store(nxu_squared, d, nxu_squared_ + at);
-    if (kWithLv) hn::Store(lv_squared, d, lv_squared_ + at);
+    hn::Store(half.n_dot_u, d, n_dot_u_ + at);
+    hn::Store(half.nxu_squared, d, nxu_squared_ + at);
+    if (kWithLv) hn::Store(half.lv_squared, d, lv_squared_ + at);
   }
 
   HWY_INLINE void StoreLobe(FloatTag d, size_t at, const LobeCosineV<FloatV>& lobe) {
@@ -67,6 +67,8 @@ class IncidentBlock {
   HWY_INLINE FloatV LoadLobeLog2(FloatTag d, size_t at) const {
     return hn::Load(d, log2_cosine_ + at);
   }
+
+  void SetAnyShort(bool any_short) { any_short_ = any_short; }
 
   // The logarithms of `count` cosines that were stored, in a loop of their own: with them either of
   // the loops around it would be one chain longer than a processor's window overlaps.
@@ -82,7 +84,8 @@ class IncidentBlock {
     const FloatV nxu_squared = hn::Load(d, nxu_squared_ + at);
     return {Load(d, at),
             {n_dot_u, USquared(n_dot_u, nxu_squared), nxu_squared, hn::Load(d, lv_squared_ + at)},
-            hn::Load(d, n_dot_v_ + at)};
+            hn::Load(d, n_dot_v_ + at),
+            any_short_};
   }
 
  private:
@@ -93,6 +96,7 @@ class IncidentBlock {
   // Loaded by all models, used by those alone for which they were stored.
   alignas(kAlignment) float irradiance_[kHits], lv_squared_[kHits];
   alignas(kAlignment) float one_minus_c_[kHits], c_[kHits], log2_cosine_[kHits];
+  bool any_short_;
 };
 
 // The light of hits [begin, end), with or without its irradiance. Not inlined, as it is the same
@@ -110,11 +114,11 @@ HWY_NOINLINE void FillLight(const LightOnBatch& light, const HitBatch& hits,
   });
 }
 
-// Calls use(at, n_dot_u, nxu_squared, lv_squared, n_dot_v) with the half vector's angles of all
-// hits of a block. Hits choose how they are formed by their own |u|^2, whatever else is in the
-// block; but as a rule none of a block's needs more than u as it is.
+// Calls use(at, half, n_dot_v) with the half vector's angles of all hits of a block. Hits choose
+// how they are formed by their own |u|^2, whatever else is in the block; but as a rule none of a
+// block's needs more than u as it is.
 template <class Use>
-HWY_INLINE void ForHalfAngles(const RangeArrays& given, size_t begin, size_t end,
+HWY_INLINE bool ForHalfAngles(const RangeArrays& given, size_t begin, size_t end,
                               const IncidentBlock& block, const Use& use) {
   const FloatTag d;
   const RangeArrays arrays = given;  // kept in registers: what is stored cannot be this copy
@@ -127,9 +131,9 @@ HWY_INLINE void ForHalfAngles(const RangeArrays& given, size_t begin, size_t end
     const HalfAnglesV<FloatV> half = UprightHalfAngles(
         d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view), block.NDotL(d, at), n_dot_v);
     least = hn::Min(half.u_squared, least);
-    use(at, half.n_dot_u, half.nxu_squared, half.lv_squared, n_dot_v);
+    use(at, half, n_dot_v);
   }
-  if (hn::AllTrue(d, hn::Ge(least, enough))) return;
+  if (hn::AllTrue(d, hn::Ge(least, enough))) return false;
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
@@ -137,10 +141,16 @@ HWY_INLINE void ForHalfAngles(const RangeArrays& given, size_t begin, size_t end
     const HalfAnglesV<FloatV> upright = UprightHalfAngles(
         d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view), block.NDotL(d, at), n_dot_v);
     const HalfAnglesV<FloatV> any = ComputeHalfAngles(d, p.normal, toward.Direction(), p.to_view);
-    const auto is_upright = hn::Ge(upright.u_squared, enough);
-    use(at, hn::IfThenElse(is_upright, upright.n_dot_u, any.n_dot_u),
-        hn::IfThenElse(is_upright, upright.nxu_squared, any.nxu_squared), any.lv_squared, n_dot_v);
+    const auto is_upright = IsUpright(d, upright);
+    const auto choose = [&](FloatV if_upright, FloatV if_not)
+                            HWY_ATTR { return hn::IfThenElse(is_upright, if_upright, if_not); };
+    use(at,
+        HalfAnglesV<FloatV>{choose(upright.n_dot_u, any.n_dot_u),
+                            choose(upright.u_squared, any.u_squared),
+                            choose(upright.nxu_squared, any.nxu_squared), any.lv_squared},
+        n_dot_v);
   }
+  return true;
 }
 
 // The angles of their half vectors, with or without |l - v|^2, and to the viewer.
@@ -148,13 +158,66 @@ template <bool kWithLv>
 HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
                            IncidentBlock* block) {
   const FloatTag d;
-  ForHalfAngles(arrays, begin, end, *block,
-                [&](size_t at, FloatV n_dot_u, FloatV nxu_squared, FloatV lv_squared,
-                    FloatV n_dot_v) HWY_ATTR {
-                  // Interpolated mesh normals may lean away from the viewer: that counts as 0.
-                  block->StoreHalf<kWithLv>(d, at, n_dot_u, nxu_squared, lv_squared,
-                                            hn::Max(n_dot_v, hn::Zero(d)));
-                });
+  const auto store = [&](size_t at, const HalfAnglesV<FloatV>& half, FloatV n_dot_v) HWY_ATTR {
+    // Interpolated mesh normals may lean away from the viewer: that counts as 0.
+    block->StoreHalf<kWithLv>(d, at, half, hn::Max(n_dot_v, hn::Zero(d)));
+  };
+  block->SetAnyShort(ForHalfAngles(arrays, begin, end, *block, store));
+}
+
+// What ShadeAtOnce asks of a range: one light of the most frequent form, hits that are all on one
+// sphere, and only their sum to be left.
+HWY_INLINE bool IsForAtOnce(const ShadeRange& range) {
+  const LightOnBatch& light = range.lights[0];
+  return range.lights.size() == 1 && range.leaves == Leaves::kSum && light.evaluated == nullptr &&
+         light.light->form == LightForm::kInverseSquare && !light.light->from_spheres.empty() &&
+         range.hits.one_primitive;
+}
+
+// Does all of ShadeBlock in one loop, with the same bits, for as many groups of kPacketsAtOnce from
+// hit `begin` on as are whole and have half vectors that are upright; returns the first hit that is
+// left. A group's chains overlap, and nothing but the sum is stored; more of the loop, such as a
+// test before the end, and GCC would find what all turns share anew in each.
+template <class Model>
+HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& range,
+                                const RangeArrays& given, size_t begin) {
+  const FloatTag d;
+  const size_t lanes = hn::Lanes(d);
+  // Copies, kept in registers: what is stored cannot be in them.
+  const RangeArrays arrays = given;
+  const auto products = given_model.uniforms.lights[0];
+  Model model = given_model;
+  model.uniforms.lights = &products;
+  const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
+  const FloatV enough = hn::Set(d, kUprightUSquared);
+  size_t i = begin;
+  for (; i + kPacketsAtOnce * lanes <= range.end; i += kPacketsAtOnce * lanes) {
+    HalfIncidentV in[kPacketsAtOnce];
+    FloatV least = enough;
+    HWY_UNROLL(kPacketsAtOnce)
+    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
+      const PacketV p = arrays.Packet(d, i + k * lanes);
+      const IncidentV incident = MakeIncident(d, light.At(d, p.i, p.normal), p.normal);
+      const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+      const TowardV& toward = incident.toward;
+      in[k].n_dot_l = incident.n_dot_l;
+      in[k].weight = incident.weight;
+      in[k].half = UprightHalfAngles(d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view),
+                                     incident.n_dot_l, n_dot_v);
+      in[k].n_dot_v = hn::Max(n_dot_v, hn::Zero(d));
+      in[k].any_short = false;
+      least = hn::Min(in[k].half.u_squared, least);
+    }
+    HWY_UNROLL(kPacketsAtOnce)
+    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
+      const size_t at = i + k * lanes;
+      const PacketV p{at, {}, {}};
+      const auto view = model.SeenBy(d, p, range.surface);
+      StoreWhole(d, SumOf(model.Reflect(d, view, p, in[k], 0)), arrays.sum, at);
+    }
+    if (!hn::AllTrue(d, hn::Ge(least, enough))) break;  // to be shaded anew
+  }
+  return i;
 }
 
 template <class Model>
@@ -192,12 +255,24 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 // whether IncidentV::irradiance has a meaning to the model, model.ReadsLv() whether
 // HalfAnglesV::lv_squared has, and model.ReadsLobe() whether LobeIncidentV::log2_cosine has, of
 // the cosines that model.FillLobe(arrays, begin, end, block) stores; else they need not be there.
+// Model::kAtOnce: ShadeAtOnce may do it all; such a model has its uniforms by value, and reads
+// neither directions nor irradiance nor lv_squared.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);
   IncidentBlock block;
-  for (size_t begin = range.begin; begin < range.end; begin += IncidentBlock::kHits) {
-    const size_t end = std::min(begin + IncidentBlock::kHits, range.end);
+  bool at_once = false;
+  if constexpr (Model::kAtOnce) at_once = IsForAtOnce(range);
+  size_t end = range.begin;
+  while (end < range.end) {
+    size_t begin = end, count = IncidentBlock::kHits;
+    if constexpr (Model::kAtOnce) {
+      if (at_once) {
+        begin = ShadeAtOnce(model, range, arrays, begin);
+        count = kPacketsAtOnce * hn::Lanes(d);
+      }
+    }
+    end = std::min(begin + count, range.end);
     for (size_t k = 0; k < range.lights.size(); ++k) {
       ShadeBlock(d, model, range, arrays, k, begin, end, &block);
     }

@@ -31,13 +31,13 @@ HWY_NOINLINE void FillBlinn(const RangeArrays& arrays, size_t begin, size_t end,
                             IncidentBlock* block) {
   const FloatTag d;
   ForHalfAngles(arrays, begin, end, *block,
-                [&](size_t at, FloatV n_dot_u, FloatV nxu_squared, FloatV, FloatV) HWY_ATTR {
-                  block->StoreLobe(d, at, BlinnSquaredCosine(d, n_dot_u, nxu_squared));
-                });
+                [&](size_t at, const HalfAnglesV<FloatV>& half, FloatV)
+                    HWY_ATTR { block->StoreLobe(d, at, BlinnSquaredCosine(d, half)); });
 }
 
 template <PhongModel kModel, class Number>
 struct PhongFamily {
+  static constexpr bool kAtOnce = false;
   static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
   using Incident = LobeIncidentV;
   struct View {};

@@ -88,6 +88,7 @@ struct IncidentV {
 struct HalfIncidentV : IncidentV {
   HalfAnglesV<FloatV> half;
   FloatV n_dot_v;
+  bool any_short;  // false: all half vectors of the block are IsUpright
 };
 
 // With LobeLog2 of the cosine of Phong's lobe, or of the square of Blinn's.
@@ -111,13 +112,17 @@ HWY_INLINE RgbV LoadAsRgb(FloatTag d, const Pointers3<float>& from, size_t i) {
   return {hn::LoadU(d, from.x() + i), hn::LoadU(d, from.y() + i), hn::LoadU(d, from.z() + i)};
 }
 
+HWY_INLINE void StoreWhole(FloatTag d, const RgbV& value, const Pointers3<float>& to, size_t i) {
+  hn::StoreU(value.r, d, to.x() + i);
+  hn::StoreU(value.g, d, to.y() + i);
+  hn::StoreU(value.b, d, to.z() + i);
+}
+
 // Stores `count` lanes at most.
 HWY_INLINE void StoreRgb(FloatTag d, size_t count, const RgbV& value, const Pointers3<float>& to,
                          size_t i) {
   if (count >= hn::Lanes(d)) {
-    hn::StoreU(value.r, d, to.x() + i);
-    hn::StoreU(value.g, d, to.y() + i);
-    hn::StoreU(value.b, d, to.z() + i);
+    StoreWhole(d, value, to, i);
   } else {
     const auto mask = hn::FirstN(d, count);
     hn::BlendedStore(value.r, mask, d, to.x() + i);
@@ -185,12 +190,19 @@ template <class WithLight>
 HWY_INLINE void VisitLight(FloatTag d, const LightOnBatch& light, const HitBatch& hits,
                            const WithLight& with_light) {
   if (light.evaluated == nullptr && light.light->form == LightForm::kInverseSquare) {
-    VisitOffset(d, *light.light, hits, [&](const auto& offset) HWY_ATTR {
-      with_light(PointLightV(d, *light.light, offset));
-    });
+    VisitOffset(d, *light.light, hits,
+                [&](const auto& offset) HWY_ATTR { with_light(PointLightV(offset)); });
   } else {
     with_light(AnyLight{light, hits});
   }
+}
+
+HWY_INLINE RgbV SumOf(const DiffuseV& of_light) { return RgbOf(of_light.diffuse); }
+HWY_INLINE RgbV SumOf(const ReflectedV& of_light) {
+  const RgbV diffuse = RgbOf(of_light.diffuse);
+  const auto& [color, scale] = of_light.specular;
+  return {hn::MulAdd(color.r, scale.r, diffuse.r), hn::MulAdd(color.g, scale.g, diffuse.g),
+          hn::MulAdd(color.b, scale.b, diffuse.b)};
 }
 
 // What ShadeRange::leaves says of the packet's reflection of a light, the range's first or not.
@@ -215,13 +227,7 @@ HWY_INLINE void Leave(FloatTag d, const Reflected& of_light, Leaves leaves,
     arrays.Store(d, specular, arrays.specular, i);
     if (leaves == Leaves::kParts) return;
   }
-  RgbV sum = diffuse;
-  if constexpr (kHasSpecular) {
-    const auto& [color, scale] = of_light.specular;
-    sum = {hn::MulAdd(color.r, scale.r, diffuse.r), hn::MulAdd(color.g, scale.g, diffuse.g),
-           hn::MulAdd(color.b, scale.b, diffuse.b)};
-  }
-  arrays.Store(d, sum, arrays.sum, i);
+  arrays.Store(d, SumOf(of_light), arrays.sum, i);
 }
 
 // What `incident_at(packet)` brings to hits [begin, end) is reflected and left.

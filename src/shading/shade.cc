@@ -38,39 +38,47 @@ PhongLight MakeLight(const PhongFamilyModel& model, const Rgb& color) {
   return light;
 }
 
+// What the model's curve and compensation ask for alone: a batch has few hits of each material.
 MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
   MicrofacetLight light;
   const Rgb specular = model.delta ? Rgb(0, 0, 0) : color;
   const Rgb diffuse = model.diffuse * color;
-  const Rgb rise = Rgb(model.f90) - model.f0;
-  Assign(diffuse, light.diffuse);
-  Assign(specular, light.specular);
-  Assign(model.f0 * specular, light.specular_f0);
-  Assign(rise * specular, light.specular_rise);
-  const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
-  Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_normal);
-  Assign(coupled ? (1 - model.f90) * diffuse : Rgb(0), light.diffuse_grazing);
-  Assign(model.f_multiple * color, light.multiple);
+  if (model.fresnel == FresnelForm::kSchlick) {
+    const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
+    Assign(model.f0 * specular, light.specular_f0);
+    Assign((Rgb(model.f90) - model.f0) * specular, light.specular_rise);
+    Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_normal);
+    Assign(coupled ? (1 - model.f90) * diffuse : Rgb(0), light.diffuse_grazing);
+  } else {
+    Assign(diffuse, light.diffuse);
+    Assign(specular, light.specular);
+  }
+  if (model.compensation == Compensation::kKullaConty) {
+    Assign(model.f_multiple * color, light.multiple);
+  }
   return light;
 }
 
 MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLight* lights) {
   const double alpha = model.delta ? 1 : model.alpha;
-  MicrofacetUniforms uniforms;
+  MicrofacetUniforms uniforms{};
   uniforms.model = &model;
   uniforms.lights = lights;
   uniforms.alpha = static_cast<float>(alpha);
-  uniforms.pi_over_16_alpha2 = static_cast<float>(M_PI / (16 * alpha * alpha));
+  uniforms.pi_over_alpha2 = static_cast<float>(M_PI / (alpha * alpha));
   uniforms.schlick_k = static_cast<float>(model.schlick_k);
   Assign(model.f0, uniforms.f0);
   uniforms.is_bright = std::min({uniforms.f0[0], uniforms.f0[1], uniforms.f0[2]}) >= kBrightF0;
   uniforms.f90 = static_cast<float>(model.f90);
-  Assign(model.f82_slope, uniforms.f82_slope);
-  Assign(model.eta, uniforms.eta);
-  Assign(model.k, uniforms.k);
-  Assign(model.f_multiple, uniforms.f_multiple);
-  Assign(model.base_ratio, uniforms.base_ratio);
-  uniforms.narrow = nullptr;
+  if (model.fresnel == FresnelForm::kF82) Assign(model.f82_slope, uniforms.f82_slope);
+  if (model.fresnel == FresnelForm::kDielectric || model.fresnel == FresnelForm::kConductor) {
+    Assign(model.eta, uniforms.eta);
+    Assign(model.k, uniforms.k);
+  }
+  if (model.compensation == Compensation::kKullaConty) {
+    Assign(model.f_multiple, uniforms.f_multiple);
+  }
+  if (model.base_form != DiffuseForm::kLambert) Assign(model.base_ratio, uniforms.base_ratio);
   return uniforms;
 }
 

@@ -72,7 +72,7 @@ struct HitTextures {
   Soa3<float> geometric_rounded;                   // for lights below the horizon
   // The constants of models, rounded: alpha or exponent, alpha^2 / pi, Schlick's k; 0 for mirrors
   // and else 1.
-  AlignedArray<float> alpha{kBatchCapacity}, pi_over_16_alpha2{kBatchCapacity};
+  AlignedArray<float> alpha{kBatchCapacity}, pi_over_alpha2{kBatchCapacity};
   AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
   AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
   Soa3<float> f0, f82_slope, f_multiple;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/shading/half_vector_test.cc: lobes in the mirror's direction, from light beside the viewer
-// to light opposite, where l + v nearly cancels and its roundings would show.
+// to light opposite, where l + v nearly cancels and its roundings would show; and the two ways that
+// kernels take through hits of one sphere.
 #include <cmath>
 #include <random>
 
@@ -116,6 +117,109 @@ TEST_CASE("mirrored light keeps its lobe up to light opposite the viewer") {
         phong.model = model;
         phong.shininess = shininess;
         CheckMirrored(Prepare(phong), phong, 1 / std::sqrt(shininess));
+      }
+    }
+  });
+}
+
+// l + v along the normal, free of roundings however short it is. All that errs are a few dozen
+// operations on what is left; below 2^-45 the smallest normal number counts, which is added to
+// |n x u|^2 (SquaredLength).
+TEST_CASE("a half vector of next to no length keeps its lobe") {
+  const FlushDenormals flush;
+  constexpr double kTolerance = 32 * 0x1p-24;
+  constexpr size_t kSteps = 45;
+  MirrorBatch batch;
+  batch.hits.count = kSteps;
+  for (size_t i = 0; i < kSteps; ++i) {
+    const double height = std::exp2(-1.0 - static_cast<double>(i));
+    SetAt(i, {0, 0, 1}, &batch.hits.normal);
+    SetAt(i, Vec3d{-1, 0, height}.normalized(), &batch.hits.to_view);
+    batch.directions.inverse_length[i] = 1;
+    batch.directions.irradiance[i] = 1;
+  }
+  PrepareSurface(batch.hits, &batch.surface);
+  for (size_t i = 0; i < kSteps; ++i) {
+    const Soa3<float>& v = batch.surface.to_view;
+    SetAt(i, {-v.x[i], 0, v.z[i]}, &batch.directions.to_light);
+  }
+  batch.light =
+      PrepareLight({.name = {}, .kind = DirectionalLight{.irradiance = kLightColor}}, {0, 0, 0});
+  const LightOnBatch on_hits{&batch.light, &batch.directions};
+  const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, Leaves::kParts};
+  ForEachTarget([&](Target) {
+    for (const Shadowing shadowing : {Shadowing::kSchlickDirect, Shadowing::kHeightCorrelated}) {
+      const ShadingMaterial prepared =
+          Prepare(MetallicRoughnessMaterial{.roughness = 0.15, .shadowing = shadowing});
+      const auto& model = std::get<MicrofacetModel>(prepared.model);
+      PrepareRun(prepared, 0, kSteps, &batch.surface);
+      ReflectedRadiance got;
+      ShadeRun(prepared, lit, 0, kSteps, &batch.scratch, &got);
+      for (size_t i = 0; i < kSteps; ++i) {
+        const Vec3d v = WideAt(batch.surface.to_view, i);
+        const Rgb expected = Reflect(model, {0, 0, 1}, v, {{-v.x, 0, v.z}, 1}).specular;
+        CAPTURE(i);
+        REQUIRE(std::abs(got.specular.y[i] - expected.y) <= kTolerance * expected.y);
+      }
+    }
+  });
+}
+
+// Hits of one sphere under a light about 150 degrees from the viewer, on which |l + v| is near
+// where half vectors are formed with more care; on the first half of them it is beyond.
+TEST_CASE("kernels of one loop leave the bits of those of three, also with short half vectors") {
+  const FlushDenormals flush;
+  constexpr size_t kHits = 500;
+  const Sphere sphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
+  const Vec3d position = sphere.center + Vec3d{std::sin(0.65), 0, -std::cos(0.65)} * 30;
+  Light light;
+  light.kind = PointLight{.position = position, .intensity = {900, 800, 700}, .attenuation = {}};
+  ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
+  REQUIRE(OffsetFromSpheres({&sphere, 1}, {0, 0, 0}, &prepared_light));
+  MirrorBatch batch;
+  batch.hits.count = kHits;
+  batch.hits.one_primitive = true;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  size_t shorter = 0;
+  for (size_t i = 0; i < kHits;) {
+    const Vec3d n = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
+    const Vec3d hit = sphere.center + n;
+    const Vec3d v = -hit.normalized(), l = (position - hit).normalized();
+    if ((n ^ v) <= 0 || (n ^ l) <= 0) continue;
+    const bool is_short = (l + v).length2() < 0.25;
+    if (is_short && i < kHits / 2) continue;
+    shorter += is_short;
+    SetAt(i, n, &batch.hits.normal);
+    SetAt(i, v, &batch.hits.to_view);
+    batch.hits.primitive[i] = 0;
+    ++i;
+  }
+  REQUIRE(shorter > 20);
+  REQUIRE(shorter < kHits / 2);
+  PrepareSurface(batch.hits, &batch.surface);
+  const LightOnBatch on_hits{&prepared_light, nullptr};
+  ForEachTarget([&](Target) {
+    for (const Shadowing shadowing :
+         {Shadowing::kSchlickDirect, Shadowing::kSeparable, Shadowing::kHeightCorrelated}) {
+      const ShadingMaterial prepared =
+          Prepare(MetallicRoughnessMaterial{.base_color = {0.9, 0.5, 0.1},
+                                            .metallic = 0.3,
+                                            .roughness = 0.3,
+                                            .shadowing = shadowing,
+                                            .compensation = Compensation::kNone,
+                                            .diffuse_coupling = DiffuseCoupling::kOneMinusFresnel});
+      for (const size_t begin : {size_t{0}, size_t{77}}) {
+        const auto shade = [&](Leaves leaves, ReflectedRadiance* radiance) {
+          const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, leaves};
+          ShadeRun(prepared, lit, begin, kHits, &batch.scratch, radiance);
+        };
+        ReflectedRadiance in_one, in_three;
+        shade(Leaves::kSum, &in_one);
+        shade(Leaves::kPartsAndSum, &in_three);
+        for (size_t i = begin; i < kHits; ++i) {
+          REQUIRE(ColorAt(in_one.sum, i) == ColorAt(in_three.sum, i));
+        }
       }
     }
   });
