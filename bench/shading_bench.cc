@@ -11,7 +11,7 @@
 //                          and those of meshes are; else from their normals (SphereOffset)
 //   *_in_lobe              hits whose mirrored light lies before the viewer. Of all others Phong's
 //                          lobe is 0, which plain C++ finds out sooner than the kernels, that do
-//                          the same for all: three quarters of the hits everywhere else
+//                          the same for all: most of the hits everywhere else
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
 //                          (ForHalfAngles in packets-inl.h)
 //   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs

@@ -70,7 +70,7 @@ struct HitTextures {
   Soa3<double> exact_slope, exact_f_multiple;      // f82_slope and f_multiple, not rounded
   Soa3<float> albedo, ambient, emission;           // for the layers of these names
   Soa3<float> geometric_rounded;                   // for lights below the horizon
-  // The constants of models, rounded: alpha or exponent, alpha^2 / pi, Schlick's k; 0 for mirrors
+  // The constants of models, rounded: alpha or exponent, pi / alpha^2, Schlick's k; 0 for mirrors
   // and else 1.
   AlignedArray<float> alpha{kBatchCapacity}, pi_over_alpha2{kBatchCapacity};
   AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
