@@ -2,6 +2,8 @@
 // bench/textbook_kernel.cc: the kernels behind textbook_kernel.h.
 #include "textbook_kernel.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "textbook_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -10,6 +12,7 @@
 
 #include "brdf/fresnel-inl.h"
 #include "brdf/ggx-inl.h"
+#include "shading/packed_phong-inl.h"
 #include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -17,7 +20,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 struct TextbookGgx {
-  static constexpr bool kAtOnce = false;
+  static constexpr bool kAtOnce = false;  // of packets-inl.h
   static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   struct View {
@@ -51,23 +54,43 @@ struct TextbookGgx {
   }
 };
 
-// A block's cosines as they are written, and what rounding leaves of 1 - c.
-HWY_INLINE void StoreNaive(FloatTag d, size_t at, FloatV cosine, IncidentBlock* block) {
-  block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
-}
-
-HWY_NOINLINE void FillNaivePhong(const RangeArrays& arrays, size_t begin, size_t end,
-                                 IncidentBlock* block) {
+// ShadeAtOnce for it: several packets in one loop, of which only the sum is stored.
+HWY_NOINLINE size_t ShadeTextbookAtOnce(const TextbookGgx& model, const ShadeRange& range) {
   const FloatTag d;
-  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, begin + at);
-    const FloatV n_dot_l = block->NDotL(d, at);
-    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const FloatV l_dot_v = block->Toward(d, at).Dot(p.to_view);
-    StoreNaive(d, at, hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v), block);
+  const RangeArrays arrays(range);
+  const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
+  constexpr size_t kPackets = std::max<size_t>(kPacketsAtOnce, 1);
+  const size_t hits = kPackets * hn::Lanes(d);
+  size_t i = range.begin;
+  for (; i + hits <= range.end; i += hits) {
+    IncidentV in[kPackets];
+    HWY_UNROLL(kPackets)
+    for (size_t k = 0; k < kPackets; ++k) {
+      const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
+      in[k] = MakeIncident(d, light.At(d, p.i, p.normal), p.normal);
+    }
+    HWY_UNROLL(kPackets)
+    for (size_t k = 0; k < kPackets; ++k) {
+      const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
+      const auto view = model.SeenBy(d, p, range.surface);
+      StoreWhole(d, SumOf(model.Reflect(d, view, p, in[k], 0)), arrays.sum, p.i);
+    }
   }
+  return i;
 }
 
+// Phong's cosine as it is written; all else is as in Phong's own kernel.
+struct NaiveCosine {
+  static HWY_INLINE FloatV OneMinus(FloatTag d, const PacketV& p, const TowardV& toward,
+                                    FloatV n_dot_l) {
+    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+    const FloatV l_dot_v = toward.Dot(p.to_view);
+    const FloatV cosine = hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
+    return hn::Sub(hn::Set(d, 1.0f), cosine);
+  }
+};
+
+// Blinn's cosine likewise, and what rounding leaves of 1 - c.
 HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, size_t end,
                                       IncidentBlock* block) {
   const FloatTag d;
@@ -75,13 +98,12 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, s
     const PacketV p = arrays.Packet(d, begin + at);
     const Vec3V<FloatV> u = block->Toward(d, at).Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), hn::Set(d, 1e-30f)));
-    StoreNaive(d, at, hn::Mul(FusedDot(p.normal, u), scale), block);
+    const FloatV cosine = hn::Mul(FusedDot(p.normal, u), scale);
+    block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
   }
 }
 
-// All but the cosine is as in Phong's own kernel.
-template <void (*kFill)(const RangeArrays&, size_t, size_t, IncidentBlock*)>
-struct NaiveLobe {
+struct NaiveBlinnPhong {
   static constexpr bool kAtOnce = false;
   static constexpr bool kReadsIrradiance = true;
   using Incident = LobeIncidentV;
@@ -91,7 +113,7 @@ struct NaiveLobe {
   HWY_INLINE bool ReadsLobe() const { return true; }
   HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
                            IncidentBlock* block) const {
-    kFill(arrays, begin, end, block);
+    FillNaiveBlinnPhong(arrays, begin, end, block);
   }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in,
@@ -104,15 +126,18 @@ struct NaiveLobe {
 };
 
 void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), TextbookGgx{uniforms}, range);
+  const TextbookGgx model{uniforms};
+  ShadeRange rest = range;
+  if (kPacketsAtOnce != 0) rest.begin = ShadeTextbookAtOnce(model, range);
+  ShadePackets(FloatTag(), model, rest);
 }
 
 void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaiveLobe<FillNaivePhong>{uniforms}, range);
+  ShadePackedPhong<NaiveCosine, false>(uniforms, range);
 }
 
 void ShadeNaiveBlinnPhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaiveLobe<FillNaiveBlinnPhong>{uniforms}, range);
+  ShadePackets(FloatTag(), NaiveBlinnPhong{uniforms}, range);
 }
 
 }  // namespace HWY_NAMESPACE

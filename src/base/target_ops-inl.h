@@ -89,8 +89,9 @@ HWY_INLINE V SquareRoot(D d, V x) {
   return hn::Sqrt(x);
 }
 
-// Whether the target takes whole vectors V of floats apart, puts them together again, and finds 16
-// numbers by their places, in an operation each. The functions that follow are there only if so.
+// Whether the target takes whole vectors V of floats apart and puts them together again, finds 16
+// numbers by their places, and moves any lanes together and apart, in an operation each. The
+// functions that follow are there only if so.
 template <class V>
 constexpr bool kSplitsFloats = false;
 
@@ -122,6 +123,15 @@ HWY_INLINE FloatsV LookUp16(const float* numbers, FloatsV bits) {
   __m512i place = _mm512_castps_si512(bits.raw);
   if constexpr (kBit != 0) place = _mm512_maskz_srli_epi32(0xffff, place, kBit);
   return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, place, _mm512_load_ps(numbers))};
+}
+
+// The lanes of `mask`, one after another from the first on; and from there back to their places,
+// with 0 in the others.
+HWY_INLINE FloatsV PackLanes(FloatsV x, hn::Mask<hn::ScalableTag<float>> mask) {
+  return FloatsV{_mm512_maskz_compress_ps(mask.raw, x.raw)};
+}
+HWY_INLINE FloatsV UnpackLanes(FloatsV x, hn::Mask<hn::ScalableTag<float>> mask) {
+  return FloatsV{_mm512_maskz_expand_ps(mask.raw, x.raw)};
 }
 
 HWY_INLINE hn::Wide<FloatsV> Exponent(const hn::Wide<FloatsV>& x) {

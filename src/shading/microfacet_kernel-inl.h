@@ -103,7 +103,7 @@ struct Microfacet {
     const FloatV masking = Masking(d, p, in, hn::Set(d, 1.0f));
     const FloatV visibility = hn::Min(hn::Div(in.weight, hn::Max(masking, smallest)), largest);
     const FloatV product = hn::Mul(hn::LoadU(d, uniforms.narrow + p.i), visibility);
-    return hn::IfThenElseZero(in.lit, hn::Min(product, largest));
+    return hn::IfThenElseZero(IsLit(d, in.n_dot_l), hn::Min(product, largest));
   }
 
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,

@@ -9,6 +9,7 @@
 #include "hwy/highway.h"
 
 #include "brdf/phong-inl.h"
+#include "shading/packed_phong-inl.h"
 #include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -80,6 +81,14 @@ struct PhongFamily {
   }
 };
 
+struct StableCosine {
+  static HWY_INLINE FloatV OneMinus(FloatTag d, const PacketV& p, const TowardV& toward,
+                                    FloatV n_dot_l) {
+    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+    return PhongCosine(d, p.normal, toward.Plus(p.to_view), n_dot_l, n_dot_v).one_minus_c;
+  }
+};
+
 template <class Number>
 void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.model) {
@@ -95,7 +104,16 @@ void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& ran
 }
 
 void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePhongOf(uniforms, range);
+  // Nearly all lit hits have Blinn's lobe, and where the exponent is 0 all have Phong's: packing
+  // would be for nothing.
+  if (uniforms.model == PhongModel::kBlinnPhong || uniforms.shininess <= 0 ||
+      uniforms.narrow != nullptr || !IsForOneLoop(range)) {
+    ShadePhongOf(uniforms, range);
+  } else if (uniforms.model == PhongModel::kPhong) {
+    ShadePackedPhong<StableCosine, false>(uniforms, range);
+  } else {
+    ShadePackedPhong<StableCosine, true>(uniforms, range);
+  }
 }
 
 void ShadePhongMapsT(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range) {

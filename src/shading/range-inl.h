@@ -77,11 +77,10 @@ HWY_INLINE FloatV CosineToView(FloatTag d, const PacketV& p) {
 
 // One light on them. Where n_dot_l is not above 0 the surface faces away: `irradiance` and
 // `weight`, its share that falls on the surface, are then 0, and whatever else is made of the
-// direction must be kept from the sum by `lit`.
+// direction must be kept from the sum by IsLit.
 struct IncidentV {
   TowardV toward;
   FloatV n_dot_l, irradiance, weight;
-  hn::Mask<FloatTag> lit;
 };
 
 // The same with the angles of the half vector and to the viewer.
@@ -96,12 +95,16 @@ struct LobeIncidentV : IncidentV {
   FloatV log2_cosine;
 };
 
+HWY_INLINE hn::Mask<FloatTag> IsLit(FloatTag d, FloatV n_dot_l) {
+  return hn::Gt(n_dot_l, hn::Zero(d));
+}
+
 HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
   const FloatV n_dot_l = at.toward.Dot(normal);
-  const auto lit = hn::Gt(n_dot_l, hn::Zero(d));
+  const auto lit = IsLit(d, n_dot_l);
   const FloatV irradiance = hn::IfThenElseZero(lit, at.irradiance);
   const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
-  return {at.toward, n_dot_l, irradiance, weight, lit};
+  return {at.toward, n_dot_l, irradiance, weight};
 }
 
 HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, size_t i) {

@@ -44,7 +44,7 @@ struct RoughDiffuse<DiffuseForm::kOrenNayar> {
                                    const IncidentV& in, FloatV roughness) {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV scale = EonScale(d, roughness);
-    const FloatV n_dot_l = hn::IfThenElse(in.lit, in.n_dot_l, one);
+    const FloatV n_dot_l = hn::IfThenElse(IsLit(d, in.n_dot_l), in.n_dot_l, one);
     const Vec3V<FloatV> l_minus_v = in.toward.Minus(p.to_view);
     const FloatV l_dot_v = hn::NegMulAdd(hn::Set(d, 0.5f), FusedDot(l_minus_v, l_minus_v), one);
     return {EonSingleSpread(d, n_dot_l, view.n_dot_v, l_dot_v, roughness, scale),

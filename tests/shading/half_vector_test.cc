@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/shading/half_vector_test.cc: lobes in the mirror's direction, from light beside the viewer
-// to light opposite, where l + v nearly cancels and its roundings would show; and the two ways that
-// kernels take through hits of one sphere.
+// to light opposite, where l + v nearly cancels and its roundings would show.
 #include <cmath>
 #include <random>
 
@@ -9,6 +8,7 @@
 #include "shading/model_twins.h"
 #include "shading/prepare.h"
 #include "shading/shade.h"
+#include "shading/soa_at.h"
 #include "targets.h"
 
 namespace nacre {
@@ -27,15 +27,6 @@ struct MirrorBatch {
 
 Vec3d WideAt(const Soa3<float>& soa, size_t i) {
   return Vec3d(soa.x[i], soa.y[i], soa.z[i]).normalized();
-}
-
-Rgb ColorAt(const Soa3<float>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
-
-template <class Real>
-void SetAt(size_t i, const Vec3d& from, Soa3<Real>* to) {
-  to->x[i] = static_cast<Real>(from.x);
-  to->y[i] = static_cast<Real>(from.y);
-  to->z[i] = static_cast<Real>(from.z);
 }
 
 // Light and viewer at angles of 0 to 87 degrees from the normals, h within `width` of them.
@@ -160,66 +151,6 @@ TEST_CASE("a half vector of next to no length keeps its lobe") {
         const Rgb expected = Reflect(model, {0, 0, 1}, v, {{-v.x, 0, v.z}, 1}).specular;
         CAPTURE(i);
         REQUIRE(std::abs(got.specular.y[i] - expected.y) <= kTolerance * expected.y);
-      }
-    }
-  });
-}
-
-// Hits of one sphere under a light about 150 degrees from the viewer, on which |l + v| is near
-// where half vectors are formed with more care; on the first half of them it is beyond.
-TEST_CASE("kernels of one loop leave the bits of those of three, also with short half vectors") {
-  const FlushDenormals flush;
-  constexpr size_t kHits = 500;
-  const Sphere sphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
-  const Vec3d position = sphere.center + Vec3d{std::sin(0.65), 0, -std::cos(0.65)} * 30;
-  Light light;
-  light.kind = PointLight{.position = position, .intensity = {900, 800, 700}, .attenuation = {}};
-  ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
-  REQUIRE(OffsetFromSpheres({&sphere, 1}, {0, 0, 0}, &prepared_light));
-  MirrorBatch batch;
-  batch.hits.count = kHits;
-  batch.hits.one_primitive = true;
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  size_t shorter = 0;
-  for (size_t i = 0; i < kHits;) {
-    const Vec3d n = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
-    const Vec3d hit = sphere.center + n;
-    const Vec3d v = -hit.normalized(), l = (position - hit).normalized();
-    if ((n ^ v) <= 0 || (n ^ l) <= 0) continue;
-    const bool is_short = (l + v).length2() < 0.25;
-    if (is_short && i < kHits / 2) continue;
-    shorter += is_short;
-    SetAt(i, n, &batch.hits.normal);
-    SetAt(i, v, &batch.hits.to_view);
-    batch.hits.primitive[i] = 0;
-    ++i;
-  }
-  REQUIRE(shorter > 20);
-  REQUIRE(shorter < kHits / 2);
-  PrepareSurface(batch.hits, &batch.surface);
-  const LightOnBatch on_hits{&prepared_light, nullptr};
-  ForEachTarget([&](Target) {
-    for (const Shadowing shadowing :
-         {Shadowing::kSchlickDirect, Shadowing::kSeparable, Shadowing::kHeightCorrelated}) {
-      const ShadingMaterial prepared =
-          Prepare(MetallicRoughnessMaterial{.base_color = {0.9, 0.5, 0.1},
-                                            .metallic = 0.3,
-                                            .roughness = 0.3,
-                                            .shadowing = shadowing,
-                                            .compensation = Compensation::kNone,
-                                            .diffuse_coupling = DiffuseCoupling::kOneMinusFresnel});
-      for (const size_t begin : {size_t{0}, size_t{77}}) {
-        const auto shade = [&](Leaves leaves, ReflectedRadiance* radiance) {
-          const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, leaves};
-          ShadeRun(prepared, lit, begin, kHits, &batch.scratch, radiance);
-        };
-        ReflectedRadiance in_one, in_three;
-        shade(Leaves::kSum, &in_one);
-        shade(Leaves::kPartsAndSum, &in_three);
-        for (size_t i = begin; i < kHits; ++i) {
-          REQUIRE(ColorAt(in_one.sum, i) == ColorAt(in_three.sum, i));
-        }
       }
     }
   });

@@ -54,6 +54,9 @@ Light MakeLight(const std::string& kind) {
     light.kind = PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {}};
   } else if (kind == "behind") {
     light.kind = PointLight{.position = {3, 4, -14}, .intensity = kLightColor, .attenuation = {}};
+  } else if (kind == "quadratic") {
+    light.kind =
+        PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {0, 0, 0.3}};
   } else if (kind == "polynomial") {
     light.kind =
         PointLight{.position = {3, 4, 2}, .intensity = kLightColor, .attenuation = {1, 0.1, 0.05}};
@@ -141,7 +144,7 @@ void CheckPlain(const Model& model, const std::string& light, double lobe_error)
 TEST_CASE("kernels agree with the models in double on every target and under every light") {
   const FlushDenormals flush;
   ForEachTarget([](Target) {
-    for (const char* light : {"point", "polynomial", "directional", "spot"}) {
+    for (const char* light : {"point", "quadratic", "polynomial", "directional", "spot"}) {
       CheckPlain(LambertMaterial{Rgb(0.9, 0.5, 0.1)}, light, 0);
       for (const double roughness : {0.0, 0.3, 1.0}) {
         CheckPlain(OrenNayarMaterial{Rgb(1, 0.5, 0.1), roughness}, light, 0);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/packed_phong-inl.h: Phong's lobe on hits of one sphere under one point light. Of what is
+// seen of a sphere, much of it has none: the light is behind it, or its reflection goes elsewhere.
+// The lobe's power, nearly half of the work, is taken for the hits that have one.
+#if defined(NACRE_SHADING_PACKED_PHONG_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_PACKED_PHONG_INL_H_
+#undef NACRE_SHADING_PACKED_PHONG_INL_H_
+#else
+#define NACRE_SHADING_PACKED_PHONG_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "base/pack-inl.h"
+#include "shading/packets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+// A block of hits. Packed numbers are never more, nor farther on, than hits.
+struct PackedLobes {
+  static constexpr size_t kHits = 512;  // a multiple of every target's lanes
+  alignas(64) float irradiance[kHits], weight[kHits];
+  alignas(64) float one_minus_c[kHits], lobe[kHits];  // packed
+  uint8_t kept[kHits];                                // LaneBytes of each packet
+};
+
+// Leaves the bits that ShadePackets does, of ranges that are IsForOneLoop and exponents above 0.
+//   Cosine::OneMinus(packet, toward, n_dot_l)     1 - r.v, without cancellation
+// kByWeight: the lobe has a cosine of its own, modified Phong's.
+template <class Cosine, bool kByWeight>
+HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRange& range) {
+  const FloatTag d;
+  const size_t lanes = hn::Lanes(d);
+  const RangeArrays arrays(range);
+  const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
+  const FloatV shininess = hn::Set(d, uniforms.shininess);
+  const FloatV one = hn::Set(d, 1.0f);
+  const RgbV diffuse = SetRgb(d, uniforms.lights[0].diffuse);
+  const RgbV specular = SetRgb(d, uniforms.lights[0].specular);
+  PackedLobes block;
+  for (size_t begin = range.begin; begin < range.end; begin += PackedLobes::kHits) {
+    const size_t count = std::min(range.end - begin, PackedLobes::kHits);
+    size_t lobes = 0;
+    uint8_t* kept = block.kept;
+    for (size_t at = 0; at < count; at += lanes, kept += LaneBytes(d)) {
+      const PacketV p = arrays.Packet(d, begin + at);
+      // MakeIncident's struct would go through memory: GCC takes none apart that is this large.
+      const LightV from = light.At(d, p.i, p.normal);
+      const FloatV n_dot_l = from.toward.Dot(p.normal);
+      const auto lit = IsLit(d, n_dot_l);
+      const FloatV irradiance = hn::IfThenElseZero(lit, from.irradiance);
+      hn::Store(irradiance, d, block.irradiance + at);
+      hn::Store(hn::Mul(n_dot_l, irradiance), d, block.weight + at);
+      const FloatV if_lit = Cosine::OneMinus(d, p, from.toward, n_dot_l);
+      const FloatV one_minus_c = hn::IfThenElse(lit, if_lit, one);
+      const auto has_lobe = hn::Lt(one_minus_c, one);
+      lobes += Pack(d, one_minus_c, has_lobe, block.one_minus_c + lobes, kept);
+    }
+    for (size_t at = 0; at < lobes; at += lanes) {
+      const FloatV one_minus_c = hn::Load(d, block.one_minus_c + at);
+      const LobeCosineV<FloatV> cosine{one_minus_c, hn::Sub(one, one_minus_c)};
+      hn::Store(PhongLobe(d, cosine, shininess), d, block.lobe + at);
+    }
+    const float* packed = block.lobe;
+    kept = block.kept;
+    for (size_t at = 0; at < count; at += lanes, kept += LaneBytes(d)) {
+      const FloatV lobe = Unpack(d, kept, &packed);
+      const FloatV weight = hn::Load(d, block.weight + at);
+      const FloatV by = kByWeight ? weight : hn::Load(d, block.irradiance + at);
+      const ReflectedV reflected{{ScaledPart(diffuse, weight)},
+                                 ScaledPart(specular, hn::Mul(lobe, by))};
+      arrays.Store(d, SumOf(reflected), arrays.sum, begin + at);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/shading/one_loop_test.cc: hits of one sphere under one point light, of which only the sum
+// is asked, are shaded in ways of their own (ShadeAtOnce, ShadePackedPhong): they leave the bits
+// that all others leave, and nothing else.
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "base/parallel.h"
+#include "shading/model_twins.h"
+#include "shading/prepare.h"
+#include "shading/shade.h"
+#include "shading/soa_at.h"
+#include "targets.h"
+
+namespace nacre {
+namespace {
+
+// More than a block of any kernel, and not a multiple of any vector.
+constexpr size_t kSphereHits = 1000;
+
+const Sphere kSphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
+
+struct Lit {
+  HitBatch hits;
+  Surface surface;
+  ShadingLight light;
+  size_t short_halves = 0, lobes = 0;  // hits with |l + v| < 1/2; with r.v > 0
+};
+
+// All over the visible half of the sphere, with a light at this angle from the viewer's side. The
+// first half of the hits has no short half vectors.
+void MakeLit(double angle, Lit* lit) {
+  const Vec3d from_center = Vec3d{std::sin(angle), 0, std::cos(angle)} * 30;
+  const Vec3d position = kSphere.center + from_center;
+  Light light;
+  light.kind = PointLight{.position = position, .intensity = {900, 800, 700}, .attenuation = {}};
+  lit->light = PrepareLight(light, {0, 0, 0});
+  REQUIRE(OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lit->light));
+  lit->hits.count = kSphereHits;
+  lit->hits.one_primitive = true;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (size_t i = 0; i < kSphereHits;) {
+    const Vec3d n = Vec3d{uniform(random), uniform(random), uniform(random)}.normalized();
+    const Vec3d hit = kSphere.center + n;
+    const Vec3d v = -hit.normalized(), l = (position - hit).normalized();
+    if ((n ^ v) <= 0) continue;
+    const bool is_short = (l + v).length2() < 0.25;
+    if (is_short && i < kSphereHits / 2) continue;
+    lit->short_halves += is_short;
+    lit->lobes += (n ^ l) > 0 && 2 * (n ^ l) * (n ^ v) > (l ^ v);
+    SetAt(i, n, &lit->hits.normal);
+    SetAt(i, v, &lit->hits.to_view);
+    lit->hits.primitive[i] = 0;
+    ++i;
+  }
+  PrepareSurface(lit->hits, &lit->surface);
+}
+
+std::vector<ShadingMaterial> Materials() {
+  std::vector<ShadingMaterial> materials;
+  for (const Shadowing shadowing :
+       {Shadowing::kSchlickDirect, Shadowing::kSeparable, Shadowing::kHeightCorrelated}) {
+    materials.push_back(
+        Prepare(MetallicRoughnessMaterial{.base_color = {0.9, 0.5, 0.1},
+                                          .metallic = 0.3,
+                                          .roughness = 0.3,
+                                          .shadowing = shadowing,
+                                          .compensation = Compensation::kNone,
+                                          .diffuse_coupling = DiffuseCoupling::kOneMinusFresnel}));
+  }
+  for (const PhongModel model : {PhongModel::kPhong, PhongModel::kModifiedPhong}) {
+    // The last has its lobes formed in double.
+    for (const double shininess : {0.0, 1e-3, 1.0, 37.5, 2.0 * kDoubleTermsShininess}) {
+      materials.push_back(Prepare(PhongMaterial{.model = model,
+                                                .convention = PhongConvention::kClassic,
+                                                .color = {0.9, 0.5, 0.1},
+                                                .ka = {0, 0, 0},
+                                                .kd = {0.7, 0.7, 0.7},
+                                                .ks = {0.5, 0.6, 0.7},
+                                                .shininess = shininess}));
+    }
+  }
+  return materials;
+}
+
+void CheckRange(const ShadingMaterial& material, const Lit& on, size_t begin, size_t end) {
+  constexpr float kUntouched = -7;
+  const LightOnBatch light{&on.light, nullptr};
+  NarrowLobes scratch;
+  ReflectedRadiance apart, sum;
+  for (size_t i = 0; i < kSphereHits; ++i) sum.sum.x[i] = sum.sum.y[i] = sum.sum.z[i] = kUntouched;
+  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, Leaves::kPartsAndSum}, begin, end,
+           &scratch, &apart);
+  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, Leaves::kSum}, begin, end,
+           &scratch, &sum);
+  for (size_t i = 0; i < kSphereHits; ++i) {
+    CAPTURE(i, begin, end);
+    const bool inside = begin <= i && i < end;
+    REQUIRE(ColorAt(sum.sum, i) == (inside ? ColorAt(apart.sum, i) : Rgb(kUntouched)));
+  }
+}
+
+TEST_CASE("ways for one sphere under one light leave the bits of those for all") {
+  const FlushDenormals flush;
+  // Light beside the viewer, and so far behind that about a half of the lit hits have |l + v| near
+  // 1/2, where half vectors are formed with more care.
+  const double degree = M_PI / 180;
+  Lit front, behind;
+  MakeLit(30 * degree, &front);
+  MakeLit(180 * degree - 0.65, &behind);
+  REQUIRE(front.short_halves == 0);
+  REQUIRE(front.lobes > kSphereHits / 4);
+  REQUIRE(front.lobes < kSphereHits);
+  REQUIRE(behind.short_halves > 20);
+  REQUIRE(behind.short_halves < kSphereHits / 2);
+  ForEachTarget([&](Target) {
+    for (const ShadingMaterial& material : Materials()) {
+      for (const Lit* on : {&front, &behind}) {
+        CheckRange(material, *on, 0, kSphereHits);
+        CheckRange(material, *on, 77, 900);
+        CheckRange(material, *on, 700, 701);
+      }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace nacre
