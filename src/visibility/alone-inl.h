@@ -34,7 +34,7 @@ struct AloneBlock {
   alignas(kVectorBytes) double backward[3][kAloneBlock];  // minus the rays' directions
   alignas(kVectorBytes) double inverse_length[kAloneBlock];
   alignas(kVectorBytes) double inverse_dd[kAloneBlock];
-  alignas(kVectorBytes) double half_chord_squared[kAloneBlock];
+  alignas(kVectorBytes) double half_chord[kAloneBlock];
   alignas(kVectorBytes) double perpendicular[3][kAloneBlock];
 };
 
@@ -51,14 +51,17 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
 }
 
 // The groups' exact rays: turned round, bit for bit, as the way back to the viewer is what hits
-// keep.
-HWY_INLINE void FillRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
+// keep. Leaves the lanes that hit: no depth is needed, and in front of the camera the line's test
+// decides, which spares a division. The root is taken here, where next to so many products it costs
+// no time.
+HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
   const CameraDouble d;
   const auto corner = SetVec3(d, -frame.corner);
   const auto step_x = SetVec3(d, -frame.step_x);
   const auto step_y = SetVec3(d, -frame.step_y);
   for (int g = 0; g < block->groups; ++g) {
     const int place = g * kGroupLanes;
+    const TileCandidate& candidate = *block->candidate[g];
     const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
     const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
     // The operations of MakeCameraRays.
@@ -67,27 +70,15 @@ HWY_INLINE void FillRays(const CameraFrame& frame, const FilmBatch& film, AloneB
     StoreGroup(backward, place, block->backward);
     hn::Store(inverse.once, d, block->inverse_length + place);
     hn::Store(inverse.squared, d, block->inverse_dd + place);
-  }
-}
-
-// Leaves the lanes that hit. No depth is needed, and in front of the camera the line's test
-// decides, which spares a division.
-HWY_INLINE void TestLines(AloneBlock* block) {
-  const CameraDouble d;
-  const auto zero = hn::Zero(d);
-  for (int g = 0; g < block->groups; ++g) {
-    const int place = g * kGroupLanes;
-    const TileCandidate& candidate = *block->candidate[g];
-    const auto inverse_dd = hn::Load(d, block->inverse_dd + place);
     // Of a line there and back, all but the sign of its closest point is the same.
-    const auto backward = LoadGroup(block->backward, place);
     const auto center = SetVec3(d, candidate.sphere.center);
-    auto at = ClosestToCenter(d, center, backward, inverse_dd);
-    if (candidate.is_far) at = CorrectClosest(at, backward, inverse_dd);
+    auto at = ClosestToCenter(d, center, backward, inverse.squared);
+    if (candidate.is_far) at = CorrectClosest(at, backward, inverse.squared);
     const auto line = MeetSphere<CameraDouble>(at, hn::Set(d, candidate.sphere.radius));
-    hn::Store(hn::Mul(line.discriminant, inverse_dd), d, block->half_chord_squared + place);
+    const auto half_chord = hn::Sqrt(hn::Mul(line.discriminant, inverse.squared));
+    hn::Store(half_chord, d, block->half_chord + place);
     StoreGroup(line.perpendicular, place, block->perpendicular);
-    block->bits[g] &= BitsOfMask(d, hn::Ge(line.discriminant, zero));
+    block->bits[g] &= BitsOfMask(d, hn::Ge(line.discriminant, hn::Zero(d)));
   }
 }
 
@@ -100,7 +91,7 @@ HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
     const int place = g * kGroupLanes;
     const TileCandidate& candidate = *block.candidate[g];
     const auto backward = LoadGroup(block.backward, place);
-    const auto half_chord = hn::Sqrt(hn::Load(d, block.half_chord_squared + place));
+    const auto half_chord = hn::Load(d, block.half_chord + place);
     const SurfaceV<CameraDouble> surface =
         SphereSurface(d, backward, hn::Load(d, block.inverse_dd + place), half_chord,
                       LoadGroup(block.perpendicular, place), SetVec3(d, candidate.sphere.center),
@@ -115,8 +106,7 @@ HWY_INLINE void AppendBlock(const AloneBlock& block, const HitsTo& to) {
 HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block,
                            const HitsTo& to) {
   if (block->groups == 0) return;
-  FillRays(frame, film, block);
-  TestLines(block);
+  TestRays(frame, film, block);
   AppendBlock(*block, to);
   block->groups = 0;
 }
@@ -160,7 +150,7 @@ HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& can
   }
 }
 
-// After TestLines, of rays from `first` on.
+// After TestRays, of rays from `first` on.
 HWY_INLINE void FindLikely(size_t first, AloneBlock* block) {
   uint32_t hit[kAloneBlock / kCameraPacket] = {};
   for (int g = 0; g < block->groups; ++g) {
@@ -180,8 +170,7 @@ HWY_INLINE void TraceAlone(const CameraFrame& frame, const TileCandidate& candid
   for (size_t i = 0; i < film.count; i += kAloneBlock) {
     const size_t count = std::min<size_t>(kAloneBlock, film.count - i);
     ProposeGroups(frame, candidate, film, i, count, packet, block);
-    FillRays(frame, film, block);
-    TestLines(block);
+    TestRays(frame, film, block);
     FindLikely(i, block);
     AppendBlock(*block, to);
     block->groups = 0;
