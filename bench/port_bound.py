@@ -4,8 +4,8 @@
 perf samples which loops of nacre_bench run, objdump gives their instructions, llvm-mca the ports
 that each can go to; the busiest ports are those that any assignment must load most. The clock is
 measured: a chain of multiplications takes three cycles each, and under vectors, where many
-processors run slower, whole products start a whole number of times a cycle. Without perf and llvm-mca, of Debian's
-packages linux-perf and llvm-19, there is no such column. An llvm that does not know this processor,
+processors run slower, whole products start a whole number of times a cycle. Without perf and
+llvm-mca, of Debian's packages linux-perf and llvm-19, there is no such column. An llvm that does not know this processor,
 as Debian 12's 14 does not know Zen 4 and as none knows the Xeons that multiply two vectors of 512
 bits a cycle by their own names, counts for one that does as many products a cycle as are measured:
 the tables say for which.
@@ -26,8 +26,13 @@ _PROCESSORS = ("native", "icelake-server", "skylake-avx512")
 _PRODUCT = "vmulps %{0}0, %{0}1, %{0}2\n"
 _LOAD_AND_STORE = "vmovups (%rdi), %xmm0\nvmovups %xmm0, (%rdi)\n"
 _AGREE = 1.5  # the models say one or two products a cycle; measured ones miss their number by a tenth
-# Hits that a loop's turn shades: ShadeTag of src/base/target_ops-inl.h.
+# Hits that a loop's turn shades: ShadeTag of src/base/target_ops-inl.h; and in functions of this
+# name: kPacketsAtOnce.
 _HITS_A_TURN = {"avx3": 32, "avx2": 8, "sse4": 4}
+_AT_ONCE = "AtOnce"
+_PACKETS_AT_ONCE = 2
+# What of all loops of a kernel the loop of powers alone has: 2^y on AVX-512, log2 elsewhere.
+_POWER = re.compile(r"vscalefps|v?cvtdq2ps")
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
 _LEAST_VECTORS = 8  # instructions on these, in a loop over hits
 _SECONDS = 2  # long enough for what prepares a benchmark to be below _LEAST_SHARE
@@ -129,13 +134,16 @@ class PortModel:
 
 
 def disassemble(program):
-    """[(address, instruction)] of the whole program."""
-    found = []
+    """[(address, instruction)] of the whole program, and [(address, name)] of its functions."""
+    found, functions = [], []
     for line in _output(["objdump", "-d", "--no-show-raw-insn", str(program)]).splitlines():
         match = re.match(r"\s+([0-9a-f]+):\s+(.*)", line)
+        name = re.match(r"([0-9a-f]+) <(.*)>:", line)
         if match:
             found.append((int(match[1], 16), match[2].split("#")[0].strip()))
-    return found
+        elif name:
+            functions.append((int(name[1], 16), name[2]))
+    return found, functions
 
 
 def _sample(program, benchmark):
@@ -186,8 +194,10 @@ def _taken(code, begin, end, samples):
             yield from (text for _, text in code[first:last] if not NOT_COUNTED.match(text))
 
 
-def cycles_a_hit(model, program, code, benchmark, target):
-    """Least cycles a hit of all its loops together, or None where no loop was seen."""
+def cycles_a_hit(model, program, disassembly, benchmark, target, powers):
+    """Least cycles a hit of all its loops together, or None where no loop was seen. `powers`: of
+    how many of the hits one is taken."""
+    code, functions = disassembly
     samples = _sample(program, benchmark)
     total = sum(samples.values())
     before = [0, *itertools.accumulate(samples[address] for address, _ in code)]
@@ -200,10 +210,16 @@ def cycles_a_hit(model, program, code, benchmark, target):
             seen = before[i + 1] - before[first]
             if i - first < _LONGEST_LOOP and seen > _LEAST_SHARE * total:
                 spans.append((first, i))
-    loops = [list(_taken(code, begin, end, samples)) for begin, end in _innermost(spans)]
-    loops = [loop for loop in loops
-             if sum(_REGISTERS[target] in text for text in loop) >= _LEAST_VECTORS]
-    return sum(model.cycles(loop) for loop in loops) / _HITS_A_TURN[target] if loops else None
+    found = 0
+    for begin, end in _innermost(spans):
+        loop = list(_taken(code, begin, end, samples))
+        if sum(_REGISTERS[target] in text for text in loop) < _LEAST_VECTORS:
+            continue
+        name = functions[bisect.bisect_right(functions, (code[begin][0], "~")) - 1][1]
+        packets = _PACKETS_AT_ONCE if _AT_ONCE in name else 1
+        times = powers if any(_POWER.match(text) for text in loop) else 1
+        found += times * model.cycles(loop) / (packets * _HITS_A_TURN[target])
+    return found or None
 
 
 def measure(program, benchmarks, target):
@@ -212,12 +228,13 @@ def measure(program, benchmarks, target):
     hertz = benchmarks["machine/multiply_chain"]["counters"]["cycles"]
     products = benchmarks["machine/products"]["counters"]["products"]
     model = PortModel(_REGISTERS[target], products / hertz)
-    code = disassemble(program)
+    disassembly = disassemble(program)
     found = {}
     for name in benchmarks:
         parts = name.split("/")
         if parts[0] == "shade" and len(parts) == 3 and parts[2] == target:
-            cycles = cycles_a_hit(model, program, code, name, target)
+            powers = benchmarks[name]["counters"].get("powers_per_hit", 1)
+            cycles = cycles_a_hit(model, program, disassembly, name, target, powers)
             if cycles:
                 found[name] = 1e9 * cycles / vector_clock(products, hertz)
     return found, model.name

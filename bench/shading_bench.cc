@@ -9,9 +9,8 @@
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_by_position          the lights are found from the hits' positions, in double, as near lights
 //                          and those of meshes are; else from their normals (SphereOffset)
-//   *_in_lobe              hits whose mirrored light lies before the viewer. Of all others Phong's
-//                          lobe is 0, which plain C++ finds out sooner than the kernels, that do
-//                          the same for all: most of the hits everywhere else
+//   *_in_lobe              hits that have Phong's lobe; of those everywhere else three of four have
+//                          none, and no power is taken, of plain C++ either
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
 //                          (ForHalfAngles in packets-inl.h)
 //   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs
@@ -38,6 +37,11 @@ const Sphere kSphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
 
 const Vec3d kLight{3, 4, 2};
 
+bool HasPhongLobe(const Vec3d& n, const Vec3d& to_light, const Vec3d& to_view) {
+  const double n_dot_l = n ^ to_light;
+  return n_dot_l > 0 && 2 * n_dot_l * (n ^ to_view) > (to_light ^ to_view);
+}
+
 // Hits all over the visible half of the sphere, or on as much of it as has Phong's lobe of kLight.
 HitBatch MakeHits(bool in_lobe) {
   HitBatch hits;
@@ -51,9 +55,7 @@ HitBatch MakeHits(bool in_lobe) {
     const Vec3d to_view = -position.normalized();
     if ((n ^ to_view) <= 0) continue;
     const Vec3d to_light = (kLight - position).normalized();
-    const double n_dot_l = n ^ to_light;
-    const double r_dot_v = 2 * n_dot_l * (n ^ to_view) - (to_light ^ to_view);
-    if (in_lobe && (n_dot_l <= 0 || r_dot_v <= 0)) continue;
+    if (in_lobe && !HasPhongLobe(n, to_light, to_view)) continue;
     hits.position.x[i] = position.x;
     hits.position.y[i] = position.y;
     hits.position.z[i] = position.z;
@@ -66,6 +68,17 @@ HitBatch MakeHits(bool in_lobe) {
     ++i;
   }
   return hits;
+}
+
+// Kernels that take powers for the hits alone that have Phong's lobe tell for how many.
+void ReportPowers(benchmark::State& state, const HitBatch& hits) {
+  size_t powers = 0;
+  for (size_t i = 0; i < hits.count; ++i) {
+    const auto at = [i](const Soa3<double>& soa) { return Vec3d(soa.x[i], soa.y[i], soa.z[i]); };
+    const Vec3d to_light = (kLight - at(hits.position)).normalized();
+    powers += HasPhongLobe(at(hits.normal), to_light, at(hits.to_view));
+  }
+  state.counters["powers_per_hit"] = static_cast<double>(powers) / static_cast<double>(hits.count);
 }
 
 // `shades`: hits times lights of an iteration.
@@ -125,6 +138,11 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
                PrepareRun(prepared, 0, kHits, surface);
                ShadeRun(prepared, lit, 0, kHits, &scratch, radiance);
              });
+  const auto* phong = std::get_if<PhongMaterial>(&material.model);
+  if (phong != nullptr && phong->model != PhongModel::kBlinnPhong && !lights.by_position &&
+      phong->shininess < kDoubleTermsShininess) {
+    ReportPowers(state, MakeHits(lights.in_lobe));
+  }
 }
 
 ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
@@ -150,6 +168,7 @@ void BenchNaive(benchmark::State& state, NaiveKernel kernel, Target target, bool
   BenchShade(state, target, lights, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
     kernel(uniforms, RangeOf(lit, radiance));
   });
+  if (kernel == &ShadeNaivePhong) ReportPowers(state, MakeHits(in_lobe));
 }
 
 using BaselineKernel = std::function<void(const baseline::Hits&, const baseline::PointLight&)>;
