@@ -76,5 +76,5 @@ QUICK = Settings(
             "^frame/material_grid/480x270/(1|4|16)spp/"),
 )
 # What the headline numbers are made of, and no more.
-SUMMARY_GROUPS = ("^shade/", "^math/ggx/0.3/", "^visibility/",
+SUMMARY_GROUPS = ("^(shade|machine)/", "^math/ggx/0.3/", "^visibility/",
                   "^frame/material_grid[a-z_]*/1920x1080/")

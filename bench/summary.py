@@ -2,11 +2,13 @@
 """The headline numbers, one name and one value each, out of what a run measured.
 
 `_over_` between two ways to do the same work is how many times faster the first is, or with fewer
-rays where the name ends in _in_rays; names that end in _time, _ms, _s or _mib are what they say.
+rays where the name ends in _in_rays; names that end in _time, _ms, _s, _mib or _ghz are what they
+say.
 """
 import adaptive
 import estimates
 import lights
+import port_bound
 
 # Headline name: benchmarks of ours, and of the plain scalar baseline; the first one there counts.
 _KERNELS = {
@@ -67,6 +69,21 @@ def _kernels(times, best):
                                                       _shade(("naive_blinn_phong",), best))
     yield "double_over_float_terms_time", times.ratio(("math/ggx/0.3/double_terms",),
                                                       ("math/ggx/0.3/stable_float",))
+
+
+    for naive, plain in (("naive_phong", "phong"), ("naive_phong_in_lobe", "phong_in_lobe"),
+                         ("naive_blinn_phong", "blinn_phong")):
+        yield f"{naive}_over_scalar", times.ratio(_shade((plain,), "scalar_baseline"),
+                                                  _shade((naive,), best))
+
+
+def _clocks(benchmarks):
+    """What milliseconds are to be read with: shared machines change their clocks."""
+    chain = benchmarks.get("machine/multiply_chain", {}).get("counters", {}).get("cycles")
+    products = benchmarks.get("machine/products", {}).get("counters", {}).get("products")
+    yield "clock_ghz", 1e-9 * chain if chain else None
+    yield "clock_under_vectors_ghz", (1e-9 * port_bound.vector_clock(products, chain)
+                                      if chain and products else None)
 
 
 def _visibility(times):
@@ -134,9 +151,10 @@ def _scaling(curves):
 
 def headlines(results):
     """({name: value}, [names that could not be measured])."""
-    times = _Times(results.get("benchmarks", {}))
+    benchmarks = results.get("benchmarks", {})
+    times = _Times(benchmarks)
     best = results.get("best_target", "avx3")
-    pairs = [*_kernels(times, best), *_visibility(times), *_frames(times, best),
+    pairs = [*_clocks(benchmarks), *_kernels(times, best), *_visibility(times), *_frames(times, best),
              *_processes(results.get("processes", {})),
              *adaptive.headlines(results.get("precision", {}).get("adaptive", {})),
              *lights.headlines(results.get("lights", {})),
