@@ -168,7 +168,8 @@ def math_error(results, path):
 
 def _math_points(benchmarks, lobe, form, best, hits):
     """[(error, ns a hit)...]. The textbook's formula on SIMD has the scalar one's error and the
-    time of its kernel in shading_bench.cc, which has one width only."""
+    time of its kernel in shading_bench.cc, which has one width only; of Phong on hits that all have
+    a lobe, as those of all other points have."""
     points = []
     for name, result in benchmarks.items():
         parts = name.split("/")
@@ -178,7 +179,7 @@ def _math_points(benchmarks, lobe, form, best, hits):
         error = result["counters"].get("max_rel_error")
         ns = estimates.median(result["ns"]) / hits
         if form == "textbook":
-            kernel = {"ggx": "textbook_ggx", "phong": "naive_phong"}[lobe]
+            kernel = {"ggx": "textbook_ggx", "phong": "naive_phong_in_lobe"}[lobe]
             found = benchmarks.get(f"shade/{kernel}/{best}")
             if found is None:
                 return []

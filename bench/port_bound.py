@@ -5,10 +5,10 @@ perf samples which loops of nacre_bench run, objdump gives their instructions, l
 that each can go to; the busiest ports are those that any assignment must load most. The clock is
 measured: a chain of multiplications takes three cycles each, and under vectors, where many
 processors run slower, whole products start a whole number of times a cycle. Without perf and
-llvm-mca, of Debian's packages linux-perf and llvm-19, there is no such column. An llvm that does not know this processor,
-as Debian 12's 14 does not know Zen 4 and as none knows the Xeons that multiply two vectors of 512
-bits a cycle by their own names, counts for one that does as many products a cycle as are measured:
-the tables say for which.
+llvm-mca, of Debian's packages linux-perf and llvm-19, there is no such column. An llvm that does
+not know this processor, as Debian 12's 14 does not know Zen 4 and as none knows the Xeons that
+multiply two vectors of 512 bits a cycle by their own names, counts for one that does as many
+products a cycle as are measured: the tables say for which.
 """
 import bisect
 import collections
@@ -26,11 +26,11 @@ _PROCESSORS = ("native", "icelake-server", "skylake-avx512")
 _PRODUCT = "vmulps %{0}0, %{0}1, %{0}2\n"
 _LOAD_AND_STORE = "vmovups (%rdi), %xmm0\nvmovups %xmm0, (%rdi)\n"
 _AGREE = 1.5  # the models say one or two products a cycle; measured ones miss their number by a tenth
-# Hits that a loop's turn shades: ShadeTag of src/base/target_ops-inl.h; and in functions of this
-# name: kPacketsAtOnce.
-_HITS_A_TURN = {"avx3": 32, "avx2": 8, "sse4": 4}
-_AT_ONCE = "AtOnce"
-_PACKETS_AT_ONCE = 2
+# Hits of a packet: ShadeTag of src/base/target_ops-inl.h.
+_HITS = {"avx3": 32, "avx2": 8, "sse4": 4}
+# Functions with these in their names do kPacketsAtOnce packets a turn.
+_AT_ONCE = re.compile(r"ShadeAtOnce|ShadeTextbook")
+_PACKETS_AT_ONCE = {"avx3": 2}
 # What of all loops of a kernel the loop of powers alone has: 2^y on AVX-512, log2 elsewhere.
 _POWER = re.compile(r"vscalefps|v?cvtdq2ps")
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
@@ -194,6 +194,14 @@ def _taken(code, begin, end, samples):
             yield from (text for _, text in code[first:last] if not NOT_COUNTED.match(text))
 
 
+def turns_a_hit(function, loop, target, powers):
+    """How many turns a hit takes of a loop in this function. `powers`: of how many of the hits a
+    power is taken."""
+    packets = _PACKETS_AT_ONCE.get(target, 1) if _AT_ONCE.search(function) else 1
+    share = powers if any(_POWER.match(text) for text in loop) else 1
+    return share / (packets * _HITS[target])
+
+
 def cycles_a_hit(model, program, disassembly, benchmark, target, powers):
     """Least cycles a hit of all its loops together, or None where no loop was seen. `powers`: of
     how many of the hits one is taken."""
@@ -215,10 +223,8 @@ def cycles_a_hit(model, program, disassembly, benchmark, target, powers):
         loop = list(_taken(code, begin, end, samples))
         if sum(_REGISTERS[target] in text for text in loop) < _LEAST_VECTORS:
             continue
-        name = functions[bisect.bisect_right(functions, (code[begin][0], "~")) - 1][1]
-        packets = _PACKETS_AT_ONCE if _AT_ONCE in name else 1
-        times = powers if any(_POWER.match(text) for text in loop) else 1
-        found += times * model.cycles(loop) / (packets * _HITS_A_TURN[target])
+        function = functions[bisect.bisect_right(functions, (code[begin][0], "~")) - 1][1]
+        found += model.cycles(loop) * turns_a_hit(function, loop, target, powers)
     return found or None
 
 

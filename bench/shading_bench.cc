@@ -9,8 +9,9 @@
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_by_position          the lights are found from the hits' positions, in double, as near lights
 //                          and those of meshes are; else from their normals (SphereOffset)
-//   *_in_lobe              hits that have Phong's lobe; of those everywhere else three of four have
-//                          none, and no power is taken, of plain C++ either
+//   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none. Of
+//                          these plain C++ knows the power at once, and kernels of one sphere under
+//                          one light take none
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
 //                          (ForHalfAngles in packets-inl.h)
 //   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs
@@ -115,7 +116,9 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
                             .intensity = {60, 60, 60},
                             .attenuation = {}};
     lights.push_back(PrepareLight(light, {0, 0, 0}));
-    if (!by.by_position) OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back());
+    if (!by.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back())) {
+      state.SkipWithError("the light is too near for its offset from the sphere");
+    }
   }
   std::vector<LightOnBatch> on_hits;
   for (const ShadingLight& light : lights) on_hits.push_back({&light, nullptr});
@@ -139,7 +142,8 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
                ShadeRun(prepared, lit, 0, kHits, &scratch, radiance);
              });
   const auto* phong = std::get_if<PhongMaterial>(&material.model);
-  if (phong != nullptr && phong->model != PhongModel::kBlinnPhong && !lights.by_position &&
+  const bool is_packed = lights.count == 1 && !lights.by_position && !lights.from_behind;
+  if (phong != nullptr && phong->model != PhongModel::kBlinnPhong && is_packed &&
       phong->shininess < kDoubleTermsShininess) {
     ReportPowers(state, MakeHits(lights.in_lobe));
   }

@@ -69,8 +69,6 @@ def _kernels(times, best):
                                                       _shade(("naive_blinn_phong",), best))
     yield "double_over_float_terms_time", times.ratio(("math/ggx/0.3/double_terms",),
                                                       ("math/ggx/0.3/stable_float",))
-
-
     for naive, plain in (("naive_phong", "phong"), ("naive_phong_in_lobe", "phong_in_lobe"),
                          ("naive_blinn_phong", "blinn_phong")):
         yield f"{naive}_over_scalar", times.ratio(_shade((plain,), "scalar_baseline"),
@@ -154,8 +152,8 @@ def headlines(results):
     benchmarks = results.get("benchmarks", {})
     times = _Times(benchmarks)
     best = results.get("best_target", "avx3")
-    pairs = [*_clocks(benchmarks), *_kernels(times, best), *_visibility(times), *_frames(times, best),
-             *_processes(results.get("processes", {})),
+    pairs = [*_clocks(benchmarks), *_kernels(times, best), *_visibility(times),
+             *_frames(times, best), *_processes(results.get("processes", {})),
              *adaptive.headlines(results.get("precision", {}).get("adaptive", {})),
              *lights.headlines(results.get("lights", {})),
              *_scaling(results.get("scaling", {}))]

@@ -19,50 +19,41 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
+// Its numbers are copies: nothing that a kernel stores is in them.
 struct TextbookGgx {
-  static constexpr bool kAtOnce = false;  // of packets-inl.h
-  static constexpr bool kReadsIrradiance = false;
-  using Incident = IncidentV;
-  struct View {
-    FloatV n_dot_v;
-  };
-  const TextbookGgxUniforms& uniforms;
+  TextbookGgxLight light;
+  float alpha2, k, pi_over_alpha2;
 
-  HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
-    return {hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d))};
-  }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
-                                size_t) const {
+  HWY_INLINE RgbV Reflect(FloatTag d, const PacketV& p, const IncidentV& in) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
+    const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
     const Vec3V<FloatV> u = in.toward.Plus(p.to_view);
     const FloatV scale = ReciprocalSqrt(d, hn::Max(FusedDot(u, u), smallest));
     const Vec3V<FloatV> h = Scale(u, scale);
     const FloatV n_dot_h = FusedDot(p.normal, h);
-    const FloatV alpha2 = hn::Set(d, uniforms.alpha2);
-    const FloatV pi_over_alpha2 = hn::Set(d, 3.14159265f / uniforms.alpha2);
-    const FloatV q = hn::MulAdd(hn::Mul(n_dot_h, n_dot_h), hn::Sub(alpha2, one), one);
-    const FloatV masking = VisibilityDenominatorSchlick(d, in.n_dot_l, view.n_dot_v,
-                                                        hn::Set(d, uniforms.k), pi_over_alpha2);
+    const FloatV q = hn::MulAdd(hn::Mul(n_dot_h, n_dot_h), hn::Set(d, alpha2 - 1), one);
+    const FloatV masking = VisibilityDenominatorSchlick(d, in.n_dot_l, n_dot_v, hn::Set(d, k),
+                                                        hn::Set(d, pi_over_alpha2));
     const FloatV denominator = hn::Max(hn::Mul(hn::Mul(q, q), masking), smallest);
     const FloatV lobe = hn::Mul(in.weight, Reciprocal(d, denominator));
     const FloatV weight = Power5(hn::Sub(one, FusedDot(p.to_view, h)));
-    const TextbookGgxLight& light = *uniforms.light;
     const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
-    return {{ScaledPart(SetRgb(d, light.diffuse), left)}, ScaledPart(fresnel, lobe)};
+    return SumOf(
+        ReflectedV{{ScaledPart(SetRgb(d, light.diffuse), left)}, ScaledPart(fresnel, lobe)});
   }
 };
 
-// ShadeAtOnce for it: several packets in one loop, of which only the sum is stored.
-HWY_NOINLINE size_t ShadeTextbookAtOnce(const TextbookGgx& model, const ShadeRange& range) {
+// In one loop of several packets where ShadeAtOnce is, with as little around it.
+HWY_NOINLINE void ShadeTextbook(const TextbookGgx& given_model, const ShadeRange& range) {
   const FloatTag d;
+  const TextbookGgx model = given_model;
   const RangeArrays arrays(range);
   const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
   constexpr size_t kPackets = std::max<size_t>(kPacketsAtOnce, 1);
-  const size_t hits = kPackets * hn::Lanes(d);
   size_t i = range.begin;
-  for (; i + hits <= range.end; i += hits) {
+  for (; i + kPackets * hn::Lanes(d) <= range.end; i += kPackets * hn::Lanes(d)) {
     IncidentV in[kPackets];
     HWY_UNROLL(kPackets)
     for (size_t k = 0; k < kPackets; ++k) {
@@ -72,14 +63,18 @@ HWY_NOINLINE size_t ShadeTextbookAtOnce(const TextbookGgx& model, const ShadeRan
     HWY_UNROLL(kPackets)
     for (size_t k = 0; k < kPackets; ++k) {
       const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
-      const auto view = model.SeenBy(d, p, range.surface);
-      StoreWhole(d, SumOf(model.Reflect(d, view, p, in[k], 0)), arrays.sum, p.i);
+      StoreWhole(d, model.Reflect(d, p, in[k]), arrays.sum, p.i);
     }
   }
-  return i;
+  for (; i < range.end; i += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, i);
+    const IncidentV in = MakeIncident(d, light.At(d, i, p.normal), p.normal);
+    arrays.Store(d, model.Reflect(d, p, in), arrays.sum, i);
+  }
 }
 
-// Phong's cosine as it is written; all else is as in Phong's own kernel.
+// Phong's cosine as it is written; all else is as in Phong's own kernel, which takes 1 - c of it
+// and c of that again: two differences that a kernel of its own would spare.
 struct NaiveCosine {
   static HWY_INLINE FloatV OneMinus(FloatTag d, const PacketV& p, const TowardV& toward,
                                     FloatV n_dot_l) {
@@ -126,10 +121,8 @@ struct NaiveBlinnPhong {
 };
 
 void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
-  const TextbookGgx model{uniforms};
-  ShadeRange rest = range;
-  if (kPacketsAtOnce != 0) rest.begin = ShadeTextbookAtOnce(model, range);
-  ShadePackets(FloatTag(), model, rest);
+  const float alpha2 = uniforms.alpha2;
+  ShadeTextbook({*uniforms.light, alpha2, uniforms.k, 3.14159265f / alpha2}, range);
 }
 
 void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/lane_sets.h"
 #include "base/target_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -18,33 +19,16 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Of each set of eight lanes, whose bits are the index: the lanes in it, from the lowest up; and
-// for each lane, how many in it are lower.
-struct LaneTables {
-  uint8_t kept[256][8];
-  uint8_t places[256][8];
-};
-inline constexpr LaneTables kLaneTables = [] {
-  LaneTables tables{};
-  for (size_t set = 0; set < 256; ++set) {
-    uint8_t count = 0;
-    for (uint8_t lane = 0; lane < 8; ++lane) {
-      tables.places[set][lane] = count;
-      if ((set >> lane & 1) != 0) tables.kept[set][count++] = lane;
-    }
-  }
-  return tables;
-}();
-
 // Lane i of the result is lane lanes[i] of v.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LanesAt(D d, V v, const uint8_t* HWY_RESTRICT lanes) {
+  static_assert(hn::MaxLanes(D()) <= kSetLanes);
   const hn::RebindToSigned<D> di;
   const hn::Rebind<uint8_t, D> d8;
   return hn::TableLookupLanes(v, hn::IndicesFromVec(d, hn::PromoteTo(di, hn::LoadU(d8, lanes))));
 }
 
-// Bytes that tell a set of a vector's lanes.
+// Bytes that tell a set of a vector's lanes. Highway asks for eight to be there.
 template <class D>
 HWY_INLINE size_t LaneBytes(D d) {
   return (hn::Lanes(d) + 7) / 8;
@@ -61,9 +45,9 @@ HWY_INLINE size_t Pack(D d, V v, hn::Mask<D> mask, float* HWY_RESTRICT to,
                        uint8_t* HWY_RESTRICT kept) {
   hn::StoreMaskBits(d, mask, kept);
   if constexpr (kSplitsFloats<V>) {
-    hn::StoreU(PackLanes(v, mask), d, to);
+    hn::StoreU(hn::Compress(v, mask), d, to);
   } else {
-    hn::StoreU(LanesAt(d, v, kLaneTables.kept[kept[0]]), d, to);
+    hn::StoreU(LanesAt(d, v, kLanesOfSets[kept[0]].lanes), d, to);
   }
   return hn::CountTrue(d, mask);
 }
@@ -85,7 +69,7 @@ HWY_INLINE V Unpack(D d, const uint8_t* HWY_RESTRICT kept, const float* HWY_REST
   if constexpr (kSplitsFloats<V>) {
     return UnpackLanes(next, mask);
   } else {
-    return hn::IfThenElseZero(mask, LanesAt(d, next, kLaneTables.places[kept[0]]));
+    return hn::IfThenElseZero(mask, LanesAt(d, next, kPlacesInSets[kept[0]].lanes));
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/target_ops-inl.h: the few operations whose fastest exact form depends on the target. The
-// only #if on HWY_TARGET in nacre.
+// base/target_ops-inl.h: the few operations whose fastest exact form depends on the target: with
+// visibility/inverse_length-inl.h, which is of doubles, nearly all that nacre has of #if
+// HWY_TARGET.
 //
 // AVX-512 estimates reciprocals to 14 bits: one Newton step makes a float of them, within 1 ulp,
 // in a third of a division's time. Elsewhere an estimate has 12 bits and would need two steps,
@@ -125,11 +126,7 @@ HWY_INLINE FloatsV LookUp16(const float* numbers, FloatsV bits) {
   return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, place, _mm512_load_ps(numbers))};
 }
 
-// The lanes of `mask`, one after another from the first on; and from there back to their places,
-// with 0 in the others.
-HWY_INLINE FloatsV PackLanes(FloatsV x, hn::Mask<hn::ScalableTag<float>> mask) {
-  return FloatsV{_mm512_maskz_compress_ps(mask.raw, x.raw)};
-}
+// The lanes from the first on, moved to those of `mask`, with 0 in the others.
 HWY_INLINE FloatsV UnpackLanes(FloatsV x, hn::Mask<hn::ScalableTag<float>> mask) {
   return FloatsV{_mm512_maskz_expand_ps(mask.raw, x.raw)};
 }

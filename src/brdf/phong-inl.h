@@ -22,11 +22,13 @@ struct LobeCosineV {
   V one_minus_c, c;
 };
 
-// log2(c), and where c <= 0 what no power of 2 is as low as, times any exponent that is not 0.
+// log2(c), and where c <= 0 what no power of 2 is as low as, times any exponent of 2^-88 and above.
+// Finite times limits::kExponent: c^0 is 1 there, too.
+inline constexpr float kDarkLog2 = -0x1p96f;
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
   const V log2 = Log2OneMinus(d, cosine.one_minus_c, cosine.c);
-  const V dark = hn::Set(d, -0x1p96f);  // finite times limits::kExponent
+  const V dark = hn::Set(d, kDarkLog2);
   // One operation where the logarithm of what is not above 0 is known: of NaN and a number the
   // maximum is the second.
   if constexpr (kSplitsFloats<V>) return hn::Max(log2, dark);

@@ -18,15 +18,20 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// A block of hits. Packed numbers are never more, nor farther on, than hits.
+// From here on the power of kDarkLog2 is 0, as hits without a lobe are taken to have it.
+inline constexpr float kLeastPackedExponent = 256 / -kDarkLog2;
+
+// A block of hits. Before hit i there are i packed numbers at most, so whole vectors that are
+// stored or loaded there end within the block.
 struct PackedLobes {
   static constexpr size_t kHits = 512;  // a multiple of every target's lanes
   alignas(64) float irradiance[kHits], weight[kHits];
   alignas(64) float one_minus_c[kHits], lobe[kHits];  // packed
-  uint8_t kept[kHits];                                // LaneBytes of each packet
+  uint8_t kept[kHits + 7];  // LaneBytes of each packet, and what these ask for after the last
 };
 
-// Leaves the bits that ShadePackets does, of ranges that are IsForOneLoop and exponents above 0.
+// Leaves the bits that ShadePackets does, of ranges that are IsOneSphereUnderOneLight and exponents
+// from kLeastPackedExponent on.
 //   Cosine::OneMinus(packet, toward, n_dot_l)     1 - r.v, without cancellation
 // kByWeight: the lobe has a cosine of its own, modified Phong's.
 template <class Cosine, bool kByWeight>
@@ -52,7 +57,8 @@ HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRan
       const auto lit = IsLit(d, n_dot_l);
       const FloatV irradiance = hn::IfThenElseZero(lit, from.irradiance);
       hn::Store(irradiance, d, block.irradiance + at);
-      hn::Store(hn::Mul(n_dot_l, irradiance), d, block.weight + at);
+      const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
+      hn::Store(weight, d, block.weight + at);
       const FloatV if_lit = Cosine::OneMinus(d, p, from.toward, n_dot_l);
       const FloatV one_minus_c = hn::IfThenElse(lit, if_lit, one);
       const auto has_lobe = hn::Lt(one_minus_c, one);

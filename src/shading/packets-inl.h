@@ -165,9 +165,9 @@ HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
   block->SetAnyShort(ForHalfAngles(arrays, begin, end, *block, store));
 }
 
-// What loops that do all at once ask of a range: one light of the most frequent form, hits that are
-// all on one sphere, and only their sum to be left.
-HWY_INLINE bool IsForOneLoop(const ShadeRange& range) {
+// What ways of their own are for: one light of the most frequent form, hits that are all on one
+// sphere, and only their sum to be left.
+HWY_INLINE bool IsOneSphereUnderOneLight(const ShadeRange& range) {
   if (range.lights.size() != 1 || range.leaves != Leaves::kSum) return false;
   const LightOnBatch& light = range.lights[0];
   return light.evaluated == nullptr && light.light->form == LightForm::kInverseSquare &&
@@ -262,7 +262,7 @@ HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& r
   const RangeArrays arrays(range);
   IncidentBlock block;
   bool at_once = false;
-  if constexpr (Model::kAtOnce) at_once = IsForOneLoop(range);
+  if constexpr (Model::kAtOnce) at_once = IsOneSphereUnderOneLight(range);
   size_t end = range.begin;
   while (end < range.end) {
     size_t begin = end, count = IncidentBlock::kHits;

@@ -104,10 +104,10 @@ void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& ran
 }
 
 void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  // Nearly all lit hits have Blinn's lobe, and where the exponent is 0 all have Phong's: packing
-  // would be for nothing.
-  if (uniforms.model == PhongModel::kBlinnPhong || uniforms.shininess <= 0 ||
-      uniforms.narrow != nullptr || !IsForOneLoop(range)) {
+  // Nearly all lit hits have Blinn's lobe: packing would be for nothing. Where the exponent is 0
+  // all have Phong's.
+  if (uniforms.model == PhongModel::kBlinnPhong || uniforms.shininess < kLeastPackedExponent ||
+      uniforms.narrow != nullptr || !IsOneSphereUnderOneLight(range)) {
     ShadePhongOf(uniforms, range);
   } else if (uniforms.model == PhongModel::kPhong) {
     ShadePackedPhong<StableCosine, false>(uniforms, range);

@@ -3,8 +3,8 @@
 // camera: what most rays of most pictures meet.
 //
 // From a film position to a hit it is one long chain of dependent operations, with a division and a
-// root in it, far longer than a processor's window. Blocks of rays therefore take it in steps: each
-// step's chain is short, and many groups of lanes are under way in it at a time.
+// root in it, longer than a processor's window. Blocks of rays therefore take it in two steps, with
+// several groups of lanes under way in each at a time.
 #if defined(NACRE_VISIBILITY_ALONE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_ALONE_INL_H_
 #undef NACRE_VISIBILITY_ALONE_INL_H_
@@ -52,8 +52,8 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
 
 // The groups' exact rays: turned round, bit for bit, as the way back to the viewer is what hits
 // keep. Leaves the lanes that hit: no depth is needed, and in front of the camera the line's test
-// decides, which spares a division. The root is taken here, where next to so many products it costs
-// no time.
+// decides, which spares a division. The root, NaN of lanes that miss, is taken here: its unit works
+// beside those of so many products, and what follows need not wait for it.
 HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
   const CameraDouble d;
   const auto corner = SetVec3(d, -frame.corner);

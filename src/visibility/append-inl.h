@@ -7,10 +7,10 @@
 #define NACRE_VISIBILITY_APPEND_INL_H_
 #endif
 
-#include <array>
 #include <bit>
 #include <cstdint>
 
+#include "base/lane_sets.h"
 #include "visibility/camera_packet-inl.h"
 #include "visibility/surface-inl.h"
 
@@ -19,38 +19,13 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// The most lanes that doubles fill.
-inline constexpr uint32_t kMaxDoubles = kVectorBytes / sizeof(double);
-
-// The lanes of each set of bits, in their order; then the first of them again, whose values are
-// those of a hit.
-struct SetLanes {
-  uint8_t lanes[kMaxDoubles];
-};
-
-inline constexpr auto kSetLanes = [] {
-  std::array<SetLanes, 1 << kMaxDoubles> sets{};
-  for (uint32_t bits = 0; bits < sets.size(); ++bits) {
-    const int first = bits == 0 ? 0 : std::countr_zero(bits);
-    for (uint8_t& lane : sets[bits].lanes) lane = static_cast<uint8_t>(first);
-    size_t count = 0;
-    for (uint8_t lane = 0; lane < kMaxDoubles; ++lane) {
-      if ((bits >> lane & 1) != 0) sets[bits].lanes[count++] = lane;
-    }
-  }
-  return sets;
-}();
-
 // Stores the lanes of `bits`. What lies behind them, up to a whole vector, may be overwritten.
-//
-// Not by Highway's Compress: GCC 12 copies its table, 2 KiB, to the stack at every call. Nor by
-// CompressStore: the instruction behind it is microcode on Zen 4.
 class Appender {
  public:
   HWY_INLINE explicit Appender(uint32_t bits)
       : all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {
     const hn::Rebind<uint8_t, CameraDouble> d8;
-    lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kSetLanes[bits].lanes));
+    lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kLanesOfSets[bits].lanes));
     lanes64_ = hn::PromoteTo(D64(), lanes32_);
   }
 

@@ -8,7 +8,6 @@
 
 #include "base/math-inl.h"
 #include "base/math_kernel.h"
-#include "base/pack-inl.h"
 #include "base/target_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -45,28 +44,6 @@ TargetOps EvaluateTargetOpsT(const std::vector<float>& x) {
   return ops;
 }
 
-PackedNumbers PackAndUnpackT(const std::vector<float>& x) {
-  const ShadeTag<float> d;  // of the most lanes that any kernel packs at a time
-  const size_t lanes = hn::Lanes(d), end = (x.size() + lanes - 1) / lanes * lanes;
-  std::vector<float> from = x;
-  from.resize(end);
-  PackedNumbers numbers{std::vector<float>(end), std::vector<float>(end)};
-  std::vector<uint8_t> kept(end);
-  size_t count = 0, bytes = 0;
-  for (size_t i = 0; i < end; i += lanes, bytes += LaneBytes(d)) {
-    const auto v = hn::LoadU(d, from.data() + i);
-    count += Pack(d, v, hn::Gt(v, hn::Zero(d)), numbers.packed.data() + count, &kept[bytes]);
-  }
-  const float* packed = numbers.packed.data();
-  bytes = 0;
-  for (size_t i = 0; i < end; i += lanes, bytes += LaneBytes(d)) {
-    hn::StoreU(Unpack(d, &kept[bytes], &packed), d, numbers.unpacked.data() + i);
-  }
-  numbers.packed.resize(count);
-  numbers.unpacked.resize(x.size());
-  return numbers;
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -77,7 +54,6 @@ HWY_EXPORT(EvaluateLog2T);
 HWY_EXPORT(EvaluateLog2OneMinusT);
 HWY_EXPORT(EvaluateExp2T);
 HWY_EXPORT(EvaluateTargetOpsT);
-HWY_EXPORT(PackAndUnpackT);
 
 float EvaluateLog2(float x) { return HWY_DYNAMIC_DISPATCH(EvaluateLog2T)(x); }
 float EvaluateLog2OneMinus(float x, float c) {
@@ -86,9 +62,6 @@ float EvaluateLog2OneMinus(float x, float c) {
 float EvaluateExp2(float y) { return HWY_DYNAMIC_DISPATCH(EvaluateExp2T)(y); }
 TargetOps EvaluateTargetOps(const std::vector<float>& x) {
   return HWY_DYNAMIC_DISPATCH(EvaluateTargetOpsT)(x);
-}
-PackedNumbers PackAndUnpack(const std::vector<float>& x) {
-  return HWY_DYNAMIC_DISPATCH(PackAndUnpackT)(x);
 }
 }  // namespace nacre
 #endif

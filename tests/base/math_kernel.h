@@ -17,10 +17,4 @@ struct TargetOps {
 };
 TargetOps EvaluateTargetOps(const std::vector<float>& x);
 
-// The numbers x[i] above 0 as Pack of base/pack-inl.h keeps them, and as Unpack puts them back.
-struct PackedNumbers {
-  std::vector<float> packed, unpacked;
-};
-PackedNumbers PackAndUnpack(const std::vector<float>& x);
-
 }  // namespace nacre
