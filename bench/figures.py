@@ -146,7 +146,7 @@ def math_error(results, path):
     benchmarks = results["benchmarks"]
     hits = 512
     commands = "set multiplot layout 1,2 margins 0.08,0.98,0.13,0.93 spacing 0.07,0.1\n"
-    commands += "set logscale xy\nset format x '10^{%T}'\nset yrange [0.5:100]\n"
+    commands += "set logscale xy\nset format x '10^{%T}'\nset yrange [0.5:150]\n"
     commands += "set xlabel 'worst relative error of the highlight'\n"
     for number, (lobe, title) in enumerate((("ggx", "GGX, roughness 0.5 to 0.01"),
                                             ("phong", "Phong, exponent 10 to 10^6"))):
@@ -158,8 +158,8 @@ def math_error(results, path):
             points = _math_points(benchmarks, lobe, form, results["best_target"], hits)
             if points:
                 series.append((label, points))
-        # Between the plain code's times and the kernels'.
-        key = 'off' if number else 'at graph 0.98,0.76 right top Left reverse'
+        # Above the plain code's times.
+        key = 'off' if number else 'at graph 0.98,0.99 right top Left reverse'
         options = f"set title '{title}' offset 0,-0.5\nset key {key}\n"
         options += f"set ylabel '{'ns per hit and light' if number == 0 else ''}'\n"
         commands += plots.curves(series, options, f"m{number}_")
