@@ -2,8 +2,6 @@
 // bench/textbook_kernel.cc: the kernels behind textbook_kernel.h.
 #include "textbook_kernel.h"
 
-#include <algorithm>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "textbook_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -51,17 +49,16 @@ HWY_NOINLINE void ShadeTextbook(const TextbookGgx& given_model, const ShadeRange
   const TextbookGgx model = given_model;
   const RangeArrays arrays(range);
   const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
-  constexpr size_t kPackets = std::max<size_t>(kPacketsAtOnce, 1);
   size_t i = range.begin;
-  for (; i + kPackets * hn::Lanes(d) <= range.end; i += kPackets * hn::Lanes(d)) {
-    IncidentV in[kPackets];
-    HWY_UNROLL(kPackets)
-    for (size_t k = 0; k < kPackets; ++k) {
+  for (; i + kPacketsAtOnce * hn::Lanes(d) <= range.end; i += kPacketsAtOnce * hn::Lanes(d)) {
+    IncidentV in[kPacketsAtOnce];
+    HWY_UNROLL(kPacketsAtOnce)
+    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
       const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
       in[k] = MakeIncident(d, light.At(d, p.i, p.normal), p.normal);
     }
-    HWY_UNROLL(kPackets)
-    for (size_t k = 0; k < kPackets; ++k) {
+    HWY_UNROLL(kPacketsAtOnce)
+    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
       const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
       StoreWhole(d, model.Reflect(d, p, in[k]), arrays.sum, p.i);
     }

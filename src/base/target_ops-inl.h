@@ -25,12 +25,12 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <typename T>
 using ShadeTag = hn::WideTag<hn::ScalableTag<T>>;
 // Packets whose numbers one turn of a kernel's loop can keep in registers and the cache next to
-// them, or 0: loops that do less are better there.
+// them. 1: loops that do less are better there.
 inline constexpr size_t kPacketsAtOnce = 2;
 #else
 template <typename T>
 using ShadeTag = hn::ScalableTag<T>;
-inline constexpr size_t kPacketsAtOnce = 0;
+inline constexpr size_t kPacketsAtOnce = 1;
 #endif
 
 // 1 / x for normal x of either sign, within 1 ulp; 0 for infinity.

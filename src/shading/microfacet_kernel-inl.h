@@ -35,7 +35,7 @@ struct Microfacet {
   MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
   // Not of hits that were prepared: there most of the time is the preparation's.
-  static constexpr bool kAtOnce = kPacketsAtOnce != 0 && Form::kTypical && !Form::kPrepared;
+  static constexpr bool kAtOnce = kPacketsAtOnce > 1 && Form::kTypical && !Form::kPrepared;
 
   struct View {
     const Surface* surface;  // with what was prepared, loaded where it is needed
