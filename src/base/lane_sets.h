@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // base/lane_sets.h: the lanes of each set of up to eight, to permute vectors by.
 //
-// Not by Highway's Compress: of vectors of fewer bits GCC 12 copies its table, 2 KiB, to the stack
-// at every call. Nor by CompressStore: the instruction behind it is microcode on Zen 4.
+// Below AVX-512 Highway's Compress has such a table of its own, but GCC 12 copies its 2 KiB to the
+// stack at every call. Its CompressStore is no way out: on Zen 4 the instruction is microcode.
 #pragma once
 
 #include <array>

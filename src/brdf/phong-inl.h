@@ -22,9 +22,11 @@ struct LobeCosineV {
   V one_minus_c, c;
 };
 
-// log2(c), and where c <= 0 what no power of 2 is as low as, times any exponent of 2^-88 and above.
-// Finite times limits::kExponent: c^0 is 1 there, too.
+// In place of the logarithm of 0. Times any exponent of 2^-88 and above, no power of 2 is as low;
+// times limits::kExponent it is finite, and times 0 it is 0: c^0 is 1 there, too.
 inline constexpr float kDarkLog2 = -0x1p96f;
+
+// log2(c), kDarkLog2 where c <= 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
   const V log2 = Log2OneMinus(d, cosine.one_minus_c, cosine.c);

@@ -216,6 +216,8 @@ class Ports(unittest.TestCase):
         self.assertEqual(port_bound.vector_clock(7e9, 4e9), 3.5e9)  # two a cycle
         self.assertEqual(port_bound.vector_clock(3.5e9, 4e9), 3.5e9)  # one
         self.assertEqual(port_bound.vector_clock(4.1e9, 4e9), 4e9)
+        self.assertEqual(port_bound.vector_clock(5e9, 4e9), 4e9)  # disturbed
+        self.assertEqual(port_bound.vector_clock(1e9, 4e9), 1e9)
 
     def test_turns_a_hit(self):
         plain, power = ["vmulps %zmm0, %zmm0, %zmm0"], ["vscalefps %zmm0,%zmm1,%zmm1"]
@@ -224,8 +226,6 @@ class Ports(unittest.TestCase):
         self.assertEqual(port_bound.turns_a_hit("13ShadeTextbookE", plain, "avx2", 1), 1 / 8)
         self.assertEqual(port_bound.turns_a_hit("ShadePackedPhong", plain, "avx3", 0.25), 1 / 32)
         self.assertEqual(port_bound.turns_a_hit("ShadePackedPhong", power, "avx3", 0.25), 1 / 128)
-        self.assertEqual(port_bound.vector_clock(5e9, 4e9), 4e9)  # disturbed
-        self.assertEqual(port_bound.vector_clock(1e9, 4e9), 1e9)
 
     def test_copies_are_not_counted(self):
         for copy in ("vmovaps %zmm1,%zmm2", "mov    %rax,%rbx", "movaps %xmm1,%xmm0", "jne    10"):
