@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <set>
 
 #include <oneapi/tbb/global_control.h>
@@ -63,12 +64,20 @@ class AllowThreads {
   int count_;
 };
 
+// Throws std::bad_alloc if there is no memory for an arena and its first worker. TBB's own would
+// never arrive: TBB 2022 throws it under a lock that throwing takes again, and waits for ever.
+void RequireMemoryForArena() {
+  constexpr size_t kBytes = size_t{8} << 20;  // a worker's stack alone is 4; never touched
+  ::operator delete(::operator new(kBytes));
+}
+
 // One arena for each number of threads, kept: an arena that goes leaves 7 KB behind in TBB 2021.8,
 // and a program that renders thousands of pictures would feel it.
 tbb::task_arena& ArenaOf(int threads) {
   static std::mutex mutex;
   static std::map<int, tbb::task_arena> arenas;
   const std::lock_guard lock(mutex);
+  if (!arenas.contains(threads)) RequireMemoryForArena();
   return arenas.try_emplace(threads, threads).first->second;
 }
 

@@ -34,7 +34,7 @@ def run(*arguments, **options):
 
 def run_within(mib, *arguments):
     """With no more address space than that."""
-    limit = mib << 20
+    limit = int(mib * (1 << 20))
     return run(*arguments, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
 
 
@@ -233,16 +233,20 @@ class FaultsTest(unittest.TestCase):
     def test_out_of_memory(self):
         """Address space from too little to enough: done, or 70 with words.
 
-        What happens before main() is the loader's and the libraries': the least memory is that in
-        which the program can say its version.
+        What happens before main() is the loader's and the libraries': only limits count in which
+        the program can say its version. Steps are fine near the least: TBB 2022 waits for ever
+        where nothing is left for its first arena, a window of 2 MiB.
         """
         self.skip_without_limits()
         (self.out / 'old.png').write_bytes(b'old')
         least = next(mib for mib in range(16, 4000)
                      if run_within(mib, '--version').returncode == 0)
         seen = set()
-        for more in (*range(20), 40, 90, 140, 240, 340, 540, 940, 2000, 4000):
+        near = (step / 8 for step in range(32))
+        for more in (*near, *range(4, 20), 40, 90, 140, 240, 340, 540, 940, 2000, 4000):
             mib = least + more
+            if run_within(mib, '--version').returncode != 0:
+                continue  # a library's own start takes more for a step or two: not monotonic
             result = run_within(mib, 'render', GRID, '-o', self.out / 'old.png', '--size', '2048x2048',
                                 '--spp', '1', '--threads', '2')
             with self.subTest(mib=mib, text=result.stderr[-500:]):
