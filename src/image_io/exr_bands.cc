@@ -2,6 +2,7 @@
 #include "image_io/exr_bands.h"
 
 #include <filesystem>
+#include <new>
 #include <set>
 #include <utility>
 
@@ -86,6 +87,8 @@ struct ExrBandReader::State {
       return work();
     } catch (const Error&) {
       throw;
+    } catch (const std::bad_alloc&) {
+      Fail(path, "there is no memory for it");
     } catch (const std::exception& exception) {
       Fail(path, std::string("cannot be read as EXR: ") + exception.what());
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <new>
 
 #include <OpenEXR/ImfBoxAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -204,6 +205,8 @@ Image Read(const std::string& path, bool with_samples) {
     return image;
   } catch (const Error&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    Fail(path, "there is no memory for it");
   } catch (const std::exception& exception) {
     Fail(path, std::string("cannot be read as EXR: ") + exception.what());
   }

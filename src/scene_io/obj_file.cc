@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <new>
 #include <sstream>
 #include <utility>
 
@@ -72,6 +73,8 @@ ObjFile Parse(std::string text, const std::string& file, tinyobj::MaterialReader
                                &stream, materials, kTriangulate, kColorsByDefault);
   } catch (const Error&) {  // of the reader of materials
     throw;
+  } catch (const std::bad_alloc&) {
+    error = "there is no memory for it";
   } catch (const std::exception& e) {
     error = e.what();
   }

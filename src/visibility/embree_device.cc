@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -80,7 +81,10 @@ DevicePointer MakeDevice(Target target) {
   const EmbreeTarget wanted = EmbreeTargetFor(target);
   const std::string config = std::string("isa=") + wanted.isa + ",verbose=0,set_affinity=0";
   DevicePointer device(rtcNewDevice(config.c_str()));
-  if (!device) throw Error(ExitCode::kInternal, "Embree", "cannot create a device: " + config);
+  if (!device) {
+    if (rtcGetDeviceError(nullptr) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+    throw Error(ExitCode::kInternal, "Embree", "cannot create a device: " + config);
+  }
   const auto native = [&](RTCDeviceProperty property) {
     return rtcGetDeviceProperty(device.get(), property) != 0;
   };

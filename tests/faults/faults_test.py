@@ -261,6 +261,25 @@ class FaultsTest(unittest.TestCase):
                     (self.out / 'old.png').write_bytes(b'old')
         self.assertIn(0, seen)
 
+    def test_out_of_memory_with_a_mesh(self):
+        """Embree's device and the reader of the mesh say it in our words, not in their own."""
+        self.skip_without_limits()
+        mesh = SOURCE / 'scenes/mesh_and_spheres.json'
+        seen = set()
+        for mib in (64, 65, 66, 68, 80, 100, 128, 160, 200, 250, 300, 400, 600, 1000, 2000, 4000):
+            if run_within(mib, '--version').returncode != 0:
+                continue
+            result = run_within(mib, 'render', mesh, '-o', self.out / 'a.png', *SMALL, '--threads', '2')
+            with self.subTest(mib=mib, text=result.stderr[-500:]):
+                seen.add(result.returncode)
+                self.assertIn(result.returncode, (0, 65, 70))
+                if result.returncode != 0:
+                    self.assertRegex(result.stderr, 'error: .*(memory|pthread_create)')
+                    self.assertEqual(os.listdir(self.out), [])
+                else:
+                    (self.out / 'a.png').unlink()
+        self.assertLessEqual({0, 70}, seen)
+
     def test_a_scene_of_more_than_memory_is_refused(self):
         cloud = ('{"type": "cloud", "count": 100000000, "min": [0,0,0], "max": [1,1,1], "radius": 0.1, '
                  '"materials": ["a"]}')
