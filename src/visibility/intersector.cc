@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.h"
 #include "base/handover.h"
 #include "base/parallel.h"
 #include "visibility/embree_api.h"
@@ -120,7 +121,14 @@ ScenePointer Intersector::State::Build(bool with_spheres) {
   HandOver(&geometry);
   WithThreads(settings.threads, [&] { rtcJoinCommitScene(built.get()); });
   TakeOver(&geometry);
-  device->ThrowIfFailed();
+  try {
+    device->ThrowIfFailed();
+  } catch (const Error&) {
+    // Left behind: where memory ran out as TBB made a task, the scene's task group counts a task
+    // that never was, and to release the scene would wait for it for ever.
+    [[maybe_unused]] const RTCScene left = built.release();
+    throw;
+  }
   return built;
 }
 

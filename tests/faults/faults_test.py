@@ -266,7 +266,9 @@ class FaultsTest(unittest.TestCase):
         self.skip_without_limits()
         mesh = SOURCE / 'scenes/mesh_and_spheres.json'
         seen = set()
-        for mib in (64, 65, 66, 68, 80, 100, 128, 160, 200, 250, 300, 400, 600, 1000, 2000, 4000):
+        # Embree 3's tree of a scene in which TBB found no memory for a task waits for ever as it goes:
+        # a window of 2 MiB and more.
+        for mib in (*range(64, 300, 2), 400, 600, 1000, 2000, 4000):
             if run_within(mib, '--version').returncode != 0:
                 continue
             result = run_within(mib, 'render', mesh, '-o', self.out / 'a.png', *SMALL, '--threads', '2')
