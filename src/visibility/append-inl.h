@@ -19,123 +19,121 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Stores the lanes of `bits`. What lies behind them, up to a whole vector, may be overwritten.
-class Appender {
+// A group: the lanes of one vector of a packet.
+inline constexpr int kGroupLanes = static_cast<int>(hn::MaxLanes(CameraDouble()));
+inline constexpr uint32_t kAllOfGroup = (1u << kGroupLanes) - 1;
+
+// Moves the lanes of `bits` of a group to its front, in their order.
+class ToFront {
+  using D32 = hn::Rebind<uint32_t, CameraDouble>;
+  using D64 = hn::Rebind<uint64_t, CameraDouble>;
+
  public:
-  HWY_INLINE explicit Appender(uint32_t bits)
-      : all_(bits == (1u << hn::Lanes(CameraDouble())) - 1) {
+  HWY_INLINE explicit ToFront(uint32_t bits) {
     const hn::Rebind<uint8_t, CameraDouble> d8;
     lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kLanesOfSets[bits].lanes));
     lanes64_ = hn::PromoteTo(D64(), lanes32_);
   }
 
-  template <class D, class T>
-  HWY_INLINE void operator()(D d, hn::Vec<D> value, T* to) const {
-    hn::StoreU(all_ ? value : hn::TableLookupLanes(value, Order(d)), d, to);
+  HWY_INLINE hn::Vec<CameraDouble> operator()(hn::Vec<CameraDouble> v) const {
+    return hn::TableLookupLanes(v, hn::IndicesFromVec(CameraDouble(), lanes64_));
   }
-
-  template <class D, class T>
-  HWY_INLINE void operator()(D d, const Vec3V<hn::Vec<D>>& value, const Pointers3<T>& to) const {
-    (*this)(d, value.x, to.x());
-    (*this)(d, value.y, to.y());
-    (*this)(d, value.z, to.z());
+  HWY_INLINE hn::Vec<D32> operator()(hn::Vec<D32> v) const {
+    return hn::TableLookupLanes(v, hn::IndicesFromVec(D32(), lanes32_));
+  }
+  HWY_INLINE Vec3V<hn::Vec<CameraDouble>> operator()(const Vec3V<hn::Vec<CameraDouble>>& v) const {
+    return {(*this)(v.x), (*this)(v.y), (*this)(v.z)};
   }
 
  private:
-  using D32 = hn::Rebind<uint32_t, CameraDouble>;
-  using D64 = hn::Rebind<uint64_t, CameraDouble>;
-
-  template <class D>
-  HWY_INLINE auto Order(D d) const {
-    if constexpr (sizeof(hn::TFromD<D>) == sizeof(double)) {
-      return hn::IndicesFromVec(d, lanes64_);
-    } else {
-      return hn::IndicesFromVec(d, lanes32_);
-    }
-  }
-
-  bool all_;
   hn::Vec<D32> lanes32_;
   hn::Vec<D64> lanes64_;
 };
 
-// Appends hits, group of lanes by group, to those that a batch has.
+// Appends hits, group of lanes by group, to those that a batch has. Whole vectors are stored: what
+// lies behind the last hit is overwritten.
 class HitWriter {
  public:
   HWY_INLINE explicit HitWriter(const HitsTo& to)
       : to_(to),
         count_(to.hits->count),
-        ray_(to.hits->ray.data() + count_),
-        primitive_(to.hits->primitive.data() + count_),
-        position_(From(PointersTo(&to.hits->position), count_)),
-        normal_(From(PointersTo(&to.directions->normal), count_)),
-        to_view_(From(PointersTo(&to.directions->to_view), count_)) {}
+        ray_(to.hits->ray.data()),
+        primitive_(to.hits->primitive.data()),
+        position_(PointersTo(&to.hits->position)),
+        normal_(PointersTo(&to.directions->normal)),
+        to_view_(PointersTo(&to.directions->to_view)) {}
 
   // All of a group's hits but their primitives, with which the hits will be counted. `ray` is that
   // of the first lane.
   template <class V>
-  HWY_INLINE void Surfaces(const SurfaceV<CameraDouble, V>& surface, const Vec3V<V>& to_view,
-                           uint32_t bits, size_t ray) const {
+  HWY_INLINE void Surfaces(const SurfaceV<CameraDouble, V>& surface, Vec3V<V> to_view,
+                           uint32_t bits, uint32_t ray) const {
     const CameraDouble d;
     const hn::Rebind<float, CameraDouble> df;
     const D32 du;
-    const Appender append(bits);
-    if (to_.positions) append(d, surface.position, position_);
-    append(df, Demote3(d, surface.normal), normal_);
-    append(df, Demote3(d, to_view), to_view_);
-    if (to_.exact) {
-      append(d, surface.normal, From(PointersTo(&to_.hits->normal), count_));
-      append(d, to_view, From(PointersTo(&to_.hits->to_view), count_));
-    }
+    const bool all = bits == kAllOfGroup;
+    auto normal = surface.normal;
     // Not Iota from `ray` on: that takes the lanes through memory one by one.
-    append(du, hn::Add(hn::Iota(du, 0), hn::Set(du, static_cast<uint32_t>(ray))), ray_);
+    auto rays = hn::Add(hn::Iota(du, 0), hn::Set(du, ray));
+    // Before the stores, which so stand here once: of two kinds of them GCC keeps each address in a
+    // mask register, to have it at hand for both.
+    if (!all) {
+      const ToFront to_front(bits);
+      normal = to_front(normal);
+      to_view = to_front(to_view);
+      rays = to_front(rays);
+    }
+    Put(df, Demote3(d, normal), normal_);
+    Put(df, Demote3(d, to_view), to_view_);
+    if (to_.positions) {
+      Put(d, all ? surface.position : ToFront(bits)(surface.position), position_);
+    }
+    if (to_.exact) {
+      Put(d, normal, PointersTo(&to_.hits->normal));
+      Put(d, to_view, PointersTo(&to_.hits->to_view));
+    }
+    hn::StoreU(rays, du, ray_ + count_);
   }
 
   // The primitives of lanes that all hit the same, and with them counts the hits.
   HWY_INLINE void Primitive(uint32_t primitive, uint32_t bits) {
     const D32 du;
-    hn::StoreU(hn::Set(du, primitive), du, primitive_);
-    Count(to_.hits->primitive[0] == primitive, bits);
+    hn::StoreU(hn::Set(du, primitive), du, primitive_ + count_);
+    Count(primitive_[0] == primitive, bits);
   }
 
   // The same of lanes that may hit one each.
   HWY_INLINE void Primitives(const uint32_t* primitives, uint32_t bits) {
     const D32 du;
     const auto each = hn::Load(du, primitives);
-    const uint32_t first =
-        count_ == 0 ? primitives[std::countr_zero(bits)] : to_.hits->primitive[0];
+    const uint32_t first = count_ == 0 ? primitives[std::countr_zero(bits)] : primitive_[0];
     const bool same = (BitsOfMask(du, hn::Ne(each, hn::Set(du, first))) & bits) == 0;
-    const Appender append(bits);
-    append(du, each, primitive_);
+    hn::StoreU(ToFront(bits)(each), du, primitive_ + count_);
     Count(same, bits);
   }
 
  private:
   using D32 = hn::Rebind<uint32_t, CameraDouble>;
 
-  HWY_INLINE void Count(bool same_primitive, uint32_t bits) {
-    if (!same_primitive) to_.hits->one_primitive = false;
-    const auto more = static_cast<size_t>(__builtin_popcount(bits));
-    count_ += more;
-    to_.hits->count = count_;
-    ray_ += more;
-    primitive_ += more;
-    position_.first += more;
-    normal_.first += more;
-    to_view_.first += more;
+  template <class D, class T>
+  HWY_INLINE void Put(D d, const Vec3V<hn::Vec<D>>& value, const Pointers3<T>& to) const {
+    hn::StoreU(value.x, d, to.x() + count_);
+    hn::StoreU(value.y, d, to.y() + count_);
+    hn::StoreU(value.z, d, to.z() + count_);
   }
 
-  template <typename T>
-  static HWY_INLINE Pointers3<T> From(const Pointers3<T>& arrays, size_t i) {
-    return {arrays.first + i};
+  HWY_INLINE void Count(bool same_primitive, uint32_t bits) {
+    if (!same_primitive) to_.hits->one_primitive = false;
+    count_ += static_cast<size_t>(__builtin_popcount(bits));
+    to_.hits->count = count_;
   }
 
   const HitsTo to_;
   size_t count_;
-  uint32_t* ray_;
-  uint32_t* primitive_;
-  Pointers3<double> position_;
-  Pointers3<float> normal_, to_view_;
+  uint32_t* const ray_;
+  uint32_t* const primitive_;
+  const Pointers3<double> position_;
+  const Pointers3<float> normal_, to_view_;
 };
 
 }  // namespace HWY_NAMESPACE

@@ -40,7 +40,8 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
         SphereSurface(d, direction, hn::Load(d, packet.inverse_dd + lane), half_chord,
                       perpendicular, Centers(packet, lane), inverse);
     const auto to_view = ToView(direction, hn::Load(d, packet.inverse_length + lane));
-    writer.Surfaces(surface, to_view, bits, first_ray + static_cast<size_t>(lane));
+    const auto ray = static_cast<uint32_t>(first_ray) + static_cast<uint32_t>(lane);
+    writer.Surfaces(surface, to_view, bits, ray);
     writer.Primitives(packet.primitive + lane, bits);
   }
 }
