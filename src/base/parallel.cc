@@ -65,7 +65,8 @@ class AllowThreads {
 };
 
 // Throws std::bad_alloc if there is no memory for an arena and its first worker. TBB's own would
-// never arrive: TBB 2022 throws it under a lock that throwing takes again, and waits for ever.
+// never arrive: TBB 2022 throws it under a lock that throwing takes again, and waits for ever. Its
+// controls take that lock, too.
 void RequireMemoryForArena() {
   constexpr size_t kBytes = size_t{8} << 20;  // a worker's stack alone is 4; never touched
   ::operator delete(::operator new(kBytes));
@@ -91,6 +92,7 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     for (size_t i = 0; i < count; ++i) body(i);
     return;
   }
+  tbb::task_arena& arena = ArenaOf(ThreadCount(threads));  // first: it asks for memory
   const AllowThreads allow(threads);
   // Workers take indices in order, one after the other: what is finished early is then needed
   // early, and a consumer that wants them in order has little to keep.
@@ -117,14 +119,14 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   };
   const AfterAll after_all;
   HandOver(&begun);
-  ArenaOf(ThreadCount(threads)).execute([&] {
-    tbb::parallel_for(0, ThreadCount(threads), work, tbb::simple_partitioner());
-  });
+  arena.execute(
+      [&] { tbb::parallel_for(0, ThreadCount(threads), work, tbb::simple_partitioner()); });
 }
 
 void WithThreads(int threads, const std::function<void()>& body) {
+  tbb::task_arena& arena = ArenaOf(ThreadCount(threads));
   const AllowThreads allow(threads);
-  ArenaOf(ThreadCount(threads)).execute(body);
+  arena.execute(body);
 }
 
 #if defined(__SSE2__)

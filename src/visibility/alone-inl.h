@@ -50,8 +50,8 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
 // The groups' exact rays: turned round, bit for bit, as the way back to the viewer is what hits
 // keep. Leaves the lanes that hit: no depth is needed, and in front of the camera the line's test
 // decides, which spares a division. The root, NaN of lanes that miss, is taken here: its unit works
-// beside those of so many products. Beside the stores it would take fewer cycles, but AVX-512 so
-// dense lowers the clock by as much.
+// beside those of so many products. Beside the stores it takes fewer cycles, but on the Xeon that
+// bench/README.md tells of AVX-512 so dense lowers the clock by as much.
 HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
   const CameraDouble d;
   const auto corner = SetVec3(d, -frame.corner);
