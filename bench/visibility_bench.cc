@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "float_visibility.h"
 #include "render/camera.h"
+#include "render/plan.h"
 #include "sampling/pixel_sampler.h"
 #include "visibility/intersector.h"
 #include "visibility_scenes.h"
@@ -46,10 +47,9 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
 // Calls trace(tile) for the frame's tiles that rays may hit something in; they are in `candidates`.
 template <class Trace>
 void ForEachTile(const Intersector& intersector, TileCandidates* candidates, const Trace& trace) {
-  constexpr int kTileWidth = static_cast<int>(kBatchCapacity) / kCellSize;
   for (int y0 = 0; y0 < kHeight; y0 += kCellSize) {
-    for (int x0 = 0; x0 < kWidth; x0 += kTileWidth) {
-      const Window tile{x0, y0, std::min(x0 + kTileWidth, kWidth),
+    for (int x0 = 0; x0 < kWidth; x0 += kWidestTile) {
+      const Window tile{x0, y0, std::min(x0 + kWidestTile, kWidth),
                         std::min(y0 + kCellSize, kHeight)};
       if (intersector.EnterTile(tile, TileRays::kSamples, candidates)) trace(tile);
     }
@@ -59,21 +59,20 @@ void ForEachTile(const Intersector& intersector, TileCandidates* candidates, con
 // The exact hits of tiles, as the renderer goes about them, with or without their positions.
 class ExactTiles {
  public:
-  ExactTiles(const Scene& scene, bool positions)
-      : sampler_(MakePixelSampler(scene.image.filter, 1, 0)),
-        shifts_(kBatchCapacity),
-        positions_(positions) {}
+  explicit ExactTiles(bool positions) : positions_(positions) {}
 
   const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
-    film_.count = candidates.tile.pixel_count();
-    SamplePixels(sampler_, candidates.tile, shifts_, 0, 1, film_.x.data(), film_.y.data());
+    const Window& tile = candidates.tile;
+    runs_.clear();
+    for (int y = tile.y0; y < tile.y1; ++y) runs_.push_back({tile.x0, y, tile.width()});
+    film_.count = tile.pixel_count();
+    PlaceCenters(runs_, film_.x.data(), film_.y.data());
     intersector.HitsInTile(candidates, film_, {&hits_, &directions_, positions_, false});
     return hits_;
   }
 
  private:
-  PixelSampler sampler_;
-  PixelShifts shifts_;
+  std::vector<PixelRun> runs_;
   bool positions_;
   FilmBatch film_;
   HitBatch hits_;
@@ -89,7 +88,7 @@ void BenchTiles(benchmark::State& state, const SphereScene& which, bool position
   Intersector intersector(scene, scene.camera.position, {.embree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   TileCandidates candidates;
-  ExactTiles tiles(scene, positions);
+  ExactTiles tiles(positions);
   for (auto _ : state) {
     intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, 0);
     ForEachTile(intersector, &candidates, [&](const Window&) {
@@ -121,7 +120,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
 
   int64_t wrong = 0, found = 0;
   double error = 0;
-  ExactTiles exact_tiles(scene, true);
+  ExactTiles exact_tiles(true);
   ForEachTile(intersector, &candidates, [&](const Window& tile) {
     std::fill_n(hits.sphere.data(), tile.pixel_count(), kNoPrimitive);
     TraceFloatTile(camera, spheres, candidates, &hits);

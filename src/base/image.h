@@ -27,9 +27,20 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
+// The place of a pixel of the window among all of them, row by row.
+inline size_t IndexIn(const Window& window, int x, int y) {
+  return static_cast<size_t>(y - window.y0) * static_cast<size_t>(window.width()) +
+         static_cast<size_t>(x - window.x0);
+}
+
 inline Window Intersect(const Window& a, const Window& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
+
+// `count` pixels of row y, from column x on.
+struct PixelRun {
+  int x, y, count;
+};
 
 // How a channel's samples are stored in a file.
 enum class PixelType : uint8_t { kHalf, kFloat, kUint };

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <type_traits>
 
 #include "base/aligned.h"
@@ -19,7 +20,7 @@
 namespace nacre {
 
 // Rays a batch holds at most: all arrays of a batch together stay in L2.
-inline constexpr size_t kBatchCapacity = 1024;
+inline constexpr size_t kBatchCapacity = 2048;
 static_assert(kBatchCapacity % kBatchPadding == 0);
 
 // Primitives are numbered spheres first, in scene order, then the triangles of all meshes.
@@ -66,11 +67,18 @@ Pointers3<T> PointersTo(Soa3<T>* soa) {
   return {soa->all.data()};
 }
 
-// The film positions of a round of samples of a tile, in pixels from the top left corner of the
-// full frame: sample by sample, each of all the tile's pixels row by row.
+// Film positions, in pixels from the top left corner of the full frame, and the numbers of the rays
+// through them, which ascend. Of a round of samples of a tile rays are numbered sample by sample,
+// each of all the tile's pixels row by row; otherwise in their order here.
 struct FilmBatch {
-  size_t count = 0;
+  FilmBatch() { std::iota(ray.begin(), ray.end(), 0u); }
+
+  size_t count = 0;  // of rays
+  // Of a tile's pixels those alone have positions here, one behind the other, that a ray may hit
+  // something in: its spans'. Otherwise ray i is the one through position i.
+  bool only_spans = false;
   AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
+  AlignedArray<uint32_t> ray{kBatchCapacity};
 };
 
 // Camera rays: points origin + t direction, t > 0. Directions are not normalised.
@@ -96,7 +104,7 @@ struct HitDirections {
 struct HitBatch {
   size_t count = 0;
   bool one_primitive = false;                        // all hits are known to be on the same one
-  AlignedArray<uint32_t> ray{kBatchCapacity};        // index into the FilmBatch
+  AlignedArray<uint32_t> ray{kBatchCapacity};        // FilmBatch::ray
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
   // These three are filled where asked for (HitsTo).
   Soa3<double> position;  // on the surface

@@ -2,6 +2,7 @@
 #include "render/adaptive.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "render/cell_film.h"
@@ -32,15 +33,22 @@ void MakeUnitSamples(const PixelSampler* samplers, const Window& cell, std::span
   s->samples.count = units.size() * static_cast<size_t>(count);
 }
 
+std::array<PixelRun, kBlockSide> RowsOf(const Window& block) {
+  std::array<PixelRun, kBlockSide> rows;
+  for (int i = 0; i < kBlockSide; ++i) {
+    rows[static_cast<size_t>(i)] = {block.x0, block.y0 + i, kBlockSide};
+  }
+  return rows;
+}
+
 // The same where units take one sample and come by whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
                       int index, TileScratch* s, CellScratch* c) {
   for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[units[ray].replicate];
-    ShiftPixels(sampler, block, &c->shifts);
-    SamplePixels(sampler, block, c->shifts, index, 1, s->samples.x.data() + ray,
-                 s->samples.y.data() + ray);
+    PutPixels(sampler, RowsOf(block), &c->block);
+    SamplePixels(sampler, c->block, index, 1, s->samples.x.data() + ray, s->samples.y.data() + ray);
   }
   s->samples.count = units.size();
 }

@@ -64,7 +64,7 @@ struct CellScratch {
   std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
   std::vector<SampledPixel> pixels;
   std::vector<Unit> units = std::vector<Unit>(kBatchCapacity);  // room for those of a batch
-  PixelShifts shifts{kBlockPixels + kBatchPadding};
+  PixelBatch block{kBlockPixels};
   FilmBatch corners;
 };
 

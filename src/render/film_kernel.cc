@@ -102,7 +102,7 @@ void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* we
 // Adds what hits are worth to the sums of the spans' pixels.
 struct ToSums {
   // Of a tile's pixels that are all hit, so many samples lie one behind the other in a batch.
-  static constexpr size_t kSamples = 4;
+  static constexpr size_t kSamples = 8;
   double* HWY_RESTRICT sums;
 
   // value(i): that of the hits from i on.

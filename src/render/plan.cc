@@ -136,9 +136,8 @@ void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan
   const int spp = scene.image.spp;
   plan->sampler = MakePixelSampler(scene.image.filter, spp, scene.image.seed);
   // One sample a pixel makes small batches; wider tiles fill them.
-  constexpr int kWideTile = static_cast<int>(kBatchCapacity) / kStripRows;
-  plan->tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kWideTile)
-                                            : (spp == 1 ? kWideTile : kStripRows);
+  plan->tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kWidestTile)
+                                            : (spp == 1 ? kWidestTile : kStripRows);
   plan->samples_per_round =
       std::clamp(static_cast<int>(kBatchCapacity) / (plan->tile_width * kStripRows), 1, spp);
   if (settings.max_error > 0) {
@@ -191,6 +190,25 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan
        fmt::format("maps on {} materials: {} images, {:.1f} MiB with their mip levels; a sample's "
                    "footprint is {:g} pixels wide",
                    count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
+}
+
+// Samples beside all outlines hit nothing: that they are there is all that need be known, unless
+// someone asks where. Tiles that triangles are in sight of place all of theirs.
+void PlanPlaces(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+  const bool nearest = std::any_of(plan->channels.begin(), plan->channels.end(),
+                                   [](ChannelKind kind) { return kind != ChannelKind::kAveraged; });
+  const char* const why = scene.spheres.empty()    ? "there are no spheres"
+                          : settings.max_error > 0 ? "each block of pixels places its own"
+                          : plan->sampler.centered ? "centres are placed as fast as they are chosen"
+                          : !plan->tiles           ? "Embree looks for every ray's hit"
+                          : settings.general_path  ? "the general path is asked for"
+                          : plan->sky != nullptr   ? "they see the sky"
+                          : plan->splits           ? "some material depends on where samples lie"
+                          : nearest ? "some layers show the hit nearest to the pixel's centre"
+                                    : nullptr;
+  plan->only_spans = why == nullptr;
+  plan->items.push_back({"places of samples beside the spheres", why != nullptr,
+                         why != nullptr ? why : "outside the outlines they hit nothing"});
 }
 
 // A pixel's only sample, of weight 1, is its value.
@@ -280,6 +298,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
     plan.one_sided = plan.one_sided || material.emits_in_front_only;
     plan.exact_directions = plan.exact_directions || HasDoubleTerms(plan.materials.back());
   }
+  PlanPlaces(scene, settings, &plan);
   PlanTextures(scene, settings, &plan);
   PlanLightOffsets(scene, settings, &plan);
   PlanFastLobes(scene, settings, &plan);

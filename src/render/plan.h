@@ -108,6 +108,7 @@ struct RenderPlan {
   bool eye_outside = false;                   // no camera ray starts in a sphere
   bool all_positions = true;                  // more than shadow rays reads the hits' positions
   std::vector<uint8_t> may_be_shadowed;       // else: which spheres shadow rays may start on
+  bool only_spans = false;                    // samples that no outline holds are not placed
   bool one_sample = false;                    // a pixel's only sample is its value: no sums
   // One light is all that hits reflect: the beauty is the sum that its kernel makes of the parts.
   bool one_light = false;
@@ -123,6 +124,10 @@ struct RenderPlan {
 // Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a
 // time, and 16 rows of all that is needed stay in L2.
 inline constexpr int kStripRows = 16;
+
+// Columns of a tile: where it spans more cells, less of what it gathers stays in L1.
+inline constexpr int kWidestTile = 64;
+static_assert(kWidestTile * kStripRows <= static_cast<int>(kBatchCapacity));
 
 // `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error (usage) for a layer
 // or region that the scene does not have.

@@ -15,10 +15,32 @@
 namespace nacre {
 namespace {
 
-// Samples [first, first + count) of each pixel of the tile.
+// Chooses the tile's pixels whose samples are placed, and readies them.
+void ChoosePixels(const RenderPlan& plan, const Window& tile, TileScratch* s) {
+  const bool were_only_spans = s->samples.only_spans;
+  s->samples.only_spans = plan.only_spans && s->in_sight && !s->triangles_in_sight &&
+                          s->candidates.span_pixels < tile.pixel_count();
+  std::vector<PixelRun>& runs = s->sampled_runs;
+  runs.clear();
+  if (s->samples.only_spans) {
+    for (const PixelSpan& span : s->candidates.spans) runs.push_back(span.pixels);
+  } else {
+    for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
+  }
+  if (!plan.sampler.centered) PutPixels(plan.sampler, runs, &s->sampled_pixels);
+  if (!s->samples.only_spans && !were_only_spans) return;  // rays have their numbers as it is
+  NumberRays(tile, runs, plan.samples_per_round, s->samples.ray.data());
+}
+
+// Samples [first, first + count) of each of the chosen pixels.
 void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
-  SamplePixels(plan.sampler, tile, s->shifts, first, count, s->samples.x.data(),
-               s->samples.y.data());
+  double* const x = s->samples.x.data();
+  double* const y = s->samples.y.data();
+  if (plan.sampler.centered) {
+    PlaceCenters(s->sampled_runs, x, y);
+  } else {
+    SamplePixels(plan.sampler, s->sampled_pixels, first, count, x, y);
+  }
   s->samples.count = tile.pixel_count() * static_cast<size_t>(count);
   s->weights.resize(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
@@ -280,7 +302,7 @@ void RenderTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch
     clock->Charge(Stage::kFilm);
     return;
   }
-  ShiftPixels(plan.sampler, tile, &s.shifts);
+  ChoosePixels(plan, tile, &s);
   if (s.sampled) NumberPixels(plan, tile, &s.sampled->numbers);
   if (plan.one_sample) return RenderOnce(plan, tile, &s, strip, blank, clock, stats);
   *blank = 0;

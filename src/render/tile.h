@@ -24,7 +24,8 @@ struct MaterialRun {
 struct TileScratch {
   TileFilm film;
   // Samples of a round.
-  PixelShifts shifts{kBatchCapacity};
+  std::vector<PixelRun> sampled_runs;
+  PixelBatch sampled_pixels{kBatchCapacity};
   FilmBatch samples;
   std::vector<double> weights;
   bool in_sight = true;  // some of the scene's shapes may be behind the samples

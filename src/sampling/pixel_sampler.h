@@ -52,22 +52,33 @@ PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
 // The weight of sample `index` of every pixel.
 double SampleWeight(const PixelSampler& sampler, int index);
 
-// What the pixels of a tile shift the point set by, row by row.
-struct PixelShifts {
-  explicit PixelShifts(size_t capacity) : x(capacity), y(capacity) {}
-  AlignedArray<uint32_t> x, y;
+// The centres of the runs' pixels: the places of the only samples of a centred sampler.
+void PlaceCenters(std::span<const PixelRun> runs, double* film_x, double* film_y);
+
+// Pixels whose samples are placed together, one behind the other, but for a centred sampler's.
+struct PixelBatch {
+  explicit PixelBatch(size_t capacity)
+      : origin_x(capacity), origin_y(capacity), shift_x(capacity), shift_y(capacity) {}
+
+  size_t count = 0;
+  // Column and row, less what a sample's bits begin at; and what the point set is shifted by there,
+  // under the exponent that makes such bits a double: pixel_sampler_kernel.cc.
+  AlignedArray<double> origin_x, origin_y;
+  AlignedArray<uint64_t> shift_x, shift_y;
 };
 
-// For the pixels of a tile, at most as many as there is room for: to the bit what SamplePixel
-// takes.
-void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts);
+// Readies the pixels of the runs, at most as many as there is room for.
+void PutPixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels);
 
-// Samples [first, first + count) of each of `pixels`, sample by sample, each row by row: film
-// positions x + 0.5 + dx and y + 0.5 + dy, to the bit those of SamplePixel. `shifts` are theirs.
-// The arrays take pixels.pixel_count() * count entries, and a vector's worth after them
-// (AlignedArray) may be overwritten.
-void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
-                  int first, int count, double* film_x, double* film_y);
+// Samples [first, first + count) of each of the pixels, sample by sample: film positions
+// x + 0.5 + dx and y + 0.5 + dy, to the bit those of SamplePixel. The arrays take
+// pixels.count * count entries, and a vector's worth after them (AlignedArray) may be overwritten.
+void SamplePixels(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
+                  double* film_x, double* film_y);
+
+// What places those of the runs' pixels have among `count` samples of each of the window's pixels,
+// sample by sample, each row by row. All arrays are overwritten like those of SamplePixels.
+void NumberRays(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray);
 
 // A pixel, by column and row, and which of several samplers places its samples.
 struct SampledPixel {
@@ -76,7 +87,7 @@ struct SampledPixel {
 };
 
 // Samples [first, first + count) of each of the pixels, one pixel after the other, likewise. The
-// samplers are of the same filter.
+// samplers are of the same filter, and not centred.
 void SamplePixelList(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,
                      int count, double* film_x, double* film_y);
 

@@ -20,21 +20,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 using DU32 = hn::Rebind<uint32_t, D>;
-using VU32 = hn::Vec<DU32>;
+using DU64 = hn::Rebind<uint64_t, D>;
+using VU64 = hn::Vec<DU64>;
 
-// With its top bit flipped a number without sign is, as one with a sign, lower by 2^31.
-inline constexpr uint32_t kTopBit = 0x80000000u;
+// The last bit of a double from 2^20 to 2^21 is worth 2^-32: with these bits before them, 32 bits
+// are, as a double, 2^20 + u exactly, where u is their UnitFromBits.
+inline constexpr uint64_t kUnitExponent = 0x4130000000000000u;
+inline constexpr double kUnitOrigin = 0x1p20;
 
-// 2^32 (u - 1/2), exactly, where u is UnitFromBits of the bits before their top one was flipped.
-HWY_INLINE V CenteredFromFlipped(VU32 flipped) {
-  const hn::Rebind<int32_t, D> di32;
-  return hn::PromoteTo(D(), hn::BitCast(di32, flipped));
-}
-
-// u of that.
-HWY_INLINE V UnitFromCentered(V centered) {
+HWY_INLINE V UnitFromBits(VU64 bits) {
   const D d;
-  return hn::Add(hn::Mul(centered, hn::Set(d, 0x1p-32)), hn::Set(d, 0.5));
+  return hn::Sub(hn::BitCast(d, bits), hn::Set(d, kUnitOrigin));
 }
 
 // SampleDistance of pixel_filter.cc.
@@ -54,28 +50,43 @@ HWY_INLINE V Distance(const double* HWY_RESTRICT quantiles, V u) {
   return hn::IfThenElse(hn::Lt(side, hn::Zero(d)), hn::Neg(distance), distance);
 }
 
-// The only sample of a pixel.
-struct Center {
-  HWY_INLINE void operator()(V, V, V* dx, V* dy) const {
-    *dx = hn::Zero(D());
-    *dy = hn::Zero(D());
+// A box as wide as a pixel, whose samples lie at u of it: column - 2^20 + (2^20 + u), rounded once.
+struct PixelBox {
+  static HWY_INLINE V Place(V origin, VU64 bits) { return hn::Add(origin, hn::BitCast(D(), bits)); }
+  HWY_INLINE void operator()(V origin_x, V origin_y, VU64 bits_x, VU64 bits_y, V* x, V* y) const {
+    *x = Place(origin_x, bits_x);
+    *y = Place(origin_y, bits_y);
+  }
+};
+
+// Samples at a distance from the pixels' centres, which offset(u, v, &dx, &dy) tells.
+template <class Offset>
+struct AboutCenter {
+  Offset offset;
+  HWY_INLINE void operator()(V origin_x, V origin_y, VU64 bits_x, VU64 bits_y, V* x, V* y) const {
+    const V to_center = hn::Set(D(), kUnitOrigin + 0.5);
+    V dx, dy;
+    offset(UnitFromBits(bits_x), UnitFromBits(bits_y), &dx, &dy);
+    *x = hn::Add(hn::Add(origin_x, to_center), dx);
+    *y = hn::Add(hn::Add(origin_y, to_center), dy);
   }
 };
 
 struct Box {
-  double scale;  // the box's width / 2^32
-  HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
-    *dx = hn::Mul(centered_x, hn::Set(D(), scale));
-    *dy = hn::Mul(centered_y, hn::Set(D(), scale));
+  double width;
+  HWY_INLINE void operator()(V u, V v, V* dx, V* dy) const {
+    const D d;
+    *dx = hn::Mul(hn::Sub(u, hn::Set(d, 0.5)), hn::Set(d, width));
+    *dy = hn::Mul(hn::Sub(v, hn::Set(d, 0.5)), hn::Set(d, width));
   }
 };
 
 // A filter without negative values.
 struct Positive {
   const double* quantiles;
-  HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
-    *dx = Distance(quantiles, UnitFromCentered(centered_x));
-    *dy = Distance(quantiles, UnitFromCentered(centered_y));
+  HWY_INLINE void operator()(V u, V v, V* dx, V* dy) const {
+    *dx = Distance(quantiles, u);
+    *dy = Distance(quantiles, v);
   }
 };
 
@@ -86,10 +97,8 @@ struct Signed {
   const double* first_y;
   const double* second_y;
   double first_share;
-  HWY_INLINE void operator()(V centered_x, V centered_y, V* dx, V* dy) const {
+  HWY_INLINE void operator()(V u, V v, V* dx, V* dy) const {
     const D d;
-    const V u = UnitFromCentered(centered_x);
-    const V v = UnitFromCentered(centered_y);
     const V share = hn::Set(d, first_share);
     const auto first = hn::Lt(u, share);
     const V first_u = hn::Div(u, share);
@@ -102,75 +111,68 @@ struct Signed {
   }
 };
 
-// One sample of each pixel. Whole vectors are stored: what lies past a row is overwritten by the
-// next one, or is the caller's padding.
-template <class Filter>
-HWY_INLINE void SamplePlane(const Filter& filter, const PixelSampler& sampler, int index,
-                            const Window& pixels, const PixelShifts& shifts,
-                            double* HWY_RESTRICT film_x, double* HWY_RESTRICT film_y) {
+// One sample of each pixel. Whole vectors are stored.
+template <class Place>
+HWY_INLINE void SamplePlane(const Place& place, const PixelSampler& sampler, int index,
+                            const PixelBatch& pixels, double* HWY_RESTRICT film_x,
+                            double* HWY_RESTRICT film_y) {
   const D d;
-  const DU32 du32;
-  const VU32 point_x = hn::Set(du32, sampler.points_x[static_cast<size_t>(index)] ^ kTopBit);
-  const VU32 point_y = hn::Set(du32, sampler.points_y[static_cast<size_t>(index)] ^ kTopBit);
-  const uint32_t* HWY_RESTRICT const shift_x = shifts.x.data();
-  const uint32_t* HWY_RESTRICT const shift_y = shifts.y.data();
-  const auto width = static_cast<size_t>(pixels.width());
-  const V first_column = hn::Iota(d, pixels.x0 + 0.5);
-  const V step = hn::Set(d, static_cast<double>(hn::Lanes(d)));
-  size_t row = 0;
-  for (int y = pixels.y0; y < pixels.y1; ++y, row += width) {
-    const V center_y = hn::Set(d, y + 0.5);
-    V center_x = first_column;
-    for (size_t i = row; i < row + width; i += hn::Lanes(d)) {
-      V dx, dy;
-      filter(CenteredFromFlipped(hn::Xor(point_x, hn::LoadU(du32, shift_x + i))),
-             CenteredFromFlipped(hn::Xor(point_y, hn::LoadU(du32, shift_y + i))), &dx, &dy);
-      hn::StoreU(hn::Add(center_x, dx), d, film_x + i);
-      hn::StoreU(hn::Add(center_y, dy), d, film_y + i);
-      center_x = hn::Add(center_x, step);  // exactly: halves
-    }
+  const DU64 du64;
+  const auto point_x = hn::Set(du64, uint64_t{sampler.points_x[static_cast<size_t>(index)]});
+  const auto point_y = hn::Set(du64, uint64_t{sampler.points_y[static_cast<size_t>(index)]});
+  const double* HWY_RESTRICT const origin_x = pixels.origin_x.data();
+  const double* HWY_RESTRICT const origin_y = pixels.origin_y.data();
+  const uint64_t* HWY_RESTRICT const shift_x = pixels.shift_x.data();
+  const uint64_t* HWY_RESTRICT const shift_y = pixels.shift_y.data();
+  const size_t count = pixels.count;
+  for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+    V x, y;
+    place(hn::Load(d, origin_x + i), hn::Load(d, origin_y + i),
+          hn::Xor(point_x, hn::Load(du64, shift_x + i)),
+          hn::Xor(point_y, hn::Load(du64, shift_y + i)), &x, &y);
+    hn::StoreU(x, d, film_x + i);
+    hn::StoreU(y, d, film_y + i);
   }
 }
 
 // Positive and negative samples by their own filters.
-template <class PositiveFilter, class NegativeFilter>
-HWY_INLINE void SampleAll(const PositiveFilter& positive, const NegativeFilter& negative,
-                          const PixelSampler& sampler, const Window& pixels,
-                          const PixelShifts& shifts, int first, int end, double* film_x,
-                          double* film_y) {
+template <class PositivePlace, class NegativePlace>
+HWY_INLINE void SampleAll(const PositivePlace& positive, const NegativePlace& negative,
+                          const PixelSampler& sampler, const PixelBatch& pixels, int first, int end,
+                          double* film_x, double* film_y) {
   for (int i = first; i < end; ++i) {
     if (i < sampler.positive_count) {
-      SamplePlane(positive, sampler, i, pixels, shifts, film_x, film_y);
+      SamplePlane(positive, sampler, i, pixels, film_x, film_y);
     } else {
-      SamplePlane(negative, sampler, i, pixels, shifts, film_x, film_y);
+      SamplePlane(negative, sampler, i, pixels, film_x, film_y);
     }
-    film_x += pixels.pixel_count();
-    film_y += pixels.pixel_count();
+    film_x += pixels.count;
+    film_y += pixels.count;
   }
 }
 
-// Calls sample(positive, negative) with the filter's two ways to sample.
+// Calls sample(positive, negative) with the filter's two ways to place samples.
 template <class Sample>
 HWY_INLINE void WithFilters(const PixelSampler& sampler, const Sample& sample) {
   const FilterSampler& filter = sampler.filter;
   const double* p = filter.positive.data();
   const double* n = filter.negative.data();
-  if (sampler.centered) {
-    sample(Center(), Center());
-  } else if (filter.positive.empty()) {
-    sample(Box{filter.filter.width * 0x1p-32}, Center());
+  const auto sample_one = [&](const auto& place) HWY_ATTR { sample(place, place); };
+  if (filter.positive.empty()) {
+    if (filter.filter.width == 1) return sample_one(PixelBox());
+    sample_one(AboutCenter<Box>{{filter.filter.width}});
   } else if (filter.negative.empty()) {
-    sample(Positive{p}, Center());
+    sample_one(AboutCenter<Positive>{{p}});
   } else {
-    sample(Signed{p, n, p, n, FirstRegionShare(filter, FilterPart::kPositive)},
-           Signed{n, p, p, n, FirstRegionShare(filter, FilterPart::kNegative)});
+    sample(AboutCenter<Signed>{{p, n, p, n, FirstRegionShare(filter, FilterPart::kPositive)}},
+           AboutCenter<Signed>{{n, p, p, n, FirstRegionShare(filter, FilterPart::kNegative)}});
   }
 }
 
-void SamplePixelsT(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
-                   int first, int count, double* film_x, double* film_y) {
+void SamplePixelsT(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
+                   double* film_x, double* film_y) {
   WithFilters(sampler, [&](const auto& positive, const auto& negative) HWY_ATTR {
-    SampleAll(positive, negative, sampler, pixels, shifts, first, first + count, film_x, film_y);
+    SampleAll(positive, negative, sampler, pixels, first, first + count, film_x, film_y);
   });
 }
 
@@ -182,45 +184,94 @@ HWY_INLINE hn::Vec<DU64> MixEach(DU64 d, hn::Vec<DU64> x) {
   return hn::Xor(x, hn::ShiftRight<31>(x));
 }
 
-// PixelSeed of each pixel, in halves. Whole vectors are stored, as in SamplePlane.
-void ShiftPixelsT(uint32_t seed, const Window& pixels, PixelShifts* shifts) {
-  const hn::Rebind<uint64_t, D> du64;
+// The halves of PixelSeed of a run's pixels. Whole vectors are stored, here and below: what lies
+// past a run is overwritten by the next one, or is padding.
+HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uint64_t* shift_y) {
+  const DU64 du64;
   const DU32 du32;
-  const auto first = hn::Set(du64, MixFirst(seed));
   const auto lane = hn::Iota(du32, 0);
-  size_t row = 0;
-  for (int y = pixels.y0; y < pixels.y1; ++y) {
-    const auto high = hn::Set(du64, static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32);
-    size_t i = row;
-    for (int x = pixels.x0; x < pixels.x1; x += static_cast<int>(hn::Lanes(du64))) {
-      // Modulo 2^32, as PixelSeed's. Not Iota from x on: that takes the lanes through memory.
-      const auto columns = hn::Add(lane, hn::Set(du32, static_cast<uint32_t>(x)));
-      const auto pixel = hn::Or(high, hn::PromoteTo(du64, columns));
-      const auto shift = MixEach(du64, hn::Xor(first, pixel));
-      hn::StoreU(hn::TruncateTo(du32, shift), du32, shifts->x.data() + i);
-      hn::StoreU(hn::TruncateTo(du32, hn::ShiftRight<32>(shift)), du32, shifts->y.data() + i);
-      i += hn::Lanes(du64);
+  const auto low_half = hn::Set(du64, uint64_t{0xffffffffu});
+  const auto exponent = hn::Set(du64, kUnitExponent);
+  const auto row = hn::Set(du64, static_cast<uint64_t>(static_cast<uint32_t>(run.y)) << 32);
+  for (int i = 0; i < run.count; i += static_cast<int>(hn::Lanes(du64))) {
+    // Modulo 2^32, as PixelSeed's. Not Iota from there on: that takes the lanes through memory.
+    const auto columns = hn::Add(lane, hn::Set(du32, static_cast<uint32_t>(run.x + i)));
+    const auto pixel = hn::Or(row, hn::PromoteTo(du64, columns));
+    const auto shift = MixEach(du64, hn::Xor(first, pixel));
+    hn::StoreU(hn::Or(exponent, hn::And(shift, low_half)), du64, shift_x + i);
+    hn::StoreU(hn::Or(exponent, hn::ShiftRight<32>(shift)), du64, shift_y + i);
+  }
+}
+
+// Columns and rows of the runs' pixels, each with `more`.
+HWY_INLINE void PlaceRuns(std::span<const PixelRun> runs, double more, double* HWY_RESTRICT x,
+                          double* HWY_RESTRICT y) {
+  const D d;
+  const V lane = hn::Iota(d, 0.0), step = hn::Set(d, static_cast<double>(hn::Lanes(d)));
+  for (const PixelRun& run : runs) {
+    const V row = hn::Set(d, run.y + more);
+    V column = hn::Add(lane, hn::Set(d, run.x + more));
+    const auto count = static_cast<size_t>(run.count);
+    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
+      hn::StoreU(column, d, x + i);
+      hn::StoreU(row, d, y + i);
+      column = hn::Add(column, step);  // exactly
     }
-    row += static_cast<size_t>(pixels.width());
+    x += count;
+    y += count;
+  }
+}
+
+void PlaceCentersT(std::span<const PixelRun> runs, double* film_x, double* film_y) {
+  PlaceRuns(runs, 0.5, film_x, film_y);
+}
+
+void PutPixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels) {
+  const auto first = hn::Set(DU64(), MixFirst(sampler.seed));
+  size_t place = 0;
+  for (const PixelRun& run : runs) {
+    ShiftRun(run, first, pixels->shift_x.data() + place, pixels->shift_y.data() + place);
+    place += static_cast<size_t>(run.count);
+  }
+  PlaceRuns(runs, -kUnitOrigin, pixels->origin_x.data(), pixels->origin_y.data());
+  pixels->count = place;
+}
+
+void NumberRaysT(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray) {
+  const hn::ScalableTag<uint32_t> d;
+  const auto lane = hn::Iota(d, 0);
+  const auto plane = static_cast<uint32_t>(window.pixel_count());
+  for (uint32_t k = 0; k < static_cast<uint32_t>(count); ++k) {
+    for (const PixelRun& run : runs) {
+      const auto first = k * plane + static_cast<uint32_t>(IndexIn(window, run.x, run.y));
+      for (int i = 0; i < run.count; i += static_cast<int>(hn::Lanes(d))) {
+        hn::StoreU(hn::Add(lane, hn::Set(d, first + static_cast<uint32_t>(i))), d, ray + i);
+      }
+      ray += run.count;
+    }
   }
 }
 
 // Samples of one pixel and one part of the filter.
-template <class Filter>
-HWY_INLINE void SampleRun(const Filter& filter, const PixelSampler& sampler, int x, int y,
+template <class Place>
+HWY_INLINE void SampleRun(const Place& place, const PixelSampler& sampler, int x, int y,
                           size_t first, size_t end, double* film_x, double* film_y) {
   const D d;
+  const DU64 du64;
   const DU32 du32;
   const uint64_t shift = PixelSeed(x, y, sampler.seed);
-  const VU32 shift_x = hn::Set(du32, static_cast<uint32_t>(shift) ^ kTopBit);
-  const VU32 shift_y = hn::Set(du32, static_cast<uint32_t>(shift >> 32) ^ kTopBit);
+  const auto shift_x = hn::Set(du64, kUnitExponent | static_cast<uint32_t>(shift));
+  const auto shift_y = hn::Set(du64, kUnitExponent | shift >> 32);
+  const V origin_x = hn::Set(d, x - kUnitOrigin), origin_y = hn::Set(d, y - kUnitOrigin);
+  const auto points = [&](const std::vector<uint32_t>& from, size_t i) HWY_ATTR {
+    return hn::PromoteTo(du64, hn::LoadU(du32, from.data() + i));
+  };
   for (size_t i = first; i < end; i += hn::Lanes(d)) {
-    V dx, dy;
-    filter(CenteredFromFlipped(hn::Xor(hn::LoadU(du32, sampler.points_x.data() + i), shift_x)),
-           CenteredFromFlipped(hn::Xor(hn::LoadU(du32, sampler.points_y.data() + i), shift_y)), &dx,
-           &dy);
-    hn::StoreU(hn::Add(hn::Set(d, x + 0.5), dx), d, film_x + (i - first));
-    hn::StoreU(hn::Add(hn::Set(d, y + 0.5), dy), d, film_y + (i - first));
+    V at_x, at_y;
+    place(origin_x, origin_y, hn::Xor(points(sampler.points_x, i), shift_x),
+          hn::Xor(points(sampler.points_y, i), shift_y), &at_x, &at_y);
+    hn::StoreU(at_x, d, film_x + (i - first));
+    hn::StoreU(at_y, d, film_y + (i - first));
   }
 }
 
@@ -247,17 +298,26 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(ShiftPixelsT);
+HWY_EXPORT(PlaceCentersT);
+HWY_EXPORT(PutPixelsT);
+HWY_EXPORT(NumberRaysT);
 HWY_EXPORT(SamplePixelsT);
 HWY_EXPORT(SamplePixelListT);
-void ShiftPixels(const PixelSampler& sampler, const Window& pixels, PixelShifts* shifts) {
-  if (sampler.centered) return;
-  HWY_DYNAMIC_DISPATCH(ShiftPixelsT)(sampler.seed, pixels, shifts);
+void PlaceCenters(std::span<const PixelRun> runs, double* film_x, double* film_y) {
+  HWY_DYNAMIC_DISPATCH(PlaceCentersT)(runs, film_x, film_y);
 }
 
-void SamplePixels(const PixelSampler& sampler, const Window& pixels, const PixelShifts& shifts,
-                  int first, int count, double* film_x, double* film_y) {
-  HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, shifts, first, count, film_x, film_y);
+void PutPixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels) {
+  HWY_DYNAMIC_DISPATCH(PutPixelsT)(sampler, runs, pixels);
+}
+
+void NumberRays(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray) {
+  HWY_DYNAMIC_DISPATCH(NumberRaysT)(window, runs, count, ray);
+}
+
+void SamplePixels(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
+                  double* film_x, double* film_y) {
+  HWY_DYNAMIC_DISPATCH(SamplePixelsT)(sampler, pixels, first, count, film_x, film_y);
 }
 
 void SamplePixelList(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,

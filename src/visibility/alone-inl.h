@@ -25,7 +25,7 @@ inline constexpr int kAloneBlock = 4 * kCameraPacket;
 // and may hit one sphere.
 struct AloneBlock {
   int groups = 0;
-  uint32_t ray[kAloneBlock];   // of a group's first lane
+  uint32_t ray[kAloneBlock];   // the batch's, of a group's first lane
   uint32_t bits[kAloneBlock];  // its lanes that are proposed, then those that hit
   const TileCandidate* candidate[kAloneBlock];
   // The packets, as bits, of the last block of a batch in any order, that all hit: most likely
@@ -82,9 +82,11 @@ HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneB
 
 // A function of its own: what lies around it takes none of its registers. The rays start outside,
 // so the normals point outward.
-HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const HitsTo& to) {
+HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch& film,
+                                       const HitsTo& to) {
   const CameraDouble d;
   HitWriter writer(to);
+  const uint32_t* HWY_RESTRICT const ray = film.ray.data();
   for (int g = 0; g < block.groups; ++g) {
     const uint32_t bits = block.bits[g];
     if (bits == 0) continue;
@@ -97,7 +99,7 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const HitsTo& to
                       LoadGroup(block.perpendicular, place), SetVec3(d, candidate.sphere.center),
                       hn::Set(d, candidate.inverse_radius));
     writer.Surfaces(surface, Scale(backward, hn::Load(d, block.inverse_length + place)), bits,
-                    block.ray[g]);
+                    ray + block.ray[g]);
     writer.Primitive(candidate.primitive, bits);
   }
 }
@@ -107,7 +109,7 @@ HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film, Alon
                            const HitsTo& to) {
   if (block->groups == 0) return;
   TestRays(frame, film, block);
-  AppendBlock(*block, to);
+  AppendBlock(*block, film, to);
   block->groups = 0;
 }
 
@@ -172,7 +174,7 @@ HWY_INLINE void TraceAlone(const CameraFrame& frame, const TileCandidate& candid
     ProposeGroups(frame, candidate, film, i, count, packet, block);
     TestRays(frame, film, block);
     FindLikely(i, block);
-    AppendBlock(*block, to);
+    AppendBlock(*block, film, to);
     block->groups = 0;
   }
 }

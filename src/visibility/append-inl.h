@@ -63,18 +63,17 @@ class HitWriter {
         normal_(PointersTo(&to.directions->normal)),
         to_view_(PointersTo(&to.directions->to_view)) {}
 
-  // All of a group's hits but their primitives, with which the hits will be counted. `ray` is that
-  // of the first lane.
+  // All of a group's hits but their primitives, with which the hits will be counted. `ray`: those
+  // of the lanes.
   template <class V>
   HWY_INLINE void Surfaces(const SurfaceV<CameraDouble, V>& surface, Vec3V<V> to_view,
-                           uint32_t bits, uint32_t ray) const {
+                           uint32_t bits, const uint32_t* ray) const {
     const CameraDouble d;
     const hn::Rebind<float, CameraDouble> df;
     const D32 du;
     const bool all = bits == kAllOfGroup;
     auto normal = surface.normal;
-    // Not Iota from `ray` on: that takes the lanes through memory one by one.
-    auto rays = hn::Add(hn::Iota(du, 0), hn::Set(du, ray));
+    auto rays = hn::LoadU(du, ray);
     // Before the stores, which so stand here once: of two kinds of them GCC keeps each address in a
     // mask register, to have it at hand for both.
     if (!all) {

@@ -52,7 +52,7 @@ struct RowSpan {
   uint32_t bits;
 
   static constexpr uint32_t kNone = ~0u;  // it reaches none
-  static constexpr int kOutlineBits = 5, kPixelBits = 11, kBeginBits = kOutlineBits + kPixelBits;
+  static constexpr int kOutlineBits = 5, kPixelBits = 12, kBeginBits = kOutlineBits + kPixelBits;
   static_assert(kMaxOutlines <= 1 << kOutlineBits);
   static_assert(kBatchCapacity < 1 << kPixelBits);  // no tile has as many pixels
 
@@ -216,8 +216,8 @@ HWY_EXPORT(FindOutlineSpansT);
 
 namespace {
 
-// Those that overlap become one. `first`: the row's first pixel.
-void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint32_t first,
+// Those that overlap become one. The row begins at column x.
+void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, int x, int y,
             std::vector<PixelSpan>* spans) {
   if (!std::is_sorted(row, row + count)) std::sort(row, row + count);
   for (size_t i = 0; i < count;) {
@@ -228,15 +228,13 @@ void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint3
       end = std::max(end, row[i].end());
       only = nullptr;
     }
-    spans->push_back({first + span.begin(), end - span.begin(), only});
+    const auto begin = static_cast<int>(span.begin());
+    spans->push_back({{x + begin, y, static_cast<int>(end) - begin}, only});
   }
 }
 
 void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
-  const auto width = static_cast<uint32_t>(tile.width());
-  for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
-    spans->push_back({y * width, width, nullptr});
-  }
+  for (int y = tile.y0; y < tile.y1; ++y) spans->push_back({{tile.x0, y, tile.width()}, nullptr});
 }
 
 // The tile's spheres, each once. `alone`: those in front of the camera.
@@ -275,7 +273,7 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
       row[in_row] = {of_outline[i].rows[y]};
       in_row += row[in_row].bits != RowSpan::kNone ? 1 : 0;
     }
-    PutRow(row, in_row, alone, static_cast<uint32_t>(y * tile.width()), &candidates->spans);
+    PutRow(row, in_row, alone, tile.x0, tile.y0 + y, &candidates->spans);
   }
 }
 }  // namespace nacre

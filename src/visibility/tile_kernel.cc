@@ -22,8 +22,8 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <bool kPerspective>
-HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet, size_t first_ray,
-                           const HitsTo& to) {
+HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
+                           const uint32_t* rays, const HitsTo& to) {
   const CameraDouble d;
   const int step = static_cast<int>(hn::Lanes(d));
   HitWriter writer(to);
@@ -40,8 +40,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
         SphereSurface(d, direction, hn::Load(d, packet.inverse_dd + lane), half_chord,
                       perpendicular, Centers(packet, lane), inverse);
     const auto to_view = ToView(direction, hn::Load(d, packet.inverse_length + lane));
-    const auto ray = static_cast<uint32_t>(first_ray) + static_cast<uint32_t>(lane);
-    writer.Surfaces(surface, to_view, bits, ray);
+    writer.Surfaces(surface, to_view, bits, rays + lane);
     writer.Primitives(packet.primitive + lane, bits);
   }
 }
@@ -77,29 +76,30 @@ HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) 
   return kPerspective && cell.size() == 1 && cell[0].in_front ? &cell[0] : nullptr;
 }
 
-// The rays of a row's columns from x to x_end, whichever sphere they hit. `row`: the row's first
-// ray; `packet` knows which of the cells' pixel rows it is. In a tile of one cell any rays that
-// follow one another are as good as a row's, of all pixel rows.
+// The rays of a row's columns from x to x_end, whichever sphere they hit. `begin_ray`: the batch's
+// first of them; `packet` knows which of the cells' pixel rows it is. In a tile of one cell any
+// rays that follow one another are as good as a row's, of all pixel rows.
 template <bool kPerspective>
 HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
-                           const TileCandidates& candidates, const FilmBatch& film, size_t row,
-                           int x, int x_end, CameraPacket* packet, const HitsTo& to) {
+                           const TileCandidates& candidates, const FilmBatch& film,
+                           size_t begin_ray, int x, int x_end, CameraPacket* packet,
+                           const HitsTo& to) {
   const int left = candidates.tile.x0 - bins.window.x0;
   const auto cell_at = [&](int column) {
     return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
   };
-  for (; x < x_end; x += kCameraPacket) {
+  for (size_t first = begin_ray; x < x_end; x += kCameraPacket, first += kCameraPacket) {
     const int width = std::min(kCameraPacket, x_end - x);
     const std::vector<TileCandidate>* begin = cell_at(x);
     const std::vector<TileCandidate>* const end = cell_at(x + width - 1) + 1;
-    const size_t first = row + static_cast<size_t>(x);
     while (begin != end && begin->empty()) ++begin;
     if (begin == end) continue;
     packet->lanes = (1u << width) - 1;
     packet->film_x = film.x.data() + first;
     packet->film_y = film.y.data() + first;
     TracePacket<kPerspective>(frame, begin, end, packet);
-    if (packet->hit != 0) AppendHits<kPerspective>(frame, *packet, first, to);
+    if (packet->hit == 0) continue;
+    AppendHits<kPerspective>(frame, *packet, film.ray.data() + first, to);
   }
 }
 
@@ -107,21 +107,32 @@ template <bool kPerspective>
 HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
                              CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
-  const auto width = static_cast<uint32_t>(candidates.tile.width());
-  const auto first_row = static_cast<uint32_t>((candidates.tile.y0 - bins.window.y0) % kCellSize);
-  for (size_t sample = 0; sample < film.count; sample += candidates.tile.pixel_count()) {
+  const Window& tile = candidates.tile;
+  const size_t samples = film.count / tile.pixel_count();
+  const size_t in_spans = candidates.span_pixels;
+  // The spans' positions, sample by sample, lie one behind the other.
+  const bool are_dense = film.only_spans || in_spans == tile.pixel_count();
+  if (kPerspective && are_dense && candidates.alone != nullptr) {
+    PutRays(frame, film, *candidates.alone, 0, static_cast<uint32_t>(samples * in_spans), block,
+            to);
+    return TraceBlock(frame, film, block, to);
+  }
+  uint32_t place = 0;
+  for (size_t sample = 0; sample < samples; ++sample) {
     for (const PixelSpan& span : candidates.spans) {
-      if (kPerspective && span.alone != nullptr) {
-        PutRays(frame, film, *span.alone, static_cast<uint32_t>(sample) + span.first, span.count,
-                block, to);
-        continue;
+      const auto [x, y, count] = span.pixels;
+      if (!are_dense) {
+        place = static_cast<uint32_t>(sample * tile.pixel_count() + IndexIn(tile, x, y));
       }
-      TraceBlock(frame, film, block, to);
-      const auto x = static_cast<int>(span.first % width);
-      packet->pixel_rows = 1u << (first_row + span.first / width);
-      TraceRow<kPerspective>(frame, bins, candidates, film,
-                             sample + span.first - static_cast<size_t>(x), x,
-                             x + static_cast<int>(span.count), packet, to);
+      if (kPerspective && span.alone != nullptr) {
+        PutRays(frame, film, *span.alone, place, static_cast<uint32_t>(count), block, to);
+      } else {
+        TraceBlock(frame, film, block, to);
+        packet->pixel_rows = 1u << ((y - bins.window.y0) % kCellSize);
+        TraceRow<kPerspective>(frame, bins, candidates, film, place, x - tile.x0,
+                               x - tile.x0 + count, packet, to);
+      }
+      place += static_cast<uint32_t>(count);
     }
   }
   TraceBlock(frame, film, block, to);
@@ -272,6 +283,12 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
   }
   if (rays == TileRays::kSamples) FindPixelSpans(bins, candidates);
+  candidates->span_pixels = 0;
+  candidates->alone = candidates->spans.empty() ? nullptr : candidates->spans[0].alone;
+  for (const PixelSpan& span : candidates->spans) {
+    candidates->span_pixels += static_cast<size_t>(span.pixels.count);
+    if (span.alone != candidates->alone) candidates->alone = nullptr;
+  }
   return true;
 }
 

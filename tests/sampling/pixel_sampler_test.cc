@@ -13,6 +13,7 @@ namespace nacre {
 namespace {
 
 constexpr PixelFilter kFilters[] = {{FilterKind::kBox, 1},
+                                    {FilterKind::kBox, 1.7},
                                     {FilterKind::kGaussian, 3},
                                     {FilterKind::kBlackmanHarris, 3.3},
                                     {FilterKind::kMitchell, 4}};
@@ -120,42 +121,78 @@ TEST_CASE("Estimates are unbiased and their errors independent", "[sampling]") {
   }
 }
 
+std::vector<PixelRun> RowsOf(const Window& window) {
+  std::vector<PixelRun> rows;
+  for (int y = window.y0; y < window.y1; ++y) rows.push_back({window.x0, y, window.width()});
+  return rows;
+}
+
+size_t CountPixels(const std::vector<PixelRun>& runs) {
+  size_t count = 0;
+  for (const PixelRun& run : runs) count += static_cast<size_t>(run.count);
+  return count;
+}
+
+// Samples of the runs' pixels, in arrays exactly as large as promised, for the address sanitizer.
+struct Placed {
+  Placed(const PixelSampler& sampler, const Window& window, const std::vector<PixelRun>& runs,
+         int first, int count)
+      : size(CountPixels(runs) * static_cast<size_t>(count)), x(size), y(size), number(size) {
+    NumberRays(window, runs, count, number.data());
+    if (sampler.centered) {
+      PlaceCenters(runs, x.data(), y.data());
+      return;
+    }
+    PixelBatch batch(CountPixels(runs));
+    PutPixels(sampler, runs, &batch);
+    CHECK(batch.count == CountPixels(runs));
+    SamplePixels(sampler, batch, first, count, x.data(), y.data());
+  }
+
+  size_t size;
+  AlignedArray<double> x, y;
+  AlignedArray<uint32_t> number;
+};
+
 TEST_CASE("SamplePixels is SamplePixel to the bit on every target", "[sampling]") {
   const Window pixels{-3, 5, 8, 9};
+  const std::vector<PixelRun> some{{-1, 5, 1}, {3, 5, 5}, {-3, 6, 11}, {-2, 8, 9}};
   for (const PixelFilter& filter : kFilters) {
     for (const int spp : {1, 2, 3, 16, 61}) {
       const PixelSampler sampler = MakePixelSampler(filter, spp, 9);
       ForEachTarget([&](Target) {
-        PixelShifts shifts(pixels.pixel_count());
-        ShiftPixels(sampler, pixels, &shifts);
         for (const auto& [first, count] : {std::pair{0, spp}, {spp / 2, spp - spp / 2}, {0, 1}}) {
-          const size_t size = pixels.pixel_count() * static_cast<size_t>(count);
-          // Exactly as large as promised, for the address sanitizer.
-          AlignedArray<double> x(size), y(size);
-          SamplePixels(sampler, pixels, shifts, first, count, x.data(), y.data());
-          size_t wrong = 0, ray = 0;
-          for (int i = first; i < first + count; ++i) {
-            for (int row = pixels.y0; row < pixels.y1; ++row) {
-              for (int column = pixels.x0; column < pixels.x1; ++column, ++ray) {
-                const PixelSample s = SamplePixel(sampler, column, row, i);
-                wrong += x[ray] != column + 0.5 + s.dx || y[ray] != row + 0.5 + s.dy ||
-                         SampleWeight(sampler, i) != s.weight;
+          CAPTURE(static_cast<int>(filter.kind), spp, first, count);
+          for (const std::vector<PixelRun>& runs : {RowsOf(pixels), some}) {
+            const Placed placed(sampler, pixels, runs, first, count);
+            size_t wrong = 0, i = 0;
+            for (int sample = 0; sample < count; ++sample) {
+              for (const PixelRun& run : runs) {
+                for (int x = run.x; x < run.x + run.count; ++x, ++i) {
+                  const PixelSample s = SamplePixel(sampler, x, run.y, first + sample);
+                  const size_t number = static_cast<size_t>(sample) * pixels.pixel_count() +
+                                        IndexIn(pixels, x, run.y);
+                  wrong += placed.x[i] != x + 0.5 + s.dx || placed.y[i] != run.y + 0.5 + s.dy ||
+                           placed.number[i] != number ||
+                           SampleWeight(sampler, first + sample) != s.weight;
+                }
               }
             }
+            CHECK((wrong == 0 && i == placed.size));
           }
+          if (sampler.centered) continue;
           // And the samples of listed pixels, pixel by pixel.
           const std::vector<SampledPixel> list{{5, -2, 0}, {7, 9, 0}, {5, -2, 0}};
           AlignedArray<double> list_x(3 * static_cast<size_t>(count));
           AlignedArray<double> list_y(3 * static_cast<size_t>(count));
           SamplePixelList(&sampler, list, first, count, list_x.data(), list_y.data());
-          ray = 0;
+          size_t wrong = 0, ray = 0;
           for (const SampledPixel& pixel : list) {
             for (int i = first; i < first + count; ++i, ++ray) {
               const PixelSample s = SamplePixel(sampler, pixel.x, pixel.y, i);
               wrong += list_x[ray] != pixel.x + 0.5 + s.dx || list_y[ray] != pixel.y + 0.5 + s.dy;
             }
           }
-          CAPTURE(static_cast<int>(filter.kind), spp, first, count);
           CHECK(wrong == 0);
         }
       });
