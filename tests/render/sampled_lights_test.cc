@@ -96,6 +96,20 @@ TEST_CASE("the sky stands behind the scene where it is asked to") {
   CHECK(image.Find("A")->samples[0] == 0);
 }
 
+// Where samples hit nothing, the general path places them all the same.
+TEST_CASE("the sky beside a sphere is seen through the samples' own places") {
+  Scene scene = OneSphere(LambertMaterial{Rgb(0.5)}, 64, 4);
+  scene.camera.fov_y_deg = 60;
+  scene.lights = {Named("sky", EnvironmentLight{.sky = GradientSky{}, .background = true})};
+  const Image image = RenderImage(scene, {});
+  RenderSettings general;
+  general.general_path = true;
+  const Image expected = RenderImage(scene, general);
+  for (const char* channel : {"R", "G", "B", "A"}) {
+    CHECK(image.Find(channel)->samples == expected.Find(channel)->samples);
+  }
+}
+
 // A dim sky with a sun of one texel that gives most of the light.
 std::shared_ptr<const SkyPicture> SunnyPicture() {
   auto picture = std::make_shared<SkyPicture>();
