@@ -99,13 +99,15 @@ void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* we
   }
 }
 
-// Adds what hits are worth to the sums of the spans' pixels.
+// Adds what hits are worth to the sums of the spans' pixels, in all channels while a span is at
+// hand: many are short.
+template <size_t kChannels>
 struct ToSums {
   // Of a tile's pixels that are all hit, so many samples lie one behind the other in a batch.
   static constexpr size_t kSamples = 8;
-  double* HWY_RESTRICT sums;
+  double* const* sums;
 
-  // value(i): that of the hits from i on.
+  // value(c, i): that of the hits from i on.
   template <class Value>
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
     const D d;
@@ -113,7 +115,8 @@ struct ToSums {
       const HitSpan& span = spans[0];
       if (span.weight != 1) {
         const V weight = hn::Set(d, span.weight);
-        Add<1>(spans, [weight, value](size_t i) HWY_ATTR { return hn::Mul(weight, value(i)); });
+        Add<1>(spans, [weight, value](size_t c, size_t i)
+                          HWY_ATTR { return hn::Mul(weight, value(c, i)); });
         spans = spans.subspan(1);
       } else if (AreAlike(spans)) {  // of filters that are nowhere negative
         Add<kSamples>(spans, value);
@@ -142,74 +145,108 @@ struct ToSums {
   HWY_INLINE void Add(std::span<const HitSpan> spans, Weighted weighted) const {
     const D d;
     const size_t count = spans[0].count;
-    double* const to = sums + spans[0].pixel;
+    double* to[kChannels];
+    for (size_t c = 0; c < kChannels; ++c) to[c] = sums[c] + spans[0].pixel;
     size_t hit[kSpans];
     for (size_t k = 0; k < kSpans; ++k) hit[k] = spans[k].hit;
-    const auto sum_at = [&](size_t i) HWY_ATTR {
-      V sum = hn::LoadU(d, to + i);
-      for (size_t k = 0; k < kSpans; ++k) sum = hn::Add(sum, weighted(hit[k] + i));
+    const auto sum_at = [&](size_t c, size_t i) HWY_ATTR {
+      V sum = hn::LoadU(d, to[c] + i);
+      for (size_t k = 0; k < kSpans; ++k) sum = hn::Add(sum, weighted(c, hit[k] + i));
       return sum;
     };
     size_t i = 0;
-    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) hn::StoreU(sum_at(i), d, to + i);
-    if (i < count) hn::BlendedStore(sum_at(i), hn::FirstN(d, count - i), d, to + i);
+    for (; i + hn::Lanes(d) <= count; i += hn::Lanes(d)) {
+      for (size_t c = 0; c < kChannels; ++c) hn::StoreU(sum_at(c, i), d, to[c] + i);
+    }
+    if (i == count) return;
+    const auto rest = hn::FirstN(d, count - i);
+    for (size_t c = 0; c < kChannels; ++c) hn::BlendedStore(sum_at(c, i), rest, d, to[c] + i);
   }
 };
 
 // Puts it into the spans' pixels.
+template <size_t kChannels>
 struct ToRows {
-  const PixelRows<float>& rows;
+  const PixelRows<float>* rows;
 
   template <class Value>
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
     const D d;
     const F f;
     for (const HitSpan& span : spans) {
-      float* const to =
-          rows.first + span.pixel / rows.width * rows.stride + span.pixel % rows.width;
-      const auto rounded = [f, value](size_t i) HWY_ATTR { return hn::DemoteTo(f, value(i)); };
-      size_t i = 0;
-      for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
-        hn::StoreU(rounded(span.hit + i), f, to + i);
+      const size_t y = span.pixel / rows[0].width, x = span.pixel % rows[0].width;
+      const auto rest = hn::FirstN(f, span.count % hn::Lanes(d));
+      for (size_t c = 0; c < kChannels; ++c) {
+        float* const to = rows[c].first + y * rows[c].stride + x;
+        const auto rounded = [f, c, value](size_t i)
+                                 HWY_ATTR { return hn::DemoteTo(f, value(c, i)); };
+        size_t i = 0;
+        for (; i + hn::Lanes(d) <= span.count; i += hn::Lanes(d)) {
+          hn::StoreU(rounded(span.hit + i), f, to + i);
+        }
+        if (i == span.count) continue;
+        hn::BlendedStore(rounded(span.hit + i), rest, f, to + i);
       }
-      if (i == span.count) continue;
-      hn::BlendedStore(rounded(span.hit + i), hn::FirstN(f, span.count - i), f, to + i);
     }
   }
 };
 
-// No value is -0, as no sum that begins with 0 is.
-template <class To>
-HWY_INLINE void BringHits(const float* HWY_RESTRICT a, const float* HWY_RESTRICT b, double constant,
-                          double further, std::span<const HitSpan> spans, const To& to) {
-  const D d;
-  const V first = hn::Add(hn::Zero(d), hn::Set(d, constant));  // nor is a sum with this
-  const V second = hn::Set(d, further);
-  const auto load = [](const float* from, size_t i)
-                        HWY_ATTR { return hn::PromoteTo(D(), hn::LoadU(F(), from + i)); };
-  // By value: what `to` takes is a copy, which need not be loaded again after each store.
-  const auto bring = [&](const auto& with_first) HWY_ATTR {
-    if (further == 0) return to(spans, with_first);
-    to(spans, [=](size_t i) HWY_ATTR { return hn::Add(with_first(i), second); });
-  };
-  if (a == nullptr) {
-    const V both = hn::Add(first, second);
-    to(spans, [=](size_t) HWY_ATTR { return both; });
-  } else if (b == nullptr) {
-    bring([=](size_t i) HWY_ATTR { return hn::Add(load(a, i), first); });
+// What there is to add, in vectors. No value is -0, as no sum that begins with 0 is.
+template <size_t kChannels, bool kTwo, bool kFurther>
+struct ValuesV {
+  const float *a[kChannels], *b[kChannels];
+  V constant[kChannels], further[kChannels];
+
+  explicit HWY_INLINE ValuesV(const HitValues& values) {
+    const D d;
+    for (size_t c = 0; c < kChannels; ++c) {
+      a[c] = values.a[c];
+      b[c] = values.b[c];
+      // With 0 first: nor is a sum with this.
+      constant[c] = hn::Add(hn::Zero(d), hn::Set(d, values.constant[c]));
+      further[c] = hn::Set(d, values.further[c]);
+    }
+  }
+
+  HWY_INLINE V operator()(size_t c, size_t i) const {
+    const D d;
+    V sum = hn::PromoteTo(d, hn::LoadU(F(), a[c] + i));
+    if constexpr (kTwo) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(F(), b[c] + i)));
+    sum = hn::Add(sum, constant[c]);
+    return kFurther ? hn::Add(sum, further[c]) : sum;
+  }
+};
+
+template <size_t kChannels, class To>
+HWY_INLINE void BringChannels(const HitValues& values, std::span<const HitSpan> spans,
+                              const To& to) {
+  bool further = false;
+  for (size_t c = 0; c < kChannels; ++c) further = further || values.further[c] != 0;
+  if (values.a[0] == nullptr) {
+    const D d;
+    V both[kChannels];
+    for (size_t c = 0; c < kChannels; ++c) {
+      both[c] = hn::Set(d, 0.0 + values.constant[c] + values.further[c]);
+    }
+    to(spans, [both](size_t c, size_t) HWY_ATTR { return both[c]; });
+  } else if (values.b[0] == nullptr) {
+    if (further) return to(spans, ValuesV<kChannels, false, true>(values));
+    to(spans, ValuesV<kChannels, false, false>(values));
   } else {
-    bring([=](size_t i) HWY_ATTR { return hn::Add(hn::Add(load(a, i), load(b, i)), first); });
+    if (further) return to(spans, ValuesV<kChannels, true, true>(values));
+    to(spans, ValuesV<kChannels, true, false>(values));
   }
 }
 
-void AddHitsT(const float* a, const float* b, double constant, double further,
-              std::span<const HitSpan> spans, double* sums) {
-  BringHits(a, b, constant, further, spans, ToSums{sums});
+void AddHitsT(const HitValues& values, std::span<const HitSpan> spans, double* const* sums) {
+  if (values.channels == 1) return BringChannels<1>(values, spans, ToSums<1>{sums});
+  BringChannels<3>(values, spans, ToSums<3>{sums});
 }
 
-void PutHitsT(const float* a, const float* b, double constant, double further,
-              std::span<const HitSpan> spans, const PixelRows<float>& rows) {
-  BringHits(a, b, constant, further, spans, ToRows{rows});
+void PutHitsT(const HitValues& values, std::span<const HitSpan> spans,
+              const PixelRows<float>* rows) {
+  if (values.channels == 1) return BringChannels<1>(values, spans, ToRows<1>{rows});
+  BringChannels<3>(values, spans, ToRows<3>{rows});
 }
 
 // a[i], and b[i] unless b is null.
@@ -264,14 +301,13 @@ void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* wei
   HWY_DYNAMIC_DISPATCH(FindSpansT)(hits, pixels, row, weights, spans);
 }
 
-void AddHits(const float* a, const float* b, double constant, double further,
-             std::span<const HitSpan> spans, double* sums) {
-  HWY_DYNAMIC_DISPATCH(AddHitsT)(a, b, constant, further, spans, sums);
+void AddHits(const HitValues& values, std::span<const HitSpan> spans, double* const* sums) {
+  HWY_DYNAMIC_DISPATCH(AddHitsT)(values, spans, sums);
 }
 
-void PutHits(const float* a, const float* b, double constant, double further,
-             std::span<const HitSpan> spans, const PixelRows<float>& rows) {
-  HWY_DYNAMIC_DISPATCH(PutHitsT)(a, b, constant, further, spans, rows);
+void PutHits(const HitValues& values, std::span<const HitSpan> spans,
+             const PixelRows<float>* rows) {
+  HWY_DYNAMIC_DISPATCH(PutHitsT)(values, spans, rows);
 }
 
 void RoundSums(const double* sums, const double* coverage, const RoundedBy& by,

@@ -33,10 +33,18 @@ struct HitRays {
 void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
                std::vector<HitSpan>* spans);
 
-// The same for hits alone: value i is double(a[i]) + double(b[i]) + constant + further. Of null b,
-// or a and b, there is nothing to add.
-void AddHits(const float* a, const float* b, double constant, double further,
-             std::span<const HitSpan> spans, double* sums);
+// What hits are worth in each of a layer's channels, one or three: in channel c, hit i
+// double(a[c][i]) + double(b[c][i]) + constant[c] + further[c]. Of null b, or a and b, which are so
+// in all channels, there is nothing to add.
+struct HitValues {
+  int channels;
+  const float* a[3];
+  const float* b[3];
+  double constant[3], further[3];
+};
+
+// AddSamples for hits alone, into the sums of each channel.
+void AddHits(const HitValues& values, std::span<const HitSpan> spans, double* const* sums);
 
 // A tile's rows in a channel of the picture: pixel p is first[p / width * stride + p % width].
 template <typename T>
@@ -46,9 +54,8 @@ struct PixelRows {
 };
 
 // The same for the only sample of each pixel, of weight 1, rounded to float: what RoundSums would
-// make of its sum. No span goes beyond a row.
-void PutHits(const float* a, const float* b, double constant, double further,
-             std::span<const HitSpan> spans, const PixelRows<float>& rows);
+// make of its sum, into the rows of each channel. No span goes beyond a row.
+void PutHits(const HitValues& values, std::span<const HitSpan> spans, const PixelRows<float>* rows);
 
 // What rounds the sums of a channel to its pixels: `weight` of all samples of a pixel, those that
 // missed showing the background.

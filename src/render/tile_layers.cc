@@ -126,15 +126,23 @@ void FindSpans(const MaterialRun& run, size_t row, TileScratch* s) {
             s->weights.data(), &s->spans);
 }
 
+HitValues ValuesOf(const LayerTerms& terms, int channels) {
+  HitValues values{.channels = channels, .a = {}, .b = {}, .constant = {}, .further = {}};
+  for (int c = 0; c < channels; ++c) {
+    values.a[c] = ChannelOrNull(terms.first, c);
+    values.b[c] = ChannelOrNull(terms.second, c);
+    values.constant[c] = terms.constant[c];
+    values.further[c] = terms.further[c];
+  }
+  return values;
+}
+
 // Adds a layer of a batch that FindSpans was asked about.
 void AddRun(const RenderPlan& plan, const Layer& layer, size_t light_layer, double* const* sums,
             const TileScratch& s) {
   const ShadingMaterial& constants = plan.materials[s.runs[0].material.index];
   const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, s);
-  for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-    AddHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
-            terms.further[c], s.spans, sums[c]);
-  }
+  AddHits(ValuesOf(terms, FloatChannels(layer.kind)), s.spans, sums);
 }
 
 // Adds a layer of any batch.
@@ -275,10 +283,12 @@ bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) 
     size_t color = 0, light_layer = 0;
     for (const Layer& layer : plan.layers) {
       const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, s);
-      for (int c = 0; c < FloatChannels(layer.kind); ++c) {
-        PutHits(ChannelOrNull(terms.first, c), ChannelOrNull(terms.second, c), terms.constant[c],
-                terms.further[c], s.spans, RowsIn(strip->window, tile, &strip->colors[color++]));
+      const int channels = FloatChannels(layer.kind);
+      PixelRows<float> rows[3] = {};
+      for (int c = 0; c < channels; ++c) {
+        rows[c] = RowsIn(strip->window, tile, &strip->colors[color++]);
       }
+      PutHits(ValuesOf(terms, channels), s.spans, rows);
       if (layer.kind == LayerKind::kLight) ++light_layer;
     }
   }

@@ -33,11 +33,12 @@ AlignedArray<uint32_t> MakeHits(const Rays& rays, std::mt19937* random, size_t* 
   return hits;
 }
 
-constexpr Rays kRays[] = {{256, 4, 1}, {256, 4, 0.98}, {256, 4, 0.5}, {35, 3, 0.9}, {64, 1, 0}};
+constexpr Rays kRays[] = {{256, 8, 1},   {256, 4, 1},  {256, 4, 0.98},
+                          {256, 4, 0.5}, {35, 3, 0.9}, {64, 1, 0}};
 
 TEST_CASE("Spans are as long as hits follow one another, within a row and a sample", "[render]") {
   std::mt19937 random(5);
-  const double weights[] = {1, 2, 3, 4};
+  const double weights[] = {1, 2, 3, 4, 5, 6, 7, 8};
   for (const Rays& rays : kRays) {
     for (const size_t row : {rays.pixels, rays.pixels == 35 ? size_t{7} : size_t{32}}) {
       size_t count = 0;
@@ -70,35 +71,60 @@ TEST_CASE("Spans are as long as hits follow one another, within a row and a samp
   }
 }
 
+// Into one channel and into three, of which the first alone has constants to add.
 TEST_CASE("Hits add their weight times what they are worth, in doubles", "[render]") {
   std::mt19937 random(6);
   std::uniform_real_distribution<float> value(-1, 3);
-  constexpr double kWeights[][4] = {
-      {1, 1, 1, 1}, {0.75, 0.75, 0.75, 0.75}, {-0.25, -0.25, -0.25, -0.25}, {1, 1, -0.25, 1}};
+  constexpr double kWeights[][8] = {{1, 1, 1, 1, 1, 1, 1, 1},
+                                    {0.75, 0.75, 0.75, 0.75},
+                                    {-0.25, -0.25, -0.25, -0.25},
+                                    {1, 1, -0.25, 1}};
   for (const auto& weights : kWeights) {
     for (const Rays& rays : kRays) {
       size_t count = 0;
       const AlignedArray<uint32_t> hits = MakeHits(rays, &random, &count);
-      AlignedArray<float> a(hits.size()), b(hits.size());
-      for (float& v : a) v = value(random);
-      for (float& v : b) v = value(random);
+      std::vector<AlignedArray<float>> floats;
+      for (int i = 0; i < 6; ++i) {
+        for (float& v : floats.emplace_back(hits.size())) v = value(random);
+      }
       std::vector<HitSpan> spans;
       FindSpans({hits.data(), 0, count}, rays.pixels, rays.pixels, weights, &spans);
-      for (const double constant : {0.0, 0.1}) {
-        for (const double further : {0.0, 0.7}) {
-          // Each ray's pixel once more, by itself.
-          std::vector<double> expected(rays.pixels, 0.0);
-          for (size_t i = 0; i < count; ++i) {
-            const double worth = double{a[i]} + double{b[i]} + constant + further;
-            const double weighted = weights[hits[i] / rays.pixels] * worth;  // rounded: never fused
-            expected[hits[i] % rays.pixels] += weighted;
+      for (const int channels : {1, 3}) {
+        for (const int terms : {0, 1, 2}) {
+          for (const auto& [constant, further] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.7}}) {
+            HitValues values{.channels = channels,
+                             .a = {},
+                             .b = {},
+                             .constant = {constant, 0, 0},
+                             .further = {further, 0, 0}};
+            // Each ray's pixel once more, by itself.
+            std::vector<double> expected[3];
+            for (int c = 0; c < channels; ++c) {
+              const auto& a = floats[static_cast<size_t>(c)];
+              const auto& b = floats[static_cast<size_t>(c + 3)];
+              if (terms > 0) values.a[c] = a.data();
+              if (terms > 1) values.b[c] = b.data();
+              expected[c].assign(rays.pixels, 0.0);
+              for (size_t i = 0; i < count; ++i) {
+                double worth = terms > 0 ? double{a[i]} : 0.0;
+                if (terms > 1) worth += double{b[i]};
+                worth = worth + values.constant[c] + values.further[c];
+                const double weighted = weights[hits[i] / rays.pixels] * worth;  // never fused
+                expected[c][hits[i] % rays.pixels] += weighted;
+              }
+            }
+            ForEachTarget([&](Target) {
+              AlignedArray<double> sums[3] = {AlignedArray<double>(rays.pixels),
+                                              AlignedArray<double>(rays.pixels),
+                                              AlignedArray<double>(rays.pixels)};
+              double* const to[3] = {sums[0].data(), sums[1].data(), sums[2].data()};
+              AddHits(values, spans, to);
+              CAPTURE(weights[2], rays.pixels, rays.hit_share, channels, terms, constant, further);
+              for (int c = 0; c < channels; ++c) {
+                CHECK(std::vector<double>(sums[c].begin(), sums[c].end()) == expected[c]);
+              }
+            });
           }
-          ForEachTarget([&](Target) {
-            AlignedArray<double> sums(rays.pixels);
-            AddHits(a.data(), b.data(), constant, further, spans, sums.data());
-            CAPTURE(weights[2], rays.pixels, rays.hit_share, constant, further);
-            CHECK(std::vector<double>(sums.begin(), sums.end()) == expected);
-          });
         }
       }
     }
