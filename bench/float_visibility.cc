@@ -110,16 +110,16 @@ void TraceFloatTileT(const CameraFrame& frame, const std::vector<FloatSphere>& s
   const D d;
   const hn::RebindToUnsigned<D> du;
   const int step = static_cast<int>(hn::Lanes(d));
+  const int width = candidates.tile.width();
   const Vec3d corner = frame.corner + frame.step_x * (candidates.tile.x0 + 0.5);
   for (const PixelSpan& span : candidates.spans) {
-    const int y = span.pixels.y - candidates.tile.y0;
-    const int begin = span.pixels.x - candidates.tile.x0;
-    const int end = begin + span.pixels.count;
-    const size_t first = IndexIn(candidates.tile, span.pixels.x, span.pixels.y);
+    const int y = static_cast<int>(span.first) / width;
+    const int begin = static_cast<int>(span.first) - y * width;
+    const int end = begin + static_cast<int>(span.count);
     const FloatRow row{Vec3f(corner + frame.step_y * (candidates.tile.y0 + y + 0.5)),
                        Vec3f(frame.step_x), 1u << y};
     for (int x = begin; x < end; x += step) {
-      const size_t place = first + static_cast<size_t>(x - begin);
+      const size_t place = span.first + static_cast<size_t>(x - begin);
       if (span.alone != nullptr) {
         const FloatHit found = TestFloat<true>(spheres[span.alone->primitive], RaysAt(row, x));
         StoreHits(hn::And(found.hit, hn::FirstN(d, static_cast<size_t>(end - x))), found.t,

@@ -62,17 +62,13 @@ class ExactTiles {
   explicit ExactTiles(bool positions) : positions_(positions) {}
 
   const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
-    const Window& tile = candidates.tile;
-    runs_.clear();
-    for (int y = tile.y0; y < tile.y1; ++y) runs_.push_back({tile.x0, y, tile.width()});
-    film_.count = tile.pixel_count();
-    PlaceCenters(runs_, film_.x.data(), film_.y.data());
+    film_.count = candidates.tile.pixel_count();
+    PlaceCenters(candidates.tile, film_.x.data(), film_.y.data());
     intersector.HitsInTile(candidates, film_, {&hits_, &directions_, positions_, false});
     return hits_;
   }
 
  private:
-  std::vector<PixelRun> runs_;
   bool positions_;
   FilmBatch film_;
   HitBatch hits_;

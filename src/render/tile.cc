@@ -15,19 +15,35 @@
 namespace nacre {
 namespace {
 
+// The pixels of a tile's spans; returns how many.
+size_t ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
+  const Window& tile = candidates.tile;
+  const auto width = static_cast<uint32_t>(tile.width());
+  size_t pixels = 0;
+  uint32_t row = 0;  // its first pixel
+  int y = tile.y0;
+  for (const PixelSpan& span : candidates.spans) {
+    for (; span.first >= row + width; row += width) ++y;
+    runs->push_back(
+        {tile.x0 + static_cast<int>(span.first - row), y, static_cast<int>(span.count)});
+    pixels += span.count;
+  }
+  return pixels;
+}
+
 // Chooses the tile's pixels whose samples are placed, and readies them.
 void ChoosePixels(const RenderPlan& plan, const Window& tile, TileScratch* s) {
+  if (plan.sampler.centered) return;  // all are
   const bool were_only_spans = s->samples.only_spans;
-  s->samples.only_spans = plan.only_spans && s->in_sight && !s->triangles_in_sight &&
-                          s->candidates.span_pixels < tile.pixel_count();
   std::vector<PixelRun>& runs = s->sampled_runs;
   runs.clear();
-  if (s->samples.only_spans) {
-    for (const PixelSpan& span : s->candidates.spans) runs.push_back(span.pixels);
-  } else {
+  s->samples.only_spans = plan.only_spans && s->in_sight && !s->triangles_in_sight &&
+                          ListSpans(s->candidates, &runs) < tile.pixel_count();
+  if (!s->samples.only_spans) {
+    runs.clear();
     for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
   }
-  if (!plan.sampler.centered) PutPixels(plan.sampler, runs, &s->sampled_pixels);
+  PutPixels(plan.sampler, runs, &s->sampled_pixels);
   if (!s->samples.only_spans && !were_only_spans) return;  // rays have their numbers as it is
   NumberRays(tile, runs, plan.samples_per_round, s->samples.ray.data());
 }
@@ -37,7 +53,7 @@ void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int coun
   double* const x = s->samples.x.data();
   double* const y = s->samples.y.data();
   if (plan.sampler.centered) {
-    PlaceCenters(s->sampled_runs, x, y);
+    PlaceCenters(tile, x, y);
   } else {
     SamplePixels(plan.sampler, s->sampled_pixels, first, count, x, y);
   }

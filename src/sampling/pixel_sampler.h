@@ -52,8 +52,9 @@ PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
 // The weight of sample `index` of every pixel.
 double SampleWeight(const PixelSampler& sampler, int index);
 
-// The centres of the runs' pixels: the places of the only samples of a centred sampler.
-void PlaceCenters(std::span<const PixelRun> runs, double* film_x, double* film_y);
+// The centres of the pixels, row by row: the places of the only samples of a centred sampler. The
+// arrays are overwritten like those of SamplePixels.
+void PlaceCenters(const Window& pixels, double* film_x, double* film_y);
 
 // Pixels whose samples are placed together, one behind the other, but for a centred sampler's.
 struct PixelBatch {

@@ -203,27 +203,25 @@ HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uin
   }
 }
 
-// Columns and rows of the runs' pixels, each with `more`.
-HWY_INLINE void PlaceRuns(std::span<const PixelRun> runs, double more, double* HWY_RESTRICT x,
-                          double* HWY_RESTRICT y) {
+// Columns and rows of a run's pixels, each with `more`.
+HWY_INLINE void PlaceRun(const PixelRun& run, double more, double* HWY_RESTRICT x,
+                         double* HWY_RESTRICT y) {
   const D d;
-  const V lane = hn::Iota(d, 0.0), step = hn::Set(d, static_cast<double>(hn::Lanes(d)));
-  for (const PixelRun& run : runs) {
-    const V row = hn::Set(d, run.y + more);
-    V column = hn::Add(lane, hn::Set(d, run.x + more));
-    const auto count = static_cast<size_t>(run.count);
-    for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-      hn::StoreU(column, d, x + i);
-      hn::StoreU(row, d, y + i);
-      column = hn::Add(column, step);  // exactly
-    }
-    x += count;
-    y += count;
+  const V row = hn::Set(d, run.y + more);
+  V column = hn::Add(hn::Iota(d, 0.0), hn::Set(d, run.x + more));
+  for (size_t i = 0; i < static_cast<size_t>(run.count); i += hn::Lanes(d)) {
+    hn::StoreU(column, d, x + i);
+    hn::StoreU(row, d, y + i);
+    column = hn::Add(column, hn::Set(d, static_cast<double>(hn::Lanes(d))));  // exactly
   }
 }
 
-void PlaceCentersT(std::span<const PixelRun> runs, double* film_x, double* film_y) {
-  PlaceRuns(runs, 0.5, film_x, film_y);
+void PlaceCentersT(const Window& pixels, double* film_x, double* film_y) {
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    PlaceRun({pixels.x0, y, pixels.width()}, 0.5, film_x, film_y);
+    film_x += pixels.width();
+    film_y += pixels.width();
+  }
 }
 
 void PutPixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels) {
@@ -231,9 +229,9 @@ void PutPixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs, Pix
   size_t place = 0;
   for (const PixelRun& run : runs) {
     ShiftRun(run, first, pixels->shift_x.data() + place, pixels->shift_y.data() + place);
+    PlaceRun(run, -kUnitOrigin, pixels->origin_x.data() + place, pixels->origin_y.data() + place);
     place += static_cast<size_t>(run.count);
   }
-  PlaceRuns(runs, -kUnitOrigin, pixels->origin_x.data(), pixels->origin_y.data());
   pixels->count = place;
 }
 
@@ -303,8 +301,8 @@ HWY_EXPORT(PutPixelsT);
 HWY_EXPORT(NumberRaysT);
 HWY_EXPORT(SamplePixelsT);
 HWY_EXPORT(SamplePixelListT);
-void PlaceCenters(std::span<const PixelRun> runs, double* film_x, double* film_y) {
-  HWY_DYNAMIC_DISPATCH(PlaceCentersT)(runs, film_x, film_y);
+void PlaceCenters(const Window& pixels, double* film_x, double* film_y) {
+  HWY_DYNAMIC_DISPATCH(PlaceCentersT)(pixels, film_x, film_y);
 }
 
 void PutPixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels) {

@@ -216,8 +216,8 @@ HWY_EXPORT(FindOutlineSpansT);
 
 namespace {
 
-// Those that overlap become one. The row begins at column x.
-void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, int x, int y,
+// Those that overlap become one. `first`: the row's first pixel.
+void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint32_t first,
             std::vector<PixelSpan>* spans) {
   if (!std::is_sorted(row, row + count)) std::sort(row, row + count);
   for (size_t i = 0; i < count;) {
@@ -228,13 +228,15 @@ void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, int x
       end = std::max(end, row[i].end());
       only = nullptr;
     }
-    const auto begin = static_cast<int>(span.begin());
-    spans->push_back({{x + begin, y, static_cast<int>(end) - begin}, only});
+    spans->push_back({first + span.begin(), end - span.begin(), only});
   }
 }
 
 void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
-  for (int y = tile.y0; y < tile.y1; ++y) spans->push_back({{tile.x0, y, tile.width()}, nullptr});
+  const auto width = static_cast<uint32_t>(tile.width());
+  for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
+    spans->push_back({y * width, width, nullptr});
+  }
 }
 
 // The tile's spheres, each once. `alone`: those in front of the camera.
@@ -266,6 +268,7 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   OutlineSpans of_outline[kMaxOutlines];
   PutSpheres(*candidates, &outlines, alone);
   HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(bins.projector, bins.reach, tile, &outlines, of_outline);
+  candidates->alone = outlines.count == 1 ? alone[0] : nullptr;
   RowSpan row[kMaxOutlines];
   for (int y = 0; y < tile.height(); ++y) {
     size_t in_row = 0;
@@ -273,7 +276,7 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
       row[in_row] = {of_outline[i].rows[y]};
       in_row += row[in_row].bits != RowSpan::kNone ? 1 : 0;
     }
-    PutRow(row, in_row, alone, tile.x0, tile.y0 + y, &candidates->spans);
+    PutRow(row, in_row, alone, static_cast<uint32_t>(y * tile.width()), &candidates->spans);
   }
 }
 }  // namespace nacre

@@ -107,32 +107,32 @@ template <bool kPerspective>
 HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
                              CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
-  const Window& tile = candidates.tile;
-  const size_t samples = film.count / tile.pixel_count();
-  const size_t in_spans = candidates.span_pixels;
-  // The spans' positions, sample by sample, lie one behind the other.
-  const bool are_dense = film.only_spans || in_spans == tile.pixel_count();
-  if (kPerspective && are_dense && candidates.alone != nullptr) {
-    PutRays(frame, film, *candidates.alone, 0, static_cast<uint32_t>(samples * in_spans), block,
-            to);
-    return TraceBlock(frame, film, block, to);
+  const size_t pixels = candidates.tile.pixel_count();
+  if (kPerspective && candidates.alone != nullptr) {
+    size_t in_spans = 0;
+    for (const PixelSpan& span : candidates.spans) in_spans += span.count;
+    if (film.only_spans || in_spans == pixels) {  // sample by sample, all lie one behind the other
+      const auto rays = static_cast<uint32_t>(film.count / pixels * in_spans);
+      PutRays(frame, film, *candidates.alone, 0, rays, block, to);
+      return TraceBlock(frame, film, block, to);
+    }
   }
-  uint32_t place = 0;
-  for (size_t sample = 0; sample < samples; ++sample) {
+  const auto width = static_cast<uint32_t>(candidates.tile.width());
+  const auto first_row = static_cast<uint32_t>((candidates.tile.y0 - bins.window.y0) % kCellSize);
+  uint32_t next = 0;
+  for (size_t sample = 0; sample < film.count; sample += pixels) {
     for (const PixelSpan& span : candidates.spans) {
-      const auto [x, y, count] = span.pixels;
-      if (!are_dense) {
-        place = static_cast<uint32_t>(sample * tile.pixel_count() + IndexIn(tile, x, y));
-      }
+      const uint32_t begin = film.only_spans ? next : static_cast<uint32_t>(sample) + span.first;
+      next += span.count;
       if (kPerspective && span.alone != nullptr) {
-        PutRays(frame, film, *span.alone, place, static_cast<uint32_t>(count), block, to);
-      } else {
-        TraceBlock(frame, film, block, to);
-        packet->pixel_rows = 1u << ((y - bins.window.y0) % kCellSize);
-        TraceRow<kPerspective>(frame, bins, candidates, film, place, x - tile.x0,
-                               x - tile.x0 + count, packet, to);
+        PutRays(frame, film, *span.alone, begin, span.count, block, to);
+        continue;
       }
-      place += static_cast<uint32_t>(count);
+      TraceBlock(frame, film, block, to);
+      const auto x = static_cast<int>(span.first % width);
+      packet->pixel_rows = 1u << (first_row + span.first / width);
+      TraceRow<kPerspective>(frame, bins, candidates, film, begin, x,
+                             x + static_cast<int>(span.count), packet, to);
     }
   }
   TraceBlock(frame, film, block, to);
@@ -261,6 +261,7 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   for (std::vector<TileCandidate>& cell : candidates->cells) cell.clear();
   candidates->spheres = 0;
   candidates->spans.clear();
+  candidates->alone = nullptr;
   // A row's cells follow one another.
   if (bins.Begin(bins.Cell(first, row)) == bins.end[bins.Cell(last, row)]) return false;
   const double own = OwnBound(frame, bins.window);
@@ -283,12 +284,6 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
   }
   if (rays == TileRays::kSamples) FindPixelSpans(bins, candidates);
-  candidates->span_pixels = 0;
-  candidates->alone = candidates->spans.empty() ? nullptr : candidates->spans[0].alone;
-  for (const PixelSpan& span : candidates->spans) {
-    candidates->span_pixels += static_cast<size_t>(span.pixels.count);
-    if (span.alone != candidates->alone) candidates->alone = nullptr;
-  }
   return true;
 }
 

@@ -5,7 +5,6 @@
 
 #include <vector>
 
-#include "base/image.h"
 #include "hit/batch.h"
 #include "visibility/sphere_bins.h"
 
@@ -30,7 +29,7 @@ struct TileCandidate {
 
 // Pixels of a row of a tile that rays may hit something in.
 struct PixelSpan {
-  PixelRun pixels;
+  uint32_t first, count;       // counted row by row
   const TileCandidate* alone;  // the only sphere that they may hit, in front; null: any
 };
 
@@ -47,8 +46,7 @@ struct TileCandidates {
   size_t spheres = 0;    // in all, each counted once
   std::vector<std::vector<TileCandidate>> cells;
   std::vector<PixelSpan> spans;          // of samples: in the order of the pixels
-  size_t span_pixels = 0;                // in all of them
-  const TileCandidate* alone = nullptr;  // theirs, if they all have the same
+  const TileCandidate* alone = nullptr;  // the spans', if the tile has one sphere
 };
 
 // Fills `candidates` for a tile that lies within one row of cells; false if there are none.
