@@ -153,13 +153,15 @@ ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
   return {lit.hits, lit.surface, lit.lights, 0, kHits, radiance, lit.leaves};
 }
 
-void BenchTextbookGgx(benchmark::State& state, Target target) {
+using TextbookKernel = void (*)(const TextbookGgxUniforms&, const ShadeRange&);
+
+void BenchTextbookGgx(benchmark::State& state, TextbookKernel kernel, Target target) {
   const TextbookGgxLight light{{18, 12, 6}, {42, 48, 54}, {4, 3, 1}};
   const float alpha = static_cast<float>(kRoughness * kRoughness);
   const float k = static_cast<float>((kRoughness + 1) * (kRoughness + 1) / 8);
   const TextbookGgxUniforms uniforms{&light, alpha * alpha, k};
   BenchShade(state, target, {}, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
-    ShadeTextbookGgx(uniforms, RangeOf(lit, radiance));
+    kernel(uniforms, RangeOf(lit, radiance));
   });
 }
 
@@ -313,7 +315,9 @@ const bool kRegistered = [] {
   }
   for (const Target target : SupportedTargets()) {
     benchmark::RegisterBenchmark(("shade/textbook_ggx/" + TargetName(target)).c_str(),
-                                 BenchTextbookGgx, target);
+                                 BenchTextbookGgx, &ShadeTextbookGgx, target);
+    benchmark::RegisterBenchmark(("shade/textbook_ggx_as_written/" + TargetName(target)).c_str(),
+                                 BenchTextbookGgx, &ShadeWrittenGgx, target);
     benchmark::RegisterBenchmark(("shade/naive_phong/" + TargetName(target)).c_str(), BenchNaive,
                                  &ShadeNaivePhong, target, false);
     benchmark::RegisterBenchmark(("shade/naive_phong_in_lobe/" + TargetName(target)).c_str(),

@@ -63,6 +63,8 @@ def _kernels(times, best):
     plain = _KERNELS["ggx"][0]
     yield "stable_over_textbook_time", times.ratio(_shade(plain, best),
                                                    _shade(("textbook_ggx",), best))
+    yield "stable_over_textbook_as_written_time", times.ratio(
+        _shade(plain, best), _shade(("textbook_ggx_as_written",), best))
     yield "stable_phong_over_naive_time", times.ratio(_shade(("phong",), best),
                                                       _shade(("naive_phong",), best))
     yield "stable_blinn_over_naive_time", times.ratio(_shade(("blinn_phong",), best),

@@ -43,10 +43,50 @@ struct TextbookGgx {
   }
 };
 
+// Term by term.
+struct WrittenGgx {
+  TextbookGgxLight light;
+  float alpha2, k;
+
+  static HWY_INLINE FloatV OneOver(FloatTag d, FloatV x) { return hn::Div(hn::Set(d, 1.0f), x); }
+
+  static HWY_INLINE Vec3V<FloatV> Normalize(FloatTag d, const Vec3V<FloatV>& v) {
+    return Scale(v, OneOver(d, hn::Sqrt(FusedDot(v, v))));
+  }
+
+  HWY_INLINE FloatV Shadowing(FloatTag d, FloatV cosine) const {
+    return hn::Div(cosine, hn::MulAdd(cosine, hn::Set(d, 1 - k), hn::Set(d, k)));
+  }
+
+  HWY_INLINE RgbV Reflect(FloatTag d, const PacketV& p, const IncidentV& in) const {
+    const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    const Vec3V<FloatV>& offset = in.toward.offset;
+    const Vec3V<FloatV> l = Normalize(d, offset), h = Normalize(d, Add(l, p.to_view));
+    const FloatV n_dot_l = hn::Max(FusedDot(p.normal, l), zero);
+    const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), zero);
+    const FloatV n_dot_h = hn::Max(FusedDot(p.normal, h), zero);
+    const FloatV v_dot_h = hn::Max(FusedDot(p.to_view, h), zero);
+    const FloatV q = hn::MulAdd(hn::Mul(n_dot_h, n_dot_h), hn::Set(d, alpha2 - 1), one);
+    const FloatV distribution =
+        hn::Div(hn::Set(d, alpha2), hn::Mul(hn::Set(d, 3.14159265f), hn::Mul(q, q)));
+    const FloatV shadowing = hn::Mul(Shadowing(d, n_dot_l), Shadowing(d, n_dot_v));
+    const FloatV four = hn::Mul(hn::Set(d, 4.0f), hn::Mul(n_dot_l, n_dot_v));
+    const FloatV specular =
+        hn::Div(hn::Mul(distribution, shadowing), hn::Max(four, hn::Set(d, 1e-7f)));
+    const FloatV weight = hn::Mul(n_dot_l, OneOver(d, FusedDot(offset, offset)));
+    const FloatV power = Power5(hn::Sub(one, v_dot_h));
+    const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), power, SetRgb(d, light.f0));
+    const FloatV left = hn::Mul(hn::Sub(one, power), weight);
+    return SumOf(ReflectedV{{ScaledPart(SetRgb(d, light.diffuse), left)},
+                            ScaledPart(fresnel, hn::Mul(specular, weight))});
+  }
+};
+
 // In one loop of several packets where ShadeAtOnce is, with as little around it.
-HWY_NOINLINE void ShadeTextbook(const TextbookGgx& given_model, const ShadeRange& range) {
+template <class Ggx>
+HWY_NOINLINE void ShadeTextbook(const Ggx& given_model, const ShadeRange& range) {
   const FloatTag d;
-  const TextbookGgx model = given_model;
+  const Ggx model = given_model;
   const RangeArrays arrays(range);
   const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
   size_t i = range.begin;
@@ -119,7 +159,12 @@ struct NaiveBlinnPhong {
 
 void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
   const float alpha2 = uniforms.alpha2;
-  ShadeTextbook({*uniforms.light, alpha2, uniforms.k, 3.14159265f / alpha2}, range);
+  const TextbookGgx ggx{*uniforms.light, alpha2, uniforms.k, 3.14159265f / alpha2};
+  ShadeTextbook(ggx, range);
+}
+
+void ShadeWrittenGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
+  ShadeTextbook(WrittenGgx{*uniforms.light, uniforms.alpha2, uniforms.k}, range);
 }
 
 void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
@@ -137,11 +182,16 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShadeTextbookGgxT);
+HWY_EXPORT(ShadeWrittenGgxT);
 HWY_EXPORT(ShadeNaivePhongT);
 HWY_EXPORT(ShadeNaiveBlinnPhongT);
 
 void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeTextbookGgxT)(uniforms, range);
+}
+
+void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(ShadeWrittenGgxT)(uniforms, range);
 }
 
 void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range) {

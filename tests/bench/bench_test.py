@@ -162,12 +162,13 @@ class Headlines(unittest.TestCase):
         values, missing = summary.headlines(results_of(
             shade__ggx_plain_schlick_direct__avx3=10, shade__ggx_plain_schlick_direct__avx2=16,
             shade__ggx_schlick_direct__scalar_baseline=220, shade__ggx_schlick_direct__avx3=50,
-            shade__textbook_ggx__avx3=9, visibility__tiles__1e3=2e6,
+            shade__textbook_ggx__avx3=9, shade__textbook_ggx_as_written__avx3=25, visibility__tiles__1e3=2e6,
             visibility__embree_sphere_point__1e3=160e6))
         self.assertAlmostEqual(values["ggx_over_scalar"], 22)  # the plain form, where there is one
         self.assertAlmostEqual(values["avx2_share_of_avx3_ggx"], 10 / 16)
         self.assertAlmostEqual(values["avx2_share_of_avx3"], 10 / 16)  # the smallest of all
         self.assertAlmostEqual(values["stable_over_textbook_time"], 10 / 9)
+        self.assertAlmostEqual(values["stable_over_textbook_as_written_time"], 10 / 25)
         self.assertAlmostEqual(values["visibility_1e3_over_embree_spheres"], 80)
         self.assertIn("phong_over_scalar", missing)
         self.assertNotIn("phong_over_scalar", values)
