@@ -178,24 +178,25 @@ void PutTriangle(const SampledLight& light, const HitBatch& hits, uint32_t trian
 class DensitySum {
  public:
   DensitySum(const SampledLight& light, const HitBatch& hits, LightDirections* directions)
-      : light_(light), hits_(hits), directions_(*directions) {}
+      : light_(light), hits_(hits), directions_(*directions), scratch_(*directions->mesh) {}
 
   void Add(size_t hit, uint32_t triangle) {
     if (count_ == kBatchCapacity) Flush();
-    PutTriangle(light_, hits_, triangle, hit, count_, &seen_);
+    PutTriangle(light_, hits_, triangle, hit, count_, &scratch_.seen);
     const Soa3<float>& l = directions_.to_light;
-    to_light_.x[count_] = l.x[hit];
-    to_light_.y[count_] = l.y[hit];
-    to_light_.z[count_] = l.z[hit];
-    hit_[count_] = static_cast<uint32_t>(hit);
-    probability_[count_] = static_cast<float>(light_.mesh->probabilities[triangle]);
+    scratch_.to_light.x[count_] = l.x[hit];
+    scratch_.to_light.y[count_] = l.y[hit];
+    scratch_.to_light.z[count_] = l.z[hit];
+    scratch_.hit[count_] = static_cast<uint32_t>(hit);
+    scratch_.probability[count_] = static_cast<float>(light_.mesh->probabilities[triangle]);
     ++count_;
   }
 
   void Flush() {
-    HWY_DYNAMIC_DISPATCH(SeenDensityT)(seen_, count_, to_light_, density_.data());
+    HWY_DYNAMIC_DISPATCH(SeenDensityT)
+    (scratch_.seen, count_, scratch_.to_light, scratch_.density.data());
     for (size_t i = 0; i < count_; ++i) {
-      directions_.density[hit_[i]] += probability_[i] * density_[i];
+      directions_.density[scratch_.hit[i]] += scratch_.probability[i] * scratch_.density[i];
     }
     count_ = 0;
   }
@@ -204,31 +205,34 @@ class DensitySum {
   const SampledLight& light_;
   const HitBatch& hits_;
   LightDirections& directions_;
-  SeenTriangles seen_;
-  Soa3<float> to_light_;
-  AlignedArray<float> density_{kBatchCapacity}, probability_{kBatchCapacity};
-  AlignedArray<uint32_t> hit_{kBatchCapacity};
+  MeshLightScratch& scratch_;
   size_t count_ = 0;
 };
+
+void MakeScratch(LightDirections* directions) {
+  if (!directions->mesh) directions->mesh = std::make_shared<MeshLightScratch>();
+}
 
 }  // namespace
 
 void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                 LightDirections* directions) {
-  SeenTriangles seen;
-  AlignedArray<float> rest{kBatchCapacity};
+  MakeScratch(directions);
+  MeshLightScratch& scratch = *directions->mesh;
   for (size_t i = 0; i < hits.count; ++i) {
     const CdfPick pick = PickIndex(light.mesh->by_area, points.u_bits[i] * 0x1p-32);
-    PutTriangle(light, hits, pick.index, i, i, &seen);
-    rest[i] = std::min(static_cast<float>(pick.rest), 1 - 0x1p-24f);
+    PutTriangle(light, hits, pick.index, i, i, &scratch.seen);
+    scratch.rest[i] = std::min(static_cast<float>(pick.rest), 1 - 0x1p-24f);
   }
   HWY_DYNAMIC_DISPATCH(SampleSeenT)
-  (seen, hits.count, rest.data(), points.v.data(), &directions->to_light);
+  (scratch.seen, hits.count, scratch.rest.data(), points.v.data(), &directions->to_light);
   FindMesh(light, hits, directions);
 }
 
 void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
-  SeenMeetings meetings;
+  MakeScratch(directions);
+  SeenMeetings& meetings = directions->mesh->meetings;
+  meetings.count = 0;
   HWY_DYNAMIC_DISPATCH(MeetMeshT)
   (light, hits, directions->to_light, directions->distance.data(), &meetings);
   std::fill_n(directions->density.data(), hits.count, 0.0f);

@@ -29,4 +29,16 @@ struct SeenMeetings {
   }
 };
 
+// What directions to a light of triangles are worked out in. It takes longer to make than a small
+// batch's directions do, so it is kept with them.
+struct MeshLightScratch {
+  SeenTriangles seen;
+  AlignedArray<float> rest{kBatchCapacity};  // what is left of the numbers that chose triangles
+  SeenMeetings meetings;
+  // Of triangles in `seen`, on their way into the density of directions.
+  Soa3<float> to_light;
+  AlignedArray<float> density{kBatchCapacity}, probability{kBatchCapacity};
+  AlignedArray<uint32_t> hit{kBatchCapacity};
+};
+
 }  // namespace nacre

@@ -81,12 +81,15 @@ inline bool HasIrradiance(const SampledLight& light) {
   return light.form != SampledForm::kPictureSky || light.sky.fast != nullptr;
 }
 
+struct MeshLightScratch;
+
 // One direction from each hit of a batch, and what of the light is seen there.
 struct LightDirections {
   Soa3<float> to_light;                          // unit
   AlignedArray<float> distance{kBatchCapacity};  // infinity: a sky; 0: the light is missed
   AlignedArray<float> density{kBatchCapacity};   // with which SampleLight chooses it; 0: never
   Soa3<float> radiance;  // of coloured lights, as multiples of SampledLight::color
+  std::shared_ptr<MeshLightScratch> mesh;  // made for the first light of triangles
 };
 
 // Chooses directions by the points. A hit that cannot see the light misses it.
