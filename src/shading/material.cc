@@ -200,11 +200,12 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
   }
 }
 
-// A metal's base reflects nothing, whatever share of the light it would get.
+// A metal's base reflects nothing, whatever share of the light it would get: an albedo need not be
+// asked for it. What Fresnel's curve leaves is at hand, and kernels of most materials take it.
 void SkipBlackBase(ShadingMaterial* prepared) {
   auto* const model = std::get_if<MicrofacetModel>(&prepared->model);
   if (model == nullptr || prepared->mapped || model->diffuse != Rgb(0)) return;
-  model->coupling = DiffuseCoupling::kNone;
+  if (model->coupling == DiffuseCoupling::kAlbedoScaled) model->coupling = DiffuseCoupling::kNone;
   model->base_form = DiffuseForm::kLambert;
 }
 

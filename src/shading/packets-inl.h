@@ -176,8 +176,9 @@ HWY_INLINE bool IsOneSphereUnderOneLight(const ShadeRange& range) {
 
 // Does all of ShadeBlock in one loop, with the same bits, for as many groups of kPacketsAtOnce from
 // hit `begin` on as are whole and have half vectors that are upright; returns the first hit that is
-// left. A group's chains overlap, and nothing but the sum is stored; more of the loop, such as a
-// test before the end, and GCC would find what all turns share anew in each.
+// left. The last group of a batch is whole, too, with whatever lies behind: what is left in the sum
+// there nobody reads. A group's chains overlap, and nothing but the sum is stored; more of the loop,
+// such as a test before the end, and GCC would find what all turns share anew in each.
 template <class Model>
 HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& range,
                                 const RangeArrays& given, size_t begin) {
@@ -190,8 +191,9 @@ HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& rang
   model.uniforms.lights = &products;
   const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
   const FloatV enough = hn::Set(d, kUprightUSquared);
+  const size_t least_hits = range.end == range.hits.count ? 1 : kPacketsAtOnce * lanes;
   size_t i = begin;
-  for (; i + kPacketsAtOnce * lanes <= range.end; i += kPacketsAtOnce * lanes) {
+  for (; i + least_hits <= range.end; i += kPacketsAtOnce * lanes) {
     HalfIncidentV in[kPacketsAtOnce];
     FloatV least = enough;
     HWY_UNROLL(kPacketsAtOnce)
@@ -217,7 +219,7 @@ HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& rang
     }
     if (!hn::AllTrue(d, hn::Ge(least, enough))) break;  // to be shaded anew
   }
-  return i;
+  return std::min(i, range.end);
 }
 
 template <class Model>
