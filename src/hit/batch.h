@@ -71,7 +71,8 @@ Pointers3<T> PointersTo(Soa3<T>* soa) {
 // through them, which ascend. Of a round of samples of a tile rays are numbered sample by sample,
 // each of all the tile's pixels row by row; otherwise in their order here.
 struct FilmBatch {
-  FilmBatch() { std::iota(ray.begin(), ray.end(), 0u); }
+  FilmBatch() { NumberInOrder(); }
+  void NumberInOrder() { std::iota(ray.begin(), ray.end(), 0u); }
 
   size_t count = 0;  // of rays
   // Of a tile's pixels those alone have positions here, one behind the other, that a ray may hit

@@ -44,8 +44,11 @@ void ChoosePixels(const RenderPlan& plan, const Window& tile, TileScratch* s) {
     for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
   }
   PutPixels(plan.sampler, runs, &s->sampled_pixels);
-  if (!s->samples.only_spans && !were_only_spans) return;  // rays have their numbers as it is
-  NumberRays(tile, runs, plan.samples_per_round, s->samples.ray.data());
+  if (s->samples.only_spans) {
+    NumberRays(tile, runs, plan.samples_per_round, s->samples.ray.data());
+  } else if (were_only_spans) {
+    s->samples.NumberInOrder();  // all of them: a later tile may have more than this one
+  }
 }
 
 // Samples [first, first + count) of each of the chosen pixels.

@@ -29,10 +29,7 @@ float CellValue(const float* samples, const Window& window, int cell_x, int cell
                 bool is_id) {
   const Window cell = Intersect(
       window, {cell_x * factor, cell_y * factor, (cell_x + 1) * factor, (cell_y + 1) * factor});
-  const auto at = [&](int x, int y) {
-    return samples[static_cast<size_t>(y - window.y0) * static_cast<size_t>(window.width()) +
-                   static_cast<size_t>(x - window.x0)];
-  };
+  const auto at = [&](int x, int y) { return samples[IndexIn(window, x, y)]; };
   if (is_id) return at((cell.x0 + cell.x1) / 2, (cell.y0 + cell.y1) / 2);
   double sum = 0;
   for (int y = cell.y0; y < cell.y1; ++y) {

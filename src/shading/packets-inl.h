@@ -177,8 +177,8 @@ HWY_INLINE bool IsOneSphereUnderOneLight(const ShadeRange& range) {
 // Does all of ShadeBlock in one loop, with the same bits, for as many groups of kPacketsAtOnce from
 // hit `begin` on as are whole and have half vectors that are upright; returns the first hit that is
 // left. The last group of a batch is whole, too, with whatever lies behind: what is left in the sum
-// there nobody reads. A group's chains overlap, and nothing but the sum is stored; more of the loop,
-// such as a test before the end, and GCC would find what all turns share anew in each.
+// there nobody reads. A group's chains overlap, and nothing but the sum is stored; more of the
+// loop, such as a test before the end, and GCC would find what all turns share anew in each.
 template <class Model>
 HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& range,
                                 const RangeArrays& given, size_t begin) {

@@ -340,6 +340,28 @@ std::vector<uint32_t> HitsOf(const Intersector& intersector, const Window& tile)
   return {hits.primitive.begin(), hits.primitive.begin() + hits.count};
 }
 
+// Which the general path, which places all, does not.
+TEST_CASE(
+    "a narrow tile leaves the next one no numbers of a tile whose samples are not all placed") {
+  // Tiles are 16, 16 and 4 pixels wide. Of the first row of them one sphere covers the last and
+  // half of the one before; of the second row another one covers the first.
+  Scene scene = OneSphere(LambertMaterial{}, 32, 16);
+  scene.image.width = 36;
+  scene.camera.position = {0, 0, 100};
+  scene.camera.look_at = {0, 0, 0};
+  scene.camera.fov_y_deg = 2 * std::atan(16 / 100.0) * 180 / M_PI;  // a pixel is 1 wide at z = 0
+  const MaterialId material = scene.spheres[0].material;
+  scene.spheres = {{{44.0 - 18, 16.0 - 8, 0}, 20, material}, {{-18, 16.0 - 24, 0}, 20, material}};
+  RenderSettings settings;
+  settings.threads = 1;
+  const Image image = RenderImage(scene, settings);
+  settings.general_path = true;
+  const Image expected = RenderImage(scene, settings);
+  for (const char* channel : {"R", "G", "B", "A"}) {
+    CHECK(image.Find(channel)->samples == expected.Find(channel)->samples);
+  }
+}
+
 // So small and many that each row has spheres of its own, and spans tell nothing.
 TEST_CASE("a tile that begins within a cell hits what the cell's own rows do") {
   for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
