@@ -22,8 +22,8 @@ constexpr size_t RoundUp(size_t value, size_t multiple) {
 }
 
 // A fixed-size array of trivial T on a kVectorBytes boundary, zero-initialised. Its allocation is
-// rounded up to whole vectors and four more, so a kernel may load and store as many entries as
-// two vectors have floats, from any entry below size().
+// rounded up to whole vectors and eight more, so a kernel may load and store as many entries as
+// four vectors have floats, from any entry below size().
 template <typename T>
 class AlignedArray {
  public:
