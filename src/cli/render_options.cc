@@ -297,6 +297,7 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
       std::max(ExrWriter::kStripRows, RowsPerChunk(ParseCompression(options.compression)));
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
+  settings.time_stages = options.explain || !options.stats.empty();
   settings.max_error = options.max_error;
   settings.fast_lights = options.fast;
   if (options.spp) settings.max_samples = *options.spp;

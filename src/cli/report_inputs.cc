@@ -82,6 +82,7 @@ ReportPicture RenderPicture(const std::string& path, const RenderOptions& option
   const Scene scene = LoadScene(path, MakeLoadOptions(options));
   times.load_seconds = SecondsSince(start);
   RenderSettings settings = MakeRenderSettings(options);
+  settings.time_stages = true;
   settings.on_progress = [](double) { ThrowIfStopped(); };
   const Clock::time_point plan_start = Clock::now();
   const RenderPlan plan = MakePlan(scene, settings);

@@ -194,12 +194,13 @@ struct ToRows {
 // What there is to add, in vectors. No value is -0, as no sum that begins with 0 is.
 template <size_t kChannels, bool kTwo, bool kFurther>
 struct ValuesV {
-  const float *a[kChannels], *b[kChannels];
-  V constant[kChannels], further[kChannels];
+  static constexpr size_t kColors = std::min<size_t>(kChannels, 3);
+  const float *a[kColors], *b[kColors];
+  V constant[kColors], further[kColors];
 
   explicit HWY_INLINE ValuesV(const HitValues& values) {
     const D d;
-    for (size_t c = 0; c < kChannels; ++c) {
+    for (size_t c = 0; c < kColors; ++c) {
       a[c] = values.a[c];
       b[c] = values.b[c];
       // With 0 first: nor is a sum with this.
@@ -210,6 +211,7 @@ struct ValuesV {
 
   HWY_INLINE V operator()(size_t c, size_t i) const {
     const D d;
+    if (c >= kColors) return hn::Set(d, 1.0);
     V sum = hn::PromoteTo(d, hn::LoadU(F(), a[c] + i));
     if constexpr (kTwo) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(F(), b[c] + i)));
     sum = hn::Add(sum, constant[c]);
@@ -221,12 +223,13 @@ template <size_t kChannels, class To>
 HWY_INLINE void BringChannels(const HitValues& values, std::span<const HitSpan> spans,
                               const To& to) {
   bool further = false;
-  for (size_t c = 0; c < kChannels; ++c) further = further || values.further[c] != 0;
+  constexpr size_t kColors = std::min<size_t>(kChannels, 3);
+  for (size_t c = 0; c < kColors; ++c) further = further || values.further[c] != 0;
   if (values.a[0] == nullptr) {
     const D d;
     V both[kChannels];
     for (size_t c = 0; c < kChannels; ++c) {
-      both[c] = hn::Set(d, 0.0 + values.constant[c] + values.further[c]);
+      both[c] = hn::Set(d, c < kColors ? 0.0 + values.constant[c] + values.further[c] : 1.0);
     }
     to(spans, [both](size_t c, size_t) HWY_ATTR { return both[c]; });
   } else if (values.b[0] == nullptr) {
@@ -240,13 +243,15 @@ HWY_INLINE void BringChannels(const HitValues& values, std::span<const HitSpan> 
 
 void AddHitsT(const HitValues& values, std::span<const HitSpan> spans, double* const* sums) {
   if (values.channels == 1) return BringChannels<1>(values, spans, ToSums<1>{sums});
-  BringChannels<3>(values, spans, ToSums<3>{sums});
+  if (values.channels == 3) return BringChannels<3>(values, spans, ToSums<3>{sums});
+  BringChannels<4>(values, spans, ToSums<4>{sums});
 }
 
 void PutHitsT(const HitValues& values, std::span<const HitSpan> spans,
               const PixelRows<float>* rows) {
   if (values.channels == 1) return BringChannels<1>(values, spans, ToRows<1>{rows});
-  BringChannels<3>(values, spans, ToRows<3>{rows});
+  if (values.channels == 3) return BringChannels<3>(values, spans, ToRows<3>{rows});
+  BringChannels<4>(values, spans, ToRows<4>{rows});
 }
 
 // a[i], and b[i] unless b is null.

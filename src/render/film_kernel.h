@@ -35,7 +35,8 @@ void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* wei
 
 // What hits are worth in each of a layer's channels, one or three: in channel c, hit i
 // double(a[c][i]) + double(b[c][i]) + constant[c] + further[c]. Of null b, or a and b, which are so
-// in all channels, there is nothing to add.
+// in all channels, there is nothing to add. Or there are four, and 1 is what a hit is worth in the
+// last: its pixel is covered.
 struct HitValues {
   int channels;
   const float* a[3];

@@ -131,7 +131,7 @@ void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* 
 void ShadePoints(const RenderPlan& plan, const Point* points, size_t count, MeshRadiance* to,
                  TileScratch* s) {
   RenderStats stats;
-  StageClock clock(&stats);
+  StageClock clock(nullptr);
   MakeHits(plan, points, count, s);
   s->runs = {{to->material, 0, count, false}};
   if (!plan.sampled_lights.empty() && !s->sampled) s->sampled = std::make_unique<SampledScratch>();

@@ -59,8 +59,9 @@ void RenderCells(const RenderPlan& plan, const Window& window, Worker* worker, S
   }
 }
 
-void RenderStrip(const RenderPlan& plan, const Window& window, Worker* worker, RenderStats* stats) {
-  StageClock clock(stats);
+void RenderStrip(const RenderPlan& plan, const Window& window, bool time_stages, Worker* worker,
+                 RenderStats* stats) {
+  StageClock clock(time_stages ? stats : nullptr);
   const int rows_before = worker->strip.window.height();
   StartStrip(plan, window, &worker->strip);
   if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, &clock, stats);
@@ -91,7 +92,7 @@ RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const
     const Window rows{window.x0, y0, window.x1, std::min(y0 + kStripRows, window.y1)};
     RenderStats stats;
     std::unique_ptr<Worker> worker = pool.Take();
-    RenderStrip(plan, rows, worker.get(), &stats);
+    RenderStrip(plan, rows, settings.time_stages, worker.get(), &stats);
     const auto output_start = std::chrono::steady_clock::now();
     sink(worker->strip);
     pool.Give(std::move(worker));

@@ -44,6 +44,9 @@ struct RenderSettings {
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;
+  // Measure how long each stage takes (RenderStats::stage_seconds): some per cent of small frames'
+  // time. Output is measured always.
+  bool time_stages = false;
   // Called after every strip, from any thread, one call at a time, with the share done in (0, 1].
   // Throwing from it stops the render.
   std::function<void(double)> on_progress;

@@ -35,9 +35,10 @@ struct RenderStats {
   uint64_t culled_lights = 0;     // of these, those that could not reach any hit
   uint64_t unsettled_pixels = 0;  // of adaptive sampling: their error is not known to be small
   uint64_t shades = 0;            // hits times lights that were evaluated
-  std::array<double, kStageCount> stage_seconds{};  // thread seconds
-  double plan_seconds = 0;                          // wall: planning and building the intersector
-  double render_seconds = 0;                        // wall: the rest
+  // Thread seconds; but for output 0 unless RenderSettings::time_stages.
+  std::array<double, kStageCount> stage_seconds{};
+  double plan_seconds = 0;    // wall: planning and building the intersector
+  double render_seconds = 0;  // wall: the rest
   int threads = 0;
 
   double& seconds(Stage stage) { return stage_seconds[static_cast<size_t>(stage)]; }

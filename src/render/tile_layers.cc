@@ -128,7 +128,7 @@ void FindSpans(const MaterialRun& run, size_t row, TileScratch* s) {
 
 HitValues ValuesOf(const LayerTerms& terms, int channels) {
   HitValues values{.channels = channels, .a = {}, .b = {}, .constant = {}, .further = {}};
-  for (int c = 0; c < channels; ++c) {
+  for (int c = 0; c < std::min(channels, 3); ++c) {
     values.a[c] = ChannelOrNull(terms.first, c);
     values.b[c] = ChannelOrNull(terms.second, c);
     values.constant[c] = terms.constant[c];
@@ -137,12 +137,17 @@ HitValues ValuesOf(const LayerTerms& terms, int channels) {
   return values;
 }
 
+// Coverage is the layer behind the beauty, of all layers the first two: it is brought along.
+int ChannelsWithCoverage(LayerKind kind) {
+  return kind == LayerKind::kBeauty ? 4 : FloatChannels(kind);
+}
+
 // Adds a layer of a batch that FindSpans was asked about.
 void AddRun(const RenderPlan& plan, const Layer& layer, size_t light_layer, double* const* sums,
             const TileScratch& s) {
   const ShadingMaterial& constants = plan.materials[s.runs[0].material.index];
   const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, s);
-  AddHits(ValuesOf(terms, FloatChannels(layer.kind)), s.spans, sums);
+  AddHits(ValuesOf(terms, ChannelsWithCoverage(layer.kind)), s.spans, sums);
 }
 
 // Adds a layer of any batch.
@@ -255,11 +260,15 @@ void AddToFilm(const RenderPlan& plan, TileScratch* scratch) {
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    double* sums[3] = {};
-    for (int c = 0; c < FloatChannels(layer.kind); ++c) sums[c] = s.film.sums[sum++].data();
+    double* sums[4] = {};
+    for (int c = 0; c < ChannelsWithCoverage(layer.kind); ++c) {
+      sums[c] = s.film.sums[sum + static_cast<size_t>(c)].data();
+    }
+    sum += static_cast<size_t>(FloatChannels(layer.kind));
     const bool sees_sky = plan.sky != nullptr && ShowsBackground(layer);
     if (in_order && !sees_sky) {
-      AddRun(plan, layer, light_layer, sums, s);
+      const bool brought_along = layer.kind == LayerKind::kAlpha && plan.sky == nullptr;
+      if (!brought_along) AddRun(plan, layer, light_layer, sums, s);
     } else if (s.hits.count > 0 || sees_sky) {
       AddRays(plan, layer, light_layer, sums, &s);
     }
@@ -282,9 +291,10 @@ bool PutOnlySamples(const RenderPlan& plan, TileScratch* scratch, Strip* strip) 
     const ShadingMaterial& constants = plan.materials[run.material.index];
     size_t color = 0, light_layer = 0;
     for (const Layer& layer : plan.layers) {
+      if (layer.kind == LayerKind::kAlpha) continue;  // brought along
       const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, s);
-      const int channels = FloatChannels(layer.kind);
-      PixelRows<float> rows[3] = {};
+      const int channels = ChannelsWithCoverage(layer.kind);
+      PixelRows<float> rows[4] = {};
       for (int c = 0; c < channels; ++c) {
         rows[c] = RowsIn(strip->window, tile, &strip->colors[color++]);
       }

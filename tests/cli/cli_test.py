@@ -146,12 +146,16 @@ class CliTest(unittest.TestCase):
         self.assertEqual(stats['counts']['camera_rays'], 64 * 36)
         self.assertGreater(stats['counts']['hits'], 0)
         self.assertIn('render', stats['time_ms'])
+        for stage in 'intersect', 'shade', 'film', 'output':
+            self.assertGreater(stats['time_ms']['stages_all_threads'][stage], 0)
 
     def test_explain_names_each_decision(self):
         text = self.render('-o', self.out / 'a.exr', '--explain', *SMALL).stdout
         self.assertIn('intersector', text)
         self.assertIn('skipped', text)
-        self.assertIn('%', text)
+        shares = dict(re.findall(r'^  (\w+) +([\d.]+) % +[\d.]+ ms$', text, re.MULTILINE))
+        self.assertGreater(float(shares['intersect']), 0)
+        self.assertAlmostEqual(sum(map(float, shares.values())), 100, delta=0.5)  # each rounded
 
     def test_progress_for_programs_is_json_lines(self):
         result = self.render('-o', self.out / 'a.exr', '--progress=json', '--size', '1280x720',
@@ -490,6 +494,7 @@ class CliTest(unittest.TestCase):
         page = self.report(FIRST_SCENE, *SMALL, '--layers', 'N')
         image = self.report_data(page)['sections'][0]['sets'][0]['images'][0]
         self.assertTrue(any(item['used'] for item in image['stats']['plan']))
+        self.assertGreater(image['stats']['time_ms']['stages_all_threads']['shade'], 0)
         self.assertEqual([layer['name'] for layer in image['layers']], ['', 'A', 'N'])
         self.assertIn("default-src 'none'", page)
         self.assertNotIn('src=', page.replace("img-src=", ''))

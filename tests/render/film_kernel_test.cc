@@ -71,7 +71,8 @@ TEST_CASE("Spans are as long as hits follow one another, within a row and a samp
   }
 }
 
-// Into one channel and into three, of which the first alone has constants to add.
+// Into one channel, into three, of which the first alone has constants to add, and into these and
+// coverage.
 TEST_CASE("Hits add their weight times what they are worth, in doubles", "[render]") {
   std::mt19937 random(6);
   std::uniform_real_distribution<float> value(-1, 3);
@@ -89,7 +90,7 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
       }
       std::vector<HitSpan> spans;
       FindSpans({hits.data(), 0, count}, rays.pixels, rays.pixels, weights, &spans);
-      for (const int channels : {1, 3}) {
+      for (const int channels : {1, 3, 4}) {
         for (const int terms : {0, 1, 2}) {
           for (const auto& [constant, further] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.7}}) {
             HitValues values{.channels = channels,
@@ -98,8 +99,8 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
                              .constant = {constant, 0, 0},
                              .further = {further, 0, 0}};
             // Each ray's pixel once more, by itself.
-            std::vector<double> expected[3];
-            for (int c = 0; c < channels; ++c) {
+            std::vector<double> expected[4];
+            for (int c = 0; c < std::min(channels, 3); ++c) {
               const auto& a = floats[static_cast<size_t>(c)];
               const auto& b = floats[static_cast<size_t>(c + 3)];
               if (terms > 0) values.a[c] = a.data();
@@ -113,11 +114,15 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
                 expected[c][hits[i] % rays.pixels] += weighted;
               }
             }
+            expected[3].assign(rays.pixels, 0.0);
+            for (size_t i = 0; i < count; ++i) {
+              expected[3][hits[i] % rays.pixels] += weights[hits[i] / rays.pixels];
+            }
             ForEachTarget([&](Target) {
-              AlignedArray<double> sums[3] = {AlignedArray<double>(rays.pixels),
-                                              AlignedArray<double>(rays.pixels),
-                                              AlignedArray<double>(rays.pixels)};
-              double* const to[3] = {sums[0].data(), sums[1].data(), sums[2].data()};
+              std::vector<AlignedArray<double>> sums;
+              for (int c = 0; c < 4; ++c) sums.emplace_back(rays.pixels);
+              double* const to[4] = {sums[0].data(), sums[1].data(), sums[2].data(),
+                                     sums[3].data()};
               AddHits(values, spans, to);
               CAPTURE(weights[2], rays.pixels, rays.hit_share, channels, terms, constant, further);
               for (int c = 0; c < channels; ++c) {
