@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/film_plan.h: what a frame needs of its samples on their way from places to pixels: parts of
-// RenderPlan, each with its reason in RenderPlan::items.
+// render/film_plan.h: what a frame needs of its samples on their way from places to pixels: parts
+// of RenderPlan, each with its reason in RenderPlan::items.
 #pragma once
 
 #include "render/plan.h"
