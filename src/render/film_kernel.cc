@@ -191,10 +191,14 @@ struct ToRows {
   }
 };
 
+// Of four channels the last is coverage.
+template <size_t kChannels>
+inline constexpr size_t kColorsOf = std::min<size_t>(kChannels, 3);
+
 // What there is to add, in vectors. No value is -0, as no sum that begins with 0 is.
 template <size_t kChannels, bool kTwo, bool kFurther>
 struct ValuesV {
-  static constexpr size_t kColors = std::min<size_t>(kChannels, 3);
+  static constexpr size_t kColors = kColorsOf<kChannels>;
   const float *a[kColors], *b[kColors];
   V constant[kColors], further[kColors];
 
@@ -223,7 +227,7 @@ template <size_t kChannels, class To>
 HWY_INLINE void BringChannels(const HitValues& values, std::span<const HitSpan> spans,
                               const To& to) {
   bool further = false;
-  constexpr size_t kColors = std::min<size_t>(kChannels, 3);
+  constexpr size_t kColors = kColorsOf<kChannels>;
   for (size_t c = 0; c < kColors; ++c) further = further || values.further[c] != 0;
   if (values.a[0] == nullptr) {
     const D d;

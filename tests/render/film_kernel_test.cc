@@ -2,6 +2,7 @@
 // tests/render/film_kernel_test.cc: the loops from a batch's hits into the film, on every target.
 #include "render/film_kernel.h"
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
