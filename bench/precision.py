@@ -108,5 +108,5 @@ def measure(runner, scenes, folder, settings, benchmarks, targets):
             say(f"  {reason}")
     return {"frame": frame_series(benchmarks, by_target, settings.precision_size),
             "process": process,
-            "adaptive": adaptive.measure(runner, scenes / f"{SCENE}.json", folder, settings, errors,
-                                         truth)}
+            "adaptive": adaptive.measure(runner, scenes / f"{SCENE}.json", folder, settings,
+                                         errors)}

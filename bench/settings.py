@@ -26,9 +26,9 @@ class Settings:
     precision_rounds: int = 7
     truth_spp: int = 16384
     max_errors: tuple = (0.03, 0.01, 0.003, 0.001, 0.0003)
-    # Adaptive sampling against uniform at the same RMSE, of so many seeds.
-    adaptive_seeds: int = 6
-    adaptive_spp: tuple = (16, 64, 256, 1024)
+    # Adaptive sampling against uniform at the same error, of so many seeds, in frames of `size`.
+    adaptive_seeds: int = 4
+    adaptive_spp: tuple = (4, 16, 64, 256, 1024, 4096)
     adaptive_max_errors: tuple = (0.1, 0.03, 0.01)
     # The same under lights that are sampled.
     lights_spp: tuple = (1, 4, 16, 32, 64, 256, 1024)
@@ -61,7 +61,9 @@ QUICK = Settings(
     precision_rounds=3,
     truth_spp=4096,
     max_errors=(0.03, 0.01, 0.003),
-    adaptive_seeds=3,
+    adaptive_seeds=2,
+    adaptive_spp=(4, 16, 64, 256, 1024),
+    adaptive_max_errors=(0.1, 0.03),
     lights_spp=(4, 16, 32, 64, 256),
     lights_max_errors=(0.5, 0.3, 0.1),
     lights_truth_spp=16384,

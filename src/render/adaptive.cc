@@ -342,7 +342,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
     DropConverged(plan, level, &c);
     clock->Charge(Stage::kFilm);
   }
-  stats->unsettled_pixels += c.active.size();
+  stats->unsettled_pixels += CountUnsettled(plan, &c);
   AddReplicates(sampled, c, &s.film);
   ResolveCell(plan, cell, part, s.film, c, strip);
   clock->Charge(Stage::kFilm);

@@ -7,8 +7,8 @@
 // everything, stops at its pixels' centres (footprint.h). The others take the common levels; then a
 // block stops as a whole, or its pixels one by one, where in each channel the half-width of the 95
 // % confidence interval from the spread of four independent scramblings (Student's t with three
-// degrees of freedom) is below the wanted error times max(|L|, 0.05), and no neighbour in the block
-// is far from that (convergence.h).
+// degrees of freedom) is below the wanted error times |L|, of 0.05 at least and of white's at
+// most (white_level.h), and no neighbour in the block is far from that (convergence.h).
 //
 // Most of the error of a picture of spheres is in the pixels on their outlines, where samples tell
 // how much of the pixel is covered. Of a pixel that one outline crosses before the background this

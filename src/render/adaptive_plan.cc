@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "base/overloaded.h"
+#include "render/white_level.h"
 #include "sampling/hash.h"
 
 namespace nacre {
@@ -54,6 +55,7 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
                           double max_error, int max_samples) {
   AdaptivePlan plan;
   plan.max_error = max_error;
+  plan.white = WhiteLevel(scene);
   plan.max_samples = max_samples;
   const PixelFilter& filter = scene.image.filter;
   const bool both_signs = !MakeFilterSampler(filter).negative.empty();

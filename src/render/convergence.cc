@@ -62,14 +62,14 @@ void SetInterval(const BlockIntervals& from, uint32_t i, BlockIntervals* to) {
 
 // The interval of a pixel on an outline and what is wanted of it. NaN never converges: it is
 // counted where the picture is written.
-void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellScratch* c) {
+void MeasurePixel(const WantedError& error, const Rgb& background, uint32_t pixel, CellScratch* c) {
   BlockIntervals& intervals = c->intervals[pixel / kBlockPixels];
   const size_t i = pixel % kBlockPixels;
   double widest = 0, strictest = kUnbounded;
   bool narrow = true;
   for (int channel = 0; channel < 3; ++channel) {
     const Measured measured = Measure(*c, pixel, channel, background[channel]);
-    const double wanted = max_error * std::max(std::abs(measured.mean), kDarkest);
+    const double wanted = Wanted(error, measured.mean);
     narrow = narrow && measured.half_width2 <= wanted * wanted;
     widest = std::max(widest, measured.half_width2);
     strictest = std::min(strictest, wanted);
@@ -80,7 +80,7 @@ void MeasurePixel(double max_error, const Rgb& background, uint32_t pixel, CellS
 }
 
 // Measures a block's pixels; of those on outlines only the active ones, whose samples are new.
-void MeasureOneBlock(double max_error, const Rgb& background, size_t block, uint32_t active,
+void MeasureOneBlock(const WantedError& error, const Rgb& background, size_t block, uint32_t active,
                      CellScratch* c) {
   const auto first = static_cast<uint32_t>(block * kBlockPixels);
   const double* sums[kReplicates][3];
@@ -90,23 +90,23 @@ void MeasureOneBlock(double max_error, const Rgb& background, size_t block, uint
     }
   }
   const BlockIntervals before = c->intervals[block];
-  MeasureBlock(sums, c->samples + first, max_error, &c->intervals[block]);
+  MeasureBlock(sums, c->samples + first, error, &c->intervals[block]);
   if ((c->outlined >> block & 1) == 0) return;
   for (uint32_t i = 0; i < kBlockPixels; ++i) {
     if (!c->on_outline[first + i]) continue;
     if ((active >> i & 1) != 0) {
-      MeasurePixel(max_error, background, first + i, c);
+      MeasurePixel(error, background, first + i, c);
     } else {
       SetInterval(before, i, &c->intervals[block]);
     }
   }
 }
 
-void MeasureActive(double max_error, const Rgb& background, CellScratch* c) {
+void MeasureActive(const WantedError& error, const Rgb& background, CellScratch* c) {
   uint32_t active[kCellBlocks] = {};  // pixels, as bits
   for (const uint32_t pixel : c->active) active[pixel / kBlockPixels] |= 1u << pixel % kBlockPixels;
   for (size_t block = 0; block < kCellBlocks; ++block) {
-    if (active[block] != 0) MeasureOneBlock(max_error, background, block, active[block], c);
+    if (active[block] != 0) MeasureOneBlock(error, background, block, active[block], c);
   }
 }
 
@@ -149,6 +149,11 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
   return widest;
 }
 
+bool HasSettled(const CellScratch& c, uint32_t pixel) {
+  const double wanted = c.intervals[pixel / kBlockPixels].wanted[pixel % kBlockPixels];
+  return IsNarrow(c, pixel) && WidestAround(c, pixel) <= kNeighbourSlack * wanted;
+}
+
 }  // namespace
 
 void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
@@ -172,7 +177,7 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
   if (level + 2 < kCommonLevels) return;
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
   const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
-  MeasureActive(plan.adaptive.max_error, background, c);
+  MeasureActive({plan.adaptive.max_error, plan.adaptive.white}, background, c);
   uint32_t open = 0;  // blocks, as bits
   for (const uint32_t pixel : c->active) {
     if (!IsNarrow(*c, pixel)) open |= 1u << pixel / kBlockPixels;
@@ -181,9 +186,15 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
     const size_t block = pixel / kBlockPixels, common = CommonLevels(*c, block);
     if (level + 1 < common) return false;
     if (level + 1 == common) return (open >> block & 1) == 0;
-    const double wanted = c->intervals[block].wanted[pixel % kBlockPixels];
-    return IsNarrow(*c, pixel) && WidestAround(*c, pixel) <= kNeighbourSlack * wanted;
+    return HasSettled(*c, pixel);
   });
+}
+
+size_t CountUnsettled(const RenderPlan& plan, CellScratch* c) {
+  if (c->active.empty()) return 0;
+  MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.layers[0], plan), c);
+  return static_cast<size_t>(std::count_if(c->active.begin(), c->active.end(),
+                                           [&](uint32_t pixel) { return !HasSettled(*c, pixel); }));
 }
 
 }  // namespace nacre

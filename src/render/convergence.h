@@ -18,4 +18,8 @@ void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* cell_
 // their common levels, and then the pixels whose neighbours, too, are not far from what they want.
 void DropConverged(const RenderPlan& plan, size_t level, CellScratch* cell_scratch);
 
+// Of the pixels that are still active after the last level, those whose error may be more than the
+// wanted part of their value: highlights that are not as exact as white is do not count.
+size_t CountUnsettled(const RenderPlan& plan, CellScratch* cell_scratch);
+
 }  // namespace nacre

@@ -116,7 +116,7 @@ bool IsFlat(const AdaptivePlan& plan, const double* values) {
   double darkest = std::abs(values[0]);
   for (size_t i = 1; i < kBlockPixels; ++i) darkest = std::min(darkest, std::abs(values[i]));
   // Written so that NaN is not flat.
-  return plan.center_error * Curvature(values) <= plan.max_error * std::max(darkest, kDarkest);
+  return plan.center_error * Curvature(values) <= Wanted({plan.max_error, plan.white}, darkest);
 }
 
 // Whether the normals of the block's hits turn by a small part of the lobe from pixel to pixel.

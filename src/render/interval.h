@@ -3,12 +3,26 @@
 // interval around it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "render/adaptive_plan.h"
 
 namespace nacre {
 
 // Below this value an error is absolute: what a display shows as near black.
 inline constexpr double kDarkest = 0.05;
+
+// The error that is wanted: `max_error` times the value, but of kDarkest at least, and at most of
+// `white` (WhiteLevel). Highlights may be a thousand times brighter, and some ten pixels with such
+// errors would be nearly all of the picture's.
+struct WantedError {
+  double max_error;
+  double white;
+};
+inline double Wanted(const WantedError& error, double mean) {
+  return error.max_error * std::max(std::min(std::abs(mean), error.white), kDarkest);
+}
 
 // Student's t, squared, over the number of sums: 97.5 % of the distribution with three degrees of
 // freedom lie below 3.182446305. The sum of the replicates' squared differences from their mean,

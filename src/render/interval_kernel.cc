@@ -3,8 +3,6 @@
 
 #include <limits>
 
-#include "render/interval.h"
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/interval_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -43,7 +41,7 @@ HWY_INLINE SpreadV Spread(const Load& load, V scale) {
 }
 
 void MeasureBlockT(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
-                   double max_error, BlockIntervals* intervals) {
+                   const WantedError& error, BlockIntervals* intervals) {
   const D d;
   const hn::Rebind<int32_t, D> di;
   intervals->narrow = 0;
@@ -56,8 +54,9 @@ void MeasureBlockT(const double* const (&sums)[kReplicates][3], const uint32_t* 
     for (size_t channel = 0; channel < 3; ++channel) {
       const auto load = [&](size_t r) HWY_ATTR { return hn::LoadU(d, sums[r][channel] + i); };
       const SpreadV spread = Spread(load, scale);
+      const V bounded = hn::Min(hn::Abs(spread.mean), hn::Set(d, error.white));
       const V wanted =
-          hn::Mul(hn::Set(d, max_error), hn::Max(hn::Abs(spread.mean), hn::Set(d, kDarkest)));
+          hn::Mul(hn::Set(d, error.max_error), hn::Max(bounded, hn::Set(d, kDarkest)));
       narrow = hn::And(narrow, hn::Le(spread.half_width2, hn::Mul(wanted, wanted)));
       widest = hn::Max(spread.half_width2, widest);
       strictest = hn::Min(wanted, strictest);
@@ -81,8 +80,8 @@ namespace nacre {
 HWY_EXPORT(MeasureBlockT);
 
 void MeasureBlock(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
-                  double max_error, BlockIntervals* intervals) {
-  HWY_DYNAMIC_DISPATCH(MeasureBlockT)(sums, samples, max_error, intervals);
+                  const WantedError& error, BlockIntervals* intervals) {
+  HWY_DYNAMIC_DISPATCH(MeasureBlockT)(sums, samples, error, intervals);
 }
 
 }  // namespace nacre

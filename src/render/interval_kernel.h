@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "render/adaptive_plan.h"
+#include "render/interval.h"
 
 namespace nacre {
 
@@ -20,9 +21,8 @@ struct BlockIntervals {
 };
 
 // `sums`: the block's sums of samples in each replicate, by channel; `samples`: how many a pixel
-// took in each replicate, where 0 gives undefined intervals. `max_error` is relative to the mean,
-// or to kDarkest. NaN is never narrow.
+// took in each replicate, where 0 gives undefined intervals. NaN is never narrow.
 void MeasureBlock(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
-                  double max_error, BlockIntervals* intervals);
+                  const WantedError& error, BlockIntervals* intervals);
 
 }  // namespace nacre

@@ -237,8 +237,11 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
         {"adaptive sampling", true,
          fmt::format(
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
-             "of max(|L|, 0.05); {}{}",
+             "of max(|L|, 0.05){}; {}{}",
              settings.max_error,
+             std::isinf(plan.adaptive.white)
+                 ? ""
+                 : fmt::format(", and those of highlights of white, {:.3g}", plan.adaptive.white),
              plan.adaptive.footprints ? "those on one smooth hit stop at their pixels' centres"
                                       : "none is known to be smooth",
              plan.adaptive.square > 0 ? "; pixels that one outline crosses weigh their hits by the "

@@ -39,14 +39,16 @@ class Lights(unittest.TestCase):
 
 class Adaptive(unittest.TestCase):
     def test_headlines_are_ratios_at_the_same_error(self):
-        uniform = [{"error": 0.1 / 2 ** i, "seconds": 4.0 ** i, "camera_rays": 100 * 4 ** i}
-                   for i in range(3)]
+        uniform = [{"error": 0.1 / 2 ** i, "relative_error": 0.2 / 4 ** i, "seconds": 4.0 ** i,
+                    "camera_rays": 100 * 4 ** i} for i in range(3)]
         def point(error):
-            return {"what": f"--max-error {error}", "error": error, "seconds": 2, "camera_rays": 40}
+            return {"what": f"--max-error {error}", "error": error, "relative_error": error / 4,
+                    "seconds": 2, "camera_rays": 40}
         found = dict(adaptive.headlines({"uniform": uniform, "adaptive": [point(0.05)]}))
         self.assertAlmostEqual(found["adaptive_0.05_over_uniform"], 2)
         self.assertAlmostEqual(found["adaptive_0.05_over_uniform_in_rays"], 10)
-        for beyond in (0.2, 0.01):  # uniform sampling was not measured there
+        self.assertAlmostEqual(found["adaptive_0.05_over_uniform_at_equal_relative_error"], 8)
+        for beyond in (0.9, 0.01):  # uniform sampling was not measured there
             found = dict(adaptive.headlines({"uniform": uniform, "adaptive": [point(beyond)]}))
             self.assertEqual(set(found.values()), {None})
 

@@ -8,6 +8,7 @@
 #include "render/camera.h"
 #include "render/outline_coverage.h"
 #include "render/render.h"
+#include "render/white_level.h"
 #include "scene_io/load_scene.h"
 #include "targets.h"
 
@@ -98,6 +99,53 @@ TEST_CASE("95 % of the pixels are within the wanted error") {
       CHECK(stats.camera_rays > 0);
     }
   }
+}
+
+// Some of MakeScene's highlights are a hundred times brighter than white. The truth's error is a
+// hundredth of that of a tenth of its samples.
+TEST_CASE("highlights are as exact as white") {
+  const Scene scene = MakeScene();
+  const Image truth = Truth(scene, 65536);
+  const double white = WhiteLevel(scene);
+  for (const double max_error : {0.2, 0.05}) {
+    const Image image = RenderImage(scene, Adaptive(max_error), nullptr);
+    size_t brighter = 0, within = 0;
+    double worst = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      const std::vector<float>&a = image.channels[c].samples, &b = truth.channels[c].samples;
+      for (size_t i = 0; i < b.size(); ++i) {
+        if (!(b[i] > white)) continue;
+        const double error = std::abs(double{a[i]} - b[i]);
+        ++brighter;
+        within += error <= max_error * white ? 1 : 0;
+        worst = std::max(worst, error);
+      }
+    }
+    CAPTURE(max_error, white, brighter, within, worst);
+    CHECK(brighter > 50);
+    CHECK(static_cast<double>(within) >= 0.95 * static_cast<double>(brighter));
+  }
+}
+
+// By a power of two, so that all roundings are the same; nothing is near kDarkest.
+TEST_CASE("what a picture costs does not depend on how bright it is") {
+  const auto rendered = [](double brightness, RenderStats* stats) {
+    Scene scene = MakeScene();
+    scene.background *= brightness;
+    std::get<PointLight>(scene.lights[0].kind).intensity *= brightness;
+    std::get<DirectionalLight>(scene.lights[1].kind).irradiance *= brightness;
+    scene.lights.push_back(Named("ambient", AmbientLight{Rgb(0.01) * brightness}));
+    return RenderImage(scene, Adaptive(0.05), stats);
+  };
+  RenderStats dark, bright;
+  const Image one = rendered(1 << 10, &dark), other = rendered(1 << 20, &bright);
+  CHECK(dark.camera_rays == bright.camera_rays);
+  CHECK(dark.unsettled_pixels == bright.unsettled_pixels);
+  size_t wrong = 0;
+  for (size_t i = 0; i < one.channels[0].samples.size(); ++i) {
+    wrong += one.channels[0].samples[i] * 1024 == other.channels[0].samples[i] ? 0 : 1;
+  }
+  CHECK(wrong == 0);
 }
 
 TEST_CASE("a smaller error takes more samples") {

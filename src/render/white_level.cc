@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/white_level.h"
+
+#include <Imath/ImathBoxAlgo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "base/overloaded.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+// No more spheres than this are asked how near a light is.
+constexpr size_t kMostAskedSpheres = 4096;
+
+double Largest(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
+
+double LeastDistance(const Scene& scene, const std::vector<Imath::Box3d>& meshes,
+                     const Vec3d& place) {
+  double least = kNoLimit;
+  const size_t step = scene.spheres.size() / kMostAskedSpheres + 1;
+  for (size_t i = 0; i < scene.spheres.size(); i += step) {
+    const Sphere& sphere = scene.spheres[i];
+    least = std::min(least, std::abs((place - sphere.center).length() - sphere.radius));
+  }
+  for (const Imath::Box3d& mesh : meshes) {
+    least = std::min(least, (place - Imath::closestPointInBox(place, mesh)).length());
+  }
+  return least;
+}
+
+// Whether 1/pi is left out, as lessons do.
+bool IsClassic(const Material& material) {
+  const auto* phong = std::get_if<PhongMaterial>(&material.model);
+  return phong != nullptr && phong->convention == PhongConvention::kClassic;
+}
+
+}  // namespace
+
+double WhiteLevel(const Scene& scene) {
+  std::vector<Imath::Box3d> meshes(scene.meshes.size());
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    for (const Vec3d& position : scene.meshes[i].positions) meshes[i].extendBy(position);
+  }
+  // Every shape is farther away than nothing is, where there are none.
+  const auto irradiance = [&](const auto& light) {
+    const double d = LeastDistance(scene, meshes, light.position);
+    const Attenuation& a = light.attenuation;
+    const double falloff = (a.quadratic * d + a.linear) * d + a.constant;
+    const double intensity = Largest(light.intensity);
+    return intensity == 0 || d == kNoLimit ? 0 : intensity / falloff;
+  };
+  const bool classic = std::any_of(scene.materials.begin(), scene.materials.end(), IsClassic);
+  const double of_irradiance = classic ? 1 : 1 / M_PI;
+  double white = 0;
+  for (const Light& light : scene.lights) {
+    white += std::visit(
+        Overloaded{
+            [](const AmbientLight& l) { return Largest(l.radiance); },
+            [&](const DirectionalLight& l) { return of_irradiance * Largest(l.irradiance); },
+            [&](const PointLight& l) { return of_irradiance * irradiance(l); },
+            [&](const SpotLight& l) { return of_irradiance * irradiance(l); },
+            [](const auto&) { return kNoLimit; }},
+        light.kind);
+  }
+  white = std::max(white, Largest(scene.background));
+  for (const Material& material : scene.materials) {
+    white = std::max(white, Largest(material.emission));
+  }
+  return white;
+}
+
+}  // namespace nacre
