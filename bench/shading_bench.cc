@@ -36,6 +36,7 @@ constexpr double kRoughness = 0.3;
 
 const Sphere kSphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
 
+const Camera kAtOrigin{.position = {0, 0, 0}, .look_at = {0, 0, -1}};
 const Vec3d kLight{3, 4, 2};
 
 bool HasPhongLobe(const Vec3d& n, const Vec3d& to_light, const Vec3d& to_view) {
@@ -116,7 +117,7 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
                             .intensity = {60, 60, 60},
                             .attenuation = {}};
     lights.push_back(PrepareLight(light, {0, 0, 0}));
-    if (!by.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back())) {
+    if (!by.by_position && !OffsetFromSpheres({&kSphere, 1}, kAtOrigin, &lights.back())) {
       state.SkipWithError("the light is too near for its offset from the sphere");
     }
   }

@@ -61,19 +61,6 @@ HWY_INLINE V ReciprocalSqrt(D d, V x) {
   return hn::Div(one, hn::Sqrt(x));
 }
 
-// 2 / sqrt(x) for normal x > 0, within 2 ulp: one operation fewer.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V TwiceReciprocalSqrt(D d, V x) {
-#if HWY_TARGET <= HWY_AVX3
-  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) {
-    const V estimate = hn::ApproximateReciprocalSqrt(x);
-    const V three = hn::Set(d, hn::TFromD<D>(3));
-    return hn::Mul(estimate, hn::NegMulAdd(hn::Mul(x, estimate), estimate, three));
-  }
-#endif
-  return hn::Div(hn::Set(d, hn::TFromD<D>(2)), hn::Sqrt(x));
-}
-
 // sqrt(x) for normal x > 0, within 1 ulp.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SquareRoot(D d, V x) {
@@ -88,6 +75,21 @@ HWY_INLINE V SquareRoot(D d, V x) {
 #endif
   (void)d;
   return hn::Sqrt(x);
+}
+
+// 2 sqrt(x) for normal x > 0, within 2 ulp: one operation fewer, and a step shorter.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V TwiceSquareRoot(D d, V x) {
+#if HWY_TARGET <= HWY_AVX3
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(float)) {
+    const V estimate = hn::ApproximateReciprocalSqrt(x);
+    const V root = hn::Mul(x, estimate);
+    return hn::Mul(root, hn::NegMulAdd(root, estimate, hn::Set(d, hn::TFromD<D>(3))));
+  }
+#endif
+  (void)d;
+  const V root = hn::Sqrt(x);
+  return hn::Add(root, root);
 }
 
 // Whether the target takes whole vectors V of floats apart and puts them together again, finds 16

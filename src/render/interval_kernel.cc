@@ -55,8 +55,7 @@ void MeasureBlockT(const double* const (&sums)[kReplicates][3], const uint32_t* 
       const auto load = [&](size_t r) HWY_ATTR { return hn::LoadU(d, sums[r][channel] + i); };
       const SpreadV spread = Spread(load, scale);
       const V bounded = hn::Min(hn::Abs(spread.mean), hn::Set(d, error.white));
-      const V wanted =
-          hn::Mul(hn::Set(d, error.max_error), hn::Max(bounded, hn::Set(d, kDarkest)));
+      const V wanted = hn::Mul(hn::Set(d, error.max_error), hn::Max(bounded, hn::Set(d, kDarkest)));
       narrow = hn::And(narrow, hn::Le(spread.half_width2, hn::Mul(wanted, wanted)));
       widest = hn::Max(spread.half_width2, widest);
       strictest = hn::Min(wanted, strictest);

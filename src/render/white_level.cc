@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/white_level.h"
 
-#include <Imath/ImathBoxAlgo.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
 #include <vector>
+
+#include <Imath/ImathBoxAlgo.h>
 
 #include "base/overloaded.h"
 
@@ -61,12 +61,11 @@ double WhiteLevel(const Scene& scene) {
   double white = 0;
   for (const Light& light : scene.lights) {
     white += std::visit(
-        Overloaded{
-            [](const AmbientLight& l) { return Largest(l.radiance); },
-            [&](const DirectionalLight& l) { return of_irradiance * Largest(l.irradiance); },
-            [&](const PointLight& l) { return of_irradiance * irradiance(l); },
-            [&](const SpotLight& l) { return of_irradiance * irradiance(l); },
-            [](const auto&) { return kNoLimit; }},
+        Overloaded{[](const AmbientLight& l) { return Largest(l.radiance); },
+                   [&](const DirectionalLight& l) { return of_irradiance * Largest(l.irradiance); },
+                   [&](const PointLight& l) { return of_irradiance * irradiance(l); },
+                   [&](const SpotLight& l) { return of_irradiance * irradiance(l); },
+                   [](const auto&) { return kNoLimit; }},
         light.kind);
   }
   white = std::max(white, Largest(scene.background));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -31,6 +32,22 @@ ConeTerms<float> ToTerms(const SpotLight& spot) {
 bool IsUsual(const Rgb& color) {
   const auto usual = [](double c) { return c == 0 || (c >= 1e-30 && c <= limits::kRadiance.max); };
   return usual(color.x) && usual(color.y) && usual(color.z);
+}
+
+// How far directions to a place that is `distance` away from a ball's centre turn from there to
+// anywhere in the ball.
+double Spread(double radius, double distance) {
+  return distance > radius ? std::asin(radius / distance) : M_PI;
+}
+
+bool IsUprightOn(const Sphere& sphere, const Vec3d& to_light, const Camera& camera) {
+  const bool parallel = camera.projection == Projection::kOrthographic;
+  const Vec3d to_view =
+      parallel ? camera.position - camera.look_at : camera.position - sphere.center;
+  const double cosine = to_light.normalized().dot(to_view.normalized());
+  const double turn = Spread(sphere.radius, to_light.length()) +
+                      (parallel ? 0 : Spread(sphere.radius, to_view.length()));
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) + turn <= kMostUpright;
 }
 
 }  // namespace
@@ -69,17 +86,17 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
   return prepared;
 }
 
-bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
-                       ShadingLight* light) {
+bool OffsetFromSpheres(std::span<const Sphere> spheres, const Camera& camera, ShadingLight* light) {
   light->from_spheres.clear();
   if (light->form == LightForm::kDirectional || light->form == LightForm::kGiven) return false;
   for (const Sphere& sphere : spheres) {
-    const Vec3d offset = light->position - (sphere.center - camera_position);
+    const Vec3d offset = light->position - (sphere.center - camera.position);
     if (!(offset.length() >= kFarRadii * sphere.radius)) {
       light->from_spheres.clear();
       return false;
     }
-    light->from_spheres.push_back({Vec3f(offset), static_cast<float>(sphere.radius)});
+    light->from_spheres.push_back(
+        {Vec3f(offset), static_cast<float>(sphere.radius), IsUprightOn(sphere, offset, camera)});
   }
   return !light->from_spheres.empty();
 }

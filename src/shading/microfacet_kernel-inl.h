@@ -66,21 +66,24 @@ struct Microfacet {
 
   // Distribution, visibility, cosine and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in,
-                         FloatV twice_u_inverse) const {
+                         FloatV twice_u_length) const {
     if (!Form::kUsual && kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in);
     const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
     const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
     // As a rule the square of |u|^2 is far from float's limits, and no root need be waited for.
     FloatV wide = LobeBy(d, hn::Mul(hn::Mul(q, q), masking),
                          hn::Mul(hn::Mul(in.half.u_squared, in.half.u_squared), in.weight));
+    // On spheres n.v of what is seen, and n.u of what is lit, too, round to above -4e-7: that is 0.
+    if (!in.above) wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, -0x1p-20f)), wide);
     if (in.any_short) {
-      const FloatV four_q = hn::Mul(q, hn::Mul(twice_u_inverse, twice_u_inverse));
+      const FloatV inverse = hn::Div(hn::Set(d, 4.0f), twice_u_length);  // 2 / |u|
+      const FloatV four_q = hn::Mul(q, hn::Mul(inverse, inverse));
       const FloatV sixteenth = hn::Mul(masking, hn::Set(d, 0.0625f));
       const FloatV of_short = LobeBy(d, hn::Mul(hn::Mul(four_q, four_q), sixteenth), in.weight);
-      wide = hn::IfThenElse(IsUpright(d, in.half), wide, of_short);
+      // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
+      const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
+      wide = hn::IfThenElse(IsUpright(d, in.half), wide, hn::IfThenElseZero(above, of_short));
     }
-    // h lies above the surface, and |u|^2 is a normal number: 0 and below there is no lobe.
-    wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f)), wide);
     if (Form::kUsual || kSame || uniforms.narrow == nullptr) return wide;
     const auto is_narrow = hn::Ge(hn::LoadU(d, uniforms.narrow + p.i), hn::Zero(d));
     return hn::IfThenElse(is_narrow, NarrowLobe(d, p, in), wide);
@@ -109,14 +112,13 @@ struct Microfacet {
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,
                                 size_t k) const {
     const MicrofacetLightOf<Number>& light = uniforms.lights[k];
-    const FloatV twice_u_inverse = TwiceReciprocalSqrt(d, in.half.u_squared);
-    const HalfV half{in.half.lv_squared, hn::Mul(in.half.u_squared, twice_u_inverse)};
+    const HalfV half{in.half.lv_squared, TwiceSquareRoot(d, in.half.u_squared)};
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const bool spreads =
         !Form::kUsual && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
     const auto curve = EvaluateCurve<kFresnel, Form>(d, half, p.i, uniforms);
-    const FloatV lobe = Lobe(d, p, in, twice_u_inverse);
+    const FloatV lobe = Lobe(d, p, in, half.twice_u_length);
     if constexpr (!Form::kPrepared) {
       return {{LeftForBase<Form>(d, curve, p.i, model, light, in.weight)},
               ScaledPart(ReflectedBy(d, curve, p.i, light), lobe)};

@@ -85,7 +85,8 @@ class IncidentBlock {
     return {Load(d, at),
             {n_dot_u, USquared(n_dot_u, nxu_squared), nxu_squared, hn::Load(d, lv_squared_ + at)},
             hn::Load(d, n_dot_v_ + at),
-            any_short_};
+            any_short_,
+            false};
   }
 
  private:
@@ -176,10 +177,11 @@ HWY_INLINE bool IsOneSphereUnderOneLight(const ShadeRange& range) {
 
 // Does all of ShadeBlock in one loop, with the same bits, for as many groups of kPacketsAtOnce from
 // hit `begin` on as are whole and have half vectors that are upright; returns the first hit that is
-// left. The last group of a batch is whole, too, with whatever lies behind: what is left in the sum
-// there nobody reads. A group's chains overlap, and nothing but the sum is stored; more of the
-// loop, such as a test before the end, and GCC would find what all turns share anew in each.
-template <class Model>
+// left. `kUpright`: SphereOffset::upright of theirs. The last group of a batch is whole, too, with
+// whatever lies behind: what is left in the sum there nobody reads. A group's chains overlap, and
+// nothing but the sum is stored; more of the loop, such as a test before the end, and GCC would
+// find what all turns share anew in each.
+template <bool kUpright, class Model>
 HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& range,
                                 const RangeArrays& given, size_t begin) {
   const FloatTag d;
@@ -208,7 +210,8 @@ HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& rang
                                      incident.n_dot_l, n_dot_v);
       in[k].n_dot_v = hn::Max(n_dot_v, hn::Zero(d));
       in[k].any_short = false;
-      least = hn::Min(in[k].half.u_squared, least);
+      in[k].above = kUpright;
+      if constexpr (!kUpright) least = hn::Min(in[k].half.u_squared, least);
     }
     HWY_UNROLL(kPacketsAtOnce)
     for (size_t k = 0; k < kPacketsAtOnce; ++k) {
@@ -217,7 +220,7 @@ HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& rang
       const auto view = model.SeenBy(d, p, range.surface);
       StoreWhole(d, SumOf(model.Reflect(d, view, p, in[k], 0)), arrays.sum, at);
     }
-    if (!hn::AllTrue(d, hn::Ge(least, enough))) break;  // to be shaded anew
+    if (!kUpright && !hn::AllTrue(d, hn::Ge(least, enough))) break;  // to be shaded anew
   }
   return std::min(i, range.end);
 }
@@ -263,14 +266,18 @@ template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);
   IncidentBlock block;
-  bool at_once = false;
-  if constexpr (Model::kAtOnce) at_once = IsOneSphereUnderOneLight(range);
+  bool at_once = false, upright = false;
+  if constexpr (Model::kAtOnce) {
+    at_once = IsOneSphereUnderOneLight(range);
+    upright = at_once && range.lights[0].light->from_spheres[range.hits.primitive[0]].upright;
+  }
   size_t end = range.begin;
   while (end < range.end) {
     size_t begin = end, count = IncidentBlock::kHits;
     if constexpr (Model::kAtOnce) {
       if (at_once) {
-        begin = ShadeAtOnce(model, range, arrays, begin);
+        begin = upright ? ShadeAtOnce<true>(model, range, arrays, begin)
+                        : ShadeAtOnce<false>(model, range, arrays, begin);
         count = kPacketsAtOnce * hn::Lanes(d);
       }
     }

@@ -38,8 +38,8 @@ TargetOps EvaluateTargetOpsT(const std::vector<float>& x) {
     const auto v = hn::Set(d, number);
     ops.reciprocal.push_back(hn::GetLane(Reciprocal(d, v)));
     ops.reciprocal_sqrt.push_back(hn::GetLane(ReciprocalSqrt(d, v)));
-    ops.twice_reciprocal_sqrt.push_back(hn::GetLane(TwiceReciprocalSqrt(d, v)));
     ops.square_root.push_back(hn::GetLane(SquareRoot(d, v)));
+    ops.twice_square_root.push_back(hn::GetLane(TwiceSquareRoot(d, v)));
   }
   return ops;
 }

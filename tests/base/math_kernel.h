@@ -13,7 +13,7 @@ float EvaluateExp2(float y);
 
 // The operations of base/target_ops-inl.h on the numbers x[i].
 struct TargetOps {
-  std::vector<float> reciprocal, reciprocal_sqrt, twice_reciprocal_sqrt, square_root;
+  std::vector<float> reciprocal, reciprocal_sqrt, square_root, twice_square_root;
 };
 TargetOps EvaluateTargetOps(const std::vector<float>& x);
 

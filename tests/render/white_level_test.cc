@@ -87,8 +87,8 @@ TEST_CASE("meshes and very many spheres are near lights, too") {
 }
 
 TEST_CASE("no matte surface is brighter than white, and none is much darker that faces its light") {
-  Scene scene = Lit({PointAt({1, 2, 4}, 100), PointAt({-3, 1, 3}, 50),
-                     Named("ambient", AmbientLight{Rgb(0.1)})});
+  Scene scene = Lit(
+      {PointAt({1, 2, 4}, 100), PointAt({-3, 1, 3}, 50), Named("ambient", AmbientLight{Rgb(0.1)})});
   for (Light& light : scene.lights) light.shadows = false;
   scene.lights[1].name = "other";
   scene.spheres.push_back({{0, -101, 0}, 100, {0}});

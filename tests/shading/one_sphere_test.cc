@@ -38,7 +38,7 @@ void MakeLit(double angle, Lit* lit) {
   Light light;
   light.kind = PointLight{.position = position, .intensity = {900, 800, 700}, .attenuation = {}};
   lit->light = PrepareLight(light, {0, 0, 0});
-  REQUIRE(OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lit->light));
+  REQUIRE(OffsetFromSpheres({&kSphere, 1}, {.position = {0, 0, 0}}, &lit->light));
   lit->hits.count = kSphereHits;
   lit->hits.one_primitive = true;
   std::mt19937 random(3);
@@ -58,6 +58,27 @@ void MakeLit(double angle, Lit* lit) {
     SetAt(i, v, &lit->hits.to_view);
     lit->hits.primitive[i] = 0;
     ++i;
+  }
+  PrepareSurface(lit->hits, &lit->surface);
+}
+
+// Where the limb is the edge of what the light reaches, too: n.v and n.l are both 0 but for some
+// roundings, and n.u of what is lit may be below 0.
+void MakeLimb(Lit* lit) {
+  MakeLit(80 * M_PI / 180, lit);
+  const Vec3d light = lit->light.position;
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (size_t i = 0; i < kSphereHits; ++i) {
+    Vec3d n = Vec3d{0, i % 2 == 0 ? 1.0 : -1.0, 0};
+    for (int step = 0; step < 50; ++step) {
+      const Vec3d v = -(kSphere.center + n).normalized();
+      n = (n - v * (n ^ v)).normalized();
+      const Vec3d l = (light - (kSphere.center + n)).normalized();
+      n = (n - l * ((n ^ l) - 3e-7 * uniform(random))).normalized();
+    }
+    SetAt(i, n, &lit->hits.normal);
+    SetAt(i, -(kSphere.center + n).normalized(), &lit->hits.to_view);
   }
   PrepareSurface(lit->hits, &lit->surface);
 }
@@ -120,16 +141,20 @@ TEST_CASE("ways for one sphere under one light leave the bits of those for all")
   // Light beside the viewer, and so far behind that some lit hits have |l + v| < 1/2, where half
   // vectors are formed with more care.
   const double degree = M_PI / 180;
-  Lit front, behind;
+  Lit front, limb, behind;
   MakeLit(30 * degree, &front);
+  MakeLimb(&limb);
   MakeLit(180 * degree - 0.65, &behind);
+  REQUIRE(front.light.from_spheres[0].upright);
+  REQUIRE(limb.light.from_spheres[0].upright);
+  REQUIRE_FALSE(behind.light.from_spheres[0].upright);
   REQUIRE(front.short_halves == 0);
   REQUIRE(front.lobes > kSphereHits / 4);
   REQUIRE(front.lobes < kSphereHits);
   REQUIRE(behind.short_halves > kSphereHits / 20);
   ForEachTarget([&](Target) {
     for (const ShadingMaterial& material : Materials()) {
-      for (const Lit* on : {&front, &behind}) {
+      for (const Lit* on : {&front, &limb, &behind}) {
         CheckRange(material, *on, 0, kSphereHits);
         CheckRange(material, *on, 77, 900);
         CheckRange(material, *on, 700, 701);
