@@ -110,14 +110,19 @@ void TraceFloatTileT(const CameraFrame& frame, const std::vector<FloatSphere>& s
   const D d;
   const hn::RebindToUnsigned<D> du;
   const int step = static_cast<int>(hn::Lanes(d));
-  const int width = candidates.tile.width();
+  const auto width = static_cast<uint32_t>(candidates.tile.width());
   const Vec3d corner = frame.corner + frame.step_x * (candidates.tile.x0 + 0.5);
-  for (const PixelSpan& span : candidates.spans) {
-    const int y = static_cast<int>(span.first) / width;
-    const int begin = static_cast<int>(span.first) - y * width;
+  FloatRow row{{0, 0, 0}, Vec3f(frame.step_x), 0};
+  int y = -1;
+  uint32_t row_end = 0;
+  for (const PixelSpan& span : candidates.spans) {  // row by row
+    if (span.first >= row_end) {
+      for (; span.first >= row_end; row_end += width) ++y;
+      row.first = Vec3f(corner + frame.step_y * (candidates.tile.y0 + y + 0.5));
+      row.pixel_row = 1u << y;
+    }
+    const int begin = static_cast<int>(span.first - (row_end - width));
     const int end = begin + static_cast<int>(span.count);
-    const FloatRow row{Vec3f(corner + frame.step_y * (candidates.tile.y0 + y + 0.5)),
-                       Vec3f(frame.step_x), 1u << y};
     for (int x = begin; x < end; x += step) {
       const size_t place = span.first + static_cast<size_t>(x - begin);
       if (span.alone != nullptr) {
