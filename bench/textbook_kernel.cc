@@ -110,15 +110,20 @@ HWY_NOINLINE void ShadeTextbook(const Ggx& given_model, const ShadeRange& range)
   }
 }
 
-// Phong's cosine as it is written; all else is as in Phong's own kernel, which takes 1 - c of it
-// and c of that again: two differences that a kernel of its own would spare.
+// Phong's cosine as it is written; all else is as in Phong's own kernel.
 struct NaiveCosine {
-  static HWY_INLINE FloatV OneMinus(FloatTag d, const PacketV& p, const TowardV& toward,
-                                    FloatV n_dot_l) {
+  static HWY_INLINE FloatV Number(FloatTag, const PacketV& p, const TowardV& toward,
+                                  FloatV n_dot_l) {
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
     const FloatV l_dot_v = toward.Dot(p.to_view);
-    const FloatV cosine = hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
-    return hn::Sub(hn::Set(d, 1.0f), cosine);
+    return hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
+  }
+  static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Zero(d); }
+  static HWY_INLINE hn::Mask<FloatTag> HasLobe(FloatTag d, FloatV cosine) {
+    return hn::Gt(cosine, hn::Zero(d));
+  }
+  static HWY_INLINE FloatV Lobe(FloatTag d, FloatV cosine, FloatV shininess) {
+    return PhongLobe(d, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine}, shininess);
   }
 };
 

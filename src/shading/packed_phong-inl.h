@@ -26,13 +26,16 @@ inline constexpr float kLeastPackedExponent = 256 / -kDarkLog2;
 struct PackedLobes {
   static constexpr size_t kHits = 512;  // a multiple of every target's lanes
   alignas(64) float irradiance[kHits], weight[kHits];
-  alignas(64) float one_minus_c[kHits], lobe[kHits];  // packed
+  alignas(64) float number[kHits], lobe[kHits];  // packed
   uint8_t kept[kHits + 7];  // LaneBytes of each packet, and what these ask for after the last
 };
 
 // Leaves the bits that ShadePackets does, of ranges that are IsOneSphereUnderOneLight and exponents
 // from kLeastPackedExponent on.
-//   Cosine::OneMinus(packet, toward, n_dot_l)     1 - r.v, without cancellation
+//   Cosine::Number(packet, toward, n_dot_l)     what the lobe is a function of
+//   Cosine::NumberWithout()                     one that has no lobe, for hits that are not lit
+//   Cosine::HasLobe(number)
+//   Cosine::Lobe(number, shininess)
 // kByWeight: the lobe has a cosine of its own, modified Phong's.
 template <class Cosine, bool kByWeight>
 HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRange& range) {
@@ -41,7 +44,6 @@ HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRan
   const RangeArrays arrays(range);
   const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
   const FloatV shininess = hn::Set(d, uniforms.shininess);
-  const FloatV one = hn::Set(d, 1.0f);
   const RgbV diffuse = SetRgb(d, uniforms.lights[0].diffuse);
   const RgbV specular = SetRgb(d, uniforms.lights[0].specular);
   PackedLobes block;
@@ -59,26 +61,29 @@ HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRan
       hn::Store(irradiance, d, block.irradiance + at);
       const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
       hn::Store(weight, d, block.weight + at);
-      const FloatV if_lit = Cosine::OneMinus(d, p, from.toward, n_dot_l);
-      const FloatV one_minus_c = hn::IfThenElse(lit, if_lit, one);
-      const auto has_lobe = hn::Lt(one_minus_c, one);
-      lobes += Pack(d, one_minus_c, has_lobe, block.one_minus_c + lobes, kept);
+      const FloatV if_lit = Cosine::Number(d, p, from.toward, n_dot_l);
+      const FloatV number = hn::IfThenElse(lit, if_lit, Cosine::NumberWithout(d));
+      lobes += Pack(d, number, Cosine::HasLobe(d, number), block.number + lobes, kept);
     }
     for (size_t at = 0; at < lobes; at += lanes) {
-      const FloatV one_minus_c = hn::Load(d, block.one_minus_c + at);
-      const LobeCosineV<FloatV> cosine{one_minus_c, hn::Sub(one, one_minus_c)};
-      hn::Store(PhongLobe(d, cosine, shininess), d, block.lobe + at);
+      const FloatV number = hn::Load(d, block.number + at);
+      hn::Store(Cosine::Lobe(d, number, shininess), d, block.lobe + at);
     }
     const float* packed = block.lobe;
     kept = block.kept;
-    for (size_t at = 0; at < count; at += lanes, kept += LaneBytes(d)) {
+    const auto next_sum = [&](size_t at) HWY_ATTR {
       const FloatV lobe = Unpack(d, kept, &packed);
+      kept += LaneBytes(d);
       const FloatV weight = hn::Load(d, block.weight + at);
       const FloatV by = kByWeight ? weight : hn::Load(d, block.irradiance + at);
-      const ReflectedV reflected{{ScaledPart(diffuse, weight)},
-                                 ScaledPart(specular, hn::Mul(lobe, by))};
-      arrays.Store(d, SumOf(reflected), arrays.sum, begin + at);
+      return SumOf(
+          ReflectedV{{ScaledPart(diffuse, weight)}, ScaledPart(specular, hn::Mul(lobe, by))});
+    };
+    size_t at = 0;
+    for (; at + lanes <= count; at += lanes) {
+      StoreWhole(d, next_sum(at), arrays.sum, begin + at);
     }
+    if (at < count) StoreRgb(d, count - at, next_sum(at), arrays.sum, begin + at);
   }
 }
 

@@ -81,11 +81,20 @@ struct PhongFamily {
   }
 };
 
+// By 1 - r.v, without cancellation.
 struct StableCosine {
-  static HWY_INLINE FloatV OneMinus(FloatTag d, const PacketV& p, const TowardV& toward,
-                                    FloatV n_dot_l) {
+  static HWY_INLINE FloatV Number(FloatTag d, const PacketV& p, const TowardV& toward,
+                                  FloatV n_dot_l) {
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
     return PhongCosine(d, p.normal, toward.Plus(p.to_view), n_dot_l, n_dot_v).one_minus_c;
+  }
+  static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Set(d, 1.0f); }
+  static HWY_INLINE hn::Mask<FloatTag> HasLobe(FloatTag d, FloatV one_minus_c) {
+    return hn::Lt(one_minus_c, hn::Set(d, 1.0f));
+  }
+  static HWY_INLINE FloatV Lobe(FloatTag d, FloatV one_minus_c, FloatV shininess) {
+    const FloatV c = hn::Sub(hn::Set(d, 1.0f), one_minus_c);
+    return PhongLobe(d, {one_minus_c, c}, shininess);
   }
 };
 
