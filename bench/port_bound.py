@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a processor's ports allow the shading kernels, and how much of that they reach.
+"""What a processor's ports allow the shading kernels and the exact hits of a sphere, and how much
+of that they reach.
 
 perf samples which loops of nacre_bench run, objdump gives their instructions, llvm-mca the ports
 that each can go to; the busiest ports are those that any assignment must load most. The clock is
@@ -28,6 +29,11 @@ _LOAD_AND_STORE = "vmovups (%rdi), %xmm0\nvmovups %xmm0, (%rdi)\n"
 _AGREE = 1.5  # the models say one or two products a cycle; measured ones miss their number by a tenth
 # Hits of a packet: ShadeTag of src/base/target_ops-inl.h.
 _HITS = {"avx3": 32, "avx2": 8, "sse4": 4}
+# Rays of a vector of doubles, which a turn of the loops over exact rays takes.
+_RAYS = {"avx3": 8, "avx2": 4, "sse4": 2}
+# Those loops, of src/visibility/alone-inl.h, and where they are measured.
+_EXACT = re.compile(r"TestRays|AppendBlock")
+EXACT_HITS = "visibility/tiles_without_positions/grid"
 # Functions with these in their names do kPacketsAtOnce packets a turn.
 _AT_ONCE = re.compile(r"ShadeAtOnce|ShadeTextbook")
 _PACKETS_AT_ONCE = {"avx3": 2}
@@ -197,14 +203,16 @@ def _taken(code, begin, end, samples):
 def turns_a_hit(function, loop, target, powers):
     """How many turns a hit takes of a loop in this function. `powers`: of how many of the hits a
     power is taken."""
+    if _EXACT.search(function):
+        return 1 / _RAYS[target]
     packets = _PACKETS_AT_ONCE.get(target, 1) if _AT_ONCE.search(function) else 1
     share = powers if any(_POWER.match(text) for text in loop) else 1
     return share / (packets * _HITS[target])
 
 
-def cycles_a_hit(model, program, disassembly, benchmark, target, powers):
+def cycles_a_hit(model, program, disassembly, benchmark, target, powers=1, only=""):
     """Least cycles a hit of all its loops together, or None where no loop was seen. `powers`: of
-    how many of the hits one is taken."""
+    how many of the hits one is taken; `only`: the functions that count."""
     code, functions = disassembly
     samples = _sample(program, benchmark)
     total = sum(samples.values())
@@ -224,23 +232,30 @@ def cycles_a_hit(model, program, disassembly, benchmark, target, powers):
         if sum(_REGISTERS[target] in text for text in loop) < _LEAST_VECTORS:
             continue
         function = functions[bisect.bisect_right(functions, (code[begin][0], "~")) - 1][1]
+        if not re.search(only, function):
+            continue
         found += model.cycles(loop) * turns_a_hit(function, loop, target, powers)
     return found or None
 
 
 def measure(program, benchmarks, target):
-    """({benchmark: least ns a hit} of the shading kernels for a target, at the measured clock; the
-    model's name)."""
+    """({benchmark: least ns a hit} of the shading kernels for a target and of exact hits, at the
+    measured clock; the model's name)."""
     hertz = benchmarks["machine/multiply_chain"]["counters"]["cycles"]
     products = benchmarks["machine/products"]["counters"]["products"]
     model = PortModel(_REGISTERS[target], products / hertz)
     disassembly = disassemble(program)
+    clock = vector_clock(products, hertz)
     found = {}
+    if EXACT_HITS in benchmarks:
+        cycles = cycles_a_hit(model, program, disassembly, EXACT_HITS, target, only=_EXACT)
+        if cycles:
+            found[EXACT_HITS] = 1e9 * cycles / clock
     for name in benchmarks:
         parts = name.split("/")
         if parts[0] == "shade" and len(parts) == 3 and parts[2] == target:
             powers = benchmarks[name]["counters"].get("powers_per_hit", 1)
             cycles = cycles_a_hit(model, program, disassembly, name, target, powers)
             if cycles:
-                found[name] = 1e9 * cycles / vector_clock(products, hertz)
+                found[name] = 1e9 * cycles / clock
     return found, model.name

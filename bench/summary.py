@@ -102,6 +102,19 @@ def _visibility(times):
             (f"visibility/embree_float_user/{scene}",), in_float)
 
 
+def _exact_at_bound(times, benchmarks, bounds):
+    """Embree's time over what the ports need for the exact test of as many rays as hit, full
+    vectors of them: no binning, no outlines, no places of samples."""
+    if not bounds:  # without the tools, or in a run of the headlines alone
+        return
+    name = port_bound.EXACT_HITS
+    hits = benchmarks.get(name, {}).get("counters", {}).get("hits")
+    spheres = times.ns("visibility/embree_sphere_point/grid")
+    bound = bounds.get(name)
+    yield "grid_visibility_at_port_bound_over_embree_spheres", (
+        spheres / (bound * hits) if bound and hits and spheres else None)
+
+
 def _frames(times, best):
     def frame(scene, spp=1, target=best, variant=""):
         return (f"frame/{scene}/1920x1080/{spp}spp/{target}{variant}",)
@@ -155,6 +168,7 @@ def headlines(results):
     times = _Times(benchmarks)
     best = results.get("best_target", "avx3")
     pairs = [*_clocks(benchmarks), *_kernels(times, best), *_visibility(times),
+             *_exact_at_bound(times, benchmarks, results.get("port_bounds", {})),
              *_frames(times, best), *_processes(results.get("processes", {})),
              *adaptive.headlines(results.get("precision", {}).get("adaptive", {})),
              *lights.headlines(results.get("lights", {})),

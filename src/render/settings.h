@@ -29,7 +29,8 @@ struct RenderSettings {
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bits
   IntersectorChoice intersector = IntersectorChoice::kAuto;
   // Adaptive sampling: the wanted error of a pixel relative to max(|L|, 0.05), above 0, or of a
-  // highlight to white (white_level.h), and about how many samples a pixel takes at most. 0: every pixel takes the scene's samples.
+  // highlight to white (white_level.h), and about how many samples a pixel takes at most. 0: every
+  // pixel takes the scene's samples.
   double max_error = 0;
   int max_samples = 4096;
   // Reflect lights with an extent in closed form where that can be; false: only by samples. For

@@ -2,9 +2,9 @@
 // visibility/alone-inl.h: camera rays against the only sphere that they may hit, in front of the
 // camera: what most rays of most pictures meet.
 //
-// From a film position to a hit it is one long chain of dependent operations, with a division and a
-// root in it, longer than a processor's window. Blocks of rays therefore take it in two steps, with
-// several groups of lanes under way in each at a time.
+// From a film position to a hit it is one long chain of dependent operations, with a root in it,
+// longer than a processor's window. Blocks of rays therefore take it in two steps, with several
+// groups of lanes under way in each at a time.
 #if defined(NACRE_VISIBILITY_ALONE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_ALONE_INL_H_
 #undef NACRE_VISIBILITY_ALONE_INL_H_
@@ -32,10 +32,10 @@ struct AloneBlock {
   // they do so again in the next.
   uint32_t likely = 0;
   alignas(kVectorBytes) double backward[3][kAloneBlock];  // minus the rays' directions
+  alignas(kVectorBytes) double dd[kAloneBlock];           // squares of their lengths
   alignas(kVectorBytes) double inverse_length[kAloneBlock];
-  alignas(kVectorBytes) double inverse_dd[kAloneBlock];
-  alignas(kVectorBytes) double half_chord[kAloneBlock];
-  alignas(kVectorBytes) double perpendicular[3][kAloneBlock];
+  alignas(kVectorBytes) double root[kAloneBlock];
+  alignas(kVectorBytes) double moment[3][kAloneBlock];
 };
 
 HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadGroup(const double (&from)[3][kAloneBlock], int place) {
@@ -50,9 +50,9 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
 // The groups' exact rays: turned round, bit for bit, as the way back to the viewer is what hits
 // keep. Leaves the lanes that hit: no depth is needed, and in front of the camera the line's test
 // decides, which spares a division. The root, NaN of lanes that miss, is taken here: its unit works
-// beside those of so many products. Beside the stores it takes fewer cycles, but on the Xeon that
-// bench/README.md tells of AVX-512 so dense lowers the clock by as much.
-HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
+// beside those of so many products.
+HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& film,
+                                    AloneBlock* block) {
   const CameraDouble d;
   const auto corner = SetVec3(d, -frame.corner);
   const auto step_x = SetVec3(d, -frame.step_x);
@@ -64,19 +64,15 @@ HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneB
     const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
     // The operations of MakeCameraRays.
     const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
-    const auto inverse = InverseLength(d, FusedDot(backward, backward));
+    const auto dd = FusedDot(backward, backward);
     StoreGroup(backward, place, block->backward);
-    hn::Store(inverse.once, d, block->inverse_length + place);
-    hn::Store(inverse.squared, d, block->inverse_dd + place);
-    // Of a line there and back, all but the sign of its closest point is the same.
-    const auto center = SetVec3(d, candidate.sphere.center);
-    auto at = ClosestToCenter(d, center, backward, inverse.squared);
-    if (candidate.is_far) at = CorrectClosest(at, backward, inverse.squared);
-    const auto line = MeetSphere<CameraDouble>(at, hn::Set(d, candidate.sphere.radius));
-    const auto half_chord = hn::Sqrt(hn::Mul(line.discriminant, inverse.squared));
-    hn::Store(half_chord, d, block->half_chord + place);
-    StoreGroup(line.perpendicular, place, block->perpendicular);
-    block->bits[g] &= BitsOfMask(d, hn::Ge(line.discriminant, hn::Zero(d)));
+    hn::Store(dd, d, block->dd + place);
+    hn::Store(InverseLength(d, dd), d, block->inverse_length + place);
+    const auto moment = AccurateCross(d, SetVec3(d, candidate.sphere.center), backward);
+    const auto discriminant = Discriminant(hn::Set(d, candidate.radius2), dd, moment);
+    StoreGroup(moment, place, block->moment);
+    hn::Store(hn::Sqrt(discriminant), d, block->root + place);
+    block->bits[g] &= BitsOfMask(d, hn::Ge(discriminant, hn::Zero(d)));
   }
 }
 
@@ -93,13 +89,15 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch&
     const int place = g * kGroupLanes;
     const TileCandidate& candidate = *block.candidate[g];
     const auto backward = LoadGroup(block.backward, place);
-    const auto half_chord = hn::Load(d, block.half_chord + place);
-    const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, backward, hn::Load(d, block.inverse_dd + place), half_chord,
-                      LoadGroup(block.perpendicular, place), SetVec3(d, candidate.sphere.center),
-                      hn::Set(d, candidate.inverse_radius));
-    writer.Surfaces(surface, Scale(backward, hn::Load(d, block.inverse_length + place)), bits,
-                    ray + block.ray[g]);
+    const auto inverse_length = hn::Load(d, block.inverse_length + place);
+    const auto inverse_dd = InverseSquare(d, hn::Load(d, block.dd + place), inverse_length);
+    const auto to_hit = ScaledCenterToHit(backward, hn::Load(d, block.root + place),
+                                          LoadGroup(block.moment, place));
+    const auto position = [&]() HWY_ATTR {
+      return SpherePosition(to_hit, inverse_dd, SetVec3(d, candidate.sphere.center));
+    };
+    writer.Surfaces(SphereNormal(to_hit, inverse_dd, hn::Set(d, candidate.inverse_radius)),
+                    Scale(backward, inverse_length), position, bits, ray + block.ray[g]);
     writer.Primitive(candidate.primitive, bits);
   }
 }

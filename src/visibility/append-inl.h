@@ -64,15 +64,14 @@ class HitWriter {
         to_view_(PointersTo(&to.directions->to_view)) {}
 
   // All of a group's hits but their primitives, with which the hits will be counted. `ray`: those
-  // of the lanes.
-  template <class V>
-  HWY_INLINE void Surfaces(const SurfaceV<CameraDouble, V>& surface, Vec3V<V> to_view,
+  // of the lanes; `position` makes the points if they are asked for.
+  template <class V, class Position>
+  HWY_INLINE void Surfaces(Vec3V<V> normal, Vec3V<V> to_view, const Position& position,
                            uint32_t bits, const uint32_t* ray) const {
     const CameraDouble d;
     const hn::Rebind<float, CameraDouble> df;
     const D32 du;
     const bool all = bits == kAllOfGroup;
-    auto normal = surface.normal;
     auto rays = hn::LoadU(du, ray);
     // Before the stores, which so stand here once: of two kinds of them GCC keeps each address in a
     // mask register, to have it at hand for both.
@@ -85,7 +84,7 @@ class HitWriter {
     Put(df, Demote3(d, normal), normal_);
     Put(df, Demote3(d, to_view), to_view_);
     if (to_.positions) {
-      Put(d, all ? surface.position : ToFront(bits)(surface.position), position_);
+      Put(d, all ? position() : ToFront(bits)(position()), position_);
     }
     if (to_.exact) {
       Put(d, normal, PointersTo(&to_.hits->normal));

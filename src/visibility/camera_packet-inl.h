@@ -43,9 +43,8 @@ struct CameraPacket {
   uint32_t hit;
   alignas(kVectorBytes) float depth[kCameraPacket];  // no hit beyond this t |direction|^2 counts
   alignas(kVectorBytes) double t[kCameraPacket];
-  // Half of the chord; negative where the ray starts outside.
-  alignas(kVectorBytes) double half_chord[kCameraPacket];
-  alignas(kVectorBytes) double perpendicular[3][kCameraPacket];
+  alignas(kVectorBytes) double root[kCameraPacket];  // negative where the ray starts outside
+  alignas(kVectorBytes) double moment[3][kCameraPacket];
   // The spheres that the lanes are proposed, then hit.
   alignas(kVectorBytes) uint32_t primitive[kCameraPacket] = {};
   alignas(kVectorBytes) double center[3][kCameraPacket] = {};
@@ -158,12 +157,12 @@ HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPac
   const Vec3V<V> own = ExactOwn(d, frame, lane, *packet);
   const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
   const V dd = FusedDot(direction, direction);
-  const auto inverse = InverseLength(d, dd);
+  const V inverse_length = InverseLength(d, dd);
   Store3(own, d, packet->exact_own[0] + lane, packet->exact_own[1] + lane,
          packet->exact_own[2] + lane);
   hn::Store(dd, d, packet->exact_dd + lane);
-  hn::Store(inverse.once, d, packet->inverse_length + lane);
-  hn::Store(inverse.squared, d, packet->inverse_dd + lane);
+  hn::Store(inverse_length, d, packet->inverse_length + lane);
+  hn::Store(InverseSquare(d, dd, inverse_length), d, packet->inverse_dd + lane);
 }
 
 template <bool kPerspective, class D>
@@ -193,10 +192,10 @@ HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraD
     hn::Store(hn::IfThenElse(nearer, value, hn::Load(d, to + lane)), d, to + lane);
   };
   keep(hit.t, packet->t);
-  keep(hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)), packet->half_chord);
-  keep(hit.perpendicular.x, packet->perpendicular[0]);
-  keep(hit.perpendicular.y, packet->perpendicular[1]);
-  keep(hit.perpendicular.z, packet->perpendicular[2]);
+  keep(hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root)), packet->root);
+  keep(hit.moment.x, packet->moment[0]);
+  keep(hit.moment.y, packet->moment[1]);
+  keep(hit.moment.z, packet->moment[2]);
   const hn::Rebind<float, CameraDouble> df;
   hn::StoreU(UpperDepth(d, hn::Load(d, packet->t + lane), hn::Load(d, packet->exact_dd + lane)), df,
              packet->depth + lane);

@@ -37,9 +37,9 @@ HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
 // 1 / |direction|^2 of camera rays, or of shadow rays, which may have any length: as the tiles'
 // kernels and those of shadow rays form it.
 template <bool kCamera, class D, class V = hn::Vec<D>>
-HWY_INLINE V InverseSquare(D d, const Vec3V<V>& direction) {
+HWY_INLINE V InverseDd(D d, const Vec3V<V>& direction) {
   const V dd = FusedDot(direction, direction);
-  return kCamera ? InverseLength(d, dd).squared : hn::Div(hn::Set(d, 1.0), dd);
+  return kCamera ? InverseSquare(d, dd, InverseLength(d, dd)) : hn::Div(hn::Set(d, 1.0), dd);
 }
 
 // Rounds the rays to float. Their directions are first divided by a power of two, so that the
@@ -54,7 +54,7 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
 
   const Vec3V<V> origin = Origin(d, *packet, lane);
   const Vec3V<V> direction = Direction(d, *packet, lane);
-  const V inverse_dd = InverseSquare<kCamera>(d, direction);
+  const V inverse_dd = InverseDd<kCamera>(d, direction);
   const V largest =
       hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z));
   const auto scale = PowerOfTwo(d, largest);

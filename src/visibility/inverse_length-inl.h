@@ -27,31 +27,31 @@ HWY_INLINE V RoughInverseSqrt(D d, V v) {
 #endif
 }
 
-// 1 / |direction| and 1 / |direction|^2.
-template <class V>
-struct InverseLengthV {
-  V once;     // within 2 ulp
-  V squared;  // as a division rounds it
-};
-
-// dd = |direction|^2 of a camera ray, well within float's range. A step of the fourth order takes
-// the first guess g to double's precision: 1 / sqrt(dd) = g (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...)
-// for e = 1 - dd g^2, of which |35/128 e^4| < 2^-53 is left out.
+// 1 / |direction| within 2 ulp, of dd = |direction|^2 of a camera ray, well within float's range. A
+// step of the fourth order takes the first guess g to double's precision:
+// 1 / sqrt(dd) = g (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...) for e = 1 - dd g^2, of which
+// |35/128 e^4| < 2^-53 is left out.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE InverseLengthV<V> InverseLength(D d, V dd) {
-  const V one = hn::Set(d, 1.0);
+HWY_INLINE V InverseLength(D d, V dd) {
   const V guess = RoughInverseSqrt(d, dd);
-  const V error = hn::NegMulAdd(hn::Mul(dd, guess), guess, one);
+  const V error = hn::NegMulAdd(hn::Mul(dd, guess), guess, hn::Set(d, 1.0));
   V series = hn::MulAdd(error, hn::Set(d, 5.0 / 16), hn::Set(d, 3.0 / 8));
   series = hn::MulAdd(error, series, hn::Set(d, 1.0 / 2));
-  const V once = hn::MulAdd(hn::Mul(error, series), guess, guess);
+  return hn::MulAdd(hn::Mul(error, series), guess, guess);
+}
+
+// 1 / dd as a division rounds it, whatever the target, by the inverse length of above.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V InverseSquare(D d, V dd, V inverse_length) {
+  const V one = hn::Set(d, 1.0);
 #if HWY_TARGET <= HWY_AVX3
   // One of Newton's steps is off by less than 2^-98 before it rounds: a division's bits, in a third
   // of its time.
-  const V rough = hn::Mul(once, once);
-  return {once, hn::MulAdd(hn::NegMulAdd(dd, rough, one), rough, rough)};
+  const V rough = hn::Mul(inverse_length, inverse_length);
+  return hn::MulAdd(hn::NegMulAdd(dd, rough, one), rough, rough);
 #else
-  return {once, hn::Div(one, dd)};
+  (void)inverse_length;
+  return hn::Div(one, dd);
 #endif
 }
 

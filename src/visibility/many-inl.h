@@ -107,10 +107,9 @@ HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t one, CameraPacke
         TestSphere(d, to_center, ExactDirection<kPerspective>(d, frame, lane, *packet),
                    hn::Load(d, packet->inverse_dd + lane), hn::Load(d, packet->radius + lane));
     packet->hit |= (BitsOfMask(d, hit.hit) & bits) << lane;
-    hn::Store(hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord)), d,
-              packet->half_chord + lane);
-    Store3(hit.perpendicular, d, packet->perpendicular[0] + lane, packet->perpendicular[1] + lane,
-           packet->perpendicular[2] + lane);
+    hn::Store(hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root)), d, packet->root + lane);
+    Store3(hit.moment, d, packet->moment[0] + lane, packet->moment[1] + lane,
+           packet->moment[2] + lane);
   }
 }
 

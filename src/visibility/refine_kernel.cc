@@ -51,15 +51,21 @@ struct Gathered {
   bool any_sphere = false, any_triangle = false;
 };
 
-HWY_INLINE SurfaceV<D> RefineSphere(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                    const Vec3V<V>& direction, V inverse_dd) {
+struct Surface {
+  Vec3V<V> position;
+  Vec3V<V> normal;  // unit, on the ray's side
+};
+
+HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const Vec3V<V>& origin,
+                                const Vec3V<V>& direction, V inverse_dd) {
   const D d;
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
   const auto hit = TestSphere(d, Sub(center, origin), direction, inverse_dd, radius);
-  const V half_chord = hn::IfThenElse(hit.inside, hit.half_chord, hn::Neg(hit.half_chord));
-  return SphereSurface(d, direction, inverse_dd, half_chord, hit.perpendicular, center,
-                       TurnedInverse(hn::Div(hn::Set(d, 1.0), radius), half_chord));
+  const V root = hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root));
+  const Vec3V<V> to_hit = ScaledCenterToHit(direction, root, hit.moment);
+  const V turned = TurnedInverse(hn::Div(hn::Set(d, 1.0), radius), root);
+  return {SpherePosition(to_hit, inverse_dd, center), SphereNormal(to_hit, inverse_dd, turned)};
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {
@@ -75,8 +81,8 @@ HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
   return Scale(scaled, hn::Div(hn::Set(d, 1.0), hn::Sqrt(Dot(scaled, scaled))));
 }
 
-HWY_INLINE SurfaceV<D> RefineTriangle(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                      const Vec3V<V>& direction, V inverse_dd) {
+HWY_INLINE Surface RefineTriangle(const Gathered& in, size_t i, const Vec3V<V>& origin,
+                                  const Vec3V<V>& direction, V inverse_dd) {
   const D d;
   const V zero = hn::Zero(d);
   const Vec3V<V> a = in.corner[0].Load(i), b = in.corner[1].Load(i), c = in.corner[2].Load(i);
@@ -135,7 +141,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
   }
 }
 
-HWY_INLINE void StoreHits(const SurfaceV<D>& surface, const Vec3V<V>& to_view, size_t first,
+HWY_INLINE void StoreHits(const Surface& surface, const Vec3V<V>& to_view, size_t first,
                           const HitsTo& to) {
   const D d;
   const hn::Rebind<float, D> df;
@@ -156,16 +162,17 @@ HWY_INLINE void StoreHits(const SurfaceV<D>& surface, const Vec3V<V>& to_view, s
 HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const HitsTo& to) {
   const D d;
   const Vec3V<V> origin = in.origin.Load(i), direction = in.direction.Load(i);
-  const auto inverse = InverseLength(d, FusedDot(direction, direction));
-  const V inverse_dd = inverse.squared;
-  const Vec3V<V> to_view = ToView(direction, inverse.once);
+  const V dd = FusedDot(direction, direction);
+  const V inverse_length = InverseLength(d, dd);
+  const V inverse_dd = InverseSquare(d, dd, inverse_length);
+  const Vec3V<V> to_view = ToView(direction, inverse_length);
   if (!in.any_triangle) {
     StoreHits(RefineSphere(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else if (!in.any_sphere) {
     StoreHits(RefineTriangle(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else {
-    const SurfaceV<D> sphere = RefineSphere(in, i, origin, direction, inverse_dd);
-    const SurfaceV<D> triangle = RefineTriangle(in, i, origin, direction, inverse_dd);
+    const Surface sphere = RefineSphere(in, i, origin, direction, inverse_dd);
+    const Surface triangle = RefineTriangle(in, i, origin, direction, inverse_dd);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
     StoreHits({Select(is_triangle, triangle.position, sphere.position),
                Select(is_triangle, triangle.normal, sphere.normal)},
@@ -188,7 +195,8 @@ void Refine(const RefineRequest& request, const HitsTo& to) {
 double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction) {
   const D d;
   const Vec3V<V> along = SetVec3(d, direction);
-  const V inverse_dd = InverseLength(d, FusedDot(along, along)).squared;
+  const V dd = FusedDot(along, along);
+  const V inverse_dd = InverseSquare(d, dd, InverseLength(d, dd));
   const auto hit = TestSphere(d, SetVec3(d, sphere.center - origin), along, inverse_dd,
                               hn::Set(d, sphere.radius));
   return hn::GetLane(hit.t);

@@ -22,94 +22,43 @@ struct SphereHitV {
   hn::Mask<D> inside;
   V t;
   V closest;
-  V half_chord;
-  Vec3V<V> perpendicular;
+  V root;
+  Vec3V<V> moment;
 };
 
-// What the ray's whole line does: it meets the sphere if `discriminant`, the squared half chord's
-// length, is not below 0.
-template <class D, class V = hn::Vec<D>>
-struct LineV {
-  V closest;
-  V discriminant;
-  Vec3V<V> perpendicular;
-};
-
-// IsFarSphere of lanes.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> FarSpheres(D d, V to_center_squared, V radius) {
-  const V limit = hn::Mul(hn::Set(d, kNearRadii * kNearRadii), hn::Mul(radius, radius));
-  return hn::Gt(to_center_squared, limit);
-}
-
+// The ray's whole line meets the sphere if this is not below 0. dd is |direction|^2, and moment
+// to_center x direction.
 template <class V>
-struct ClosestV {
-  V closest;
-  Vec3V<V> perpendicular;
-};
-
-// Of near spheres. inverse_dd is 1 / |direction|^2.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE ClosestV<V> ClosestToCenter(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
-                                       V inverse_dd) {
-  const V closest = hn::Mul(FusedDot(to_center, direction), inverse_dd);
-  return {closest,
-          {SubtractProduct(d, to_center.x, closest, direction.x),
-           SubtractProduct(d, to_center.y, closest, direction.y),
-           SubtractProduct(d, to_center.z, closest, direction.z)}};
+HWY_INLINE V Discriminant(V radius2, V dd, const Vec3V<V>& moment) {
+  return hn::MulSub(radius2, dd, FusedDot(moment, moment));
 }
 
-// Of far ones, by the same; a correction of 0 leaves its bits.
-template <class V>
-HWY_INLINE ClosestV<V> AddCorrection(const ClosestV<V>& first, const Vec3V<V>& direction,
-                                     V correction) {
-  const Vec3V<V>& p = first.perpendicular;
-  return {hn::Add(first.closest, correction),
-          {hn::NegMulAdd(direction.x, correction, p.x), hn::NegMulAdd(direction.y, correction, p.y),
-           hn::NegMulAdd(direction.z, correction, p.z)}};
-}
-
-template <class V>
-HWY_INLINE ClosestV<V> CorrectClosest(const ClosestV<V>& first, const Vec3V<V>& direction,
-                                      V inverse_dd) {
-  return AddCorrection(first, direction,
-                       hn::Mul(FusedDot(first.perpendicular, direction), inverse_dd));
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE LineV<D> MeetSphere(const ClosestV<V>& at, V radius) {
-  const Vec3V<V>& p = at.perpendicular;
-  return {at.closest, hn::Sub(hn::Mul(radius, radius), FusedDot(p, p)), p};
-}
-
+// inverse_dd is 1 / |direction|^2.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<V>& direction,
                                     V inverse_dd, V radius) {
   const V zero = hn::Zero(d);
-  const V to_center_squared = FusedDot(to_center, to_center);
-  const auto first = ClosestToCenter(d, to_center, direction, inverse_dd);
-  const V correction =
-      hn::IfThenElseZero(FarSpheres(d, to_center_squared, radius),
-                         hn::Mul(FusedDot(first.perpendicular, direction), inverse_dd));
-  const LineV<D> line = MeetSphere<D>(AddCorrection(first, direction, correction), radius);
+  const V radius2 = hn::Mul(radius, radius);
+  const Vec3V<V> moment = AccurateCross(d, to_center, direction);
+  const V discriminant = Discriminant(radius2, FusedDot(direction, direction), moment);
   SphereHitV<D> result;
-  result.closest = line.closest;
-  result.half_chord = hn::Sqrt(hn::Mul(hn::Max(line.discriminant, zero), inverse_dd));
-  result.perpendicular = line.perpendicular;
-  const V closest = result.closest;
+  const V closest = hn::Mul(FusedDot(to_center, direction), inverse_dd);
+  result.closest = closest;
+  result.root = hn::Sqrt(hn::Max(discriminant, zero));
+  result.moment = moment;
   // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
   const auto ahead = hn::Gt(closest, zero);
-  const V half_chord = result.half_chord;
+  const V half_chord = hn::Mul(result.root, inverse_dd);
   const V larger = hn::Add(closest, hn::IfThenElse(ahead, half_chord, hn::Neg(half_chord)));
-  const V product = hn::Mul(hn::Sub(to_center_squared, hn::Mul(radius, radius)), inverse_dd);
+  const V product = hn::Mul(hn::Sub(FusedDot(to_center, to_center), radius2), inverse_dd);
   const V smaller = hn::Div(product, larger);
   const V near = hn::IfThenElse(ahead, smaller, larger);
   const V far = hn::IfThenElse(ahead, larger, smaller);
   const auto outside = hn::Gt(near, zero);
   result.inside = hn::Not(outside);
   result.t = hn::IfThenElse(outside, near, far);
-  result.hit = hn::And(hn::And(hn::Ge(line.discriminant, zero), hn::Gt(radius, zero)),
-                       hn::Gt(result.t, zero));
+  result.hit =
+      hn::And(hn::And(hn::Ge(discriminant, zero), hn::Gt(radius, zero)), hn::Gt(result.t, zero));
   return result;
 }
 

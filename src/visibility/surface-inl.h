@@ -15,34 +15,30 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-template <class D, class V = hn::Vec<D>>
-struct SurfaceV {
-  Vec3V<V> position;
-  Vec3V<V> normal;  // unit, on the ray's side
-};
-
-// 1 / radius of a sphere; negative where `half_chord`, negative where the ray starts outside, is
-// not: normals then point inward.
+// 1 / radius of a sphere; negative where `root`, negative where the ray starts outside, is not:
+// normals then point inward.
 template <class V>
-HWY_INLINE V TurnedInverse(V inverse_radius, V half_chord) {
-  return hn::CopySign(inverse_radius, hn::Neg(half_chord));
+HWY_INLINE V TurnedInverse(V inverse_radius, V root) {
+  return hn::CopySign(inverse_radius, hn::Neg(root));
 }
 
-// Of a sphere's hit. The hit is centre + radius x normal: the point on the ray, whose rounding
-// grows with its distance, is never formed; scalar twin: CenterToHit. `half_chord` is negative
-// where the ray starts outside; inverse_dd is 1 / |direction|^2.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE SurfaceV<D> SphereSurface(D /*d*/, const Vec3V<V>& direction, V inverse_dd, V half_chord,
-                                     const Vec3V<V>& perpendicular, const Vec3V<V>& center,
-                                     V turned_inverse) {
-  const V along = hn::MulAdd(FusedDot(perpendicular, direction), inverse_dd, half_chord);
-  const Vec3V<V> from_center{hn::MulSub(direction.x, along, perpendicular.x),
-                             hn::MulSub(direction.y, along, perpendicular.y),
-                             hn::MulSub(direction.z, along, perpendicular.z)};
-  SurfaceV<D> surface;
-  surface.position = Add(center, from_center);
-  surface.normal = Scale(from_center, turned_inverse);
-  return surface;
+// From a sphere's centre to the hit, by |direction|^2: the point on the ray, whose rounding grows
+// with its distance, is never formed; scalar twin: ScaledCenterToHit. `root` is negative where the
+// ray starts outside. Of a ray turned round, moment and root change their signs, no bit else.
+template <class V>
+HWY_INLINE Vec3V<V> ScaledCenterToHit(const Vec3V<V>& direction, V root, const Vec3V<V>& moment) {
+  return MulAdd3(direction, root, FusedCross(moment, direction));
+}
+
+// Of that and 1 / |direction|^2. Unit, on the ray's side.
+template <class V>
+HWY_INLINE Vec3V<V> SphereNormal(const Vec3V<V>& to_hit, V inverse_dd, V turned_inverse) {
+  return Scale(to_hit, hn::Mul(inverse_dd, turned_inverse));
+}
+
+template <class V>
+HWY_INLINE Vec3V<V> SpherePosition(const Vec3V<V>& to_hit, V inverse_dd, const Vec3V<V>& center) {
+  return MulAdd3(to_hit, inverse_dd, center);
 }
 
 // Minus the direction, made a unit vector.

@@ -31,16 +31,18 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const uint32_t bits = (packet.hit >> lane) & ((1u << step) - 1);
     if (bits == 0) continue;
     const auto direction = ExactDirection<kPerspective>(d, frame, lane, packet);
-    const Vec3V<hn::Vec<CameraDouble>> perpendicular =
-        Load3(d, packet.perpendicular[0] + lane, packet.perpendicular[1] + lane,
-              packet.perpendicular[2] + lane);
-    const auto half_chord = hn::Load(d, packet.half_chord + lane);
-    const auto inverse = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), half_chord);
-    const SurfaceV<CameraDouble> surface =
-        SphereSurface(d, direction, hn::Load(d, packet.inverse_dd + lane), half_chord,
-                      perpendicular, Centers(packet, lane), inverse);
-    const auto to_view = ToView(direction, hn::Load(d, packet.inverse_length + lane));
-    writer.Surfaces(surface, to_view, bits, rays + lane);
+    const auto moment =
+        Load3(d, packet.moment[0] + lane, packet.moment[1] + lane, packet.moment[2] + lane);
+    const auto inverse_length = hn::Load(d, packet.inverse_length + lane);
+    const auto inverse_dd = hn::Load(d, packet.inverse_dd + lane);
+    const auto root = hn::Load(d, packet.root + lane);
+    const auto to_hit = ScaledCenterToHit(direction, root, moment);
+    const auto turned = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), root);
+    const auto position = [&]() HWY_ATTR {
+      return SpherePosition(to_hit, inverse_dd, Centers(packet, lane));
+    };
+    writer.Surfaces(SphereNormal(to_hit, inverse_dd, turned), ToView(direction, inverse_length),
+                    position, bits, rays + lane);
     writer.Primitives(packet.primitive + lane, bits);
   }
 }
@@ -230,14 +232,14 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint1
                             const CameraFrame& frame, double own, Products products) {
   TileCandidate candidate;
   candidate.sphere = sphere;
+  candidate.radius2 = sphere.radius * sphere.radius;
   candidate.inverse_radius = 1 / sphere.radius;
   candidate.primitive = primitive;
   candidate.pixel_rows = pixel_rows;
   const double distance2 = Dot(sphere.center, sphere.center, products);
   const double distance = std::sqrt(distance2);
   // The sign of the product of TestSphere's roots.
-  candidate.around_camera = !(distance2 - sphere.radius * sphere.radius > 0);
-  candidate.is_far = IsFarSphere(distance2, sphere.radius);
+  candidate.around_camera = !(distance2 - candidate.radius2 > 0);
   candidate.in_front = IsInFront(sphere, distance, frame);
   candidate.near = NearBound(sphere, distance, frame);
   for (int c = 0; c < 3; ++c) candidate.center[c] = static_cast<float>(sphere.center[c]);

@@ -13,12 +13,11 @@ namespace nacre {
 // A sphere that a tile's rays may hit.
 struct TileCandidate {
   TraceSphere sphere;
-  double inverse_radius;
+  double radius2, inverse_radius;
   uint32_t primitive;
   uint16_t pixel_rows;          // of its cell that its outline reaches, as bits
   bool in_cell_before = false;  // it is in the tile's cell to the left, too
   bool around_camera;           // the camera is inside
-  bool is_far;                  // IsFarSphere for the camera
   bool in_front;                // no perspective ray's line meets it behind the camera
   // For proposals, in float: no ray meets the sphere nearer to the camera than `near`, and rays
   // that hit it come within `reach` of `center`: radius and rounding errors.

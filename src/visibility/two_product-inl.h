@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/two_product-inl.h: products without rounding error on SIMD vectors. Scalar twin:
-// visibility/two_product.h. The results are exact, so every target gives the same bits, with a
-// fused multiply-add or without.
+// visibility/two_product.h. What is exact has the same bits on every target, with a fused
+// multiply-add or without.
 #if defined(NACRE_VISIBILITY_TWO_PRODUCT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_TWO_PRODUCT_INL_H_
 #undef NACRE_VISIBILITY_TWO_PRODUCT_INL_H_
@@ -48,23 +48,28 @@ HWY_INLINE TwoProductV<V> TwoProduct(D d, V a, V b) {
 }
 #endif
 
-// c - a b, the product unrounded: rounded once where the target fuses, twice elsewhere.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V SubtractProduct(D d, V c, V a, V b) {
-#if HWY_NATIVE_FMA
-  (void)d;
-  return hn::NegMulAdd(a, b, c);
-#else
-  const auto ab = TwoProduct(d, a, b);
-  return hn::Sub(hn::Sub(c, ab.product), ab.error);
-#endif
-}
-
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V DifferenceOfProducts(D d, V a, V b, V c, V e) {
   const auto ab = TwoProduct(d, a, b);
   const auto ce = TwoProduct(d, c, e);
   return hn::Add(hn::Sub(ab.product, ce.product), hn::Sub(ab.error, ce.error));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V AccurateDifference(D d, V a, V b, V c, V e) {
+#if HWY_NATIVE_FMA
+  (void)d;
+  const V product = hn::Mul(c, e);
+  return hn::Add(hn::MulSub(a, b, product), hn::NegMulAdd(c, e, product));
+#else
+  return DifferenceOfProducts(d, a, b, c, e);
+#endif
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> AccurateCross(D d, const Vec3V<V>& a, const Vec3V<V>& b) {
+  return {AccurateDifference(d, a.y, b.z, a.z, b.y), AccurateDifference(d, a.z, b.x, a.x, b.z),
+          AccurateDifference(d, a.x, b.y, a.y, b.x)};
 }
 
 }  // namespace HWY_NAMESPACE

@@ -40,14 +40,6 @@ TwoProductResult<Real> TwoProduct(Real a, Real b) {
   return {product, std::fma(a, b, -product)};
 }
 
-// c - a b, the product unrounded: rounded once where the target fuses, twice elsewhere.
-template <typename Real>
-Real SubtractProduct(Real c, Real a, Real b, Products products) {
-  if (products == Products::kFused) return std::fma(-a, b, c);
-  const auto [product, error] = TwoProduct(a, b);
-  return (c - product) - error;
-}
-
 // a b - c d with the sign of the exact value, 0 only if that is 0, and a relative error of a few
 // roundings unless the two products agree to almost all their digits. Exactly negated when the
 // products are exchanged.
@@ -57,6 +49,24 @@ Real DifferenceOfProducts(Real a, Real b, Real c, Real d) {
   const auto ab = TwoProduct(a, b);
   const auto cd = TwoProduct(c, d);
   return (ab.product - cd.product) + (ab.error - cd.error);
+}
+
+// a b - c d within 1.5 ulp where the target fuses (Kahan's algorithm; Jeannerod, Louvet and Muller
+// 2013), a few elsewhere: what the rounding of one product loses is added again.
+template <typename Real>
+Real AccurateDifference(Real a, Real b, Real c, Real d, Products products) {
+  if (products == Products::kRounded) return DifferenceOfProducts(a, b, c, d);
+  const Real product = c * d;
+  return std::fma(a, b, -product) + std::fma(-c, d, product);
+}
+
+// a x b, each component by AccurateDifference.
+template <typename Real>
+Imath::Vec3<Real> AccurateCross(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& b,
+                                Products products) {
+  return {AccurateDifference(a.y, b.z, a.z, b.y, products),
+          AccurateDifference(a.z, b.x, a.x, b.z, products),
+          AccurateDifference(a.x, b.y, a.y, b.x, products)};
 }
 
 }  // namespace nacre

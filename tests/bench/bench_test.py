@@ -191,6 +191,17 @@ class Headlines(unittest.TestCase):
                      "skips_on_over_off"):
             self.assertIn(name, {*values, *missing})
 
+    def test_exact_hits_at_the_ports_bound(self):
+        name = "grid_visibility_at_port_bound_over_embree_spheres"
+        values, missing = summary.headlines(results_of())
+        self.assertNotIn(name, {*values, *missing})
+        results = results_of() | {"port_bounds": {port_bound.EXACT_HITS: 2}}
+        self.assertIn(name, summary.headlines(results)[1])
+        results["benchmarks"] = results["benchmarks"] | {
+            port_bound.EXACT_HITS: {"ns": [9000, 9000, 9000], "counters": {"hits": 1000}},
+            "visibility/embree_sphere_point/grid": {"ns": [100000] * 3, "counters": {}}}
+        self.assertAlmostEqual(summary.headlines(results)[0][name], 50)
+
     def test_processes_and_scaling(self):
         results = results_of() | {
             "processes": {"startup": {"seconds": [0.002, 0.004, 0.003], "mib": [5, 5, 5]}},
@@ -229,6 +240,8 @@ class Ports(unittest.TestCase):
         self.assertEqual(port_bound.turns_a_hit("13ShadeTextbookE", plain, "avx2", 1), 1 / 8)
         self.assertEqual(port_bound.turns_a_hit("ShadePackedPhong", plain, "avx3", 0.25), 1 / 32)
         self.assertEqual(port_bound.turns_a_hit("ShadePackedPhong", power, "avx3", 0.25), 1 / 128)
+        self.assertEqual(port_bound.turns_a_hit("N_AVX38TestRaysE", plain, "avx3", 1), 1 / 8)
+        self.assertEqual(port_bound.turns_a_hit("N_AVX211AppendBlockE", plain, "avx2", 1), 1 / 4)
 
     def test_copies_are_not_counted(self):
         for copy in ("vmovaps %zmm1,%zmm2", "mov    %rax,%rbx", "movaps %xmm1,%xmm0", "jne    10"):

@@ -209,10 +209,13 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
       const auto& [center, radius] = geometry.spheres[surface.primitive];
       const Vec3d& direction = rays[i].direction;
       const auto hit = TestSphere(center, direction, radius, TargetProducts());
-      const Vec3d from_center = CenterToHit(hit, direction, TargetProducts());
+      const Vec3d to_hit = ScaledCenterToHit(hit, direction, TargetProducts());
+      const double inverse_dd = 1 / Dot(direction, direction, TargetProducts());
       REQUIRE(hit.hit);
-      REQUIRE(surface.position == center + from_center);
-      REQUIRE(surface.normal == from_center * (hit.inside ? -1 / radius : 1 / radius));
+      for (int c = 0; c < 3; ++c) {
+        REQUIRE(surface.position[c] == MulAdd(to_hit[c], inverse_dd, center[c], TargetProducts()));
+      }
+      REQUIRE(surface.normal == to_hit * (inverse_dd * (hit.inside ? -1 / radius : 1 / radius)));
       REQUIRE(surface.normal.dot(direction) <= 0);
       REQUIRE(std::abs(surface.normal.length() - 1) < 8 * kHalfUlpDouble);
       REQUIRE((surface.to_view + direction.normalized()).length() < 8 * kHalfUlpDouble);
