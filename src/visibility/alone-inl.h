@@ -90,7 +90,7 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch&
     const TileCandidate& candidate = *block.candidate[g];
     const auto backward = LoadGroup(block.backward, place);
     const auto inverse_length = hn::Load(d, block.inverse_length + place);
-    const auto inverse_dd = InverseSquare(d, hn::Load(d, block.dd + place), inverse_length);
+    const auto inverse_dd = hn::Div(hn::Set(d, 1.0), hn::Load(d, block.dd + place));
     const auto to_hit = ScaledCenterToHit(backward, hn::Load(d, block.root + place),
                                           LoadGroup(block.moment, place));
     const auto position = [&]() HWY_ATTR {

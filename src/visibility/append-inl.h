@@ -84,7 +84,8 @@ class HitWriter {
     Put(df, Demote3(d, normal), normal_);
     Put(df, Demote3(d, to_view), to_view_);
     if (to_.positions) {
-      Put(d, all ? position() : ToFront(bits)(position()), position_);
+      const Vec3V<V> at = position();
+      Put(d, all ? at : ToFront(bits)(at), position_);
     }
     if (to_.exact) {
       Put(d, normal, PointersTo(&to_.hits->normal));

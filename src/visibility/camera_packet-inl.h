@@ -157,12 +157,11 @@ HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPac
   const Vec3V<V> own = ExactOwn(d, frame, lane, *packet);
   const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
   const V dd = FusedDot(direction, direction);
-  const V inverse_length = InverseLength(d, dd);
   Store3(own, d, packet->exact_own[0] + lane, packet->exact_own[1] + lane,
          packet->exact_own[2] + lane);
   hn::Store(dd, d, packet->exact_dd + lane);
-  hn::Store(inverse_length, d, packet->inverse_length + lane);
-  hn::Store(InverseSquare(d, dd, inverse_length), d, packet->inverse_dd + lane);
+  hn::Store(InverseLength(d, dd), d, packet->inverse_length + lane);
+  hn::Store(hn::Div(hn::Set(d, 1.0), dd), d, packet->inverse_dd + lane);
 }
 
 template <bool kPerspective, class D>

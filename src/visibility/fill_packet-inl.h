@@ -8,10 +8,6 @@
 #define NACRE_VISIBILITY_FILL_PACKET_INL_H_
 #endif
 
-#include <limits>
-#include <type_traits>
-
-#include "visibility/inverse_length-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/triangle_test-inl.h"
 
@@ -34,17 +30,9 @@ HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
   return {hn::BitCast(d, exponent), hn::BitCast(d, negated)};
 }
 
-// 1 / |direction|^2 of camera rays, or of shadow rays, which may have any length: as the tiles'
-// kernels and those of shadow rays form it.
-template <bool kCamera, class D, class V = hn::Vec<D>>
-HWY_INLINE V InverseDd(D d, const Vec3V<V>& direction) {
-  const V dd = FusedDot(direction, direction);
-  return kCamera ? InverseSquare(d, dd, InverseLength(d, dd)) : hn::Div(hn::Set(d, 1.0), dd);
-}
-
 // Rounds the rays to float. Their directions are first divided by a power of two, so that the
 // largest component is in [1, 2] and no product leaves float's range.
-template <bool kCamera, class D>
+template <class D>
 HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   using V = hn::Vec<D>;
   const hn::Rebind<float, D> df;
@@ -54,7 +42,7 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
 
   const Vec3V<V> origin = Origin(d, *packet, lane);
   const Vec3V<V> direction = Direction(d, *packet, lane);
-  const V inverse_dd = InverseDd<kCamera>(d, direction);
+  const V inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
   const V largest =
       hn::Max(hn::Max(hn::Abs(direction.x), hn::Abs(direction.y)), hn::Abs(direction.z));
   const auto scale = PowerOfTwo(d, largest);
@@ -92,11 +80,10 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   packet->direction_x = batch.direction.x.data() + first;
   packet->direction_y = batch.direction.y.data() + first;
   packet->direction_z = batch.direction.z.data() + first;
-  constexpr bool kCamera = std::is_same_v<Batch, RayBatch>;
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < packet->width; lane += step) {
-    FillLanes<kCamera>(d, hn::Load(d, packet->t_max + lane), lane, packet);
+    FillLanes(d, hn::Load(d, packet->t_max + lane), lane, packet);
   }
   for (int lane = 0; lane < packet->width; ++lane) {
     packet->valid[lane] = first + static_cast<size_t>(lane) < batch.count ? -1 : 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/inverse_length-inl.h: what a camera ray's length is needed for.
+// visibility/inverse_length-inl.h: 1 / the length of a camera ray's direction.
 #if defined(NACRE_VISIBILITY_INVERSE_LENGTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_INVERSE_LENGTH_INL_H_
 #undef NACRE_VISIBILITY_INVERSE_LENGTH_INL_H_
@@ -38,21 +38,6 @@ HWY_INLINE V InverseLength(D d, V dd) {
   V series = hn::MulAdd(error, hn::Set(d, 5.0 / 16), hn::Set(d, 3.0 / 8));
   series = hn::MulAdd(error, series, hn::Set(d, 1.0 / 2));
   return hn::MulAdd(hn::Mul(error, series), guess, guess);
-}
-
-// 1 / dd as a division rounds it, whatever the target, by the inverse length of above.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V InverseSquare(D d, V dd, V inverse_length) {
-  const V one = hn::Set(d, 1.0);
-#if HWY_TARGET <= HWY_AVX3
-  // One of Newton's steps is off by less than 2^-98 before it rounds: a division's bits, in a third
-  // of its time.
-  const V rough = hn::Mul(inverse_length, inverse_length);
-  return hn::MulAdd(hn::NegMulAdd(dd, rough, one), rough, rough);
-#else
-  (void)inverse_length;
-  return hn::Div(one, dd);
-#endif
 }
 
 }  // namespace HWY_NAMESPACE

@@ -163,9 +163,8 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   const D d;
   const Vec3V<V> origin = in.origin.Load(i), direction = in.direction.Load(i);
   const V dd = FusedDot(direction, direction);
-  const V inverse_length = InverseLength(d, dd);
-  const V inverse_dd = InverseSquare(d, dd, inverse_length);
-  const Vec3V<V> to_view = ToView(direction, inverse_length);
+  const V inverse_dd = hn::Div(hn::Set(d, 1.0), dd);
+  const Vec3V<V> to_view = ToView(direction, InverseLength(d, dd));
   if (!in.any_triangle) {
     StoreHits(RefineSphere(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else if (!in.any_sphere) {
@@ -195,8 +194,7 @@ void Refine(const RefineRequest& request, const HitsTo& to) {
 double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction) {
   const D d;
   const Vec3V<V> along = SetVec3(d, direction);
-  const V dd = FusedDot(along, along);
-  const V inverse_dd = InverseSquare(d, dd, InverseLength(d, dd));
+  const V inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(along, along));
   const auto hit = TestSphere(d, SetVec3(d, sphere.center - origin), along, inverse_dd,
                               hn::Set(d, sphere.radius));
   return hn::GetLane(hit.t);

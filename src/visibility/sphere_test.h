@@ -30,7 +30,8 @@ struct SphereHit {
 // Gems ch. 7) by |direction|^2. The distance to the sphere enters it through the products of the
 // moment alone, which cancel against each other, and whose rounding is therefore made good. What
 // remains is a few roundings of the radius at any distance; and neither a division nor the closest
-// point stands before the root, which the hit waits for.
+// point stands before the root, which the hit waits for. Squares must not leave double's range:
+// radius |direction| lies within 1e-150 and 1e150 for all that a scene may hold.
 //
 // The roots come from their sum and their product, (|to_center|^2 - radius^2) / |direction|^2,
 // so the one near the origin does not cancel: a sphere of radius 1e6 under the eye is right.

@@ -24,7 +24,8 @@ HWY_INLINE V TurnedInverse(V inverse_radius, V root) {
 
 // From a sphere's centre to the hit, by |direction|^2: the point on the ray, whose rounding grows
 // with its distance, is never formed; scalar twin: ScaledCenterToHit. `root` is negative where the
-// ray starts outside. Of a ray turned round, moment and root change their signs, no bit else.
+// ray starts outside. Of a ray turned round, moment and root change their signs, no bit else but a
+// 0's.
 template <class V>
 HWY_INLINE Vec3V<V> ScaledCenterToHit(const Vec3V<V>& direction, V root, const Vec3V<V>& moment) {
   return MulAdd3(direction, root, FusedCross(moment, direction));

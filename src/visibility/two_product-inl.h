@@ -29,9 +29,10 @@ HWY_INLINE TwoProductV<V> TwoProduct(D /*d*/, V a, V b) {
   return {product, hn::MulSub(a, b, product)};
 }
 #else
-// The upper half of a's digits (Veltkamp 1968): products of two halves are exact.
+// The upper half of a's digits (Veltkamp 1968): products of two halves are exact. (By the name of
+// UpperHalf, Highway's own would be called for vectors of one lane.)
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V UpperHalf(D d, V a) {
+HWY_INLINE V UpperDigits(D d, V a) {
   static_assert(sizeof(hn::TFromD<D>) == sizeof(double), "the split is double's");
   const V scaled = hn::Mul(a, hn::Set(d, 0x1p27 + 1));
   return hn::Sub(scaled, hn::Sub(scaled, a));
@@ -40,8 +41,8 @@ HWY_INLINE V UpperHalf(D d, V a) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE TwoProductV<V> TwoProduct(D d, V a, V b) {
   const V product = hn::Mul(a, b);
-  const V a1 = UpperHalf(d, a), a2 = hn::Sub(a, a1);
-  const V b1 = UpperHalf(d, b), b2 = hn::Sub(b, b1);
+  const V a1 = UpperDigits(d, a), a2 = hn::Sub(a, a1);
+  const V b1 = UpperDigits(d, b), b2 = hn::Sub(b, b1);
   const V upper = hn::Sub(hn::Mul(a1, b1), product);
   const V middle = hn::Add(hn::Add(upper, hn::Mul(a1, b2)), hn::Mul(a2, b1));
   return {product, hn::Add(middle, hn::Mul(a2, b2))};

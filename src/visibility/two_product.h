@@ -52,7 +52,7 @@ Real DifferenceOfProducts(Real a, Real b, Real c, Real d) {
 }
 
 // a b - c d within 1.5 ulp where the target fuses (Kahan's algorithm; Jeannerod, Louvet and Muller
-// 2013), a few elsewhere: what the rounding of one product loses is added again.
+// 2013), as DifferenceOfProducts elsewhere: what the rounding of one product loses is added again.
 template <typename Real>
 Real AccurateDifference(Real a, Real b, Real c, Real d, Products products) {
   if (products == Products::kRounded) return DifferenceOfProducts(a, b, c, d);

@@ -131,8 +131,9 @@ TEST_CASE("the intersector passes the table, with the scalar test's bits", "[tab
   });
 }
 
-// The normal's error comes from a few roundings of radius^2 - |perpendicular|^2: 6 u radius^2,
-// whose square root, 2.6e-8, is what it can reach where the ray only just touches.
+// The normal's error comes from a few roundings of radius^2 |direction|^2 - |moment|^2: 8 u of it,
+// where the worst was searched for, whose square root, 3e-8, is what it can reach where the ray
+// only just touches.
 TEST_CASE("hits are right at any distance, grazing ones too") {
   constexpr double kMaxNormalError = 3e-8;
   constexpr double kMaxDepthError = 1e-15 * 8;  // 64 roundings

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/visibility/products_kernel.h: visibility/two_product-inl.h, for tests.
+#pragma once
+
+namespace nacre {
+
+// AccurateDifference of a b - c e on the active target, in the first of as many lanes as there are,
+// and in a vector of one.
+struct Differences {
+  double of_many, of_one;
+};
+Differences DifferencesOfProducts(double a, double b, double c, double e);
+
+}  // namespace nacre
