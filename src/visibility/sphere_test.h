@@ -81,8 +81,9 @@ Imath::Vec3<Real> ScaledCenterToHit(const SphereHit<Real>& hit, const Imath::Vec
 
 // Radius times the outward normal.
 template <typename Real>
-Imath::Vec3<Real> CenterToHit(const SphereHit<Real>& hit, const Imath::Vec3<Real>& direction) {
-  return ScaledCenterToHit(hit, direction) * (1 / Dot(direction, direction, Products::kFused));
+Imath::Vec3<Real> CenterToHit(const SphereHit<Real>& hit, const Imath::Vec3<Real>& direction,
+                              Products products = Products::kFused) {
+  return ScaledCenterToHit(hit, direction, products) * (1 / Dot(direction, direction, products));
 }
 
 }  // namespace nacre

@@ -135,6 +135,7 @@ TEST_CASE("the intersector passes the table, with the scalar test's bits", "[tab
 // where the worst was searched for, whose square root, 3e-8, is what it can reach where the ray
 // only just touches.
 TEST_CASE("hits are right at any distance, grazing ones too") {
+  const Products products = GENERATE(Products::kFused, Products::kRounded);
   constexpr double kMaxNormalError = 3e-8;
   constexpr double kMaxDepthError = 1e-15 * 8;  // 64 roundings
   // Of rays that meet the sphere steeply: 16 roundings.
@@ -151,16 +152,17 @@ TEST_CASE("hits are right at any distance, grazing ones too") {
           grazing ? 1 + side * random.Magnitude(1e-12, 1e-2) : random.Uniform(0, 1.2);
       const Ray ray = RayPast(&random, sphere.center, offset);
       const QuadHit expected = TestInQuad(ray, sphere);
-      const auto hit = TestSphere(sphere.center, ray.direction, sphere.radius);
+      const auto hit = TestSphere(sphere.center, ray.direction, sphere.radius, products);
       wrong += hit.hit != expected.hit;
       if (!hit.hit || !expected.hit) continue;
-      const Vec3d normal = CenterToHit(hit, ray.direction) / sphere.radius;
+      const Vec3d normal = CenterToHit(hit, ray.direction, products) / sphere.radius;
       const double error = AngleTo(expected.normal, normal);
       worst_normal = std::max(worst_normal, error);
       if (offset < 0.7) worst_steep = std::max(worst_steep, error);
       worst_depth = std::max(worst_depth, std::abs(hit.t - expected.t) / expected.t);
     }
-    INFO("distance " << distance << " normal " << worst_normal << " depth " << worst_depth);
+    INFO("products " << static_cast<int>(products) << " distance " << distance << " normal "
+                     << worst_normal << " depth " << worst_depth);
     CHECK(wrong == 0);
     CHECK(worst_normal <= kMaxNormalError);
     CAPTURE(worst_steep);
