@@ -1,5 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Puts the diagrams into scenes/gallery and the table between two marks of bench/README.md."""
+"""Puts the diagrams into scenes/gallery and the tables between two marks of bench/README.md.
+
+The headlines of every processor that they were measured on are kept in bench/machines.json, the
+latest run of each, and stand side by side: which way is faster goes with the processor.
+"""
+import json
 import shutil
 
 import figures
@@ -22,8 +27,30 @@ def _number(value):
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
-def markdown(results):
-    """The short form: kernels beside plain C++, and the headline numbers."""
+def with_this_run(runs, results):
+    """The latest runs of each processor, this one first."""
+    processor = results["machine"]["processor"]
+    own = {"processor": processor, "line": machine.line(results["machine"]),
+           "headlines": {name: value for name, value in results["summary"].items()
+                         if not name.startswith(("growth", "steepest"))}}
+    return [own] + [run for run in runs if run["processor"] != processor]
+
+
+def headline_table(runs):
+    """A column a processor; blank what one was not asked for."""
+    names = list(dict.fromkeys(name for run in runs for name in run["headlines"]))
+    rows = ["| headline | " + " | ".join(run["processor"] for run in runs) + " |",
+            "|---|" + "---|" * len(runs)]
+    for name in names:
+        values = [_number(run["headlines"][name]) if name in run["headlines"] else ""
+                  for run in runs]
+        rows.append(f"| `{name}` | " + " | ".join(values) + " |")
+    return rows
+
+
+def markdown(results, runs):
+    """The short form: kernels beside plain C++, and the headline numbers of all runs, of which
+    the first one is this."""
     best = results["best_target"]
     rows = [row for row in report.kernel_rows(results["benchmarks"])
             if row[1] == "cached" and row[2] in ("avx2", best)]
@@ -50,18 +77,20 @@ def markdown(results):
               "float, their tree built before; what says in_float is the nearest sphere and its "
               "depth on both sides, the rest exact hits with points and normals on ours. What says "
               "at_port_bound is counted: the exact test alone, its vectors full and nothing waiting.",
-              "",
-              "| headline | value |", "|---|---|"]
-    lines += [f"| `{name}` | {_number(value)} |" for name, value in results["summary"].items()
-              if not name.startswith(("growth", "steepest"))]
+              "", *headline_table(runs)]
+    if runs[1:]:
+        lines += ["", "The other columns: " + "; ".join(run["line"] for run in runs[1:]) + "."]
     return "\n".join(lines)
 
 
 def update(root, results, folder):
-    """Copies the diagrams and rewrites the part of bench/README.md."""
+    """Copies the diagrams, keeps the headlines and rewrites the part of bench/README.md."""
     for name in figures.ALL:
         for suffix in ("svg", "png"):
             if (folder / f"{name}.{suffix}").exists():
                 shutil.copy(folder / f"{name}.{suffix}", root / "scenes" / "gallery")
+    kept = root / "bench" / "machines.json"
+    runs = with_this_run(json.loads(kept.read_text()) if kept.exists() else [], results)
+    kept.write_text(json.dumps(runs, indent=1) + "\n")
     readme = root / "bench" / "README.md"
-    readme.write_text(replace_between(readme.read_text(), BEGIN, END, markdown(results)))
+    readme.write_text(replace_between(readme.read_text(), BEGIN, END, markdown(results, runs)))

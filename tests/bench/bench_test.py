@@ -277,6 +277,19 @@ class Tables(unittest.TestCase):
         self.assertAlmostEqual(rows["avx3"][3], 1)
         self.assertAlmostEqual(rows["avx3"][5], 10)
 
+    def test_readme_keeps_the_latest_headlines_of_each_processor(self):
+        def results(processor, value):
+            info = {"processor": processor, "cores": 2, "memory_gib": 1, "system": "S",
+                    "compiler": "C", "build": "Release", "commit": "c", "load": 0}
+            return {"machine": info, "summary": {"a": value, "growth_of_b": 1}}
+        runs = []
+        for processor, value in (("one", 1), ("two", 2.5), ("one", 300)):
+            runs = readme.with_this_run(runs, results(processor, value))
+        self.assertEqual(readme.headline_table(runs),
+                         ["| headline | one | two |", "|---|---|---|", "| `a` | 300 | 2.5 |"])
+        del runs[0]["headlines"]["a"]
+        self.assertEqual(readme.headline_table(runs)[-1], "| `a` |  | 2.5 |")
+
     def test_readme_keeps_what_is_outside_the_marks(self):
         text = readme.replace_between("a\n<B>\nold\n<E>\nz", "<B>", "<E>", "new\n")
         self.assertEqual(text, "a\n<B>\nnew\n<E>\nz")
