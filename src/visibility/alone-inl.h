@@ -90,14 +90,14 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch&
     const TileCandidate& candidate = *block.candidate[g];
     const auto backward = LoadGroup(block.backward, place);
     const auto inverse_length = hn::Load(d, block.inverse_length + place);
-    const auto inverse_dd = hn::Div(hn::Set(d, 1.0), hn::Load(d, block.dd + place));
+    const auto radius = hn::Set(d, candidate.sphere.radius);
     const auto to_hit = ScaledCenterToHit(backward, hn::Load(d, block.root + place),
                                           LoadGroup(block.moment, place));
+    const auto normal = SphereNormal(d, to_hit, hn::Load(d, block.dd + place), radius);
     const auto position = [&]() HWY_ATTR {
-      return SpherePosition(to_hit, inverse_dd, SetVec3(d, candidate.sphere.center));
+      return SpherePosition(SetVec3(d, candidate.sphere.center), normal, radius);
     };
-    writer.Surfaces(SphereNormal(to_hit, inverse_dd, hn::Set(d, candidate.inverse_radius)),
-                    Scale(backward, inverse_length), position, bits, ray + block.ray[g]);
+    writer.Surfaces(normal, Scale(backward, inverse_length), position, bits, ray + block.ray[g]);
     writer.Primitive(candidate.primitive, bits);
   }
 }

@@ -49,7 +49,6 @@ struct CameraPacket {
   alignas(kVectorBytes) uint32_t primitive[kCameraPacket] = {};
   alignas(kVectorBytes) double center[3][kCameraPacket] = {};
   alignas(kVectorBytes) double radius[kCameraPacket] = {};
-  alignas(kVectorBytes) double inverse_radius[kCameraPacket] = {};
 };
 
 // The candidate becomes the sphere of the lanes in `bits`, of the group from `lane` on. Whole
@@ -65,7 +64,6 @@ HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bit
   set(d, candidate.sphere.center.y, packet->center[1]);
   set(d, candidate.sphere.center.z, packet->center[2]);
   set(d, candidate.sphere.radius, packet->radius);
-  set(d, candidate.inverse_radius, packet->inverse_radius);
   set(hn::Rebind<uint32_t, CameraDouble>(), candidate.primitive, packet->primitive);
 }
 

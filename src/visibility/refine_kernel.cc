@@ -57,15 +57,16 @@ struct Surface {
 };
 
 HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                const Vec3V<V>& direction, V inverse_dd) {
+                                const Vec3V<V>& direction, V dd, V inverse_dd) {
   const D d;
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
   const auto hit = TestSphere(d, Sub(center, origin), direction, inverse_dd, radius);
   const V root = hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root));
-  const Vec3V<V> to_hit = ScaledCenterToHit(direction, root, hit.moment);
-  const V turned = TurnedInverse(hn::Div(hn::Set(d, 1.0), radius), root);
-  return {SpherePosition(to_hit, inverse_dd, center), SphereNormal(to_hit, inverse_dd, turned)};
+  const V turned = TurnedRadius(radius, root);
+  const Vec3V<V> normal =
+      SphereNormal(d, ScaledCenterToHit(direction, root, hit.moment), dd, turned);
+  return {SpherePosition(center, normal, turned), normal};
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {
@@ -166,11 +167,11 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   const V inverse_dd = hn::Div(hn::Set(d, 1.0), dd);
   const Vec3V<V> to_view = ToView(direction, InverseLength(d, dd));
   if (!in.any_triangle) {
-    StoreHits(RefineSphere(in, i, origin, direction, inverse_dd), to_view, first, to);
+    StoreHits(RefineSphere(in, i, origin, direction, dd, inverse_dd), to_view, first, to);
   } else if (!in.any_sphere) {
     StoreHits(RefineTriangle(in, i, origin, direction, inverse_dd), to_view, first, to);
   } else {
-    const Surface sphere = RefineSphere(in, i, origin, direction, inverse_dd);
+    const Surface sphere = RefineSphere(in, i, origin, direction, dd, inverse_dd);
     const Surface triangle = RefineTriangle(in, i, origin, direction, inverse_dd);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
     StoreHits({Select(is_triangle, triangle.position, sphere.position),

@@ -15,11 +15,11 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 1 / radius of a sphere; negative where `root`, negative where the ray starts outside, is not:
-// normals then point inward.
+// A sphere's radius, negative where `root`, negative where the ray starts outside, is not: normals
+// then point inward.
 template <class V>
-HWY_INLINE V TurnedInverse(V inverse_radius, V root) {
-  return hn::CopySign(inverse_radius, hn::Neg(root));
+HWY_INLINE V TurnedRadius(V radius, V root) {
+  return hn::CopySign(radius, hn::Neg(root));
 }
 
 // From a sphere's centre to the hit, by |direction|^2: the point on the ray, whose rounding grows
@@ -31,15 +31,16 @@ HWY_INLINE Vec3V<V> ScaledCenterToHit(const Vec3V<V>& direction, V root, const V
   return MulAdd3(direction, root, FusedCross(moment, direction));
 }
 
-// Of that and 1 / |direction|^2. Unit, on the ray's side.
-template <class V>
-HWY_INLINE Vec3V<V> SphereNormal(const Vec3V<V>& to_hit, V inverse_dd, V turned_inverse) {
-  return Scale(to_hit, hn::Mul(inverse_dd, turned_inverse));
+// Of that, and dd = |direction|^2. Unit, on the ray's side.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SphereNormal(D d, const Vec3V<V>& to_hit, V dd, V turned_radius) {
+  return Scale(to_hit, hn::Div(hn::Set(d, 1.0), hn::Mul(dd, turned_radius)));
 }
 
 template <class V>
-HWY_INLINE Vec3V<V> SpherePosition(const Vec3V<V>& to_hit, V inverse_dd, const Vec3V<V>& center) {
-  return MulAdd3(to_hit, inverse_dd, center);
+HWY_INLINE Vec3V<V> SpherePosition(const Vec3V<V>& center, const Vec3V<V>& normal,
+                                   V turned_radius) {
+  return MulAdd3(normal, turned_radius, center);
 }
 
 // Minus the direction, made a unit vector.

@@ -34,15 +34,14 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const auto moment =
         Load3(d, packet.moment[0] + lane, packet.moment[1] + lane, packet.moment[2] + lane);
     const auto inverse_length = hn::Load(d, packet.inverse_length + lane);
-    const auto inverse_dd = hn::Load(d, packet.inverse_dd + lane);
     const auto root = hn::Load(d, packet.root + lane);
-    const auto to_hit = ScaledCenterToHit(direction, root, moment);
-    const auto turned = TurnedInverse(hn::Load(d, packet.inverse_radius + lane), root);
+    const auto radius = TurnedRadius(hn::Load(d, packet.radius + lane), root);
+    const auto normal = SphereNormal(d, ScaledCenterToHit(direction, root, moment),
+                                     hn::Load(d, packet.exact_dd + lane), radius);
     const auto position = [&]() HWY_ATTR {
-      return SpherePosition(to_hit, inverse_dd, Centers(packet, lane));
+      return SpherePosition(Centers(packet, lane), normal, radius);
     };
-    writer.Surfaces(SphereNormal(to_hit, inverse_dd, turned), ToView(direction, inverse_length),
-                    position, bits, rays + lane);
+    writer.Surfaces(normal, ToView(direction, inverse_length), position, bits, rays + lane);
     writer.Primitives(packet.primitive + lane, bits);
   }
 }
@@ -233,7 +232,6 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint1
   TileCandidate candidate;
   candidate.sphere = sphere;
   candidate.radius2 = sphere.radius * sphere.radius;
-  candidate.inverse_radius = 1 / sphere.radius;
   candidate.primitive = primitive;
   candidate.pixel_rows = pixel_rows;
   const double distance2 = Dot(sphere.center, sphere.center, products);

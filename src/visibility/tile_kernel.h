@@ -13,7 +13,7 @@ namespace nacre {
 // A sphere that a tile's rays may hit.
 struct TileCandidate {
   TraceSphere sphere;
-  double radius2, inverse_radius;
+  double radius2;
   uint32_t primitive;
   uint16_t pixel_rows;          // of its cell that its outline reaches, as bits
   bool in_cell_before = false;  // it is in the tile's cell to the left, too

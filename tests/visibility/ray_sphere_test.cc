@@ -213,12 +213,14 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
       const Vec3d& direction = rays[i].direction;
       const auto hit = TestSphere(center, direction, radius, TargetProducts());
       const Vec3d to_hit = ScaledCenterToHit(hit, direction, TargetProducts());
-      const double inverse_dd = 1 / Dot(direction, direction, TargetProducts());
+      const double dd = Dot(direction, direction, TargetProducts());
+      const double turned_radius = hit.inside ? -radius : radius;
       REQUIRE(hit.hit);
+      REQUIRE(surface.normal == to_hit * (1 / (dd * turned_radius)));
       for (int c = 0; c < 3; ++c) {
-        REQUIRE(surface.position[c] == MulAdd(to_hit[c], inverse_dd, center[c], TargetProducts()));
+        REQUIRE(surface.position[c] ==
+                MulAdd(surface.normal[c], turned_radius, center[c], TargetProducts()));
       }
-      REQUIRE(surface.normal == to_hit * (inverse_dd * (hit.inside ? -1 / radius : 1 / radius)));
       REQUIRE(surface.normal.dot(direction) <= 0);
       REQUIRE(std::abs(surface.normal.length() - 1) < 8 * kHalfUlpDouble);
       REQUIRE((surface.to_view + direction.normalized()).length() < 8 * kHalfUlpDouble);
