@@ -215,7 +215,7 @@ def lights_error(results, path):
              for name, light in results["lights"].items()
              for kind, points in light["curves"].items()]
     options = ("set logscale xy\nset xlabel 'relative RMSE over the spheres'\n"
-               "set format x '10^{%T}'\nset key bottom left Left reverse\n"
+               "set format x '10^{%T}'\nset key top right Left reverse\n"
                f"set ylabel 'seconds per process, {lights.SIZE}, one thread'\n")
     plots.draw(path, plots.curves(lines, options), 1280, 800)
 
