@@ -50,7 +50,8 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
 // The groups' exact rays: turned round, bit for bit, as the way back to the viewer is what hits
 // keep. Leaves the lanes that hit: no depth is needed, and in front of the camera the line's test
 // decides, which spares a division. The root, NaN of lanes that miss, is taken here: its unit works
-// beside those of so many products.
+// beside those of so many products. A function of its own, as AppendBlock: what lies around them
+// takes none of their registers.
 HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& film,
                                     AloneBlock* block) {
   const CameraDouble d;
@@ -76,8 +77,7 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
   }
 }
 
-// A function of its own: what lies around it takes none of its registers. The rays start outside,
-// so the normals point outward.
+// The rays start outside, so the normals point outward.
 HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch& film,
                                        const HitsTo& to) {
   const CameraDouble d;
