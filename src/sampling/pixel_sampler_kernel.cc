@@ -9,6 +9,7 @@
 
 #include "hwy/highway.h"
 
+#include "base/prefetch.h"
 #include "sampling/hash.h"
 #include "sampling/pixel_sampler.h"
 
@@ -130,6 +131,8 @@ HWY_INLINE void SamplePlane(const Place& place, const PixelSampler& sampler, int
     place(hn::Load(d, origin_x + i), hn::Load(d, origin_y + i),
           hn::Xor(point_x, hn::Load(du64, shift_x + i)),
           hn::Xor(point_y, hn::Load(du64, shift_y + i)), &x, &y);
+    PrefetchToWrite(film_x + i);
+    PrefetchToWrite(film_y + i);
     hn::StoreU(x, d, film_x + i);
     hn::StoreU(y, d, film_y + i);
   }
@@ -210,6 +213,8 @@ HWY_INLINE void PlaceRun(const PixelRun& run, double more, double* HWY_RESTRICT 
   const V row = hn::Set(d, run.y + more);
   V column = hn::Add(hn::Iota(d, 0.0), hn::Set(d, run.x + more));
   for (size_t i = 0; i < static_cast<size_t>(run.count); i += hn::Lanes(d)) {
+    PrefetchToWrite(x + i);
+    PrefetchToWrite(y + i);
     hn::StoreU(column, d, x + i);
     hn::StoreU(row, d, y + i);
     column = hn::Add(column, hn::Set(d, static_cast<double>(hn::Lanes(d))));  // exactly

@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "base/lane_sets.h"
+#include "base/prefetch.h"
 #include "visibility/camera_packet-inl.h"
 #include "visibility/surface-inl.h"
 
@@ -91,13 +92,13 @@ class HitWriter {
       Put(d, normal, PointersTo(&to_.hits->normal));
       Put(d, to_view, PointersTo(&to_.hits->to_view));
     }
-    hn::StoreU(rays, du, ray_ + count_);
+    Put(du, rays, ray_);
   }
 
   // The primitives of lanes that all hit the same, and with them counts the hits.
   HWY_INLINE void Primitive(uint32_t primitive, uint32_t bits) {
     const D32 du;
-    hn::StoreU(hn::Set(du, primitive), du, primitive_ + count_);
+    Put(du, hn::Set(du, primitive), primitive_);
     Count(primitive_[0] == primitive, bits);
   }
 
@@ -107,18 +108,24 @@ class HitWriter {
     const auto each = hn::Load(du, primitives);
     const uint32_t first = count_ == 0 ? primitives[std::countr_zero(bits)] : primitive_[0];
     const bool same = (BitsOfMask(du, hn::Ne(each, hn::Set(du, first))) & bits) == 0;
-    hn::StoreU(ToFront(bits)(each), du, primitive_ + count_);
+    Put(du, ToFront(bits)(each), primitive_);
     Count(same, bits);
   }
 
  private:
   using D32 = hn::Rebind<uint32_t, CameraDouble>;
 
+  template <class D, class T = hn::TFromD<D>>
+  HWY_INLINE void Put(D d, hn::Vec<D> value, T* to) const {
+    PrefetchToWrite(to + count_);
+    hn::StoreU(value, d, to + count_);
+  }
+
   template <class D, class T>
   HWY_INLINE void Put(D d, const Vec3V<hn::Vec<D>>& value, const Pointers3<T>& to) const {
-    hn::StoreU(value.x, d, to.x() + count_);
-    hn::StoreU(value.y, d, to.y() + count_);
-    hn::StoreU(value.z, d, to.z() + count_);
+    Put(d, value.x, to.x());
+    Put(d, value.y, to.y());
+    Put(d, value.z, to.z());
   }
 
   HWY_INLINE void Count(bool same_primitive, uint32_t bits) {

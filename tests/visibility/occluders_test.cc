@@ -81,7 +81,9 @@ size_t CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool
       REQUIRE(found[i] == BruteForceOccluded(geometry, rays[i], 0, outward));
       REQUIRE(by_tree[i] == found[i]);
     }
-    for (const size_t most : {size_t{1}, size_t{3}, size_t{40}}) clear += CheckBatches(intersector, rays, found, most);
+    for (const size_t most : {size_t{1}, size_t{3}, size_t{40}}) {
+      clear += CheckBatches(intersector, rays, found, most);
+    }
   });
   return clear;
 }
