@@ -19,6 +19,7 @@ import os
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import tempfile
 
@@ -43,7 +44,8 @@ _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
 _LEAST_VECTORS = 8  # instructions on these, in a loop over hits
 _SECONDS = 2  # long enough for what prepares a benchmark to be below _LEAST_SHARE
 _LEAST_SHARE = 0.01  # of the samples, of a loop that counts
-_LEAST_DENSITY = 0.1  # of its loop's samples an instruction, of a basic block that a turn takes
+# Of the samples an instruction of most of its loop, those of a basic block that a turn takes.
+_LEAST_DENSITY = 0.25
 _LONGEST_LOOP = 1000  # instructions; longer ones are loops over loops
 _JUMP = re.compile(r"j\w+\s+([0-9a-f]+)")
 # Jumps, padding, and copies between registers, which are renamed and go to no port.
@@ -184,7 +186,9 @@ def _innermost(spans):
 
 
 def _taken(code, begin, end, samples):
-    """The instructions of the basic blocks in which the loop was seen."""
+    """The instructions of the basic blocks in which the loop was seen: as often as the one that its
+    middle instruction lies in, by how often they were seen. A mean would be that of the few
+    instructions that most of the time is waited at."""
     starts = {begin}
     for i in range(begin, end + 1):
         jump = _JUMP.match(code[i][1])
@@ -194,9 +198,11 @@ def _taken(code, begin, end, samples):
     edges = sorted(i for i in starts if begin <= i <= end) + [end + 1]
     def seen(first, last):
         return sum(samples[address] for address, _ in code[first:last]) / (last - first)
-    least = _LEAST_DENSITY * seen(begin, end + 1)
-    for first, last in zip(edges, edges[1:]):
-        if seen(first, last) > least:
+    blocks = list(zip(edges, edges[1:]))
+    typical = statistics.median(
+        itertools.chain.from_iterable([seen(*block)] * (block[1] - block[0]) for block in blocks))
+    for first, last in blocks:
+        if seen(first, last) > _LEAST_DENSITY * typical:
             yield from (text for _, text in code[first:last] if not NOT_COUNTED.match(text))
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Tests the arithmetic of scripts/bench: medians, intervals, ratios, fits, names. No clock here."""
+import collections
 import json
 import pathlib
 import random
@@ -232,6 +233,14 @@ class Ports(unittest.TestCase):
         self.assertEqual(port_bound.vector_clock(4.1e9, 4e9), 4e9)
         self.assertEqual(port_bound.vector_clock(5e9, 4e9), 4e9)  # disturbed
         self.assertEqual(port_bound.vector_clock(1e9, 4e9), 1e9)
+
+    def test_a_turn_takes_the_blocks_that_are_seen_as_often_as_most(self):
+        # A waiting root, a branch that one turn in ten takes, and the jump back.
+        code = [(0, "vmulpd a"), (1, "vsqrtpd b"), (2, "je     5"), (3, "vpermpd c"),
+                (4, "vpermpd d"), (5, "vaddpd e"), (6, "vaddpd f"), (7, "jmp    0")]
+        samples = collections.Counter({0: 10, 1: 900, 2: 10, 3: 1, 4: 1, 5: 10, 6: 10, 7: 10})
+        self.assertEqual(list(port_bound._taken(code, 0, 7, samples)),
+                         ["vmulpd a", "vsqrtpd b", "vaddpd e", "vaddpd f"])
 
     def test_turns_a_hit(self):
         plain, power = ["vmulps %zmm0, %zmm0, %zmm0"], ["vscalefps %zmm0,%zmm1,%zmm1"]
