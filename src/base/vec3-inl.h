@@ -49,6 +49,11 @@ HWY_INLINE Vec3V<V> Sub(const Vec3V<V>& a, const Vec3V<V>& b) {
 }
 
 template <class V>
+HWY_INLINE Vec3V<V> Negated(const Vec3V<V>& a) {
+  return {hn::Neg(a.x), hn::Neg(a.y), hn::Neg(a.z)};
+}
+
+template <class V>
 HWY_INLINE Vec3V<V> Scale(const Vec3V<V>& a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }

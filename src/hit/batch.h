@@ -15,6 +15,7 @@
 #include <type_traits>
 
 #include "base/aligned.h"
+#include "hit/camera_frame.h"
 #include "scene/light_shapes.h"
 
 namespace nacre {
@@ -87,6 +88,7 @@ struct RayBatch {
   size_t count = 0;
   Soa3<double> origin;  // 0 for a perspective camera
   Soa3<double> direction;
+  FilmView film;  // their frame's; as it is for rays of no frame
 };
 
 // For each ray of a RayBatch, the closest hit.

@@ -20,4 +20,10 @@ struct CameraFrame {
   Vec3d step_y;
 };
 
+// What decides how the rays of a frame are tested against a sphere (visibility/film_test.h).
+struct FilmView {
+  Vec3d forward{0, 0, 0};
+  double max_scale = 0;  // the largest depth / radius of spheres that have a place on the film
+};
+
 }  // namespace nacre

@@ -62,8 +62,7 @@ bool SphereIsFirst(const RenderPlan& plan, const TileScratch& s, size_t i, doubl
   const size_t ray = s.hits.ray[i];
   const Place place = PlaceOf(s.rays, ray, At(s.hits.position, i));
   if (t < place.t - place.slack) return false;
-  return plan.intersector->SphereIsFirst(s.hits.primitive[i], At(s.rays.origin, ray),
-                                         At(s.rays.direction, ray), t);
+  return plan.intersector->SphereIsFirst(s.hits.primitive[i], s.rays, ray, t);
 }
 
 template <class T>

@@ -13,6 +13,8 @@
 #endif
 
 #include "visibility/append-inl.h"
+#include "visibility/film_test-inl.h"
+#include "visibility/sphere_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -31,11 +33,14 @@ struct AloneBlock {
   // The packets, as bits, of the last block of a batch in any order, that all hit: most likely
   // they do so again in the next.
   uint32_t likely = 0;
+  bool on_film = false;  // all spheres have a place on the film, or none has
   alignas(kVectorBytes) double backward[3][kAloneBlock];  // minus the rays' directions
-  alignas(kVectorBytes) double dd[kAloneBlock];           // squares of their lengths
   alignas(kVectorBytes) double inverse_length[kAloneBlock];
+  // By the test on the film BackToHit and its offset; or TestSphere's root and moment and, of the
+  // directions, the squares of their lengths.
   alignas(kVectorBytes) double root[kAloneBlock];
   alignas(kVectorBytes) double moment[3][kAloneBlock];
+  alignas(kVectorBytes) double dd[kAloneBlock];
 };
 
 HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadGroup(const double (&from)[3][kAloneBlock], int place) {
@@ -52,6 +57,7 @@ HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int place,
 // decides, which spares a division. The root, NaN of lanes that miss, is taken here: its unit works
 // beside those of so many products. A function of its own, as AppendBlock: what lies around them
 // takes none of their registers.
+template <bool kOnFilm>
 HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& film,
                                     AloneBlock* block) {
   const CameraDouble d;
@@ -67,17 +73,26 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
     const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
     const auto dd = FusedDot(backward, backward);
     StoreGroup(backward, place, block->backward);
-    hn::Store(dd, d, block->dd + place);
     hn::Store(InverseLength(d, dd), d, block->inverse_length + place);
-    const auto moment = AccurateCross(d, SetVec3(d, candidate.sphere.center), backward);
-    const auto discriminant = Discriminant(hn::Set(d, candidate.radius2), dd, moment);
-    StoreGroup(moment, place, block->moment);
-    hn::Store(hn::Sqrt(discriminant), d, block->root + place);
+    hn::Vec<CameraDouble> discriminant;
+    if constexpr (kOnFilm) {
+      const auto hit = TestOnFilm(d, SetFilmSphere(d, *candidate.film), backward, dd);
+      discriminant = hit.discriminant;
+      StoreGroup(hit.offset, place, block->moment);
+      hn::Store(BackToHit(hn::Sqrt(discriminant), hit.back), d, block->root + place);
+    } else {
+      const auto moment = AccurateCross(d, SetVec3(d, candidate.sphere.center), backward);
+      discriminant = Discriminant(hn::Set(d, candidate.radius2), dd, moment);
+      hn::Store(dd, d, block->dd + place);
+      StoreGroup(moment, place, block->moment);
+      hn::Store(hn::Sqrt(discriminant), d, block->root + place);
+    }
     block->bits[g] &= BitsOfMask(d, hn::Ge(discriminant, hn::Zero(d)));
   }
 }
 
 // The rays start outside, so the normals point outward.
+template <bool kOnFilm>
 HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch& film,
                                        const HitsTo& to) {
   const CameraDouble d;
@@ -91,15 +106,32 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const AloneBlock& block, const FilmBatch&
     const auto backward = LoadGroup(block.backward, place);
     const auto inverse_length = hn::Load(d, block.inverse_length + place);
     const auto radius = hn::Set(d, candidate.sphere.radius);
-    const auto to_hit = ScaledCenterToHit(backward, hn::Load(d, block.root + place),
-                                          LoadGroup(block.moment, place));
-    const auto normal = SphereNormal(d, to_hit, hn::Load(d, block.dd + place), radius);
+    const auto to_view = Scale(backward, inverse_length);
+    const auto root = hn::Load(d, block.root + place);
+    const auto moment = LoadGroup(block.moment, place);
+    Vec3V<hn::Vec<CameraDouble>> normal;
+    if constexpr (kOnFilm) {
+      normal = FilmNormal(moment, root, to_view, inverse_length);
+    } else {
+      const auto to_hit = ScaledCenterToHit(backward, root, moment);
+      normal = SphereNormal(d, to_hit, hn::Load(d, block.dd + place), radius);
+    }
     const auto position = [&]() HWY_ATTR {
       return SpherePosition(SetVec3(d, candidate.sphere.center), normal, radius);
     };
-    writer.Surfaces(normal, Scale(backward, inverse_length), position, bits, ray + block.ray[g]);
+    writer.Surfaces(normal, to_view, position, bits, ray + block.ray[g]);
     writer.Primitive(candidate.primitive, bits);
   }
+}
+
+HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film, AloneBlock* block) {
+  if (block->on_film) return TestRays<true>(frame, film, block);
+  TestRays<false>(frame, film, block);
+}
+
+HWY_INLINE void AppendBlock(const AloneBlock& block, const FilmBatch& film, const HitsTo& to) {
+  if (block.on_film) return AppendBlock<true>(block, film, to);
+  AppendBlock<false>(block, film, to);
 }
 
 // Appends the hits of the block's groups, and empties it.
@@ -115,6 +147,11 @@ HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film, Alon
 HWY_INLINE void PutRays(const CameraFrame& frame, const FilmBatch& film,
                         const TileCandidate& candidate, uint32_t first, uint32_t count,
                         AloneBlock* block, const HitsTo& to) {
+  const bool on_film = candidate.film != nullptr;
+  if (block->on_film != on_film) {
+    TraceBlock(frame, film, block, to);
+    block->on_film = on_film;
+  }
   for (uint32_t i = 0; i < count; i += kGroupLanes) {
     const int g = block->groups++;
     block->ray[g] = first + i;
@@ -167,6 +204,7 @@ HWY_INLINE void FindLikely(size_t first, AloneBlock* block) {
 HWY_INLINE void TraceAlone(const CameraFrame& frame, const TileCandidate& candidate,
                            const FilmBatch& film, CameraPacket* packet, AloneBlock* block,
                            const HitsTo& to) {
+  block->on_film = candidate.film != nullptr;
   for (size_t i = 0; i < film.count; i += kAloneBlock) {
     const size_t count = std::min<size_t>(kAloneBlock, film.count - i);
     ProposeGroups(frame, candidate, film, i, count, packet, block);

@@ -11,7 +11,6 @@
 #include "base/geometry-inl.h"
 #include "visibility/inverse_length-inl.h"
 #include "visibility/packet-inl.h"
-#include "visibility/sphere_test-inl.h"
 #include "visibility/tile_kernel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,17 +37,20 @@ struct CameraPacket {
   alignas(kVectorBytes) double exact_own[3][kCameraPacket];
   alignas(kVectorBytes) double exact_dd[kCameraPacket];
   alignas(kVectorBytes) double inverse_length[kCameraPacket];  // of the direction
-  alignas(kVectorBytes) double inverse_dd[kCameraPacket];
   // The best hits so far, of the lanes in `hit`.
   uint32_t hit;
   alignas(kVectorBytes) float depth[kCameraPacket];  // no hit beyond this t |direction|^2 counts
   alignas(kVectorBytes) double t[kCameraPacket];
-  alignas(kVectorBytes) double root[kCameraPacket];  // negative where the ray starts outside
-  alignas(kVectorBytes) double moment[3][kCameraPacket];
-  // The spheres that the lanes are proposed, then hit.
+  alignas(kVectorBytes) double normal[3][kCameraPacket];      // on the ray's side
+  alignas(kVectorBytes) double turned_radius[kCameraPacket];  // TurnedRadius
+  // The spheres that the lanes are proposed, then hit; those in `on_film` have a place on the film.
   alignas(kVectorBytes) uint32_t primitive[kCameraPacket] = {};
   alignas(kVectorBytes) double center[3][kCameraPacket] = {};
   alignas(kVectorBytes) double radius[kCameraPacket] = {};
+  uint32_t on_film = 0;
+  alignas(kVectorBytes) double film_center[3][kCameraPacket] = {};
+  alignas(kVectorBytes) double film_rest[3][kCameraPacket] = {};
+  alignas(kVectorBytes) double film_scale[kCameraPacket] = {};
 };
 
 // The candidate becomes the sphere of the lanes in `bits`, of the group from `lane` on. Whole
@@ -60,16 +62,23 @@ HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bit
               to + lane);
   };
   const CameraDouble d;
-  set(d, candidate.sphere.center.x, packet->center[0]);
-  set(d, candidate.sphere.center.y, packet->center[1]);
-  set(d, candidate.sphere.center.z, packet->center[2]);
+  const auto set3 = [&](const Vec3d& v, double(&to)[3][kCameraPacket]) HWY_ATTR {
+    for (int c = 0; c < 3; ++c) set(d, v[c], to[c]);
+  };
+  set3(candidate.sphere.center, packet->center);
   set(d, candidate.sphere.radius, packet->radius);
   set(hn::Rebind<uint32_t, CameraDouble>(), candidate.primitive, packet->primitive);
+  packet->on_film &= ~(bits << lane);
+  if (candidate.film == nullptr) return;
+  packet->on_film |= bits << lane;
+  set3(candidate.film->center, packet->film_center);
+  set3(candidate.film->rest, packet->film_rest);
+  set(d, candidate.film->scale, packet->film_scale);
 }
 
-HWY_INLINE Vec3V<hn::Vec<CameraDouble>> Centers(const CameraPacket& packet, int lane) {
-  return Load3(CameraDouble(), packet.center[0] + lane, packet.center[1] + lane,
-               packet.center[2] + lane);
+HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadLanes(const double (&from)[3][kCameraPacket],
+                                                  int lane) {
+  return Load3(CameraDouble(), from[0] + lane, from[1] + lane, from[2] + lane);
 }
 
 // A vector of floats from doubles.
@@ -159,74 +168,13 @@ HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPac
          packet->exact_own[2] + lane);
   hn::Store(dd, d, packet->exact_dd + lane);
   hn::Store(InverseLength(d, dd), d, packet->inverse_length + lane);
-  hn::Store(hn::Div(hn::Set(d, 1.0), dd), d, packet->inverse_dd + lane);
 }
 
 template <bool kPerspective, class D>
 HWY_INLINE Vec3V<hn::Vec<D>> ExactDirection(D d, const CameraFrame& frame, int lane,
                                             const CameraPacket& packet) {
   if constexpr (!kPerspective) return SetVec3(d, frame.forward);
-  return Load3(d, packet.exact_own[0] + lane, packet.exact_own[1] + lane,
-               packet.exact_own[2] + lane);
-}
-
-// Keeps the hits that come before the best ones: those nearer, and among equals the lower id.
-HWY_INLINE void KeepNearer(const SphereHitV<CameraDouble>& hit, hn::Mask<CameraDouble> proposed,
-                           const TileCandidate& candidate, int lane, CameraPacket* packet) {
-  const CameraDouble d;
-  const auto found = hn::And(proposed, hit.hit);
-  const auto best = hn::Load(d, packet->t + lane);
-  auto nearer = hn::And(found, hn::Lt(hit.t, best));
-  uint32_t bits = BitsOfMask(d, nearer);
-  uint32_t ties = BitsOfMask(d, hn::And(found, hn::Eq(hit.t, best)));
-  for (; ties != 0; ties &= ties - 1) {
-    const int tie = __builtin_ctz(ties);
-    if (candidate.primitive < packet->primitive[lane + tie]) bits |= 1u << tie;
-  }
-  if (bits == 0) return;
-  nearer = MaskOfBits(d, bits, 0);
-  const auto keep = [&](hn::Vec<CameraDouble> value, double* to) HWY_ATTR {
-    hn::Store(hn::IfThenElse(nearer, value, hn::Load(d, to + lane)), d, to + lane);
-  };
-  keep(hit.t, packet->t);
-  keep(hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root)), packet->root);
-  keep(hit.moment.x, packet->moment[0]);
-  keep(hit.moment.y, packet->moment[1]);
-  keep(hit.moment.z, packet->moment[2]);
-  const hn::Rebind<float, CameraDouble> df;
-  hn::StoreU(UpperDepth(d, hn::Load(d, packet->t + lane), hn::Load(d, packet->exact_dd + lane)), df,
-             packet->depth + lane);
-  packet->hit |= bits << lane;
-  SetSphere(candidate, lane, bits, packet);
-}
-
-// One of several candidates.
-template <bool kPerspective>
-HWY_INLINE bool TestOneOfMany(const CameraFrame& frame, const TileCandidate& candidate,
-                              CameraPacket* packet) {
-  const uint32_t lanes = ProposedLanes<kPerspective, false>(frame, candidate, *packet);
-  if (lanes == 0) return false;
-  const CameraDouble d;
-  const auto center = SetVec3(d, candidate.sphere.center);
-  const auto radius = hn::Set(d, candidate.sphere.radius);
-  const int step = static_cast<int>(hn::Lanes(d));
-  for (int lane = 0; lane < kCameraPacket; lane += step) {
-    const auto proposed = MaskOfBits(d, lanes, lane);
-    if (hn::AllFalse(d, proposed)) continue;
-    if ((packet->exact >> lane & 1) == 0) {
-      FillExactRays<kPerspective>(d, frame, lane, packet);
-      packet->exact |= 1u << lane;
-    }
-    const auto to_center =
-        kPerspective ? center
-                     : Sub(center, Load3(d, packet->exact_own[0] + lane,
-                                         packet->exact_own[1] + lane, packet->exact_own[2] + lane));
-    const auto direction = ExactDirection<kPerspective>(d, frame, lane, *packet);
-    const auto hit =
-        TestSphere(d, to_center, direction, hn::Load(d, packet->inverse_dd + lane), radius);
-    KeepNearer(hit, proposed, candidate, lane, packet);
-  }
-  return true;
+  return LoadLanes(packet.exact_own, lane);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -163,9 +163,8 @@ void Intersector::NearerTriangles(const RayBatch& rays, ClosestHits* hits) const
   TraceNearer({s.triangle_scene.get(), s.packet_width, &s.geometry}, rays, hits);
 }
 
-bool Intersector::SphereIsFirst(uint32_t sphere, const Vec3d& origin, const Vec3d& direction,
-                                double t) const {
-  return DepthOn(state_->geometry.spheres[sphere], origin, direction) <= t;
+bool Intersector::SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ray, double t) const {
+  return DepthOn(state_->geometry.spheres[sphere], rays, ray) <= t;
 }
 
 bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, double reach) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/intersector.h: which surface a ray meets first, and whether anything is in its way.
-// Embree finds candidates; our own tests decide every hit, in double (sphere_test.h,
+// Embree finds candidates; our own tests decide every hit, in double (sphere_test.h, film_test.h,
 // triangle_test.h).
 //
-// Results depend on the scene, the camera's position and the ray alone: not on which rays share a
-// batch, on threads, or on the SIMD target. Of primitives at the same t the lowest id is hit.
+// Results depend on the scene, the camera and the ray alone: not on which rays share a batch, on
+// threads, or on the SIMD target. Of primitives at the same t the lowest id is hit.
 #pragma once
 
 #include <cstddef>
@@ -66,8 +66,8 @@ class Intersector {
   // kNoPrimitive, and t stays.
   void NearerTriangles(const RayBatch& rays, ClosestHits* hits) const;
 
-  // Whether the sphere of a camera ray's hit lies before t on the ray, or at t.
-  bool SphereIsFirst(uint32_t sphere, const Vec3d& origin, const Vec3d& direction, double t) const;
+  // Whether the sphere that a camera ray hits lies before t on the ray, or at t.
+  bool SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ray, double t) const;
 
   // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most `reach`
   // pixels outside them. False, and no bins, if that would take too much room. Triangles are not

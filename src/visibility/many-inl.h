@@ -14,7 +14,7 @@
 
 #include <limits>
 
-#include "visibility/camera_packet-inl.h"
+#include "visibility/exact_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -86,31 +86,6 @@ HWY_INLINE Proposals ProposeSpheres(const CameraFrame& frame,
     }
   }
   return {any & ~many, many};
-}
-
-// Asks the exact test about the spheres that the lanes `one` are proposed.
-template <bool kPerspective>
-HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t one, CameraPacket* packet) {
-  const CameraDouble d;
-  const int step = static_cast<int>(hn::Lanes(d));
-  for (int lane = 0; lane < kCameraPacket; lane += step) {
-    const uint32_t bits = (one >> lane) & ((1u << step) - 1);
-    if (bits == 0) continue;
-    FillExactRays<kPerspective>(d, frame, lane, packet);
-    packet->exact |= 1u << lane;
-    const auto center = Centers(*packet, lane);
-    const auto to_center =
-        kPerspective ? center
-                     : Sub(center, Load3(d, packet->exact_own[0] + lane,
-                                         packet->exact_own[1] + lane, packet->exact_own[2] + lane));
-    const auto hit =
-        TestSphere(d, to_center, ExactDirection<kPerspective>(d, frame, lane, *packet),
-                   hn::Load(d, packet->inverse_dd + lane), hn::Load(d, packet->radius + lane));
-    packet->hit |= (BitsOfMask(d, hit.hit) & bits) << lane;
-    hn::Store(hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root)), d, packet->root + lane);
-    Store3(hit.moment, d, packet->moment[0] + lane, packet->moment[1] + lane,
-           packet->moment[2] + lane);
-  }
 }
 
 // No hit counts in any other lane.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "hit/camera_frame.h"
 #include "scene/light_shapes.h"
 #include "visibility/embree_api.h"
 #include "visibility/geometry.h"
@@ -20,6 +21,7 @@ struct Packet {
   int width = 0;
   RTCScene scene = nullptr;
   const TraceGeometry* geometry = nullptr;
+  FilmView film;  // the batch's
 
   alignas(64) int valid[kMaxPacketWidth];  // -1: the lane holds a ray, 0: not
   RTCRayHit16 rays;                        // laid out for `width` lanes

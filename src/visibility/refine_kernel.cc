@@ -11,6 +11,7 @@
 #include "hwy/foreach_target.h"
 
 #include "base/geometry-inl.h"
+#include "visibility/film_test-inl.h"
 #include "visibility/inverse_length-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/surface-inl.h"
@@ -46,9 +47,13 @@ struct Gathered {
   Block3 origin, direction;
   Block3 center = {};
   alignas(64) double radius[kBlock] = {};
+  alignas(64) double on_film[kBlock] = {};  // 1 or 0
+  Block3 film_center = {}, film_rest = {};
+  alignas(64) double film_scale[kBlock] = {};
   Block3 corner[3] = {}, corner_normal[3] = {};
-  alignas(64) double is_triangle[kBlock];  // 1 or 0
-  bool any_sphere = false, any_triangle = false;
+  alignas(64) double is_triangle[kBlock];                              // 1 or 0
+  bool any_sphere = false, any_on_film = false, any_anywhere = false;  // of the spheres
+  bool any_triangle = false;
 };
 
 struct Surface {
@@ -56,16 +61,41 @@ struct Surface {
   Vec3V<V> normal;  // unit, on the ray's side
 };
 
-HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                const Vec3V<V>& direction, V dd, V inverse_dd) {
+// A batch of rays on their way to be hits.
+struct RefineRays {
+  Vec3V<V> origin, direction;
+  V dd, inverse_dd, inverse_length;  // of the directions
+  Vec3V<V> to_view;
+};
+
+HWY_INLINE Vec3V<V> NormalOnFilm(const Gathered& in, size_t i, const RefineRays& rays) {
+  const D d;
+  const FilmSphereV<V> film{in.film_center.Load(i), in.film_rest.Load(i),
+                            hn::Load(d, in.film_scale + i)};
+  const auto hit = TestOnFilm(d, film, Negated(rays.direction), rays.dd);
+  return FilmNormal(hit.offset, BackToHit(hn::Sqrt(hit.discriminant), hit.back), rays.to_view,
+                    rays.inverse_length);
+}
+
+HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const RefineRays& rays) {
   const D d;
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
-  const auto hit = TestSphere(d, Sub(center, origin), direction, inverse_dd, radius);
-  const V root = hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root));
-  const V turned = TurnedRadius(radius, root);
-  const Vec3V<V> normal =
-      SphereNormal(d, ScaledCenterToHit(direction, root, hit.moment), dd, turned);
+  V turned = radius;
+  Vec3V<V> normal;
+  if (in.any_anywhere) {
+    const auto hit =
+        TestSphere(d, Sub(center, rays.origin), rays.direction, rays.inverse_dd, radius);
+    const V root = hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root));
+    turned = TurnedRadius(radius, root);
+    normal = SphereNormal(d, ScaledCenterToHit(rays.direction, root, hit.moment), rays.dd, turned);
+  }
+  if (in.any_on_film) {
+    const Vec3V<V> film_normal = NormalOnFilm(in, i, rays);
+    const auto on_film = hn::Gt(hn::Load(d, in.on_film + i), hn::Zero(d));
+    turned = hn::IfThenElse(on_film, radius, turned);
+    normal = in.any_anywhere ? Select(on_film, film_normal, normal) : film_normal;
+  }
   return {SpherePosition(center, normal, turned), normal};
 }
 
@@ -82,13 +112,13 @@ HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
   return Scale(scaled, hn::Div(hn::Set(d, 1.0), hn::Sqrt(Dot(scaled, scaled))));
 }
 
-HWY_INLINE Surface RefineTriangle(const Gathered& in, size_t i, const Vec3V<V>& origin,
-                                  const Vec3V<V>& direction, V inverse_dd) {
+HWY_INLINE Surface RefineTriangle(const Gathered& in, size_t i, const RefineRays& rays) {
   const D d;
+  const auto& [origin, direction] = std::tie(rays.origin, rays.direction);
   const V zero = hn::Zero(d);
   const Vec3V<V> a = in.corner[0].Load(i), b = in.corner[1].Load(i), c = in.corner[2].Load(i);
   const auto hit = TestTriangle(d, Sub(a, origin), Sub(b, origin), Sub(c, origin), direction,
-                                inverse_dd, MakeShear(d, direction));
+                                rays.inverse_dd, MakeShear(d, direction));
   // The face normal on the ray's side, whatever the winding; then the shading normal on its side.
   const Vec3V<V> face = Cross(Sub(b, a), Sub(c, a));
   const auto back = hn::Gt(Dot(face, direction), zero);
@@ -113,11 +143,20 @@ HWY_INLINE void GatherTriangle(const TraceGeometry& geometry, uint32_t triangle,
   }
 }
 
-HWY_INLINE void GatherSphere(const TraceSphere& sphere, size_t i, Gathered* to) {
+HWY_INLINE void GatherSphere(const TraceSphere& sphere, const FilmView& view, size_t i,
+                             Gathered* to) {
   to->any_sphere = true;
   to->is_triangle[i] = 0;
   to->center.Set(i, sphere.center);
   to->radius[i] = sphere.radius;
+  const bool on_film = HasFilmPlace(sphere, view);
+  to->on_film[i] = on_film ? 1 : 0;
+  (on_film ? to->any_on_film : to->any_anywhere) = true;
+  if (!on_film) return;
+  const FilmSphere film = MakeFilmSphere(sphere, view.forward);
+  to->film_center.Set(i, film.center);
+  to->film_rest.Set(i, film.rest);
+  to->film_scale[i] = film.scale;
 }
 
 // Gathers `size` hits from `first` on; past the last one, the last one again.
@@ -126,7 +165,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
   const TraceGeometry& geometry = request.geometry;
   const auto& [origin, direction] = std::tie(request.rays.origin, request.rays.direction);
   const uint32_t sphere_count = geometry.SphereCount();
-  to->any_sphere = to->any_triangle = false;
+  to->any_sphere = to->any_on_film = to->any_anywhere = to->any_triangle = false;
   for (size_t i = 0; i < size; ++i) {
     const uint32_t ray = request.ray_indices[std::min(first + i, request.count - 1)];
     const uint32_t primitive = request.closest.primitive[ray];
@@ -135,7 +174,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
     hits->ray[first + i] = ray;
     hits->primitive[first + i] = primitive;
     if (primitive < sphere_count) {
-      GatherSphere(geometry.spheres[primitive], i, to);
+      GatherSphere(geometry.spheres[primitive], request.rays.film, i, to);
     } else {
       GatherTriangle(geometry, primitive - sphere_count, i, to);
     }
@@ -162,17 +201,21 @@ HWY_INLINE void StoreHits(const Surface& surface, const Vec3V<V>& to_view, size_
 // The vector of hits gathered at i, to be stored at hits[first].
 HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const HitsTo& to) {
   const D d;
-  const Vec3V<V> origin = in.origin.Load(i), direction = in.direction.Load(i);
-  const V dd = FusedDot(direction, direction);
-  const V inverse_dd = hn::Div(hn::Set(d, 1.0), dd);
-  const Vec3V<V> to_view = ToView(direction, InverseLength(d, dd));
+  RefineRays rays;
+  rays.origin = in.origin.Load(i);
+  rays.direction = in.direction.Load(i);
+  rays.dd = FusedDot(rays.direction, rays.direction);
+  rays.inverse_dd = hn::Div(hn::Set(d, 1.0), rays.dd);
+  rays.inverse_length = InverseLength(d, rays.dd);
+  rays.to_view = ToView(rays.direction, rays.inverse_length);
+  const Vec3V<V>& to_view = rays.to_view;
   if (!in.any_triangle) {
-    StoreHits(RefineSphere(in, i, origin, direction, dd, inverse_dd), to_view, first, to);
+    StoreHits(RefineSphere(in, i, rays), to_view, first, to);
   } else if (!in.any_sphere) {
-    StoreHits(RefineTriangle(in, i, origin, direction, inverse_dd), to_view, first, to);
+    StoreHits(RefineTriangle(in, i, rays), to_view, first, to);
   } else {
-    const Surface sphere = RefineSphere(in, i, origin, direction, dd, inverse_dd);
-    const Surface triangle = RefineTriangle(in, i, origin, direction, inverse_dd);
+    const Surface sphere = RefineSphere(in, i, rays);
+    const Surface triangle = RefineTriangle(in, i, rays);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
     StoreHits({Select(is_triangle, triangle.position, sphere.position),
                Select(is_triangle, triangle.normal, sphere.normal)},
@@ -192,9 +235,13 @@ void Refine(const RefineRequest& request, const HitsTo& to) {
   }
 }
 
-double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction) {
+double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction,
+             const FilmView& view) {
   const D d;
   const Vec3V<V> along = SetVec3(d, direction);
+  if (HasFilmPlace(sphere, view)) {
+    return hn::GetLane(DepthOnFilm(d, MakeFilmSphere(sphere, view.forward), sphere, along).t);
+  }
   const V inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(along, along));
   const auto hit = TestSphere(d, SetVec3(d, sphere.center - origin), along, inverse_dd,
                               hn::Set(d, sphere.radius));
@@ -218,8 +265,11 @@ void RefineHits(const RefineRequest& request, const HitsTo& to) {
   HWY_DYNAMIC_DISPATCH(Refine)(request, to);
 }
 
-double DepthOn(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction) {
-  return HWY_DYNAMIC_DISPATCH(Depth)(sphere, origin, direction);
+double DepthOn(const TraceSphere& sphere, const RayBatch& rays, size_t ray) {
+  const auto at = [&](const Soa3<double>& soa) {
+    return Vec3d(soa.x[ray], soa.y[ray], soa.z[ray]);
+  };
+  return HWY_DYNAMIC_DISPATCH(Depth)(sphere, at(rays.origin), at(rays.direction), rays.film);
 }
 
 Products TargetProducts() { return HWY_DYNAMIC_DISPATCH(ProductsHere)(); }

@@ -19,8 +19,8 @@ struct RefineRequest {
 
 void RefineHits(const RefineRequest& request, const HitsTo& to);
 
-// The t of a camera ray on a sphere, as Closest finds it; 0 if it misses.
-double DepthOn(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction);
+// The t of a camera ray on a sphere that it hits, as Closest finds it.
+double DepthOn(const TraceSphere& sphere, const RayBatch& rays, size_t ray);
 
 // What the active target makes of products: for the scalar twins of the hit tests.
 Products TargetProducts();

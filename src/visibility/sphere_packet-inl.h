@@ -8,6 +8,7 @@
 #define NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
 #endif
 
+#include "visibility/film_test-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 
@@ -77,11 +78,18 @@ HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, ui
   if (lanes == 0) return;
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
+  const bool on_film = HasFilmPlace(sphere, packet->film);
+  const FilmSphere film = on_film ? MakeFilmSphere(sphere, packet->film.forward) : FilmSphere{};
   for (int lane = 0; lane < packet->width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    const auto hit = TestLanes(d, *packet, lane, sphere);
-    RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
+    if (on_film) {
+      const auto hit = DepthOnFilm(d, film, sphere, Direction(d, *packet, lane));
+      RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
+    } else {
+      const auto hit = TestLanes(d, *packet, lane, sphere);
+      RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
+    }
   }
 }
 

@@ -31,15 +31,11 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const uint32_t bits = (packet.hit >> lane) & ((1u << step) - 1);
     if (bits == 0) continue;
     const auto direction = ExactDirection<kPerspective>(d, frame, lane, packet);
-    const auto moment =
-        Load3(d, packet.moment[0] + lane, packet.moment[1] + lane, packet.moment[2] + lane);
     const auto inverse_length = hn::Load(d, packet.inverse_length + lane);
-    const auto root = hn::Load(d, packet.root + lane);
-    const auto radius = TurnedRadius(hn::Load(d, packet.radius + lane), root);
-    const auto normal = SphereNormal(d, ScaledCenterToHit(direction, root, moment),
-                                     hn::Load(d, packet.exact_dd + lane), radius);
+    const auto normal = LoadLanes(packet.normal, lane);
+    const auto radius = hn::Load(d, packet.turned_radius + lane);
     const auto position = [&]() HWY_ATTR {
-      return SpherePosition(Centers(packet, lane), normal, radius);
+      return SpherePosition(LoadLanes(packet.center, lane), normal, radius);
     };
     writer.Surfaces(normal, ToView(direction, inverse_length), position, bits, rays + lane);
     writer.Primitives(packet.primitive + lane, bits);
@@ -199,14 +195,6 @@ float NearBound(const TraceSphere& sphere, double eye_distance, const CameraFram
   return static_cast<float>(std::max(near, 0.0)) * (1 - 0x1p-22f);
 }
 
-// All perspective rays leave the plane through the eye perpendicular to `forward` on one side of
-// it. So must the sphere lie, by far more than its test errs: whatever lines meet is then before
-// the eye.
-bool IsInFront(const TraceSphere& sphere, double eye_distance, const CameraFrame& frame) {
-  const double margin = 1e-9 * (eye_distance + sphere.radius);
-  return sphere.center.dot(frame.forward) - sphere.radius > margin;
-}
-
 double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Bounds the coordinates of the rays' own vectors, and every sum on the way to them. Film positions
@@ -238,7 +226,7 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint1
   const double distance = std::sqrt(distance2);
   // The sign of the product of TestSphere's roots.
   candidate.around_camera = !(distance2 - candidate.radius2 > 0);
-  candidate.in_front = IsInFront(sphere, distance, frame);
+  candidate.in_front = IsInFront(sphere, frame.forward);
   candidate.near = NearBound(sphere, distance, frame);
   for (int c = 0; c < 3; ++c) candidate.center[c] = static_cast<float>(sphere.center[c]);
   candidate.reach = Reach(sphere, frame, own);
@@ -263,8 +251,12 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   candidates->spans.clear();
   candidates->alone = nullptr;
   // A row's cells follow one another.
-  if (bins.Begin(bins.Cell(first, row)) == bins.end[bins.Cell(last, row)]) return false;
+  const uint32_t entries = bins.end[bins.Cell(last, row)] - bins.Begin(bins.Cell(first, row));
+  if (entries == 0) return false;
+  candidates->film.clear();
+  candidates->film.reserve(entries);
   const double own = OwnBound(frame, bins.window);
+  const FilmView view = MakeFilmView(frame);
   const Products products = TargetProducts();
   uint32_t before = 0, before_end = 0;  // the cell to the left, as far as it has been compared
   for (int column = first; column <= last; ++column) {
@@ -274,6 +266,10 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
       const uint32_t sphere = bins.spheres[i];
       cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame, own,
                                    products));
+      if (HasFilmPlace(geometry.spheres[sphere], view)) {
+        candidates->film.push_back(MakeFilmSphere(geometry.spheres[sphere], view.forward));
+        cell.back().film = &candidates->film.back();
+      }
       while (before < before_end && bins.spheres[before] < sphere) ++before;
       cell.back().in_cell_before = before < before_end && bins.spheres[before] == sphere;
       candidates->spheres += cell.back().in_cell_before ? 0 : 1;

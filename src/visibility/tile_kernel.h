@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hit/batch.h"
+#include "visibility/film_test.h"
 #include "visibility/sphere_bins.h"
 
 namespace nacre {
@@ -14,6 +15,7 @@ namespace nacre {
 struct TileCandidate {
   TraceSphere sphere;
   double radius2;
+  const FilmSphere* film = nullptr;  // if HasFilmPlace
   uint32_t primitive;
   uint16_t pixel_rows;          // of its cell that its outline reaches, as bits
   bool in_cell_before = false;  // it is in the tile's cell to the left, too
@@ -44,6 +46,7 @@ struct TileCandidates {
   int first_column = 0;  // of cells
   size_t spheres = 0;    // in all, each counted once
   std::vector<std::vector<TileCandidate>> cells;
+  std::vector<FilmSphere> film;          // what they point to
   std::vector<PixelSpan> spans;          // of samples: in the order of the pixels
   const TileCandidate* alone = nullptr;  // the spans', if the tile has one sphere
 };

@@ -39,6 +39,7 @@ HWY_INLINE void InitPacket(const TraceScene& scene, Packet* packet) {
 void Nearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
   Packet packet;
   InitPacket(scene, &packet);
+  packet.film = rays.film;
   const size_t width = packet.Width();
   for (size_t first = 0; first < rays.count; first += width) {
     packet.best_t = hits->t.data() + first;

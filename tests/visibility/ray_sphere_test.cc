@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/ray_sphere_test.cc: the ray-sphere test against exact references.
 #include "catch.h"
-#include "quad.h"
 #include "tables.h"
 #include "targets.h"
-#include "visibility/rays.h"
+#include "visibility/quad_hits.h"
 
 namespace nacre {
 namespace {
@@ -52,51 +51,6 @@ void CheckRow(const TableRow& row, const Hit& hit) {
   }
   CHECK(PassesConditionedRule(hit.t, TableNumber(reference["t"]), TableNumber(reference["cond_t"]),
                               kHalfUlpDouble));
-}
-
-Quad Sqrt(Quad x) {
-  if (x == 0) return 0;
-  const Quad s = static_cast<Quad>(std::sqrt(static_cast<long double>(x)));
-  return (s + x / s) / 2;
-}
-
-Quad Dot(const Quad (&a)[3], const Quad (&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-// The textbook test in 113 bits: for doubles within 1e7 of each other more than exact enough.
-struct QuadHit {
-  bool hit = false;
-  double t = 0;
-  Quad normal[3] = {0, 0, 0};  // towards the ray
-};
-
-QuadHit TestInQuad(const Ray& ray, const TraceSphere& sphere) {
-  Quad m[3], d[3];
-  for (int i = 0; i < 3; ++i) {
-    m[i] = static_cast<Quad>(sphere.center[i]) - static_cast<Quad>(ray.origin[i]);
-    d[i] = ray.direction[i];
-  }
-  const Quad r = sphere.radius, dd = Dot(d, d), b = Dot(m, d);
-  const Quad discriminant = b * b - dd * (Dot(m, m) - r * r);
-  QuadHit result;
-  if (discriminant < 0) return result;
-  const Quad root = Sqrt(discriminant);
-  const bool inside = !(b - root > 0);
-  const Quad t = (inside ? b + root : b - root) / dd;
-  result.hit = t > 0;
-  result.t = static_cast<double>(t);
-  for (int i = 0; i < 3; ++i) {
-    result.normal[i] = (t * d[i] - m[i]) / r * static_cast<Quad>(inside ? -1 : 1);
-  }
-  return result;
-}
-
-double AngleTo(const Quad (&expected)[3], const Vec3d& normal) {
-  double square = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double difference = static_cast<double>(expected[i] - static_cast<Quad>(normal[i]));
-    square += difference * difference;
-  }
-  return std::sqrt(square);  // chord and angle agree for small ones
 }
 
 // A ray from the origin past a sphere of radius 1 at this distance, missing its centre by offset.

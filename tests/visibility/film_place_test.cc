@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/visibility/film_place_test.cc: spheres that rays are tested against by their place on the
+// film.
+#include <cmath>
+#include <limits>
+
+#include "catch.h"
+#include "tables.h"
+#include "targets.h"
+#include "visibility/film_test.h"
+#include "visibility/quad_hits.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kFilmWidth = 256, kFilmHeight = kCellSize;
+
+// A perspective camera in the origin whose view reaches `tangent` to either side of its middle at
+// its corners, and leans any way.
+CameraFrame FrameOf(double tangent, Random* random) {
+  CameraFrame frame;
+  frame.projection = Projection::kPerspective;
+  frame.forward = random->Direction();
+  const Vec3d right = frame.forward.cross(random->Direction()).normalized();
+  const double pixel = 2 * tangent / std::hypot(kFilmWidth, kFilmHeight);
+  frame.step_x = right * pixel;
+  frame.step_y = frame.forward.cross(right) * pixel;
+  frame.corner = frame.forward - (frame.step_x * kFilmWidth + frame.step_y * kFilmHeight) / 2;
+  return frame;
+}
+
+// Through a point of the film, most of them near its corners.
+Vec3d DirectionThrough(const CameraFrame& frame, Random* random) {
+  const auto place = [&](int size) {
+    const double v = random->Uniform(-1, 1);
+    return size * (1 - std::copysign(1 - v * v, v)) / 2;
+  };
+  return frame.corner + frame.step_x * place(kFilmWidth) + frame.step_y * place(kFilmHeight);
+}
+
+// A sphere of radius 1 so far away whose centre the ray misses by `offset`.
+TraceSphere SphereBeside(const Vec3d& direction, double distance, double offset, Random* random) {
+  const Vec3d along = direction.normalized();
+  const Vec3d across = along.cross(random->Direction()).normalized();
+  return {along * std::sqrt(distance * distance - offset * offset) + across * offset, 1};
+}
+
+// The discriminant errs by 6 u of |direction|^2 where the worst was searched for, as that of
+// TestSphere: the bounds are the same as its (ray_sphere_test.cc), but for the normal's two
+// roundings of the inverse length.
+TEST_CASE("hits by the place on the film are right at any distance, grazing ones too") {
+  const Products products = GENERATE(Products::kFused, Products::kRounded);
+  const double tangent = GENERATE(1e-3, 0.3, 1.0);
+  constexpr double kMaxNormalError = 3e-8;
+  constexpr double kMaxDepthError = 64 * kHalfUlpDouble;
+  constexpr double kMaxSteepError = 16 * kHalfUlpDouble;
+  Random random(1);
+  const CameraFrame frame = FrameOf(tangent, &random);
+  for (const double distance : {1.5, 4.0, 1e2, 1e4, 1e6, 4e6}) {
+    double worst_normal = 0, worst_depth = 0, worst_steep = 0, worst_length = 0;
+    int wrong = 0;
+    for (int i = 0; i < 30000; ++i) {
+      const Vec3d direction = DirectionThrough(frame, &random);
+      const double side = i % 2 == 0 ? 1 : -1;
+      const double offset =
+          i % 3 != 0 ? 1 + side * random.Magnitude(1e-12, 1e-2) : random.Uniform(0, 1.2);
+      const TraceSphere sphere = SphereBeside(direction, distance, offset, &random);
+      if (!IsInFront(sphere, frame.forward)) continue;
+      const QuadHit expected = TestInQuad({Vec3d(0), direction}, sphere);
+      const FilmHit hit = TestOnFilm(MakeFilmSphere(sphere, frame.forward), direction, products);
+      wrong += hit.hit != expected.hit;
+      if (!hit.hit || !expected.hit) continue;
+      const double inverse_length = 1 / direction.length();
+      const Vec3d normal = FilmNormal(hit, -direction * inverse_length, inverse_length, products);
+      const double error = AngleTo(expected.normal, normal);
+      worst_normal = std::max(worst_normal, error);
+      if (offset < 0.7) worst_steep = std::max(worst_steep, error);
+      worst_length = std::max(worst_length, std::abs(normal.length() - 1));
+      const double depth = FilmDepth(hit, sphere, direction, products);
+      worst_depth = std::max(worst_depth, std::abs(depth - expected.t) / expected.t);
+    }
+    CAPTURE(static_cast<int>(products), tangent, distance, worst_depth);
+    CHECK(wrong == 0);
+    CHECK(worst_normal > 0);
+    CHECK(worst_normal <= kMaxNormalError);
+    CHECK(worst_steep <= kMaxSteepError);
+    CHECK(worst_length <= 8 * kHalfUlpDouble);
+    // Where the chord is short its own error, relative to the radius, shows in the depth; and near
+    // the sphere's front, that of |centre|^2 - radius^2.
+    CHECK(worst_depth <= kMaxDepthError + kMaxNormalError / distance);
+  }
+}
+
+TEST_CASE("a place on the film have large spheres in front, in views that are not wide") {
+  Random random(2);
+  const CameraFrame frame = FrameOf(0.5, &random);
+  const FilmView view = MakeFilmView(frame);
+  const double pixel = frame.step_x.length();
+  const auto sphere_at = [&](double depth, double radius) {
+    return TraceSphere{frame.forward * depth, radius};
+  };
+  CHECK(HasFilmPlace(sphere_at(10, 10 * 8.01 * pixel), view));
+  CHECK_FALSE(HasFilmPlace(sphere_at(10, 10 * 7.99 * pixel), view));
+  CHECK(HasFilmPlace(sphere_at(10, 9.999), view));
+  CHECK_FALSE(HasFilmPlace(sphere_at(10, 10), view));  // touches the plane of the eye
+  CHECK_FALSE(HasFilmPlace(sphere_at(-10, 1), view));  // behind
+  CHECK_FALSE(HasFilmPlace(sphere_at(0, 100), view));  // around
+  CHECK_FALSE(HasFilmPlace(sphere_at(10, 9), FilmView()));
+  for (const double tangent : {0.999, 1.001}) {
+    const CameraFrame wide = FrameOf(tangent, &random);
+    CHECK(HasFilmPlace({wide.forward * 10, 9}, MakeFilmView(wide)) == (tangent < 1));
+  }
+  CameraFrame orthographic = frame;
+  orthographic.projection = Projection::kOrthographic;
+  CHECK_FALSE(HasFilmPlace(sphere_at(10, 9), MakeFilmView(orthographic)));
+  // From a telescope even the farthest has many pixels.
+  const CameraFrame narrow = FrameOf(1e-6, &random);
+  CHECK(HasFilmPlace({narrow.forward * 0x1p21, 1}, MakeFilmView(narrow)));
+  CHECK_FALSE(HasFilmPlace({narrow.forward * 0x1p23, 1}, MakeFilmView(narrow)));
+}
+
+// By the operations of MakeCameraRays.
+Vec3d DirectionAt(const CameraFrame& frame, double x, double y) {
+  const Products products = TargetProducts();
+  Vec3d direction;
+  for (int c = 0; c < 3; ++c) {
+    direction[c] =
+        MulAdd(frame.step_y[c], y, MulAdd(frame.step_x[c], x, frame.corner[c], products), products);
+  }
+  return direction;
+}
+
+struct Nearest {
+  uint32_t primitive = kNoPrimitive;
+  double t = std::numeric_limits<double>::infinity();
+  Vec3d normal{0, 0, 0};
+};
+
+// By the scalar twins.
+Nearest NearestOf(const TraceGeometry& geometry, const FilmView& view, const Vec3d& direction) {
+  const Products products = TargetProducts();
+  Nearest nearest;
+  for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
+    const TraceSphere& sphere = geometry.spheres[i];
+    if (HasFilmPlace(sphere, view)) {
+      const FilmHit hit = TestOnFilm(MakeFilmSphere(sphere, view.forward), direction, products);
+      const double t = FilmDepth(hit, sphere, direction, products);
+      if (!hit.hit || !(t < nearest.t)) continue;
+      const double inverse_length = 1 / direction.length();
+      nearest = {i, t, FilmNormal(hit, -direction * inverse_length, inverse_length, products)};
+    } else {
+      const auto hit = TestSphere(sphere.center, direction, sphere.radius, products);
+      if (!hit.hit || !(hit.t < nearest.t)) continue;
+      nearest = {i, hit.t, CenterToHit(hit, direction, products) / sphere.radius};
+    }
+  }
+  return nearest;
+}
+
+// A few spheres, of which each ray hits one or several, or, `lone`, a single one.
+Scene SpheresBefore(const CameraFrame& frame, bool lone, Random* random) {
+  Scene scene;
+  for (int i = 0; i < (lone ? 1 : 8); ++i) {
+    const double distance = random->Magnitude(2, 1e3);
+    const double size = (i == 7 ? 2 : random->Uniform(9, 60)) * frame.step_x.length();
+    const Vec3d at = frame.corner + frame.step_x * random->Uniform(0, kFilmWidth) +
+                     frame.step_y * random->Uniform(0, kFilmHeight);
+    scene.spheres.push_back(MakeSphere(at * distance, distance * size));
+  }
+  return scene;
+}
+
+// The kernels' inverse length, within 2 ulp, counts twice in their normals, of as many as 2 radii
+// along the ray.
+constexpr double kNormalSlack = 2 * 2 * 2 * 2 * kHalfUlpDouble;
+
+TEST_CASE("tiles hit what the scalar twins hit, on every target") {
+  const bool lone = GENERATE(false, true);
+  ForEachTarget([&](Target) {
+    Random random(3);
+    int hits_on_film = 0;
+    for (int round = 0; round < 40; ++round) {
+      const CameraFrame frame = FrameOf(random.Magnitude(1e-3, 1), &random);
+      const Scene scene = SpheresBefore(frame, lone, &random);
+      const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+      Intersector intersector(scene, Vec3d(0), {.embree = false});
+      const Window tile{0, 0, kBatchCapacity / kFilmHeight, kFilmHeight};
+      REQUIRE(intersector.BinForCamera(frame, {0, 0, kFilmWidth, kFilmHeight}, 0));
+      TileCandidates candidates;
+      if (!intersector.EnterTile(tile, TileRays::kSamples, &candidates)) continue;
+      FilmBatch film;
+      film.count = tile.pixel_count();
+      for (size_t i = 0; i < film.count; ++i) {
+        film.x[i] = static_cast<double>(i % static_cast<size_t>(tile.width())) + 0.5;
+        film.y[i] = static_cast<double>(i / static_cast<size_t>(tile.width())) + 0.5;
+      }
+      HitBatch hits;
+      HitDirections directions;
+      intersector.HitsInTile(candidates, film, {&hits, &directions, true, true});
+      size_t next = 0;
+      for (size_t i = 0; i < film.count; ++i) {
+        const Vec3d direction = DirectionAt(frame, film.x[i], film.y[i]);
+        const Nearest expected = NearestOf(geometry, MakeFilmView(frame), direction);
+        const bool hit = next < hits.count && hits.ray[next] == i;
+        REQUIRE(hit == (expected.primitive != kNoPrimitive));
+        if (!hit) continue;
+        REQUIRE(hits.primitive[next] == expected.primitive);
+        const Vec3d normal(hits.normal.x[next], hits.normal.y[next], hits.normal.z[next]);
+        REQUIRE((normal - expected.normal).length() <= kNormalSlack);
+        hits_on_film +=
+            HasFilmPlace(geometry.spheres[expected.primitive], MakeFilmView(frame)) ? 1 : 0;
+        ++next;
+      }
+      REQUIRE(next == hits.count);
+    }
+    CHECK(hits_on_film > 1000);
+  });
+}
+
+}  // namespace
+}  // namespace nacre
