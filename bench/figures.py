@@ -166,10 +166,26 @@ def math_error(results, path):
     plots.draw(path, commands + "unset multiplot\n", 1700, 760)
 
 
+# The kernels of shading_bench.cc whose times stand for the forms on SIMD: at one width, but all
+# under lights that are found in the same way, as plain C++ finds them.
+_FORM_KERNELS = {
+    ("ggx", "textbook"): "textbook_ggx",
+    ("ggx", "stable_float"): "ggx_plain_schlick_direct",
+    ("ggx", "double_terms"): "ggx_double_terms",
+    # On hits that all have a lobe, as those of all points have.
+    ("phong", "textbook"): "naive_phong_in_lobe",
+    ("phong", "stable_float"): "phong_in_lobe",
+    ("phong", "double_terms"): "phong_double_terms",
+}
+
+
 def _math_points(benchmarks, lobe, form, best, hits):
-    """[(error, ns a hit)...]. The textbook's formula on SIMD has the scalar one's error and the
-    time of its kernel in shading_bench.cc, which has one width only; of Phong on hits that all have
-    a lobe, as those of all other points have."""
+    """[(error, ns a hit)...], a point a width of the lobe. The textbook's formula on SIMD has the
+    scalar one's errors."""
+    kernel = _FORM_KERNELS.get((lobe, form))
+    found = benchmarks.get(f"shade/{kernel}/{best}")
+    if kernel and found is None:
+        return []
     points = []
     for name, result in benchmarks.items():
         parts = name.split("/")
@@ -177,15 +193,9 @@ def _math_points(benchmarks, lobe, form, best, hits):
         if parts[0] != "math" or parts[1] != lobe or parts[3] != wanted:
             continue
         error = result["counters"].get("max_rel_error")
-        ns = estimates.median(result["ns"]) / hits
-        if form == "textbook":
-            kernel = {"ggx": "textbook_ggx", "phong": "naive_phong_in_lobe"}[lobe]
-            found = benchmarks.get(f"shade/{kernel}/{best}")
-            if found is None:
-                return []
-            ns = estimates.median(found["ns"]) / hits
         if error:
-            points.append((error, ns))
+            ns = (found or result)["ns"]
+            points.append((error, estimates.median(ns) / hits))
     return points
 
 
