@@ -174,46 +174,102 @@ Scene SpheresBefore(const CameraFrame& frame, bool lone, Random* random) {
 // along the ray.
 constexpr double kNormalSlack = 2 * 2 * 2 * 2 * kHalfUlpDouble;
 
+// The film's left half, in one batch.
+const Window kTile{0, 0, kBatchCapacity / kFilmHeight, kFilmHeight};
+
+FilmBatch CentersOfTile() {
+  FilmBatch film;
+  film.count = kTile.pixel_count();
+  for (size_t i = 0; i < film.count; ++i) {
+    film.x[i] = static_cast<double>(i % static_cast<size_t>(kTile.width())) + 0.5;
+    film.y[i] = static_cast<double>(i / static_cast<size_t>(kTile.width())) + 0.5;
+  }
+  return film;
+}
+
+// The tile's hits; none if it has no candidates.
+void HitTile(const CameraFrame& frame, const FilmBatch& film, Intersector* intersector,
+             HitBatch* hits) {
+  hits->count = 0;
+  REQUIRE(intersector->BinForCamera(frame, {0, 0, kFilmWidth, kFilmHeight}, 0));
+  TileCandidates candidates;
+  if (!intersector->EnterTile(kTile, TileRays::kSamples, &candidates)) return;
+  HitDirections rounded;
+  intersector->HitsInTile(candidates, film, {hits, &rounded, true, true});
+}
+
 TEST_CASE("tiles hit what the scalar twins hit, on every target") {
   const bool lone = GENERATE(false, true);
   ForEachTarget([&](Target) {
     Random random(3);
+    const FilmBatch film = CentersOfTile();
+    HitBatch hits;
     int hits_on_film = 0;
     for (int round = 0; round < 40; ++round) {
       const CameraFrame frame = FrameOf(random.Magnitude(1e-3, 1), &random);
+      const FilmView view = MakeFilmView(frame);
       const Scene scene = SpheresBefore(frame, lone, &random);
       const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
       Intersector intersector(scene, Vec3d(0), {.embree = false});
-      const Window tile{0, 0, kBatchCapacity / kFilmHeight, kFilmHeight};
-      REQUIRE(intersector.BinForCamera(frame, {0, 0, kFilmWidth, kFilmHeight}, 0));
-      TileCandidates candidates;
-      if (!intersector.EnterTile(tile, TileRays::kSamples, &candidates)) continue;
-      FilmBatch film;
-      film.count = tile.pixel_count();
-      for (size_t i = 0; i < film.count; ++i) {
-        film.x[i] = static_cast<double>(i % static_cast<size_t>(tile.width())) + 0.5;
-        film.y[i] = static_cast<double>(i / static_cast<size_t>(tile.width())) + 0.5;
-      }
-      HitBatch hits;
-      HitDirections directions;
-      intersector.HitsInTile(candidates, film, {&hits, &directions, true, true});
+      HitTile(frame, film, &intersector, &hits);
       size_t next = 0;
       for (size_t i = 0; i < film.count; ++i) {
-        const Vec3d direction = DirectionAt(frame, film.x[i], film.y[i]);
-        const Nearest expected = NearestOf(geometry, MakeFilmView(frame), direction);
+        const Nearest expected =
+            NearestOf(geometry, view, DirectionAt(frame, film.x[i], film.y[i]));
         const bool hit = next < hits.count && hits.ray[next] == i;
         REQUIRE(hit == (expected.primitive != kNoPrimitive));
         if (!hit) continue;
         REQUIRE(hits.primitive[next] == expected.primitive);
-        const Vec3d normal(hits.normal.x[next], hits.normal.y[next], hits.normal.z[next]);
-        REQUIRE((normal - expected.normal).length() <= kNormalSlack);
-        hits_on_film +=
-            HasFilmPlace(geometry.spheres[expected.primitive], MakeFilmView(frame)) ? 1 : 0;
+        REQUIRE((At(hits.normal, next) - expected.normal).length() <= kNormalSlack);
+        hits_on_film += HasFilmPlace(geometry.spheres[expected.primitive], view) ? 1 : 0;
         ++next;
       }
       REQUIRE(next == hits.count);
     }
     CHECK(hits_on_film > 1000);
+  });
+}
+
+// In double: pictures in float would not tell the two tests apart.
+TEST_CASE("camera rays by Embree have all bits of the tiles' hits, on every target") {
+  const bool lone = GENERATE(false, true);
+  ForEachTarget([&](Target) {
+    Random random(4);
+    const FilmBatch film = CentersOfTile();
+    HitBatch by_tiles, by_embree;
+    HitDirections rounded;
+    ClosestHits closest;
+    for (int round = 0; round < 20; ++round) {
+      const CameraFrame frame = FrameOf(random.Magnitude(1e-3, 1), &random);
+      const Scene scene = SpheresBefore(frame, lone, &random);
+      Intersector intersector(scene, Vec3d(0));
+      HitTile(frame, film, &intersector, &by_tiles);
+      RayBatch rays;
+      rays.count = film.count;
+      rays.film = MakeFilmView(frame);
+      for (size_t i = 0; i < film.count; ++i) {
+        SetRay({Vec3d(0), DirectionAt(frame, film.x[i], film.y[i])}, i, &rays);
+      }
+      intersector.Closest(rays, &closest);
+      std::vector<uint32_t> found;
+      for (uint32_t i = 0; i < rays.count; ++i) {
+        if (closest.primitive[i] != kNoPrimitive) found.push_back(i);
+      }
+      REQUIRE(found.size() == by_tiles.count);
+      intersector.Refine(rays, closest, found.data(), found.size(),
+                         {&by_embree, &rounded, true, true});
+      for (size_t i = 0; i < found.size(); ++i) {
+        const uint32_t ray = found[i], primitive = by_embree.primitive[i];
+        REQUIRE(by_tiles.ray[i] == ray);
+        REQUIRE(by_tiles.primitive[i] == primitive);
+        REQUIRE(At(by_tiles.normal, i) == At(by_embree.normal, i));
+        REQUIRE(At(by_tiles.to_view, i) == At(by_embree.to_view, i));
+        REQUIRE(At(by_tiles.position, i) == At(by_embree.position, i));
+        const double t = closest.t[ray];
+        REQUIRE(intersector.SphereIsFirst(primitive, rays, ray, t));
+        REQUIRE_FALSE(intersector.SphereIsFirst(primitive, rays, ray, std::nextafter(t, 0)));
+      }
+    }
   });
 }
 
