@@ -26,8 +26,9 @@ struct ExactHits {
   hn::Vec<CameraDouble> turned_radius;
 };
 
+// Of any spheres.
 template <bool kPerspective>
-HWY_INLINE ExactHits TestAnywhere(const CameraFrame& frame, const CameraPacket& packet, int lane,
+HWY_INLINE ExactHits HitsAnywhere(const CameraFrame& frame, const CameraPacket& packet, int lane,
                                   const Vec3V<hn::Vec<CameraDouble>>& center,
                                   hn::Vec<CameraDouble> radius) {
   const CameraDouble d;
@@ -41,8 +42,8 @@ HWY_INLINE ExactHits TestAnywhere(const CameraFrame& frame, const CameraPacket& 
           SphereNormal(d, ScaledCenterToHit(direction, root, hit.moment), dd, turned), turned};
 }
 
-// Of spheres in front of a camera whose rays are tested on the film.
-HWY_INLINE ExactHits TestOnFilm(const CameraPacket& packet, int lane,
+// Of spheres that have a place on the film.
+HWY_INLINE ExactHits HitsOnFilm(const CameraPacket& packet, int lane,
                                 const FilmSphereV<hn::Vec<CameraDouble>>& film,
                                 const Vec3V<hn::Vec<CameraDouble>>& center,
                                 hn::Vec<CameraDouble> radius) {
@@ -119,8 +120,8 @@ HWY_INLINE bool TestOneOfMany(const CameraFrame& frame, const TileCandidate& can
     }
     const ExactHits hits =
         kPerspective && candidate.film != nullptr
-            ? TestOnFilm(*packet, lane, SetFilmSphere(d, *candidate.film), center, radius)
-            : TestAnywhere<kPerspective>(frame, *packet, lane, center, radius);
+            ? HitsOnFilm(*packet, lane, SetFilmSphere(d, *candidate.film), center, radius)
+            : HitsAnywhere<kPerspective>(frame, *packet, lane, center, radius);
     KeepNearer(hits, proposed, candidate, lane, packet);
   }
   return true;
@@ -140,7 +141,7 @@ HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t one, CameraPacke
     const auto radius = hn::Load(d, packet->radius + lane);
     const uint32_t on_film = bits & packet->on_film >> lane;
     if (!kPerspective || on_film != bits) {
-      const ExactHits hits = TestAnywhere<kPerspective>(frame, *packet, lane, center, radius);
+      const ExactHits hits = HitsAnywhere<kPerspective>(frame, *packet, lane, center, radius);
       packet->hit |= (BitsOfMask(d, hits.hit) & bits & ~on_film) << lane;
       StoreAll(hits, lane, packet);
     }
@@ -148,7 +149,7 @@ HWY_INLINE void TestProposed(const CameraFrame& frame, uint32_t one, CameraPacke
       const FilmSphereV<hn::Vec<CameraDouble>> film{LoadLanes(packet->film_center, lane),
                                                     LoadLanes(packet->film_rest, lane),
                                                     hn::Load(d, packet->film_scale + lane)};
-      const ExactHits hits = TestOnFilm(*packet, lane, film, center, radius);
+      const ExactHits hits = HitsOnFilm(*packet, lane, film, center, radius);
       packet->hit |= (BitsOfMask(d, hits.hit) & on_film) << lane;
       StoreLanes(hits, MaskOfBits(d, on_film, 0), lane, packet);
     }
