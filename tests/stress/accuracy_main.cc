@@ -14,12 +14,12 @@
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "shading/highlight.h"
+#include "visibility/film_test.h"
 #include "visibility/intersector.h"
+#include "visibility/quad_hits.h"
 
 namespace nacre {
 namespace {
-
-using Long3 = Imath::Vec3<long double>;
 
 // ---- Hits ---------------------------------------------------------------------------------------
 
@@ -27,19 +27,6 @@ struct Hit {
   bool hit = false;
   Vec3d normal;
 };
-
-// In long double, by the distance of the centre from the line: 64 bits are truth to 1e-12 rad.
-Hit TrueHit(const Long3& center, long double radius, const Long3& direction) {
-  const long double dd = direction.dot(direction);
-  long double closest = center.dot(direction) / dd;
-  Long3 perpendicular = center - direction * closest;
-  const long double rest = perpendicular.dot(direction) / dd;
-  perpendicular -= direction * rest;
-  const long double square = radius * radius - perpendicular.dot(perpendicular);
-  if (square < 0) return {};
-  const Long3 normal = (-perpendicular - direction * std::sqrt(square / dd)) / radius;
-  return {true, Vec3d(normal)};
-}
 
 // The lesson's quadratic, t = (-b - sqrt(b^2 - 4 a c)) / 2 a.
 Hit TextbookHit(const Imath::V3f& center, float radius, const Imath::V3f& direction) {
@@ -52,15 +39,15 @@ Hit TextbookHit(const Imath::V3f& center, float radius, const Imath::V3f& direct
   return {true, Vec3d((direction * t - center).normalized())};
 }
 
-double AngleBetween(const Vec3d& a, const Vec3d& b) { return 2 * std::asin((a - b).length() / 2); }
-
 // Compares hits with the true ones.
 struct HitErrors {
   int wrong = 0;  // false hits and misses
   double normal = 0;
-  void Count(const Hit& got, const Hit& truth) {
+  void Count(const Hit& got, const QuadHit& truth) {
     wrong += got.hit != truth.hit;
-    if (got.hit && truth.hit) normal = std::max(normal, AngleBetween(got.normal, truth.normal));
+    if (!got.hit || !truth.hit) return;
+    const double chord = AngleTo(truth.normal, got.normal);
+    normal = std::max(normal, 2 * std::asin(std::min(chord / 2, 1.0)));
   }
 };
 
@@ -87,10 +74,12 @@ void PrintHits() {
       HitBatch hits;
       HitDirections rounded;
       rays.count = kBatchCapacity;
+      // As rays of a camera whose pixels are fine enough.
+      rays.film = {center.normalized(), kFarthestOnFilm};
       for (size_t i = 0; i < kBatchCapacity; ++i) {
         const double x = uniform(random);
         const double y = uniform(random);
-        const Vec3d to = center + right * x + up * y;
+        const Vec3d to = (center + right * x + up * y) / distance;
         rays.direction.x[i] = to.x;
         rays.direction.y[i] = to.y;
         rays.direction.z[i] = to.z;
@@ -107,7 +96,7 @@ void PrintHits() {
       }
       for (size_t i = 0; i < kBatchCapacity; ++i) {
         const Vec3d direction(rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]);
-        const Hit truth = TrueHit(Long3(center), 1, Long3(direction));
+        const QuadHit truth = TestInQuad(Vec3d(0), direction, {center, 1});
         ours.Count(got[i], truth);
         textbook.Count(TextbookHit(Imath::V3f(center), 1, Imath::V3f(direction)), truth);
       }

@@ -9,6 +9,7 @@
 #include "targets.h"
 #include "visibility/film_test.h"
 #include "visibility/quad_hits.h"
+#include "visibility/rays.h"
 
 namespace nacre {
 namespace {
@@ -66,7 +67,7 @@ TEST_CASE("hits by the place on the film are right at any distance, grazing ones
           i % 3 != 0 ? 1 + side * random.Magnitude(1e-12, 1e-2) : random.Uniform(0, 1.2);
       const TraceSphere sphere = SphereBeside(direction, distance, offset, &random);
       if (!IsInFront(sphere, frame.forward)) continue;
-      const QuadHit expected = TestInQuad({Vec3d(0), direction}, sphere);
+      const QuadHit expected = TestInQuad(Vec3d(0), direction, sphere);
       const FilmHit hit = TestOnFilm(MakeFilmSphere(sphere, frame.forward), direction, products);
       wrong += hit.hit != expected.hit;
       if (!hit.hit || !expected.hit) continue;

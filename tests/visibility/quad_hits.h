@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "quad.h"
-#include "visibility/rays.h"
+#include "visibility/geometry.h"
 
 namespace nacre {
 
@@ -26,11 +26,11 @@ struct QuadHit {
   Quad normal[3] = {0, 0, 0};  // towards the ray
 };
 
-inline QuadHit TestInQuad(const Ray& ray, const TraceSphere& sphere) {
+inline QuadHit TestInQuad(const Vec3d& origin, const Vec3d& direction, const TraceSphere& sphere) {
   Quad m[3], d[3];
   for (int i = 0; i < 3; ++i) {
-    m[i] = static_cast<Quad>(sphere.center[i]) - static_cast<Quad>(ray.origin[i]);
-    d[i] = ray.direction[i];
+    m[i] = static_cast<Quad>(sphere.center[i]) - static_cast<Quad>(origin[i]);
+    d[i] = direction[i];
   }
   const Quad r = sphere.radius, dd = Dot(d, d), b = Dot(m, d);
   const Quad discriminant = b * b - dd * (Dot(m, m) - r * r);

@@ -4,6 +4,7 @@
 #include "tables.h"
 #include "targets.h"
 #include "visibility/quad_hits.h"
+#include "visibility/rays.h"
 
 namespace nacre {
 namespace {
@@ -105,7 +106,7 @@ TEST_CASE("hits are right at any distance, grazing ones too") {
       const double offset =
           grazing ? 1 + side * random.Magnitude(1e-12, 1e-2) : random.Uniform(0, 1.2);
       const Ray ray = RayPast(&random, sphere.center, offset);
-      const QuadHit expected = TestInQuad(ray, sphere);
+      const QuadHit expected = TestInQuad(ray.origin, ray.direction, sphere);
       const auto hit = TestSphere(sphere.center, ray.direction, sphere.radius, products);
       wrong += hit.hit != expected.hit;
       if (!hit.hit || !expected.hit) continue;
@@ -141,7 +142,7 @@ TEST_CASE("the ground sphere under the eye is right") {
     const std::vector<Hit> hits = Trace(intersector, rays);
     double worst = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
-      const QuadHit expected = TestInQuad(rays[i], {-eye, 1e6});
+      const QuadHit expected = TestInQuad(rays[i].origin, rays[i].direction, {-eye, 1e6});
       REQUIRE((hits[i].primitive == 0) == expected.hit);
       if (expected.hit) worst = std::max(worst, std::abs(hits[i].t - expected.t) / expected.t);
     }
