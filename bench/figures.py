@@ -167,12 +167,13 @@ def math_error(results, path):
 
 
 # The kernels of shading_bench.cc whose times stand for the forms on SIMD: at one width, but all
-# under lights that are found in the same way, as plain C++ finds them.
+# under lights that are found in float, in one way.
 _FORM_KERNELS = {
     ("ggx", "textbook"): "textbook_ggx",
     ("ggx", "stable_float"): "ggx_plain_schlick_direct",
     ("ggx", "double_terms"): "ggx_double_terms",
-    # On hits that all have a lobe, as those of all points have.
+    # On hits that all have a lobe, as those of all points have. Double terms are not packed: their
+    # kernel takes the same time for any.
     ("phong", "textbook"): "naive_phong_in_lobe",
     ("phong", "stable_float"): "phong_in_lobe",
     ("phong", "double_terms"): "phong_double_terms",

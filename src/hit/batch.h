@@ -88,7 +88,7 @@ struct RayBatch {
   size_t count = 0;
   Soa3<double> origin;  // 0 for a perspective camera
   Soa3<double> direction;
-  FilmView film;  // their frame's; as it is for rays of no frame
+  FilmView film;  // their frame's; of rays of no frame, the default
 };
 
 // For each ray of a RayBatch, the closest hit.

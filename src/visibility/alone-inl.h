@@ -36,8 +36,8 @@ struct AloneBlock {
   bool on_film = false;  // all spheres have a place on the film, or none has
   alignas(kVectorBytes) double backward[3][kAloneBlock];  // minus the rays' directions
   alignas(kVectorBytes) double inverse_length[kAloneBlock];
-  // By the test on the film BackToHit and its offset; or TestSphere's root and moment and, of the
-  // directions, the squares of their lengths.
+  // What a hit's normal is made of. On the film: BackToHit, and the offset in place of a moment.
+  // Elsewhere TestSphere's root and moment, and the squares of the directions' lengths.
   alignas(kVectorBytes) double root[kAloneBlock];
   alignas(kVectorBytes) double moment[3][kAloneBlock];
   alignas(kVectorBytes) double dd[kAloneBlock];

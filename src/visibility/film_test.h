@@ -11,8 +11,7 @@
 //   discriminant = |direction|^2 (1 - |offset|^2) + (offset . direction)^2,
 // that of sphere_test.h over radius^2. There products as large as the sphere's distance cancel, and
 // their rounding is made good; here the difference of two places on the film comes first, and loses
-// no digit of either. Test and normal take two thirds of the operations, and a quarter where no
-// multiply-add is fused.
+// no digit of either. That takes fewer operations, and far fewer where no multiply-add is fused.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +49,8 @@ inline bool IsInFront(const TraceSphere& sphere, const Vec3d& forward) {
   return center.dot(forward) - sphere.radius > 1e-9 * sum;
 }
 
-// Whether rays are tested against the sphere so.
+// Whether the view's rays are tested against the sphere so. By a FilmView of no frame, whose
+// forward is 0, nothing lies in front.
 inline bool HasFilmPlace(const TraceSphere& sphere, const FilmView& view) {
   return sphere.center.dot(view.forward) <= sphere.radius * view.max_scale &&
          IsInFront(sphere, view.forward);

@@ -61,7 +61,7 @@ struct Surface {
   Vec3V<V> normal;  // unit, on the ray's side
 };
 
-// A batch of rays on their way to be hits.
+// A vector of rays, and what their hits are made of.
 struct RefineRays {
   Vec3V<V> origin, direction;
   V dd, inverse_dd, inverse_length;  // of the directions

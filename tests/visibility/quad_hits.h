@@ -23,6 +23,7 @@ inline Quad Dot(const Quad (&a)[3], const Quad (&b)[3]) {
 struct QuadHit {
   bool hit = false;
   double t = 0;
+  double discriminant = 0;  // 1 - (distance of the centre from the line / radius)^2, of misses too
   Quad normal[3] = {0, 0, 0};  // towards the ray
 };
 
@@ -35,6 +36,7 @@ inline QuadHit TestInQuad(const Vec3d& origin, const Vec3d& direction, const Tra
   const Quad r = sphere.radius, dd = Dot(d, d), b = Dot(m, d);
   const Quad discriminant = b * b - dd * (Dot(m, m) - r * r);
   QuadHit result;
+  result.discriminant = static_cast<double>(discriminant / (dd * r * r));
   if (discriminant < 0) return result;
   const Quad root = Sqrt(discriminant);
   const bool inside = !(b - root > 0);
