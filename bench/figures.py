@@ -175,7 +175,7 @@ _FORM_KERNELS = {
     # On hits that all have a lobe, as those of all points have. Double terms are not packed: their
     # kernel takes the same time for any.
     ("phong", "textbook"): "naive_phong_in_lobe",
-    ("phong", "stable_float"): "phong_in_lobe",
+    ("phong", "stable_float"): "given_phong_in_lobe",
     ("phong", "double_terms"): "phong_double_terms",
 }
 

@@ -14,7 +14,10 @@
 //                          one light take none
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
 //                          (ForHalfAngles in packets-inl.h)
-//   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs
+//   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs. They are given
+//   their
+//                          constants, which else are made of material and light in every run;
+//   given_*                as are these, of Phong's family, for a comparison of like with like
 #include <cmath>
 #include <functional>
 #include <random>
@@ -166,17 +169,34 @@ void BenchTextbookGgx(benchmark::State& state, TextbookKernel kernel, Target tar
   });
 }
 
-using NaiveKernel = void (*)(const PhongUniforms&, const ShadeRange&);
+using PhongKernel = void (*)(const PhongUniforms&, const ShadeRange&);
 
-void BenchNaive(benchmark::State& state, NaiveKernel kernel, Target target, bool in_lobe) {
+void BenchGiven(benchmark::State& state, PhongKernel kernel, PhongModel model, Target target,
+                bool in_lobe) {
   const PhongLight light{{38, 25, 8}, {30, 30, 30}};
-  const PhongUniforms uniforms{PhongModel::kPhong, static_cast<float>(kShininess), &light, nullptr};
+  const PhongUniforms uniforms{model, static_cast<float>(kShininess), &light, nullptr};
   const Lights lights{.in_lobe = in_lobe};
   BenchShade(state, target, lights, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
     kernel(uniforms, RangeOf(lit, radiance));
   });
-  if (kernel == &ShadeNaivePhong) ReportPowers(state, MakeHits(in_lobe));
+  if (model == PhongModel::kPhong) ReportPowers(state, MakeHits(in_lobe));
 }
+
+struct GivenBench {
+  const char* name;
+  PhongKernel kernel;
+  PhongModel model;
+  bool in_lobe = false;
+};
+
+constexpr GivenBench kGiven[] = {
+    {"given_phong", &ShadePhong, PhongModel::kPhong},
+    {"given_phong_in_lobe", &ShadePhong, PhongModel::kPhong, true},
+    {"given_blinn_phong", &ShadePhong, PhongModel::kBlinnPhong},
+    {"naive_phong", &ShadeNaivePhong, PhongModel::kPhong},
+    {"naive_phong_in_lobe", &ShadeNaivePhong, PhongModel::kPhong, true},
+    {"naive_blinn_phong", &ShadeNaiveBlinnPhong, PhongModel::kBlinnPhong},
+};
 
 using BaselineKernel = std::function<void(const baseline::Hits&, const baseline::PointLight&)>;
 
@@ -319,12 +339,11 @@ const bool kRegistered = [] {
                                  BenchTextbookGgx, &ShadeTextbookGgx, target);
     benchmark::RegisterBenchmark(("shade/textbook_ggx_as_written/" + TargetName(target)).c_str(),
                                  BenchTextbookGgx, &ShadeWrittenGgx, target);
-    benchmark::RegisterBenchmark(("shade/naive_phong/" + TargetName(target)).c_str(), BenchNaive,
-                                 &ShadeNaivePhong, target, false);
-    benchmark::RegisterBenchmark(("shade/naive_phong_in_lobe/" + TargetName(target)).c_str(),
-                                 BenchNaive, &ShadeNaivePhong, target, true);
-    benchmark::RegisterBenchmark(("shade/naive_blinn_phong/" + TargetName(target)).c_str(),
-                                 BenchNaive, &ShadeNaiveBlinnPhong, target, false);
+    for (const GivenBench& given : kGiven) {
+      benchmark::RegisterBenchmark(
+          (std::string("shade/") + given.name + "/" + TargetName(target)).c_str(), BenchGiven,
+          given.kernel, given.model, target, given.in_lobe);
+    }
   }
   return true;
 }();

@@ -65,9 +65,9 @@ def _kernels(times, best):
                                                    _shade(("textbook_ggx",), best))
     yield "stable_over_textbook_as_written_time", times.ratio(
         _shade(plain, best), _shade(("textbook_ggx_as_written",), best))
-    yield "stable_phong_over_naive_time", times.ratio(_shade(("phong",), best),
+    yield "stable_phong_over_naive_time", times.ratio(_shade(("given_phong",), best),
                                                       _shade(("naive_phong",), best))
-    yield "stable_blinn_over_naive_time", times.ratio(_shade(("blinn_phong",), best),
+    yield "stable_blinn_over_naive_time", times.ratio(_shade(("given_blinn_phong",), best),
                                                       _shade(("naive_blinn_phong",), best))
     yield "double_over_float_terms_time", times.ratio(("math/ggx/0.3/double_terms",),
                                                       ("math/ggx/0.3/stable_float",))

@@ -112,10 +112,11 @@ HWY_NOINLINE void ShadeTextbook(const Ggx& given_model, const ShadeRange& range)
 
 // Phong's cosine as it is written; all else is as in Phong's own kernel.
 struct NaiveCosine {
-  static HWY_INLINE FloatV Number(FloatTag, const PacketV& p, const TowardV& toward,
-                                  FloatV n_dot_l) {
+  static HWY_INLINE FloatV Number(const PacketV& p, const Vec3V<FloatV>& offset,
+                                  FloatV inverse_length) {
+    const FloatV n_dot_l = hn::Mul(FusedDot(p.normal, offset), inverse_length);
     const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const FloatV l_dot_v = toward.Dot(p.to_view);
+    const FloatV l_dot_v = hn::Mul(FusedDot(offset, p.to_view), inverse_length);
     return hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
   }
   static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Zero(d); }

@@ -16,6 +16,13 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+template <class V>
+HWY_INLINE Vec3V<V> Mirrored(const Vec3V<V>& v, const Vec3V<V>& m) {
+  const V along = FusedDot(m, v);
+  const V twice = hn::Add(along, along);
+  return {hn::MulSub(m.x, twice, v.x), hn::MulSub(m.y, twice, v.y), hn::MulSub(m.z, twice, v.z)};
+}
+
 // |n x u|^2 is formed as |u - n (n.u)|^2: one fused step each way, and what |n| and n.u are off by
 // points along n, where it counts in the second order only.
 template <class V>

@@ -12,6 +12,12 @@
 
 namespace nacre {
 
+// The vector v mirrored about the unit vector m.
+template <typename Real>
+Imath::Vec3<Real> Mirrored(const Imath::Vec3<Real>& v, const Imath::Vec3<Real>& m) {
+  return m * (2 * (m ^ v)) - v;
+}
+
 template <typename Real>
 struct Angles {
   Real n_dot_l;

@@ -18,13 +18,6 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> Mirrored(D, const Vec3V<V>& v, const Vec3V<V>& m) {
-  const V along = FusedDot(m, v);
-  const V twice = hn::Add(along, along);
-  return {hn::MulSub(m.x, twice, v.x), hn::MulSub(m.y, twice, v.y), hn::MulSub(m.z, twice, v.z)};
-}
-
-template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SampleCosine(D d, const Vec3V<V>& normal, V u0, V u1) {
   const V one = hn::Set(d, 1.0f);
   const PointOnDiskV<V> p = ConcentricDisk(d, u0, u1);
@@ -57,7 +50,7 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>
   const Vec3V<V> half{hn::Mul(alpha, hn::MulAdd(sin, phi.cos, squeezed.x)),
                       hn::Mul(alpha, hn::MulAdd(sin, phi.sin, squeezed.y)), half_z};
   const V inverse = hn::Div(one, hn::Sqrt(FusedDot(half, half)));
-  return Mirrored(d, to_view, ToWorld(basis, Scale(half, inverse)));
+  return Mirrored(to_view, ToWorld(basis, Scale(half, inverse)));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -105,14 +98,13 @@ HWY_INLINE Vec3V<V> SampleCosinePower(D d, const Vec3V<V>& axis, V shininess, V 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SamplePhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                                     V shininess, V u0, V u1) {
-  return SampleCosinePower(d, Mirrored(d, to_view, normal), shininess, u0, u1);
+  return SampleCosinePower(d, Mirrored(to_view, normal), shininess, u0, u1);
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobePdf(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                           const Vec3V<V>& to_light, V shininess) {
-  const LobeCosineV<V> cosine = PhongCosine(d, normal, Add(to_light, to_view),
-                                            FusedDot(normal, to_light), FusedDot(normal, to_view));
+  const LobeCosineV<V> cosine = PhongCosine(d, SquaredFromReflection(normal, to_light, to_view));
   const V scale = hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, 0.159154943f));
   return hn::IfThenElseZero(hn::Gt(cosine.c, hn::Zero(d)),
                             hn::Mul(scale, PhongLobe(d, cosine, shininess)));
@@ -121,7 +113,7 @@ HWY_INLINE V PhongLobePdf(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SampleBlinnLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                                     V shininess, V u0, V u1) {
-  return Mirrored(d, to_view, SampleCosinePower(d, normal, shininess, u0, u1));
+  return Mirrored(to_view, SampleCosinePower(d, normal, shininess, u0, u1));
 }
 
 template <class D, class V = hn::Vec<D>>

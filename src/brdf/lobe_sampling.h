@@ -16,12 +16,6 @@
 
 namespace nacre {
 
-// The direction v mirrored about the unit vector m.
-template <typename Real>
-Imath::Vec3<Real> Mirrored(const Imath::Vec3<Real>& v, const Imath::Vec3<Real>& m) {
-  return m * (2 * (m ^ v)) - v;
-}
-
 // Cosine-weighted, for diffuse reflection: a uniform disk lifted to the hemisphere (Malley's
 // method).
 template <typename Real>

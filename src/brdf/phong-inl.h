@@ -37,18 +37,26 @@ HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
   return hn::IfThenElse(hn::Gt(cosine.c, hn::Zero(d)), log2, dark);
 }
 
-// r.v, r the reflection of the light, without r and its roundings: the scalar twin tells how. u is
-// l + v.
+// |r - v|^2, r the reflection of the light.
+template <class V>
+HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& to_light,
+                                   const Vec3V<V>& to_view) {
+  const Vec3V<V> r_minus_v = Sub(Mirrored(to_light, normal), to_view);
+  return FusedDot(r_minus_v, r_minus_v);
+}
+
+// The same for l = offset inverse_length, in a chain that does not wait for l.
+template <class V>
+HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& offset, V inverse_length,
+                                   const Vec3V<V>& to_view) {
+  const Vec3V<V> r_minus_v = MulSub3(Mirrored(offset, normal), inverse_length, to_view);
+  return FusedDot(r_minus_v, r_minus_v);
+}
+
+// r.v by it: the scalar twin tells why.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LobeCosineV<V> PhongCosine(D d, const Vec3V<V>& normal, const Vec3V<V>& u, V n_dot_l,
-                                      V n_dot_v) {
-  const V along = hn::Sub(n_dot_l, n_dot_v);
-  const V n_dot_u = hn::Add(n_dot_l, n_dot_v);
-  const Vec3V<V> across{hn::NegMulAdd(normal.x, n_dot_u, u.x),
-                        hn::NegMulAdd(normal.y, n_dot_u, u.y),
-                        hn::NegMulAdd(normal.z, n_dot_u, u.z)};
-  const V squared = hn::MulAdd(along, along, FusedDot(across, across));
-  const V one_minus_c = hn::Mul(squared, hn::Set(d, hn::TFromD<D>(0.5)));
+HWY_INLINE LobeCosineV<V> PhongCosine(D d, V squared_from_reflection) {
+  const V one_minus_c = hn::Mul(squared_from_reflection, hn::Set(d, hn::TFromD<D>(0.5)));
   return {one_minus_c, hn::Sub(hn::Set(d, hn::TFromD<D>(1)), one_minus_c)};
 }
 

@@ -21,17 +21,13 @@ Real LobePower(Real x, Real c, Real n) {
   return std::exp(n * (2 * x < 1 ? std::log1p(-x) : std::log(c)));
 }
 
-// Phong 1975: max(r.v, 0)^n, r = 2 n (n.l) - l, without the gate on n.l. r.v = 1 - |r - v|^2 / 2.
-// r is never formed: its components and r.v are rounded at the scale of 1, and n of these roundings
-// show in the lobe. With u = l + v, r - v = 2 n (n.l) - u has n.(l - v) along n and n (n.u) - u
-// across it; what n.u is off by points along n, where it counts in the second order only.
+// Phong 1975: max(r.v, 0)^n, r = 2 n (n.l) - l, without the gate on n.l. r.v = 1 - |r - v|^2 / 2,
+// as both have length 1: where n of r.v's own roundings would show, at the lobe's peak, r - v is
+// small, and what it is rounded by counts by its product with it.
 template <typename Real>
 Real PhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_light,
                const Imath::Vec3<Real>& to_view, Real shininess) {
-  const Imath::Vec3<Real> u = to_light + to_view;
-  const Real along = normal ^ (to_light - to_view);
-  const Imath::Vec3<Real> across = u - normal * (normal ^ u);
-  const Real one_minus_c = (along * along + across.length2()) / 2;
+  const Real one_minus_c = (Mirrored(to_light, normal) - to_view).length2() / 2;
   return LobePower(one_minus_c, 1 - one_minus_c, shininess);
 }
 

@@ -134,9 +134,9 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
                    to_light = LoadSoa(D(), light.to_light, i);
     const Vec3V<V> to_view = LoadSoa(D(), range.surface.to_view, i);
     const AnglesV<V> angles = ComputeAngles(d, normal, to_light, to_view);
-    LobeCosineV<V> cosine =
-        blinn ? BlinnSquaredCosine(d, angles)
-              : PhongCosine(d, normal, Add(to_light, to_view), angles.n_dot_l, angles.n_dot_v);
+    LobeCosineV<V> cosine = blinn
+                                ? BlinnSquaredCosine(d, angles)
+                                : PhongCosine(d, SquaredFromReflection(normal, to_light, to_view));
     if (narrow != nullptr) {
       const V exact = hn::LoadU(d, narrow->first.data() + i);
       const auto is_narrow = hn::Ge(exact, hn::Zero(d));  // others have -1
@@ -155,8 +155,7 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
 
 void MirrorDirectionsT(const LobeRange& range, Soa3<float>* to_light) {
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    return Mirrored(D(), LoadSoa(D(), range.surface.to_view, i),
-                    LoadSoa(D(), range.surface.normal, i));
+    return Mirrored(LoadSoa(D(), range.surface.to_view, i), LoadSoa(D(), range.surface.normal, i));
   });
 }
 

@@ -94,8 +94,7 @@ HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at)
   if (model == PhongModel::kBlinnPhong) {
     return BlinnSquaredCosine(d, ComputeAngles(d, at.normal, at.to_light, at.to_view));
   }
-  return PhongCosine(d, at.normal, Add(at.to_light, at.to_view), FusedDot(at.normal, at.to_light),
-                     FusedDot(at.normal, at.to_view));
+  return PhongCosine(d, SquaredFromReflection(at.normal, at.to_light, at.to_view));
 }
 
 void NarrowPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,

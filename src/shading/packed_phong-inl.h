@@ -30,60 +30,85 @@ struct PackedLobes {
   uint8_t kept[kHits + 7];  // LaneBytes of each packet, and what these ask for after the last
 };
 
+// What falls on hits [begin, begin + count); returns how many have a lobe.
+template <class Cosine>
+HWY_INLINE size_t FillPacked(const ShadeRange& range, const RangeArrays& given, size_t begin,
+                             size_t count, PackedLobes* block) {
+  const FloatTag d;
+  const RangeArrays arrays = given;
+  const FromOneSphere light(d, *range.lights[0].light, range.hits);
+  size_t lobes = 0;
+  uint8_t* kept = block->kept;
+  for (size_t at = 0; at < count; at += hn::Lanes(d), kept += LaneBytes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    // Not by MakeIncident: GCC takes no struct apart that is this large, but through memory.
+    const Vec3V<FloatV> offset = light.At(d, p.i, p.normal);
+    const FloatV inverse = InverseDistance<FromOneSphere::kApart>(d, FusedDot(offset, offset));
+    const FloatV n_dot_l = hn::Mul(FusedDot(p.normal, offset), inverse);
+    const auto lit = IsLit(d, n_dot_l);
+    const FloatV if_lit = Cosine::Number(p, offset, inverse);
+    const FloatV number = hn::IfThenElse(lit, if_lit, Cosine::NumberWithout(d));
+    const FloatV irradiance = hn::IfThenElseZero(lit, hn::Mul(inverse, inverse));
+    const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
+    hn::Store(irradiance, d, block->irradiance + at);
+    hn::Store(weight, d, block->weight + at);
+    lobes += Pack(d, number, Cosine::HasLobe(d, number), block->number + lobes, kept);
+  }
+  return lobes;
+}
+
+// Their powers.
+template <class Cosine>
+HWY_INLINE void TakePacked(float exponent, size_t lobes, PackedLobes* block) {
+  const FloatTag d;
+  const FloatV shininess = hn::Set(d, exponent);
+  for (size_t at = 0; at < lobes; at += hn::Lanes(d)) {
+    const FloatV number = hn::Load(d, block->number + at);
+    hn::Store(Cosine::Lobe(d, number, shininess), d, block->lobe + at);
+  }
+}
+
+// What the hits reflect.
+template <bool kByWeight>
+HWY_INLINE void SumPacked(const PhongLight& light, const RangeArrays& given, size_t begin,
+                          size_t count, const PackedLobes& block) {
+  const FloatTag d;
+  const size_t lanes = hn::Lanes(d);
+  const RangeArrays arrays = given;
+  const RgbV diffuse = SetRgb(d, light.diffuse);
+  const RgbV specular = SetRgb(d, light.specular);
+  const float* packed = block.lobe;
+  const uint8_t* kept = block.kept;
+  const auto next_sum = [&](size_t at) HWY_ATTR {
+    const FloatV lobe = Unpack(d, kept, &packed);
+    kept += LaneBytes(d);
+    const FloatV weight = hn::Load(d, block.weight + at);
+    const FloatV by = kByWeight ? weight : hn::Load(d, block.irradiance + at);
+    return SumOf(
+        ReflectedV{{ScaledPart(diffuse, weight)}, ScaledPart(specular, hn::Mul(lobe, by))});
+  };
+  size_t at = 0;
+  for (; at + lanes <= count; at += lanes) {
+    StoreWhole(d, next_sum(at), arrays.sum, begin + at);
+  }
+  if (at < count) StoreRgb(d, count - at, next_sum(at), arrays.sum, begin + at);
+}
+
 // Leaves the bits that ShadePackets does, of ranges that are IsOneSphereUnderOneLight and exponents
 // from kLeastPackedExponent on.
-//   Cosine::Number(packet, toward, n_dot_l)     what the lobe is a function of
-//   Cosine::NumberWithout()                     one that has no lobe, for hits that are not lit
-//   Cosine::HasLobe(number)
-//   Cosine::Lobe(number, shininess)
+//   Cosine::Number(packet, offset, inverse_length)     what the lobe is a function of
+//   Cosine::NumberWithout()                            one without a lobe, for hits that are not
+//   lit Cosine::HasLobe(number) Cosine::Lobe(number, shininess)
 // kByWeight: the lobe has a cosine of its own, modified Phong's.
 template <class Cosine, bool kByWeight>
 HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRange& range) {
-  const FloatTag d;
-  const size_t lanes = hn::Lanes(d);
   const RangeArrays arrays(range);
-  const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
-  const FloatV shininess = hn::Set(d, uniforms.shininess);
-  const RgbV diffuse = SetRgb(d, uniforms.lights[0].diffuse);
-  const RgbV specular = SetRgb(d, uniforms.lights[0].specular);
   PackedLobes block;
   for (size_t begin = range.begin; begin < range.end; begin += PackedLobes::kHits) {
     const size_t count = std::min(range.end - begin, PackedLobes::kHits);
-    size_t lobes = 0;
-    uint8_t* kept = block.kept;
-    for (size_t at = 0; at < count; at += lanes, kept += LaneBytes(d)) {
-      const PacketV p = arrays.Packet(d, begin + at);
-      // MakeIncident's struct would go through memory: GCC takes none apart that is this large.
-      const LightV from = light.At(d, p.i, p.normal);
-      const FloatV n_dot_l = from.toward.Dot(p.normal);
-      const auto lit = IsLit(d, n_dot_l);
-      const FloatV irradiance = hn::IfThenElseZero(lit, from.irradiance);
-      hn::Store(irradiance, d, block.irradiance + at);
-      const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
-      hn::Store(weight, d, block.weight + at);
-      const FloatV if_lit = Cosine::Number(d, p, from.toward, n_dot_l);
-      const FloatV number = hn::IfThenElse(lit, if_lit, Cosine::NumberWithout(d));
-      lobes += Pack(d, number, Cosine::HasLobe(d, number), block.number + lobes, kept);
-    }
-    for (size_t at = 0; at < lobes; at += lanes) {
-      const FloatV number = hn::Load(d, block.number + at);
-      hn::Store(Cosine::Lobe(d, number, shininess), d, block.lobe + at);
-    }
-    const float* packed = block.lobe;
-    kept = block.kept;
-    const auto next_sum = [&](size_t at) HWY_ATTR {
-      const FloatV lobe = Unpack(d, kept, &packed);
-      kept += LaneBytes(d);
-      const FloatV weight = hn::Load(d, block.weight + at);
-      const FloatV by = kByWeight ? weight : hn::Load(d, block.irradiance + at);
-      return SumOf(
-          ReflectedV{{ScaledPart(diffuse, weight)}, ScaledPart(specular, hn::Mul(lobe, by))});
-    };
-    size_t at = 0;
-    for (; at + lanes <= count; at += lanes) {
-      StoreWhole(d, next_sum(at), arrays.sum, begin + at);
-    }
-    if (at < count) StoreRgb(d, count - at, next_sum(at), arrays.sum, begin + at);
+    const size_t lobes = FillPacked<Cosine>(range, arrays, begin, count, &block);
+    TakePacked<Cosine>(uniforms.shininess, lobes, &block);
+    SumPacked<kByWeight>(uniforms.lights[0], arrays, begin, count, block);
   }
 }
 

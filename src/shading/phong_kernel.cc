@@ -22,9 +22,10 @@ HWY_NOINLINE void FillPhong(const RangeArrays& arrays, size_t begin, size_t end,
   const FloatTag d;
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
+    const TowardV toward = block->Toward(d, at);
     block->StoreLobe(d, at,
-                     PhongCosine(d, p.normal, block->Toward(d, at).Plus(p.to_view),
-                                 block->NDotL(d, at), FusedDot(p.normal, p.to_view)));
+                     PhongCosine(d, SquaredFromReflection(p.normal, toward.offset,
+                                                          toward.inverse_length, p.to_view)));
   }
 }
 
@@ -81,20 +82,18 @@ struct PhongFamily {
   }
 };
 
-// By 1 - r.v, without cancellation.
+// By |r - v|^2.
 struct StableCosine {
-  static HWY_INLINE FloatV Number(FloatTag d, const PacketV& p, const TowardV& toward,
-                                  FloatV n_dot_l) {
-    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    return PhongCosine(d, p.normal, toward.Plus(p.to_view), n_dot_l, n_dot_v).one_minus_c;
+  static HWY_INLINE FloatV Number(const PacketV& p, const Vec3V<FloatV>& offset,
+                                  FloatV inverse_length) {
+    return SquaredFromReflection(p.normal, offset, inverse_length, p.to_view);
   }
-  static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Set(d, 1.0f); }
-  static HWY_INLINE hn::Mask<FloatTag> HasLobe(FloatTag d, FloatV one_minus_c) {
-    return hn::Lt(one_minus_c, hn::Set(d, 1.0f));
+  static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Set(d, 2.0f); }
+  static HWY_INLINE hn::Mask<FloatTag> HasLobe(FloatTag d, FloatV squared) {
+    return hn::Lt(squared, hn::Set(d, 2.0f));
   }
-  static HWY_INLINE FloatV Lobe(FloatTag d, FloatV one_minus_c, FloatV shininess) {
-    const FloatV c = hn::Sub(hn::Set(d, 1.0f), one_minus_c);
-    return PhongLobe(d, {one_minus_c, c}, shininess);
+  static HWY_INLINE FloatV Lobe(FloatTag d, FloatV squared, FloatV shininess) {
+    return PhongLobe(d, PhongCosine(d, squared), shininess);
   }
 };
 

@@ -166,7 +166,9 @@ class Headlines(unittest.TestCase):
             shade__ggx_plain_schlick_direct__avx3=10, shade__ggx_plain_schlick_direct__avx2=16,
             shade__ggx_schlick_direct__scalar_baseline=220, shade__ggx_schlick_direct__avx3=50,
             shade__textbook_ggx__avx3=9, shade__textbook_ggx_as_written__avx3=25, visibility__tiles__1e3=2e6,
+            shade__given_phong__avx3=11, shade__naive_phong__avx3=10,
             visibility__embree_sphere_point__1e3=160e6))
+        self.assertAlmostEqual(values["stable_phong_over_naive_time"], 1.1)
         self.assertAlmostEqual(values["ggx_over_scalar"], 22)  # the plain form, where there is one
         self.assertAlmostEqual(values["avx2_share_of_avx3_ggx"], 10 / 16)
         self.assertAlmostEqual(values["avx2_share_of_avx3"], 10 / 16)  # the smallest of all

@@ -53,7 +53,7 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
     const AnglesV<V> a = ComputeAngles(d, n, l, v);
     const V n_dot_v = hn::Max(a.n_dot_v, zero);
     const V values[] = {
-        PhongLobe(d, PhongCosine(d, n, Add(l, v), a.n_dot_l, a.n_dot_v), shininess),
+        PhongLobe(d, PhongCosine(d, SquaredFromReflection(n, l, v)), shininess),
         BlinnLobe(d, BlinnSquaredCosine(d, a), shininess),
         GgxDistribution(d, a, alpha),
         hn::Div(one, VisibilityDenominatorHeightCorrelated(d, a.n_dot_l, n_dot_v, alpha, one)),
