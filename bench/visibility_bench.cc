@@ -12,6 +12,7 @@
 #include "render/plan.h"
 #include "sampling/pixel_sampler.h"
 #include "visibility/intersector.h"
+#include "visibility/sphere_bins.h"
 #include "visibility_scenes.h"
 
 namespace nacre {
@@ -87,7 +88,7 @@ void BenchTiles(benchmark::State& state, const SphereScene& which, bool position
   ExactTiles tiles(positions);
   size_t found = 0;
   for (auto _ : state) {
-    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, 0);
+    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kReachOfCenters);
     found = 0;
     ForEachTile(intersector, &candidates, [&](const Window&) {
       size_t hits = tiles.Trace(intersector, candidates).count;
@@ -110,7 +111,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
   TileCandidates candidates;
   FloatHits hits;
   for (auto _ : state) {
-    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, 0);
+    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kReachOfCenters);
     ForEachTile(intersector, &candidates, [&](const Window&) {
       TraceFloatTile(camera, spheres, candidates, &hits);
       benchmark::DoNotOptimize(hits.sphere.data());

@@ -19,6 +19,7 @@
 #include "render/sampled_plan.h"
 #include "render/shadow_cull.h"
 #include "scene/mesh.h"
+#include "visibility/sphere_bins.h"
 
 namespace nacre {
 namespace {
@@ -102,13 +103,15 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   };
   tell(0.15);
   const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
+  const bool centers = plan->sampler.centered && settings.max_error == 0;
   plan->mesh_windows = FindMeshWindows(scene, plan->camera, reach);
   // Footprints and outlines are looked for in the bins, whoever traces: the bits must not depend on
   // that, nor on the crop, whose bins may fit where the frame's do not.
   if (want_tiles || settings.max_error > 0) {
     const Window frame{0, 0, scene.image.width, scene.image.height};
     const Window binned = settings.max_error > 0 ? WholeCells(frame) : plan->window;
-    plan->binned = plan->intersector->BinForCamera(plan->camera, binned, reach);
+    plan->binned =
+        plan->intersector->BinForCamera(plan->camera, binned, centers ? kReachOfCenters : reach);
     plan->tiles = want_tiles && plan->binned;
   }
   plan->items.push_back({"intersector tiles, for camera rays", plan->tiles,

@@ -70,8 +70,8 @@ class Intersector {
   bool SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ray, double t) const;
 
   // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most `reach`
-  // pixels outside them. False, and no bins, if that would take too much room. Triangles are not
-  // binned.
+  // pixels outside them (BinSpheres). False, and no bins, if that would take too much room.
+  // Triangles are not binned.
   bool BinForCamera(const CameraFrame& frame, const Window& window, double reach);
 
   // Then, instead of Closest and Refine, for a tile that lies within one row of cells

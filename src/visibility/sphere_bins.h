@@ -56,8 +56,12 @@ struct SphereBins {
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
 };
 
-// `reach`: how far a pixel's samples lie outside it, in pixels. Fails, with empty bins, if there
-// would be more than `max_entries` in all: many spheres that cover much of the picture.
+// Half a pixel within its border.
+inline constexpr double kReachOfCenters = -0.5;
+
+// `reach`: how far a pixel's samples may lie outside it, in pixels; kReachOfCenters if they are all
+// its centre. Fails, with empty bins, if there would be more than `max_entries` in all: many
+// spheres that cover much of the picture.
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
                 double reach, size_t max_entries, int threads, SphereBins* bins);
 

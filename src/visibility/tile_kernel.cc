@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "visibility/tile_kernel.cc"
@@ -103,7 +104,7 @@ HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
 template <bool kPerspective>
 HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
-                             CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
+                             AloneBlock* block, const HitsTo& to) {
   const size_t pixels = candidates.tile.pixel_count();
   if (kPerspective && candidates.alone != nullptr) {
     size_t in_spans = 0;
@@ -116,6 +117,7 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
   }
   const auto width = static_cast<uint32_t>(candidates.tile.width());
   const auto first_row = static_cast<uint32_t>((candidates.tile.y0 - bins.window.y0) % kCellSize);
+  std::optional<CameraPacket> packet;  // large, and few tiles need it
   uint32_t next = 0;
   for (size_t sample = 0; sample < film.count; sample += pixels) {
     for (const PixelSpan& span : candidates.spans) {
@@ -127,9 +129,10 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
       }
       TraceBlock(frame, film, block, to);
       const auto x = static_cast<int>(span.first % width);
+      if (!packet) packet.emplace();
       packet->pixel_rows = 1u << (first_row + span.first / width);
       TraceRow<kPerspective>(frame, bins, candidates, film, begin, x,
-                             x + static_cast<int>(span.count), packet, to);
+                             x + static_cast<int>(span.count), &*packet, to);
     }
   }
   TraceBlock(frame, film, block, to);
@@ -137,15 +140,16 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
 
 template <bool kPerspective>
 HWY_INLINE void TraceAny(const CameraFrame& frame, const SphereBins& bins,
-                         const TileCandidates& candidates, const FilmBatch& film,
-                         CameraPacket* packet, AloneBlock* block, const HitsTo& to) {
+                         const TileCandidates& candidates, const FilmBatch& film, AloneBlock* block,
+                         const HitsTo& to) {
   const TileCandidate* const alone = AloneIn<kPerspective>(candidates.cells[0]);
-  if (alone != nullptr) return TraceAlone(frame, *alone, film, packet, block, to);
+  CameraPacket packet;
+  if (alone != nullptr) return TraceAlone(frame, *alone, film, &packet, block, to);
   const size_t width = kCameraPacket;
-  packet->pixel_rows = ~0u;
+  packet.pixel_rows = ~0u;
   for (size_t first = 0; first < film.count; first += width) {
     const auto rays = static_cast<int>(std::min(width, film.count - first));
-    TraceRow<kPerspective>(frame, bins, candidates, film, first, 0, rays, packet, to);
+    TraceRow<kPerspective>(frame, bins, candidates, film, first, 0, rays, &packet, to);
   }
 }
 
@@ -153,12 +157,11 @@ template <bool kPerspective>
 HWY_INLINE void TraceRays(const CameraFrame& frame, const SphereBins& bins,
                           const TileCandidates& candidates, const FilmBatch& film,
                           const HitsTo& to) {
-  CameraPacket packet;
   AloneBlock block;
   if (candidates.rays == TileRays::kSamples) {
-    TraceSamples<kPerspective>(frame, bins, candidates, film, &packet, &block, to);
+    TraceSamples<kPerspective>(frame, bins, candidates, film, &block, to);
   } else {
-    TraceAny<kPerspective>(frame, bins, candidates, film, &packet, &block, to);
+    TraceAny<kPerspective>(frame, bins, candidates, film, &block, to);
   }
 }
 
@@ -258,24 +261,33 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   const double own = OwnBound(frame, bins.window);
   const FilmView view = MakeFilmView(frame);
   const Products products = TargetProducts();
-  uint32_t before = 0, before_end = 0;  // the cell to the left, as far as it has been compared
+  // The cell to the left, as far as it has been compared, and what was made of it.
+  uint32_t before = 0, before_end = 0;
+  const TileCandidate* made = nullptr;
   for (int column = first; column <= last; ++column) {
     std::vector<TileCandidate>& cell = candidates->cells[static_cast<size_t>(column - first)];
     const size_t number = bins.Cell(column, row);
     for (uint32_t i = bins.Begin(number); i < bins.end[number]; ++i) {
       const uint32_t sphere = bins.spheres[i];
+      while (before < before_end && bins.spheres[before] < sphere) ++before, ++made;
+      if (before < before_end && bins.spheres[before] == sphere) {
+        cell.push_back(*made);  // the cells are of one row: it reaches the same pixel rows
+        cell.back().in_cell_before = true;
+        continue;
+      }
       cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame, own,
                                    products));
       if (HasFilmPlace(geometry.spheres[sphere], view)) {
         candidates->film.push_back(MakeFilmSphere(geometry.spheres[sphere], view.forward));
         cell.back().film = &candidates->film.back();
       }
-      while (before < before_end && bins.spheres[before] < sphere) ++before;
-      cell.back().in_cell_before = before < before_end && bins.spheres[before] == sphere;
-      candidates->spheres += cell.back().in_cell_before ? 0 : 1;
+      ++candidates->spheres;
     }
     before = bins.Begin(number);
     before_end = bins.end[number];
+    made = cell.data();
+  }
+  for (std::vector<TileCandidate>& cell : candidates->cells) {
     std::sort(cell.begin(), cell.end(),
               [](const TileCandidate& a, const TileCandidate& b) { return a.near < b.near; });
   }
