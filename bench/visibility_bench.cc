@@ -10,7 +10,6 @@
 #include "float_visibility.h"
 #include "render/camera.h"
 #include "render/plan.h"
-#include "sampling/pixel_sampler.h"
 #include "visibility/intersector.h"
 #include "visibility/sphere_bins.h"
 #include "visibility_scenes.h"
@@ -64,7 +63,7 @@ class ExactTiles {
 
   const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
     film_.count = candidates.tile.pixel_count();
-    PlaceCenters(candidates.tile, film_.x.data(), film_.y.data());
+    film_.centers = true;
     intersector.HitsInTile(candidates, film_, {&hits_, &directions_, positions_, false});
     return hits_;
   }

@@ -79,6 +79,8 @@ struct FilmBatch {
   // Of a tile's pixels those alone have positions here, one behind the other, that a ray may hit
   // something in: its spans'. Otherwise ray i is the one through position i.
   bool only_spans = false;
+  // The rays go through the centres of a tile's pixels, row by row: x and y are not filled in.
+  bool centers = false;
   AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
   AlignedArray<uint32_t> ray{kBatchCapacity};
 };

@@ -33,16 +33,19 @@ void PlanPlaces(const Scene& scene, const RenderSettings& settings, RenderPlan* 
                                    [](ChannelKind kind) { return kind != ChannelKind::kAveraged; });
   const char* const why = scene.spheres.empty()    ? "there are no spheres"
                           : settings.max_error > 0 ? "each block of pixels places its own"
-                          : plan->sampler.centered ? "centres are placed as fast as they are chosen"
                           : !plan->tiles           ? "Embree looks for every ray's hit"
                           : settings.general_path  ? "the general path is asked for"
                           : plan->sky != nullptr   ? "they see the sky"
                           : plan->splits           ? "some material depends on where samples lie"
                           : nearest ? "some layers show the hit nearest to the pixel's centre"
                                     : nullptr;
-  plan->only_spans = why == nullptr;
-  plan->items.push_back({"places of samples beside the spheres", why != nullptr,
-                         why != nullptr ? why : "outside the outlines they hit nothing"});
+  plan->places_unasked = why == nullptr;
+  plan->items.push_back({plan->sampler.centered ? "places of samples in memory"
+                                                : "places of samples beside the spheres",
+                         why != nullptr,
+                         why != nullptr           ? why
+                         : plan->sampler.centered ? "they are the pixels' centres"
+                                                  : "outside the outlines they hit nothing"});
 }
 
 // A pixel's only sample, of weight 1, is its value.

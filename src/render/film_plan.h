@@ -13,7 +13,7 @@ void PlanSampling(const Scene& scene, const RenderSettings& settings, RenderPlan
 // After lights: whether diffuse and specular parts are kept: `one_light`, `leaves`.
 void PlanParts(const Scene& scene, const RenderSettings& settings, RenderPlan* plan);
 
-// After shapes and materials: which samples are placed: `only_spans`.
+// After shapes and materials: which samples are placed: `places_unasked`.
 void PlanPlaces(const Scene& scene, const RenderSettings& settings, RenderPlan* plan);
 
 // Whether samples are added up: `one_sample`.

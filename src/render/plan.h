@@ -108,7 +108,7 @@ struct RenderPlan {
   bool eye_outside = false;                   // no camera ray starts in a sphere
   bool all_positions = true;                  // more than shadow rays reads the hits' positions
   std::vector<uint8_t> may_be_shadowed;       // else: which spheres shadow rays may start on
-  bool only_spans = false;                    // samples that no outline holds are not placed
+  bool places_unasked = false;                // of samples: shapes alone ask where they lie
   bool one_sample = false;                    // a pixel's only sample is its value: no sums
   // One light is all that hits reflect: the beauty is the sum that its kernel makes of the parts.
   bool one_light = false;

@@ -37,7 +37,7 @@ void ChoosePixels(const RenderPlan& plan, const Window& tile, TileScratch* s) {
   const bool were_only_spans = s->samples.only_spans;
   std::vector<PixelRun>& runs = s->sampled_runs;
   runs.clear();
-  s->samples.only_spans = plan.only_spans && s->in_sight && !s->triangles_in_sight &&
+  s->samples.only_spans = plan.places_unasked && s->in_sight && !s->triangles_in_sight &&
                           ListSpans(s->candidates, &runs) < tile.pixel_count();
   if (!s->samples.only_spans) {
     runs.clear();
@@ -55,10 +55,11 @@ void ChoosePixels(const RenderPlan& plan, const Window& tile, TileScratch* s) {
 void MakeSamples(const RenderPlan& plan, const Window& tile, int first, int count, TileScratch* s) {
   double* const x = s->samples.x.data();
   double* const y = s->samples.y.data();
-  if (plan.sampler.centered) {
-    PlaceCenters(tile, x, y);
-  } else {
+  s->samples.centers = plan.sampler.centered && plan.places_unasked && !s->triangles_in_sight;
+  if (!plan.sampler.centered) {
     SamplePixels(plan.sampler, s->sampled_pixels, first, count, x, y);
+  } else if (!s->samples.centers) {
+    PlaceCenters(tile, x, y);
   }
   s->samples.count = tile.pixel_count() * static_cast<size_t>(count);
   s->weights.resize(static_cast<size_t>(count));

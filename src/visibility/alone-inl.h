@@ -23,6 +23,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 inline constexpr int kAloneBlock = 4 * kCameraPacket;
 
+// Rays that follow one another in a batch and may hit one sphere.
+struct AloneRays {
+  const TileCandidate* candidate;
+  uint32_t first, count;
+  double x = 0, y = 0;  // of FilmBatch::centers: the first one's place
+};
+
 // Groups of lanes on their way through the steps, each of rays that follow one another in a batch
 // and may hit one sphere.
 struct AloneBlock {
@@ -30,6 +37,7 @@ struct AloneBlock {
   uint32_t ray[kAloneBlock];   // the batch's, of a group's first lane
   uint32_t bits[kAloneBlock];  // its lanes that are proposed, then those that hit
   const TileCandidate* candidate[kAloneBlock];
+  double x[kAloneBlock], y[kAloneBlock];  // of FilmBatch::centers: the place of its first lane
   // The packets, as bits, of the last block of a batch in any order, that all hit: most likely
   // they do so again in the next.
   uint32_t likely = 0;
@@ -64,11 +72,18 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
   const auto corner = SetVec3(d, -frame.corner);
   const auto step_x = SetVec3(d, -frame.step_x);
   const auto step_y = SetVec3(d, -frame.step_y);
+  const auto lanes = hn::Iota(d, 0);
   for (int g = 0; g < block->groups; ++g) {
     const int place = g * kGroupLanes;
     const TileCandidate& candidate = *block->candidate[g];
-    const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
-    const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
+    hn::Vec<CameraDouble> x, y;
+    if (film.centers) {
+      x = hn::Add(hn::Set(d, block->x[g]), lanes);
+      y = hn::Set(d, block->y[g]);
+    } else {
+      x = hn::LoadU(d, film.x.data() + block->ray[g]);
+      y = hn::LoadU(d, film.y.data() + block->ray[g]);
+    }
     // The operations of MakeCameraRays.
     const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
     const auto dd = FusedDot(backward, backward);
@@ -143,20 +158,22 @@ HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film, Alon
   block->groups = 0;
 }
 
-// Puts `count` rays into the block, which is traced whenever it is full.
-HWY_INLINE void PutRays(const CameraFrame& frame, const FilmBatch& film,
-                        const TileCandidate& candidate, uint32_t first, uint32_t count,
+// Puts the rays into the block, which is traced whenever it is full.
+HWY_INLINE void PutRays(const CameraFrame& frame, const FilmBatch& film, const AloneRays& rays,
                         AloneBlock* block, const HitsTo& to) {
-  const bool on_film = candidate.film != nullptr;
+  const bool on_film = rays.candidate->film != nullptr;
   if (block->on_film != on_film) {
     TraceBlock(frame, film, block, to);
     block->on_film = on_film;
   }
-  for (uint32_t i = 0; i < count; i += kGroupLanes) {
+  for (uint32_t i = 0; i < rays.count; i += kGroupLanes) {
     const int g = block->groups++;
-    block->ray[g] = first + i;
-    block->bits[g] = count - i >= kGroupLanes ? kAllOfGroup : (1u << (count - i)) - 1;
-    block->candidate[g] = &candidate;
+    const uint32_t left = rays.count - i;
+    block->ray[g] = rays.first + i;
+    block->bits[g] = left >= kGroupLanes ? kAllOfGroup : (1u << left) - 1;
+    block->candidate[g] = rays.candidate;
+    block->x[g] = rays.x + i;
+    block->y[g] = rays.y;
     if (block->groups * kGroupLanes == kAloneBlock) TraceBlock(frame, film, block, to);
   }
 }

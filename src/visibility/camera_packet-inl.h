@@ -29,6 +29,7 @@ struct CameraPacket {
   uint32_t pixel_rows;   // of their cells that the rays may lie in, as bits
   const double* film_x;  // the packet's piece of the batch
   const double* film_y;
+  alignas(kVectorBytes) double center_x[kCameraPacket], center_y[kCameraPacket];
   // In float, for proposals: the own vectors, and the squared length of the directions.
   alignas(kVectorBytes) float own[3][kCameraPacket];
   alignas(kVectorBytes) float dd[kCameraPacket];
@@ -74,6 +75,17 @@ HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bit
   set3(candidate.film->center, packet->film_center);
   set3(candidate.film->rest, packet->film_rest);
   set(d, candidate.film->scale, packet->film_scale);
+}
+
+// The packet's film positions become those from (x, y) on, a pixel apart.
+HWY_INLINE void PlaceInRow(double x, double y, CameraPacket* packet) {
+  const CameraDouble d;
+  for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
+    hn::Store(hn::Add(hn::Set(d, x), hn::Iota(d, static_cast<double>(i))), d, packet->center_x + i);
+    hn::Store(hn::Set(d, y), d, packet->center_y + i);
+  }
+  packet->film_x = packet->center_x;
+  packet->film_y = packet->center_y;
 }
 
 HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadLanes(const double (&from)[3][kCameraPacket],

@@ -93,8 +93,13 @@ HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
     while (begin != end && begin->empty()) ++begin;
     if (begin == end) continue;
     packet->lanes = (1u << width) - 1;
-    packet->film_x = film.x.data() + first;
-    packet->film_y = film.y.data() + first;
+    if (film.centers) {
+      const int row = static_cast<int>(first) / candidates.tile.width();
+      PlaceInRow(candidates.tile.x0 + x + 0.5, candidates.tile.y0 + row + 0.5, packet);
+    } else {
+      packet->film_x = film.x.data() + first;
+      packet->film_y = film.y.data() + first;
+    }
     TracePacket<kPerspective>(frame, begin, end, packet);
     if (packet->hit == 0) continue;
     AppendHits<kPerspective>(frame, *packet, film.ray.data() + first, to);
@@ -106,31 +111,35 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
                              AloneBlock* block, const HitsTo& to) {
   const size_t pixels = candidates.tile.pixel_count();
-  if (kPerspective && candidates.alone != nullptr) {
+  if (kPerspective && candidates.alone != nullptr && !film.centers) {
     size_t in_spans = 0;
     for (const PixelSpan& span : candidates.spans) in_spans += span.count;
     if (film.only_spans || in_spans == pixels) {  // sample by sample, all lie one behind the other
       const auto rays = static_cast<uint32_t>(film.count / pixels * in_spans);
-      PutRays(frame, film, *candidates.alone, 0, rays, block, to);
+      PutRays(frame, film, {candidates.alone, 0, rays}, block, to);
       return TraceBlock(frame, film, block, to);
     }
   }
-  const auto width = static_cast<uint32_t>(candidates.tile.width());
-  const auto first_row = static_cast<uint32_t>((candidates.tile.y0 - bins.window.y0) % kCellSize);
+  const Window& tile = candidates.tile;
+  const auto width = static_cast<uint32_t>(tile.width());
+  const auto first_row = static_cast<uint32_t>((tile.y0 - bins.window.y0) % kCellSize);
   std::optional<CameraPacket> packet;  // large, and few tiles need it
   uint32_t next = 0;
   for (size_t sample = 0; sample < film.count; sample += pixels) {
     for (const PixelSpan& span : candidates.spans) {
       const uint32_t begin = film.only_spans ? next : static_cast<uint32_t>(sample) + span.first;
       next += span.count;
+      const auto x = static_cast<int>(span.first % width);
+      const uint32_t row = span.first / width;
       if (kPerspective && span.alone != nullptr) {
-        PutRays(frame, film, *span.alone, begin, span.count, block, to);
+        const AloneRays rays{span.alone, begin, span.count, tile.x0 + x + 0.5,
+                             tile.y0 + static_cast<int>(row) + 0.5};
+        PutRays(frame, film, rays, block, to);
         continue;
       }
       TraceBlock(frame, film, block, to);
-      const auto x = static_cast<int>(span.first % width);
       if (!packet) packet.emplace();
-      packet->pixel_rows = 1u << (first_row + span.first / width);
+      packet->pixel_rows = 1u << (first_row + row);
       TraceRow<kPerspective>(frame, bins, candidates, film, begin, x,
                              x + static_cast<int>(span.count), &*packet, to);
     }
