@@ -17,6 +17,18 @@ def _first(pattern, path, default="unknown"):
     return match.group(1).strip() if match else default
 
 
+def _processor():
+    """Its name; AMD's, of which hosts tell no more than the line, with the generation."""
+    info = "/proc/cpuinfo"
+    name = _first(r"model name\s*: (.*)", info)
+    if _first(r"vendor_id\s*: (.*)", info) != "AuthenticAMD":
+        return name
+    family = _first(r"cpu family\s*: (.*)", info)
+    has_avx512 = _first(r"flags\s*:.*(avx512f)", info, "") != ""
+    generation = {"25": "Zen 4" if has_avx512 else "Zen 3", "26": "Zen 5"}
+    return f"{name}, {generation.get(family, f'family {family}')}"
+
+
 def _compiler(build):
     """The compiler that CMake found for a build folder."""
     for path in sorted(build.glob("CMakeFiles/*/CMakeCXXCompiler.cmake")):
@@ -41,7 +53,7 @@ def describe(root, build):
     cores = len(os.sched_getaffinity(0))
     memory = int(_first(r"MemTotal:\s*(\d+)", "/proc/meminfo", "0")) / 2 ** 20
     return {
-        "processor": _first(r"model name\s*: (.*)", "/proc/cpuinfo"),
+        "processor": _processor(),
         "cores": cores,
         "memory_gib": round(memory, 1),
         "system": f"{platform.system()} {platform.release()}",
