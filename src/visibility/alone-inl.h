@@ -21,7 +21,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-inline constexpr int kAloneBlock = 4 * kCameraPacket;
+inline constexpr int kAloneBlock = 8 * kCameraPacket;
 
 // Rays that follow one another in a batch and may hit one sphere.
 struct AloneRays {
