@@ -30,7 +30,8 @@ struct PackedLobes {
   uint8_t kept[kHits + 7];  // LaneBytes of each packet, and what these ask for after the last
 };
 
-// What falls on hits [begin, begin + count); returns how many have a lobe.
+// What falls on hits [begin, begin + count), and the numbers of those that have a lobe, packed;
+// returns how many.
 template <class Cosine>
 HWY_INLINE size_t FillPacked(const ShadeRange& range, const RangeArrays& given, size_t begin,
                              size_t count, PackedLobes* block) {
@@ -57,7 +58,7 @@ HWY_INLINE size_t FillPacked(const ShadeRange& range, const RangeArrays& given, 
   return lobes;
 }
 
-// Their powers.
+// Their lobes.
 template <class Cosine>
 HWY_INLINE void TakePacked(float exponent, size_t lobes, PackedLobes* block) {
   const FloatTag d;
@@ -96,9 +97,10 @@ HWY_INLINE void SumPacked(const PhongLight& light, const RangeArrays& given, siz
 
 // Leaves the bits that ShadePackets does, of ranges that are IsOneSphereUnderOneLight and exponents
 // from kLeastPackedExponent on.
-//   Cosine::Number(packet, offset, inverse_length)     what the lobe is a function of
-//   Cosine::NumberWithout()                            one without a lobe, for hits that are not
-//   lit Cosine::HasLobe(number) Cosine::Lobe(number, shininess)
+//   Cosine::Number(packet, offset, inverse_length)   what the lobe is a function of
+//   Cosine::NumberWithout()                          the same of hits that are not lit: no lobe
+//   Cosine::HasLobe(number)
+//   Cosine::Lobe(number, shininess)
 // kByWeight: the lobe has a cosine of its own, modified Phong's.
 template <class Cosine, bool kByWeight>
 HWY_NOINLINE void ShadePackedPhong(const PhongUniforms& uniforms, const ShadeRange& range) {
