@@ -7,7 +7,7 @@
 
 namespace nacre {
 
-// Puts the spans of the candidates' tile, at most kCellSize rows, behind those that are there.
+// Finds the spans of the candidates' tile, of at most kCellSize rows, where there are none yet.
 void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates);
 
 }  // namespace nacre

@@ -232,6 +232,20 @@ void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint3
   }
 }
 
+// Of a tile's only outline, without a branch for the rows that it does not reach.
+void PutRows(const OutlineSpans& outline, const TileCandidate* alone, const Window& tile,
+             std::vector<PixelSpan>* spans) {
+  const auto width = static_cast<uint32_t>(tile.width());
+  spans->resize(static_cast<size_t>(tile.height()));
+  size_t count = 0;
+  for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
+    const RowSpan span{outline.rows[y]};
+    (*spans)[count] = {y * width + span.begin(), span.end() - span.begin(), alone};
+    count += span.bits != RowSpan::kNone ? 1 : 0;
+  }
+  spans->resize(count);
+}
+
 void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
   const auto width = static_cast<uint32_t>(tile.width());
   for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
@@ -269,6 +283,7 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   PutSpheres(*candidates, &outlines, alone);
   HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(bins.projector, bins.reach, tile, &outlines, of_outline);
   candidates->alone = outlines.count == 1 ? alone[0] : nullptr;
+  if (outlines.count == 1) return PutRows(of_outline[0], alone[0], tile, &candidates->spans);
   RowSpan row[kMaxOutlines];
   for (int y = 0; y < tile.height(); ++y) {
     size_t in_row = 0;
