@@ -66,7 +66,7 @@ def measure(build, sizes, summary_only):
     targets = context["simd_targets"].split()
     results["targets"], results["best_target"] = targets, targets[-1]
     results["scalar_baseline"] = context["scalar_baseline"]
-    if port_bound.available() and not summary_only:
+    if sizes.port_bounds and port_bound.available() and not summary_only:
         say("port bounds of the kernels")
         results["port_bounds"], results["port_model"] = port_bound.measure(
             build / "bench" / "nacre_bench", results["benchmarks"], results["best_target"])

@@ -10,6 +10,7 @@ class Settings:
     # repetitions falls now among these, now among those.
     repetitions: int = 27
     min_time: float = 0.03
+    port_bounds: bool = True  # seconds a kernel, and their tools need not be there
     # Rounds of whole processes; every round runs each case once.
     process_rounds: int = 15
     slow_process_rounds: int = 5  # of those that take a second or more
@@ -50,6 +51,7 @@ FULL = Settings()
 QUICK = Settings(
     repetitions=15,
     min_time=0.005,
+    port_bounds=False,
     process_rounds=7,
     slow_process_rounds=2,
     scaling_rounds=1,
