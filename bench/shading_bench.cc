@@ -14,10 +14,9 @@
 //                          one light take none
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
 //                          (ForHalfAngles in packets-inl.h)
-//   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs. They are given
-//   their
-//                          constants, which else are made of material and light in every run;
-//   given_*                as are these, of Phong's family, for a comparison of like with like
+//   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs. Their constants,
+//                          which else every run makes of material and light, are given them;
+//   given_*                and these, of Phong's family, for a comparison of like with like
 #include <cmath>
 #include <functional>
 #include <random>

@@ -14,8 +14,8 @@ namespace nacre {
 // Below this roughness, and beyond this exponent, the half vector's terms are formed in double:
 // a lobe of width alpha turns float's 6e-8 rad of direction into a relative error of about
 // 1e-7 / alpha, 1e-5 at the limit of roughness. The limit of the exponent is where Phong's lobe,
-// three widths out and on targets without fused multiply-add, is still within 2.6e-5 (measured in
-// tests/shading/highlight_test.cc). The choice is the material's, so a hit's bits never depend on
+// three widths out and on targets without fused multiply-add, is still within 2e-5 for the hits of
+// tests/shading/highlight_test.cc. The choice is the material's, so a hit's bits never depend on
 // what else is in its batch.
 inline constexpr double kDoubleTermsRoughness = 0.1;
 inline constexpr double kDoubleTermsShininess = 300;
