@@ -5,7 +5,7 @@ import pathlib
 # scenes/material_grid.json with the light beside the grid, so that spheres shadow one another.
 # bench/frame_bench.cc renders the same.
 SHADOWS = ("--set", "/lights/key/position=[12, 1.5, 3]")
-SLOW = ("million_1spp",)  # take a second: fewer rounds
+SLOW = ("million_1spp", "million_16spp")  # take a second: fewer rounds
 
 
 def commands(nacre, scenes, folder):
@@ -22,6 +22,7 @@ def commands(nacre, scenes, folder):
         "phong_vs_pbr_1080p_1spp": render("phong_vs_pbr", "--spp", "1"),
         "mesh_and_spheres_1080p_1spp": render("mesh_and_spheres", "--spp", "1"),
         "million_1spp": render("million_spheres", "--spp", "1"),
+        "million_16spp": render("million_spheres", "--spp", "16"),
         # All libraries of the main job are loaded, and nothing is rendered.
         "startup": [nacre, "--version"],
     }

@@ -146,6 +146,7 @@ def _processes(processes):
         seconds = middle(name, "seconds")
         yield f"process_ms_{name}", None if seconds is None else 1e3 * seconds
     yield "process_s_million_1spp", middle("million_1spp", "seconds")
+    yield "process_s_million_16spp", middle("million_16spp", "seconds")
     yield "process_mib_million_1spp", middle("million_1spp", "mib")
     yield "process_mib_grid_1080p_1spp", middle("grid_1080p_1spp", "mib")
     seconds = middle("startup", "seconds")

@@ -190,7 +190,7 @@ class Headlines(unittest.TestCase):
                      "frame_ms_plain_grid_1080p_1spp", "frame_ms_plain_grid_1080p_16spp",
                      "process_ms_grid_1080p_1spp", "process_ms_grid_1080p_16spp",
                      "process_ms_grid_shadows_1080p_1spp", "process_s_million_1spp",
-                     "process_mib_million_1spp", "startup_ms", "stable_over_textbook_time",
+                     "process_s_million_16spp", "process_mib_million_1spp", "startup_ms", "stable_over_textbook_time",
                      "skips_on_over_off"):
             self.assertIn(name, {*values, *missing})
 
