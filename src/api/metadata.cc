@@ -27,16 +27,6 @@ std::string FilterName(const PixelFilter& filter) {
   return {};
 }
 
-// "sky: harmonics, error 0.021 rms, 0.094 at worst"
-std::string FastLightText(const RenderPlan& plan) {
-  std::string text;
-  for (const FastLight& light : plan.fast_lights) {
-    text += fmt::format("{}{}: {}, error {:.2g} rms, {:.2g} at worst", text.empty() ? "" : "; ",
-                        light.light, light.method, light.rms, light.worst);
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string ShadowingForms(const Scene& scene) {
@@ -76,7 +66,6 @@ ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible, const std::st
     attributes["nacre:maxSamples"] = plan.adaptive.max_samples;
   }
   if (!tile.empty()) attributes[kTileAttribute] = tile;
-  if (!plan.fast_lights.empty()) attributes["nacre:fastLights"] = FastLightText(plan);
   if (!reproducible) attributes[kRenderTimeAttribute] = 0.0f;
   return header;
 }

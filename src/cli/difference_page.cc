@@ -30,7 +30,6 @@ RenderSettings MakeSettings(const RenderOptions& options) {
   settings.threads = options.threads;
   settings.tile_size = options.tile_size;
   settings.max_error = options.max_error;
-  settings.fast_lights = options.fast;
   if (options.spp) settings.max_samples = *options.spp;
   if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
   if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;

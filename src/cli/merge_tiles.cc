@@ -37,7 +37,6 @@ constexpr KnownAttribute kKnown[] = {
     {"nacre:settings", "render all tiles with the same options"},
     {"nacre:maxError", "render all tiles with the same --max-error"},
     {"nacre:maxSamples", "render all tiles with the same --spp"},
-    {"nacre:fastLights", "render all tiles with --fast, or none"},
     {kSceneHash, "the scene changed in between: render the older tiles again"},
     {kRenderTimeAttribute, "render all tiles with --reproducible, or none"},
 };

@@ -89,13 +89,6 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
           "nacre merge puts the bands' EXR files together")
       ->type_name("i/N")
       ->group(picture);
-  command
-      ->add_flag("--fast", o->fast,
-                 "Put approximations in the place of samples of lights where all of them is seen: "
-                 "of an environment's image its spherical harmonics, for lobes the split sum, and "
-                 "of rectangles and meshes linearly transformed cosines; --explain tells how far "
-                 "off they are")
-      ->group(picture);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command
       ->add_option("--set", o->sets,
@@ -300,7 +293,6 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
   settings.tile_size = options.tile_size;
   settings.time_stages = options.explain || !options.stats.empty();
   settings.max_error = options.max_error;
-  settings.fast_lights = options.fast;
   if (options.spp) settings.max_samples = *options.spp;
   if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
   if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;

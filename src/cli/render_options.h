@@ -46,7 +46,6 @@ struct RenderOptions {
   bool reproducible = false;
   bool quiet = false;
   std::string progress = "auto";
-  bool fast = false;
   std::string intersector = "auto";
   int tile_size = 0;  // 0: chosen by the plan
   std::vector<IdleOption> idle_options;

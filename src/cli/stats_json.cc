@@ -31,14 +31,6 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
   for (const PlanItem& item : plan.substitutions) {
     substitutions.push_back({{"what", item.what}, {"reason", item.reason}});
   }
-  Json fast_lights = Json::array();
-  for (const FastLight& light : plan.fast_lights) {
-    fast_lights.push_back({{"light", light.light},
-                           {"method", light.method},
-                           {"points", light.points},
-                           {"rms_error", light.rms},
-                           {"worst_error", light.worst}});
-  }
   const Json json = {
       {"nacre", {{"version", std::string(kVersion)}, {"commit", std::string(kCommit)}}},
       {"target", TargetName(ActiveTarget())},
@@ -76,7 +68,6 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
         {"shades", rate(stats.shades)}}},
       {"plan", items},
       {"substitutions", substitutions},
-      {"fast_lights", fast_lights},
       {"samples_not_as_computed",
        {{"clamped", counts.exr.clamped},
         {"infinite", counts.exr.infinite},

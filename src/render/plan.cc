@@ -9,7 +9,6 @@
 
 #include "base/parallel.h"
 #include "base/target.h"
-#include "render/fast_lights.h"
 #include "render/film_plan.h"
 #include "render/frame_window.h"
 #include "render/hit_places.h"
@@ -225,7 +224,6 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   PlanPlaces(scene, settings, &plan);
   PlanTextures(scene, settings, &plan);
   PlanLightOffsets(scene, settings, &plan);
-  PlanFastLobes(scene, settings, &plan);
   plan.black = {static_cast<uint32_t>(plan.materials.size())};
   plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
   if (settings.max_error > 0) {

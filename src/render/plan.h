@@ -65,15 +65,6 @@ bool NeverShadowed(const Planned& planned, uint32_t primitive) {
          (primitive < planned.shadowed.size() && planned.shadowed[primitive] == 0);
 }
 
-// How far what a light's fast mode puts in the place of samples is from the truth, at `points`
-// points, as parts of the mean over these.
-struct FastLight {
-  std::string light;
-  std::string method;  // "harmonics", "split sum" or "linearly transformed cosines"
-  size_t points = 0;
-  double rms = 0, worst = 0;
-};
-
 struct RenderPlan {
   const Scene* scene = nullptr;
   std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` where lights are visible
@@ -117,8 +108,7 @@ struct RenderPlan {
   int samples_per_round = 1;       // samples of a tile's pixels that make one batch
   std::vector<PlanItem> items;
   std::vector<PlanItem> substitutions;  // choices that agree within a stated error, not to the bit
-  std::vector<FastLight> fast_lights;
-  std::vector<std::string> notes;  // what the picture cannot show, and why
+  std::vector<std::string> notes;       // what the picture cannot show, and why
 };
 
 // Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a

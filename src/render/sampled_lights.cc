@@ -6,7 +6,6 @@
 #include "render/sampled_kernel.h"
 #include "render/sampled_shadows.h"
 #include "render/tile_layers.h"
-#include "shading/fast_area.h"
 #include "shading/lobe_sample.h"
 
 namespace nacre {
@@ -98,9 +97,6 @@ void WeighSpecular(const Lit& lit, const Ways& ways) {
   if (ways.light) {
     for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
   }
-  for (size_t i = 0; i < lit.count(); ++i) {
-    if (lit.c.fast[i] != 0) lit.c.density[i] = 0;
-  }
   WeighByDensity(lit);
 }
 
@@ -121,32 +117,20 @@ void AddDirections(const Lit& lit, const Ways& ways, const Parts& parts) {
   lit.clock->Charge(Stage::kShade);
 }
 
-// Marks the hits of a run that always see all of the light, if `marks`, and no others. Returns how
-// many.
-size_t MarkUnshadowed(const Lit& lit, const MaterialRun& run, bool marks,
-                      AlignedArray<uint8_t>* marked) {
-  uint8_t* const to = marked->data();
-  if (!marks || (lit.planned.shadow_rays && lit.planned.shadowed.empty())) {
-    std::fill(to + run.begin, to + run.end, uint8_t{0});
-    return 0;
-  }
-  size_t count = 0;
-  for (size_t i = run.begin; i < run.end; ++i) {
-    to[i] = NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
-    count += to[i];
-  }
-  return count;
-}
-
 // Which hits reflect the light in closed form: those that see all of it, and whose diffuse
 // reflection does not ask where it comes from. Returns how many do.
 size_t FindFlat(const Lit& lit) {
-  size_t flat = 0;
+  const bool some_see_all = !lit.planned.shadow_rays || !lit.planned.shadowed.empty();
+  size_t count = 0;
   for (const MaterialRun& run : lit.s.runs) {
-    const bool may_be = lit.planned.closed_form && DiffuseIsFlat(lit.MaterialOf(run));
-    flat += MarkUnshadowed(lit, run, may_be, &lit.c.flat);
+    const bool may_be =
+        lit.planned.closed_form && some_see_all && DiffuseIsFlat(lit.MaterialOf(run));
+    for (size_t i = run.begin; i < run.end; ++i) {
+      lit.c.flat[i] = may_be && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
+      count += lit.c.flat[i];
+    }
   }
-  return flat;
+  return count;
 }
 
 // The diffuse part of those: as if all light came along the normal.
@@ -166,49 +150,6 @@ void AddClosedForm(const Lit& lit) {
   ShadeUnit(lit);
   AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   lit.clock->Charge(Stage::kLight);
-}
-
-bool HasAnyFastLobe(const SampledLight& light, const ShadingMaterial& material) {
-  return HasFastLobe(light, material) || HasTransformedLobe(light, material);
-}
-
-// How many hits' lobes are in the light's fast mode, and how many are left to be sampled.
-struct LobeCounts {
-  size_t fast = 0, sampled = 0;
-};
-
-LobeCounts FindFast(const Lit& lit) {
-  LobeCounts counts;
-  for (const MaterialRun& run : lit.s.runs) {
-    const ShadingMaterial& material = lit.MaterialOf(run);
-    const bool may_be = lit.planned.closed_form && HasAnyFastLobe(lit.planned.light, material);
-    const size_t fast = MarkUnshadowed(lit, run, may_be, &lit.c.fast);
-    counts.fast += fast;
-    counts.sampled += HasSampledLobe(material) ? run.end - run.begin - fast : 0;
-  }
-  return counts;
-}
-
-// What the lobe sees, a mean or a share of it, times what it reflects in all.
-void AddFastLobes(const Lit& lit) {
-  const SampledLight& light = lit.planned.light;
-  Soa3<float>& mirrored = lit.c.directions.to_light;
-  MirrorDirections({lit.s.hits, lit.s.surface, 0, lit.count()}, &mirrored);
-  ClearRadiance(lit.count(), &lit.c.unit);
-  for (const MaterialRun& run : lit.s.runs) {
-    const ShadingMaterial& material = lit.MaterialOf(run);
-    if (!HasAnyFastLobe(light, material)) continue;
-    if (light.transformed_cosines) {
-      TransformedReflectance(light, material, lit.RangeOf(run), &lit.c.shares,
-                             &lit.c.unit.specular);
-      continue;
-    }
-    FastReflectance(material, lit.RangeOf(run), &lit.c.unit.specular);
-    FastRadiance(light, material, run.begin, run.end, mirrored, &lit.c.directions.radiance);
-  }
-  for (size_t i = 0; i < lit.count(); ++i) lit.c.weight[i] = lit.c.fast[i];
-  AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
-  lit.clock->Charge(Stage::kShade);
 }
 
 void ChoosePoints(const Lit& lit, size_t pair) {
@@ -267,16 +208,14 @@ void AddByMirror(const Lit& lit) {
 }
 
 void ShadeByOne(const Lit& lit) {
-  bool mirrors = false;
+  bool mirrors = false, lobes = false;
   for (const MaterialRun& run : lit.s.runs) {
     mirrors = mirrors || HasDeltaLobe(lit.MaterialOf(run));
+    lobes = lobes || HasSampledLobe(lit.MaterialOf(run));
   }
   const size_t flat = FindFlat(lit);
-  const LobeCounts counts = FindFast(lit);
   const bool sampled_diffuse = flat < lit.count();
-  const bool lobes = counts.sampled > 0;
   if (flat > 0) AddClosedForm(lit);
-  if (counts.fast > 0) AddFastLobes(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
     AddByLight(lit, {sampled_diffuse, lobes});
   }

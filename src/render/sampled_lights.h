@@ -5,7 +5,6 @@
 #include "render/plan.h"
 #include "render/stage_clock.h"
 #include "sampling/pair_sampler.h"
-#include "shading/fast_area.h"
 #include "shading/sampled_light.h"
 
 namespace nacre {
@@ -19,9 +18,7 @@ struct SampledScratch {
   LightDirections directions;
   AlignedArray<float> density{kBatchCapacity}, weight{kBatchCapacity};
   AlignedArray<uint8_t> flat{kBatchCapacity};  // 1: a hit's diffuse part is in closed form
-  AlignedArray<uint8_t> fast{kBatchCapacity};  // 1: its lobe is in the light's fast mode
   ReflectedRadiance unit;                      // of a light of colour 1
-  LobeShares shares;                           // of lights in their fast mode
   RayBatch sky_rays;                           // through the samples, where a sky is seen
   Soa3<float> sky;                             // what they see of it
 };

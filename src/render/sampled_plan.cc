@@ -7,8 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "render/fast_lights.h"
-
 namespace nacre {
 namespace {
 
@@ -118,13 +116,11 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings, Rende
     planned.layer = LightLayer(plan->layers, i);
     if (plan->with_lights) planned.primitives = plan->with_lights->primitives[i];
     planned.first_pair = kPairs * plan->sampled_lights.size();
-    const std::string method = PlanFastLight(light, settings, &planned.light, plan);
     planned.closed_form = HasIrradiance(planned.light) && settings.closed_forms;
     plan->substitutions.push_back(
         {fmt::format("light \"{}\"", light.name), true,
-         planned.closed_form ? fmt::format("diffuse reflection {} where all of the light is seen; "
-                                           "the rest sampled",
-                                           method)
+         planned.closed_form ? "diffuse reflection in closed form where all of the light is seen; "
+                               "the rest sampled"
                              : "sampled"});
     plan->sampled_lights.push_back(std::move(planned));
   }

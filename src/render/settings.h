@@ -39,9 +39,6 @@ struct RenderSettings {
   // Find where far lights lie from the normals of hits on spheres (ShadingLight::from_spheres);
   // false: always from their positions. Likewise.
   bool offsets_by_normal = true;
-  // Put approximations in the place of samples of the lights that have a fast mode; how far off
-  // they are is measured while planning.
-  bool fast_lights = false;
   // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
   // hold skips and the general path together.
   bool general_path = false;

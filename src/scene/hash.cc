@@ -279,7 +279,6 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(light.kind.index());
     hash.Add(std::string_view(light.name));
     hash.Word(light.shadows);
-    hash.Word(light.fast);
     std::visit(AddLightKind{&hash}, light.kind);
   }
   hash.Word(scene.spheres.size());

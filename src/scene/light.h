@@ -142,7 +142,6 @@ struct EnvironmentLight {
 struct Light {
   std::string name;  // unique; names the layer light.<name>
   bool shadows = true;
-  bool fast = false;  // approximations, whose error is told, in the place of samples
   std::variant<AmbientLight, DirectionalLight, PointLight, SpotLight, SphereAreaLight,
                RectangleAreaLight, DiskAreaLight, EnvironmentLight, MeshAreaLight>
       kind;

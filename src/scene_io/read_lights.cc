@@ -7,6 +7,21 @@
 namespace nacre {
 namespace {
 
+// Lights with an extent are always sampled. Files of version 0.1 may say so, and might have asked
+// for approximations in place of samples, which were dropped: they were no faster than samples at
+// the same error.
+void ReadMode(JsonObject* object) {
+  std::string mode;
+  if (!object->Text("mode", &mode) || mode == "sampled") return;
+  const JsonValue value{*object->Find("mode"), object->path().Member("mode"), object->faults()};
+  if (mode == "fast") {
+    value.AddFault("the fast mode is gone",
+                   "leave \"mode\" out: samples reach the fast mode's error sooner");
+  } else {
+    FaultUnknownName(value, "mode", mode, {"sampled"});
+  }
+}
+
 enum class LightType {
   kAmbient,
   kDirectional,
@@ -131,9 +146,7 @@ void ReadLight(const JsonValue& value, const SceneContext& context, Light* light
   if (kind != LightType::kAmbient) object.Boolean("shadows", &light->shadows);
   if (kind == LightType::kSphere || kind == LightType::kRectangle || kind == LightType::kDisk ||
       kind == LightType::kMesh || kind == LightType::kEnvironment) {
-    constexpr std::array<std::string_view, 2> kModes = {"sampled", "fast"};
-    size_t mode = 0;
-    if (object.Choice("mode", kModes, &mode)) light->fast = mode == 1;
+    ReadMode(&object);
   }
   object.RefuseOthers();
 }

@@ -32,14 +32,11 @@ enum class SampledForm : uint8_t {
   kPictureSky,
 };
 
-struct FastSky;  // fast_sky.h
-
 // What a sky shows: of its form, one of these.
 struct ShadingSky {
   std::array<GradientSkyTerms<float>, 3> gradient{};  // red, green, blue
   QuadraticSkyTerms<float> quadratic{};
   std::shared_ptr<const EnvironmentMap> picture;
-  std::shared_ptr<const FastSky> fast;        // of a picture in its fast mode; else null
   double cos_rotation = 1, sin_rotation = 0;  // of the picture, about +y
 };
 
@@ -53,7 +50,6 @@ struct SampledLight {
   Vec3d normal{0, 0, 0};  // of rectangles and disks: unit, to the side that emits
   double radius = 0;
   bool two_sided = false;
-  bool transformed_cosines = false;       // the fast mode of area lights (fast_area.h)
   std::shared_ptr<const MeshLight> mesh;  // relative to `place`
   ShadingSky sky;
 };
@@ -72,13 +68,13 @@ inline bool HasSampler(const SampledLight& light) {
 // Whether its radiance depends on the direction.
 inline bool IsColored(const SampledLight& light) { return light.form > SampledForm::kConstantSky; }
 
-// Whether LightIrradiance is for it: not for pictures but in their fast mode, nor for meshes that
-// hide parts of themselves or are of many triangles.
+// Whether LightIrradiance is for it: not for pictures, nor for meshes that hide parts of themselves
+// or are of many triangles.
 inline bool HasIrradiance(const SampledLight& light) {
   if (light.form == SampledForm::kMesh) {
     return light.two_sided ? light.mesh->is_flat : light.mesh->is_convex;
   }
-  return light.form != SampledForm::kPictureSky || light.sky.fast != nullptr;
+  return light.form != SampledForm::kPictureSky;
 }
 
 struct MeshLightScratch;
@@ -99,9 +95,8 @@ void SampleLight(const SampledLight& light, const HitBatch& hits, const UnitPoin
 // Fills in all but to_light, which is given.
 void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
 
-// The light's irradiance per unit of its colour on each hit that sees all of it: exact, but of
-// pictures, whose is that of their harmonics. Of coloured lights `irradiance` gives three values,
-// of others one, in x.
+// The light's irradiance per unit of its colour on each hit that sees all of it, exactly. Of
+// coloured lights `irradiance` gives three values, of others one, in x.
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      Soa3<float>* irradiance);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/seen-inl.h: lights as the hits of a batch see them: what the kernels of area lights and
-// their fast mode share.
+// shading/seen-inl.h: area lights as the hits of a batch see them: what the kernels of area and of
+// mesh lights share.
 #if defined(NACRE_SHADING_SEEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_SEEN_INL_H_
 #undef NACRE_SHADING_SEEN_INL_H_

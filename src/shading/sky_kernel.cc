@@ -7,10 +7,8 @@
 #include "hwy/highway.h"
 
 #include "light/environment-inl.h"
-#include "light/harmonics-inl.h"
 #include "light/sky-inl.h"
 #include "shading/area_kernels.h"
-#include "shading/fast_sky.h"
 #include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -112,14 +110,6 @@ void QuadraticIrradianceT(const ShadingSky& sky, const Surface& surface, size_t 
   });
 }
 
-void HarmonicsIrradianceT(const ShadingSky& sky, const Surface& surface, size_t count,
-                          Soa3<float>* irradiance) {
-  const IrradianceHarmonics<float>& harmonics = sky.fast->harmonics;
-  ForEach(surface.normal, count, irradiance, [&](const Vec3V<V>& n) HWY_ATTR {
-    return Irradiance(D(), harmonics, Turn(n, sky.cos_rotation, -sky.sin_rotation));
-  });
-}
-
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -134,7 +124,6 @@ HWY_EXPORT(EvaluatePictureT);
 HWY_EXPORT(SamplePictureT);
 HWY_EXPORT(GradientIrradianceT);
 HWY_EXPORT(QuadraticIrradianceT);
-HWY_EXPORT(HarmonicsIrradianceT);
 
 void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<float>* unit) {
   HWY_DYNAMIC_DISPATCH(NormalizeDirectionsT)(directions, count, unit);
@@ -160,9 +149,6 @@ void SkyIrradiance(const SampledLight& light, const Surface& surface, size_t cou
                    Soa3<float>* irradiance) {
   if (light.form == SampledForm::kGradientSky) {
     return HWY_DYNAMIC_DISPATCH(GradientIrradianceT)(light.sky, surface, count, irradiance);
-  }
-  if (light.form == SampledForm::kPictureSky) {
-    return HWY_DYNAMIC_DISPATCH(HarmonicsIrradianceT)(light.sky, surface, count, irradiance);
   }
   HWY_DYNAMIC_DISPATCH(QuadraticIrradianceT)(light.sky, surface, count, irradiance);
 }

@@ -184,26 +184,6 @@ class CliTest(unittest.TestCase):
         self.assertIn('did not settle within 8 samples',
                       self.render(*options, '--spp', '8', scene=grid).stderr)
 
-    def test_fast_lights_tell_how_far_off_they_are(self):
-        sky = str(SOURCE / 'scenes/fast_sky.json')
-        options = ['-o', self.out / 'a.exr', '--stats', self.out / 's.json', '--explain', *SMALL]
-        told = self.render(*options, '--fast', scene=sky).stdout
-        self.assertIn('from spherical harmonics to order 2, off by', told)
-        harmonics, lobes = json.loads((self.out / 's.json').read_text())['fast_lights']
-        self.assertEqual((harmonics['light'], harmonics['method'], harmonics['points']),
-                         ('sky', 'harmonics', 256))
-        self.assertTrue(0 < harmonics['rms_error'] < harmonics['worst_error'] < 0.5)
-        self.assertEqual((lobes['light'], lobes['method']), ('sky', 'split sum'))
-        self.assertTrue(0 < lobes['rms_error'] < lobes['worst_error'])
-        self.assertIn('nacre:fastLights', run('info', self.out / 'a.exr').stdout)
-        told = self.render(*options, '--set', '/lights/sky/mode="fast"', scene=sky).stdout
-        self.assertIn('by split sum', told)
-        told = self.render(*options, '--fast', scene=str(SOURCE / 'scenes/fast_area.json')).stdout
-        self.assertIn('by linearly transformed cosines', told)
-        told = self.render(*options, scene=sky).stdout
-        self.assertNotIn('harmonics', told)
-        self.assertNotIn('nacre:fastLights', run('info', self.out / 'a.exr').stdout)
-
     def test_region_writes_a_data_window_in_the_display_window(self):
         self.render('-o', self.out / 'a.exr', '--region', '5,6,25,30', *SMALL)
         text = run('info', self.out / 'a.exr').stdout

@@ -52,7 +52,7 @@ class OptionsTest(unittest.TestCase):
             with self.subTest(option=option):
                 self.check_refused(option, 'pair', '--layout', 'difference', *page, *option)
                 self.check_refused(option, 'convert', 'phong', *page, *option)
-        taken = ['--seed', '2', '--small', '--fast', '--reproducible', '--threads', '1',
+        taken = ['--seed', '2', '--small', '--reproducible', '--threads', '1',
                  '--tonemap', 'agx', '--light', 'studio', '--no-labels', '--set', '/image/spp=2']
         self.check_works('pair', '--layout', 'difference', *page, *taken)
         self.check_works('convert', 'phong', *page, *taken)

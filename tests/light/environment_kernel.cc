@@ -9,7 +9,6 @@
 #include "base/target_ops-inl.h"
 #include "light/environment-inl.h"
 #include "light/environment_kernel.h"
-#include "light/harmonics-inl.h"
 #include "light/sky-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -97,18 +96,6 @@ void EvaluateQuadraticT(const QuadraticSkyTerms<float>& sky, const std::vector<V
   Evaluate(sky, directions, out);
 }
 
-void EvaluateIrradianceT(const IrradianceHarmonics<float>& harmonics,
-                         const std::vector<Vec3f>& normals, std::vector<Vec3f>* out) {
-  const D d;
-  for (size_t first = 0; first < normals.size(); first += hn::Lanes(d)) {
-    alignas(64) float lanes[3][kMaxLanes];
-    Store3(Irradiance(d, harmonics, Load(normals, first)), d, lanes[0], lanes[1], lanes[2]);
-    ForLanes(first, out->size(), [&](size_t index, size_t i) {
-      (*out)[index] = Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]);
-    });
-  }
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
 HWY_AFTER_NAMESPACE();
@@ -119,7 +106,6 @@ HWY_EXPORT(LookUpTexelsT);
 HWY_EXPORT(SampleEnvironmentsT);
 HWY_EXPORT(EvaluateGradientT);
 HWY_EXPORT(EvaluateQuadraticT);
-HWY_EXPORT(EvaluateIrradianceT);
 
 std::vector<EnvironmentTexel> LookUpTexels(const EnvironmentMap& map,
                                            const std::vector<Vec3f>& directions) {
@@ -144,12 +130,6 @@ std::vector<Vec3f> EvaluateSky(const QuadraticSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions) {
   std::vector<Vec3f> out(directions.size());
   HWY_DYNAMIC_DISPATCH(EvaluateQuadraticT)(sky, directions, &out);
-  return out;
-}
-std::vector<Vec3f> EvaluateIrradiance(const IrradianceHarmonics<float>& harmonics,
-                                      const std::vector<Vec3f>& normals) {
-  std::vector<Vec3f> out(normals.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateIrradianceT)(harmonics, normals, &out);
   return out;
 }
 }  // namespace nacre

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "light/environment.h"
-#include "light/harmonics.h"
 #include "light/sky.h"
 
 namespace nacre {
@@ -23,7 +22,5 @@ std::vector<Vec3f> EvaluateSky(const GradientSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions);
 std::vector<Vec3f> EvaluateSky(const QuadraticSkyTerms<float>& sky,
                                const std::vector<Vec3f>& directions);
-std::vector<Vec3f> EvaluateIrradiance(const IrradianceHarmonics<float>& harmonics,
-                                      const std::vector<Vec3f>& normals);
 
 }  // namespace nacre

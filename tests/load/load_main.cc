@@ -40,7 +40,7 @@ struct Job {
 constexpr Job kJobs[] = {
     {"first_scene.json", "tiles", 1, 1, 0},      {"first_scene.json", "embree", 2, 2, 0},
     {"mesh_and_spheres.json", "auto", 2, 1, 0},  {"area_lights.json", "auto", 1, 4, 0},
-    {"fast_sky.json", "auto", 2, 2, 0},          {"textures.json", "auto", 1, 1, 0},
+    {"evening_sky.json", "auto", 2, 2, 0},       {"textures.json", "auto", 1, 1, 0},
     {"interpolations.json", "embree", 2, 1, 0},  {"phong_vs_pbr.json", "auto", 1, 2, 0},
     {"material_grid.json", "embree", 1, 1, 0.1},
 };

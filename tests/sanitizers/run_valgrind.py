@@ -21,7 +21,7 @@ RENDERS = [
     ('first_scene', ['--target', 'scalar', '--intersector', 'embree']),
     ('mesh_and_spheres', ['--target', 'sse4', '--layers', 'all']),
     ('area_lights', ['--target', 'sse4', '--max-error', '0.1']),
-    ('fast_sky', ['--target', 'sse4']),
+    ('evening_sky', ['--target', 'sse4']),
     ('textures', ['--target', 'sse4', '--intersector', 'embree']),
 ]
 

@@ -69,7 +69,6 @@ TEST_CASE("what else shows changes the hash") {
   CHECK(differs([](Scene* s) { s->image.shadows = false; }));
   CHECK(differs([](Scene* s) { s->background.z = 1; }));
   CHECK(differs([](Scene* s) { s->lights[0].shadows = false; }));
-  CHECK(differs([](Scene* s) { s->lights[0].fast = true; }));
   CHECK(differs([](Scene* s) { s->materials[0].vertex_colors = VertexColors::kBase; }));
   CHECK(differs([](Scene* s) { s->lights[0].kind = SpotLight{}; }));
   CHECK(differs([](Scene* s) { std::swap(s->spheres[0], s->spheres[1]); }));

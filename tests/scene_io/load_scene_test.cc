@@ -226,10 +226,10 @@ TEST_CASE("lights that are meshes") {
 TEST_CASE("lights with an extent and skies") {
   const Scene scene = Load(R"(, "lights": {
       "window": {"type": "rectangle", "center": [1, 2, 3], "facing": [0, -2, 0], "width": 2,
-                 "height": 0.5, "radiance": [3, 2, 1], "two_sided": true, "mode": "fast"},
+                 "height": 0.5, "radiance": [3, 2, 1], "two_sided": true, "mode": "sampled"},
       "panel": {"type": "disk", "center": [0, 1, 0], "facing": [0, 0, 1], "radius": 0.25,
-                "radiance": 2, "visible": false, "shadows": false, "mode": "fast"},
-      "bulb": {"type": "sphere", "center": [0, 4, 0], "radius": 0.1, "radiance": 9, "mode": "fast"},
+                "radiance": 2, "visible": false, "shadows": false},
+      "bulb": {"type": "sphere", "center": [0, 4, 0], "radius": 0.1, "radiance": 9},
       "sky": {"type": "environment", "rotate_deg": 45, "background": false, "mode": "sampled",
               "quadratic": {"radiance": [1, 2, 3], "axis": [1, 0, 0], "constant": 1, "linear": -1,
                             "quadratic": 0.5}}})");
@@ -247,8 +247,6 @@ TEST_CASE("lights with an extent and skies") {
   CHECK(std::get<QuadraticSky>(sky.sky).linear == -1);
   const auto& window = std::get<RectangleAreaLight>(scene.lights[0].kind);
   CHECK(window.two_sided);
-  for (const size_t i : {0u, 1u, 2u}) CHECK(scene.lights[i].fast);
-  CHECK(!scene.lights[3].fast);
   CHECK(window.up == Vec3d(0, 0, -1));  // a light that faces down has no other
   CHECK(window.radiance == Rgb(3, 2, 1));
 }
