@@ -16,4 +16,6 @@ using Vec3f = Imath::V3f;
 // products of material and light are rounded to float once, in the kernels' uniforms.
 using Rgb = Imath::Color3<double>;
 
+inline bool IsBlack(const Rgb& color) { return color.x == 0 && color.y == 0 && color.z == 0; }
+
 }  // namespace nacre

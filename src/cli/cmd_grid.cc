@@ -2,6 +2,10 @@
 // cli/cmd_grid.cc: nacre grid: a sheet of spheres over two axes of materials, without a file.
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,6 +14,7 @@
 #include "cli/commands.h"
 #include "cli/render_job.h"
 #include "cli/sheet.h"
+#include "scene/material_parameters.h"
 #include "scene_io/sheet_axis.h"
 
 namespace nacre {
@@ -18,8 +23,7 @@ namespace {
 using Kind = SheetAxis::Kind;
 
 struct GridArguments {
-  std::string rows = "roughness=0.1:0.9:5";
-  std::string columns = "metallic=0:1:5";
+  std::string rows, columns;  // empty: the model's own
   std::string material = R"({"model": "metallic_roughness", "base_color": [0.9, 0.6, 0.2]})";
   SheetOptions sheet;
   RenderOptions options;
@@ -31,11 +35,33 @@ struct Axes {
   std::string material_label;
 };
 
+// Axes that are not given are those of the model (MaterialModel::rows, columns): of the first one
+// where the other axis is of whole models. One that the other axis varies already gives way to the
+// model's second.
+void CompleteAxes(const GridArguments& arguments, Axes* axes) {
+  if (!arguments.rows.empty()) axes->rows = ParseSheetAxis("--rows", arguments.rows);
+  if (!arguments.columns.empty()) axes->columns = ParseSheetAxis("--columns", arguments.columns);
+  const Json* base = &axes->material;
+  for (const SheetAxis* axis : {&axes->rows, &axes->columns}) {
+    if (axis->kind == Kind::kMaterial && !axis->values.empty()) base = &axis->values.front();
+  }
+  const auto name = base->find("model");
+  const MaterialModel* model =
+      name != base->end() && name->is_string() ? FindModel(name->get<std::string>()) : nullptr;
+  // The check of the axes says what is wrong with a model that there is not.
+  if (model == nullptr) model = FindModel("metallic_roughness");
+  const auto own = [&](std::string_view first, std::string_view second, const SheetAxis& other) {
+    const SheetAxis axis = ParseSheetAxis("--material", std::string(first));
+    return axis.name == other.name ? ParseSheetAxis("--material", std::string(second)) : axis;
+  };
+  if (arguments.rows.empty()) axes->rows = own(model->rows, model->columns, axes->columns);
+  if (arguments.columns.empty()) axes->columns = own(model->columns, model->rows, axes->rows);
+}
+
 Axes ParseAxes(const GridArguments& arguments) {
   Axes axes;
-  axes.rows = ParseSheetAxis("--rows", arguments.rows);
-  axes.columns = ParseSheetAxis("--columns", arguments.columns);
   axes.material = ParseMaterialText("--material", arguments.material);
+  CompleteAxes(arguments, &axes);
   axes.material_label = MaterialLabel(axes.material);
   axes.material.erase("name");
   if (axes.rows.name == axes.columns.name) {
@@ -143,6 +169,25 @@ void RunGrid(const GridArguments& arguments) {
       page.text);
 }
 
+// "roughness=0.1:0.9:5 (metallic_roughness, conductor); ...": the axes that models have.
+std::string ModelAxes(std::string_view MaterialModel::*axis) {
+  std::vector<std::pair<std::string_view, std::string>> axes;
+  for (const MaterialModel& model : MaterialModels()) {
+    const auto found = std::find_if(axes.begin(), axes.end(),
+                                    [&](const auto& known) { return known.first == model.*axis; });
+    if (found == axes.end()) {
+      axes.emplace_back(model.*axis, model.name);
+    } else {
+      found->second += fmt::format(", {}", model.name);
+    }
+  }
+  std::string text;
+  for (const auto& [name, models] : axes) {
+    text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", name, models);
+  }
+  return text;
+}
+
 constexpr char kAxisHelp[] =
     "What varies {}: PARAMETER=FROM:TO:COUNT (both ends included; :log for equal ratios) or "
     "PARAMETER=A,B,C. A parameter is a number, a colour (#rrggbb or [r,g,b], mixed in linear "
@@ -155,12 +200,16 @@ void AddGridCommand(CLI::App* app, int*) {
   CLI::App* command =
       app->add_subcommand("grid", "Render a sheet of spheres over two parameters of a material");
   const auto arguments = std::make_shared<GridArguments>();
-  command->add_option("--rows", arguments->rows, fmt::format(kAxisHelp, "downwards"))
-      ->type_name("AXIS")
-      ->capture_default_str();
-  command->add_option("--columns", arguments->columns, fmt::format(kAxisHelp, "to the right"))
-      ->type_name("AXIS")
-      ->capture_default_str();
+  command
+      ->add_option("--rows", arguments->rows,
+                   fmt::format(kAxisHelp, "downwards") +
+                       ". Unless given, what the model has: " + ModelAxes(&MaterialModel::rows))
+      ->type_name("AXIS");
+  command
+      ->add_option("--columns", arguments->columns,
+                   fmt::format(kAxisHelp, "to the right") +
+                       ". Unless given, what the model has: " + ModelAxes(&MaterialModel::columns))
+      ->type_name("AXIS");
   command
       ->add_option("--material", arguments->material,
                    "What the axes do not vary: a model's name, or a material as JSON")
@@ -171,7 +220,9 @@ void AddGridCommand(CLI::App* app, int*) {
       "needs.\n"
       "Examples:\n"
       "  nacre grid -o grid.png\n"
-      "  nacre grid --material phong --rows shininess=4:256:4:log --columns ks=0:1:6 -o phong.png\n"
+      "  nacre grid --material phong -o phong.png\n"
+      "  nacre grid --material blinn_phong --rows shininess=8,32,128 --columns kd=0:0.8:5 "
+      "-o kd.png\n"
       "  nacre grid --material conductor --rows preset=gold,copper,silver \\\n"
       "    --columns roughness=0,0.1,0.3,0.6 --light studio --background '#ffffff' -o metals.png\n"
       "  nacre grid --columns material=phong,blinn_phong,modified_phong \\\n"

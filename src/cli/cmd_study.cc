@@ -18,6 +18,7 @@
 #include "cli/text_output.h"
 #include "image_io/output_file.h"
 #include "image_io/png_writer.h"
+#include "report/plot.h"
 #include "study/study.h"
 
 namespace nacre {
@@ -45,11 +46,10 @@ void WritePicture(const std::string& path, const StudyPicture& picture) {
   png.Finish();
 }
 
-// Quantities hold commas: they are quoted.
 std::string NumbersCsv(const StudyResult& result) {
   std::string text = "quantity,value,unit\n";
   for (const StudyNumber& number : result.numbers) {
-    text += fmt::format("\"{}\",{},{}\n", number.quantity,
+    text += fmt::format("{},{},{}\n", CsvText(number.quantity),
                         std::isfinite(number.value) ? fmt::format("{}", number.value) : "",
                         number.unit);
   }

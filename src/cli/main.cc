@@ -4,7 +4,10 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -17,19 +20,33 @@
 #include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
+#include "cli/unknown_option.h"
 
 namespace {
 
 // CLI11 takes an unknown command for a missing one; this names it and the one likely meant.
-void CheckCommandName(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+void CheckCommandName(const CLI::App& app, const std::vector<std::string>& reversed) {
+  if (reversed.empty() || reversed.back().empty() || reversed.back()[0] == '-') return;
+  const std::string& word = reversed.back();
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  const std::string nearest = nacre::NearestName(argv[1], names);
-  throw nacre::Error(nacre::ExitCode::kUsage, "", fmt::format("unknown command \"{}\"", argv[1]),
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const std::string nearest = nacre::NearestName(word, names);
+  throw nacre::Error(nacre::ExitCode::kUsage, "", fmt::format("unknown command \"{}\"", word),
                      nearest.empty() ? fmt::format("the commands are {}", fmt::join(names, ", "))
                                      : fmt::format("did you mean \"{}\"?", nearest));
+}
+
+// "nacre help" is "nacre --help", "nacre help render" is "nacre render --help". CLI11 reads
+// arguments from the last to the first.
+std::vector<std::string> ReversedArguments(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (!words.empty() && words[0] == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  std::reverse(words.begin(), words.end());
+  return words;
 }
 
 int Run(int argc, char** argv) {
@@ -63,8 +80,9 @@ int Run(int argc, char** argv) {
   try {
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();
-    CheckCommandName(app, argc, argv);
-    app.parse(argc, argv);
+    std::vector<std::string> reversed = ReversedArguments(argc, argv);
+    CheckCommandName(app, reversed);
+    app.parse(reversed);
     nacre::FinishOutput();
     return exit_code;
   } catch (const CLI::ParseError& error) {
@@ -73,8 +91,12 @@ int Run(int argc, char** argv) {
       std::cout.flush();
       return static_cast<int>(std::cout ? ExitCode::kOk : ExitCode::kCannotWrite);
     }
-    nacre::PrintError(
-        fmt::format("error: {}\n  hint: see nacre --help, or nacre COMMAND --help", error.what()));
+    if (const std::optional<nacre::Error> unknown = nacre::UnknownArgument(app, error)) {
+      nacre::PrintError(std::string(unknown->what()) + "\n");
+      return static_cast<int>(unknown->code());
+    }
+    nacre::PrintError(fmt::format("error: {}\n  hint: see nacre --help, or nacre COMMAND --help\n",
+                                  error.what()));
     return static_cast<int>(ExitCode::kUsage);
   } catch (const nacre::Error& error) {
     nacre::PrintError(std::string(error.what()) + "\n");

@@ -5,6 +5,8 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -42,7 +44,10 @@ std::string FormatRate(double rate, const std::string& unit) {
 }  // namespace
 
 ProgressForm DefaultProgressForm() {
-  return isatty(STDERR_FILENO) != 0 ? ProgressForm::kBar : ProgressForm::kNone;
+  // A terminal that cannot move its cursor back would show every state of the bar on a line.
+  const char* const terminal = std::getenv("TERM");
+  const bool moves = terminal != nullptr && std::string_view(terminal) != "dumb";
+  return moves && isatty(STDERR_FILENO) != 0 ? ProgressForm::kBar : ProgressForm::kNone;
 }
 
 Progress::Progress(ProgressForm form, std::string what, double unit_count, std::string unit)

@@ -23,8 +23,6 @@
 namespace nacre {
 namespace {
 
-bool IsBlack(const Rgb& color) { return color.x == 0 && color.y == 0 && color.z == 0; }
-
 Rgb SumAmbient(const Scene& scene) {
   Rgb sum(0, 0, 0);
   for (const Light& light : scene.lights) {

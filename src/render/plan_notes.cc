@@ -73,6 +73,31 @@ void NoteGain(const Scene& scene, RenderPlan* plan) {
                   names, most));
 }
 
+bool Shines(const Light& light) {
+  return std::visit(Overloaded{[](const AmbientLight& l) { return !IsBlack(l.radiance); },
+                               [](const DirectionalLight& l) { return !IsBlack(l.irradiance); },
+                               [](const PointLight& l) { return !IsBlack(l.intensity); },
+                               [](const SpotLight& l) { return !IsBlack(l.intensity); },
+                               [](const EnvironmentLight&) { return true; },
+                               [](const auto& l) { return !IsBlack(l.radiance); }},
+                    light.kind);
+}
+
+// A scene that nothing lights is a slip, unless its materials shine themselves.
+void NoteDarkness(const Scene& scene, RenderPlan* plan) {
+  if (scene.spheres.empty() && scene.meshes.empty()) return;
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), Shines)) return;
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  bool emits = false;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    emits = emits || (used[i] && !IsBlack(scene.materials[i].emission));
+  }
+  plan->notes.push_back(
+      fmt::format("{}: {}; \"lights\" of the scene, or --environment IMAGE, light it",
+                  scene.lights.empty() ? "the scene has no lights" : "all lights are black",
+                  emits ? "only what its materials emit is seen" : "every shape is black"));
+}
+
 }  // namespace
 
 std::vector<bool> FindUsedMaterials(const Scene& scene) {
@@ -88,6 +113,7 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
 }
 
 void NoteMaterials(const Scene& scene, RenderPlan* plan) {
+  NoteDarkness(scene, plan);
   NoteMirrors(scene, plan);
   NoteGain(scene, plan);
 }

@@ -66,6 +66,37 @@ std::string DataBlock(const std::string& name, const Plot& plot, const Curve& cu
   return text + "EOD\n";
 }
 
+std::string CirclesName(size_t panel) { return fmt::format("$p{}g", panel); }
+
+// The circles of a polar plot, of equal steps. The outermost is the first one around all curves.
+struct Circles {
+  double step, end;
+};
+
+Circles CirclesOf(const Plot& plot) {
+  const Range radius = RangeOf(plot, Which::kY);
+  const double step = std::isfinite(plot.y.step) ? plot.y.step : NiceStep(radius.high / 6);
+  const double end =
+      std::isfinite(plot.y.high) ? plot.y.high : step * std::ceil(radius.high / step - 1e-9);
+  return {step, end};
+}
+
+// Half circles as curves: gnuplot leaves circles that reach out of the plot's rectangle, as the
+// lower halves of these would, out of SVG files.
+std::string CirclesBlock(const std::string& name, const Plot& plot) {
+  const auto [step, end] = CirclesOf(plot);
+  std::string text = name + " << EOD\n";
+  for (int i = 1; i * step <= end * (1 + 1e-9); ++i) {
+    for (int degrees = -90; degrees <= 90; degrees += 2) {
+      const double angle = degrees * M_PI / 180;
+      text += fmt::format("{} {}\n", Number(i * step * std::sin(angle)),
+                          Number(i * step * std::cos(angle)));
+    }
+    text += "\n";
+  }
+  return text + "EOD\n";
+}
+
 std::string FieldName(size_t panel) { return fmt::format("$p{}f", panel); }
 
 // Of a field, which has a logarithmic scale: what is not above its lower end is drawn as that.
@@ -187,12 +218,9 @@ std::string RuleText(const Plot& plot, const Rule& rule, PlotLayout* layout) {
                     Number((box.y0 + box.y1) / 2), kGrey);
 }
 
-// Circles and rays under the curves, in place of axes.
-std::string PolarText(const Plot& plot, const Range& radius) {
-  // The outermost circle is the first one around all curves.
-  const double step = std::isfinite(plot.y.step) ? plot.y.step : NiceStep(radius.high / 6);
-  const double end =
-      std::isfinite(plot.y.high) ? plot.y.high : step * std::ceil(radius.high / step - 1e-9);
+// Rays under the curves and the circles' values, in place of axes.
+std::string PolarText(const Plot& plot) {
+  const auto [step, end] = CirclesOf(plot);
   std::string text = fmt::format(
       "unset border\nunset tics\nunset grid\nunset logscale\nset size ratio -1\n"
       "set xrange [{0}:{1}]\nset yrange [{2}:{1}]\nset xlabel {3} noenhanced\nset ylabel ''\n",
@@ -208,8 +236,6 @@ std::string PolarText(const Plot& plot, const Range& radius) {
   }
   for (int i = 1; i * step <= end * (1 + 1e-9); ++i) {
     text += fmt::format(
-        "set object circle at 0,0 size first {0} arc [0:180] nowedge fs empty border lc "
-        "rgb '#cccccc' lw 1 back\n"
         "set label '{0}' at {0},0 center offset 0,-0.8 textcolor rgb '#222222' font ',16'\n",
         Number(i * step));
   }
@@ -218,9 +244,11 @@ std::string PolarText(const Plot& plot, const Range& radius) {
     const double y = end * std::cos(rule.at * M_PI / 180);
     text +=
         fmt::format("set arrow from {},{} to 0,0 lw 2 lc {} front\n", Number(x), Number(y), kGrey);
+    // Above the ray, inside the outermost circle: the angles stand outside.
+    const double above = std::copysign(0.04, -rule.at);
     text += fmt::format("set label {} at {},{} center noenhanced textcolor {} font ',16' front\n",
-                        GnuplotQuote(rule.label), Number(1.02 * x), Number(1.02 * y + 0.05 * end),
-                        kGrey);
+                        GnuplotQuote(rule.label), Number(0.88 * x + above * y),
+                        Number(0.88 * y - above * x), kGrey);
   }
   return text;
 }
@@ -232,7 +260,7 @@ std::string PanelText(const Figure& figure, size_t index, int width, int height)
   text += "set size noratio\n";
   text += fmt::format("set title {} noenhanced offset 0,-0.4\n", GnuplotQuote(plot.title));
   if (plot.polar) {
-    text += PolarText(plot, RangeOf(plot, Which::kY));
+    text += PolarText(plot);
   } else {
     text += AxisText('x', plot.x, RangeOf(plot, Which::kX));
     text += AxisText('y', plot.y, RangeOf(plot, Which::kY));
@@ -240,6 +268,9 @@ std::string PanelText(const Figure& figure, size_t index, int width, int height)
   }
   text += KeyText(plot, layout);
   std::string curves;
+  if (plot.polar) {
+    curves = CirclesName(index) + " using 1:2 with lines lc rgb '#cccccc' lw 1 notitle";
+  }
   if (plot.field) {
     text += FieldText(*plot.field);
     curves = FieldName(index) + " using 1:2:3 with image notitle";
@@ -278,6 +309,7 @@ std::string GnuplotScript(const Figure& figure, PictureFormat format) {
   for (size_t p = 0; p < figure.panels.size(); ++p) {
     const Plot& plot = figure.panels[p];
     if (plot.field) text += FieldBlock(FieldName(p), *plot.field);
+    if (plot.polar) text += CirclesBlock(CirclesName(p), plot);
     for (size_t c = 0; c < plot.curves.size(); ++c) {
       text += DataBlock(BlockName(p, c), plot, plot.curves[c]);
     }

@@ -22,17 +22,6 @@ struct Column {
   const std::vector<double>* values;
 };
 
-// RFC 4180: quoted where it must be.
-std::string CsvText(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 std::vector<Column> ColumnsOf(const Figure& figure) {
   std::vector<Column> columns;
   for (const Plot& plot : figure.panels) {
@@ -45,7 +34,9 @@ std::vector<Column> ColumnsOf(const Figure& figure) {
     }
     const std::vector<double>* x = nullptr;
     for (const Curve& curve : plot.curves) {
-      if (x == nullptr || *x != curve.x) columns.push_back({prefix + plot.x.label, &curve.x});
+      const std::string x_name =
+          plot.x.label.empty() && plot.polar ? "angle (degrees)" : plot.x.label;
+      if (x == nullptr || *x != curve.x) columns.push_back({prefix + x_name, &curve.x});
       x = &curve.x;
       columns.push_back({prefix + (curve.title.empty() ? plot.y.label : curve.title), &curve.y});
     }
@@ -87,6 +78,29 @@ Figure MakeRow(std::vector<Plot> plots) {
   figure.width = 1700;
   figure.height = 760;
   return figure;
+}
+
+std::string CsvText(const std::string& text) {
+  std::string plain;
+  for (const char c : text) {
+    switch (c) {
+      case ',':
+        plain += ';';
+        break;
+      case '"':
+        plain += '\'';
+        break;
+      case '#':
+        break;
+      case '\r':
+      case '\n':
+        plain += ' ';
+        break;
+      default:
+        plain += c;
+    }
+  }
+  return plain;
 }
 
 std::string FigureCsv(const Figure& figure) {

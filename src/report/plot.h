@@ -79,6 +79,11 @@ Figure MakeFigure(Plot plot);
 // Two or three of them side by side.
 Figure MakeRow(std::vector<Plot> plots);
 
+// A text as a cell of a CSV file that needs no quotes, which numpy's readers do not know: commas
+// become semicolons, double quotes single ones, line ends spaces; '#', which begins a comment
+// there, goes.
+std::string CsvText(const std::string& text);
+
 // All numbers of the figure, to the last digit. For each field: columns of x, y and the value. For
 // each run of curves with equal x: a column of x, then one for each curve. The first line names
 // them. Numbers that are not finite are empty.

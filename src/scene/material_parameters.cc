@@ -212,21 +212,42 @@ Material MakePhong() {
   return material;
 }
 
+// Sheets. The normalised Phong lobes are bright: more than a tenth of ks is white on the screen.
+constexpr std::string_view kExponentAxis = "shininess=4:256:4:log";
+constexpr std::string_view kKsAxis = "ks=0:0.1:6";
+constexpr std::string_view kRoughnessAxis = "roughness=0.1:0.9:5";
+constexpr std::string_view kMatteAxis = "roughness=0:1:5";
+constexpr std::string_view kAlbedoAxis = "albedo=0.1:0.9:5";
+
 // The Phong family first and in the order of its enumeration: see ModelOf.
 constexpr std::array<MaterialModel, 9> kModels = {{
-    {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps},
+    {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps,
+     kExponentAxis, kKsAxis},
     {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices,
-     kPhongMaps},
-    {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices,
-     kPhongMaps},
-    {"lambert", Make<LambertMaterial>, kLambertParameters, {}, kLambertMaps},
-    {"oren_nayar", Make<OrenNayarMaterial>, kOrenNayarParameters, {}, kOrenNayarMaps},
-    {"burley", Make<BurleyMaterial>, kBurleyParameters, {}, kBurleyMaps},
+     kPhongMaps, kExponentAxis, kKsAxis},
+    {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices, kPhongMaps,
+     kExponentAxis, kKsAxis},
+    {"lambert",
+     Make<LambertMaterial>,
+     kLambertParameters,
+     {},
+     kLambertMaps,
+     "emission=0:0.2:3",
+     kAlbedoAxis},
+    {"oren_nayar",
+     Make<OrenNayarMaterial>,
+     kOrenNayarParameters,
+     {},
+     kOrenNayarMaps,
+     kMatteAxis,
+     kAlbedoAxis},
+    {"burley", Make<BurleyMaterial>, kBurleyParameters, {}, kBurleyMaps, kMatteAxis, kAlbedoAxis},
     {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
-     kMetallicRoughnessChoices, kMetallicRoughnessMaps},
-    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kConductorMaps},
+     kMetallicRoughnessChoices, kMetallicRoughnessMaps, kRoughnessAxis, "metallic=0:1:5"},
+    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kConductorMaps,
+     kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
     {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
-     kDielectricMaps},
+     kDielectricMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
 }};
 
 }  // namespace

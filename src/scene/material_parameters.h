@@ -52,6 +52,8 @@ struct MaterialModel {
   std::span<const MaterialParameter> parameters;
   std::span<const MaterialChoice> choices;
   std::span<const MaterialMap> maps;
+  // What `nacre grid` varies unless it is told: axes as people type them (scene_io/sheet_axis.h).
+  std::string_view rows, columns;
 };
 
 // All models that have parameters, that is, all but `split`.

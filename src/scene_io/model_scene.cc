@@ -2,7 +2,9 @@
 #include "scene_io/model_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -40,6 +42,52 @@ Light MakeDirectional(std::string name, const Vec3d& to_light, double irradiance
   light.name = std::move(name);
   light.kind = DirectionalLight{-to_light, Rgb(irradiance)};
   return light;
+}
+
+// A soft box of a studio: a round light at infinity whose edge fades away.
+struct SoftBox {
+  Vec3d to_box;       // unit
+  double half_angle;  // radians, to where it has faded to a half
+  double fade;        // radians, from all of its radiance to none
+  double radiance;
+};
+
+// What stands around a model in the studio, so that metals and gloss have something to mirror: a
+// room, dark below and light above, with a soft box about the key light, one about the fill light
+// and a bright ceiling. What faces up gets the irradiance of radiance 0.35 all around, what faces
+// the camera of 0.25, what faces down of 0.06.
+std::shared_ptr<const SkyPicture> MakeStudioRoom(const View& view) {
+  // Texels of 0.7 degrees: a perfect mirror shows them as steps that fade with the boxes' edges.
+  constexpr int kWidth = 512, kHeight = 256;
+  constexpr double kDegree = std::numbers::pi / 180;
+  const std::array<SoftBox, 3> boxes = {{
+      {(view.right * -0.6 + view.up * 0.8 + view.back * 0.9).normalized(), 20 * kDegree,
+       8 * kDegree, 1.6},
+      {(view.right * 0.9 + view.up * 0.2 + view.back * 0.6).normalized(), 14 * kDegree, 8 * kDegree,
+       0.8},
+      {view.up, 30 * kDegree, 40 * kDegree, 0.3},
+  }};
+  auto picture = std::make_shared<SkyPicture>();
+  picture->width = kWidth;
+  picture->height = kHeight;
+  picture->rgb.reserve(size_t{3} * kWidth * kHeight);
+  for (int y = 0; y < kHeight; ++y) {
+    const double theta = (y + 0.5) / kHeight * std::numbers::pi;
+    for (int x = 0; x < kWidth; ++x) {
+      const double phi = (x + 0.5) / kWidth * 2 * std::numbers::pi;
+      const Vec3d direction(std::sin(phi) * std::sin(theta), std::cos(theta),
+                            -std::cos(phi) * std::sin(theta));
+      const double height = direction.dot(view.up);
+      double radiance = height < 0 ? 0.06 : 0.06 + 0.14 * height;
+      for (const SoftBox& box : boxes) {
+        const double angle = std::acos(std::clamp(direction.dot(box.to_box), -1.0, 1.0));
+        const double t = std::clamp((box.half_angle - angle) / box.fade + 0.5, 0.0, 1.0);
+        radiance += box.radiance * t * t * (3 - 2 * t);
+      }
+      picture->rgb.insert(picture->rgb.end(), 3, static_cast<float>(radiance));
+    }
+  }
+  return picture;
 }
 
 // The parts of the tree that overrides make.
@@ -160,7 +208,15 @@ void AddStudioLights(Scene* scene) {
   scene->lights.push_back(MakeDirectional("rim", right * 0.4 + up * 0.7 + back * -1, 0.6 * key));
   Light sky;
   sky.name = "sky";
-  sky.kind = AmbientLight{Rgb(0.12)};
+  // Phong's classic form has its own idea of light from everywhere, and mirrors nothing.
+  if (is_classic) {
+    sky.kind = AmbientLight{Rgb(0.12)};
+  } else {
+    EnvironmentLight room;
+    room.sky = PictureSky{MakeStudioRoom({right, up, back}), Rgb(1)};
+    room.background = false;
+    sky.kind = std::move(room);
+  }
   scene->lights.push_back(std::move(sky));
   scene->background = Rgb(0.18);
 }

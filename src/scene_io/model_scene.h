@@ -18,8 +18,9 @@ bool CompleteCoordinates(Scene* scene);
 // Keeps its kind and field of view.
 void FrameScene(Scene* scene);
 
-// Three lights as photographers set them (key, fill, rim), where the camera is, a little light from
-// everywhere, and a grey background. For scenes without any light.
+// Three lights as photographers set them (key, fill, rim) about the camera, a room with soft boxes
+// as an environment ("sky"), which metals mirror, and a grey background. For scenes without any
+// light.
 void AddStudioLights(Scene* scene);
 
 // Gives the scene of a model the overrides, a camera unless it has one, and light if it has none.

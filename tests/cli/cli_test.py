@@ -717,6 +717,11 @@ class CliTest(unittest.TestCase):
                 self.assertEqual(files[1].read_bytes()[:4], b'\x89PNG')
                 titles, rows = self.rows(kind + '.csv')
                 self.assertGreater(len(titles), 3)
+                # What numpy.genfromtxt(file, delimiter=',', names=True) asks for: no quotes, no
+                # comments, no empty names, rows of one length.
+                self.assertFalse(set('"#') & set(''.join(titles)), titles)
+                self.assertTrue(all(titles), titles)
+                self.assertEqual({len(row) for row in rows}, {len(titles)})
                 self.assertGreater(len(rows), 80)
 
     def test_a_plot_has_the_materials_that_it_is_told(self):
@@ -779,7 +784,7 @@ class CliTest(unittest.TestCase):
         for name in named:
             self.assertTrue((folder / name).is_file(), name)
         self.assertEqual({name for name in named if name.endswith('.svg')}, {'fresnel.svg'})
-        self.assertIn('"the angle",82.13565962', (folder / 'numbers.csv').read_text())
+        self.assertIn('the angle,82.13565962', (folder / 'numbers.csv').read_text())
 
     def test_studies_are_listed_and_slips_are_refused(self):
         listed = run('study', 'list')

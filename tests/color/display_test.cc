@@ -124,6 +124,24 @@ TEST_CASE("Pixels that repeat those before them are encoded as any others", "[co
   });
 }
 
+TEST_CASE("a pixel that breaks a repetition is seen wherever it is", "[color]") {
+  // Two stretches of 128 pixels, alike but for one value.
+  ForEachTarget([&](Target) {
+    size_t missed = 0;
+    for (size_t i = 128; i < 256; ++i) {
+      for (size_t c = 0; c < 3; ++c) {
+        std::vector<float> planes[3];
+        for (auto& plane : planes) plane.assign(256, 0.2f);
+        planes[c][i] = 0.7f;
+        std::vector<uint8_t> rgb8(3 * 256);
+        EncodeDisplay({}, planes[0].data(), planes[1].data(), planes[2].data(), 256, rgb8.data());
+        missed += rgb8[3 * i + c] == rgb8[c];
+      }
+    }
+    CHECK(missed == 0);
+  });
+}
+
 TEST_CASE("NaN pixels are magenta and counted, infinities are light or dark", "[color]") {
   std::vector<float> r(301, 0.5f), g(301, 0.5f), b(301, 0.5f);
   r[0] = g[130] = b[300] = kNan;

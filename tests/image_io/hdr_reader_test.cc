@@ -116,6 +116,28 @@ TEST_CASE("plain Radiance files read as OpenImageIO reads them") {
   CheckLikeOiio(Header(5, 2) + Flat(MakePixels(10)));
 }
 
+TEST_CASE("a run of 128 is of bytes as they are, the longest of them") {
+  // Two rows of 130: of each component 128 bytes as they are, then one byte twice.
+  constexpr size_t kWidth = 130;
+  Pixels pixels = MakePixels(2 * kWidth);
+  std::string bytes;
+  for (size_t row = 0; row < pixels.size(); row += kWidth) {
+    pixels[row + 129] = pixels[row + 128];
+    bytes += {2, 2, static_cast<char>(kWidth >> 8), static_cast<char>(kWidth & 255)};
+    for (size_t c = 0; c < 4; ++c) {
+      bytes += static_cast<char>(128);
+      for (size_t x = 0; x < 128; ++x) bytes += static_cast<char>(pixels[row + x][c]);
+      bytes += {static_cast<char>(130), static_cast<char>(pixels[row + 128][c])};
+    }
+  }
+  CheckLikeOiio(Header(kWidth, 2) + bytes);
+  const HdrFile coded(Header(kWidth, 2) + bytes), flat(Header(kWidth, 2) + Flat(pixels));
+  const auto got = ReadPlainHdr(coded.path, kAny);
+  const auto expected = ReadPlainHdr(flat.path, kAny);
+  REQUIRE((got && expected));
+  for (size_t c = 0; c < 3; ++c) CHECK(got->channels[c].samples == expected->channels[c].samples);
+}
+
 TEST_CASE("other and broken Radiance files are left to OpenImageIO") {
   const std::string whole = Header(20, 3) + Coded(MakePixels(60), 20);
   for (size_t size = 0; size < whole.size(); ++size) {

@@ -80,12 +80,16 @@ TEST_CASE("a field is drawn as colours within its scale, and has all of its numb
   }
 }
 
+TEST_CASE("names of CSV columns need no quotes and begin no comment") {
+  CHECK(CsvText("F0 = 0.04, \"gold\"\r\n#1") == "F0 = 0.04; 'gold'  1");
+}
+
 TEST_CASE("CSV has each x once, and all digits") {
   Plot plot = Line(0.1, 1.0 / 3);
   plot.curves.push_back({"say \"b\", c", {0, 1, 2}, {1, kNan, 3}});
   plot.curves.push_back({"", {7}, {8}});
   CHECK(FigureCsv(MakeFigure(plot)) ==
-        "x (m),a line,\"say \"\"b\"\", c\",x (m),y (s)\n"
+        "x (m),a line,say 'b'; c,x (m),y (s)\n"
         "0,0.1,1,7,8\n"
         "1,0.21666666666666667,,,\n"
         "2,0.3333333333333333,3,,\n");

@@ -103,6 +103,12 @@ TEST_CASE("triangle strips wind like faces") {
                               "end_header\n" +
                               kPoints + "8 0 1 3 2 -1 0 1 2\n");
   CHECK(scene.meshes.at(0).triangles == std::vector<uint32_t>{0, 1, 3, 3, 1, 2, 0, 1, 2});
+  // After an odd number of triangles a new strip begins as the first did.
+  const Scene odd = LoadPly(kVertices +
+                            "element tristrips 1\nproperty list int int vertex_indices\n"
+                            "end_header\n" +
+                            kPoints + "12 0 1 3 -1 0 1 2 3 -1 1 2 3\n");
+  CHECK(odd.meshes.at(0).triangles == std::vector<uint32_t>{0, 1, 3, 0, 1, 2, 2, 1, 3, 1, 2, 3});
 }
 
 TEST_CASE("edges stay sharp where faces without normals meet at a right angle") {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/visibility/occluders_test.cc: shadow rays without a tree, against brute force.
+#include "base/basis.h"
 #include "catch.h"
 #include "targets.h"
+#include "visibility/occluder_lists.h"
 #include "visibility/rays.h"
 
 namespace nacre {
@@ -142,6 +144,39 @@ TEST_CASE("occluders are brute force's") {
   }
   CHECK(seen > 1000);
   CHECK(clear > 1000);
+}
+
+// The ball of a batch's points moves along a cylinder towards the sun, which a blocker reaches into or
+// does not: beside it, behind it, and around its beginning.
+TEST_CASE("a ball is in the shadow of what reaches into its way to the sun, and of nothing else") {
+  Random random(44);
+  for (int round = 0; round < 200; ++round) {
+    CAPTURE(round);
+    const Vec3d to_light = random.Direction();
+    const Vec3d across = BasisAbout(to_light).x;
+    const Vec3d center = random.InBox(Vec3d(-5), Vec3d(5));
+    const double blocker = random.Magnitude(1e-2, 2), ball = random.Magnitude(1e-3, 0.5);
+    const double radii = blocker + ball;
+    const auto may = [&](double along, double beside) {
+      TraceGeometry geometry;
+      geometry.spheres = HugeArray<TraceSphere>(2);
+      geometry.spheres[0] = {center, 1};
+      geometry.spheres[1] = {center + to_light * along + across * beside, blocker};
+      OccluderLists lists;
+      lists.end = {1, 1};  // the first sphere's list has the second one
+      lists.spheres = {1};
+      lists.longest = 1;
+      return MayShadow(geometry, lists, {false, to_light}, 0, {center, ball});
+    };
+    constexpr double kJust = 1e-6;
+    for (const double along : {0.0, 0.5 * radii, 2.0, 100.0}) {
+      CHECK(may(along, radii * (1 - kJust)));
+      CHECK_FALSE(may(along, radii * (1 + kJust)));
+    }
+    CHECK(may(-radii * (1 - kJust), 0));  // it overlaps the ball
+    CHECK_FALSE(may(-radii * (1 + kJust), 0));
+    CHECK_FALSE(may(-100, 0));
+  }
 }
 
 TEST_CASE("occluders of all sizes and distances") {

@@ -54,7 +54,12 @@ function planParts(stats) {
 function facts(object, prefix = '') {
   return Object.entries(object).flatMap(([key, value]) => {
     const name = prefix + key.replaceAll('_', ' ');
-    if (Array.isArray(value)) return [[name, value.join(', ')]];
+    if (Array.isArray(value)) {
+      const plain = value.filter(item => item === null || typeof item !== 'object');
+      const nested = value.filter(item => item !== null && typeof item === 'object');
+      return [...(plain.length || !nested.length ? [[name, plain.join(', ')]] : []),
+              ...nested.flatMap((item, i) => facts(item, nested.length > 1 ? `${name} ${i + 1} ` : `${name} `))];
+    }
     if (value !== null && typeof value === 'object') return facts(value, `${name} `);
     return [[name, typeof value === 'number' ? show(value, 6) : String(value)]];
   });
