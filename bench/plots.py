@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws with gnuplot: the same commands for SVG and PNG."""
+import os
 import shutil
 import subprocess
 
@@ -53,14 +54,17 @@ def curves(series, options, prefix="c"):
 
 def draw(path, commands, width=1280, height=800):
     """Writes path.svg and path.png."""
-    if shutil.which("gnuplot") is None:
+    # Not one that happens to lie in the working folder; nor (-d) settings of whoever runs this.
+    folders = [folder for folder in os.environ.get("PATH", "").split(":") if os.path.isabs(folder)]
+    gnuplot = shutil.which("gnuplot", path=":".join(folders))
+    if gnuplot is None:
         raise Failed("gnuplot is missing: scripts/setup installs it")
     size = f"size {width},{height}"
     terminals = (("svg", f"set terminal svg {size} font {quote(FONT)} background rgb 'white'"),
                  ("png", f"set terminal pngcairo {size} font {quote(FONT)} background rgb 'white'"))
     for suffix, terminal in terminals:
         script = f"{terminal}\nset output {quote(path.with_suffix('.' + suffix))}\n"
-        result = subprocess.run(["gnuplot"], input=script + _COMMON + commands, text=True,
+        result = subprocess.run([gnuplot, "-d"], input=script + _COMMON + commands, text=True,
                                 capture_output=True, check=False)
         if result.returncode != 0:
             raise Failed(f"gnuplot: {path.name}: {result.stderr.strip()[-500:]}")

@@ -28,8 +28,20 @@ REFUSED = {
     '--preset': 'the preset has no tiles'}
 
 
+def printable(text):
+    """The text with what would act on a terminal spelled out, as nacre does it (base/printable.h)."""
+    def spell(c):
+        code = ord(c)
+        if 0xdc80 <= code <= 0xdcff:  # how Python keeps a byte that is not UTF-8
+            return f'\\x{code - 0xdc00:02x}'
+        acts = (code < 0x20 or 0x7f <= code <= 0x9f or 0x2028 <= code <= 0x202e or
+                0x2066 <= code <= 0x2069)
+        return {'\n': '\\n', '\r': '\\r', '\t': '\\t'}.get(c, f'\\u{code:04x}') if acts else c
+    return ''.join(map(spell, str(text)))
+
+
 def fail(message, code=1):
-    sys.exit(print(f'error: {message}', file=sys.stderr) or code)
+    sys.exit(print(f'error: {printable(message)}', file=sys.stderr) or code)
 
 
 def add_arguments(parser):
@@ -112,13 +124,15 @@ class Picture:
                 *([] if named else ['--threads', str(threads)])]
 
     def merge(self):
-        """Merges. Tiles that nacre finds fault with are removed; True if there were none."""
+        """Merges, and reads the picture back. Tiles that nacre finds fault with are removed; True if
+        there were none: then the tiles are no longer needed."""
         outputs = [word for path in self.outputs for word in ('-o', path)]
         tiles = [str(self.tile(index)) for index in range(self.count)]
         result = subprocess.run([self.nacre, 'merge', *outputs, '--quiet', *self.merge_options,
                                  *tiles], capture_output=True, text=True, check=False)
         sys.stderr.write(result.stderr)
         if result.returncode == 0:
+            self.prove()
             return True
         bad = [tile for tile in tiles if tile in result.stderr]
         if result.returncode != BAD_INPUT or not bad:
@@ -126,6 +140,14 @@ class Picture:
         for tile in bad:
             os.unlink(tile)
         return False
+
+    def prove(self):
+        """That all of the merged files is on the disk, by their checksums. Tiles stay if it is not."""
+        result = subprocess.run([self.nacre, 'info', '--verify', *self.outputs], capture_output=True,
+                                text=True, check=False)
+        if result.returncode != 0:
+            sys.stderr.write(result.stderr)
+            fail(f'the merged picture is not what was written; its tiles are kept in {self.folder}')
 
     def remove_tiles(self):
         if self.keep_tiles:

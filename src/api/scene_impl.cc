@@ -24,7 +24,7 @@ std::string WithShapes(const Scene::Impl::Source& source) {
     shapes.push_back(ParseJson(shape, "AddShape", &faults));
   }
   if (faults.count() > 0) throw nacre::Error(ExitCode::kBadInput, faults.All());
-  return root.dump();
+  return JsonText(root);
 }
 
 nacre::Scene Read(const Scene::Impl::Source& source) {

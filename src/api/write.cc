@@ -12,6 +12,7 @@
 #include "base/path.h"
 #include "base/version.h"
 #include "color/display.h"
+#include "image_io/exr_checksum.h"
 #include "image_io/exr_writer.h"
 #include "image_io/png_writer.h"
 
@@ -54,10 +55,10 @@ std::optional<Imath::M44f> ParseMatrix(const std::string& text) {
 // What the file says by itself, and "transfer", which is no attribute of any file.
 bool IsFilesOwn(const std::string& name) {
   static const std::set<std::string> own = {
-      "channels",         "chromaticities",     "chunkCount", "compression", "dataWindow",
-      "displayWindow",    "lineOrder",          "name",       "transfer",    "type",
-      "pixelAspectRatio", "screenWindowCenter", "version",    "tiles",       "view",
-      "screenWindowWidth"};
+      "channels",          "chromaticities",     "chunkCount", "compression", "dataWindow",
+      "displayWindow",     "lineOrder",          "name",       "transfer",    "type",
+      "pixelAspectRatio",  "screenWindowCenter", "version",    "tiles",       "view",
+      "screenWindowWidth", kExrChecksumAttribute};
   return own.contains(name);
 }
 

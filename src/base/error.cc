@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace nacre {
 namespace {
 
@@ -29,9 +31,9 @@ Error::Error(ExitCode code, std::vector<Fault> faults) : code_(code), faults_(st
   for (const Fault& fault : faults_) {
     if (!message_.empty()) message_ += '\n';
     message_ += "error: ";
-    if (!fault.where.empty()) message_ += fault.where + ": ";
-    message_ += fault.what;
-    if (!fault.hint.empty()) message_ += "\n  hint: " + fault.hint;
+    if (!fault.where.empty()) message_ += Printable(fault.where) + ": ";
+    message_ += Printable(fault.what);
+    if (!fault.hint.empty()) message_ += "\n  hint: " + Printable(fault.hint);
   }
 }
 

@@ -22,7 +22,7 @@ enum class ExitCode : int {
   kTerminated = 143,   // SIGTERM
 };
 
-// One thing that is wrong.
+// One thing that is wrong. Names out of files are as they are there: any bytes.
 struct Fault {
   std::string where;  // file and place, e.g. "scenes/grid.json: /materials/gold"
   std::string what;   // what is wrong there
@@ -38,7 +38,7 @@ class Error : public std::exception {
   ExitCode code() const { return code_; }
   const std::vector<Fault>& faults() const { return faults_; }
 
-  // All faults in the form that main prints:
+  // All faults in the form that main prints, each part of one made Printable():
   //   error: <where>: <what>
   //     hint: <hint>
   const char* what() const noexcept override { return message_.c_str(); }

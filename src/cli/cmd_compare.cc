@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "cli/commands.h"
@@ -19,6 +18,7 @@
 #include "compare/verdict.h"
 #include "image_io/image_reader.h"
 #include "image_io/output_file.h"
+#include "scene_io/json_text.h"
 
 namespace nacre {
 namespace {
@@ -36,16 +36,14 @@ struct CompareArguments {
 };
 
 void PrintTable(const Verdict& verdict) {
-  PrintOut(fmt::format("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE",
-                       "relMSE", "PSNR dB", "max abs", "max rel", "99.9% rel"));
+  PrintOut("{:<14} {:>11} {:>11} {:>8} {:>11} {:>11} {:>11}  at\n", "layer", "RMSE", "relMSE",
+           "PSNR dB", "max abs", "max rel", "99.9% rel");
   for (const LayerMetrics& m : verdict.layers) {
-    PrintOut(
-        fmt::format("{:<14} {:>11.4g} {:>11.4g} {:>8.2f} {:>11.4g} {:>11.4g} {:>11.4g}  {},{} {}\n",
-                    LayerName(m.layer), m.rmse, m.rel_mse, m.psnr_db, m.max_abs, m.max_rel,
-                    m.p999_rel, m.max_abs_at.x, m.max_abs_at.y, m.max_abs_at.channel));
+    PrintOut("{:<14} {:>11.4g} {:>11.4g} {:>8.2f} {:>11.4g} {:>11.4g} {:>11.4g}  {},{} {}\n",
+             LayerName(m.layer), m.rmse, m.rel_mse, m.psnr_db, m.max_abs, m.max_rel, m.p999_rel,
+             m.max_abs_at.x, m.max_abs_at.y, m.max_abs_at.channel);
     if (m.nonfinite_mismatches > 0) {
-      PrintOut(fmt::format("{:<14} {} samples are not finite in one image only\n", "",
-                           m.nonfinite_mismatches));
+      PrintOut("{:<14} {} samples are not finite in one image only\n", "", m.nonfinite_mismatches);
     }
   }
 }
@@ -54,17 +52,17 @@ void PrintPerceptual(const std::vector<PerceptualMetrics>& all) {
   const auto figure = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.6f}", *value) : std::string("-");
   };
-  PrintOut(fmt::format("{:<14} {:>11} {:>11} {:>11} {:>13} {:>13}  exposures\n", "layer", "SSIM",
-                       "FLIP mean", "FLIP max", "HDR-FLIP mean", "HDR-FLIP max"));
+  PrintOut("{:<14} {:>11} {:>11} {:>11} {:>13} {:>13}  exposures\n", "layer", "SSIM", "FLIP mean",
+           "FLIP max", "HDR-FLIP mean", "HDR-FLIP max");
   for (const PerceptualMetrics& m : all) {
     const ExposureRange& range = m.exposures;
-    PrintOut(fmt::format(
-        "{:<14} {:>11} {:>11} {:>11} {:>13} {:>13}  {}\n", LayerName(m.layer), figure(m.ssim),
-        figure(m.flip_mean), figure(m.flip_max), figure(m.hdr_flip_mean), figure(m.hdr_flip_max),
-        m.hdr_flip_mean
-            ? fmt::format("{} from {:.2f} to {:.2f}", range.count, range.start, range.stop)
-            : "-"));
-    for (const std::string& note : m.notes) PrintOut(fmt::format("{:<14} {}\n", "", note));
+    PrintOut("{:<14} {:>11} {:>11} {:>11} {:>13} {:>13}  {}\n", LayerName(m.layer), figure(m.ssim),
+             figure(m.flip_mean), figure(m.flip_max), figure(m.hdr_flip_mean),
+             figure(m.hdr_flip_max),
+             m.hdr_flip_mean
+                 ? fmt::format("{} from {:.2f} to {:.2f}", range.count, range.start, range.stop)
+                 : "-");
+    for (const std::string& note : m.notes) PrintOut("{:<14} {}\n", "", note);
   }
 }
 
@@ -85,11 +83,11 @@ int RunCompare(const CompareArguments& arguments) {
   std::vector<PerceptualMetrics> seen;
   if (perceptual) seen = MeasurePerceptual(image, reference, *perceptual, options);
   if (arguments.json) {
-    PrintOut(fmt::format("{}\n", VerdictJson(verdict, seen).dump(2)));
+    PrintOut(JsonText(VerdictJson(verdict, seen), 2) + "\n");
   } else {
     PrintTable(verdict);
     if (!seen.empty()) PrintPerceptual(seen);
-    PrintOut(fmt::format("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason));
+    PrintOut("{}: {}\n", verdict.match ? "match" : "differ", verdict.reason);
   }
   if (!arguments.heat_map.empty()) {
     const HeatQuantity quantity =

@@ -85,7 +85,8 @@ void DrawCurves(const ConvertArguments& arguments, const Material& original,
   for (const std::string& path : arguments.curves) WriteFigure(path, figure);
 }
 
-void CheckFiles(const ConvertArguments& arguments) {
+// All files that are to be written; those of curves are looked at here.
+std::vector<std::string> CheckFiles(const ConvertArguments& arguments) {
   std::vector<std::string> paths = arguments.options.outputs;
   for (const std::string& path : arguments.curves) {
     CheckFigurePath(path);
@@ -93,11 +94,12 @@ void CheckFiles(const ConvertArguments& arguments) {
     paths.push_back(path);
   }
   CheckPathsDiffer(paths);
+  return paths;
 }
 
 // The page with both materials and their difference; null if there is none.
 Json DrawPage(const ConvertArguments& arguments, const Json& given, const Material& original,
-              const MaterialFit& fit) {
+              const MaterialFit& fit, const std::vector<std::string>& outputs) {
   if (arguments.options.outputs.empty()) return {};
   const Json fitted = MaterialJson(fit.fitted);
   Json source = given;
@@ -110,22 +112,23 @@ Json DrawPage(const ConvertArguments& arguments, const Json& given, const Materi
       "A  " + DescribeMaterial(MaterialJson(original)), "B  " + DescribeMaterial(fitted),
       fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
                   fit.guess_residual.rms, MakeLighting(arguments.sheet.lighting, 0.5).label)};
-  return DrawDifference(page, arguments.sheet, arguments.options, "nacre convert").ToJson();
+  return DrawDifference(page, arguments.sheet, arguments.options, "nacre convert", outputs)
+      .ToJson();
 }
 
 void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
   RefuseWhatCannotApply(arguments, command);
-  CheckFiles(arguments);
+  const std::vector<std::string> outputs = CheckFiles(arguments);
   const Json given = ParseMaterialText("MATERIAL", arguments.material);
   Json source = given;
   source.erase("name");
   const Material original = MaterialFromJson(source, "MATERIAL");
   const MaterialFit fit = FitMaterial(original, arguments.to);
-  const Json difference = DrawPage(arguments, given, original, fit);
+  const Json difference = DrawPage(arguments, given, original, fit, outputs);
   DrawCurves(arguments, original, MaterialLabel(given), fit);
   const Json fitted = MaterialJson(fit.fitted);
   if (!arguments.json) {
-    PrintOut(fitted.dump() + "\n" + (arguments.options.quiet ? "" : Table(fit)));
+    PrintOut(JsonText(fitted) + "\n" + (arguments.options.quiet ? "" : Table(fit)));
     return;
   }
   Json json = {
@@ -136,7 +139,7 @@ void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
        {{"material", MaterialJson(fit.guess)}, {"residual", ResidualJson(fit.guess_residual)}}},
       {"not_kept", fit.notes}};
   if (!difference.is_null()) json["picture"] = difference;
-  PrintOut(json.dump(2) + "\n");
+  PrintOut(JsonText(json, 2) + "\n");
 }
 
 }  // namespace

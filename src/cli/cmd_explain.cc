@@ -113,12 +113,13 @@ void ExplainTextbook(const std::string& folder) {
   for (size_t i = 0; i < sheets.size(); ++i) {
     const Sheet& sheet = sheets[i];
     const AccuratePicture accurate = RenderAccurate(sheet.scene());
-    PrintOut(fmt::format("     {}: {}\n", fs::path(sheet.file).stem().string(),
-                         ChangeText(MeasureChange(sheet.lesson.codes, accurate.codes,
-                                                  sheet.lesson.picture.sphere, accurate.sphere))));
+    PrintOut("     {}: {}\n", fs::path(sheet.file).stem().string(),
+             ChangeText(MeasureChange(sheet.lesson.codes, accurate.codes,
+                                      sheet.lesson.picture.sphere, accurate.sphere)));
     if (paths.empty()) continue;
     WriteTextbookSheet(paths[i], sheet.layout, sheet.lesson, accurate);
-    PrintError(fmt::format("{}: the lesson, nacre, and the difference\n", paths[i]));
+    NoteWritten(paths[i]);
+    PrintError("{}: the lesson, nacre, and the difference\n", paths[i]);
   }
 }
 

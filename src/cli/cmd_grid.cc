@@ -124,7 +124,7 @@ std::string FixedParameters(const Axes& axes) {
   std::vector<std::string> parts;
   for (const auto& [key, value] : axes.material.items()) {
     if (key == "model" || key == axes.rows.name || key == axes.columns.name) continue;
-    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    std::string text = value.is_string() ? value.get<std::string>() : JsonText(value);
     std::erase_if(text, [](char c) { return c == '[' || c == ']'; });
     for (char& c : text) c = c == ',' ? ' ' : c;
     parts.push_back(key + " " + text);
@@ -162,7 +162,7 @@ void RunGrid(const GridArguments& arguments) {
   const SheetPage page = LayOutSheet(text, request);
   const std::string scene = SheetScene(GridShapes(axes), Json::object(), request, page, lighting);
   RunRenderJob(
-      options, "",
+      options, InputFiles(arguments.sheet.lighting),
       [&](const LoadOptions& load) {
         return LoadSheet(scene, "nacre grid", arguments.sheet, page, load);
       },

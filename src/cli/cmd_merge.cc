@@ -51,7 +51,8 @@ class MergedFiles {
         png_.push_back(std::make_unique<PngWriter>(
             path, png,
             PngOptions{.small = arguments.small,
-                       .reproducible = !attributes.contains(kRenderTimeAttribute)}));
+                       .reproducible = !attributes.contains(kRenderTimeAttribute),
+                       .sync = true}));
       }
     }
   }
@@ -118,6 +119,10 @@ void RunMerge(const MergeArguments& arguments) {
   paths.insert(paths.end(), arguments.tiles.begin(), arguments.tiles.end());
   CheckPathsDiffer(paths);
   const TilesOfPicture picture = FindTiles(arguments.tiles);
+  for (const std::string& path : picture.unproven) {
+    if (arguments.quiet) break;
+    PrintError("warning: {} has no checksum; all of it was decoded instead\n", path);
+  }
   MergedFiles files(arguments, picture.whole);
   {
     Progress progress(arguments.quiet ? ProgressForm::kNone : DefaultProgressForm(), "merging",
@@ -129,16 +134,15 @@ void RunMerge(const MergeArguments& arguments) {
   }
   files.Finish();
   if (files.nan_pixels() > 0) {
-    PrintError(fmt::format("warning: {} pixels are not numbers and are drawn in magenta\n",
-                           files.nan_pixels()));
+    PrintError("warning: {} pixels are not numbers and are drawn in magenta\n", files.nan_pixels());
   }
   if (arguments.quiet) return;
   std::string names;
   for (const std::string& path : arguments.outputs) names += (names.empty() ? "" : ", ") + path;
   const Window& frame = picture.whole.header.display;
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  PrintError(fmt::format("{}: {}x{} of {} tiles, {:.0f} ms\n", names, frame.width(), frame.height(),
-                         picture.tiles.size(), 1e3 * elapsed.count()));
+  PrintError("{}: {}x{} of {} tiles, {:.0f} ms\n", names, frame.width(), frame.height(),
+             picture.tiles.size(), 1e3 * elapsed.count());
 }
 
 }  // namespace
@@ -161,8 +165,12 @@ void AddMergeCommand(CLI::App* app, int*) {
   command->footer(
       "The tiles must be of one picture (scene, settings, SIMD target, build, layers, "
       "compression)\n"
-      "and hold each of its rows once. Their compressed rows are copied as they are, so the EXR\n"
-      "file has the bits of the picture rendered at once; its render time is the sum of theirs.\n"
+      "and hold each of its rows once, and be what was written: tiles whose checksum is wrong are\n"
+      "refused, all by name, and those without one decoded. Compressed rows are copied as they "
+      "are,\n"
+      "so the EXR file has the bits of the picture rendered at once; its render time is the sum "
+      "of\n"
+      "theirs. It is on the disk when the program ends; nacre info --verify reads it back.\n"
       "PNG files have the codes of one rendered at once if the tiles are of --depth float; halves\n"
       "are rounded, which some pixels show by one code.\n"
       "Example:\n"

@@ -95,7 +95,7 @@ void RenderBoth(const PairArguments& arguments, const Side& a, const Side& b) {
   }
   const std::string scene = SheetScene(shapes, materials, request, page, lighting);
   RunRenderJob(
-      options, "",
+      options, InputFiles(arguments.sheet.lighting),
       [&](const LoadOptions& load) {
         return LoadSheet(scene, "nacre pair", arguments.sheet, page, load);
       },
@@ -107,14 +107,14 @@ void Report(const PairArguments& arguments, const Side& a, const Side& b,
   if (arguments.json) {
     Json json = {{"a", a.complete}, {"b", b.complete}};
     if (measures != nullptr) json["difference"] = measures->ToJson();
-    PrintOut(json.dump(2) + "\n");
+    PrintOut(JsonText(json, 2) + "\n");
     return;
   }
   if (arguments.options.quiet) return;
-  PrintOut("A  " + DescribeMaterial(a.complete) + "\nB  " + DescribeMaterial(b.complete) + "\n");
+  PrintOut("A  {}\nB  {}\n", DescribeMaterial(a.complete), DescribeMaterial(b.complete));
   if (measures != nullptr) {
-    PrintOut(fmt::format("A - B on the sphere, linear: RMSE {:.6g}, largest {:.6g}, mean {:+.6g}\n",
-                         measures->rmse, measures->max, measures->mean));
+    PrintOut("A - B on the sphere, linear: RMSE {:.6g}, largest {:.6g}, mean {:+.6g}\n",
+             measures->rmse, measures->max, measures->mean);
   }
 }
 
@@ -129,8 +129,8 @@ void RunPair(const PairArguments& arguments, const CLI::App& command) {
   RefuseWhatNoDifferencePageTakes(command, "--layout difference");
   DifferencePage page{
       a.json, b.json, a.label, b.label, Title(arguments, a, b), Footer(arguments, a, b)};
-  const DifferenceMeasures measures =
-      DrawDifference(page, arguments.sheet, arguments.options, "nacre pair");
+  const DifferenceMeasures measures = DrawDifference(page, arguments.sheet, arguments.options,
+                                                     "nacre pair", arguments.options.outputs);
   Report(arguments, a, b, &measures);
 }
 

@@ -27,8 +27,7 @@ namespace {
 
 struct PlotArguments {
   std::string kind;
-  std::vector<std::string> outputs;
-  PlotInputs inputs;
+  PlotInputs inputs;  // its outputs are the plot's
   CurveOptions curves;
   std::string channel = "luminance";
   std::string title;
@@ -198,18 +197,18 @@ Figure Arrange(Plots plots, const std::string& title) {
 void RunPlot(const PlotArguments& arguments, const CLI::App& command) {
   const PlotKind& kind = FindKind(arguments.kind);
   RefuseWhatCannotApply(kind, command);
-  std::vector<std::string> paths = arguments.outputs;
-  for (const std::string& path : paths) {
+  for (const std::string& path : arguments.inputs.outputs) {
     CheckFigurePath(path);
     CheckWritable(path);
   }
-  if (!arguments.inputs.scene.empty()) paths.push_back(arguments.inputs.scene);
-  CheckPathsDiffer(paths);
+  CheckPathsDiffer(arguments.inputs.outputs);
+  CheckOutputsAreNoInputs(arguments.inputs.outputs, {arguments.inputs.scene});
   Figure figure = Arrange(kind.draw(arguments), arguments.title);
   if (!arguments.size.empty()) ParseSize(arguments.size, &figure.width, &figure.height);
-  for (const std::string& path : arguments.outputs) {
+  for (const std::string& path : arguments.inputs.outputs) {
     ThrowIfStopped();
     WriteFigure(path, figure);
+    NoteWritten(path);
   }
 }
 
@@ -222,7 +221,9 @@ std::string KindHelp() {
 
 void AddPlotOptions(CLI::App* command, PlotArguments* a) {
   command->add_option("KIND", a->kind, KindHelp())->required();
-  command->add_option("-o,--output", a->outputs, "File to write, .svg, .png or .csv; repeatable")
+  command
+      ->add_option("-o,--output", a->inputs.outputs,
+                   "File to write, .svg, .png or .csv; repeatable")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);

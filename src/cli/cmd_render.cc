@@ -47,7 +47,7 @@ void AddRenderCommand(CLI::App* app, int*) {
       RunTextbookJob(arguments->options, arguments->scene, *command);
       return;
     }
-    RunRenderJob(arguments->options, arguments->scene,
+    RunRenderJob(arguments->options, {arguments->scene},
                  [&](const LoadOptions& load) { return LoadScene(arguments->scene, load); });
   });
 }

@@ -44,7 +44,7 @@ Pictures ReadPictures(const ReportArguments& arguments) {
     if (kind == ReportInput::kImage) {
       pictures.all.push_back(ReadPicture(path));
     } else if (kind == ReportInput::kScene) {
-      pictures.all.push_back(RenderPicture(path, arguments.render));
+      pictures.all.push_back(RenderPicture(path, arguments.render, arguments.output));
     } else if (kind == ReportInput::kStats) {
       if (pictures.all.empty()) {
         throw Error(ExitCode::kUsage, path, "these are the counts and times of a render",
@@ -103,8 +103,10 @@ void RunReport(const ReportArguments& arguments) {
     if (kind == ReportInput::kBench) sections.push_back(BenchSection(path));
     if (kind == ReportInput::kReferences) {
       ValidationSection validation(perceptual, limit / FindReferences(path).size(), &page);
-      RunReferences(path, arguments.render.threads,
-                    [&](const ReferenceOutcome& outcome) { validation.Add(outcome); });
+      RunReferences(path, arguments.render.threads, [&](const ReferenceOutcome& outcome) {
+        CheckOutputsAreNoInputs({arguments.output}, outcome.read);
+        validation.Add(outcome);
+      });
       sections.push_back(validation.ToJson());
     }
   }

@@ -44,6 +44,7 @@ void WritePicture(const std::string& path, const StudyPicture& picture) {
                    picture.rgb8.data() + begin);
   }
   png.Finish();
+  NoteWritten(path);
 }
 
 std::string NumbersCsv(const StudyResult& result) {
@@ -83,6 +84,11 @@ void PrepareFolder(const fs::path& folder) {
   CheckWritable((folder / "answer.md").string());
 }
 
+void WriteNoted(const fs::path& path, const std::string& text) {
+  WriteText(path.string(), text);
+  NoteWritten(path.string());
+}
+
 void RunStudy(const StudyEntry& study, const fs::path& folder, bool quiet) {
   const StudyResult result = [&] {
     Progress progress(quiet ? ProgressForm::kNone : DefaultProgressForm(), study.name, 0, "");
@@ -94,12 +100,14 @@ void RunStudy(const StudyEntry& study, const fs::path& folder, bool quiet) {
   for (const StudyFigure& figure : result.figures) {
     for (const char* extension : {".svg", ".png", ".csv"}) {
       ThrowIfStopped();
-      WriteFigure((folder / (figure.name + extension)).string(), figure.figure);
+      const std::string path = (folder / (figure.name + extension)).string();
+      WriteFigure(path, figure.figure);
+      NoteWritten(path);
     }
   }
-  WriteText((folder / "numbers.csv").string(), NumbersCsv(result));
-  WriteText((folder / "answer.md").string(), AnswerText(study, result));
-  if (!quiet) PrintError(fmt::format("{}\n", (folder / "answer.md").string()));
+  WriteNoted(folder / "numbers.csv", NumbersCsv(result));
+  WriteNoted(folder / "answer.md", AnswerText(study, result));
+  if (!quiet) PrintError("{}\n", (folder / "answer.md").string());
 }
 
 void RunAll(const fs::path& folder, bool quiet) {
@@ -109,14 +117,13 @@ void RunAll(const fs::path& folder, bool quiet) {
     RunStudy(study, folder / study.name, quiet);
     index += fmt::format("- [{}]({}/answer.md): {}\n", study.title, study.name, study.question);
   }
-  WriteText((folder / "index.md").string(), index);
-  if (!quiet) PrintError(fmt::format("{}\n", (folder / "index.md").string()));
+  WriteNoted(folder / "index.md", index);
+  if (!quiet) PrintError("{}\n", (folder / "index.md").string());
 }
 
 void PrintList() {
   for (const StudyEntry& study : Studies()) {
-    PrintOut(
-        fmt::format("{:<16}{}\n                {}\n", study.name, study.title, study.question));
+    PrintOut("{:<16}{}\n                {}\n", study.name, study.title, study.question);
   }
 }
 

@@ -77,8 +77,7 @@ void RunTonemap(const TonemapArguments& arguments) {
   });
   png.Finish();
   if (nan_pixels > 0) {
-    PrintError(fmt::format("warning: {} pixels are not numbers and are drawn in magenta\n",
-                           nan_pixels.load()));
+    PrintError("warning: {} pixels are not numbers and are drawn in magenta\n", nan_pixels.load());
   }
 }
 

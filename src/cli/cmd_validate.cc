@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/references.h"
 #include "cli/render_options.h"
@@ -25,16 +26,15 @@ struct ValidateArguments {
 // A line of the table.
 void PrintOutcome(const ReferenceOutcome& outcome) {
   if (!outcome.run) {
-    PrintOut(fmt::format("{:<24} ERROR  {}\n", outcome.name, outcome.failure));
-    PrintError(fmt::format("{}\n", outcome.message));
+    PrintOut("{:<24} ERROR  {}\n", outcome.name, outcome.failure);
+    PrintError(outcome.message + "\n");
     return;
   }
   const Verdict& verdict = outcome.run->verdict;
   const LayerMetrics& m = verdict.layers.front();
-  PrintOut(fmt::format("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", outcome.name,
-                       verdict.match ? "match" : "DIFFER", m.rmse, m.max_rel, m.p999_rel,
-                       verdict.exceeding_pixels,
-                       verdict.match ? outcome.reference.reason : verdict.reason));
+  PrintOut("{:<24} {:<6} {:>11.3g} {:>11.3g} {:>11.3g} {:>9}  {}\n", outcome.name,
+           verdict.match ? "match" : "DIFFER", m.rmse, m.max_rel, m.p999_rel,
+           verdict.exceeding_pixels, verdict.match ? outcome.reference.reason : verdict.reason);
 }
 
 ExitCode Validate(const ValidateArguments& arguments) {
@@ -46,15 +46,17 @@ ExitCode Validate(const ValidateArguments& arguments) {
   Page page;
   ValidationSection section(MakePerceptualOptions(shown),
                             kLimit / FindReferences(arguments.folder).size(), &page);
-  PrintOut(fmt::format("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE",
-                       "max rel", "99.9% rel", "exceed", "tolerance's reason, or what differs"));
+  PrintOut("{:<24} {:<6} {:>11} {:>11} {:>11} {:>9}  {}\n", "reference", "", "RMSE", "max rel",
+           "99.9% rel", "exceed", "tolerance's reason, or what differs");
   bool all_match = true;
   bool all_compared = true;
   RunReferences(arguments.folder, arguments.threads, [&](const ReferenceOutcome& outcome) {
     PrintOutcome(outcome);
     all_compared = all_compared && outcome.run;
     all_match = all_match && outcome.run && outcome.run->verdict.match;
-    if (!arguments.report.empty()) section.Add(outcome);
+    if (arguments.report.empty()) return;
+    CheckOutputsAreNoInputs({arguments.report}, outcome.read);
+    section.Add(outcome);
   });
   if (!arguments.report.empty()) {
     const auto sections = nlohmann::ordered_json::array({section.ToJson()});

@@ -40,7 +40,7 @@ RenderSettings MakeSettings(const RenderOptions& options) {
 // One sphere in a square of `side` pixels.
 Panel RenderPanel(const Json& material, int side, const SheetOptions& sheet,
                   const RenderOptions& options, const Lighting& lighting,
-                  const std::string& command) {
+                  const std::string& command, const std::vector<std::string>& outputs) {
   SheetPage page;
   page.width = page.height = side;
   page.cell = side;
@@ -51,7 +51,11 @@ Panel RenderPanel(const Json& material, int side, const SheetOptions& sheet,
   RenderOptions alone = options;
   alone.size.clear();
   const std::string text = SheetScene(shapes, Json::object(), SheetRequest{}, page, lighting);
-  const Scene scene = LoadSheet(text, command, sheet, page, MakeLoadOptions(alone));
+  LoadOptions load = MakeLoadOptions(alone);
+  std::vector<std::string> read;
+  load.on_file = [&](const std::filesystem::path& file) { read.push_back(file.string()); };
+  const Scene scene = LoadSheet(text, command, sheet, page, load);
+  CheckOutputsAreNoInputs(outputs, read);
   return {RenderImage(scene, MakeSettings(options))};
 }
 
@@ -168,9 +172,11 @@ void RefuseWhatNoDifferencePageTakes(const CLI::App& command, const std::string&
 Json DifferenceMeasures::ToJson() const { return {{"rmse", rmse}, {"max", max}, {"mean", mean}}; }
 
 DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetOptions& sheet,
-                                  const RenderOptions& options, const std::string& command) {
+                                  const RenderOptions& options, const std::string& command,
+                                  const std::vector<std::string>& outputs) {
   for (const std::string& path : options.outputs) CheckPngPath(path);
-  CheckPathsDiffer(options.outputs);
+  CheckPathsDiffer(outputs);
+  CheckOutputsAreNoInputs(outputs, InputFiles(sheet.lighting));
   ApplyTarget(options.target);
   const Lighting lighting = MakeLighting(sheet.lighting, 0.5);
   SheetRequest request = MakeSheetRequest(sheet, options, 1, 3);
@@ -184,8 +190,8 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
   }
   const SheetPage page = LayOutSheet(text, request);
   const int side = static_cast<int>(std::max(page.cell, 1.0));
-  const Panel a = RenderPanel(difference.a, side, sheet, options, lighting, command);
-  const Panel b = RenderPanel(difference.b, side, sheet, options, lighting, command);
+  const Panel a = RenderPanel(difference.a, side, sheet, options, lighting, command, outputs);
+  const Panel b = RenderPanel(difference.b, side, sheet, options, lighting, command, outputs);
   const DifferenceMeasures measures = Measure(a, b);
   if (options.outputs.empty()) return measures;
 

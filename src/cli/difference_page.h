@@ -28,9 +28,11 @@ struct DifferencePage {
 // Throws Error (usage) for an option of the command that means nothing to such a page.
 void RefuseWhatNoDifferencePageTakes(const CLI::App& command, const std::string& what);
 
-// Renders both on the same sphere under the same light and writes the page to the outputs, PNG
-// files all of them; with no outputs it only measures. Throws Error.
+// Renders both on the same sphere under the same light and writes the page to the options' outputs,
+// PNG files all of them; with none it only measures. `outputs` are all files that the command will
+// write: none may be one that the lights are made of. Throws Error.
 DifferenceMeasures DrawDifference(const DifferencePage& page, const SheetOptions& sheet,
-                                  const RenderOptions& options, const std::string& command);
+                                  const RenderOptions& options, const std::string& command,
+                                  const std::vector<std::string>& outputs);
 
 }  // namespace nacre

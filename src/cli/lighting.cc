@@ -90,11 +90,20 @@ Json FurnaceLights() {
   return {{"furnace", {{"type", "environment"}, {"radiance", 1}, {"background", false}}}};
 }
 
+// Whether --lights holds the lights themselves, and not a file's path.
+bool IsJsonText(const std::string& text) { return text.find('{') != std::string::npos; }
+
 Json ReadLightsText(const std::string& text) {
   constexpr uint64_t kMaxBytes = uint64_t{1} << 20;
-  const bool is_json = text.find('{') != std::string::npos;
-  const std::string json = is_json ? text : ReadTextFile(text, kMaxBytes);
-  Json lights = Json::parse(json, nullptr, /*allow_exceptions=*/false);
+  const bool is_json = IsJsonText(text);
+  Json lights;
+  if (is_json) {
+    lights = TryParseJson(text).value_or(Json());
+  } else {
+    FaultList faults;
+    lights = ParseJson(ReadTextFile(text, kMaxBytes), text, &faults);
+    if (faults.count() > 0) throw Error(ExitCode::kBadInput, faults.All());
+  }
   if (lights.is_object() && lights.contains("lights")) lights = lights["lights"];  // of a scene
   if (lights.is_object()) return lights;
   throw Error(is_json ? ExitCode::kUsage : ExitCode::kBadInput, "--lights",
@@ -147,15 +156,22 @@ void AddLightingOptions(CLI::App* command, LightingOptions* options) {
       ->group(group);
 }
 
+std::vector<std::string> InputFiles(const LightingOptions& options) {
+  std::vector<std::string> files;
+  if (!options.lights.empty() && !IsJsonText(options.lights)) files.push_back(options.lights);
+  if (!options.environment.empty()) files.push_back(options.environment);
+  return files;
+}
+
 Lighting MakeLighting(const LightingOptions& options, double reach, bool centred) {
   Lighting lighting;
   lighting.background = {0.05, 0.05, 0.08};
   if (options.light == "furnace") lighting.background = 1;
   if (!options.lights.empty()) {
     lighting.lights = ReadLightsText(options.lights);
-    const bool is_file = options.lights.find('{') == std::string::npos;
-    lighting.label = is_file ? std::filesystem::path(options.lights).filename().string()
-                             : std::string("lights given");
+    lighting.label = IsJsonText(options.lights)
+                         ? std::string("lights given")
+                         : std::filesystem::path(options.lights).filename().string();
   }
   if (!options.environment.empty()) {
     lighting.lights["environment"] = {

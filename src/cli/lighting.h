@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/App.hpp>
 
@@ -19,6 +20,9 @@ struct LightingOptions {
 
 // --light, --lights, --environment and --background.
 void AddLightingOptions(CLI::App* command, LightingOptions* options);
+
+// The files that the options name.
+std::vector<std::string> InputFiles(const LightingOptions& options);
 
 // What MakeLighting makes of the options for a scene whose shapes lie within `reach` of the origin
 // in the plane z = 0, seen from +z. `centred`: "point" has its highlight on the vertical middle

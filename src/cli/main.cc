@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/main.cc: the program: commands, and the one place where errors are printed.
 #include <algorithm>
-#include <iostream>
 #include <memory>
 #include <new>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -49,6 +49,18 @@ std::vector<std::string> ReversedArguments(int argc, char** argv) {
   return words;
 }
 
+// Runs the command, or prints what --help and --version ask for.
+void Parse(CLI::App* app, std::vector<std::string> reversed) {
+  try {
+    app->parse(reversed);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw;
+    std::ostringstream text;
+    app->exit(error, text, text);
+    nacre::PrintOut(text.str());
+  }
+}
+
 int Run(int argc, char** argv) {
   using nacre::ExitCode;
   CLI::App app(
@@ -80,23 +92,18 @@ int Run(int argc, char** argv) {
   try {
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();
-    std::vector<std::string> reversed = ReversedArguments(argc, argv);
+    const std::vector<std::string> reversed = ReversedArguments(argc, argv);
     CheckCommandName(app, reversed);
-    app.parse(reversed);
+    Parse(&app, reversed);
     nacre::FinishOutput();
     return exit_code;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {  // --help, --version
-      app.exit(error);
-      std::cout.flush();
-      return static_cast<int>(std::cout ? ExitCode::kOk : ExitCode::kCannotWrite);
-    }
     if (const std::optional<nacre::Error> unknown = nacre::UnknownArgument(app, error)) {
       nacre::PrintError(std::string(unknown->what()) + "\n");
       return static_cast<int>(unknown->code());
     }
-    nacre::PrintError(fmt::format("error: {}\n  hint: see nacre --help, or nacre COMMAND --help\n",
-                                  error.what()));
+    nacre::PrintError("error: {}\n  hint: see nacre --help, or nacre COMMAND --help\n",
+                      error.what());
     return static_cast<int>(ExitCode::kUsage);
   } catch (const nacre::Error& error) {
     nacre::PrintError(std::string(error.what()) + "\n");
@@ -104,7 +111,7 @@ int Run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     nacre::PrintError("error: out of memory\n  hint: a smaller picture or scene needs less\n");
   } catch (const std::exception& error) {
-    nacre::PrintError(fmt::format("error: internal: {}\n", error.what()));
+    nacre::PrintError("error: internal: {}\n", error.what());
   }
   return static_cast<int>(ExitCode::kInternal);
 }

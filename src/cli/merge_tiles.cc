@@ -10,6 +10,8 @@
 
 #include "api/metadata.h"
 #include "base/error.h"
+#include "cli/progress.h"
+#include "image_io/exr_checksum.h"
 #include "image_io/exr_compress.h"
 
 namespace nacre {
@@ -185,21 +187,49 @@ void CheckCover(const std::vector<HeaderOfTile>& tiles) {
   if (!faults.empty()) throw Error(ExitCode::kBadInput, std::move(faults));
 }
 
+// The header of a file that is what was written: by its checksum, or, if it has none, as far as
+// decoding all of it tells; then it is added to `unproven`.
+ExrBandHeader ReadProvenHeader(const std::string& path, std::vector<std::string>* unproven) {
+  const ExrChecksum checksum = CheckExrChecksum(path);
+  if (checksum == ExrChecksum::kWrong) {
+    throw Error(ExitCode::kBadInput, path,
+                "is damaged: its bytes are not those that its checksum was made of",
+                "render this tile again");
+  }
+  ExrBandReader reader(path);
+  ExrBandHeader header = reader.ReadHeader();
+  if (checksum == ExrChecksum::kNone) {
+    reader.DecodeAll();
+    unproven->push_back(path);
+  }
+  return header;
+}
+
 }  // namespace
 
 TilesOfPicture FindTiles(const std::vector<std::string>& paths) {
+  TilesOfPicture picture;
   std::vector<HeaderOfTile> tiles;
   tiles.reserve(paths.size());
+  std::vector<Fault> faults;  // of all damaged tiles: whoever renders them again does so at once
   for (const std::string& path : paths) {
-    tiles.push_back({path, ExrBandReader(path).ReadHeader()});
-    CheckShape(tiles.back());
-    CheckSamePicture(tiles.front(), tiles.back());
+    ThrowIfStopped();
+    try {
+      tiles.push_back({path, ReadProvenHeader(path, &picture.unproven)});
+    } catch (const Error& error) {
+      if (error.code() != ExitCode::kBadInput) throw;
+      faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+    }
+  }
+  if (!faults.empty()) throw Error(ExitCode::kBadInput, std::move(faults));
+  for (const HeaderOfTile& tile : tiles) {
+    CheckShape(tile);
+    CheckSamePicture(tiles.front(), tile);
   }
   std::ranges::stable_sort(tiles, {},
                            [](const HeaderOfTile& tile) { return tile.header().data.y0; });
   CheckCover(tiles);
 
-  TilesOfPicture picture;
   picture.whole = tiles.front().band;
   picture.whole.header.data = picture.whole.header.display;
   auto& attributes = picture.whole.header.attributes;

@@ -15,12 +15,14 @@ struct Tile {
 };
 
 struct TilesOfPicture {
-  ExrBandHeader whole;      // header of the whole picture
-  std::vector<Tile> tiles;  // from the top down; they hold every row once
+  ExrBandHeader whole;                // header of the whole picture
+  std::vector<Tile> tiles;            // from the top down; they hold every row once
+  std::vector<std::string> unproven;  // files without a checksum, all of whose samples were decoded
 };
 
-// Reads the headers. Throws Error (kBadInput), naming the files, for tiles that differ in anything
-// that decides their pixels, or that do not hold every row of the frame once.
+// Reads all of the files. Throws Error (kBadInput), naming them, for tiles that are not what was
+// written, that differ in anything that decides their pixels, or that do not hold every row of the
+// frame once.
 TilesOfPicture FindTiles(const std::vector<std::string>& paths);
 
 }  // namespace nacre

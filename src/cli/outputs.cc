@@ -2,8 +2,9 @@
 #include "cli/outputs.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <set>
+#include <map>
+
+#include <fmt/format.h>
 
 #include "api/metadata.h"
 #include "base/error.h"
@@ -46,13 +47,28 @@ void CheckPngPath(const std::string& path) {
 }
 
 void CheckPathsDiffer(const std::vector<std::string>& paths) {
-  std::set<std::filesystem::path> seen;
+  std::map<std::string, std::string> seen;
   for (const std::string& path : paths) {
-    std::error_code error;  // a path that cannot be resolved is refused when it is opened
-    if (!seen.insert(std::filesystem::weakly_canonical(path, error)).second && !error) {
-      throw Error(ExitCode::kUsage, path, "the same file is named twice",
-                  "an output must not replace another file of the same command");
-    }
+    const auto [first, is_new] = seen.emplace(FileIdentity(path), path);
+    if (is_new) continue;
+    throw Error(ExitCode::kUsage, path,
+                "the same file is named twice" +
+                    (first->second == path ? "" : fmt::format(", also as \"{}\"", first->second)),
+                "an output must not replace another file of the same command");
+  }
+}
+
+void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
+                             const std::vector<std::string>& inputs) {
+  std::map<std::string, std::string> read;
+  for (const std::string& input : inputs) read.emplace(FileIdentity(input), input);
+  for (const std::string& output : outputs) {
+    const auto found = read.find(FileIdentity(output));
+    if (found == read.end()) continue;
+    throw Error(ExitCode::kUsage, output,
+                "is read for this picture" +
+                    (found->second == output ? "" : fmt::format(", as \"{}\"", found->second)),
+                "an output must not replace what it is made from: name another file");
   }
 }
 

@@ -25,8 +25,14 @@ void CheckPicturePaths(const std::vector<std::string>& paths);
 // The same for a single PNG.
 void CheckPngPath(const std::string& path);
 
-// Throws Error (kUsage) if two of the paths, inputs and outputs of a command, are the same file.
+// Throws Error (kUsage) if two of the paths, inputs and outputs of a command, are the same file, by
+// whatever spelling or link.
 void CheckPathsDiffer(const std::vector<std::string>& paths);
+
+// Throws Error (kUsage) if one of the outputs is a file that was read: the scene's own, its
+// textures, models and their parts (LoadOptions::on_file). Inputs may be named more than once.
+void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
+                             const std::vector<std::string>& inputs);
 
 // The header of the EXR files of a render.
 ExrHeader MakeOutputHeader(const RenderOptions& options, const RenderPlan& plan);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "cli/outputs.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/sheet_axis.h"
 
@@ -19,18 +20,20 @@ using Json = nlohmann::json;
 
 // {"model": "phong", "shininess": 64} as "phong, shininess 64". `kind` is "model" or "type".
 std::string LabelOf(const Json& object, const char* kind) {
-  std::string label = object.value(kind, "");
+  const auto text = [](const Json& value) {
+    return value.is_string() ? value.get<std::string>() : JsonText(value);
+  };
+  const auto found = object.find(kind);
+  std::string label = found != object.end() ? text(*found) : "";
   for (const auto& [key, value] : object.items()) {
-    if (key == kind) continue;
-    label +=
-        fmt::format(", {} {}", key, value.is_string() ? value.get<std::string>() : value.dump());
+    if (key != kind) label += fmt::format(", {} {}", key, text(value));
   }
   std::replace(label.begin(), label.end(), '_', ' ');
   return label;
 }
 
 Json ParseLight(const std::string& option, const std::string& text) {
-  Json light = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  Json light = TryParseJson(text).value_or(Json());
   if (!light.is_object()) {
     throw Error(ExitCode::kUsage, option, "\"" + text + "\" is not a light",
                 "give JSON, e.g. '{\"type\": \"point\", \"intensity\": 1}', or a name and --scene");
@@ -41,14 +44,18 @@ Json ParseLight(const std::string& option, const std::string& text) {
 // What is given on the command line, read as a scene file's would be.
 Scene SceneOf(const char* key, const Json& object) {
   const Json scene = {{"nacre", 1}, {key, {{"given", object}}}};
-  return LoadSceneText(scene.dump(), "nacre plot", ".", {});
+  return LoadSceneText(JsonText(scene), "nacre plot", ".", {});
 }
 
 std::optional<Scene> LoadInputScene(const PlotInputs& inputs) {
   if (inputs.scene.empty()) return std::nullopt;
   LoadOptions options;
   options.allow_paths = inputs.allow_paths;
-  return LoadScene(inputs.scene, options);
+  std::vector<std::string> read = {inputs.scene};
+  options.on_file = [&](const std::filesystem::path& file) { read.push_back(file.string()); };
+  Scene scene = LoadScene(inputs.scene, options);
+  CheckOutputsAreNoInputs(inputs.outputs, read);
+  return scene;
 }
 
 [[noreturn]] void FailUnknown(const PlotInputs& inputs, const char* what, const std::string& name,

@@ -13,6 +13,7 @@ namespace nacre {
 struct PlotInputs {
   std::string scene;  // a scene file or model; empty: none
   bool allow_paths = false;
+  std::vector<std::string> outputs;    // what is to be written: none of the scene's files may be
   std::vector<std::string> materials;  // names in the scene, models' names, or JSON
   std::vector<std::string> lights;     // names in the scene, or JSON
 };

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -11,12 +12,32 @@
 #include "base/error.h"
 
 namespace nacre {
+namespace {
 
-void PrintOut(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+// Whether nobody could have read what was printed: standard output was closed, and leads to
+// /dev/null now.
+bool g_output_was_closed = false;
+bool g_printed = false;
 
-void PrintError(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+void PrintLines(std::string_view text, FILE* file) {
+  const std::string printable = PrintableLines(text);
+  std::fwrite(printable.data(), 1, printable.size(), file);
+}
+
+}  // namespace
+
+void PrintOut(std::string_view text) {
+  g_printed = g_printed || !text.empty();
+  PrintLines(text, stdout);
+}
+
+void PrintError(std::string_view text) { PrintLines(text, stderr); }
 
 void FinishOutput() {
+  if (g_output_was_closed && g_printed) {
+    throw Error(ExitCode::kCannotWrite, "standard output", "is closed",
+                "what was printed went nowhere");
+  }
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw Error(ExitCode::kCannotWrite, "standard output",
@@ -25,6 +46,7 @@ void FinishOutput() {
 }
 
 void OpenStandardStreams() {
+  g_output_was_closed = fcntl(STDOUT_FILENO, F_GETFD) < 0 && errno == EBADF;
   int descriptor = open("/dev/null", O_RDWR);
   while (descriptor >= 0 && descriptor <= STDERR_FILENO) descriptor = open("/dev/null", O_RDWR);
   if (descriptor > STDERR_FILENO) close(descriptor);

@@ -20,6 +20,17 @@ namespace {
 
 std::atomic<int> g_stop_signal{0};
 
+// The command's files that are whole already.
+struct WrittenFiles {
+  size_t count = 0;
+  std::string last;
+};
+
+WrittenFiles& Written() {
+  static WrittenFiles written;
+  return written;
+}
+
 int SignalExitCode(int signal) {
   return static_cast<int>(signal == SIGTERM ? ExitCode::kTerminated : ExitCode::kInterrupted);
 }
@@ -73,15 +84,18 @@ void Progress::Print(double done, double elapsed_seconds) const {
   const double left = done > 0 ? elapsed_seconds * (1 - done) / done : 0;
   if (form_ == ProgressForm::kJson) {
     PrintError(
-        fmt::format("{{\"progress\": {:.4f}, \"elapsed_s\": {:.3f}, \"left_s\": {:.3f}, "
-                    "\"rate_per_s\": {:.6g}}}\n",
-                    done, elapsed_seconds, left, rate));
+        "{{\"progress\": {:.4f}, \"elapsed_s\": {:.3f}, \"left_s\": {:.3f}, "
+        "\"rate_per_s\": {:.6g}}}\n",
+        done, elapsed_seconds, left, rate);
   } else {
     constexpr int kBarWidth = 30;
     const int filled = static_cast<int>(done * kBarWidth);
     const std::string told = unit_count_ > 0 ? FormatRate(rate, unit_) + "  " : "";
-    PrintError(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}{} left\033[K", what_, "", filled,
-                           "", kBarWidth - filled, 100 * done, told, FormatSeconds(left)));
+    // The one text that moves the cursor itself: it does not pass through PrintError.
+    std::fputs(fmt::format("\r{} [{:=<{}}{: <{}}] {:3.0f} %  {}{} left\033[K", Printable(what_), "",
+                           filled, "", kBarWidth - filled, 100 * done, told, FormatSeconds(left))
+                   .c_str(),
+               stderr);
   }
   std::fflush(stderr);
 }
@@ -100,8 +114,19 @@ void CatchStopSignals() {
 void ThrowIfStopped() {
   const int signal = g_stop_signal.load();
   if (signal == 0) return;
+  const WrittenFiles& written = Written();
   throw Error(static_cast<ExitCode>(SignalExitCode(signal)), "",
-              signal == SIGTERM ? "terminated" : "interrupted", "no output was written");
+              signal == SIGTERM ? "terminated" : "interrupted",
+              written.count == 0 ? "no output was written"
+              : written.count == 1
+                  ? fmt::format("of the outputs, {} was written", written.last)
+                  : fmt::format("{} files were written before, the last of them {}", written.count,
+                                written.last));
+}
+
+void NoteWritten(const std::string& path) {
+  ++Written().count;
+  Written().last = path;
 }
 
 }  // namespace nacre

@@ -41,7 +41,11 @@ class Progress {
 // ends it. Output that is not finished has no name yet, so nothing is left either way.
 void CatchStopSignals();
 
-// Throws Error if a stop signal has come.
+// Throws Error if a stop signal has come, with what NoteWritten was told.
 void ThrowIfStopped();
+
+// For commands that write several files, one after the other, and may be stopped in between: tells
+// that this one is whole and stays. From the thread that calls ThrowIfStopped.
+void NoteWritten(const std::string& path);
 
 }  // namespace nacre

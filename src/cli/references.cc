@@ -2,43 +2,88 @@
 #include "cli/references.h"
 
 #include <algorithm>
-#include <fstream>
 #include <limits>
-
-#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/error.h"
 #include "cli/progress.h"
 #include "image_io/exr_reader.h"
 #include "render/render.h"
+#include "scene_io/json_reader.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/text_file.h"
 
 namespace nacre {
 namespace fs = std::filesystem;
 
-Reference ReadReference(const fs::path& path) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(ExitCode::kCannotCompare, path.string(), what,
-                "a reference names a scene, an image, tolerances and their reason");
-  };
-  std::ifstream file(path);
-  const nlohmann::json json = nlohmann::json::parse(file, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) fail("not a JSON object");
-  Reference reference;
-  try {
-    reference.name = path.stem().stem().string();
-    reference.scene = path.parent_path() / json.at("scene").get<std::string>();
-    reference.image = path.parent_path() / json.at("image").get<std::string>();
-    reference.layers = json.value("layers", std::vector<std::string>{});
-    reference.reason = json.at("reason").get<std::string>();
-    const nlohmann::json& tolerances = json.at("tolerances");
-    reference.tolerances.max_abs = tolerances.value("max_abs", 0.0);
-    reference.tolerances.max_rel = tolerances.value("max_rel", 0.0);
-    reference.tolerances.exceeding_fraction = tolerances.value("exceeding_fraction", 0.0);
-    reference.tolerances.rmse = tolerances.value("rmse", std::numeric_limits<double>::infinity());
-  } catch (const nlohmann::json::exception& error) {
-    fail(error.what());
+namespace {
+
+constexpr char kReferenceHint[] =
+    R"({"scene": "x.json", "image": "x.exr", "tolerances": {"max_rel": 1e-5}, "reason": "why"})";
+
+void RequireText(JsonObject* object, std::string_view name, std::string* text) {
+  if (object->Require(name, kReferenceHint) != nullptr) object->Text(name, text);
+}
+
+void ReadLayers(JsonObject* object, std::vector<std::string>* layers) {
+  const Json* const json = object->Find("layers");
+  if (json == nullptr) return;
+  const JsonPath path = object->path().Member("layers");
+  const JsonValue value{*json, path, object->faults()};
+  if (!value.Expect(json->is_array(), "an array of names",
+                    R"(["", "diffuse"]; "" is the beauty)")) {
+    return;
   }
+  for (size_t i = 0; i < json->size(); ++i) {
+    std::string layer;
+    if (ReadText({(*json)[i], path.Element(i), object->faults()}, &layer)) layers->push_back(layer);
+  }
+}
+
+void ReadTolerances(JsonObject* object, Tolerances* tolerances) {
+  const Json* const json = object->Require("tolerances", kReferenceHint);
+  if (json == nullptr) return;
+  constexpr Range kError{0, 1e30};
+  JsonObject members({*json, object->path().Member("tolerances"), object->faults()});
+  members.Number("max_abs", kError, &tolerances->max_abs);
+  members.Number("max_rel", kError, &tolerances->max_rel);
+  members.Number("exceeding_fraction", limits::kUnit, &tolerances->exceeding_fraction);
+  tolerances->rmse = std::numeric_limits<double>::infinity();
+  members.Number("rmse", kError, &tolerances->rmse);
+  members.RefuseOthers();
+}
+
+}  // namespace
+
+Reference ReadReference(const fs::path& path) {
+  constexpr uint64_t kMaxBytes = uint64_t{1} << 20;
+  const std::string file = path.string();
+  Reference reference;
+  FaultList faults;
+  std::string scene, image;
+  if (!fs::is_regular_file(path)) {
+    throw Error(ExitCode::kCannotCompare, file, "is not a regular file");
+  }
+  try {
+    const Json root = ParseJson(ReadTextFile(path, kMaxBytes), file, &faults);
+    JsonObject object({root, JsonPath{}, &faults}, kReferenceHint);
+    RequireText(&object, "scene", &scene);
+    RequireText(&object, "image", &image);
+    ReadLayers(&object, &reference.layers);
+    ReadTolerances(&object, &reference.tolerances);
+    RequireText(&object, "reason", &reference.reason);
+    object.RefuseOthers();
+  } catch (const Error& error) {
+    throw Error(ExitCode::kCannotCompare, error.faults());
+  }
+  if (faults.count() > 0) {
+    std::vector<Fault> all = faults.All();
+    for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
+    throw Error(ExitCode::kCannotCompare, std::move(all));
+  }
+  reference.name = path.stem().stem().string();
+  reference.scene = path.parent_path() / scene;
+  reference.image = path.parent_path() / image;
   return reference;
 }
 
@@ -69,9 +114,11 @@ CompareOptions OptionsOf(const Reference& reference) {
 namespace {
 
 // Throws Error for a scene or image that cannot be read or that do not belong together.
-ReferenceRun RunReference(const Reference& reference, int threads) {
+ReferenceRun RunReference(const Reference& reference, int threads, std::vector<std::string>* read) {
   ReferenceRun run;
-  const Scene scene = LoadScene(reference.scene, {});
+  LoadOptions load;
+  load.on_file = [&](const fs::path& file) { read->push_back(file.string()); };
+  const Scene scene = LoadScene(reference.scene, load);
   RenderSettings settings;
   settings.threads = threads;
   settings.on_progress = [](double) { ThrowIfStopped(); };
@@ -89,8 +136,11 @@ void RunReferences(const std::string& folder, int threads,
     ReferenceOutcome outcome;
     outcome.name = path.stem().stem().string();
     try {
+      outcome.read = {path.string()};
       outcome.reference = ReadReference(path);
-      outcome.run = RunReference(outcome.reference, threads);
+      outcome.read.push_back(outcome.reference.scene.string());
+      outcome.read.push_back(outcome.reference.image.string());
+      outcome.run = RunReference(outcome.reference, threads, &outcome.read);
     } catch (const Error& error) {
       // Told, and the others still get their turn.
       if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;

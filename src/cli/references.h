@@ -28,7 +28,8 @@ struct Reference {
 // none.
 std::vector<std::filesystem::path> FindReferences(const std::string& folder);
 
-// Throws Error (kCannotCompare) for a file that is not what is described above.
+// Throws Error (kCannotCompare) with all faults, as scene files have theirs told, for a file that
+// is not what is described above.
 Reference ReadReference(const std::filesystem::path& path);
 
 // What a reference's scene renders to, beside its image.
@@ -45,8 +46,9 @@ struct ReferenceOutcome {
   std::string name;
   Reference reference;
   std::optional<ReferenceRun> run;
-  std::string failure;  // in a few words
-  std::string message;  // where, what and hint
+  std::vector<std::string> read;  // the files that it is made of, as far as they were found
+  std::string failure;            // in a few words
+  std::string message;            // where, what and hint
 };
 
 // All references of the folder, one after another; `done` is called with each. Throws Error.

@@ -38,18 +38,15 @@ ProgressForm EarlyProgressForm(const RenderOptions& options) {
 // What the user must know of samples that are not as computed.
 void WarnAboutSamples(const OutputCounts& counts) {
   if (counts.exr.clamped > 0) {
-    PrintError(
-        fmt::format("warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
-                    counts.exr.clamped));
+    PrintError("warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
+               counts.exr.clamped);
   }
   if (counts.exr.infinite > 0) {
-    PrintError(fmt::format("warning: {} samples are infinite\n", counts.exr.infinite));
+    PrintError("warning: {} samples are infinite\n", counts.exr.infinite);
   }
-  if (counts.exr.nan > 0)
-    PrintError(fmt::format("warning: {} samples are not numbers\n", counts.exr.nan));
+  if (counts.exr.nan > 0) PrintError("warning: {} samples are not numbers\n", counts.exr.nan);
   if (counts.nan_pixels > 0) {
-    PrintError(fmt::format("warning: {} pixels are not numbers and are drawn in magenta\n",
-                           counts.nan_pixels));
+    PrintError("warning: {} pixels are not numbers and are drawn in magenta\n", counts.nan_pixels);
   }
 }
 
@@ -63,16 +60,16 @@ void Summarize(const RenderOptions& options, const RenderPlan& plan, const Rende
       plan.adaptive.max_error > 0
           ? fmt::format("{:.1f}", static_cast<double>(stats.camera_rays) / pixels)
           : fmt::format("{}", plan.scene->image.spp);
-  PrintError(fmt::format(
+  PrintError(
       "{}: {}x{}, {} sample{} a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
       plan.window.width(), plan.window.height(), samples, samples == "1" ? "" : "s",
       1e3 * times.total_seconds, 1e3 * stats.render_seconds,
-      1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds));
+      1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds);
 }
 
 }  // namespace
 
-void RunRenderJob(const RenderOptions& options, const std::string& input,
+void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& inputs,
                   const std::function<Scene(const LoadOptions&)>& load,
                   const std::vector<TextItem>& captions) {
   const Clock::time_point start = Clock::now();
@@ -86,8 +83,8 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
     CheckTextOutput(options.stats);
     if (options.stats != "-") paths.push_back(options.stats);
   }
-  if (!input.empty()) paths.push_back(input);
   CheckPathsDiffer(paths);
+  CheckOutputsAreNoInputs(paths, inputs);
 
   std::vector<std::string> warnings;
   for (const IdleOption& idle : options.idle_options) {
@@ -95,15 +92,20 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
     warnings.push_back(fmt::format("{} changes nothing: it is for {} files, and none is written",
                                    idle.name, idle.extension));
   }
+  std::vector<std::string> read;  // files that the scene refers to
   const Scene scene = [&] {
     Progress progress(EarlyProgressForm(options), "reading", 0, "");
     load_options.on_warning = [&](const std::string& text) {
       if (!options.quiet) warnings.push_back(text);
     };
+    load_options.on_file = [&](const std::filesystem::path& file) {
+      read.push_back(file.string());
+    };
     load_options.on_progress = [&](double done) { progress.Update(done); };
     return load(load_options);
   }();
-  for (const std::string& text : warnings) PrintError("warning: " + text + "\n");
+  CheckOutputsAreNoInputs(paths, read);
+  for (const std::string& text : warnings) PrintError("warning: {}\n", text);
   times.load_seconds = SecondsSince(start);
   ThrowIfStopped();
 
@@ -135,13 +137,13 @@ void RunRenderJob(const RenderOptions& options, const std::string& input,
   times.total_seconds = SecondsSince(start);
 
   if (!options.quiet) {
-    for (const std::string& note : plan.notes) PrintError("note: " + note + "\n");
+    for (const std::string& note : plan.notes) PrintError("note: {}\n", note);
   }
   if (!options.quiet && stats.unsettled_pixels > 0) {
-    PrintError(fmt::format(
+    PrintError(
         "note: {} of {} pixels did not settle within {} samples; give more by --spp, or a larger "
         "--max-error\n",
-        stats.unsettled_pixels, plan.window.pixel_count(), settings.max_samples));
+        stats.unsettled_pixels, plan.window.pixel_count(), settings.max_samples);
   }
   WarnAboutSamples(counts);
   if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);

@@ -10,10 +10,11 @@
 
 namespace nacre {
 
-// Checks the outputs (`input` is the scene's file, or empty), calls `load`, renders and writes.
+// Checks the outputs (`inputs` are the files that the command names), calls `load`, renders and
+// writes.
 // `load` gets what scene_io is to be told. `captions`, if any, are drawn into PNG files in place of
 // the scene's labels; they are in pixels of the whole frame. Throws Error.
-void RunRenderJob(const RenderOptions& options, const std::string& input,
+void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& inputs,
                   const std::function<Scene(const LoadOptions&)>& load,
                   const std::vector<TextItem>& captions = {});
 

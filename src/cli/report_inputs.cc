@@ -3,17 +3,19 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
 #include "api/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "image_io/image_reader.h"
 #include "render/render.h"
+#include "scene_io/json_text.h"
+#include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
@@ -21,6 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
+
+constexpr uint64_t kMaxJsonBytes = uint64_t{1} << 30;  // as for scenes
 
 double SecondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -48,11 +52,12 @@ void AddMetadata(const RenderPlan& plan, Image* image) {
 }  // namespace
 
 Json ReadJson(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw Error(ExitCode::kBadInput, path, "cannot be read");
-  Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
-  if (json.is_discarded()) throw Error(ExitCode::kBadInput, path, "not JSON");
-  return json;
+  FaultList faults;
+  Json json = ParseJson(ReadTextFile(path, kMaxJsonBytes), path, &faults);
+  if (faults.count() == 0) return json;
+  std::vector<Fault> all = faults.All();
+  for (Fault& fault : all) fault.where = PlaceInFile(path, fault.where);
+  throw Error(ExitCode::kBadInput, std::move(all));
 }
 
 ReportInput KindOfInput(const std::string& path) {
@@ -60,9 +65,7 @@ ReportInput KindOfInput(const std::string& path) {
   if (fs::is_directory(path, error)) return ReportInput::kReferences;
   if (IsModelFile(path)) return ReportInput::kScene;
   if (!HasExtension(path, ".json")) return ReportInput::kImage;
-  // A scene's own reader tells what is wrong with it, and where.
-  std::ifstream file(path);
-  const Json json = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  const Json json = ReadJson(path);
   if (json.is_object() && json.contains("benchmarks") && json.contains("machine")) {
     return ReportInput::kBench;
   }
@@ -76,10 +79,15 @@ ReportPicture ReadPicture(const std::string& path) {
   return {NameOf(path), ReadImage(path), std::nullopt};
 }
 
-ReportPicture RenderPicture(const std::string& path, const RenderOptions& options) {
+ReportPicture RenderPicture(const std::string& path, const RenderOptions& options,
+                            const std::string& output) {
   const Clock::time_point start = Clock::now();
   JobTimes times;
-  const Scene scene = LoadScene(path, MakeLoadOptions(options));
+  LoadOptions load = MakeLoadOptions(options);
+  std::vector<std::string> read;
+  load.on_file = [&](const fs::path& file) { read.push_back(file.string()); };
+  const Scene scene = LoadScene(path, load);
+  CheckOutputsAreNoInputs({output}, read);
   times.load_seconds = SecondsSince(start);
   RenderSettings settings = MakeRenderSettings(options);
   settings.time_stages = true;

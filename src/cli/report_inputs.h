@@ -31,7 +31,9 @@ struct ReportPicture {
 };
 
 ReportPicture ReadPicture(const std::string& path);
-ReportPicture RenderPicture(const std::string& path, const RenderOptions& options);
+// `output` is the report's file, which the scene must not be made of.
+ReportPicture RenderPicture(const std::string& path, const RenderOptions& options,
+                            const std::string& output);
 
 // Throws Error (kBadInput) if it is not JSON.
 nlohmann::ordered_json ReadJson(const std::string& path);

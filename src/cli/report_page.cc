@@ -47,8 +47,7 @@ void WriteReport(const std::string& path, const std::string& title, const Json& 
                                       {"exposure", shown.exposure},
                                       {"sections", sections}});
   WriteText(path, html);
-  PrintError(
-      fmt::format("{}: {:.1f} MiB\n", path, static_cast<double>(html.size()) / (1024 * 1024)));
+  PrintError("{}: {:.1f} MiB\n", path, static_cast<double>(html.size()) / (1024 * 1024));
 }
 
 }  // namespace nacre

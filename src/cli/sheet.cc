@@ -32,7 +32,7 @@ std::string SheetScene(const Json& shapes, const Json& materials, const SheetReq
       {"shapes", shapes},
       {"background", lighting.background},
   };
-  return scene.dump();
+  return JsonText(scene);
 }
 
 void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* render) {

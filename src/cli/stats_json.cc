@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stats_json.h"
 
-#include <nlohmann/json.hpp>
-
 #include "api/metadata.h"
 #include "base/target.h"
 #include "base/version.h"
+#include "scene_io/json_text.h"
 
 namespace nacre {
 
@@ -74,7 +73,7 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
         {"nan", counts.exr.nan},
         {"png_nan_pixels", counts.nan_pixels}}},
   };
-  return json.dump(2) + "\n";
+  return JsonText(json, 2) + "\n";
 }
 
 std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, int most_tiles) {
@@ -98,7 +97,7 @@ std::string DryRunJson(const ExrHeader& header, const RenderOptions& options, in
                      {"compression", options.compression},
                      {"channels", channels},
                      {"attributes", attributes}};
-  return json.dump(2) + "\n";
+  return JsonText(json, 2) + "\n";
 }
 
 }  // namespace nacre

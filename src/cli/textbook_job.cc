@@ -177,12 +177,14 @@ void RunTextbookJob(const RenderOptions& options, const std::string& path,
                     const CLI::App& command) {
   RefuseOptionsThatCannotApply(command);
   CheckPicturePaths(options.outputs);
-  std::vector<std::string> paths = options.outputs;
-  paths.push_back(path);
-  CheckPathsDiffer(paths);
+  CheckPathsDiffer(options.outputs);
+  std::vector<std::string> read = {path};
+  CheckOutputsAreNoInputs(options.outputs, read);
   LoadOptions load;
   load.allow_paths = options.allow_paths;
+  load.on_file = [&](const std::filesystem::path& file) { read.push_back(file.string()); };
   const TextbookSubject subject = ChooseTextbookSubject(LoadScene(path, load), path);
+  CheckOutputsAreNoInputs(options.outputs, read);
   ThrowIfStopped();
   const TextbookPicture picture = RenderSubject(subject, options.size);
   ThrowIfStopped();
@@ -191,9 +193,8 @@ void RunTextbookJob(const RenderOptions& options, const std::string& path,
   WriteOutputs(picture, options, half ? PixelType::kHalf : PixelType::kFloat);
   if (options.quiet) return;
   for (const std::string& output : options.outputs) {
-    PrintError(fmt::format(
-        "{}: {}x{}, the lesson's {}\n", output, picture.width, picture.height,
-        subject == TextbookSubject::kComparison ? "Phong beside PBR" : "material grid"));
+    PrintError("{}: {}x{}, the lesson's {}\n", output, picture.width, picture.height,
+               subject == TextbookSubject::kComparison ? "Phong beside PBR" : "material grid");
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_io/exr_bands.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <new>
 #include <set>
@@ -16,7 +17,10 @@
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include "base/error.h"
+#include "image_io/exr_checksum.h"
+#include "image_io/exr_compress.h"
 #include "image_io/exr_container.h"
+#include "image_io/exr_header_check.h"
 
 namespace nacre {
 namespace {
@@ -59,7 +63,7 @@ PixelType ToPixelType(Imf::PixelType type) {
 const std::set<std::string> kStructure = {
     "channels",  "compression",      "dataWindow",         "displayWindow",
     "lineOrder", "pixelAspectRatio", "screenWindowCenter", "screenWindowWidth",
-    "type",      "chromaticities"};
+    "type",      "chromaticities",   kExrChecksumAttribute};
 
 void AddAttribute(const std::string& path, const std::string& name, const Imf::Attribute& attribute,
                   ExrHeader* header) {
@@ -94,6 +98,25 @@ struct ExrBandReader::State {
     }
   }
 
+  // What is stored as it is has its full length, and what is compressed is not longer than that.
+  // The library takes what is missing for zeros.
+  void CheckChunkSize(int y, int size) const {
+    const Imf::Header& header = file->header();
+    const Window data = ToWindow(header.dataWindow());
+    size_t row_bytes = 0;
+    for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+      row_bytes += static_cast<size_t>(data.width()) * (it.channel().type == Imf::HALF ? 2 : 4);
+    }
+    const Compression compression = ToCompression(path, header.compression());
+    const int rows = std::min(RowsPerChunk(compression), data.y1 - y);
+    const size_t full = row_bytes * static_cast<size_t>(rows);
+    const auto bytes = static_cast<size_t>(size);
+    if (size <= 0 || bytes > full || (compression == Compression::kNone && bytes != full)) {
+      Fail(path, "is damaged: the rows from " + std::to_string(y) + " on have " +
+                     std::to_string(size) + " bytes, not " + std::to_string(full));
+    }
+  }
+
   std::string path;
   std::unique_ptr<Imf::InputFile> file;
 };
@@ -106,6 +129,7 @@ ExrBandReader::ExrBandReader(const std::string& path) : state_(std::make_unique<
   if (!std::filesystem::is_regular_file(status)) {
     throw Error(ExitCode::kBadInput, path, "is not a regular file", "give the tiles' EXR files");
   }
+  CheckExrHeader(path);
   state_->Guard([&] {
     constexpr int kNoThreads = 0;
     state_->file = std::make_unique<Imf::InputFile>(path.c_str(), kNoThreads);
@@ -143,8 +167,24 @@ std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
     const char* bytes = nullptr;
     int size = 0;
     state_->file->rawPixelData(y, bytes, size);
+    state_->CheckChunkSize(y, size);
     return {bytes, bytes + size};
   });
+}
+
+void ExrBandReader::DecodeAll() {
+  const Imf::Header& header = state_->file->header();
+  const Window data = ToWindow(header.dataWindow());
+  std::vector<std::string> channels;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    channels.emplace_back(it.name());
+  }
+  const int rows = RowsPerChunk(ToCompression(state_->path, header.compression()));
+  std::vector<std::vector<float>> planes;
+  for (int y = data.y0; y < data.y1; y += rows) {
+    ReadChunk(y);
+    ReadRows(y, std::min(rows, data.y1 - y), channels, &planes);
+  }
 }
 
 void ExrBandReader::ReadRows(int y, int rows, const std::vector<std::string>& channels,
@@ -180,6 +220,6 @@ void ExrBandWriter::WriteChunk(int y, const std::vector<uint8_t>& bytes) {
   state_->container.WriteChunk(y, bytes);
 }
 
-void ExrBandWriter::Finish() { state_->container.Finish(/*sync=*/false); }
+void ExrBandWriter::Finish() { state_->container.Finish(/*sync=*/true); }
 
 }  // namespace nacre

@@ -30,6 +30,10 @@ class ExrBandReader {
   // The compressed bytes of the chunk that begins at row `y`. Throws if it is not in the file.
   std::vector<uint8_t> ReadChunk(int y);
 
+  // Decodes every sample: throws if any chunk is not what the header says. Bits that flipped where
+  // a compression keeps no check of its own stay unnoticed: CheckExrChecksum notices them.
+  void DecodeAll();
+
   // Rows y .. y + rows - 1 of a channel each, decoded to floats.
   void ReadRows(int y, int rows, const std::vector<std::string>& channels,
                 std::vector<std::vector<float>>* planes);
@@ -49,7 +53,7 @@ class ExrBandWriter {
 
   void WriteChunk(int y, const std::vector<uint8_t>& bytes);
 
-  // After the last chunk: the file appears.
+  // After the last chunk: the file appears, once it has reached the disk: tiles are deleted for it.
   void Finish();
 
  private:

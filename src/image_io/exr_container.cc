@@ -10,6 +10,7 @@
 #include <openexr.h>
 
 #include "base/error.h"
+#include "image_io/exr_checksum.h"
 
 namespace nacre {
 namespace {
@@ -139,6 +140,7 @@ void ExrContainer::SetAttributes(const ExrHeader& header) {
           exr_attr_set_string(context_, kPart, name.c_str(), std::get<std::string>(value).c_str()));
     }
   }
+  Check(exr_attr_set_string(context_, kPart, kExrChecksumAttribute, kNoExrChecksum));
 }
 
 void ExrContainer::WriteChunk(int y, std::span<const uint8_t> bytes) {
@@ -180,7 +182,30 @@ size_t ExrContainer::FindAttribute(const std::string& name, const std::string& t
 
 void ExrContainer::Finish(bool sync) {
   Check(exr_finish(&context_));
+  WriteChecksum();
   file_.Commit(sync);
+}
+
+void ExrContainer::Count(uint64_t offset, std::span<const uint8_t> bytes) {
+  if (chunks_end_ == 0) chunks_begin_ = chunks_end_ = offset;  // the table is written last
+  if (offset == chunks_end_) {
+    chunks_crc_ = Crc32(chunks_crc_, bytes);
+    chunks_end_ += bytes.size();
+    return;
+  }
+  table_.resize(chunks_begin_ - header_.size());
+  if (offset < header_.size() || offset + bytes.size() > chunks_begin_) {
+    throw Error(ExitCode::kInternal, path_, "OpenEXR wrote its file in an unknown order");
+  }
+  std::ranges::copy(bytes, table_.begin() + static_cast<ptrdiff_t>(offset - header_.size()));
+}
+
+void ExrContainer::WriteChecksum() {
+  const size_t place = FindAttribute(kExrChecksumAttribute, "string");
+  const uint32_t head = Crc32(Crc32(0, header_), table_);
+  const std::string digits =
+      ExrChecksumDigits(CombineCrc32(head, chunks_crc_, chunks_end_ - chunks_begin_));
+  file_.Write(place, {reinterpret_cast<const uint8_t*>(digits.data()), digits.size()});
 }
 
 int64_t ExrContainer::OnWrite(exr_const_context_t, void* user, const void* bytes, uint64_t size,
@@ -192,6 +217,7 @@ int64_t ExrContainer::OnWrite(exr_const_context_t, void* user, const void* bytes
       self->header_.resize(std::max<size_t>(self->header_.size(), offset + size));
       std::ranges::copy(source, self->header_.begin() + static_cast<ptrdiff_t>(offset));
     } else {
+      self->Count(offset, source);
       self->file_.Write(offset, source);
     }
     return static_cast<int64_t>(size);

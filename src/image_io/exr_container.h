@@ -32,7 +32,8 @@ class ExrContainer {
   // Gives an attribute of the header another value of the same type, int or float.
   void UpdateAttribute(const std::string& name, const ExrAttribute& value);
 
-  // After the last chunk: the file appears.
+  // After the last chunk: writes the table of chunks and the checksum (image_io/exr_checksum.h),
+  // and the file appears.
   void Finish(bool sync);
 
  private:
@@ -40,6 +41,9 @@ class ExrContainer {
                          uint64_t offset, exr_stream_error_func_ptr_t error);
   void WriteHeader(const ExrHeader& header, Compression compression);
   void SetAttributes(const ExrHeader& header);
+  // Notes bytes of the table or the chunks for the checksum.
+  void Count(uint64_t offset, std::span<const uint8_t> bytes);
+  void WriteChecksum();
   // Where the value of an attribute stands in the file; 0 if there is none.
   size_t FindAttribute(const std::string& name, const std::string& type) const;
   // Throws unless `result` is success.
@@ -49,7 +53,10 @@ class ExrContainer {
   OutputFile file_;
   exr_context_t context_ = nullptr;
   bool in_header_ = true;
-  std::vector<uint8_t> header_;         // its bytes, written at once, kept for UpdateAttribute
+  std::vector<uint8_t> header_;  // its bytes, written at once, kept for UpdateAttribute
+  std::vector<uint8_t> table_;   // the offsets of chunks, which stand between header and chunks
+  uint64_t chunks_begin_ = 0, chunks_end_ = 0;  // in the file
+  uint32_t chunks_crc_ = 0;
   std::exception_ptr write_exception_;  // carried across the library's C frames
 };
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_io/oiio.h"
 
+#include <cinttypes>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <vector>
 
 #include <dlfcn.h>
+#include <link.h>
 
 #include "base/error.h"
+#include "base/printable.h"
 #include "image_io/oiio_abi.h"
 
 namespace nacre {
@@ -31,27 +36,41 @@ Function Find(void* library, const char* name) {
   return reinterpret_cast<Function>(symbol);
 }
 
-// The folder of the file that this code is in: libnacre.so, or the program; and the program's.
-std::vector<fs::path> StartFolders() {
-  std::error_code error;
-  std::vector<fs::path> folders = {fs::read_symlink("/proc/self/exe", error).parent_path()};
-  Dl_info info{};
-  // Of a program this is how it was called, which need not be a path.
-  if (dladdr(reinterpret_cast<const void*>(&StartFolders), &info) == 0) return folders;
-  const fs::path file = fs::canonical(info.dli_fname, error);
-  if (!error) folders.insert(folders.begin(), file.parent_path());
-  return folders;
+// The file that this code was loaded from, libnacre.so or a program, as the kernel knows it: no
+// name that a caller chose (argv[0], a relative path of a library) and no working folder has a part
+// in it. Empty if it cannot be told.
+fs::path OwnFile() {
+  const auto own = reinterpret_cast<uintptr_t>(&OwnFile);
+  std::ifstream maps("/proc/self/maps");
+  std::string line;
+  while (std::getline(maps, line)) {
+    // "begin-end permissions offset device inode   /path"
+    const size_t slash = line.find('/');
+    uintptr_t begin = 0, end = 0;
+    if (slash == std::string::npos) continue;
+    if (std::sscanf(line.c_str(), "%" SCNxPTR "-%" SCNxPTR, &begin, &end) != 2) continue;
+    if (own >= begin && own < end) return line.substr(slash);
+  }
+  return {};
 }
 
-// Where the module may be: everything is relative, so that an installation can be moved.
+// Whether this code is a program's own, and not libnacre.so's.
+bool IsInProgram() {
+  Dl_info info{};
+  link_map* map = nullptr;
+  const auto* const own = reinterpret_cast<const void*>(&OwnFile);
+  const int found = dladdr1(own, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP);
+  return found != 0 && map != nullptr && map->l_name[0] == '\0';
+}
+
+// Where the module may be: beside the file of this code, as in a build tree, and where it is
+// installed as seen from there, so that an installation can be moved. Nowhere else: what is loaded
+// runs.
 std::vector<fs::path> ModulePaths() {
-  std::vector<fs::path> paths;
-  for (const fs::path& start : StartFolders()) {
-    for (const char* folder : {".", "nacre", NACRE_MODULE_FROM_PROGRAM, ".."}) {
-      paths.push_back(start / folder / kModuleName);
-    }
-  }
-  return paths;
+  const fs::path folder = OwnFile().parent_path();
+  if (!folder.is_absolute()) return {};
+  const char* const installed = IsInProgram() ? NACRE_MODULE_FROM_PROGRAM : "nacre";
+  return {folder / kModuleName, folder / installed / kModuleName};
 }
 
 Module LoadModule() {
@@ -65,9 +84,10 @@ Module LoadModule() {
             Find<decltype(Module::free_image)>(library, "NacreOiioFreeImage"),
             Find<decltype(Module::draw_text)>(library, "NacreOiioDrawText")};
   }
-  throw Error(ExitCode::kInternal, kModuleName,
-              "the module for it is neither beside the program nor in " NACRE_MODULE_FROM_PROGRAM,
-              "EXR files need no module; for other formats and labels build or install it");
+  throw Error(
+      ExitCode::kInternal, kModuleName,
+      "the module for it is neither beside the program or library nor where it is installed",
+      "EXR files need no module; for other formats and labels build or install it");
 }
 
 const Module& GetModule() {
@@ -133,10 +153,13 @@ void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<
       rgb8.size() != 3 * static_cast<size_t>(width) * static_cast<size_t>(height)) {
     throw Error(ExitCode::kInternal, "labels", "the buffer is not of the picture's size");
   }
+  std::vector<std::string> printable;
+  printable.reserve(items.size());
   std::vector<NacreOiioText> texts;
   texts.reserve(items.size());
   for (const TextItem& item : items) {
-    texts.push_back({item.text.c_str(),
+    printable.push_back(Printable(item.text));
+    texts.push_back({printable.back().c_str(),
                      item.x,
                      item.y,
                      item.size_px,

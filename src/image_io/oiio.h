@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/oiio.h: OpenImageIO, loaded when first used.
 //
-// It is in a module of its own, nacre_oiio.so, looked for beside libnacre.so and the program; in
-// nacre/ beside the library and where it is installed as seen from the program (../lib/nacre); and
-// (programs of a build tree's subfolders) one folder up.
+// It is in a module of its own, nacre_oiio.so, which is looked for beside the file that this code
+// is in, program or libnacre.so, and where it is installed as seen from that file: ../lib/nacre
+// from a program, nacre/ from the library. Not in the working folder, nor by anything in the
+// environment.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ enum class AlignY : uint8_t { kTop, kCenter, kBottom };
 
 // A line of text at (x, y), pixels from the top left corner.
 struct TextItem {
-  std::string text;  // UTF-8
+  std::string text;  // drawn as Printable() has it
   int x = 0;
   int y = 0;
   int size_px = 16;

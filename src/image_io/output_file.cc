@@ -2,12 +2,16 @@
 #include "image_io/output_file.h"
 
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <random>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -80,6 +84,41 @@ std::string NameBeside(const std::string& target) {
   return Folder(target) + "/." + name + "." + suffix + ".tmp";
 }
 
+// All extended attributes, access control lists among them, as far as this process may set them.
+void CopyAttributes(const std::string& from, int descriptor) {
+  const ssize_t size = listxattr(from.c_str(), nullptr, 0);
+  if (size <= 0) return;
+  std::string names(static_cast<size_t>(size), '\0');
+  const ssize_t listed = listxattr(from.c_str(), names.data(), names.size());
+  std::vector<char> value;
+  for (ssize_t at = 0; at < listed;) {
+    const char* const name = names.data() + at;
+    at += static_cast<ssize_t>(std::strlen(name)) + 1;
+    const ssize_t length = getxattr(from.c_str(), name, nullptr, 0);
+    if (length < 0) continue;
+    value.resize(static_cast<size_t>(length));
+    const ssize_t got = getxattr(from.c_str(), name, value.data(), value.size());
+    if (got >= 0) fsetxattr(descriptor, name, value.data(), static_cast<size_t>(got), 0);
+  }
+}
+
+// Gives a new file the owner, group, mode and attributes of the one that it replaces, if there is
+// one. Who may not give it away keeps it, and then its group must not get what another group had.
+void TakeOver(const std::string& replaced, int descriptor) {
+  struct stat status;
+  if (stat(replaced.c_str(), &status) != 0) return;
+  mode_t mode = status.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO);
+  if (fchown(descriptor, status.st_uid, status.st_gid) != 0 &&
+      fchown(descriptor, static_cast<uid_t>(-1), status.st_gid) != 0) {
+    struct stat own;
+    const bool same_group = fstat(descriptor, &own) == 0 && own.st_gid == status.st_gid;
+    if (!same_group) mode = (mode & ~static_cast<mode_t>(S_IRWXG)) | (mode & S_IRWXO) << 3;
+  }
+  CopyAttributes(replaced, descriptor);
+  // After these: a change of owner or list may change it. A file system without modes refuses it.
+  [[maybe_unused]] const int ignored = fchmod(descriptor, mode);
+}
+
 // Attempts at an unused temporary name: one is nearly always enough.
 constexpr int kNameAttempts = 100;
 
@@ -129,6 +168,7 @@ void OutputFile::Write(uint64_t offset, std::span<const uint8_t> bytes) {
 
 void OutputFile::Commit(bool sync) {
   CheckTarget(path_, target_);  // it may have become something else meanwhile
+  TakeOver(target_, descriptor_);
   if (sync && fsync(descriptor_) != 0) Fail("cannot write", errno);
   // A new name is taken in one step. An existing one can only be replaced by a rename.
   if (beside_.empty() && LinkTo(target_)) {
@@ -177,5 +217,20 @@ void OutputFile::Fail(const std::string& what, int error) const {
 }
 
 void CheckWritable(const std::string& path) { const OutputFile probe(path); }
+
+std::string FileIdentity(const std::string& path) {
+  struct stat status;
+  if (stat(path.c_str(), &status) == 0) {
+    return fmt::format("{}:{}", status.st_dev, status.st_ino);
+  }
+  try {
+    const std::string target = FollowLinks(path);
+    if (stat(Folder(target).c_str(), &status) != 0) return path;
+    return fmt::format("{}:{}/{}", status.st_dev, status.st_ino,
+                       fs::path(target).filename().string());
+  } catch (const Error&) {  // links in a circle: whoever opens the file says so
+    return path;
+  }
+}
 
 }  // namespace nacre

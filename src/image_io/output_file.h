@@ -29,8 +29,9 @@ class OutputFile {
   // the disk is full.
   void Write(uint64_t offset, std::span<const uint8_t> bytes);
 
-  // Gives the file its name, replacing what had it, with the permissions of a new file. With
-  // `sync`, only once it has reached the disk. Nothing may be written afterwards. Throws Error
+  // Gives the file its name, replacing what had it: then with that one's mode, and its owner,
+  // group, access control list and other extended attributes as far as this process may set them.
+  // With `sync`, only once it has reached the disk. Nothing may be written afterwards. Throws Error
   // (kCannotWrite) and leaves the old file.
   void Commit(bool sync = false);
 
@@ -49,5 +50,9 @@ class OutputFile {
 
 // Throws what OutputFile's constructor throws. Leaves nothing.
 void CheckWritable(const std::string& path);
+
+// The same text for every spelling of a file's path, links of both kinds included, whether the file
+// is there already or its folder only; another text for every other file.
+std::string FileIdentity(const std::string& path);
 
 }  // namespace nacre

@@ -15,6 +15,7 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 #include <OpenImageIO/imageio.h>
+#include <dlfcn.h>
 #include <unistd.h>
 
 // Only these names are seen from outside.
@@ -22,12 +23,40 @@
 #include "image_io/oiio_abi.h"
 #pragma GCC visibility pop
 
+// libpng prints its errors to standard error once the handler that OpenImageIO gave it returns, as
+// that does. So OpenImageIO finds this function in place of libpng's, being loaded as a library of
+// this module: it lets the handler have the message and leaves as libpng would, without a word.
+extern "C" {
+
+using PngErrorFunction = void (*)(void* png, const char* message);
+
+void png_longjmp(void* png, int value);
+
+__attribute__((visibility("default"))) void png_set_error_fn(void* png, void* user,
+                                                             PngErrorFunction on_error,
+                                                             PngErrorFunction on_warning) {
+  thread_local PngErrorFunction handler;  // of the file that this thread reads
+  handler = on_error;
+  static const auto set =
+      reinterpret_cast<decltype(&png_set_error_fn)>(dlsym(RTLD_NEXT, "png_set_error_fn"));
+  static const auto leave =
+      reinterpret_cast<decltype(&png_longjmp)>(dlsym(RTLD_NEXT, "png_longjmp"));
+  const PngErrorFunction quiet = [](void* failed, const char* message) {
+    if (handler != nullptr) handler(failed, message);
+    if (leave != nullptr) leave(failed, 1);
+  };
+  if (set != nullptr) set(png, user, quiet, on_warning);
+}
+
+}  // extern "C"
+
 namespace {
 
+// The first line: OpenImageIO adds what it did about it.
 const char* KeepMessage(const std::string& message) {
   thread_local std::array<char, 1024> kept;
-  std::snprintf(kept.data(), kept.size(), "%s",
-                message.empty() ? "unknown reason" : message.c_str());
+  const std::string line = message.substr(0, message.find('\n'));
+  std::snprintf(kept.data(), kept.size(), "%s", line.empty() ? "unknown reason" : line.c_str());
   return kept.data();
 }
 

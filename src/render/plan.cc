@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "base/printable.h"
 #include "base/target.h"
 #include "render/film_plan.h"
 #include "render/frame_window.h"
@@ -281,13 +282,13 @@ MaterialId MaterialAt(const RenderPlan& plan, uint32_t primitive, double film_x)
 std::string ExplainPlan(const RenderPlan& plan, const RenderStats* stats) {
   std::string text = "plan:\n";
   for (const PlanItem& item : plan.items) {
-    text +=
-        fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", item.what, item.reason);
+    text += fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", Printable(item.what),
+                        Printable(item.reason));
   }
   // What is skipped above changes no bit; what is not exact stands here.
   text += "substitutions (which agree within a stated error):\n";
   for (const PlanItem& item : plan.substitutions) {
-    text += fmt::format("  {}: {}\n", item.what, item.reason);
+    text += fmt::format("  {}: {}\n", Printable(item.what), Printable(item.reason));
   }
   if (plan.substitutions.empty()) text += "  none: every skip above leaves all bits as they are\n";
   if (stats == nullptr) return text;

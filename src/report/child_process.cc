@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdlib>
+#include <optional>
+#include <string_view>
 #include <system_error>
 
 #include <spawn.h>
@@ -11,8 +14,6 @@
 #include <unistd.h>
 
 #include "base/error.h"
-
-extern char** environ;
 
 namespace nacre {
 namespace {
@@ -71,32 +72,88 @@ int WaitFor(const std::string& program, pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+// The absolute folders of a list as PATH is one. An empty or relative entry means the folder that
+// one happens to stand in, which may be a stranger's.
+std::vector<std::string> AbsoluteFolders(std::string_view list) {
+  std::vector<std::string> folders;
+  while (true) {
+    const std::string_view folder = list.substr(0, list.find(':'));
+    if (folder.starts_with('/')) folders.emplace_back(folder);
+    if (folder.size() == list.size()) return folders;
+    list.remove_prefix(folder.size() + 1);
+  }
+}
+
+std::string_view EnvironmentText(const char* name) {
+  const char* const value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+std::optional<std::string> FindProgram(const std::string& name) {
+  for (const std::string& folder : AbsoluteFolders(EnvironmentText("PATH"))) {
+    std::string file = folder + "/" + name;
+    if (access(file.c_str(), X_OK) == 0) return file;
+  }
+  return std::nullopt;
+}
+
+// What the child is told of this process's environment: where programs, libraries, fonts and their
+// caches are, and the language. All else that gnuplot and its libraries listen to (GNUPLOT_LIB,
+// GNUTERM, GIO_EXTRA_MODULES, ...) would change the diagram or name code to load.
+std::vector<std::string> ChildEnvironment() {
+  std::vector<std::string> environment;
+  for (const char* name : {"LANG", "LC_ALL", "LC_CTYPE"}) {
+    const std::string_view value = EnvironmentText(name);
+    if (!value.empty()) environment.push_back(std::string(name) + "=" + std::string(value));
+  }
+  for (const char* name :
+       {"PATH", "LD_LIBRARY_PATH", "HOME", "TMPDIR", "XDG_CACHE_HOME", "XDG_CONFIG_HOME",
+        "XDG_DATA_HOME", "XDG_DATA_DIRS", "FONTCONFIG_FILE", "FONTCONFIG_PATH"}) {
+    std::string absolute;
+    for (const std::string& folder : AbsoluteFolders(EnvironmentText(name))) {
+      absolute += (absolute.empty() ? "" : ":") + folder;
+    }
+    if (!absolute.empty()) environment.push_back(std::string(name) + "=" + absolute);
+  }
+  return environment;
+}
+
+// As posix_spawn wants them: writable, and ended by a null.
+std::vector<char*> Pointers(std::vector<std::string>* texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts->size() + 1);
+  for (std::string& text : *texts) pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 }  // namespace
+
+bool IsProgramThere(const std::string& program) { return FindProgram(program).has_value(); }
 
 ChildResult RunChild(const std::vector<std::string>& arguments, const std::string& input) {
   const std::string& program = arguments.front();
+  ChildResult result;
+  const std::optional<std::string> file = FindProgram(program);
+  if (!file) {
+    result.found = false;
+    return result;
+  }
   MemoryFile in(program), out(program), errors(program);
   in.Fill(input);
-  std::vector<std::string> copies = arguments;  // spawn wants them writable
-  std::vector<char*> argv;
-  argv.reserve(copies.size() + 1);
-  for (std::string& copy : copies) argv.push_back(copy.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> argument_copies = arguments;
+  std::vector<std::string> environment = ChildEnvironment();
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, in.descriptor(), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.descriptor(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, errors.descriptor(), STDERR_FILENO);
+  posix_spawn_file_actions_addchdir_np(&actions, "/");
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawn(&child, file->c_str(), &actions, nullptr,
+                                Pointers(&argument_copies).data(), Pointers(&environment).data());
   posix_spawn_file_actions_destroy(&actions);
-
-  ChildResult result;
-  if (error == ENOENT) {
-    result.found = false;
-    return result;
-  }
   if (error != 0) Fail(program, error);
   result.status = WaitFor(program, child);
   result.output = out.Content();

@@ -14,9 +14,14 @@ struct ChildResult {
   std::string errors;
 };
 
-// Looks for arguments[0] in PATH and starts it with these arguments, without a shell. Its three
-// streams are files in memory: none can fill up, and none can break. Throws Error (kInternal) if
-// the system cannot start any program.
+// Whether RunChild would find the program: in the absolute folders of PATH. Empty and relative
+// entries are passed over, so that no program is started because it lies in the working folder.
+bool IsProgramThere(const std::string& program);
+
+// Starts arguments[0] with these arguments, without a shell, in the root folder, and with no more
+// of the environment than says where programs, libraries and fonts are, in absolute folders. Its
+// three streams are files in memory: none can fill up, and none can break. Throws Error (kInternal)
+// if the system cannot start any program.
 ChildResult RunChild(const std::vector<std::string>& arguments, const std::string& input);
 
 }  // namespace nacre

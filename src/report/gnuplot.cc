@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.h"
 #include "compare/heat_map.h"
 #include "report/axis_range.h"
 #include "report/layout.h"
@@ -289,11 +290,11 @@ std::string PanelText(const Figure& figure, size_t index, int width, int height)
 
 std::string GnuplotQuote(const std::string& text) {
   std::string quoted = "'";
-  for (const char c : text) {
+  for (const char c : Printable(text)) {
     if (c == '\'') {
       quoted += "’";
     } else {
-      quoted += c == '\n' || c == '\r' ? ' ' : c;
+      quoted += c;
     }
   }
   return quoted + "'";

@@ -14,7 +14,8 @@ enum class PictureFormat : uint8_t { kSvg, kPng };
 std::string GnuplotScript(const Figure& figure, PictureFormat format);
 
 // A string for gnuplot: in single quotes nothing but the quote itself is special, and that, which
-// gnuplot misreads at the start of a string, becomes an apostrophe. Line breaks become spaces.
+// gnuplot misreads at the start of a string, becomes an apostrophe. Control characters, line breaks
+// among them, are spelled out (base/printable.h): raw, they would end the command or the SVG file.
 std::string GnuplotQuote(const std::string& text);
 
 }  // namespace nacre

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.h"
 #include "image_io/deflate.h"
 #include "report/page_parts.h"
 
@@ -37,6 +38,22 @@ std::string EscapeJson(const std::string& json) {
     }
   }
   return out;
+}
+
+// The tree with all of its texts, names of members too, as PrintableLines() has them.
+nlohmann::ordered_json PrintableTree(const nlohmann::ordered_json& tree) {
+  if (tree.is_string()) return PrintableLines(tree.get_ref<const std::string&>());
+  if (!tree.is_structured()) return tree;
+  nlohmann::ordered_json printable =
+      tree.is_array() ? nlohmann::ordered_json::array() : nlohmann::ordered_json::object();
+  for (const auto& [name, value] : tree.items()) {
+    if (tree.is_array()) {
+      printable.push_back(PrintableTree(value));
+    } else {
+      printable[PrintableLines(name)] = PrintableTree(value);
+    }
+  }
+  return printable;
 }
 
 using Values = std::vector<std::pair<std::string_view, std::string_view>>;
@@ -110,12 +127,11 @@ std::string Page::Html(const std::string& title, const std::string& generator,
     blobs += blobs_[i];
     blobs += "</script>\n";
   }
-  // File names need not be UTF-8: what is not becomes the mark for that.
-  const std::string json =
-      EscapeJson(data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  const std::string json = EscapeJson(
+      PrintableTree(data).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   const std::string script_hash = HashSource(PageScriptSha256());
   const std::string style_hash = HashSource(PageStyleSha256());
-  const std::string safe_title = EscapeHtml(title);
+  const std::string safe_title = EscapeHtml(Printable(title));
   const std::string safe_generator = EscapeHtml(generator);
   return Fill(PageTemplate(), {{"title", safe_title},
                                {"generator", safe_generator},

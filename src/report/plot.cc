@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -49,6 +50,16 @@ std::vector<Column> ColumnsOf(const Figure& figure) {
               "install the package gnuplot-nox (scripts/setup does), or write .csv");
 }
 
+// gnuplot writes of a text's "&#x" and "]]>", which are markup in XML, what they are.
+std::string EscapeLeftOut(std::string svg) {
+  for (const auto& [text, escaped] : {std::pair{"&#x", "&amp;#x"}, std::pair{"]]>", "]]&gt;"}}) {
+    for (size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1)) {
+      svg.replace(at, 3, escaped);
+    }
+  }
+  return svg;
+}
+
 std::string Draw(const Figure& figure, PictureFormat format) {
   // -d: the user's own settings for gnuplot stay out of it.
   const ChildResult result = RunChild({"gnuplot", "-d"}, GnuplotScript(figure, format));
@@ -60,7 +71,7 @@ std::string Draw(const Figure& figure, PictureFormat format) {
         ExitCode::kInternal, "gnuplot",
         fmt::format("ended with status {}: {}", result.status, result.errors.substr(begin)));
   }
-  return result.output;
+  return format == PictureFormat::kSvg ? EscapeLeftOut(result.output) : result.output;
 }
 
 }  // namespace
@@ -133,7 +144,7 @@ void CheckFigurePath(const std::string& path) {
 }
 
 void CheckPlotter() {
-  if (!RunChild({"gnuplot", "--version"}, "").found) FailMissing();
+  if (!IsProgramThere("gnuplot")) FailMissing();
 }
 
 void WriteFigure(const std::string& path, const Figure& figure) {

@@ -92,7 +92,7 @@ bool ReadBuffer(std::vector<unsigned char>* out, std::string*, const std::string
   const GltfDocument& document = *files.document;
   std::filesystem::path path;
   try {
-    path = ResolveReference(document.folder, name, document.allow_paths);
+    path = ResolveReference(document.folder, name, document.references);
   } catch (const Error& error) {
     const Fault& fault = error.faults().front();
     const bool is_url = name.find("://") != std::string::npos;
@@ -214,7 +214,7 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   GltfDocument document;
   document.file = path.string();
   document.folder = path.parent_path();
-  document.allow_paths = options.allow_paths;
+  document.references = {options.allow_paths, options.on_file};
   document.on_warning = options.on_warning;
   const std::string bytes = ReadTextFile(path, kMaxBytes);
   const bool is_binary = bytes.starts_with("glTF");

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "scene_io/load_scene.h"
+#include "scene_io/text_file.h"
 #include "scene_io/tiny_gltf_model.h"
 
 namespace nacre {
@@ -19,7 +20,7 @@ struct GltfDocument {
   tinygltf::Model model;
   std::string file;              // what errors call it
   std::filesystem::path folder;  // what its buffers and images are below
-  bool allow_paths = false;
+  ReferenceRules references;
   std::function<void(const std::string&)> on_warning;
   std::unordered_set<std::string> warned;
 

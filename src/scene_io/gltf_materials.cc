@@ -220,7 +220,7 @@ GltfImage FindGltfImage(const GltfDocument& document, int image) {
   if (source.bufferView < 0) {
     try {
       const std::string name = PercentDecoded(source.uri);
-      return {ResolveReference(document.folder, name, document.allow_paths), {}};
+      return {ResolveReference(document.folder, name, document.references), {}};
     } catch (const Error& error) {
       document.Refuse(place, error.faults().front().what, error.faults().front().hint);
     }

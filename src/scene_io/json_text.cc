@@ -190,6 +190,20 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
 
 }  // namespace
 
+std::optional<Json> TryParseJson(std::string_view text) {
+  FaultList faults;
+  try {
+    Json value = ParseJson(text, {}, &faults);
+    if (faults.count() == 0) return value;
+  } catch (const Error&) {  // whoever asks has words of their own
+  }
+  return std::nullopt;
+}
+
+std::string JsonText(const Json& json, int indent) {
+  return json.dump(indent, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
+}
+
 std::string PlaceInFile(const std::string& file, const std::string& pointer) {
   return pointer.empty() ? file : file + ": " + pointer;
 }

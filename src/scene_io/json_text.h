@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,6 +26,13 @@ inline constexpr size_t kMaxJsonDepth = 100;
 // `on_progress`, if any, is told now and then which share of the text has been read.
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress = {});
+
+// The same for a snippet, an option's value; nothing if ParseJson would find fault with it.
+std::optional<Json> TryParseJson(std::string_view text);
+
+// The tree as text, on one line or indented. Bytes that are not UTF-8, which names of files and of
+// an OBJ file's materials may hold, become U+FFFD.
+std::string JsonText(const Json& json, int indent = -1);
 
 // "scenes/grid.json: /materials/gold"; the file alone for the pointer to all of it.
 std::string PlaceInFile(const std::string& file, const std::string& pointer);

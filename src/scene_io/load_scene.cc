@@ -31,11 +31,11 @@ Fault JudgeVersion(const Json& version, const std::string& where) {
   if (version > kFormat) {
     return {
         where,
-        fmt::format("version {} of the scene format is newer than this program", version.dump()),
+        fmt::format("version {} of the scene format is newer than this program", JsonText(version)),
         fmt::format("{}: take a newer nacre, or write the scene as version {}", reads, kFormat)};
   }
   // Version 1 is the first: nothing older is to be translated.
-  return {where, fmt::format("there is no version {} of the scene format", version.dump()),
+  return {where, fmt::format("there is no version {} of the scene format", JsonText(version)),
           fmt::format("{}: write \"nacre\": {}; `nacre schema` prints what it may hold", reads,
                       kFormat)};
 }
@@ -111,7 +111,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   Scene scene;
   SceneContext context;
   context.folder = folder;
-  context.allow_paths = options.allow_paths;
+  context.references = {options.allow_paths, options.on_file};
   context.threads = options.threads;
   context.scene = &scene;
   SceneBudget budget(options.max_primitives);

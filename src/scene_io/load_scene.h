@@ -24,6 +24,10 @@ struct LoadOptions {
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;
 
+  // Told of each file that the scene refers to, by its path without links, before it is read. May
+  // be told of one several times.
+  std::function<void(const std::filesystem::path&)> on_file = {};
+
   // To make large shapes on; 0: as many as the machine has.
   int threads = 0;
 

@@ -56,7 +56,7 @@ std::string DescribeMaterial(const Json& material) {
     } else {
       text += value.is_number()   ? fmt::format("{:.4g}", value.get<double>())
               : value.is_string() ? value.get<std::string>()
-                                  : value.dump();
+                                  : JsonText(value);
     }
   }
   const std::string model = material.value("model", "material");
@@ -65,7 +65,7 @@ std::string DescribeMaterial(const Json& material) {
 
 Material MaterialFromJson(const Json& json, const std::string& file) {
   const Json scene = {{"nacre", 1}, {"materials", {{"material", json}}}};
-  Material material = LoadSceneText(scene.dump(), file, ".").materials.front();
+  Material material = LoadSceneText(JsonText(scene), file, ".").materials.front();
   material.name.clear();
   return material;
 }

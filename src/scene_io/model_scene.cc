@@ -244,7 +244,7 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   if (!own_lights && scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
   SceneContext context;
   context.folder = std::filesystem::path(file).parent_path();
-  context.allow_paths = options.allow_paths;
+  context.references = {options.allow_paths, options.on_file};
   context.scene = scene;
   SceneBudget budget(options.max_primitives);
   context.budget = &budget;

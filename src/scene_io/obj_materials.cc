@@ -88,7 +88,7 @@ bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::materia
   std::error_code ignored;
   std::filesystem::path path;
   try {
-    path = ResolveReference(folder_, name, options_.allow_paths);
+    path = ResolveReference(folder_, name, {options_.allow_paths, options_.on_file});
   } catch (const Error& refused) {
     const Fault& fault = refused.faults().front();
     if (fault.what.starts_with("there is no file")) {
@@ -110,7 +110,7 @@ TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_
   auto image = images_.find({name, encoding});
   if (image == images_.end()) {
     try {
-      const auto path = ResolveReference(folder_, name, options_.allow_paths);
+      const auto path = ResolveReference(folder_, name, {options_.allow_paths, options_.on_file});
       AddTextureImage(path, name, encoding, scene);
     } catch (const Error& error) {
       const Fault& fault = error.faults().front();

@@ -34,12 +34,7 @@ std::vector<std::string> Split(const std::string& pointer) {
 }
 
 Json ParseValue(const std::string& pointer, const std::string& text) {
-  FaultList faults;
-  try {
-    Json value = ParseJson(text, {}, &faults);
-    if (faults.count() == 0) return value;
-  } catch (const Error&) {
-  }
+  if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
   RefuseOverride(pointer, fmt::format("{} is not JSON", text),
                  fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, text));
 }

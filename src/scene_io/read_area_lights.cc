@@ -103,7 +103,7 @@ void ReadPicture(const JsonValue& value, const SceneContext& context, PictureSky
     return;
   }
   try {
-    const auto path = ResolveReference(context.folder, file, context.allow_paths);
+    const auto path = ResolveReference(context.folder, file, context.references);
     sky->picture = MakePicture(ReadImage(path.string()), file);
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) {

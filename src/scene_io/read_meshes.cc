@@ -115,7 +115,7 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
   std::string file;
   if (!ReadText(value, &file)) return std::nullopt;
   try {
-    const auto path = ResolveReference(context.folder, file, context.allow_paths);
+    const auto path = ResolveReference(context.folder, file, context.references);
     Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
     context.budget->Spend(mesh.triangles.size() / 3);
     ApplyTransform(transform, &mesh);

@@ -72,7 +72,7 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
 
 // The image of the texture, decoded so; read once.
 ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
-  const auto path = ResolveReference(context->folder, source.file, context->allow_paths);
+  const auto path = ResolveReference(context->folder, source.file, context->references);
   const std::string key = path.string() + "sla"[static_cast<size_t>(encoding)];
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
@@ -107,7 +107,7 @@ TextureId AddTexture(TextureSource* source, TextureEncoding encoding, SceneConte
 void CheckFile(const JsonValue& value, TextureSource* source, const SceneContext& context) {
   if (!ReadText(value, &source->file)) return;
   try {
-    ResolveReference(context.folder, source->file, context.allow_paths);
+    ResolveReference(context.folder, source->file, context.references);
     source->is_readable = true;
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) value.AddFault(fault.what, fault.hint);

@@ -18,6 +18,7 @@
 #include "scene/scene.h"
 #include "scene_io/json_reader.h"
 #include "scene_io/scene_budget.h"
+#include "scene_io/text_file.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {
@@ -28,7 +29,7 @@ void ReadImage(const JsonValue& value, ImageSettings* image);
 // What materials and shapes need to know of the rest of the file.
 struct SceneContext {
   std::filesystem::path folder;  // of the scene file
-  bool allow_paths = false;
+  ReferenceRules references;     // of its file names
   int threads = 0;
   Scene* scene = nullptr;
   SceneBudget* budget = nullptr;

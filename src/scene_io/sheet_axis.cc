@@ -66,7 +66,7 @@ bool IsColorArray(const Json& value) {
 // A number, a colour, an object or, as a string, a name. Null if it is none of these.
 Json ParseValue(const std::string& text) {
   if (text.starts_with('#')) return HexColor(text);
-  Json value = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const Json value = TryParseJson(text).value_or(Json());
   if (value.is_number() || value.is_object() || IsColorArray(value)) return value;
   const bool is_name = !text.empty() && text.find_first_not_of(
                                             "abcdefghijklmnopqrstuvwxyz"
@@ -145,7 +145,7 @@ void ParseRange(const std::string& option, const std::vector<std::string>& parts
 void ParseList(const std::string& option, const std::string& text, SheetAxis* axis) {
   std::vector<std::string> items = Split(text, ',');
   // A JSON list of materials; [r,g,b] is one colour.
-  const Json list = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  const Json list = TryParseJson(text).value_or(Json());
   const bool is_list = list.is_array() && !list.empty() && !list[0].is_number();
   if (is_list) items = Split(text.substr(1, text.rfind(']') - 1), ',');
   if (items.size() > static_cast<size_t>(kMaxSheetCount)) {
@@ -194,7 +194,7 @@ SheetAxis ParseSheetAxis(const std::string& option, const std::string& text) {
 
 Json ParseMaterialText(const std::string& option, const std::string& text) {
   if (text.find_first_of("{[\" ") == std::string::npos && !text.empty()) return {{"model", text}};
-  Json material = Json::parse(text, nullptr, /*allow_exceptions=*/false);
+  Json material = TryParseJson(text).value_or(Json());
   if (!material.is_object()) {
     RefuseAxis(option, "\"" + text + "\" is not a material",
                "give a model's name or JSON, e.g. '{\"model\": \"phong\", \"shininess\": 64}'");

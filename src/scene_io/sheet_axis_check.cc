@@ -38,12 +38,12 @@ void CheckParameter(const std::string& option, const MaterialParameter& paramete
     const bool fits = value.is_number() || (value.is_array() && parameter.is_color);
     if (!fits) {
       RefuseMaterial(
-          option, fmt::format("{} is no value of {}", value.dump(), axis.name),
+          option, fmt::format("{} is no value of {}", JsonText(value), axis.name),
           parameter.is_color ? "a colour is #rrggbb, [r,g,b] or one number" : "give numbers");
     }
     const auto check = [&](const Json& number) {
       if (parameter.range.Contains(number.get<double>())) return;
-      RefuseMaterial(option, fmt::format("{} is out of range for {}", number.dump(), axis.name),
+      RefuseMaterial(option, fmt::format("{} is out of range for {}", JsonText(number), axis.name),
                      Describe(parameter.range));
     };
     if (value.is_number()) check(value);
@@ -56,7 +56,7 @@ void CheckParameter(const std::string& option, const MaterialParameter& paramete
 void CheckChoice(const std::string& option, const MaterialChoice& choice, const SheetAxis& axis) {
   const std::vector<std::string> names(choice.options.begin(), choice.options.end());
   for (const Json& value : axis.values) {
-    const std::string word = value.is_string() ? value.get<std::string>() : value.dump();
+    const std::string word = value.is_string() ? value.get<std::string>() : JsonText(value);
     if (std::find(names.begin(), names.end(), word) == names.end()) {
       RefuseMaterial(option, fmt::format("\"{}\" is no {}", word, axis.name),
                      NearestOrAll(word, names));

@@ -59,7 +59,7 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
 }
 
 std::filesystem::path ResolveReference(const std::filesystem::path& folder, const std::string& name,
-                                       bool allow_paths) {
+                                       const ReferenceRules& rules) {
   // The system's calls would end the name there, and look at another file than is judged here.
   if (name.find('\0') != std::string::npos) {
     throw Error(ExitCode::kBadInput, {}, "a file's name has a character 0 in it");
@@ -73,7 +73,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a path", name));
   }
   // Before looking whether it exists, which is nobody's business outside the folder.
-  if (!allow_paths && !IsBelow(path, base)) {
+  if (!rules.allow_paths && !IsBelow(path, base)) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is outside the scene's folder", name),
                 "move it there, or allow it with --allow-paths");
   }
@@ -84,6 +84,7 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
   if (!std::filesystem::is_regular_file(path, error)) {
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a regular file", name));
   }
+  if (rules.on_file) rules.on_file(path);
   return path;
 }
 

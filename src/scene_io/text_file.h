@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace nacre {
@@ -12,10 +13,16 @@ namespace nacre {
 // than max_bytes.
 std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes);
 
+// What a scene's references to other files may be, and who is told of them.
+struct ReferenceRules {
+  bool allow_paths = false;                                     // outside the scene's folder, too
+  std::function<void(const std::filesystem::path&)> on_file{};  // each file, before it is read
+};
+
 // The file that a scene in `folder` refers to as `name`. Throws Error (kBadInput, without a place)
-// unless it is a regular file and, links followed, lies below the folder or allow_paths is set: a
+// unless it is a regular file and, links followed, lies below the folder or paths are allowed: a
 // scene from elsewhere should not read other files of its user.
 std::filesystem::path ResolveReference(const std::filesystem::path& folder, const std::string& name,
-                                       bool allow_paths);
+                                       const ReferenceRules& rules);
 
 }  // namespace nacre

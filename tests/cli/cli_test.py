@@ -682,7 +682,7 @@ class CliTest(unittest.TestCase):
         scene.write_text(pathlib.Path(FIRST_SCENE).read_text())
         (self.out / 'b.png').symlink_to(self.out / 'a.exr')
         a = self.out / 'a.exr'
-        self.check_fails(64, 'twice', 'render', scene, '-o', self.out / 'c.exr', '--stats', scene)
+        self.check_fails(64, 'is read for this', 'render', scene, '-o', self.out / 'c.exr', '--stats', scene)
         self.check_fails(64, 'twice', 'tonemap', a, '-o', self.out / 'b.png')
         self.check_fails(64, 'twice', 'compare', a, a, '--heat-map', self.out / 'b.png')
         self.check_fails(64, 'extension', 'tonemap', a, '-o', self.out / 'c.exr')

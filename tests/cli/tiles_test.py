@@ -6,11 +6,13 @@ Usage: tiles_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
 """
 import json
 import pathlib
+import random
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
+import zlib
 
 PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
 FIRST_SCENE = str(SOURCE / 'scenes/first_scene.json')
@@ -227,6 +229,127 @@ class TilesTest(unittest.TestCase):
         self.assertEqual(result.returncode, 64)
         result = run('merge', '-o', self.out / 'whole.jpg', a, b)
         self.assertEqual(result.returncode, 64)
+
+    # ---- Damage ----
+
+    def test_a_flipped_bit_anywhere_in_a_tile_is_refused_by_name(self):
+        """In header, table and rows, in every compression; not one such picture is written."""
+        rng = random.Random(43)
+        for compression in 'none', 'zip', 'zips', 'piz', 'dwaa':
+            options = ['--size', '48x64', '--spp', '2', '--reproducible', '--compression', compression]
+            tiles = self.tiles(2, *options)
+            damaged = self.out / 'damaged.exr'
+            data = tiles[1].read_bytes()
+            places = sorted(set(rng.randrange(len(data)) for _ in range(40)))
+            taken = []
+            for place in places:
+                bit = 1 << rng.randrange(8)
+                damaged.write_bytes(data[:place] + bytes([data[place] ^ bit]) + data[place + 1:])
+                result = run('merge', '-o', self.out / 'whole.exr', tiles[0], damaged)
+                if result.returncode != 65 or str(damaged) not in result.stderr:
+                    taken.append((place, bit, result.returncode, result.stderr))
+                self.assertFalse((self.out / 'whole.exr').exists())
+            self.assertEqual(taken, [], compression)
+
+    def test_a_flipped_bit_of_the_first_header_does_not_reach_the_picture(self):
+        """The merged file's header is that of the first tile: alone it has nobody to differ from."""
+        tile = self.render('t.exr', *SMALL)
+        data = tile.read_bytes()
+        header = data.index(b'\0\0', data.index(b'worldToNDC')) + 80
+        damaged = self.out / 'damaged.exr'
+        for place in range(header):
+            damaged.write_bytes(data[:place] + bytes([data[place] ^ 1 << place % 8]) + data[place + 1:])
+            if place % 9:
+                continue  # every ninth, each time another bit
+            result = run('merge', '-o', self.out / 'whole.exr', damaged)
+            if result.returncode == 0:  # the checksum's own name: it is told, and the rest is decoded
+                self.assertIn('has no checksum', result.stderr)
+                self.assertEqual(run('compare', self.out / 'whole.exr', tile).returncode, 0)
+                name = data.index(b'nacre:checksum')
+                self.assertTrue(name <= place < name + len('nacre:checksum'), place)
+                (self.out / 'whole.exr').unlink()
+            else:
+                self.assertEqual(result.returncode, 65, result.stderr)
+                self.assertIn(str(damaged), result.stderr)
+
+    def test_all_damaged_tiles_are_named_at_once(self):
+        tiles = self.tiles(4, *SMALL)
+        for tile in tiles[1], tiles[3]:
+            data = tile.read_bytes()
+            tile.write_bytes(data[:-9] + bytes([data[-9] ^ 16]) + data[-8:])
+        result = run('merge', '-o', self.out / 'whole.exr', *tiles)
+        self.assertEqual(result.returncode, 65)
+        self.assertEqual([str(tile) in result.stderr for tile in tiles], [False, True, False, True])
+
+    def without_checksum(self, tile):
+        """The tile as nacre wrote it before it had checksums: the attribute is another one."""
+        data = tile.read_bytes()
+        old = self.out / ('old_' + tile.name)
+        old.write_bytes(data.replace(b'nacre:checksum', b'nacre:older_it'))
+        return old
+
+    def test_old_tiles_without_a_checksum_are_decoded(self):
+        for compression in 'none', 'zip', 'zips', 'piz', 'dwaa':
+            with self.subTest(compression=compression):
+                options = [*SMALL, '--compression', compression]
+                single = self.render('single.exr', *options)
+                tiles = [self.without_checksum(tile) for tile in self.tiles(2, *options)]
+                for tile in tiles:  # of one value: tiles must agree in all attributes
+                    data = tile.read_bytes()
+                    place = data.index(b'nacre:older_it') + len(b'nacre:older_it\0string\0') + 4
+                    tile.write_bytes(data[:place] + b'00000000' + data[place + 8:])
+                result = self.merge('-o', self.out / 'whole.exr', *tiles)
+                self.assertEqual(result.stderr.count('has no checksum'), 2)
+                self.assertEqual(run('compare', self.out / 'whole.exr', single).returncode, 0)
+                # Whatever is wrong with them is found as far as decoding can tell: never a picture
+                # that cannot be read.
+                data = tiles[1].read_bytes()
+                chunks = data.index(b'worldToNDC') + 200
+                rng = random.Random(7)
+                for _ in range(12):
+                    place = rng.randrange(chunks, len(data))
+                    damaged = self.out / 'damaged.exr'
+                    damaged.write_bytes(data[:place] + bytes([data[place] ^ 1 << rng.randrange(8)]) +
+                                        data[place + 1:])
+                    result = run('merge', '-o', self.out / 'whole.exr', tiles[0], damaged)
+                    self.assertIn(result.returncode, (0, 65), result.stderr)
+                    if result.returncode == 0:
+                        verified = run('info', '--verify', self.out / 'whole.exr')
+                        self.assertEqual(verified.returncode, 0, verified.stderr)
+
+    def test_the_checksum_is_that_of_the_files_bytes(self):
+        for depth in 'half', 'float':
+            for compression in 'none', 'zip', 'zips', 'piz', 'dwaa':
+                for times in [], ['--reproducible']:
+                    path = self.render('a.exr', '--size', '64x100', '--compression', compression, '--depth', depth,
+                                       *times)
+                    data = path.read_bytes()
+                    mark = b'nacre:checksum\0string\0\x08\0\0\0'
+                    self.assertEqual(data.count(mark), 1)
+                    place = data.index(mark) + len(mark)
+                    crc = zlib.crc32(data[:place] + b'00000000' + data[place + 8:])
+                    self.assertEqual(data[place:place + 8].decode(), f'{crc:08x}')
+
+    def test_files_are_verified(self):
+        picture = self.render('a.exr', '-o', self.out / 'a.png', *SMALL)
+        for path, words in (picture, 'its checksum is right'), (self.out / 'a.png', 'all checksums are right'):
+            result = run('info', '--verify', path)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(words, result.stdout)
+            data = path.read_bytes()
+            rng = random.Random(5)
+            for _ in range(40):
+                place = rng.randrange(len(data))
+                damaged = self.out / ('damaged' + path.suffix)
+                damaged.write_bytes(data[:place] + bytes([data[place] ^ 1 << rng.randrange(8)]) + data[place + 1:])
+                result = run('info', '--verify', damaged)
+                name = data.find(b'nacre:checksum')
+                if path.suffix == '.png' or not name <= place < name + 15:
+                    self.assertEqual(result.returncode, 65, f'{path.suffix} {place}')
+                    self.assertIn(str(damaged), result.stderr)
+            for cut in data[:-1], data[:len(data) // 2], data[:20], data + b'x':
+                (self.out / ('cut' + path.suffix)).write_bytes(cut)
+                self.assertEqual(run('info', '--verify', self.out / ('cut' + path.suffix)).returncode, 65)
 
     def test_a_whole_picture_is_a_tile_of_its_own(self):
         whole = self.render('whole_of_it.exr', *SMALL)

@@ -80,6 +80,34 @@ class FarmTest(unittest.TestCase):
         self.assertIn('tile_0001', result.stderr)
         self.check_picture(result)
 
+    def test_tiles_with_a_flipped_bit_are_made_anew(self):
+        self.farm('--tiles', '4', '--retries', '0', *OPTIONS, failing='2')
+        for name in 'tile_0000_of_0004.exr', 'tile_0001_of_0004.exr', 'tile_0003_of_0004.exr':
+            tile = self.tiles()[name]
+            data = tile.read_bytes()
+            tile.write_bytes(data[:-40] + bytes([data[-40] ^ 8]) + data[-39:])
+        result = self.farm('--tiles', '4', *OPTIONS)
+        self.assertIn('tile_0001', result.stderr)
+        self.check_picture(result)
+
+    def test_no_tile_is_removed_before_the_picture_is_proven(self):
+        """Between merge's end and the farm's look at it, somebody damages the merged file."""
+        for output in 'a.exr', 'a.png':
+            with self.subTest(output=output):
+                wrapper = self.out / 'wrapper'
+                wrapper.write_text(f'#!/bin/sh\n"{PROGRAM}" "$@" || exit\n'
+                                   'if [ "$1" = merge ]; then\n'
+                                   f'  size=$(stat -c %s "{self.out}/{output}")\n'
+                                   f'  printf X | dd of="{self.out}/{output}" bs=1 seek=$((size / 2)) '
+                                   'conv=notrunc 2>/dev/null\nfi\n')
+                wrapper.chmod(0o755)
+                result = self.farm('--tiles', '4', '-o', self.out / 'a.png', *OPTIONS, nacre=str(wrapper))
+                self.assertNotEqual(result.returncode, 0)
+                self.assertIn('its tiles are kept', result.stderr)
+                self.assertIn(output, result.stderr)
+                self.assertEqual(len(self.tiles()), 4)
+        self.check_picture(self.farm('--tiles', '4', '-o', self.out / 'a.png', *OPTIONS))
+
     def test_tiles_of_other_settings_are_not_taken(self):
         self.farm('--tiles', '4', '--retries', '0', *OPTIONS, failing='2')
         brighter = ['--set', '/lights/key/intensity=200']

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include <fcntl.h>
+#include <grp.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -18,6 +19,7 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include "files.h"
@@ -167,6 +169,74 @@ TEST_CASE("a file system without anonymous files") {
   });
   CHECK(WIFEXITED(status));
   CHECK(WEXITSTATUS(status) == 0);
+}
+
+TEST_CASE("a replaced file's mode, owner and attributes stay") {
+  for (const bool anonymous : {true, false}) {
+    CHECK(InChild([&] {  // a child, because what it gives up does not come back
+            const TestFolder folder;
+            const std::string path = folder / "a.png";
+            WriteBytes(path, kOld);
+            if (!anonymous && !ForbidAnonymousFiles()) return true;
+            const bool has_attributes = setxattr(path.c_str(), "user.nacre", "kept", 4, 0) == 0;
+            const bool is_root = geteuid() == 0 && chown(path.c_str(), 1234, 5678) == 0;
+            for (const mode_t mode : {0600u, 0640u, 0664u, 0777u}) {
+              if (chmod(path.c_str(), mode) != 0) return false;
+              WriteFile(path);
+              struct stat status {};
+              if (stat(path.c_str(), &status) != 0 || (status.st_mode & 07777) != mode)
+                return false;
+              if (is_root && (status.st_uid != 1234 || status.st_gid != 5678)) return false;
+              char value[4] = {};
+              if (has_attributes && getxattr(path.c_str(), "user.nacre", value, 4) != 4)
+                return false;
+              if (ReadBytes(path) != kNew) return false;
+            }
+            return true;
+          }) == 0);
+  }
+}
+
+TEST_CASE("what a group may not see, no other group may because of a replacement") {
+  if (geteuid() != 0) return;  // who cannot give files away has no such file
+  const TestFolder folder;
+  const std::string path = folder / "a.png";
+  WriteBytes(path, kOld);
+  REQUIRE(chmod(path.c_str(), 0660) == 0);
+  REQUIRE(chown(path.c_str(), 1234, 5678) == 0);
+  REQUIRE(chmod(folder.path().c_str(), 0777) == 0);
+  CHECK(InChild([&] {
+          if (setgroups(0, nullptr) != 0 || setgid(4321) != 0 || setuid(1234) != 0) return false;
+          WriteFile(path);
+          struct stat status {};
+          return stat(path.c_str(), &status) == 0 && status.st_gid == 4321 &&
+                 (status.st_mode & 0777) == 0600;
+        }) == 0);
+}
+
+TEST_CASE("a file has one identity, however it is called, and others have others") {
+  const TestFolder folder;
+  const fs::path here = fs::current_path();
+  fs::current_path(folder.path());
+  fs::create_directory("sub");
+  fs::create_symlink("sub", "link");
+  fs::create_symlink("new.png", "to_new.png");
+  fs::create_symlink("to_new.png", "to_that.png");
+  const std::vector<std::string> names = {
+      "new.png",          "./new.png",  ".//new.png",         "sub/../new.png", "link/../new.png",
+      folder / "new.png", "to_new.png", "sub/../to_that.png", "./to_that.png"};
+  for (const bool is_there : {false, true}) {
+    if (is_there) WriteBytes("new.png", kOld);
+    for (const std::string& name : names) CHECK(FileIdentity(name) == FileIdentity("new.png"));
+    for (const char* other : {"new.pn", "New.png", "sub/new.png", "link/new.png", "sub", "."}) {
+      CHECK(FileIdentity(other) != FileIdentity("new.png"));
+    }
+    CHECK(FileIdentity("sub/a") == FileIdentity("link/a"));
+  }
+  fs::create_hard_link("new.png", "hard.png");
+  CHECK(FileIdentity("hard.png") == FileIdentity("new.png"));
+  CHECK(FileIdentity("no/folder.png") != FileIdentity("no/other.png"));
+  fs::current_path(here);
 }
 
 TEST_CASE("files get the permissions of new files") {

@@ -31,7 +31,14 @@ TEST_CASE("Text stays text", "[report]") {
       Page().Html("<script>", "me \"&\"", {{"name", "</script><!-- {{style}} \xff"}});
   CHECK(html.find("<title>&lt;script&gt;</title>") != std::string::npos);
   CHECK(html.find("</script><!--") == std::string::npos);
-  CHECK(html.find("\\u003c/script>\\u003c!-- {{style}} \xef\xbf\xbd") != std::string::npos);
+  CHECK(html.find(R"(\u003c/script>\u003c!-- {{style}} \\xff)") != std::string::npos);
+}
+
+TEST_CASE("A page shows control characters and obeys none", "[report]") {
+  const std::string html =
+      Page().Html("\x1b[2J\xe2\x80\xaeü", "nacre", {{"a\x1b", {1, "b\xc2\x9b\x7f漢\nc\td"}}});
+  CHECK(html.find("<title>\\u001b[2J\\u202eü</title>") != std::string::npos);
+  CHECK(html.find(R"({"a\\u001b":[1,"b\\u009b\\u007f漢\nc\td"]})") != std::string::npos);
 }
 
 TEST_CASE("A page has its policy and its blobs", "[report]") {

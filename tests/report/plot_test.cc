@@ -102,7 +102,7 @@ TEST_CASE("CSV has each x once, and all digits") {
 }
 
 TEST_CASE("Text cannot become a command of gnuplot") {
-  CHECK(GnuplotQuote("it's\nme") == "'it’s me'");
+  CHECK(GnuplotQuote("it's\nme\x1b[m") == "'it’s\\nme\\u001b[m'");
   Plot plot = Line(0, 1);
   plot.title = "'; print 1/0; system 'false";
   plot.curves[0].title = "$HOME \\ `x` {/Bold y}_z";
@@ -225,6 +225,42 @@ TEST_CASE("A program's streams are whole, and its end is told") {
   CHECK(failed.status != 0);
   CHECK(failed.errors.find("/no such folder") != std::string::npos);
   CHECK(!RunChild({"no-such-program-here"}, "").found);
+}
+
+TEST_CASE("Programs are those of PATH's absolute folders, and told little") {
+  std::string name = (fs::temp_directory_path() / "nacre_planted_XXXXXX").string();
+  REQUIRE(mkdtemp(name.data()) != nullptr);
+  const fs::path folder = name;
+  std::ofstream(folder / "planted-program") << "#!/bin/sh\necho planted\n";
+  fs::permissions(folder / "planted-program", fs::perms::owner_all);
+  const std::string before = std::getenv("PATH");
+  const fs::path here = fs::current_path();
+  fs::current_path(folder);
+  for (const std::string& relative :
+       {std::string(), std::string("."), std::string("./"), "../" + folder.filename().string()}) {
+    for (const std::string& path :
+         {relative, relative + ":" + before, before + ":" + relative, before + "::" + relative}) {
+      setenv("PATH", path.c_str(), 1);
+      CHECK(!IsProgramThere("planted-program"));
+      CHECK(!RunChild({"planted-program"}, "").found);
+    }
+  }
+  setenv("PATH", (".:" + folder.string()).c_str(), 1);
+  CHECK(RunChild({"planted-program"}, "").output == "planted\n");
+  // Of the environment: nothing that names code or settings, and of lists what is absolute.
+  setenv("PATH", (before + ":.:relative").c_str(), 1);
+  setenv("GNUPLOT_LIB", "/somewhere", 1);
+  setenv("XDG_CONFIG_HOME", "relative", 1);
+  const std::string told = RunChild({"env"}, "").output;
+  CHECK(RunChild({"pwd"}, "").output == "/\n");
+  unsetenv("GNUPLOT_LIB");
+  unsetenv("XDG_CONFIG_HOME");
+  setenv("PATH", before.c_str(), 1);
+  fs::current_path(here);
+  fs::remove_all(folder);
+  CHECK(told.find("GNUPLOT_LIB") == std::string::npos);
+  CHECK(told.find("relative") == std::string::npos);
+  CHECK(told.find("PATH=/") != std::string::npos);
 }
 
 }  // namespace nacre
