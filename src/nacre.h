@@ -267,6 +267,9 @@ struct CompareSettings {
   double max_abs = 0, max_rel = 0, exceeding_fraction = 0;
   double max_rmse = std::numeric_limits<double>::infinity();  // of any layer
   bool perceptual = false;                                    // measure SSIM and FLIP, too
+  // Compare the pixels that both have where frames or data windows differ, which is a difference
+  // otherwise.
+  bool crop = false;
 };
 
 struct LayerMetrics {

@@ -36,7 +36,7 @@ Comparison Compare(const Image& image, const Image& reference, const CompareSett
   return AtBorder([&] {
     const nacre::Image got = ToOwn(image);
     const nacre::Image expected = ToOwn(reference);
-    const nacre::CompareOptions options{.layers = settings.layers};
+    const nacre::CompareOptions options{.layers = settings.layers, .crop = settings.crop};
     const nacre::Tolerances tolerances{.max_abs = settings.max_abs,
                                        .max_rel = settings.max_rel,
                                        .exceeding_fraction = settings.exceeding_fraction,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/image.cc: images of the public API: to and from the library's own, and read from files.
 #include "api/border.h"
-#include "image_io/image_reader.h"
+#include "image_io/image_file.h"
 
 namespace nacre::v0 {
 namespace {

@@ -16,7 +16,7 @@
 #include "cli/render_options.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
-#include "image_io/image_reader.h"
+#include "image_io/image_file.h"
 #include "image_io/output_file.h"
 #include "scene_io/json_text.h"
 
@@ -24,7 +24,7 @@ namespace nacre {
 namespace {
 
 struct CompareArguments {
-  std::string image, reference;
+  std::string image, reference, part;
   CompareOptions options;
   Tolerances tolerances;
   std::string heat_map;
@@ -66,6 +66,34 @@ void PrintPerceptual(const std::vector<PerceptualMetrics>& all) {
   }
 }
 
+// Numbers of different primaries have nothing to do with each other.
+void CheckSameColorSpace(const ImageFile& image, const ImageFile& reference) {
+  const auto primaries = [](const ImageFile& file) {
+    const auto found = file.parts.front().metadata.find("chromaticities");
+    return found == file.parts.front().metadata.end() ? std::string() : found->second;
+  };
+  const std::string a = primaries(image), b = primaries(reference);
+  if (a == b || a.empty() || b.empty()) return;
+  throw Error(ExitCode::kCannotCompare, image.path,
+              fmt::format("its primaries are {}, those of {} {}", a, reference.path, b),
+              "convert one of them first");
+}
+
+// How the data windows of parts of a name differ, which the windows around all of them need not
+// tell; "" if they do not.
+std::string PartWindowsInWords(const ImageFile& image, const ImageFile& reference) {
+  if (!image.has_several) return {};
+  for (const ImagePart& a : image.parts) {
+    for (const ImagePart& b : reference.parts) {
+      if (a.name != b.name || a.data == b.data) continue;
+      return fmt::format("the data window of part \"{}\" is {}x{} at {},{}, not {}x{} at {},{}",
+                         a.name, a.data.width(), a.data.height(), a.data.x0, a.data.y0,
+                         b.data.width(), b.data.height(), b.data.x0, b.data.y0);
+    }
+  }
+  return {};
+}
+
 int RunCompare(const CompareArguments& arguments) {
   if (!arguments.heat_map.empty()) {
     CheckPngPath(arguments.heat_map);
@@ -73,13 +101,21 @@ int RunCompare(const CompareArguments& arguments) {
     CheckPathsDiffer({arguments.reference, arguments.heat_map});
   }
   const std::optional<PerceptualOptions> perceptual = MakePerceptualOptions(arguments.perceptual);
-  const Image image = ReadImage(arguments.image);
-  const Image reference = ReadImage(arguments.reference);
+  const ImageFile image_file = OpenImage(arguments.image, arguments.part);
+  const ImageFile reference_file = OpenImage(arguments.reference, arguments.part);
+  CheckSameColorSpace(image_file, reference_file);
+  const Image image = ReadImage(image_file);
+  const Image reference = ReadImage(reference_file);
   CompareOptions options = arguments.options;
   options.got_name = arguments.image;
   options.reference_name = arguments.reference;
   for (std::string& layer : options.layers) layer = LayerOfName(layer);
-  const Verdict verdict = Judge(image, reference, arguments.tolerances, options);
+  Verdict verdict = Judge(image, reference, arguments.tolerances, options);
+  const std::string parts = PartWindowsInWords(image_file, reference_file);
+  if (verdict.match && !parts.empty() && !options.crop) {
+    verdict.match = false;
+    verdict.reason = parts + "; the pixels that both have match";
+  }
   std::vector<PerceptualMetrics> seen;
   if (perceptual) seen = MeasurePerceptual(image, reference, *perceptual, options);
   if (arguments.json) {
@@ -113,6 +149,10 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
                    "Layers to compare, e.g. beauty,diffuse; without it all, and the images must "
                    "then have the same")
       ->delimiter(',');
+  command->add_option("--part", a->part, "Only this part of EXR files that have several");
+  command->add_flag("--crop", a->options.crop,
+                    "Compare the pixels that both have where their windows differ, which is a "
+                    "difference otherwise");
   const std::string tolerance = "Tolerances (without any, images must be equal)";
   const auto not_negative = InRange(0, 1e30);
   command->add_option("--max-abs", a->tolerances.max_abs, "Allowed |difference| of a sample, plus")

@@ -13,8 +13,7 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/print.h"
-#include "image_io/exr_reader.h"
-#include "image_io/image_reader.h"
+#include "image_io/image_file.h"
 #include "image_io/verify_image.h"
 #include "scene/hash.h"
 #include "scene_io/load_scene.h"
@@ -38,17 +37,39 @@ std::string WindowText(const Window& w) {
   return fmt::format("{}x{} at {},{}", w.width(), w.height(), w.x0, w.y0);
 }
 
-void PrintImage(const std::string& path) {
-  const Image image = HasExtension(path, ".exr") ? ReadExrHeader(path) : ReadImage(path);
-  PrintOut("{}\n", path);
-  PrintOut("  display window  {}\n", WindowText(image.display));
-  PrintOut("  data window     {}\n", WindowText(image.data));
+void PrintPart(const ImagePart& part, const std::string& indent) {
+  PrintOut("{}display window  {}\n", indent, WindowText(part.display));
+  PrintOut("{}data window     {}\n", indent, WindowText(part.data));
   std::vector<std::string> channels;
-  for (const Channel& channel : image.channels) {
-    channels.push_back(channel.name + ":" + TypeName(channel.type));
+  for (const ImagePart::PartChannel& channel : part.channels) {
+    const bool sampled = channel.x_sampling != 1 || channel.y_sampling != 1;
+    channels.push_back(
+        channel.name + ":" + TypeName(channel.type) +
+        (sampled ? fmt::format("/{}x{}", channel.x_sampling, channel.y_sampling) : std::string()));
   }
-  PrintOut("  channels        {}\n", fmt::format("{}", fmt::join(channels, " ")));
-  for (const auto& [name, value] : image.metadata) PrintOut("  {:<15} {}\n", name, value);
+  PrintOut("{}channels        {}\n", indent, fmt::format("{}", fmt::join(channels, " ")));
+  if (!part.refusal.empty()) {
+    PrintOut("{}not read        {}\n", indent, part.refusal);
+  }
+  for (const auto& [name, value] : part.metadata) {
+    PrintOut("{}{:<15} {}\n", indent, name, value);
+  }
+}
+
+void PrintImage(const std::string& path, const std::string& wanted) {
+  const std::vector<ImagePart> parts = DescribeImage(path);
+  const auto is_wanted = [&](const ImagePart& part) {
+    return wanted.empty() || part.name == wanted;
+  };
+  if (std::none_of(parts.begin(), parts.end(), is_wanted)) OpenImage(path, wanted);  // throws
+  PrintOut("{}\n", path);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (!is_wanted(parts[i])) continue;
+    if (parts.size() > 1) {
+      PrintOut("  part {} of {}: {}\n", i + 1, parts.size(), parts[i].name);
+    }
+    PrintPart(parts[i], parts.size() > 1 ? "    " : "  ");
+  }
 }
 
 // "3: gold, silver, copper", as --set names them; of many, some.
@@ -94,6 +115,7 @@ void AddInfoCommand(CLI::App* app, int*) {
       app->add_subcommand("info", "Show what image and scene files hold; alone, about this build");
   struct InfoArguments {
     std::vector<std::string> files;
+    std::string part;
     bool allow_paths = false;
     bool verify = false;
   };
@@ -101,6 +123,7 @@ void AddInfoCommand(CLI::App* app, int*) {
   command->add_option(
       "FILE", arguments->files,
       "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");
+  command->add_option("--part", arguments->part, "Only this part of EXR files that have several");
   command->add_flag("--allow-paths", arguments->allow_paths,
                     "Let scenes refer to files outside their own folder");
   command->add_flag("--verify", arguments->verify,
@@ -117,7 +140,7 @@ void AddInfoCommand(CLI::App* app, int*) {
       if (HasExtension(file, ".json") || IsModelFile(file)) {
         PrintScene(file, arguments->allow_paths);
       } else {
-        PrintImage(file);
+        PrintImage(file, arguments->part);
         if (arguments->verify) PrintOut("  {:<15} {}\n", "verified", VerifyImage(file));
       }
     }

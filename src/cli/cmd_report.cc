@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 struct ReportArguments {
   std::string output;
   std::vector<std::string> inputs;
-  std::string reference;
+  std::string reference, part;
   std::string title;
   double limit_mib = 64;
   RenderOptions render;
@@ -42,7 +42,7 @@ Pictures ReadPictures(const ReportArguments& arguments) {
   for (const std::string& path : arguments.inputs) {
     const ReportInput kind = KindOfInput(path);
     if (kind == ReportInput::kImage) {
-      pictures.all.push_back(ReadPicture(path));
+      pictures.all.push_back(ReadPicture(path, arguments.part));
     } else if (kind == ReportInput::kScene) {
       pictures.all.push_back(RenderPicture(path, arguments.render, arguments.output));
     } else if (kind == ReportInput::kStats) {
@@ -132,6 +132,7 @@ void AddReportCommand(CLI::App* app, int*) {
       ->required();
   command->add_option("--reference", a->reference,
                       "Which of several pictures the others are compared with (the second)");
+  command->add_option("--part", a->part, "Part of EXR files that have several");
   command->add_option("--title", a->title, "Title of the page");
   command
       ->add_option("--limit", a->limit_mib,

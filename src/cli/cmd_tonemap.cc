@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_tonemap.cc: nacre tonemap: a linear image to a PNG for a display.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,55 +14,114 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/render_options.h"
-#include "image_io/image_reader.h"
+#include "image_io/color_channels.h"
+#include "image_io/image_file.h"
 #include "image_io/output_file.h"
 #include "image_io/png_writer.h"
+#include "scene/limits.h"
 
 namespace nacre {
 namespace {
 
 struct TonemapArguments {
   std::string input, output;
-  std::string layer;
+  std::string layer, part;
   std::string tonemap = "neutral";
   double exposure = 0;
   bool small = false;
 };
 
-const Channel& RequireChannel(const Image& image, const std::string& path,
-                              const std::string& name) {
-  const Channel* channel = image.Find(name);
-  if (channel != nullptr) return *channel;
+// The channels of the layer that is asked for; of the beauty of a file of several parts, those of
+// the first part that has colours.
+ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& arguments) {
+  const std::string layer = arguments.layer == "beauty" ? "" : arguments.layer;
+  const std::vector<Channel>& channels = image.header.channels;
+  if (image.has_several && layer.empty()) {
+    for (const ImagePart& part : image.parts) {
+      const std::optional<ColorChannels> colors = FindColors(channels, part.name);
+      if (!colors) continue;
+      PrintError(fmt::format("warning: {}: shows part \"{}\" of {}; --part chooses another\n",
+                             image.path, part.name, image.parts.size()));
+      return *colors;
+    }
+  } else if (const std::optional<ColorChannels> colors = FindColors(channels, layer)) {
+    return *colors;
+  }
   std::vector<std::string> names;
-  for (const Channel& known : image.channels) names.push_back(known.name);
-  const std::string nearest = NearestName(name, names);
-  throw Error(ExitCode::kBadInput, path, "there is no channel \"" + name + "\"",
-              nearest.empty() ? "nacre info lists the channels"
-                              : "did you mean \"" + nearest + "\"? nacre info lists them");
+  for (const Channel& channel : channels) {
+    const size_t dot = channel.name.rfind('.');
+    names.push_back(dot == std::string::npos ? channel.name : channel.name.substr(0, dot));
+  }
+  const std::string nearest = NearestName(layer, names);
+  throw Error(ExitCode::kBadInput, image.path,
+              layer.empty() ? "there are no channels R, G and B, nor one alone"
+                            : "there is no layer \"" + layer + "\" of colours",
+              nearest.empty() ? "--layer chooses one; nacre info lists the channels"
+                              : "did you mean \"" + nearest + "\"? nacre info lists the channels");
+}
+
+// The samples of the display window, black where the file has none.
+struct ShownPixels {
+  Window window;
+  std::array<std::vector<float>, 3> rgb;  // of a grey image the first one alone
+
+  const float* Row(size_t c, size_t first) const {
+    return rgb[rgb[c].empty() ? 0 : c].data() + first;
+  }
+};
+
+ShownPixels ReadShown(const ImageFile& image, const ColorChannels& colors) {
+  ShownPixels shown;
+  shown.window = image.header.display;
+  const int64_t width = int64_t{shown.window.x1} - shown.window.x0;
+  const int64_t height = int64_t{shown.window.y1} - shown.window.y0;
+  const auto largest = static_cast<int64_t>(limits::kImageSide.max);
+  if (width < 1 || height < 1 || width > largest || height > largest) {
+    throw Error(ExitCode::kBadInput, image.path,
+                fmt::format("its display window has {} x {} pixels", width, height),
+                "a PNG has 1 to 65536 a side");
+  }
+  const std::array<size_t, 3> channels = {colors.r, colors.g, colors.b};
+  const size_t count = colors.is_grey() ? 1 : 3;
+  image.CheckSize(shown.window, count);
+  const Window common = Intersect(shown.window, image.header.data);
+  std::vector<SampleTarget> targets;
+  for (size_t c = 0; c < count; ++c) {
+    shown.rgb[c].resize(shown.window.pixel_count());
+    if (common.empty()) continue;
+    targets.push_back({channels[c],
+                       shown.rgb[c].data() + IndexIn(shown.window, common.x0, common.y0), 1,
+                       shown.window.width()});
+  }
+  if (!common.empty()) image.read(common, targets);
+  return shown;
 }
 
 void RunTonemap(const TonemapArguments& arguments) {
   // The size is known only after reading, but a path that cannot be written is told before.
   CheckPngPath(arguments.output);
   CheckPathsDiffer({arguments.input, arguments.output});
-  const Image image = ReadImage(arguments.input);
-  const auto transfer = image.metadata.find("transfer");
-  if (transfer != image.metadata.end() && transfer->second == "display") {
+  const ImageFile image = OpenImage(arguments.input, arguments.part);
+  if (image.header.metadata.at("transfer") == "display") {
     throw Error(ExitCode::kBadInput, arguments.input, "the image is display-referred already",
                 "give a linear image: EXR or HDR");
   }
-  const bool beauty = arguments.layer.empty() || arguments.layer == "beauty";
-  const std::string prefix = beauty ? "" : arguments.layer + ".";
-  const float* rgb[3] = {};
-  for (size_t c = 0; c < 3; ++c) {
-    rgb[c] = RequireChannel(image, arguments.input, prefix + "RGB"[c]).samples.data();
+  const ColorChannels colors = RequireColors(image, arguments);
+  if (!colors.is_grey()) CheckPrimaries(image);
+  const ShownPixels shown = ReadShown(image, colors);
+  const auto aspect = image.parts.front().metadata.find("pixelAspectRatio");
+  if (aspect != image.parts.front().metadata.end() && aspect->second != "1") {
+    PrintError(
+        fmt::format("warning: {}: its pixels are {} times as wide as high, and are shown as "
+                    "squares\n",
+                    arguments.input, aspect->second));
   }
   const DisplaySettings display{.tone = ParseToneOperator(arguments.tonemap),
                                 .exposure_ev = arguments.exposure};
-  const size_t width = static_cast<size_t>(image.data.width());
+  const size_t width = static_cast<size_t>(shown.window.width());
   PngHeader header;
-  header.width = image.data.width();
-  header.height = image.data.height();
+  header.width = shown.window.width();
+  header.height = shown.window.height();
   header.text = {{"Software", "nacre"}, {"nacre:tonemap", arguments.tonemap}};
   PngWriter png(arguments.output, header, {.small = arguments.small});
   const int strips = (header.height + PngWriter::kStripRows - 1) / PngWriter::kStripRows;
@@ -71,8 +132,8 @@ void RunTonemap(const TonemapArguments& arguments) {
     const size_t first = static_cast<size_t>(y) * width;
     const size_t count = static_cast<size_t>(rows) * width;
     std::vector<uint8_t> rgb8(3 * count);
-    nan_pixels +=
-        EncodeDisplay(display, rgb[0] + first, rgb[1] + first, rgb[2] + first, count, rgb8.data());
+    nan_pixels += EncodeDisplay(display, shown.Row(0, first), shown.Row(1, first),
+                                shown.Row(2, first), count, rgb8.data());
     png.WriteStrip(y, rows, rgb8.data());
   });
   png.Finish();
@@ -90,6 +151,7 @@ void AddTonemapCommand(CLI::App* app, int*) {
   command->add_option("-o,--output", arguments->output, "PNG file to write")->required();
   command->add_option("--layer", arguments->layer,
                       "Layer to show instead of the beauty, e.g. diffuse");
+  command->add_option("--part", arguments->part, "Part of an EXR file that has several");
   AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
   command->add_flag("--small", arguments->small, "Smaller file, several times slower");
   command->footer(

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "cli/progress.h"
-#include "image_io/exr_reader.h"
+#include "image_io/image_file.h"
 #include "render/render.h"
 #include "scene_io/json_reader.h"
 #include "scene_io/load_scene.h"
@@ -123,7 +123,7 @@ ReferenceRun RunReference(const Reference& reference, int threads, std::vector<s
   settings.threads = threads;
   settings.on_progress = [](double) { ThrowIfStopped(); };
   run.got = RenderImage(scene, settings);
-  run.expected = ReadExr(reference.image.string());
+  run.expected = ReadImage(reference.image.string());
   run.verdict = Judge(run.got, run.expected, reference.tolerances, OptionsOf(reference));
   return run;
 }

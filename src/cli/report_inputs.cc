@@ -12,7 +12,7 @@
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
-#include "image_io/image_reader.h"
+#include "image_io/image_file.h"
 #include "render/render.h"
 #include "scene_io/json_text.h"
 #include "scene_io/text_file.h"
@@ -75,8 +75,8 @@ ReportInput KindOfInput(const std::string& path) {
   return ReportInput::kScene;
 }
 
-ReportPicture ReadPicture(const std::string& path) {
-  return {NameOf(path), ReadImage(path), std::nullopt};
+ReportPicture ReadPicture(const std::string& path, const std::string& part) {
+  return {NameOf(path), ReadImage(path, part), std::nullopt};
 }
 
 ReportPicture RenderPicture(const std::string& path, const RenderOptions& options,

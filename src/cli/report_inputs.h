@@ -30,7 +30,7 @@ struct ReportPicture {
   std::optional<nlohmann::ordered_json> stats;
 };
 
-ReportPicture ReadPicture(const std::string& path);
+ReportPicture ReadPicture(const std::string& path, const std::string& part);
 // `output` is the report's file, which the scene must not be made of.
 ReportPicture RenderPicture(const std::string& path, const RenderOptions& options,
                             const std::string& output);

@@ -52,10 +52,13 @@ double ShareOfFirst(const Sensitivity& s, double pixels_per_degree, int radius) 
   return first / (first + volume(s.a2, s.b2));
 }
 
+// Three sigmas of the widest, for all.
+int SensitivityRadius(double pixels_per_degree) {
+  return static_cast<int>(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * pixels_per_degree));
+}
+
 Plane FilterSensitivity(const Plane& plane, const Sensitivity& s, double pixels_per_degree) {
-  // Three sigmas of the widest, for all.
-  const int radius =
-      static_cast<int>(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * pixels_per_degree));
+  const int radius = SensitivityRadius(pixels_per_degree);
   const Kernel first = SensitivityKernel(s.b1, pixels_per_degree, radius);
   Plane out = Filter(plane, first, first);
   if (s.a2 == 0) return out;
@@ -128,9 +131,15 @@ Plane Norm(const Plane& luminance, const Kernel& derivative, const Kernel& smoot
   return norm;
 }
 
+double FeatureSigma(double pixels_per_degree) { return 0.5 * kFeatureWidth * pixels_per_degree; }
+
+int FeatureRadius(double pixels_per_degree) {
+  return static_cast<int>(std::ceil(3 * FeatureSigma(pixels_per_degree)));
+}
+
 Features FindFeatures(const Plane& y, double pixels_per_degree) {
-  const double sigma = 0.5 * kFeatureWidth * pixels_per_degree;
-  const int radius = static_cast<int>(std::ceil(3 * sigma));
+  const double sigma = FeatureSigma(pixels_per_degree);
+  const int radius = FeatureRadius(pixels_per_degree);
   const Kernel smooth = GaussianKernel(sigma, radius);
   Kernel edge = smooth, point = smooth;
   for (int x = -radius; x <= radius; ++x) {
@@ -150,13 +159,13 @@ double FeatureError(const Features& a, const Features& b, size_t i) {
   return std::pow(std::max(edges, points) / std::numbers::sqrt2, kFeatureExponent);
 }
 
-}  // namespace
-
-double PixelsPerDegree(double distance, double pixels, double width) {
-  return distance * pixels / width * kPi / 180;
+Planes RowsOf(const Planes& planes, int first, int end) {
+  return {nacre::RowsOf(planes[0], first, end), nacre::RowsOf(planes[1], first, end),
+          nacre::RowsOf(planes[2], first, end)};
 }
 
-Plane FlipMap(const Planes& reference, const Planes& test, double pixels_per_degree) {
+// Of a picture, or of some rows of one.
+Plane FlipRows(const Planes& reference, const Planes& test, double pixels_per_degree) {
   const Planes ycc_reference = Map(reference, flip::YccFromRgb);
   const Planes ycc_test = Map(test, flip::YccFromRgb);
   const Features features_reference = FindFeatures(ycc_reference[0], pixels_per_degree);
@@ -171,6 +180,27 @@ Plane FlipMap(const Planes& reference, const Planes& test, double pixels_per_deg
     const double color = ColorError(at(seen_reference), at(seen_test));
     // The final difference: colour^(1 - feature).
     map.values[i] = std::pow(color, 1 - FeatureError(features_reference, features_test, i));
+  }
+  return map;
+}
+
+}  // namespace
+
+double PixelsPerDegree(double distance, double pixels, double width) {
+  return distance * pixels / width * kPi / 180;
+}
+
+Plane FlipMap(const Planes& reference, const Planes& test, double pixels_per_degree) {
+  const int height = reference[0].height;
+  const int radius =
+      std::max(SensitivityRadius(pixels_per_degree), FeatureRadius(pixels_per_degree));
+  Plane map(reference[0].width, height);
+  for (const Band& band : BandsOf(height, radius)) {
+    const Plane rows = FlipRows(RowsOf(reference, band.input_first, band.input_end),
+                                RowsOf(test, band.input_first, band.input_end), pixels_per_degree);
+    for (int y = band.first; y < band.end; ++y) {
+      for (int x = 0; x < map.width; ++x) map.at(x, y) = rows.at(x, y - band.input_first);
+    }
   }
   return map;
 }

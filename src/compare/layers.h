@@ -13,6 +13,8 @@ namespace nacre {
 struct CompareOptions {
   // The layers to compare; empty: all, and then both images must have the same channels.
   std::vector<std::string> layers;
+  // Judge the pixels that both images have, where their windows differ.
+  bool crop = false;
   // What error messages call the images.
   std::string got_name = "image";
   std::string reference_name = "reference";

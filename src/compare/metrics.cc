@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace nacre {
@@ -11,7 +12,11 @@ namespace {
 // Running sums over the samples of a layer.
 class Accumulator {
  public:
-  explicit Accumulator(std::string layer) { metrics_.layer = std::move(layer); }
+  // `samples`: as many as there will be.
+  Accumulator(std::string layer, size_t samples) : kept_(samples - RankOf999(samples)) {
+    metrics_.layer = std::move(layer);
+    largest_relative_.reserve(kept_);
+  }
 
   void Add(float got, float reference, int x, int y, const std::string& channel) {
     ++metrics_.samples;
@@ -33,7 +38,7 @@ class Accumulator {
     sum_reference_ += reference;
     metrics_.max_abs = std::max(metrics_.max_abs, error);
     metrics_.psnr_peak = std::max(metrics_.psnr_peak, std::abs(static_cast<double>(reference)));
-    relative_errors_.push_back(static_cast<float>(relative));
+    Keep(static_cast<float>(relative));
   }
 
   LayerMetrics Finish() {
@@ -46,27 +51,46 @@ class Accumulator {
     }
     metrics_.mean_got = sum_got_ / count;
     metrics_.mean_reference = sum_reference_ / count;
-    const auto rank = static_cast<size_t>(std::ceil(0.999 * count)) - 1;
-    const auto nth = relative_errors_.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(relative_errors_.begin(), nth, relative_errors_.end());
-    metrics_.p999_rel = *nth;
-    metrics_.max_rel = *std::max_element(nth, relative_errors_.end());
+    // Ascending; the largest one is the last. Of fewer finite samples fewer are above the rank.
+    std::sort_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
+    std::reverse(largest_relative_.begin(), largest_relative_.end());
+    metrics_.p999_rel =
+        largest_relative_[largest_relative_.size() - (finite_ - RankOf999(finite_))];
+    metrics_.max_rel = largest_relative_.back();
     return metrics_;
   }
 
  private:
+  // The index, in ascending order, of the value that 99.9 % of `count` values do not exceed.
+  static size_t RankOf999(size_t count) {
+    return count == 0 ? 0 : static_cast<size_t>(std::ceil(0.999 * static_cast<double>(count))) - 1;
+  }
+
+  // A heap with the smallest of the kept errors on top: one in a thousand is kept, not all, which
+  // would take as much memory as an image.
+  void Keep(float relative) {
+    if (largest_relative_.size() == kept_) {
+      if (relative <= largest_relative_.front()) return;
+      std::pop_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
+      largest_relative_.pop_back();
+    }
+    largest_relative_.push_back(relative);
+    std::push_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
+  }
+
   LayerMetrics metrics_;
   size_t finite_ = 0;
   double largest_ = 0;
   double squares_ = 0, relative_squares_ = 0, sum_got_ = 0, sum_reference_ = 0;
-  std::vector<float> relative_errors_;
+  size_t kept_;
+  std::vector<float> largest_relative_;
 };
 
 }  // namespace
 
 LayerMetrics CompareLayer(const ImagePair& pair, const LayerPair& layer) {
-  Accumulator accumulator(layer.layer);
   const Window& window = pair.window;
+  Accumulator accumulator(layer.layer, layer.channels.size() * window.pixel_count());
   for (const ChannelPair& channel : layer.channels) {
     for (int y = window.y0; y < window.y1; ++y) {
       for (int x = window.x0; x < window.x1; ++x) {

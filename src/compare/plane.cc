@@ -38,6 +38,28 @@ void FilterColumns(const Plane& plane, int y, const Kernel& kernel, Plane* out) 
 Plane::Plane(int w, int h, double value)
     : width(w), height(h), values(static_cast<size_t>(w) * static_cast<size_t>(h), value) {}
 
+Plane RowsOf(const Plane& plane, int first, int end) {
+  Plane rows;
+  rows.width = plane.width;
+  rows.height = end - first;
+  const auto at = [&](int row) {
+    return plane.values.begin() + static_cast<std::ptrdiff_t>(row) * plane.width;
+  };
+  rows.values.assign(at(first), at(end));
+  return rows;
+}
+
+std::vector<Band> BandsOf(int height, int radius) {
+  // As many rows as are looked at beside them, so that the work is at most three times.
+  const int rows = std::max(256, radius);
+  std::vector<Band> bands;
+  for (int first = 0; first < height; first += rows) {
+    const int end = std::min(first + rows, height);
+    bands.push_back({first, end, std::max(first - radius, 0), std::min(end + radius, height)});
+  }
+  return bands;
+}
+
 Kernel GaussianKernel(double sigma, int radius) {
   Kernel kernel;
   kernel.reserve(2 * static_cast<size_t>(radius) + 1);

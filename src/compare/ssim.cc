@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/ssim.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace nacre {
@@ -26,18 +27,23 @@ double SsimAt(double mean_a, double mean_b, double aa, double bb, double ab) {
 Plane SsimMap(const Plane& a, const Plane& b) {
   const Kernel window = GaussianKernel(kSsimSigma, kSsimRadius);
   const auto mean = [&](const Plane& plane) { return Filter(plane, window, window); };
-  const Plane mean_a = mean(a);
-  const Plane mean_b = mean(b);
-  const Plane aa = mean(Product(a, a));
-  const Plane bb = mean(Product(b, b));
-  const Plane ab = mean(Product(a, b));
   Plane map(a.width - 2 * kSsimRadius, a.height - 2 * kSsimRadius);
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) {
-      const int u = x + kSsimRadius;
-      const int v = y + kSsimRadius;
-      map.at(x, y) =
-          SsimAt(mean_a.at(u, v), mean_b.at(u, v), aa.at(u, v), bb.at(u, v), ab.at(u, v));
+  for (const Band& band : BandsOf(a.height, kSsimRadius)) {
+    const Plane rows_a = RowsOf(a, band.input_first, band.input_end);
+    const Plane rows_b = RowsOf(b, band.input_first, band.input_end);
+    const Plane mean_a = mean(rows_a);
+    const Plane mean_b = mean(rows_b);
+    const Plane aa = mean(Product(rows_a, rows_a));
+    const Plane bb = mean(Product(rows_b, rows_b));
+    const Plane ab = mean(Product(rows_a, rows_b));
+    const int end = std::min(band.end, a.height - kSsimRadius);
+    for (int row = std::max(band.first, kSsimRadius); row < end; ++row) {
+      const int v = row - band.input_first;
+      for (int x = 0; x < map.width; ++x) {
+        const int u = x + kSsimRadius;
+        map.at(x, row - kSsimRadius) =
+            SsimAt(mean_a.at(u, v), mean_b.at(u, v), aa.at(u, v), bb.at(u, v), ab.at(u, v));
+      }
     }
   }
   return map;

@@ -49,6 +49,23 @@ Excess FindExcess(const ImagePair& pair, const Tolerances& tolerances) {
   return excess;
 }
 
+std::string WindowInWords(const Window& window) {
+  return fmt::format("{}x{} at {},{}", window.width(), window.height(), window.x0, window.y0);
+}
+
+// How the windows differ; "" if they do not.
+std::string WindowsInWords(const Image& got, const Image& reference) {
+  if (got.data != reference.data) {
+    return fmt::format("the data window is {}, not {}", WindowInWords(got.data),
+                       WindowInWords(reference.data));
+  }
+  if (got.display != reference.display) {
+    return fmt::format("the display window is {}, not {}", WindowInWords(got.display),
+                       WindowInWords(reference.display));
+  }
+  return {};
+}
+
 std::string LimitInWords(const Tolerances& tolerances) {
   if (tolerances.max_abs == 0 && tolerances.max_rel == 0) return "differ";
   if (tolerances.max_rel == 0) return fmt::format("differ by more than {}", tolerances.max_abs);
@@ -80,6 +97,11 @@ Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolera
     verdict.reason =
         fmt::format("RMSE of {} is {:.6g}, {:.6g} is allowed",
                     layer.layer.empty() ? "R, G, B" : layer.layer, layer.rmse, tolerances.rmse);
+    return verdict;
+  }
+  const std::string windows = WindowsInWords(got, reference);
+  if (!windows.empty() && !options.crop) {
+    verdict.reason = windows + "; the pixels that both have match";
     return verdict;
   }
   verdict.match = true;

@@ -28,7 +28,8 @@ struct Verdict {
   std::vector<LayerMetrics> layers;
 };
 
-// Throws as PairImages does.
+// Images whose windows differ do not match, however equal the pixels are that both have, unless
+// options.crop allows it. Throws as PairImages does.
 Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolerances,
               const CompareOptions& options = {});
 

@@ -2,6 +2,7 @@
 #include "image_io/exr_header_check.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string_view>
 
@@ -11,6 +12,21 @@
 
 namespace nacre {
 namespace {
+
+// Whether the file is as long as its tables of chunks, 8 bytes a chunk, which the C++ reader makes
+// room for.
+bool HasRoomForTables(exr_const_context_t context, const std::string& path) {
+  int parts = 0;
+  if (exr_get_count(context, &parts) != EXR_ERR_SUCCESS) return false;
+  uint64_t chunks = 0;
+  for (int part = 0; part < parts; ++part) {
+    int32_t count = 0;
+    if (exr_get_chunk_count(context, part, &count) != EXR_ERR_SUCCESS || count < 0) return false;
+    chunks += static_cast<uint64_t>(count);
+  }
+  std::error_code error;
+  return chunks * sizeof(uint64_t) <= std::filesystem::file_size(path, error) && !error;
+}
 
 // OpenEXR's C++ reader makes room for an attribute of any size that the header tells, 2 GiB of text
 // where the file has 40 bytes. Its C library looks at the file's size first, and says so, but goes
@@ -26,7 +42,10 @@ exr_result_t FirstComplaint(const std::string& path) {
       *kept = code;
   };
   exr_context_t context = nullptr;
-  const exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
+  exr_result_t result = exr_start_read(&context, path.c_str(), &initializer);
+  if (result == EXR_ERR_SUCCESS && !HasRoomForTables(context, path)) {
+    result = EXR_ERR_FILE_BAD_HEADER;
+  }
   exr_finish(&context);
   return complaint != EXR_ERR_SUCCESS ? complaint : result;
 }

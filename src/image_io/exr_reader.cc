@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
+#include <memory>
 #include <new>
+#include <utility>
 
 #include <OpenEXR/ImfBoxAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfCompressionAttribute.h>
 #include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfEnvmapAttribute.h>
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -28,12 +32,11 @@
 #include <fmt/ranges.h>
 
 #include "base/error.h"
+#include "image_io/exr_chunk_check.h"
 #include "image_io/exr_header_check.h"
 
 namespace nacre {
 namespace {
-
-constexpr uint64_t kMaxSamples = (uint64_t{2} << 30) / sizeof(float);
 
 [[noreturn]] void Fail(const std::string& path, const std::string& what,
                        const std::string& hint = {}) {
@@ -99,6 +102,11 @@ std::string AttributeText(const Imf::Attribute& attribute) {
   const auto strings = [](const Imf::StringVector& v) {
     return fmt::format("{}", fmt::join(v, "\n"));
   };
+  const auto envmap = [](Imf::Envmap v) {
+    return std::string(v == Imf::ENVMAP_CUBE      ? "cube"
+                       : v == Imf::ENVMAP_LATLONG ? "latlong"
+                                                  : "unknown");
+  };
   std::string text;
   if (Describe<std::string>(attribute, number, &text) || Describe<int>(attribute, number, &text) ||
       Describe<float>(attribute, number, &text) || Describe<double>(attribute, number, &text) ||
@@ -116,93 +124,109 @@ std::string AttributeText(const Imf::Attribute& attribute) {
       Describe<Imf::Chromaticities>(attribute, primaries, &text) ||
       Describe<Imf::StringVector>(attribute, strings, &text) ||
       Describe<Imf::Compression>(attribute, CompressionName, &text) ||
+      Describe<Imf::Envmap>(attribute, envmap, &text) ||
       Describe<Imf::LineOrder>(attribute, LineOrderName, &text)) {
     return text;
   }
   return fmt::format("<{}>", attribute.typeName());
 }
 
-Image DescribeHeader(const std::string& path, const Imf::Header& header) {
-  if (header.hasType() && Imf::isDeepData(header.type())) {
-    Fail(path, "is a deep image", "flatten it first");
+// Why the part's samples are not read; "" if they are.
+std::string Refusal(const ImagePart& part, const Imf::Header& header) {
+  if (header.hasType() && Imf::isDeepData(header.type())) return "is a deep image";
+  if (part.channels.empty()) return "has no channels";
+  const auto has = [&](const char* name) { return header.channels().findChannel(name) != nullptr; };
+  if (has("RY") && has("BY")) return "has luminance and chroma (Y, RY, BY) for colours";
+  for (const ImagePart::PartChannel& channel : part.channels) {
+    if (channel.x_sampling != 1 || channel.y_sampling != 1) {
+      return "channel " + channel.name + " is subsampled";
+    }
   }
-  Image image;
-  image.display = ToWindow(header.displayWindow());
-  image.data = ToWindow(header.dataWindow());
+  return {};
+}
+
+std::string RefusalHint(const std::string& refusal) {
+  if (refusal == "is a deep image") return "flatten it first";
+  if (refusal == "has no channels") return {};
+  return "convert it to R, G and B of full resolution first";
+}
+
+ImagePart DescribePart(const Imf::Header& header) {
+  ImagePart part;
+  if (header.hasName()) part.name = header.name();
+  part.display = ToWindow(header.displayWindow());
+  part.data = ToWindow(header.dataWindow());
   for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
     const Imf::Channel& channel = it.channel();
-    if (channel.xSampling != 1 || channel.ySampling != 1) {
-      Fail(path, std::string("channel ") + it.name() + " is subsampled",
-           "convert it to R, G and B of full resolution first");
-    }
-    image.channels.push_back({it.name(), ToPixelType(channel.type), {}});
+    part.channels.push_back(
+        {it.name(), ToPixelType(channel.type), channel.xSampling, channel.ySampling});
   }
   for (auto it = header.begin(); it != header.end(); ++it) {
     const std::string name = it.name();
     if (name == "channels" || name == "dataWindow" || name == "displayWindow") continue;
-    image.metadata[name] = AttributeText(it.attribute());
+    part.metadata[name] = AttributeText(it.attribute());
   }
-  return image;
+  part.refusal = Refusal(part, header);
+  return part;
 }
 
-// OpenEXR makes room for a tile, and for a row of tiles over the picture's width, as large as the
-// header tells, however small the picture is.
-void CheckTiles(const std::string& path, const Imf::Header& header, uint64_t width, uint64_t height,
-                uint64_t channels) {
-  if (!header.hasTileDescription()) return;
-  constexpr uint64_t kSmall = uint64_t{1} << 26;  // samples, 256 MiB
-  const Imf::TileDescription& tiles = header.tileDescription();
-  const uint64_t most = std::max(kSmall, width * height * channels);
-  const uint64_t across = std::max<uint64_t>(width, tiles.xSize);  // both below 2^31
-  if (tiles.ySize > most / channels / std::max<uint64_t>(across, 1)) {
-    Fail(path, fmt::format("its tiles of {} x {} are too large for {} x {} pixels", tiles.xSize,
-                           tiles.ySize, width, height));
-  }
+// Rows that are decoded together.
+int BandRows(const Imf::Header& header) {
+  constexpr int kLeast = 32, kMost = 256;  // rows of the smallest bands, of DWAB's chunks
+  if (header.hasTileDescription()) return static_cast<int>(header.tileDescription().ySize);
+  return header.compression() == Imf::DWAB_COMPRESSION ? kMost : kLeast;
 }
 
-void ReadSamples(const std::string& path, Imf::MultiPartInputFile& file, Image* image) {
-  const Window& data = image->data;
-  const auto width = static_cast<uint64_t>(int64_t{data.x1} - data.x0);
-  const auto height = static_cast<uint64_t>(int64_t{data.y1} - data.y0);
-  if (height != 0 && width * image->channels.size() > kMaxSamples / height) {
-    Fail(path, fmt::format("{} x {} pixels of {} channels are more than 2 GiB", width, height,
-                           image->channels.size()));
-  }
-  if (image->channels.empty()) Fail(path, "has no channels");
-  CheckTiles(path, file.header(0), width, height, image->channels.size());
-  Imf::FrameBuffer frame;
-  for (Channel& channel : image->channels) {
-    channel.samples.reserve(width * height);
-    frame.insert(channel.name,
-                 Imf::Slice::Make(Imf::FLOAT, channel.samples.data(), Imath::V2i(data.x0, data.y0),
-                                  static_cast<int64_t>(width), static_cast<int64_t>(height),
-                                  sizeof(float), width * sizeof(float)));
-  }
-  Imf::InputPart part(file, 0);
-  part.setFrameBuffer(frame);
-  // In bands, and memory is touched only for those that are there: a header costs a liar nothing.
-  constexpr int64_t kBand = 256;  // rows: the most that any compression takes together
-  for (int64_t y = data.y0; y < data.y1; y += kBand) {
-    const int64_t end = std::min<int64_t>(y + kBand, data.y1);
-    for (Channel& channel : image->channels) {
-      channel.samples.resize(static_cast<uint64_t>(end - data.y0) * width);
+// A channel to read, and what is wanted of it.
+struct WantedChannel {
+  std::string name;
+  SampleTarget target;
+};
+
+void ReadPart(const std::string& path, uint64_t file_bytes, Imf::MultiPartInputFile& file,
+              int index, const Window& region, const std::vector<WantedChannel>& wanted) {
+  const Imf::Header& header = file.header(index);
+  const Window data = ToWindow(header.dataWindow());
+  const Window common = Intersect(data, region);
+  if (common.empty()) return;
+  CheckExrChunks(path, index, file_bytes);
+  const auto width = static_cast<size_t>(data.width());
+  const int band = std::min(BandRows(header), data.height());
+  CheckSampleCount(path, file_bytes, data.width(), band, wanted.size());
+  Imf::InputPart part(file, index);
+  if (!part.isComplete()) Fail(path, "cannot be read as EXR: it is not complete");
+  std::vector<std::vector<float>> rows(wanted.size());
+  for (std::vector<float>& samples : rows) samples.resize(width * static_cast<size_t>(band));
+  // Chunks are counted from the data window's first row, and decoded once each.
+  const int first = data.y0 + (common.y0 - data.y0) / band * band;
+  for (int y = first; y < common.y1; y += band) {
+    const int end = std::min(y + band, data.y1);
+    Imf::FrameBuffer frame;
+    for (size_t c = 0; c < wanted.size(); ++c) {
+      frame.insert(wanted[c].name,
+                   Imf::Slice::Make(Imf::FLOAT, rows[c].data(), Imath::V2i(data.x0, y),
+                                    data.width(), end - y, sizeof(float), width * sizeof(float)));
     }
-    part.readPixels(static_cast<int>(y), static_cast<int>(end - 1));
+    part.setFrameBuffer(frame);
+    part.readPixels(y, end - 1);
+    for (size_t c = 0; c < wanted.size(); ++c) {
+      const SampleTarget& target = wanted[c].target;
+      for (int row = std::max(y, common.y0); row < std::min(end, common.y1); ++row) {
+        const float* from = rows[c].data() + static_cast<size_t>(row - y) * width +
+                            static_cast<size_t>(common.x0 - data.x0);
+        float* to = target.first + (row - region.y0) * target.step_y +
+                    (common.x0 - region.x0) * target.step_x;
+        for (int x = common.x0; x < common.x1; ++x, to += target.step_x) *to = *from++;
+      }
+    }
   }
 }
 
-Image Read(const std::string& path, bool with_samples) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) Fail(path, "no such file");
-  if (!std::filesystem::is_regular_file(status)) Fail(path, "is not a regular file");
-  CheckExrHeader(path);
+// Calls body(), and makes Errors of the library's exceptions.
+template <typename Body>
+void WithLibrary(const std::string& path, const Body& body) {
   try {
-    constexpr int kNoThreads = 0;
-    Imf::MultiPartInputFile file(path.c_str(), kNoThreads);
-    Image image = DescribeHeader(path, file.header(0));
-    if (with_samples) ReadSamples(path, file, &image);
-    return image;
+    body();
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
@@ -212,10 +236,114 @@ Image Read(const std::string& path, bool with_samples) {
   }
 }
 
+struct OpenedExr {
+  std::unique_ptr<Imf::MultiPartInputFile> file;
+  std::vector<ImagePart> parts;
+};
+
+OpenedExr OpenParts(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) Fail(path, "no such file");
+  if (!std::filesystem::is_regular_file(status)) Fail(path, "is not a regular file");
+  CheckExrHeader(path);
+  OpenedExr opened;
+  WithLibrary(path, [&] {
+    constexpr int kNoThreads = 0;
+    // What its chunks are is looked at when they are read: only then the table must be whole.
+    opened.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), kNoThreads);
+    for (int i = 0; i < opened.file->parts(); ++i) {
+      opened.parts.push_back(DescribePart(opened.file->header(i)));
+    }
+  });
+  return opened;
+}
+
+// The index of the only part that is read, or -1 for all of them.
+int ChoosePart(const std::string& path, const std::vector<ImagePart>& parts,
+               const std::string& name) {
+  if (name.empty()) return parts.size() == 1 ? 0 : -1;
+  std::vector<std::string> names;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].name == name) return static_cast<int>(i);
+    if (!parts[i].name.empty()) names.push_back(parts[i].name);
+  }
+  constexpr size_t kMost = 8;
+  const std::string nearest = NearestName(name, names);
+  const size_t shown = std::min(names.size(), kMost);
+  const std::string list =
+      fmt::format("its parts: {}{}", fmt::join(names.begin(), names.begin() + shown, ", "),
+                  shown < names.size() ? ", ..." : "");
+  Fail(path, "has no part \"" + name + "\"",
+       names.empty()     ? "its only part has no name: leave that out"
+       : nearest.empty() ? list
+                         : "did you mean \"" + nearest + "\"? " + list);
+}
+
+Window Around(const Window& a, const Window& b) {
+  if (a.empty()) return b;
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
 }  // namespace
 
-Image ReadExr(const std::string& path) { return Read(path, true); }
+std::vector<ImagePart> DescribeExr(const std::string& path) { return OpenParts(path).parts; }
 
-Image ReadExrHeader(const std::string& path) { return Read(path, false); }
+ImageFile OpenExr(const std::string& path, const std::string& part) {
+  OpenedExr opened = OpenParts(path);
+  const int only = ChoosePart(path, opened.parts, part);
+  ImageFile image;
+  image.path = path;
+  image.file_bytes = std::filesystem::file_size(path);
+  image.parts = std::move(opened.parts);
+  image.has_several = only < 0;
+  // The part and the own name of each channel of the image.
+  std::vector<std::pair<int, std::string>> sources;
+  for (int i = 0; i < static_cast<int>(image.parts.size()); ++i) {
+    if (only >= 0 && i != only) continue;
+    const ImagePart& from = image.parts[static_cast<size_t>(i)];
+    const std::string prefix = only >= 0 ? std::string() : from.name + ".";
+    if (!from.refusal.empty()) {
+      Fail(path, only >= 0 ? from.refusal : "part \"" + from.name + "\" " + from.refusal,
+           only >= 0 ? RefusalHint(from.refusal) : "choose another part; nacre info lists them");
+    }
+    image.header.display = from.display;
+    image.header.data = Around(image.header.data, from.data);
+    for (const ImagePart::PartChannel& channel : from.channels) {
+      image.header.channels.push_back({prefix + channel.name, channel.type, {}});
+      sources.emplace_back(i, channel.name);
+    }
+    for (const auto& [name, value] : from.metadata) image.header.metadata[prefix + name] = value;
+  }
+  const Window& all = image.header.data;
+  constexpr int64_t kFar = std::numeric_limits<int>::max();
+  if (int64_t{all.x1} - all.x0 > kFar || int64_t{all.y1} - all.y0 > kFar) {
+    Fail(path, "its parts are too far from each other", "choose one; nacre info lists them");
+  }
+  image.header.metadata["transfer"] = "linear";
+  image.read = [path, sources, bytes = image.file_bytes, parts = image.parts,
+                file = std::shared_ptr<Imf::MultiPartInputFile>(std::move(opened.file))](
+                   const Window& region, std::span<const SampleTarget> targets) {
+    std::vector<std::vector<WantedChannel>> by_part(parts.size());
+    for (const SampleTarget& target : targets) {
+      const auto& [index, name] = sources.at(target.channel);
+      by_part[static_cast<size_t>(index)].push_back({name, target});
+      if (Intersect(parts[static_cast<size_t>(index)].data, region) == region) continue;
+      for (int y = 0; y < region.height(); ++y) {
+        for (int x = 0; x < region.width(); ++x) {
+          target.first[x * target.step_x + y * target.step_y] = 0;
+        }
+      }
+    }
+    WithLibrary(path, [&] {
+      for (size_t i = 0; i < parts.size(); ++i) {
+        if (!by_part[i].empty()) {
+          ReadPart(path, bytes, *file, static_cast<int>(i), region, by_part[i]);
+        }
+      }
+    });
+  };
+  return image;
+}
 
 }  // namespace nacre

@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_io/hdr_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string_view>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "image_io/orientation.h"
 
 namespace nacre {
 namespace {
@@ -15,143 +24,277 @@ constexpr int kLargestSide = 65536;
 // Rows of other widths are never coded run by run.
 constexpr int kShortestCoded = 8, kLongestCoded = 0x7fff;
 
-// The file, byte by byte: `ok` is false once it was too short.
-struct Bytes {
-  std::string_view rest;
-  bool ok = true;
-
-  uint8_t Next() {
-    if (rest.empty()) {
-      ok = false;
-      return 0;
-    }
-    const auto byte = static_cast<uint8_t>(rest.front());
-    rest.remove_prefix(1);
-    return byte;
-  }
-  std::string_view Line() {
-    const size_t end = rest.find('\n');
-    ok = ok && end != std::string_view::npos;
-    if (!ok) return {};
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(end + 1);
-    return line;
-  }
-};
-
-struct Size {
-  int width = 0, height = 0;
-};
-
-// "-Y HEIGHT +X WIDTH".
-std::optional<Size> ParseSize(std::string_view line) {
-  Size size;
-  const auto number = [&](std::string_view before, int* value) {
-    if (line.substr(0, before.size()) != before) return false;
-    line.remove_prefix(before.size());
-    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), *value);
-    line.remove_prefix(static_cast<size_t>(end - line.data()));
-    return error == std::errc() && *value >= 1 && *value <= kLargestSide;
-  };
-  if (!number("-Y ", &size.height) || !number(" +X ", &size.width) || !line.empty()) return {};
-  return size;
+[[noreturn]] void FailHdr(const std::string& path, const std::string& what,
+                          const std::string& hint = {}) {
+  throw Error(ExitCode::kBadInput, path, what, hint);
 }
 
-// Up to where pixels begin.
-std::optional<Size> ParseHeader(Bytes* bytes) {
-  const std::string_view magic = bytes->Line();
-  if (magic != "#?RADIANCE" && magic != "#?RGBE") return {};
-  bool rgbe = false;
-  for (std::string_view line = bytes->Line(); bytes->ok && !line.empty(); line = bytes->Line()) {
-    if (line.substr(0, 7) == "FORMAT=") rgbe = line == "FORMAT=32-bit_rle_rgbe";
+// The file, byte by byte. Throws where it ends.
+class HdrBytes {
+ public:
+  explicit HdrBytes(const std::string& path) : path_(path), file_(path, std::ios::binary) {}
+
+  uint8_t Next() {
+    if (next_ == end_) Fill();
+    return static_cast<uint8_t>(buffer_[next_++]);
   }
-  if (!rgbe || !bytes->ok) return {};
-  return ParseSize(bytes->Line());
+  std::string Line() {
+    constexpr size_t kLongest = 1 << 16;
+    std::string line;
+    for (char c = static_cast<char>(Next()); c != '\n'; c = static_cast<char>(Next())) {
+      if (line.size() == kLongest)
+        FailHdr(path_, "cannot be read: a line of its header has no end");
+      line += c;
+    }
+    if (line.ends_with('\r')) line.pop_back();
+    return line;
+  }
+
+ private:
+  void Fill() {
+    file_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
+    next_ = 0;
+    end_ = static_cast<size_t>(file_.gcount());
+    if (end_ == 0) FailHdr(path_, "cannot be read: it is cut off");
+  }
+
+  std::string path_;
+  std::ifstream file_;
+  std::array<char, 1 << 16> buffer_{};
+  size_t next_ = 0, end_ = 0;
+};
+
+struct HdrHeader {
+  int width = 0, height = 0;  // of the image that is seen
+  Orientation orientation;
+  std::array<double, 3> exposure = {1, 1, 1};  // that pixels were multiplied by
+  std::map<std::string, std::string> variables;
+};
+
+// "-Y HEIGHT +X WIDTH" and its siblings: the axis along which rows follow each other, then that of
+// a row. Y grows upwards: -Y is a row below the one before.
+bool ParseResolution(std::string_view line, HdrHeader* header) {
+  const auto axis = [&](char* sign, char* name, int* size) {
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    if (line.size() < 3 || (line[0] != '-' && line[0] != '+')) return false;
+    *sign = line[0];
+    *name = line[1];
+    line.remove_prefix(2);
+    while (line.starts_with(' ')) line.remove_prefix(1);
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), *size);
+    line.remove_prefix(static_cast<size_t>(end - line.data()));
+    return error == std::errc() && *size >= 1 && *size <= kLargestSide;
+  };
+  char signs[2] = {}, names[2] = {};
+  int sizes[2] = {};
+  for (int i = 0; i < 2; ++i) {
+    if (!axis(&signs[i], &names[i], &sizes[i])) return false;
+  }
+  while (line.ends_with(' ')) line.remove_suffix(1);
+  const bool row_by_row = names[0] == 'Y' && names[1] == 'X';
+  if (!line.empty() || (!row_by_row && (names[0] != 'X' || names[1] != 'Y'))) return false;
+  const int x = row_by_row ? 1 : 0, y = 1 - x;
+  header->width = sizes[x];
+  header->height = sizes[y];
+  header->orientation = {!row_by_row, signs[x] == '-', signs[y] == '+'};
+  return true;
+}
+
+// All the numbers of the text, or nothing.
+std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
+  std::vector<double> numbers;
+  const char* at = text.c_str();
+  while (true) {
+    while (*at == ' ' || *at == '\t') ++at;
+    if (*at == '\0') return numbers;
+    char* end = nullptr;
+    numbers.push_back(std::strtod(at, &end));
+    if (end == at || !std::isfinite(numbers.back())) return {};
+    at = end;
+  }
+}
+
+// x and y of red, green, blue and white. Written with four digits at most.
+bool AreKnownPrimaries(const std::vector<double>& given) {
+  constexpr double kDigits = 1.5e-3;
+  constexpr double kRadiance[] = {0.640, 0.330, 0.290, 0.600, 0.150, 0.060, 0.3333, 0.3333};
+  constexpr double kRec709[] = {0.640, 0.330, 0.300, 0.600, 0.150, 0.060, 0.3127, 0.3290};
+  const auto near = [&](const double* known) {
+    return std::equal(given.begin(), given.end(), known,
+                      [](double a, double b) { return std::abs(a - b) <= kDigits; });
+  };
+  return given.size() == 8 && (near(kRadiance) || near(kRec709));
+}
+
+// A line "NAME=value". Others are comments, and the commands that made the picture.
+void ReadVariable(const std::string& path, const std::string& line, HdrHeader* header) {
+  const size_t equals = line.find('=');
+  if (equals == std::string::npos || line.starts_with('#') || line.starts_with('\t')) return;
+  const std::string name = line.substr(0, equals);
+  std::string value = line.substr(equals + 1);
+  const auto is_space = [](char c) { return c == ' ' || c == '\t'; };
+  while (!value.empty() && is_space(value.back())) value.pop_back();
+  while (!value.empty() && is_space(value.front())) value.erase(0, 1);
+  const auto numbers = [&](size_t count) {
+    const auto parsed = ParseNumbers(value);
+    if (!parsed || parsed->size() != count) {
+      FailHdr(path, fmt::format("cannot be read: {} is not {} number{}", name, count,
+                                count == 1 ? "" : "s"));
+    }
+    return *parsed;
+  };
+  const auto factors = [&](size_t count) {
+    const std::vector<double> all = numbers(count);
+    for (size_t c = 0; c < 3; ++c) {
+      header->exposure[c] *= all[count == 1 ? 0 : c];
+      if (!(header->exposure[c] > 0) || !std::isfinite(header->exposure[c])) {
+        FailHdr(path, "cannot be read: " + name + " makes no factor above 0");
+      }
+    }
+  };
+  if (name == "FORMAT" && value == "32-bit_rle_xyze") {
+    FailHdr(path, "its pixels are XYZ, not RGB", "convert it: ra_xyze -r IN OUT");
+  }
+  if (name == "FORMAT" && value != "32-bit_rle_rgbe") {
+    FailHdr(path, "cannot be read: its FORMAT is not 32-bit_rle_rgbe");
+  }
+  if (name == "EXPOSURE") factors(1);
+  if (name == "COLORCORR") factors(3);
+  if (name == "PRIMARIES" && !AreKnownPrimaries(numbers(8))) {
+    FailHdr(path, "its primaries are not Rec. 709's or Radiance's own",
+            "convert it: ra_xyze -r IN OUT");
+  }
+  if (name == "GAMMA" && numbers(1)[0] != 1) {
+    FailHdr(path, "its GAMMA is not 1", "pixels must be linear");
+  }
+  std::string& known = header->variables[name == "PIXASPECT" ? "pixelAspectRatio" : name];
+  known += known.empty() ? value : ", " + value;
+}
+
+HdrHeader ReadHeader(const std::string& path, HdrBytes* bytes) {
+  HdrHeader header;
+  if (!bytes->Line().starts_with("#?")) FailHdr(path, "cannot be read: it is no Radiance picture");
+  for (std::string line = bytes->Line(); !line.empty(); line = bytes->Line()) {
+    ReadVariable(path, line, &header);
+  }
+  if (!header.variables.contains("FORMAT")) FailHdr(path, "cannot be read: it has no FORMAT");
+  if (!ParseResolution(bytes->Line(), &header)) {
+    FailHdr(path, "cannot be read: its resolution is not like -Y 512 +X 1024, up to 65536 a side");
+  }
+  return header;
 }
 
 using Row = std::vector<std::array<uint8_t, 4>>;
 
-// One component of a row: runs, of one byte or of many.
-bool ReadRuns(size_t component, Bytes* bytes, Row* row) {
-  for (size_t x = 0; x < row->size();) {
-    const uint8_t code = bytes->Next();
-    const bool same = code > 128;
-    const size_t count = same ? code - 128u : code;
-    if (count == 0 || count > row->size() - x || !bytes->ok) return false;
-    const uint8_t value = same ? bytes->Next() : 0;
-    for (size_t i = 0; i < count; ++i) (*row)[x++][component] = same ? value : bytes->Next();
-  }
-  return bytes->ok;
-}
+class RowReader {
+ public:
+  RowReader(const std::string& path, HdrBytes* bytes) : path_(path), bytes_(bytes) {}
 
-bool ReadRow(Bytes* bytes, Row* row) {
-  std::array<uint8_t, 4> first{};
-  for (uint8_t& byte : first) byte = bytes->Next();
-  const auto width = static_cast<int>(row->size());
-  const bool may_be_coded = width >= kShortestCoded && width <= kLongestCoded;
-  if (may_be_coded && first[0] == 2 && first[1] == 2 && first[2] < 128) {
-    if ((first[2] << 8 | first[3]) != width) return false;
-    for (size_t component = 0; component < 4; ++component) {
-      if (!ReadRuns(component, bytes, row)) return false;
+  void Read(Row* row) {
+    std::array<uint8_t, 4> first = NextPixel();
+    const auto width = static_cast<int>(row->size());
+    const bool may_be_coded = width >= kShortestCoded && width <= kLongestCoded;
+    if (may_be_coded && first[0] == 2 && first[1] == 2 && first[2] < 128) {
+      if ((first[2] << 8 | first[3]) != width) {
+        FailHdr(path_, "cannot be read: a row is not as long as its header says");
+      }
+      for (size_t component = 0; component < 4; ++component) ReadRuns(component, row);
+      return;
     }
-    return true;
+    ReadPlain(first, row);
   }
-  // As it is, but for the oldest files' repetitions.
-  for (size_t x = 0; x < row->size(); ++x) {
-    if (x > 0) {
-      for (uint8_t& byte : first) byte = bytes->Next();
-    }
-    if (first[0] == 1 && first[1] == 1 && first[2] == 1) return false;
-    (*row)[x] = first;
-  }
-  return bytes->ok;
-}
 
-// The whole file if it begins as these do, and is not far longer than pictures are.
-std::string ReadText(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::array<char, 2> sign{};
-  stream.read(sign.data(), sign.size());
-  if (!stream || sign[0] != '#' || sign[1] != '?') return {};
-  stream.seekg(0, std::ios::end);
-  const std::streamoff length = stream.tellg();
-  constexpr std::streamoff kLongest = std::streamoff{1} << 32;
-  if (length < 2 || length > kLongest) return {};
-  std::string text(static_cast<size_t>(length), '\0');
-  stream.seekg(0);
-  stream.read(text.data(), length);
-  if (!stream) return {};
-  return text;
+ private:
+  std::array<uint8_t, 4> NextPixel() {
+    std::array<uint8_t, 4> pixel{};
+    for (uint8_t& byte : pixel) byte = bytes_->Next();
+    return pixel;
+  }
+
+  // One component of a row: runs, of one byte or of many.
+  void ReadRuns(size_t component, Row* row) {
+    for (size_t x = 0; x < row->size();) {
+      const uint8_t code = bytes_->Next();
+      const bool same = code > 128;
+      const size_t count = same ? code - 128u : code;
+      if (count == 0 || count > row->size() - x) {
+        FailHdr(path_, "cannot be read: a run is longer than its row");
+      }
+      const uint8_t value = same ? bytes_->Next() : 0;
+      for (size_t i = 0; i < count; ++i) (*row)[x++][component] = same ? value : bytes_->Next();
+    }
+  }
+
+  // As it is; (1, 1, 1, n) says that the pixel before comes n times more, and the next such one
+  // straight after it has the higher 8 bits of that number.
+  void ReadPlain(std::array<uint8_t, 4> pixel, Row* row) {
+    int shift = 0;
+    for (size_t x = 0; x < row->size();) {
+      if (pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1) {
+        const size_t count = shift < 24 ? size_t{pixel[3]} << shift : row->size() + 1;
+        if (x == 0 || count > row->size() - x) {
+          FailHdr(path_, "cannot be read: a repetition is longer than its row");
+        }
+        for (size_t i = 0; i < count; ++i, ++x) (*row)[x] = (*row)[x - 1];
+        shift += 8;
+      } else {
+        (*row)[x++] = pixel;
+        shift = 0;
+      }
+      if (x < row->size()) pixel = NextPixel();
+    }
+  }
+
+  const std::string& path_;
+  HdrBytes* bytes_;
+};
+
+void ReadPixels(const std::string& path, const Window& region,
+                std::span<const SampleTarget> targets) {
+  HdrBytes bytes(path);
+  const HdrHeader header = ReadHeader(path, &bytes);
+  const RowPlacer placer(header.orientation, {0, 0, header.width, header.height}, region, targets);
+  const auto width = static_cast<size_t>(placer.stored_width());
+  RowReader reader(path, &bytes);
+  Row row(width);
+  std::vector<float> values(3 * width);
+  for (int y = 0; y < placer.stored_height(); ++y) {
+    reader.Read(&row);
+    for (size_t x = 0; x < width; ++x) {
+      const int exponent = row[x][3];
+      const double scale = exponent == 0 ? 0.0 : std::ldexp(1.0, exponent - (128 + 8));
+      for (size_t c = 0; c < 3; ++c) {
+        values[3 * x + c] = static_cast<float>(row[x][c] * scale / header.exposure[c]);
+      }
+    }
+    placer.Place(y, values.data(), 3);
+  }
 }
 
 }  // namespace
 
-std::optional<Image> ReadPlainHdr(const std::string& path, uint64_t max_samples) {
-  const std::string text = ReadText(path);
-  Bytes bytes{text};
-  const std::optional<Size> size = ParseHeader(&bytes);
-  if (!size) return {};
-  const auto pixels = static_cast<uint64_t>(size->width) * static_cast<uint64_t>(size->height);
-  // A run of 127 pixels takes 8 bytes: what is far shorter is broken, and nothing is made for it.
-  if (3 * pixels > max_samples || pixels / 16 > text.size()) return {};
-  Image image;
-  image.display = image.data = {0, 0, size->width, size->height};
+ImageFile OpenHdr(const std::string& path) {
+  HdrBytes bytes(path);
+  HdrHeader header = ReadHeader(path, &bytes);
+  ImageFile image;
+  image.path = path;
+  image.file_bytes = std::filesystem::file_size(path);
+  // A run of 127 pixels takes 8 bytes: a file that is far shorter is broken, and is told so before
+  // anybody makes room for it. The oldest files' repetitions are not held to that.
+  const double pixels = static_cast<double>(header.width) * header.height;
+  if (pixels / 4096 > static_cast<double>(image.file_bytes)) {
+    FailHdr(path, "cannot be read: it is cut off");
+  }
+  image.header.display = image.header.data = {0, 0, header.width, header.height};
+  image.header.metadata = std::move(header.variables);
+  image.header.metadata["transfer"] = "linear";
   for (const char* name : {"R", "G", "B"}) {
-    image.channels.push_back({name, PixelType::kFloat, std::vector<float>(pixels)});
+    image.header.channels.push_back({name, PixelType::kFloat, {}});
   }
-  Row row(static_cast<size_t>(size->width));
-  size_t i = 0;
-  for (int y = 0; y < size->height; ++y) {
-    if (!ReadRow(&bytes, &row)) return {};
-    for (const auto& [r, g, b, exponent] : row) {
-      const float scale = exponent == 0 ? 0.0f : std::ldexp(1.0f, exponent - (128 + 8));
-      image.channels[0].samples[i] = static_cast<float>(r) * scale;
-      image.channels[1].samples[i] = static_cast<float>(g) * scale;
-      image.channels[2].samples[i] = static_cast<float>(b) * scale;
-      ++i;
-    }
-  }
-  image.metadata["transfer"] = "linear";
+  image.parts = {PartOf(image.header)};
+  image.read = [path](const Window& region, std::span<const SampleTarget> targets) {
+    ReadPixels(path, region, targets);
+  };
   return image;
 }
 

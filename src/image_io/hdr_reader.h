@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// image_io/hdr_reader.h: plain Radiance pictures into memory without OpenImageIO, whose libraries
-// take 0.2 s to load.
+// image_io/hdr_reader.h: Radiance pictures.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
 
-#include "base/image.h"
+#include "image_io/image_file.h"
 
 namespace nacre {
 
-// The image of a Radiance file of RGBE pixels, from the top left on, row by row, each row as it is
-// or run by run (Ward 1991, "Real Pixels", and RADIANCE's ray/src/common/color.c). Channels R G B,
-// metadata["transfer"] = "linear", and no other metadata; an exposure that the header tells of is
-// not taken back.
+// A Radiance file of RGBE pixels, row by row, each row as it is, run by run, or with the oldest
+// files' repetitions (Ward 1991, "Real Pixels", and RADIANCE's ray/src/common/color.c and
+// resolu.c). Channels R G B, metadata["transfer"] = "linear", the header's variables as metadata.
 //
-// Nothing for any other file, for a missing or a broken one, and for one of more samples than
-// `max_samples`: ReadImage (image_reader.h) knows more kinds, and says what is wrong.
-std::optional<Image> ReadPlainHdr(const std::string& path, uint64_t max_samples);
+// What the header says of the pixels is honoured: all eight orientations of the resolution string,
+// EXPOSURE and COLORCORR (each may stand several times and multiplies), which are divided out, so
+// that values are radiance. Refused are XYZE pixels, PRIMARIES other than Radiance's own and Rec.
+// 709's, and GAMMA other than 1; PIXASPECT is told by the metadata pixelAspectRatio.
+//
+// Throws Error (kBadInput) for these, and for a broken file.
+ImageFile OpenHdr(const std::string& path);
 
 }  // namespace nacre

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image_io/oiio.h"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <dlfcn.h>
@@ -14,6 +16,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "image_io/oiio_abi.h"
+#include "image_io/orientation.h"
 
 namespace nacre {
 namespace {
@@ -21,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr char kModuleName[] = "nacre_oiio.so";
-constexpr uint64_t kMaxSamples = (uint64_t{2} << 30) / sizeof(float);
 
 struct Module {
-  decltype(&NacreOiioReadImage) read_image;
-  decltype(&NacreOiioFreeImage) free_image;
+  decltype(&NacreOiioOpen) open;
+  decltype(&NacreOiioReadRows) read_rows;
+  decltype(&NacreOiioClose) close;
   decltype(&NacreOiioDrawText) draw_text;
 };
 
@@ -80,8 +83,9 @@ Module LoadModule() {
     // Never closed: OpenImageIO's libraries do not survive it.
     void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw Error(ExitCode::kInternal, path, dlerror());
-    return {Find<decltype(Module::read_image)>(library, "NacreOiioReadImage"),
-            Find<decltype(Module::free_image)>(library, "NacreOiioFreeImage"),
+    return {Find<decltype(Module::open)>(library, "NacreOiioOpen"),
+            Find<decltype(Module::read_rows)>(library, "NacreOiioReadRows"),
+            Find<decltype(Module::close)>(library, "NacreOiioClose"),
             Find<decltype(Module::draw_text)>(library, "NacreOiioDrawText")};
   }
   throw Error(
@@ -104,48 +108,95 @@ std::string Take(const char** strings) {
   return string;
 }
 
-Image ToImage(const NacreOiioImage& source) {
-  Image image;
-  image.data = ToWindow(source.data_window);
-  image.display = ToWindow(source.display_window);
-  const auto channel_count = static_cast<size_t>(source.channel_count);
+// Both windows of the image that is seen, at the origin: what a scanner writes as an image's place
+// on the page, or a camera as a part of its sensor, is no crop.
+Image HeaderOf(const NacreOiioFile& source, const Orientation& orientation) {
+  Image header;
+  header.data = ToWindow(source.data_window);
+  header.display = ToWindow(source.display_window);
+  const bool is_crop = header.data.width() != header.display.width() ||
+                       header.data.height() != header.display.height();
+  if (!is_crop || orientation != Orientation()) {
+    int width = header.data.width(), height = header.data.height();
+    if (orientation.transpose) std::swap(width, height);
+    header.data = header.display = {0, 0, width, height};
+  }
   const char* names = source.channel_names;
-  for (size_t c = 0; c < channel_count; ++c) {
-    Channel& channel = image.channels.emplace_back();
-    channel.name = Take(&names);
-    channel.type = source.half_samples != 0 ? PixelType::kHalf : PixelType::kFloat;
-    channel.samples.resize(image.data.pixel_count());
-    for (size_t i = 0; i < channel.samples.size(); ++i) {
-      channel.samples[i] = source.samples[i * channel_count + c];
-    }
+  for (int32_t c = 0; c < source.channel_count; ++c) {
+    header.channels.push_back(
+        {Take(&names), source.half_samples != 0 ? PixelType::kHalf : PixelType::kFloat, {}});
   }
   const char* attributes = source.attributes;
   while (*attributes != '\0') {
     const std::string name = Take(&attributes);
-    image.metadata[name] = Take(&attributes);
+    header.metadata[name] = Take(&attributes);
   }
-  image.metadata["transfer"] = source.integer_samples != 0 ? "display" : "linear";
-  return image;
+  header.metadata["transfer"] = source.integer_samples != 0 ? "display" : "linear";
+  return header;
 }
+
+[[noreturn]] void FailToRead(const std::string& path, const std::string& reason) {
+  throw Error(ExitCode::kBadInput, path, "cannot be read: " + reason);
+}
+
+// Closes itself.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path) : path_(path) {
+    if (const char* const failure = GetModule().open(path.c_str(), kFreeSamples, &file_)) {
+      FailToRead(path, failure);
+    }
+  }
+  ~OpenFile() { GetModule().close(&file_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  const NacreOiioFile& get() const { return file_; }
+  void ReadRows(int y0, int y1, float* values) {
+    if (const char* const failure = GetModule().read_rows(&file_, y0, y1, values)) {
+      FailToRead(path_, failure);
+    }
+  }
+
+ private:
+  std::string path_;
+  NacreOiioFile file_{};
+};
 
 }  // namespace
 
-Image ReadWithOiio(const std::string& path) {
+ImageFile OpenWithOiio(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw Error(ExitCode::kBadInput, path, "no such file");
   if (!fs::is_regular_file(status)) {
     throw Error(ExitCode::kBadInput, path, "is not a regular file");
   }
-  const Module& module = GetModule();
-  NacreOiioImage image{};
-  const char* const failure = module.read_image(path.c_str(), kMaxSamples, &image);
-  if (failure != nullptr) {
-    throw Error(ExitCode::kBadInput, path, std::string("cannot be read: ") + failure);
-  }
-  const auto free_image = [&](NacreOiioImage* read) { module.free_image(read); };
-  const std::unique_ptr<NacreOiioImage, decltype(free_image)> owner(&image, free_image);
-  return ToImage(image);
+  const OpenFile opened(path);
+  const Orientation orientation = OrientationOfTag(opened.get().orientation);
+  ImageFile image;
+  image.path = path;
+  image.file_bytes = fs::file_size(path);
+  image.header = HeaderOf(opened.get(), orientation);
+  image.parts = {PartOf(image.header)};
+  // Opened again for each reading, which goes through the rows from the first one on.
+  image.read = [path, orientation, data = image.header.data](
+                   const Window& region, std::span<const SampleTarget> targets) {
+    OpenFile file(path);
+    const RowPlacer placer(orientation, data, region, targets);
+    const auto channels = static_cast<size_t>(file.get().channel_count);
+    const size_t row = static_cast<size_t>(placer.stored_width()) * channels;
+    const int band = std::clamp(file.get().band_rows, 1, placer.stored_height());
+    std::vector<float> values(row * static_cast<size_t>(band));
+    for (int y = 0; y < placer.stored_height(); y += band) {
+      const int end = std::min(y + band, placer.stored_height());
+      file.ReadRows(y, end, values.data());
+      for (int i = y; i < end; ++i) {
+        placer.Place(i, values.data() + static_cast<size_t>(i - y) * row, channels);
+      }
+    }
+  };
+  return image;
 }
 
 void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items) {

@@ -13,12 +13,15 @@
 #include <string>
 #include <vector>
 
-#include "base/image.h"
+#include "image_io/image_file.h"
 
 namespace nacre {
 
-// Any format that OpenImageIO reads; as ReadImage says. First subimage, full resolution.
-Image ReadWithOiio(const std::string& path);
+// PNG, JPEG, TIFF, PNM and TGA; as OpenImage says. First page, full resolution. Rows are decoded in
+// bands: beside the caller's samples, reading takes memory for a band, and whatever OpenImageIO and
+// the format's library do, an interlaced or progressive image once in the file's own type.
+// Orientation tags are honoured. JPEG files that end before their pixels are refused.
+ImageFile OpenWithOiio(const std::string& path);
 
 enum class AlignX : uint8_t { kLeft, kCenter, kRight };
 enum class AlignY : uint8_t { kTop, kCenter, kBottom };

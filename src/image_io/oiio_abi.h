@@ -9,17 +9,18 @@
 
 extern "C" {
 
-// Free with NacreOiioFreeImage.
-struct NacreOiioImage {
+// An image file that is open. Close with NacreOiioClose.
+struct NacreOiioFile {
+  void* input;
   int32_t data_window[4];     // x0, y0, x1, y1: x1 and y1 are excluded
   int32_t display_window[4];  // likewise
   int32_t channel_count;
-  int32_t
-      integer_samples;   // 1: the file's are integers, here divided by their maximum (ids are not)
-  int32_t half_samples;  // 1: the file's are 16-bit floats
-  float* samples;        // row by row, the channels of a pixel together
-  char* channel_names;   // each ended by a NUL
-  char* attributes;      // name NUL value NUL ...; an empty name ends them
+  int32_t integer_samples;  // 1: the file's are integers, here divided by their maximum
+  int32_t half_samples;     // 1: the file's are 16-bit floats
+  int32_t orientation;      // TIFF's and EXIF's number: how the rows lie in the image that is seen
+  int32_t band_rows;        // rows that are best read together
+  char* channel_names;      // each ended by a NUL
+  char* attributes;         // name NUL value NUL ...; an empty name ends them
 };
 
 // A line of text in an RGB picture.
@@ -33,12 +34,15 @@ struct NacreOiioText {
   uint8_t outline;  // 1: a dark outline
 };
 
-// Both return null, or the reason for failing, valid until the thread's next call. Neither lets an
-// exception out. Images of more than max_samples samples are refused.
-const char* NacreOiioReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image);
+// All return null, or the reason for failing, valid until the thread's next call. None lets an
+// exception out. Images with tiles of more than max_samples samples are refused.
+const char* NacreOiioOpen(const char* path, uint64_t max_samples, NacreOiioFile* file);
+// Rows y0 to y1 - 1 as they are stored, from 0 on, the channels of a pixel together. In ascending
+// order; y0 is a multiple of band_rows, and y1 y0 + band_rows or the last row's end.
+const char* NacreOiioReadRows(NacreOiioFile* file, int32_t y0, int32_t y1, float* values);
 const char* NacreOiioDrawText(uint8_t* rgb8, int32_t width, int32_t height,
                               const NacreOiioText* items, int32_t item_count);
 
-void NacreOiioFreeImage(NacreOiioImage* image);
+void NacreOiioClose(NacreOiioFile* file);
 
 }  // extern "C"

@@ -25,7 +25,7 @@ double TexelSolidAngle(int width, int height, int row) {
   return 4 * M_PI / width * std::sin(M_PI * (row + 0.5) / height) * std::sin(M_PI / height / 2);
 }
 
-EnvironmentMap MakeEnvironmentMap(int width, int height, const std::vector<Vec3f>& texels) {
+EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels) {
   EnvironmentMap map;
   map.width = width;
   map.height = height;

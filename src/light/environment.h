@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/vec.h"
@@ -44,8 +45,8 @@ struct EnvironmentMap {
   bool is_black = true;                 // nothing to sample
 };
 
-// Texels in rows from +y on; radiances >= 0 and finite.
-EnvironmentMap MakeEnvironmentMap(int width, int height, const std::vector<Vec3f>& texels);
+// Texels in rows from +y on; radiances >= 0 and finite. The map takes 32 bytes a texel.
+EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels);
 
 // Of any texel of this row of an image of this size.
 double TexelSolidAngle(int width, int height, int row);

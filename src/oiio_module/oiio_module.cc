@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,7 @@
 #pragma GCC visibility push(default)
 #include "image_io/oiio_abi.h"
 #pragma GCC visibility pop
+#include "image_io/icc_profile.h"
 
 // libpng prints its errors to standard error once the handler that OpenImageIO gave it returns, as
 // that does. So OpenImageIO finds this function in place of libpng's, being loaded as a library of
@@ -68,39 +70,48 @@ char* Copy(const std::string& strings) {
   return copy;
 }
 
-void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioImage* image) {
+// "sRGB" or the profile's own description, of a profile that is embedded; "" without.
+std::string ProfileOf(const OIIO::ImageSpec& spec) {
+  const OIIO::ParamValue* const profile = spec.find_attribute("ICCProfile");
+  if (profile == nullptr) return {};
+  const auto* const bytes = static_cast<const uint8_t*>(profile->data());
+  const auto size = static_cast<size_t>(profile->datasize());
+  if (nacre::IsSrgbProfile(std::span(bytes, size))) return "sRGB";
+  const std::string name = spec.get_string_attribute("ICCProfile:profile_description");
+  return name.empty() ? "unnamed" : name;
+}
+
+void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioFile* file) {
   const int32_t data[] = {spec.x, spec.y, spec.x + spec.width, spec.y + spec.height};
   const int32_t display[] = {spec.full_x, spec.full_y, spec.full_x + spec.full_width,
                              spec.full_y + spec.full_height};
-  std::ranges::copy(data, image->data_window);
-  std::ranges::copy(display, image->display_window);
-  image->channel_count = spec.nchannels;
-  image->integer_samples = spec.format.is_floating_point() ? 0 : 1;
-  image->half_samples = spec.format == OIIO::TypeDesc::HALF ? 1 : 0;
+  std::ranges::copy(data, file->data_window);
+  std::ranges::copy(display, file->display_window);
+  file->channel_count = spec.nchannels;
+  file->integer_samples = spec.format.is_floating_point() ? 0 : 1;
+  file->half_samples = spec.format == OIIO::TypeDesc::HALF ? 1 : 0;
+  file->orientation = spec.get_int_attribute("Orientation", 1);
+  constexpr uint64_t kBandSamples = 1 << 18;  // a megabyte
+  const uint64_t row = std::max<uint64_t>(
+      1, static_cast<uint64_t>(spec.width) * static_cast<uint64_t>(spec.nchannels));
+  file->band_rows = spec.tile_height > 0
+                        ? spec.tile_height
+                        : static_cast<int32_t>(std::clamp<uint64_t>(kBandSamples / row, 1, 64));
   std::string names;
   for (int c = 0; c < spec.nchannels; ++c) names += std::string(spec.channel_name(c)) + '\0';
-  image->channel_names = Copy(names);
+  file->channel_names = Copy(names);
   std::string attributes;
+  const auto add = [&](const std::string& name, const std::string& value) {
+    attributes += name + '\0' + value + '\0';
+  };
   for (const OIIO::ParamValue& attribute : spec.extra_attribs) {
-    if (attribute.name().empty()) continue;
-    attributes += attribute.name().string() + '\0' + attribute.get_string() + '\0';
+    if (attribute.name().empty() || attribute.name() == "ICCProfile") continue;
+    add(attribute.name().string(), attribute.get_string());
   }
-  image->attributes = Copy(attributes);
-}
-
-// OpenImageIO divides integers by their maximum. EXR's are ids: they stay what they are.
-bool ReadIds(OIIO::ImageInput* input, NacreOiioImage* image) {
-  const OIIO::ImageSpec& spec = input->spec();
-  const auto channels = static_cast<size_t>(spec.nchannels);
-  std::vector<uint32_t> ids(spec.image_pixels());
-  for (int c = 0; c < spec.nchannels; ++c) {
-    if (spec.channelformat(c) != OIIO::TypeDesc::UINT32) continue;
-    if (!input->read_image(0, 0, c, c + 1, OIIO::TypeDesc::UINT32, ids.data())) return false;
-    for (size_t i = 0; i < ids.size(); ++i) {
-      image->samples[i * channels + static_cast<size_t>(c)] = static_cast<float>(ids[i]);
-    }
-  }
-  return true;
+  const std::string profile = ProfileOf(spec);
+  if (!profile.empty()) add("icc_profile", profile);
+  if (!profile.empty() && profile != "sRGB") add("not_srgb", "the ICC profile \"" + profile + "\"");
+  file->attributes = Copy(attributes);
 }
 
 // The reader that a file's first bytes ask for, or "" for a format that is left to nobody: a
@@ -111,8 +122,6 @@ std::string FormatOf(const std::string& path) {
   const std::string_view head(bytes.data(), bytes.size());
   if (head == "\x89PNG") return "png";
   if (head.starts_with("\xff\xd8")) return "jpeg";
-  if (head.starts_with("#?")) return "hdr";
-  if (head == "\x76\x2f\x31\x01") return "openexr";
   if (head.starts_with("II*") || head.starts_with("II+") || head.starts_with("MM")) return "tiff";
   if (head[0] == 'P' && std::string_view("1234567Ff").find(head[1]) != std::string_view::npos) {
     return "pnm";
@@ -136,12 +145,12 @@ uint64_t LeastPnmBytes(const std::string& path, const OIIO::ImageSpec& spec) {
   return spec.image_pixels() * static_cast<uint64_t>(spec.nchannels) * spec.format.size() - 1;
 }
 
-std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
+std::string Open(const char* path, uint64_t max_samples, NacreOiioFile* file) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
   const std::string format = FormatOf(path);
   if (format.empty()) return "not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA";
-  const auto input = OIIO::ImageInput::create(format);
+  auto input = OIIO::ImageInput::create(format);
   if (!input) return OIIO::geterror();
   OIIO::ImageSpec spec;
   if (!input->open(path, spec, config)) return input->geterror();
@@ -153,25 +162,35 @@ std::string ReadImage(const char* path, uint64_t max_samples, NacreOiioImage* im
                            spec.full_width, spec.full_height}) {
     if (number < -kFar || number > kFar) return "its size or place is out of range";
   }
-  const uint64_t tile = static_cast<uint64_t>(std::max(spec.tile_width, 0)) *
-                        static_cast<uint64_t>(std::max(spec.tile_height, 0));
+  const uint64_t tile_width = static_cast<uint64_t>(std::max(spec.tile_width, 0));
+  const uint64_t tile_height = static_cast<uint64_t>(std::max(spec.tile_height, 0));
   // Divided, because the product may wrap around.
   const auto channels = static_cast<uint64_t>(spec.nchannels);
-  if (tile > max_samples / channels) return "its tiles are too large";
-  if (spec.image_pixels() > max_samples / channels) return "too large";
+  const uint64_t across = std::max(tile_width, static_cast<uint64_t>(spec.width));
+  if (tile_height > max_samples / channels / across) return "its tiles are too large";
   if (format == "pnm" && std::filesystem::file_size(path) < LeastPnmBytes(path, spec)) {
     return "cut off: too short for " + std::to_string(spec.width) + "x" +
            std::to_string(spec.height) + " pixels";
   }
-  const uint64_t samples = spec.image_pixels() * channels;
-  DescribeImage(spec, image);
-  image->samples = static_cast<float*>(std::malloc(samples * sizeof(float)));
-  if (image->samples == nullptr) return "out of memory";
-  bool read = input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image->samples);
-  if (read && std::strcmp(input->format_name(), "openexr") == 0) {
-    read = ReadIds(input.get(), image);
-  }
-  return read ? std::string() : input->geterror();
+  DescribeImage(spec, file);
+  file->input = input.release();
+  return {};
+}
+
+std::string ReadRows(NacreOiioFile* file, int32_t y0, int32_t y1, float* values) {
+  auto* const input = static_cast<OIIO::ImageInput*>(file->input);
+  const OIIO::ImageSpec spec = input->spec();
+  const int first = spec.y + y0, end = spec.y + y1;
+  const bool read = spec.tile_height > 0
+                        ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, first, end, 0, 1, 0,
+                                            spec.nchannels, OIIO::TypeDesc::FLOAT, values)
+                        : input->read_scanlines(0, 0, first, end, 0, 0, spec.nchannels,
+                                                OIIO::TypeDesc::FLOAT, values);
+  // Libraries go on after what they only warn of, with pixels that they made up.
+  const std::string complaint = input->geterror();
+  return read && complaint.empty() ? std::string()
+         : complaint.empty()       ? "unknown reason"
+                                   : complaint;
 }
 
 // Where Debian has it: OpenImageIO 2.5 no longer looks there by itself. Elsewhere its name.
@@ -237,15 +256,24 @@ std::string DrawItem(const NacreOiioText& item, OIIO::ImageBuf* picture) {
 
 }  // namespace
 
-const char* NacreOiioReadImage(const char* path, uint64_t max_samples, NacreOiioImage* image) {
-  *image = {};
+const char* NacreOiioOpen(const char* path, uint64_t max_samples, NacreOiioFile* file) {
+  *file = {};
   try {
-    const std::string failure = ReadImage(path, max_samples, image);
-    if (image->samples != nullptr && failure.empty()) return nullptr;
-    NacreOiioFreeImage(image);
+    const std::string failure = Open(path, max_samples, file);
+    if (file->input != nullptr) return nullptr;
+    NacreOiioClose(file);
     return KeepMessage(failure);
   } catch (const std::exception& exception) {
-    NacreOiioFreeImage(image);
+    NacreOiioClose(file);
+    return KeepMessage(exception.what());
+  }
+}
+
+const char* NacreOiioReadRows(NacreOiioFile* file, int32_t y0, int32_t y1, float* values) {
+  try {
+    const std::string failure = ReadRows(file, y0, y1, values);
+    return failure.empty() ? nullptr : KeepMessage(failure);
+  } catch (const std::exception& exception) {
     return KeepMessage(exception.what());
   }
 }
@@ -264,9 +292,9 @@ const char* NacreOiioDrawText(uint8_t* rgb8, int32_t width, int32_t height,
   }
 }
 
-void NacreOiioFreeImage(NacreOiioImage* image) {
-  std::free(image->samples);
-  std::free(image->channel_names);
-  std::free(image->attributes);
-  *image = {};
+void NacreOiioClose(NacreOiioFile* file) {
+  delete static_cast<OIIO::ImageInput*>(file->input);
+  std::free(file->channel_names);
+  std::free(file->attributes);
+  *file = {};
 }

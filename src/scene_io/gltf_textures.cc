@@ -60,10 +60,10 @@ ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   const std::string name = source.bytes.empty() ? named.uri : fmt::format("image {}", image);
   try {
     if (source.bytes.empty()) {
-      AddTextureImage(source.file, name, encoding, &scene_);
+      AddTextureImage(source.file, name, {.encoding = encoding, .part = {}}, &scene_);
     } else {
       const TemporaryFile file(source.bytes, SuffixOf(source.bytes));
-      AddTextureImage(file.path(), name, encoding, &scene_);
+      AddTextureImage(file.path(), name, {.encoding = encoding, .part = {}}, &scene_);
     }
   } catch (const Error& error) {
     if (error.code() != ExitCode::kBadInput) throw;

@@ -114,6 +114,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   context.references = {options.allow_paths, options.on_file};
   context.threads = options.threads;
   context.scene = &scene;
+  context.on_warning = options.on_warning;
   SceneBudget budget(options.max_primitives);
   context.budget = &budget;
   ReadRoot(root, &faults, &context);

@@ -246,6 +246,7 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   context.folder = std::filesystem::path(file).parent_path();
   context.references = {options.allow_paths, options.on_file};
   context.scene = scene;
+  context.on_warning = options.on_warning;
   SceneBudget budget(options.max_primitives);
   context.budget = &budget;
   overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });

@@ -111,7 +111,7 @@ TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_
   if (image == images_.end()) {
     try {
       const auto path = ResolveReference(folder_, name, {options_.allow_paths, options_.on_file});
-      AddTextureImage(path, name, encoding, scene);
+      AddTextureImage(path, name, {.encoding = encoding, .part = {}}, scene);
     } catch (const Error& error) {
       const Fault& fault = error.faults().front();
       if (fault.what.starts_with("there is no file")) {  // models often come without

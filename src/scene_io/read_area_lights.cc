@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/read_area_lights.cc: lights with an extent, and environments.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "image_io/image_reader.h"
+#include "image_io/color_channels.h"
+#include "image_io/image_file.h"
 #include "scene_io/readers.h"
 #include "scene_io/text_file.h"
 
@@ -60,42 +64,64 @@ QuadraticSky ReadQuadratic(const JsonValue& value) {
   return sky;
 }
 
-// Throws Error (kBadInput) for what is no picture of light.
-std::shared_ptr<const SkyPicture> MakePicture(const Image& image, const std::string& file) {
+struct PictureReading {
+  std::string part;             // of an EXR file that has several
+  bool clamp_negative = false;  // samples below 0 count as 0
+};
+
+// Throws Error (kBadInput) for what is no picture of light. `clamped`: how many samples were below
+// 0, and the lowest.
+std::shared_ptr<const SkyPicture> MakePicture(const std::string& path, const std::string& file,
+                                              const PictureReading& reading, size_t* clamped,
+                                              float* lowest) {
   const auto refuse = [&](const std::string& what, const std::string& hint) {
     throw Error(ExitCode::kBadInput, file, what, hint);
   };
-  const Window& window = image.data;
-  if (window != image.display) {
-    refuse("the picture is a crop", "an environment needs all directions");
-  }
-  const Channel* const channels[3] = {image.Find("R"), image.Find("G"), image.Find("B")};
-  const bool is_grey = image.Find("Y") != nullptr && channels[0] == nullptr;
-  const auto transfer = image.metadata.find("transfer");
-  if (transfer != image.metadata.end() && transfer->second == "display") {
+  const ImageFile image = OpenImage(path, reading.part);
+  const Window window = WholeWindow(image, "an environment");
+  if (image.header.metadata.at("transfer") == "display") {
     refuse("display codes, not radiance", "use an EXR or a Radiance HDR picture");
   }
+  const auto envmap = image.header.metadata.find("envmap");
+  if (envmap != image.header.metadata.end() && envmap->second == "cube") {
+    refuse("it is a cube map", "make latitude and longitude of it: exrenvmap -l IN OUT");
+  }
+  const std::optional<ColorChannels> colors = FindColors(image.header.channels, "");
+  if (!colors) refuse("no channels R, G and B", "or one alone");
+  if (!colors->is_grey()) CheckPrimaries(image);
+  image.CheckSize(window, 3);  // of grey ones, too: radiance has three
   auto picture = std::make_shared<SkyPicture>();
   picture->width = window.width();
   picture->height = window.height();
   picture->rgb.resize(3 * window.pixel_count());
-  for (size_t c = 0; c < 3; ++c) {
-    const Channel* const channel = is_grey ? image.Find("Y") : channels[c];
-    if (channel == nullptr) refuse("no channels R, G and B", "or Y alone");
-    for (size_t i = 0; i < channel->samples.size(); ++i) {
-      const float value = channel->samples[i];
-      if (!(value >= 0) || !(value <= limits::kRadiance.max)) {
-        const auto width = static_cast<size_t>(window.width());
-        refuse(fmt::format("pixel {},{} has {} = {}", i % width, i / width, channel->name, value),
-               "radiance is " + Describe(limits::kRadiance));
-      }
-      picture->rgb[3 * i + c] = value;
+  float* const rgb = picture->rgb.data();
+  const ptrdiff_t step_y = ptrdiff_t{3} * window.width();
+  const std::array<size_t, 3> channels = {colors->r, colors->g, colors->b};
+  std::vector<SampleTarget> targets;
+  for (size_t c = 0; c < (colors->is_grey() ? 1 : 3); ++c) {
+    targets.push_back({channels[c], rgb + c, 3, step_y});
+  }
+  image.read(window, targets);
+  for (size_t i = 0; i < picture->rgb.size(); ++i) {
+    if (colors->is_grey() && i % 3 != 0) rgb[i] = rgb[i - 1];
+    if (rgb[i] < 0 && rgb[i] >= std::numeric_limits<float>::lowest() && reading.clamp_negative) {
+      ++*clamped;
+      *lowest = std::min(*lowest, rgb[i]);
+      rgb[i] = 0;
     }
+    if (rgb[i] >= 0 && rgb[i] <= limits::kRadiance.max) continue;
+    const size_t pixel = i / 3, width = static_cast<size_t>(window.width());
+    const bool is_negative = rgb[i] < 0 && std::isfinite(rgb[i]);
+    refuse(fmt::format("pixel {},{} has {} = {}", pixel % width, pixel / width,
+                       image.header.channels[channels[i % 3]].name, rgb[i]),
+           is_negative ? R"("clamp_negative": true counts samples below 0 as 0)"
+                       : "radiance is " + Describe(limits::kRadiance));
   }
   return picture;
 }
 
-void ReadPicture(const JsonValue& value, const SceneContext& context, PictureSky* sky) {
+void ReadPicture(const JsonValue& value, const PictureReading& reading, const SceneContext& context,
+                 PictureSky* sky) {
   std::string file;
   if (!ReadText(value, &file)) return;
   if (!context.budget->TakeSkyPicture()) {
@@ -104,7 +130,13 @@ void ReadPicture(const JsonValue& value, const SceneContext& context, PictureSky
   }
   try {
     const auto path = ResolveReference(context.folder, file, context.references);
-    sky->picture = MakePicture(ReadImage(path.string()), file);
+    size_t clamped = 0;
+    float lowest = 0;
+    sky->picture = MakePicture(path.string(), file, reading, &clamped, &lowest);
+    if (clamped > 0 && context.on_warning) {
+      context.on_warning(
+          fmt::format("{}: {} samples below 0, down to {}, count as 0", file, clamped, lowest));
+    }
   } catch (const Error& error) {
     for (const Fault& fault : error.faults()) {
       value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
@@ -174,7 +206,10 @@ EnvironmentLight ReadEnvironment(JsonObject* object, const SceneContext& context
     light.sky = ReadQuadratic(value("quadratic", quadratic));
   } else if (image != nullptr) {
     PictureSky sky;
-    ReadPicture(value("image", image), context, &sky);
+    PictureReading reading;
+    if (const Json* const part = object->Find("part")) ReadText(value("part", part), &reading.part);
+    object->Boolean("clamp_negative", &reading.clamp_negative);
+    ReadPicture(value("image", image), reading, context, &sky);
     object->Color("scale", limits::kRadiance, &sky.scale);
     // Without a picture, of which there is a fault, the default sky stands in.
     if (sky.picture != nullptr) light.sky = std::move(sky);

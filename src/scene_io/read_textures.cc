@@ -73,10 +73,14 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
 // The image of the texture, decoded so; read once.
 ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
   const auto path = ResolveReference(context->folder, source.file, context->references);
-  const std::string key = path.string() + "sla"[static_cast<size_t>(encoding)];
+  // A file that says what it is may contradict what is merely the custom.
+  const TextureReading reading{
+      .encoding = encoding, .trust_encoding = source.encoding.has_value(), .part = source.part};
+  const std::string key = path.string() + "sla"[static_cast<size_t>(encoding)] +
+                          (reading.trust_encoding ? "!" : "?") + source.part;
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
-  const ImageId id = AddTextureImage(path, source.file, encoding, context->scene);
+  const ImageId id = AddTextureImage(path, source.file, reading, context->scene);
   context->images.emplace(key, id);
   return id;
 }
@@ -121,6 +125,9 @@ void ReadTexture(const JsonValue& value, const std::string& name, SceneContext* 
   JsonObject object(value, R"({"file": "earth.png"})");
   if (const Json* file = object.Require("file", "an image in the scene's folder")) {
     CheckFile({*file, object.path().Member("file"), object.faults()}, &source, *context);
+  }
+  if (const Json* part = object.Find("part")) {
+    ReadText({*part, object.path().Member("part"), object.faults()}, &source.part);
   }
   size_t encoding = 0;
   object.Choice("encoding", kEncodings, &encoding);

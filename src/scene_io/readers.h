@@ -5,6 +5,7 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,13 +42,14 @@ struct SceneContext {
   // where it is data: up to two of the scene's textures, read when first used. By encoding.
   struct TextureSource {
     Texture texture;  // all but the image
-    std::string file;
+    std::string file, part;
     bool is_readable = false;  // false: its faults have been told
     std::optional<TextureEncoding> encoding;
     std::array<TextureId, 3> decoded{};
   };
   std::unordered_map<std::string, TextureSource> textures;
-  std::unordered_map<std::string, ImageId> images;  // by path and encoding
+  std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
+  std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
 };
 
 // The object "lights"; `context` says where their pictures are.

@@ -2,21 +2,19 @@
 #include "scene_io/texture_image.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/path.h"
 #include "color/transfer.h"
-#include "image_io/exr_reader.h"
-#include "image_io/image_reader.h"
-#include "image_io/png_reader.h"
+#include "image_io/color_channels.h"
+#include "image_io/image_file.h"
 #include "scene/limits.h"
 
 namespace nacre {
@@ -62,49 +60,35 @@ void CheckSize(const std::filesystem::path& path, const Window& window, size_t c
               "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
 }
 
-bool IsAlpha(const Channel& channel) { return channel.name == "A" || channel.name == "Alpha"; }
-
-// Red, green and blue, or the first channel that is not alpha; or alpha, and nothing if there is
-// none.
-std::vector<const Channel*> ChannelsOf(const Image& image, TextureEncoding encoding) {
+// The channels that a texture keeps: one or three, or none for the alpha of an opaque image.
+std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding) {
+  const std::vector<Channel>& channels = image.header.channels;
   if (encoding == TextureEncoding::kAlpha) {
-    for (const Channel& channel : image.channels) {
-      if (IsAlpha(channel)) return {&channel};
+    for (size_t c = 0; c < channels.size(); ++c) {
+      if (IsAlphaChannel(channels[c].name)) return {c};
     }
     return {};
   }
-  const std::vector<const Channel*> rgb = {image.Find("R"), image.Find("G"), image.Find("B")};
-  if (rgb[0] != nullptr && rgb[1] != nullptr && rgb[2] != nullptr) return rgb;
-  for (const Channel& channel : image.channels) {
-    if (!IsAlpha(channel)) return {&channel};
+  const std::optional<ColorChannels> colors = FindColors(channels, "");
+  if (!colors) {
+    throw Error(ExitCode::kBadInput, image.path, "has no colours",
+                "a texture needs R, G and B, or one channel");
   }
-  return {};
-}
-
-// Row by row from the bottom, channels together.
-std::vector<float> Interleave(const Image& image, const std::vector<const Channel*>& channels) {
-  const auto width = static_cast<size_t>(image.data.width());
-  const auto height = static_cast<size_t>(image.data.height());
-  std::vector<float> values;
-  values.reserve(width * height * channels.size());
-  for (size_t y = height; y-- > 0;) {
-    for (size_t x = 0; x < width; ++x) {
-      for (const Channel* channel : channels) values.push_back(channel->samples[y * width + x]);
-    }
-  }
-  return values;
+  if (colors->is_grey()) return {colors->r};
+  CheckPrimaries(image);
+  return {colors->r, colors->g, colors->b};
 }
 
 // Decodes the values of an integer file and returns the code that a normal map has as 0.
-float DecodeIntegers(TextureEncoding encoding, std::vector<float>* values) {
+float DecodeIntegers(TextureEncoding encoding, std::span<float> values) {
   const CodeTable bytes(1 << 8, encoding);
   const auto is_byte = [&](float value) { return bytes.Holds(value); };
-  if (std::all_of(values->begin(), values->end(), is_byte)) {
-    for (float& value : *values) value = bytes.Decode(value);
+  if (std::all_of(values.begin(), values.end(), is_byte)) {
+    for (float& value : values) value = bytes.Decode(value);
     return 128.0f / 255;
   }
   const CodeTable words(1 << 16, encoding);
-  for (float& value : *values) {
+  for (float& value : values) {
     value = words.Holds(value)                   ? words.Decode(value)
             : encoding == TextureEncoding::kSrgb ? SrgbEotf(value)
                                                  : value;
@@ -115,55 +99,59 @@ float DecodeIntegers(TextureEncoding encoding, std::vector<float>* values) {
 }  // namespace
 
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            TextureEncoding encoding, size_t max_values) {
-  if (HasExtension(path.string(), ".exr")) {
-    const Image header = ReadExrHeader(path.string());  // before anything is decoded
-    CheckSize(path, header.data, header.channels.size(), max_values);
+                            const TextureReading& reading, size_t max_values) {
+  const ImageFile image = OpenImage(path.string(), reading.part);
+  const Window window = WholeWindow(image, "a texture");
+  const std::vector<size_t> channels = ChannelsOf(image, reading.encoding);
+  const auto& metadata = image.header.metadata;
+  const bool is_integer = metadata.at("transfer") == "display";
+  const auto not_srgb = metadata.find("not_srgb");
+  if (is_integer && !reading.trust_encoding && reading.encoding == TextureEncoding::kSrgb &&
+      not_srgb != metadata.end()) {
+    throw Error(ExitCode::kBadInput, path.string(), "has " + not_srgb->second,
+                R"(convert it to sRGB, or say "encoding": "srgb" to take it as that)");
+  }
+  const size_t kept = std::max<size_t>(channels.size(), 1);
+  CheckSize(path, window, kept, max_values);
+  image.CheckSize(window, kept);
+  MipChain chain = MakeEmptyMipChain(window.width(), window.height(), static_cast<int>(kept));
+  const size_t count = window.pixel_count() * kept;
+  const std::span<float> values(chain.values.data(), count);
+  if (channels.empty()) {
+    std::fill(values.begin(), values.end(), 1.0f);  // opaque
+  } else {
+    // Row by row from the bottom, channels together.
+    const auto step_x = static_cast<ptrdiff_t>(kept);
+    const ptrdiff_t step_y = step_x * window.width();
+    std::vector<SampleTarget> targets;
+    for (size_t c = 0; c < kept; ++c) {
+      targets.push_back({channels[c],
+                         values.data() + (window.height() - 1) * step_y + static_cast<ptrdiff_t>(c),
+                         step_x, -step_y});
+    }
+    image.read(window, targets);
   }
   SceneImage texture;
   texture.file = file;
-  std::vector<float> values;
-  int width = 0, height = 0;
-  size_t channel_count = 0;
-  {
-    // Plain PNG files need no library that takes longer to load than they do to read. The other
-    // readers refuse images over 2 GiB before they decode them, as this one does.
-    std::optional<Image> plain = ReadPlainPng(path.string(), kMaxTexelValues / 2);
-    const Image image = plain ? std::move(*plain) : ReadImage(path.string());
-    const std::vector<const Channel*> channels = ChannelsOf(image, encoding);
-    const bool opaque = channels.empty() && encoding == TextureEncoding::kAlpha;
-    if (channels.empty() && !opaque) {
-      throw Error(ExitCode::kBadInput, path.string(), "has no colours");
-    }
-    channel_count = opaque ? 1 : channels.size();
-    CheckSize(path, image.data, channel_count, max_values);
-    width = image.data.width();
-    height = image.data.height();
-    values = opaque ? std::vector<float>(image.channels.front().samples.size(), 1.0f)
-                    : Interleave(image, channels);
-    const auto transfer = image.metadata.find("transfer");
-    if (transfer != image.metadata.end() && transfer->second == "display") {
-      texture.middle = DecodeIntegers(encoding, &values);
-    }
-  }
+  if (is_integer) texture.middle = DecodeIntegers(reading.encoding, values);
   if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
     throw Error(ExitCode::kBadInput, path.string(), "holds NaN or infinities",
                 "a texture needs finite values");
   }
-  texture.texels = std::make_shared<const MipChain>(
-      MakeMipChain(width, height, static_cast<int>(channel_count), std::move(values)));
+  FillMipLevels(&chain);
+  texture.texels = std::make_shared<const MipChain>(std::move(chain));
   return texture;
 }
 
 ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
-                        TextureEncoding encoding, Scene* scene) {
+                        const TextureReading& reading, Scene* scene) {
   size_t left = kMaxTexelValues;
   for (const SceneImage& image : scene->images) {
     const MipLevel& level = image.texels->levels[0];
     left -= static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
             static_cast<size_t>(image.texels->channels);
   }
-  scene->images.push_back(ReadTextureImage(path, file, encoding, left));
+  scene->images.push_back(ReadTextureImage(path, file, reading, left));
   return {static_cast<uint32_t>(scene->images.size() - 1)};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <variant>
 
 #include "base/overloaded.h"
@@ -57,10 +58,10 @@ Vec3d Turn(const Vec3d& v, double cosine, double sine) {
 }
 
 std::shared_ptr<const EnvironmentMap> MakeMap(const SkyPicture& picture) {
-  std::vector<Vec3f> texels(picture.rgb.size() / 3);
-  for (size_t i = 0; i < texels.size(); ++i) {
-    texels[i] = Vec3f(picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]);
-  }
+  // Looked at in place: a copy would take as much memory as the picture.
+  static_assert(sizeof(Vec3f) == 3 * sizeof(float));
+  const std::span texels(reinterpret_cast<const Vec3f*>(picture.rgb.data()),
+                         picture.rgb.size() / 3);
   return std::make_shared<EnvironmentMap>(
       MakeEnvironmentMap(picture.width, picture.height, texels));
 }

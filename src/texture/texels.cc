@@ -62,7 +62,7 @@ void Shrink(size_t level, MipChain* chain) {
 
 }  // namespace
 
-MipChain MakeMipChain(int width, int height, int channels, std::vector<float> image) {
+MipChain MakeEmptyMipChain(int width, int height, int channels) {
   MipChain chain;
   chain.channels = channels;
   size_t total = 0;
@@ -71,9 +71,18 @@ MipChain MakeMipChain(int width, int height, int channels, std::vector<float> im
     total += static_cast<size_t>(w) * static_cast<size_t>(h) * static_cast<size_t>(channels);
     if (w == 1 && h == 1) break;
   }
-  chain.values = std::move(image);
   chain.values.resize(total);
-  for (size_t level = 1; level < chain.levels.size(); ++level) Shrink(level, &chain);
+  return chain;
+}
+
+void FillMipLevels(MipChain* chain) {
+  for (size_t level = 1; level < chain->levels.size(); ++level) Shrink(level, chain);
+}
+
+MipChain MakeMipChain(int width, int height, int channels, std::vector<float> image) {
+  MipChain chain = MakeEmptyMipChain(width, height, channels);
+  std::copy(image.begin(), image.end(), chain.values.begin());
+  FillMipLevels(&chain);
   return chain;
 }
 

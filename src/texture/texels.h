@@ -43,4 +43,10 @@ inline constexpr size_t kMaxTexelValues = size_t{1} << 30;
 // of two alone, keeps its mean. `image` holds width x height x channels values.
 MipChain MakeMipChain(int width, int height, int channels, std::vector<float> image);
 
+// The same in two steps, for images that are read straight into the chain, which needs no other
+// memory than its own: 16/3 bytes a value. Between the two, the image's values are written to the
+// first ones of `values`.
+MipChain MakeEmptyMipChain(int width, int height, int channels);
+void FillMipLevels(MipChain* chain);
+
 }  // namespace nacre

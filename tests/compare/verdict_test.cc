@@ -86,5 +86,23 @@ TEST_CASE("No tolerance forgives a NaN", "[compare]") {
   CHECK(Judge(pair.got, pair.reference, tolerances).match);
 }
 
+TEST_CASE("Windows that differ are a difference, unless crops are allowed", "[compare]") {
+  const Image whole = MakeImage({0, 0, 100, 100}, {"R", "G", "B"}, 2);
+  Image crop = MakeImage({10, 20, 40, 60}, {"R", "G", "B"}, 2);
+  crop.display = whole.display;
+  CompareOptions options;
+  Verdict verdict = Judge(crop, whole, {}, options);
+  CHECK_FALSE(verdict.match);
+  CHECK(verdict.reason ==
+        "the data window is 30x40 at 10,20, not 100x100 at 0,0; the pixels that both have match");
+  options.crop = true;
+  verdict = Judge(crop, whole, {}, options);
+  CHECK(verdict.match);
+  CHECK(verdict.pixels == 1200);
+  Image moved = whole;
+  moved.display = {1, 0, 101, 100};
+  CHECK(Judge(moved, whole, {}).reason.starts_with("the display window is 100x100 at 1,0, not"));
+}
+
 }  // namespace
 }  // namespace nacre

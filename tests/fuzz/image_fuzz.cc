@@ -5,9 +5,7 @@
 #include "compare/verdict.h"
 #include "fuzz/fuzz_input.h"
 #include "fuzz/targets.h"
-#include "image_io/exr_reader.h"
-#include "image_io/image_reader.h"
-#include "image_io/png_reader.h"
+#include "image_io/image_file.h"
 #include "scene_io/texture_image.h"
 
 namespace nacre {
@@ -28,7 +26,7 @@ bool IsSmall(const std::filesystem::path& path, std::string_view bytes) {
   if (!IsExr(bytes)) return true;
   bool small = true;
   ReadOrRefuse([&] {
-    const Window data = ReadExrHeader(path.string()).data;
+    const Window data = OpenImage(path.string()).header.data;
     small = (int64_t{data.x1} - data.x0) * (int64_t{data.y1} - data.y0) <= kMaxPixels;
   });
   return small;
@@ -44,7 +42,7 @@ void FuzzTextureImage(std::string_view bytes) {
   const std::filesystem::path path = WriteImage(bytes);
   if (!IsSmall(path, bytes)) return;
   for (const TextureEncoding encoding : {TextureEncoding::kSrgb, TextureEncoding::kLinear}) {
-    ReadOrRefuse([&] { ReadTextureImage(path, "fuzz", encoding); });
+    ReadOrRefuse([&] { ReadTextureImage(path, "fuzz", {.encoding = encoding, .part = {}}); });
   }
 }
 
@@ -59,8 +57,7 @@ void FuzzEnvironmentImage(std::string_view bytes) {
 void FuzzCompareImage(std::string_view bytes) {
   const std::filesystem::path path = WriteImage(bytes);
   if (!IsSmall(path, bytes)) return;
-  constexpr uint64_t kMaxSamples = 1 << 20;
-  ReadPlainPng(path.string(), kMaxSamples);
+  ReadOrRefuse([&] { DescribeImage(path.string()); });
   ReadOrRefuse([&] {
     const Image image = ReadImage(path.string());
     Judge(image, image, {}, {});

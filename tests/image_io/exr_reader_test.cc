@@ -62,7 +62,7 @@ TEST_CASE("tiled files, also with mipmaps") {
   }
 }
 
-TEST_CASE("the first of several parts") {
+TEST_CASE("all parts are read, under their names, or one of them") {
   const TestFolder folder;
   std::vector<std::vector<float>> samples = {Ramp(0), Ramp(1e4f)};
   std::vector<Imf::Header> headers(2, HeaderOf());
@@ -78,9 +78,50 @@ TEST_CASE("the first of several parts") {
       part.writePixels(kHeight);
     }
   }
-  const Image image = ReadExr(folder / "a.exr");
-  CHECK(image.metadata.at("name") == "first");
-  CHECK(image.channels[0].samples == samples[0]);
+  const Image image = ReadImage(folder / "a.exr");
+  REQUIRE(image.channels.size() == 2);
+  CHECK(image.Find("first.Y")->samples == samples[0]);
+  CHECK(image.Find("second.Y")->samples == samples[1]);
+  const Image second = ReadImage(folder / "a.exr", "second");
+  REQUIRE(second.channels.size() == 1);
+  CHECK(second.metadata.at("name") == "second");
+  CHECK(second.Find("Y")->samples == samples[1]);
+  CHECK(Catching([&] { ReadImage(folder / "a.exr", "secund"); }).Says("did you mean \"second\"?"));
+  CHECK(DescribeImage(folder / "a.exr").size() == 2);
+}
+
+// Any region, into any places: what textures ask for.
+TEST_CASE("a region goes where it is wanted") {
+  const TestFolder folder;
+  std::vector<float> samples = Ramp(0);
+  for (const bool tiled : {false, true}) {
+    Imf::Header header = HeaderOf();
+    if (tiled) {
+      header.setTileDescription(Imf::TileDescription(16, 8));
+      Imf::TiledOutputFile file((folder / "a.exr").c_str(), header);
+      file.setFrameBuffer(FrameOf(samples));
+      file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
+    } else {
+      Imf::OutputFile file((folder / "a.exr").c_str(), header);
+      file.setFrameBuffer(FrameOf(samples));
+      file.writePixels(kHeight);
+    }
+    const Window region = {3, 19, 40, 36};
+    std::vector<float> upside_down(region.pixel_count(), -1.0f);
+    const ptrdiff_t width = region.width();
+    const SampleTarget target = {0, upside_down.data() + (region.height() - 1) * width, 1, -width};
+    OpenExr(folder / "a.exr").read(region, std::span(&target, 1));
+    size_t wrong = 0;
+    for (int y = region.y0; y < region.y1; ++y) {
+      for (int x = region.x0; x < region.x1; ++x) {
+        const auto row = static_cast<size_t>(region.y1 - 1 - y);
+        const float got =
+            upside_down[row * static_cast<size_t>(width) + static_cast<size_t>(x - region.x0)];
+        wrong += got != samples[static_cast<size_t>(y * kWidth + x)];
+      }
+    }
+    CHECK(wrong == 0);
+  }
 }
 
 TEST_CASE("headers are read without samples") {
@@ -94,7 +135,7 @@ TEST_CASE("headers are read without samples") {
     file.setFrameBuffer(FrameOf(samples));
     file.writePixels(kHeight);
   }
-  const Image image = ReadExrHeader(folder / "a.exr");
+  const Image image = OpenExr(folder / "a.exr").header;
   CHECK(image.data == Window{0, 0, kWidth, kHeight});
   REQUIRE(image.channels.size() == 1);
   CHECK(image.channels[0].samples.empty());
@@ -142,7 +183,7 @@ TEST_CASE("missing and empty files, folders and other formats are refused") {
     const Caught caught = Catching([&] { ReadExr(row.path); });
     CHECK(caught.code == ExitCode::kBadInput);
     CHECK(caught.Says(row.what));
-    CHECK(Catching([&] { ReadExrHeader(row.path); }).code == ExitCode::kBadInput);
+    CHECK(Catching([&] { OpenExr(row.path); }).code == ExitCode::kBadInput);
   }
 }
 

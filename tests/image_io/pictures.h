@@ -12,9 +12,12 @@
 #include <Imath/half.h>
 
 #include "files.h"
+#include "image_io/exr_reader.h"
 #include "image_io/exr_writer.h"
 
 namespace nacre {
+
+inline Image ReadExr(const std::string& path) { return ReadImage(OpenExr(path)); }
 
 struct Picture {
   ExrHeader header;

@@ -8,7 +8,7 @@
 #include <zlib.h>
 
 #include "files.h"
-#include "image_io/image_reader.h"
+#include "image_io/image_file.h"
 
 namespace nacre {
 namespace {

@@ -114,8 +114,8 @@ TEST_CASE("a second environment's picture is not even read") {
 TEST_CASE("all textures of a scene share one bound") {
   const HostileFolder folder;
   const auto path = folder.Write("a.ppm", "P6\n4 2\n255\n" + std::string(24, 'x'));
-  CHECK_NOTHROW(ReadTextureImage(path, "a", TextureEncoding::kSrgb, 24));
-  CHECK(Contains(MessageOf([&] { ReadTextureImage(path, "a", TextureEncoding::kSrgb, 23); }),
+  CHECK_NOTHROW(ReadTextureImage(path, "a", {}, 24));
+  CHECK(Contains(MessageOf([&] { ReadTextureImage(path, "a", {}, 23); }),
                  "4 x 2 texels are too many"));
 }
 

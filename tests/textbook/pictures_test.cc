@@ -8,8 +8,7 @@
 #include <string>
 
 #include "catch.h"
-#include "image_io/exr_reader.h"
-#include "image_io/image_reader.h"
+#include "image_io/image_file.h"
 
 namespace nacre {
 namespace {
@@ -62,7 +61,7 @@ void CheckAgainstReference(const TextbookPicture& picture, const std::string& na
   CAPTURE(name);
   // The reference is double rounded to float once: half an ulp below 1 is 3e-8. What is left to
   // 1e-7 are a few roundings of double through the powers.
-  const double largest = LargestDifference(picture.film, ReadExr(ReferencePath(name + ".exr")));
+  const double largest = LargestDifference(picture.film, ReadImage(ReferencePath(name + ".exr")));
   CAPTURE(largest);
   CHECK(largest <= 1e-7);
   // Codes are made by truncation, so a rounding of double may move a value across a code's edge.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/image_io/image_reader_test.cc: images of any format, and text in them, by OpenImageIO.
-#include "image_io/image_reader.h"
+// tests/image_io/image_file_test.cc: images of any format, and text in them, by OpenImageIO.
+#include "image_io/image_file.h"
 
 #include <algorithm>
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_io/exr_chunk_check.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+#include <openexr.h>
+#include <zlib.h>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "image_io/image_file.h"
+
+namespace nacre {
+namespace {
+
+[[noreturn]] void FailChunk(const std::string& path, const std::string& what) {
+  throw Error(ExitCode::kBadInput, path, "cannot be read as EXR: " + what);
+}
+
+// A file that is open for reading chunks. The library's messages are in its codes, too.
+class ChunkFile {
+ public:
+  explicit ChunkFile(const std::string& path) : path_(path) {
+    exr_context_initializer_t initializer = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    initializer.error_handler_fn = [](exr_const_context_t, exr_result_t, const char*) {};
+    // A table of chunks with holes is that of a file whose writer was stopped.
+    initializer.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
+    Check(exr_start_read(&context_, path.c_str(), &initializer), "its header");
+  }
+  ~ChunkFile() { exr_finish(&context_); }
+  ChunkFile(const ChunkFile&) = delete;
+  ChunkFile& operator=(const ChunkFile&) = delete;
+
+  exr_const_context_t get() const { return context_; }
+  void Check(exr_result_t result, const std::string& what) const {
+    if (result == EXR_ERR_SUCCESS) return;
+    FailChunk(path_, what + ": " + exr_get_default_error_message(result));
+  }
+
+ private:
+  std::string path_;
+  exr_context_t context_ = nullptr;
+};
+
+// Bytes that the zlib stream holds, at most limit + 1; 0 for a broken one.
+uint64_t InflatedSize(std::span<const uint8_t> packed, uint64_t limit) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  stream.next_in = const_cast<uint8_t*>(packed.data());
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::vector<uint8_t> room(size_t{1} << 16);
+  uint64_t size = 0;
+  int status = Z_OK;
+  while (status == Z_OK && size <= limit) {
+    stream.next_out = room.data();
+    stream.avail_out = static_cast<uInt>(room.size());
+    status = inflate(&stream, Z_NO_FLUSH);
+    size += room.size() - stream.avail_out;
+  }
+  inflateEnd(&stream);
+  return status == Z_STREAM_END ? size : size > limit ? limit + 1 : 0;
+}
+
+// Bytes that OpenEXR's runs hold: -n and n + 1 bytes as they are, or n and one byte n + 1 times;
+// 0 if the last one is cut off.
+uint64_t RunsSize(std::span<const uint8_t> packed) {
+  uint64_t size = 0;
+  size_t i = 0;
+  while (i < packed.size()) {
+    const auto code = static_cast<int8_t>(packed[i]);
+    const size_t count = code < 0 ? static_cast<size_t>(-int{code}) : static_cast<size_t>(code) + 1;
+    i += 1 + (code < 0 ? count : 1);
+    if (i > packed.size()) return 0;
+    size += count;
+  }
+  return size;
+}
+
+// The others check themselves what they decode.
+uint64_t DecodedSize(int compression, std::span<const uint8_t> packed, uint64_t expected) {
+  switch (compression) {
+    case EXR_COMPRESSION_NONE:
+      return packed.size();
+    case EXR_COMPRESSION_RLE:
+      return packed.size() == expected ? expected : RunsSize(packed);
+    case EXR_COMPRESSION_ZIP:
+    case EXR_COMPRESSION_ZIPS:
+      return packed.size() == expected ? expected : InflatedSize(packed, expected);
+    default:
+      return expected;
+  }
+}
+
+void CheckChunk(const std::string& path, const ChunkFile& file, int part,
+                const exr_chunk_info_t& chunk, const std::string& name) {
+  if (chunk.packed_size > chunk.unpacked_size) {
+    FailChunk(path, name + " is longer than what it holds");
+  }
+  const bool to_decode = chunk.compression == EXR_COMPRESSION_RLE ||
+                         chunk.compression == EXR_COMPRESSION_ZIP ||
+                         chunk.compression == EXR_COMPRESSION_ZIPS;
+  uint64_t size = chunk.packed_size;
+  if (to_decode) {
+    std::vector<uint8_t> packed(chunk.packed_size);
+    file.Check(exr_read_chunk(file.get(), part, &chunk, packed.data()), name);
+    size = DecodedSize(chunk.compression, packed, chunk.unpacked_size);
+  } else if (chunk.compression != EXR_COMPRESSION_NONE) {
+    return;
+  }
+  if (size == chunk.unpacked_size) return;
+  FailChunk(path,
+            fmt::format("{} holds {} bytes of samples, not {}", name, size, chunk.unpacked_size));
+}
+
+}  // namespace
+
+void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
+  const ChunkFile file(path);
+  exr_storage_t storage = EXR_STORAGE_SCANLINE;
+  exr_attr_box2i_t box{};
+  const exr_attr_chlist_t* channels = nullptr;
+  file.Check(exr_get_storage(file.get(), part, &storage), "a part");
+  file.Check(exr_get_data_window(file.get(), part, &box), "a data window");
+  file.Check(exr_get_channels(file.get(), part, &channels), "channels");
+  const auto channel_count = static_cast<uint64_t>(channels->num_channels);
+  const int64_t width = int64_t{box.max.x} - box.min.x + 1;
+  const int64_t height = int64_t{box.max.y} - box.min.y + 1;
+  // Every chunk has 8 bytes in the file's table of them.
+  const auto check_table = [&](int64_t columns, int64_t rows) {
+    if (static_cast<double>(columns) * static_cast<double>(rows) * 8 >
+        static_cast<double>(file_bytes)) {
+      FailChunk(path, "it is too short for its table of chunks");
+    }
+  };
+  if (storage == EXR_STORAGE_TILED) {
+    uint32_t tile_width = 0, tile_height = 0;
+    exr_tile_level_mode_t levels{};
+    exr_tile_round_mode_t rounding{};
+    file.Check(
+        exr_get_tile_descriptor(file.get(), part, &tile_width, &tile_height, &levels, &rounding),
+        "tiles");
+    if (tile_width == 0 || tile_height == 0) FailChunk(path, "its tiles are empty");
+    // The reader keeps a row of tiles, and a tile.
+    CheckSampleCount(path + ": tiles", file_bytes, std::max<int64_t>(width, tile_width),
+                     tile_height, channel_count);
+    const int64_t columns = (width + tile_width - 1) / tile_width;
+    const int64_t rows = (height + tile_height - 1) / tile_height;
+    check_table(columns, rows);
+    ParallelFor(static_cast<size_t>(columns * rows), 0, [&](size_t i) {
+      const int x = static_cast<int>(static_cast<int64_t>(i) % columns);
+      const int y = static_cast<int>(static_cast<int64_t>(i) / columns);
+      const std::string name = fmt::format("tile {}, {}", x, y);
+      exr_chunk_info_t chunk{};
+      file.Check(exr_read_tile_chunk_info(file.get(), part, x, y, 0, 0, &chunk), name);
+      CheckChunk(path, file, part, chunk, name);
+    });
+    return;
+  }
+  int32_t lines = 1;
+  file.Check(exr_get_scanlines_per_chunk(file.get(), part, &lines), "lines");
+  lines = std::max(lines, 1);
+  CheckSampleCount(path + ": chunks", file_bytes, width, std::min<int64_t>(lines, height),
+                   channel_count);
+  const int64_t chunk_count = (height + lines - 1) / lines;
+  check_table(1, chunk_count);
+  ParallelFor(static_cast<size_t>(chunk_count), 0, [&](size_t i) {
+    const int64_t y = box.min.y + static_cast<int64_t>(i) * lines;
+    const std::string name = fmt::format("the chunk of row {}", y);
+    exr_chunk_info_t chunk{};
+    file.Check(exr_read_scanline_chunk_info(file.get(), part, static_cast<int>(y), &chunk), name);
+    CheckChunk(path, file, part, chunk, name);
+  });
+}
+
+}  // namespace nacre

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_io/image_file.h"
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/path.h"
+#include "image_io/exr_reader.h"
+#include "image_io/hdr_reader.h"
+#include "image_io/oiio.h"
+#include "image_io/png_reader.h"
+
+namespace nacre {
+namespace {
+
+enum class FileFormat : uint8_t { kExr, kHdr, kPng, kOther };
+
+// By its first bytes; a file that is called .exr or .hdr is told to be a broken one.
+FileFormat FormatOf(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw Error(ExitCode::kBadInput, path, "no such file");
+  if (!std::filesystem::is_regular_file(status)) {
+    throw Error(ExitCode::kBadInput, path, "is not a regular file");
+  }
+  std::array<char, 4> bytes = {};
+  std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
+  const std::string_view head(bytes.data(), bytes.size());
+  if (head == "\x89PNG") return FileFormat::kPng;
+  if (head == "\x76\x2f\x31\x01" || HasExtension(path, ".exr")) return FileFormat::kExr;
+  if (head.starts_with("#?")) return FileFormat::kHdr;
+  return FileFormat::kOther;
+}
+
+}  // namespace
+
+void CheckSampleCount(const std::string& path, uint64_t file_bytes, int64_t width, int64_t height,
+                      uint64_t channels) {
+  // Sides fit 32 bits; the product may need more than 64.
+  const double samples =
+      static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
+  const double by_size = static_cast<double>(kFreeSamples) +
+                         static_cast<double>(kSamplesPerByte) * static_cast<double>(file_bytes);
+  if (samples > static_cast<double>(kMaxSamples)) {
+    throw Error(ExitCode::kBadInput, path,
+                fmt::format("{} x {} pixels of {} channels are too many", width, height, channels),
+                "an image has 2^30 samples at most: make it smaller");
+  }
+  if (samples > by_size) {
+    throw Error(
+        ExitCode::kBadInput, path,
+        fmt::format("{} x {} pixels of {} channels are too many for a file of {} bytes", width,
+                    height, channels, file_bytes),
+        "over 2^27 samples a file needs a byte for 64 of them: save it with less compression");
+  }
+}
+
+ImagePart PartOf(const Image& header) {
+  ImagePart part{.name = {},
+                 .display = header.display,
+                 .data = header.data,
+                 .channels = {},
+                 .metadata = header.metadata,
+                 .refusal = {}};
+  for (const Channel& channel : header.channels)
+    part.channels.push_back({channel.name, channel.type});
+  return part;
+}
+
+ImageFile OpenImage(const std::string& path, const std::string& part) {
+  const FileFormat format = FormatOf(path);
+  if (format == FileFormat::kExr) return OpenExr(path, part);
+  if (!part.empty()) {
+    throw Error(ExitCode::kBadInput, path, "has no part \"" + part + "\"",
+                "only EXR files have parts");
+  }
+  if (format == FileFormat::kHdr) return OpenHdr(path);
+  // Plain PNG files need no library that takes longer to load than they do to read.
+  if (format == FileFormat::kPng) {
+    if (std::optional<ImageFile> plain = OpenPlainPng(path)) return *std::move(plain);
+  }
+  return OpenWithOiio(path);
+}
+
+std::vector<ImagePart> DescribeImage(const std::string& path) {
+  if (FormatOf(path) == FileFormat::kExr) return DescribeExr(path);
+  return OpenImage(path).parts;
+}
+
+Image ReadImage(const ImageFile& file) {
+  Image image = file.header;
+  file.CheckSize(image.data, image.channels.size());
+  std::vector<SampleTarget> targets;
+  for (size_t c = 0; c < image.channels.size(); ++c) {
+    std::vector<float>& samples = image.channels[c].samples;
+    samples.resize(image.data.pixel_count());
+    targets.push_back({c, samples.data(), 1, image.data.width()});
+  }
+  file.read(image.data, targets);
+  return image;
+}
+
+Image ReadImage(const std::string& path, const std::string& part) {
+  return ReadImage(OpenImage(path, part));
+}
+
+}  // namespace nacre

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// image_io/orientation.h: how the rows of a file lie in the image that is seen: Radiance's
+// resolution strings, TIFF's and EXIF's orientation tags. The only place that knows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "image_io/image_file.h"
+
+namespace nacre {
+
+// What makes the image of what is stored: rows become columns first, then it is mirrored.
+struct Orientation {
+  bool transpose = false;
+  bool flip_x = false, flip_y = false;
+
+  bool operator==(const Orientation&) const = default;
+};
+
+// TIFF 6.0, "Orientation", and EXIF: 1 to 8, where the stored row 0 and column 0 are seen: top
+// left, top right, bottom right, bottom left; left top, right top, right bottom, left bottom. Any
+// other number counts as 1.
+constexpr Orientation OrientationOfTag(int tag) {
+  switch (tag) {
+    case 2:
+      return {false, true, false};
+    case 3:
+      return {false, true, true};
+    case 4:
+      return {false, false, true};
+    case 5:
+      return {true, false, false};
+    case 6:
+      return {true, true, false};
+    case 7:
+      return {true, true, true};
+    case 8:
+      return {true, false, true};
+    default:
+      return {};
+  }
+}
+
+// Puts stored rows where they are seen.
+class RowPlacer {
+ public:
+  // `data`: the window of the image that is seen, of which `region` is wanted.
+  RowPlacer(const Orientation& orientation, const Window& data, const Window& region,
+            std::span<const SampleTarget> targets)
+      : orientation_(orientation), data_(data), region_(region), targets_(targets) {}
+
+  int stored_width() const { return orientation_.transpose ? data_.height() : data_.width(); }
+  int stored_height() const { return orientation_.transpose ? data_.width() : data_.height(); }
+
+  // `row`: a stored row, the channels of a pixel together.
+  void Place(int stored_y, const float* row, size_t channels) const {
+    for (const SampleTarget& target : targets_) {
+      for (int x = 0; x < stored_width(); ++x) {
+        int seen_x = orientation_.transpose ? stored_y : x;
+        int seen_y = orientation_.transpose ? x : stored_y;
+        if (orientation_.flip_x) seen_x = data_.width() - 1 - seen_x;
+        if (orientation_.flip_y) seen_y = data_.height() - 1 - seen_y;
+        seen_x += data_.x0 - region_.x0;
+        seen_y += data_.y0 - region_.y0;
+        if (seen_x < 0 || seen_x >= region_.width() || seen_y < 0 || seen_y >= region_.height()) {
+          continue;
+        }
+        target.first[seen_x * target.step_x + seen_y * target.step_y] =
+            row[static_cast<size_t>(x) * channels + target.channel];
+      }
+    }
+  }
+
+ private:
+  Orientation orientation_;
+  Window data_, region_;
+  std::span<const SampleTarget> targets_;
+};
+
+}  // namespace nacre

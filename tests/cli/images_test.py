@@ -1,0 +1,639 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Image files of other makers, through the commands that read them: parts, windows, names of
+channels, orientation, exposure, damage, and how much memory they take.
+
+All files are made here. Usage: images_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+"""
+import json
+import os
+import pathlib
+import re
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+MIB = 1 << 20
+# The libraries of OpenImageIO take 105 MiB when they are loaded; a band of rows, and threads.
+ROOM = 200 * MIB
+# Where they are not: a band, threads, and what the allocator keeps.
+SMALL_ROOM = 48 * MIB
+NONE, RLE, ZIP = 0, 1, 3
+LINES = {NONE: 1, RLE: 1, ZIP: 16}
+# Programs take five to ten times their memory with the thread sanitizer, three with the address
+# sanitizer, as their manuals say.
+SANITIZED = b'__asan_init' in pathlib.Path(PROGRAM).read_bytes() or \
+    b'__tsan_init' in pathlib.Path(PROGRAM).read_bytes()
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=600)
+
+
+def run_measured(*arguments):
+    """The exit code, standard error, and the most memory that the program had, in bytes."""
+    with tempfile.TemporaryFile() as errors:
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                                   stderr=errors)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        errors.seek(0)
+        return process.returncode, errors.read().decode(), usage.ru_maxrss * 1024
+
+
+def attribute(name, kind, value):
+    return name.encode() + b'\0' + kind.encode() + b'\0' + struct.pack('<i', len(value)) + value
+
+
+def box(window):
+    return struct.pack('<4i', *window)
+
+
+class Part:
+    """A scanline part. Windows have their last pixel; `channels` maps names to rows of floats, or
+    to one number; halves where `half`."""
+
+    def __init__(self, channels, data, display=None, name=None, compression=NONE, half=False,
+                 extra=b'', order=0, sampling=None):
+        self.channels = dict(sorted(channels.items()))
+        self.data, self.display, self.name = data, display or data, name
+        self.compression, self.half, self.extra, self.order = compression, half, extra, order
+        self.sampling = sampling or {}
+        self.width = data[2] - data[0] + 1
+        self.height = data[3] - data[1] + 1
+
+    def chunk_count(self):
+        return -(-self.height // LINES[self.compression])
+
+    def header(self, multipart):
+        channels = b''
+        for name in self.channels:
+            x, y = self.sampling.get(name, (1, 1))
+            channels += name.encode() + b'\0' + struct.pack('<iiii', 1 if self.half else 2, 0, x, y)
+        parts = [attribute('channels', 'chlist', channels + b'\0'),
+                 attribute('compression', 'compression', bytes([self.compression])),
+                 attribute('dataWindow', 'box2i', box(self.data)),
+                 attribute('displayWindow', 'box2i', box(self.display)),
+                 attribute('lineOrder', 'lineOrder', bytes([self.order])),
+                 attribute('pixelAspectRatio', 'float', struct.pack('<f', 1)),
+                 attribute('screenWindowCenter', 'v2f', struct.pack('<2f', 0, 0)),
+                 attribute('screenWindowWidth', 'float', struct.pack('<f', 1)), self.extra]
+        if multipart:
+            parts += [attribute('name', 'string', self.name.encode()),
+                      attribute('type', 'string', b'scanlineimage'),
+                      attribute('chunkCount', 'int', struct.pack('<i', self.chunk_count()))]
+        return b''.join(parts) + b'\0'
+
+    def row(self, y):
+        code = 'e' if self.half else 'f'
+        row = b''
+        for values in self.channels.values():
+            if isinstance(values, (int, float)):
+                row += struct.pack('<' + code, values) * self.width
+            else:
+                row += struct.pack(f'<{self.width}{code}', *values[y])
+        return row
+
+    def chunk(self, index):
+        lines = LINES[self.compression]
+        raw = b''.join(self.row(y) for y in range(index * lines,
+                                                  min((index + 1) * lines, self.height)))
+        packed = raw
+        if self.compression == ZIP:
+            split = raw[0::2] + raw[1::2]
+            predicted = bytearray(split[:1])
+            predicted += bytes((b - a + 128) & 255 for a, b in zip(split, split[1:]))
+            packed = zlib.compress(bytes(predicted))
+        return packed if len(packed) < len(raw) else raw
+
+
+def exr(*parts, damage=lambda index, chunk: chunk):
+    """An EXR file. `damage` changes the bytes of chunks."""
+    multipart = len(parts) > 1
+    head = b'\x76\x2f\x31\x01' + struct.pack('<I', 2 | (0x1000 if multipart else 0))
+    head += b''.join(part.header(multipart) for part in parts) + (b'\0' if multipart else b'')
+    at = len(head) + 8 * sum(part.chunk_count() for part in parts)
+    tables, body = b'', b''
+    for number, part in enumerate(parts):
+        offsets, last = {}, (None, None)
+        indices = range(part.chunk_count())
+        for i in indices if part.order == 0 else reversed(indices):
+            constant = all(isinstance(v, (int, float)) for v in part.channels.values())
+            full = (i + 1) * LINES[part.compression] <= part.height
+            if not (constant and last[0] == full):
+                last = (full, part.chunk(i))
+            packed = damage(i, last[1])
+            offsets[i] = at + len(body)
+            body += struct.pack('<i', number) if multipart else b''
+            body += struct.pack('<ii', part.data[1] + i * LINES[part.compression], len(packed))
+            body += packed
+        tables += b''.join(struct.pack('<Q', offsets[i]) for i in indices)
+    return head + tables + body
+
+
+def ramp(width, height, start=0.0, step=0.01):
+    return [[start + step * (y * width + x) for x in range(width)] for y in range(height)]
+
+
+def grey(width, height, **options):
+    rows = ramp(width, height)
+    return Part({'R': rows, 'G': rows, 'B': rows}, (0, 0, width - 1, height - 1), **options)
+
+
+def constant_zip(width, height, half=True):
+    """A black RGB picture, compressed as far as zip can: chunks are alike, so it is made fast."""
+    part = Part({'R': 0, 'G': 0, 'B': 0}, (0, 0, width - 1, height - 1), compression=ZIP,
+                half=half)
+
+    def chunk(index):
+        lines = min(16, height - index * 16)
+        raw = bytes([0]) + bytes([128]) * (lines * width * (6 if half else 12) - 1)
+        return zlib.compress(raw, 9)
+    part.chunk = chunk
+    return exr(part)
+
+
+def hdr(pixels, resolution, lines=()):
+    """A Radiance file of flat RGBE pixels; `pixels` are rows as they are stored."""
+    head = '#?RADIANCE\n' + ''.join(line + '\n' for line in lines)
+    head += 'FORMAT=32-bit_rle_rgbe\n\n' + resolution + '\n'
+    return head.encode() + b''.join(bytes([*pixel, 129]) for row in pixels for pixel in row)
+
+
+def png_chunk(kind, data):
+    return struct.pack('>I', len(data)) + kind + data + struct.pack('>I', zlib.crc32(kind + data))
+
+
+def png(rows, kind=2, extra=b'', size=None, interlace=0):
+    """An 8-bit PNG; `rows` of bytes. `extra`: chunks before the pixels."""
+    channels = {0: 1, 2: 3, 4: 2, 6: 4}[kind]
+    width, height = size or (len(rows[0]) // channels, len(rows))
+    data = zlib.compress(b''.join(b'\0' + bytes(row) for row in rows))
+    return (b'\x89PNG\r\n\x1a\n' +
+            png_chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, 8, kind, 0, 0, interlace)) +
+            extra + png_chunk(b'IDAT', data) + png_chunk(b'IEND', b''))
+
+
+def tiff(rows, orientation=1, strip_bytes=None, declared_height=None):
+    """A grey 8-bit TIFF of one strip."""
+    width, height = len(rows[0]), declared_height or len(rows)
+    data = b''.join(bytes(row) for row in rows)
+    tags = [(256, 3, width), (257, 3, height), (258, 3, 8), (259, 3, 1), (262, 3, 1),
+            (273, 4, 8 + 2 + 11 * 12 + 4), (274, 3, orientation), (277, 3, 1), (278, 3, height),
+            (279, 4, strip_bytes or len(data)), (284, 3, 1)]
+    body = struct.pack('<H', len(tags))
+    for tag, kind, value in tags:
+        body += struct.pack('<HHI', tag, kind, 1) + struct.pack('<I', value)
+    return b'II*\0' + struct.pack('<I', 8) + body + struct.pack('<I', 0) + data
+
+
+def jpeg_with_orientation(orientation):
+    """The corpus's JPEG with an EXIF block."""
+    data = (SOURCE / 'tests/fuzz/corpus/texture_image/a.jpg').read_bytes()
+    exif = b'Exif\0\0II*\0' + struct.pack('<IHHHII', 8, 1, 274, 3, 1, orientation) + b'\0' * 4
+    return data[:2] + b'\xff\xe1' + struct.pack('>H', len(exif) + 2) + exif + data[2:]
+
+
+class ImagesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = pathlib.Path(folder.name)
+
+    def write(self, name, data):
+        (self.out / name).write_bytes(data)
+        return self.out / name
+
+    def check(self, code, message, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, code, (arguments, result.stdout, result.stderr))
+        self.assertIn(message, result.stdout + result.stderr)
+        if code not in (0, 1):  # one line, and maybe a hint
+            errors = re.sub(r'(?m)^libpng .*\n', '', result.stderr)
+            self.assertRegex(errors, r'\Aerror: [^\n]*\n(  hint: [^\n]*\n)?\Z')
+        return result
+
+    def same(self, a, b):
+        self.check(0, 'match', 'compare', a, b)
+
+    def environment(self, image, **more):
+        scene = self.out / 'environment.json'
+        light = {'type': 'environment', 'image': image.name, **more}
+        scene.write_text(json.dumps({'nacre': 1, 'lights': {'sky': light}, 'shapes': [
+            {'type': 'sphere', 'center': [0, 0, 0], 'radius': 1,
+             'material': {'model': 'lambert', 'albedo': [1, 1, 1]}}]}))
+        return scene
+
+    def textured(self, image, **more):
+        scene = self.out / 'textured.json'
+        scene.write_text(json.dumps({
+            'nacre': 1, 'textures': {'t': {'file': image.name, 'filter': 'nearest', **more}},
+            'lights': {'sky': {'type': 'environment', 'radiance': 1}},
+            'shapes': [{'type': 'sphere', 'center': [0, 0, 0], 'radius': 1, 'material': {
+                'model': 'lambert', 'albedo': [1, 1, 1], 'albedo_map': 't'}}]}))
+        return scene
+
+    def render(self, scene, name='r.exr'):
+        picture = self.out / name
+        self.check(0, '', 'render', scene, '-o', picture, '--size', '32x32', '--spp', '4',
+                   '--depth', 'float', '--quiet')
+        return picture
+
+    def png_rows(self, path):
+        """The rows of an 8-bit RGB PNG that nacre wrote."""
+        data = path.read_bytes()
+        at, packed = 8, b''
+        while at < len(data):
+            size, kind = struct.unpack('>I4s', data[at:at + 8])
+            if kind == b'IHDR':
+                width, height = struct.unpack('>II', data[at + 8:at + 16])
+            if kind == b'IDAT':
+                packed += data[at + 8:at + 8 + size]
+            at += size + 12
+        raw, stride = zlib.decompress(packed), 3 * width + 1
+        rows, above = [], bytes(3 * width)
+        for y in range(height):
+            line = bytearray(raw[y * stride + 1:(y + 1) * stride])
+            kind = raw[y * stride]
+            for i, byte in enumerate(line):
+                left = line[i - 3] if i >= 3 else 0
+                up, corner = above[i], above[i - 3] if i >= 3 else 0
+                guess = [0, left, up, (left + up) // 2,
+                         min((left, up, corner), key=lambda v: abs(left + up - corner - v))][kind]
+                line[i] = (byte + guess) & 255
+            rows.append([tuple(line[x:x + 3]) for x in range(0, 3 * width, 3)])
+            above = bytes(line)
+        return rows
+
+    # ---- Parts ----
+
+    def two_parts(self, name, second=0.0, window=(0, 0, 5, 3)):
+        rows = ramp(6, 4)
+        width, height = window[2] - window[0] + 1, window[3] - window[1] + 1
+        return self.write(name, exr(
+            Part({'R': rows, 'G': rows, 'B': rows}, (0, 0, 5, 3), name='rgba'),
+            Part({'Z': ramp(width, height, second), 'left.Z': 1.0}, window, (0, 0, 5, 3),
+                 name='depth')))
+
+    def test_all_parts_are_compared(self):
+        a, b = self.two_parts('a.exr'), self.two_parts('b.exr', 0.5)
+        self.check(1, 'depth', 'compare', a, b)
+        self.same(a, a)
+        self.check(0, 'match', 'compare', a, b, '--part', 'rgba')
+        self.check(1, 'differ', 'compare', a, b, '--part', 'depth')
+        layers = json.loads(run('compare', a, a, '--json').stdout)['layers']
+        self.assertEqual([layer['layer'] for layer in layers], ['rgba', 'depth', 'depth.left'])
+        self.check(2, 'did you mean "depth"', 'compare', a, b, '--part', 'dept')
+        single = self.write('s.exr', exr(grey(6, 4)))
+        self.check(2, 'has no part', 'compare', single, single, '--part', 'rgba')
+
+    def test_parts_whose_windows_differ_are_no_match(self):
+        a = self.two_parts('a.exr')
+        b = self.write('b.exr', exr(
+            Part({c: ramp(6, 4) for c in 'RGB'}, (0, 0, 5, 3), name='rgba'),
+            Part({'Z': [row[:4] for row in ramp(6, 4)], 'left.Z': 1.0}, (0, 0, 3, 3), (0, 0, 5, 3),
+                 name='depth')))
+        self.check(1, '', 'compare', a, b)
+        self.check(1, 'part "depth" is', 'compare', a, b, '--max-abs', '10')
+        self.check(0, 'match', 'compare', a, b, '--max-abs', '10', '--crop')
+
+    def test_info_lists_all_parts(self):
+        text = self.check(0, 'part 2 of 2: depth', 'info', self.two_parts('a.exr')).stdout
+        self.assertIn('part 1 of 2: rgba', text)
+        self.assertIn('left.Z:float', text)
+        only = run('info', self.out / 'a.exr', '--part', 'depth').stdout
+        self.assertNotIn('rgba', only)
+        self.check(65, 'has no part', 'info', self.out / 'a.exr', '--part', 'x')
+
+    def test_parts_are_chosen(self):
+        a = self.two_parts('a.exr')
+        whole = self.write('w.exr', exr(grey(6, 4)))
+        self.check(0, 'shows part "rgba" of 2', 'tonemap', a, '-o', self.out / 'a.png')
+        self.check(0, '', 'tonemap', whole, '-o', self.out / 'w.png')
+        self.same(self.out / 'a.png', self.out / 'w.png')
+        self.check(0, '', 'tonemap', a, '-o', self.out / 'z.png', '--part', 'depth', '--layer', 'Z')
+        self.check(65, 'has 2 parts', 'render', self.textured(a), '-o', self.out / 'x.exr')
+        self.check(65, 'has 2 parts', 'render', self.environment(a), '-o', self.out / 'x.exr')
+        for scene in (self.textured, self.environment):
+            got = self.render(scene(a, part='rgba'), 'got.exr')
+            self.same(got, self.render(scene(whole), 'expected.exr'))
+
+    def test_deep_and_chroma_parts_are_described_and_refused(self):
+        chroma = Part({'Y': 0.5, 'RY': 0.0, 'BY': 0.0}, (0, 0, 3, 3),
+                      sampling={'RY': (2, 2), 'BY': (2, 2)})
+        chroma.chunk = lambda index: struct.pack('<4f', *[0.5] * 4) + (
+            struct.pack('<4f', 0, 0, 0, 0) if index % 2 == 0 else b'')
+        path = self.write('yc.exr', exr(chroma))
+        self.assertIn('RY:float/2x2', self.check(0, 'luminance and chroma', 'info', path).stdout)
+        deep = Part({'Z': 1.0}, (0, 0, 3, 3), name='d', extra=attribute(
+            'version', 'int', struct.pack('<i', 1)) + attribute(
+                'maxSamplesPerPixel', 'int', struct.pack('<i', 1)))
+        data = exr(deep)
+        # A single deep part: version flag 0x800, its type, its name and the count of its chunks.
+        header = deep.header(True).replace(b'scanlineimage', b'deepscanline').replace(
+            b'type\0string\0' + struct.pack('<i', 13), b'type\0string\0' + struct.pack('<i', 12))
+        del data
+        body = b'\x76\x2f\x31\x01' + struct.pack('<I', 2 | 0x800) + header
+        start = len(body) + 8 * 4
+        chunk = struct.pack('<4i', 1, 2, 3, 4) + struct.pack('<4f', *[1.0] * 4)
+        table, chunks = b'', b''
+        for y in range(4):
+            table += struct.pack('<Q', start + len(chunks))
+            chunks += struct.pack('<iQQQ', y, 16, 16, 16) + chunk
+        deep_path = self.write('deep.exr', body + table + chunks)
+        self.check(0, 'is a deep image', 'info', deep_path)
+        for path, word in ((path, 'luminance and chroma'), (deep_path, 'is a deep image')):
+            self.check(65, word, 'tonemap', path, '-o', self.out / 'x.png')
+            self.check(2, word, 'compare', path, path)
+            self.check(65, word, 'render', self.textured(path), '-o', self.out / 'x.exr')
+            self.check(65, word, 'render', self.environment(path), '-o', self.out / 'x.exr')
+
+    # ---- Windows ----
+
+    def test_tonemap_shows_the_display_window(self):
+        rows = [[1.0] * 4 for _ in range(3)]
+        part = Part({c: rows for c in 'RGB'}, (-1, 2, 2, 4), (0, 0, 4, 3))
+        path = self.write('w.exr', exr(part))
+        self.check(0, '', 'tonemap', path, '-o', self.out / 'w.png', '--tonemap', 'none')
+        white, black = (255,) * 3, (0,) * 3
+        seen = [white] * 3 + [black] * 2
+        self.assertEqual(self.png_rows(self.out / 'w.png'), [[black] * 5] * 2 + [seen] * 2)
+
+    def test_windows_that_differ_are_no_match(self):
+        rows = ramp(8, 6)
+        full = self.write('full.exr', exr(Part({'R': rows}, (0, 0, 7, 5))))
+        crop = self.write('crop.exr', exr(
+            Part({'R': [row[2:5] for row in rows[1:4]]}, (2, 1, 4, 3), (0, 0, 7, 5))))
+        self.check(1, 'the data window is 3x3 at 2,1, not 8x6 at 0,0', 'compare', crop, full)
+        self.check(0, 'none of 9 pixels', 'compare', crop, full, '--crop')
+        verdict = json.loads(run('compare', crop, full, '--json').stdout)
+        self.assertFalse(verdict['match'])
+
+    def test_crops_are_no_textures_and_overscan_is_cut_off(self):
+        rows = ramp(8, 4)
+        whole = self.write('whole.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 3))))
+        wide_rows = [[9.0] * 10] + [[9.0] + row + [9.0] for row in rows] + [[9.0] * 10]
+        wide = self.write('wide.exr', exr(
+            Part({c: wide_rows for c in 'RGB'}, (-1, -1, 8, 4), (0, 0, 7, 3))))
+        crop = self.write('crop.exr', exr(
+            Part({c: rows for c in 'RGB'}, (0, 0, 7, 3), (0, 0, 9, 3))))
+        for scene in (self.textured, self.environment):
+            self.same(self.render(scene(wide), 'a.exr'), self.render(scene(whole), 'b.exr'))
+            self.check(65, 'is a crop', 'render', scene(crop), '-o', self.out / 'x.exr')
+
+    # ---- Names ----
+
+    def test_other_names_of_colours(self):
+        rows = ramp(8, 4)
+        upper = self.write('u.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 3))))
+        names = {'lower': 'r g b', 'dot': '.R .G .B', 'y': 'Y', 'other': 'height', 'z': 'Z',
+                 'alpha': 'Y A'}
+        for name, channels in names.items():
+            with self.subTest(name):
+                path = self.write(name + '.exr', exr(
+                    Part({c: rows for c in channels.split()}, (0, 0, 7, 3))))
+                self.check(0, '', 'tonemap', path, '-o', self.out / 'a.png')
+                self.check(0, '', 'tonemap', upper, '-o', self.out / 'b.png')
+                self.assertEqual(self.png_rows(self.out / 'a.png'),
+                                 self.png_rows(self.out / 'b.png'))
+                for scene in (self.textured, self.environment):
+                    self.same(self.render(scene(path), 'a.exr'), self.render(scene(upper), 'b.exr'))
+        views = self.write('v.exr', exr(Part(
+            {'R': 0.0, 'G': 0.0, 'B': 0.0, **{'left.' + c: rows for c in 'RGB'}}, (0, 0, 7, 3))))
+        self.check(0, '', 'tonemap', views, '-o', self.out / 'a.png', '--layer', 'left')
+        self.assertEqual(self.png_rows(self.out / 'a.png'), self.png_rows(self.out / 'b.png'))
+        self.check(65, 'did you mean "left"', 'tonemap', views, '-o', self.out / 'x.png',
+                   '--layer', 'lft')
+
+    def test_negative_radiance_is_clamped_where_it_is_asked_for(self):
+        rows = ramp(8, 4)
+        clean = self.write('clean.exr', exr(Part({c: rows for c in 'RGB'}, (0, 0, 7, 3))))
+        below = [list(row) for row in rows]
+        below[0][0] = -1e-3
+        tiny = self.write('tiny.exr', exr(
+            Part({'R': below, 'G': rows, 'B': rows}, (0, 0, 7, 3))))
+        self.check(65, '"clamp_negative": true', 'render', self.environment(tiny), '-o',
+                   self.out / 'x.exr')
+        scene = self.environment(tiny, clamp_negative=True)
+        self.check(0, 'tiny.exr: 1 samples below 0, down to -0.001, count as 0', 'render', scene,
+                   '-o', self.out / 'x.exr', '--size', '8x8', '--spp', '1')
+        self.same(self.render(scene, 'a.exr'), self.render(self.environment(clean), 'b.exr'))
+
+    # ---- What files say of their pixels ----
+
+    def test_radiance_orientations(self):
+        width, height = 5, 3
+        image = [[(10 * y + x + 3, 100 + x, 200 - y) for x in range(width)] for y in range(height)]
+        plain = self.write('plain.hdr', hdr(image, f'-Y {height} +X {width}'))
+        columns = [list(column) for column in zip(*image)]
+        for x in '+-':
+            for y in '+-':
+                rows = image if y == '-' else image[::-1]
+                rows = rows if x == '+' else [row[::-1] for row in rows]
+                turned = columns if x == '+' else columns[::-1]
+                turned = turned if y == '-' else [column[::-1] for column in turned]
+                for name, stored, text in (
+                        ('rows', rows, f'{y}Y {height} {x}X {width}'),
+                        ('columns', turned, f'{x}X {width} {y}Y {height}')):
+                    with self.subTest(text):
+                        path = self.write('o.hdr', hdr(stored, text))
+                        self.same(path, plain)
+                        self.same(self.render(self.environment(path), 'a.exr'),
+                                  self.render(self.environment(plain), 'b.exr'))
+
+    def test_radiance_exposure(self):
+        image = [[(16 * (x + 1), 8, 128) for x in range(4)] for _ in range(2)]
+        third = [[(8 * (x + 1), 4, 64) for x in range(4)] for _ in range(2)]
+        plain = self.write('plain.hdr', hdr(image, '-Y 2 +X 4'))
+        half = self.write('half.hdr', hdr(third, '-Y 2 +X 4'))
+        for lines in (['EXPOSURE=2'], ['EXPOSURE=4', 'EXPOSURE=0.5'], ['COLORCORR=2 2 2'],
+                      ['EXPOSURE= 1.000000e+00', 'COLORCORR=4 4 4', 'COLORCORR=.5 .5 .5']):
+            with self.subTest(lines):
+                exposed = self.write('e.hdr', hdr(image, '-Y 2 +X 4', lines))
+                self.same(exposed, half)
+        for line, message in (('EXPOSURE=0', 'above 0'), ('EXPOSURE=x', 'is not 1 number'),
+                              ('PRIMARIES=.7 .3 .2 .7 .1 .05 .3 .3', 'primaries are not'),
+                              ('GAMMA=2.2', 'GAMMA is not 1')):
+            path = self.write('bad.hdr', hdr(image, '-Y 2 +X 4', [line]))
+            self.check(65, message, 'tonemap', path, '-o', self.out / 'x.png')
+        known = self.write('p.hdr', hdr(image, '-Y 2 +X 4', [
+            'PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333', 'GAMMA=1.0', 'PIXASPECT=2']))
+        self.same(known, plain)
+        self.check(0, 'shown as squares', 'tonemap', known, '-o', self.out / 'x.png')
+        xyze = self.write('x.hdr', hdr(image, '-Y 2 +X 4').replace(b'rle_rgbe', b'rle_xyze'))
+        self.check(2, 'XYZ', 'compare', xyze, xyze)
+
+    def test_tags_of_orientation(self):
+        image = [[10, 20, 30], [40, 50, 60]]
+        columns = [list(column) for column in zip(*image)]
+        stored = {1: image, 2: [r[::-1] for r in image], 3: [r[::-1] for r in image[::-1]],
+                  4: image[::-1], 5: columns, 6: columns[::-1],
+                  7: [c[::-1] for c in columns[::-1]], 8: [c[::-1] for c in columns]}
+        # Stored so that what is seen is `image`: row 0 of 6 is its right side, of 8 its left.
+        stored[6] = [list(c) for c in zip(*image)][::-1]
+        stored[8] = [c[::-1] for c in [list(c) for c in zip(*image)]]
+        plain = self.write('plain.tif', tiff(image))
+        for tag, rows in stored.items():
+            with self.subTest(tag):
+                self.same(self.write('t.tif', tiff(rows, tag)), plain)
+                exif = b'MM\0*' + struct.pack('>IHHHIHH', 8, 1, 274, 3, 1, tag, 0) + b'\0' * 4
+                upright = self.write('plain.png', png(image, 0))
+                self.same(self.write('t.png', png(rows, 0, png_chunk(b'eXIf', exif))), upright)
+        a, b = (self.write(f'{i}.jpg', jpeg_with_orientation(i)) for i in (1, 3))
+        self.check(1, 'differ', 'compare', a, b)
+
+    def test_exr_attributes(self):
+        plain = self.write('plain.exr', exr(grey(8, 4)))
+        chroma = attribute('chromaticities', 'chromaticities',
+                           struct.pack('<8f', .713, .293, .165, .83, .128, .044, .32168, .33767))
+        aces = self.write('aces.exr', exr(grey(8, 4, extra=chroma)))
+        self.check(65, "not Rec. 709's", 'tonemap', aces, '-o', self.out / 'x.png')
+        for scene in (self.textured, self.environment):
+            self.check(65, "not Rec. 709's", 'render', scene(aces), '-o', self.out / 'x.exr')
+        self.same(aces, aces)
+        rec709 = attribute('chromaticities', 'chromaticities',
+                           struct.pack('<8f', .64, .33, .3, .6, .15, .06, .3127, .329))
+        known = self.write('known.exr', exr(grey(8, 4, extra=rec709)))
+        self.same(known, plain)
+        self.check(2, 'primaries', 'compare', aces, known)
+        self.check(0, '', 'tonemap', known, '-o', self.out / 'x.png')
+        cube = self.write('cube.exr', exr(grey(8, 48, extra=attribute('envmap', 'envmap', b'\1'))))
+        self.check(65, 'cube map', 'render', self.environment(cube), '-o', self.out / 'x.exr')
+        down = self.write('down.exr', exr(grey(8, 4, order=1)))
+        self.same(down, plain)
+
+    def test_colours_of_png_files(self):
+        rows = [[10 * x + y for x in range(12)] for y in range(4)]
+        plain = self.write('plain.png', png(rows))
+        gamma = png_chunk(b'gAMA', struct.pack('>I', 100000))
+        for name, extra, refused in (
+                ('linear', gamma, True), ('srgb', png_chunk(b'gAMA', struct.pack('>I', 45455)), False),
+                ('both', png_chunk(b'sRGB', b'\0') + gamma, False),
+                ('wide', png_chunk(b'cHRM', struct.pack('>8I', 31270, 32900, 68000, 32000, 26500,
+                                                        69000, 15000, 6000)), True),
+                ('icc', png_chunk(b'iCCP', b'Display P3\0\0' + zlib.compress(b'x' * 200)), True),
+                ('icc_srgb', png_chunk(b'iCCP', b'ICC\0\0' + zlib.compress(
+                    b'desc' + 'sRGB built-in'.encode('utf-16-be'))), False)):
+            with self.subTest(name):
+                path = self.write(name + '.png', png(rows, 2, extra))
+                scene = self.textured(path)
+                if refused:
+                    self.check(65, 'convert it to sRGB', 'render', scene, '-o', self.out / 'x.exr')
+                else:
+                    self.render(scene)
+                told = self.textured(path, encoding='srgb')
+                self.same(self.render(told, 'a.exr'), self.render(self.textured(plain), 'b.exr'))
+        self.check(0, 'gamma           1', 'info', self.out / 'linear.png')
+
+    # ---- Damage ----
+
+    def refused_everywhere(self, path, word):
+        self.check(2, word, 'compare', path, path)
+        if path.suffix in ('.exr', '.hdr'):
+            self.check(65, word, 'tonemap', path, '-o', self.out / 'x.png')
+            self.check(65, word, 'render', self.environment(path), '-o', self.out / 'x.exr')
+        self.check(65, word, 'render', self.textured(path), '-o', self.out / 'x.exr')
+
+    def test_chunks_that_are_not_what_the_header_says(self):
+        short = zlib.compress(bytes([128]) * 40)
+        for name, compression, damage in (
+                ('short', NONE, lambda i, c: c[:-4] if i == 1 else c),
+                ('empty', NONE, lambda i, c: b'' if i == 1 else c),
+                ('zip', ZIP, lambda i, c: short),
+                ('broken', ZIP, lambda i, c: c[:10]),
+                ('rle', RLE, lambda i, c: bytes([20, 7]) if i == 2 else c)):
+            with self.subTest(name):
+                path = self.write(name + '.exr', exr(grey(40, 20, compression=compression),
+                                                     damage=damage))
+                self.refused_everywhere(path, 'cannot be read as EXR')
+
+    def test_missing_chunks(self):
+        data = bytearray(exr(grey(8, 4)))
+        at = data.index(b'\0' * 0 + struct.pack('<i', 0), 8)
+        header = len(grey(8, 4).header(False)) + 8
+        data[header + 8:header + 16] = bytes(8)  # the second chunk's place
+        self.assertGreater(at, 0)
+        self.refused_everywhere(self.write('hole.exr', bytes(data)), 'cannot be read as EXR')
+        whole = exr(grey(8, 4))
+        self.refused_everywhere(self.write('cut.exr', whole[:-10]), 'cannot be read as EXR')
+
+    def test_other_formats_that_end_early(self):
+        rows = [[(x * y) % 251 for x in range(90)] for y in range(60)]
+        photo = (SOURCE / 'tests/fuzz/corpus/texture_image/a.jpg').read_bytes()
+        for name, data in (
+                ('a.png', png(rows[:30], 2, size=(30, 60))),
+                ('i.png', png(rows[:30], 2, size=(30, 60), interlace=1)),
+                ('cut.png', png(rows)[:-40]),
+                ('a.tif', tiff(rows, declared_height=90)),
+                ('cut.tif', tiff(rows)[:-100]),
+                ('cut.jpg', photo[:-30]),
+                ('end.jpg', photo[:-30] + b'\xff\xd9'),
+                ('a.hdr', hdr([[(9, 9, 9)] * 9] * 9, '-Y 18 +X 9')),
+                ('a.pfm', b'Pf\n9 9\n-1.0\n' + bytes(200))):
+            with self.subTest(name):
+                self.refused_everywhere(self.write(name, data), 'cannot be read')
+
+    # ---- Memory ----
+
+    def costs(self, limit, code, *arguments):
+        """The program ends with this code and takes no more than `limit` bytes over what it takes
+        for nothing; refusals are one line."""
+        if SANITIZED:
+            self.skipTest('sanitizers take memory of their own')
+        _, _, idle = run_measured('info')
+        got, errors, peak = run_measured(*arguments)
+        self.assertEqual(got, code, errors)
+        self.assertLess(peak - idle, limit, arguments)
+
+    def test_a_header_that_promises_pixels_costs_nothing(self):
+        # OpenEXR's own damaged sample is like this: a huge window, one chunk of a few bytes.
+        part = Part({'R': 0.0}, (0, 0, 268435455, 0))
+        part.chunk = lambda index: b'abcd'
+        wide = self.write('wide.exr', exr(part))
+        self.costs(ROOM, 0, 'info', wide)
+        self.costs(ROOM, 2, 'compare', wide, wide)
+        self.costs(ROOM, 65, 'tonemap', wide, '-o', self.out / 'x.png')
+        self.costs(ROOM, 65, 'render', self.textured(wide), '-o', self.out / 'x.exr')
+        self.costs(ROOM, 65, 'render', self.environment(wide), '-o', self.out / 'x.exr')
+        for name, data in (('a.hdr', hdr([], '-Y 60000 +X 60000')),
+                           ('a.png', png([[0] * 9], 2, size=(60000, 60000))),
+                           ('i.png', png([[0] * 9], 2, size=(30000, 30000), interlace=1)),
+                           ('a.tif', tiff([[0]] * 2, declared_height=60000)),
+                           ('a.pfm', b'PF\n60000 60000\n-1.0\n' + bytes(100))):
+            path = self.write(name, data)
+            with self.subTest(name):
+                self.costs(ROOM, 2, 'compare', path, path)
+                self.costs(ROOM, 65, 'render', self.textured(path), '-o', self.out / 'x.exr')
+
+    def test_a_small_file_of_many_pixels_is_refused(self):
+        black = self.write('black.exr', constant_zip(12288, 12288))
+        self.assertLess(black.stat().st_size, MIB)
+        self.costs(ROOM, 0, 'info', black)
+        self.costs(ROOM, 2, 'compare', black, black)
+        self.costs(ROOM, 65, 'tonemap', black, '-o', self.out / 'x.png')
+        self.costs(ROOM, 65, 'render', self.textured(black), '-o', self.out / 'x.exr')
+        self.costs(ROOM, 65, 'render', self.environment(black), '-o', self.out / 'x.exr')
+        self.check(65, 'save it with less compression', 'render', self.environment(black), '-o',
+                   self.out / 'x.exr')
+
+    def test_an_honest_picture_takes_a_small_multiple_of_its_samples(self):
+        width, height = 4096, 2048
+        path = self.write('sky.exr', constant_zip(width, height))
+        samples, pixels = 3 * width * height, width * height
+        self.costs(2 * 4 * samples + SMALL_ROOM, 0, 'compare', path, path)
+        self.costs(4 * samples + SMALL_ROOM, 0, 'tonemap', path, '-o', self.out / 'x.png')
+        small = ['-o', self.out / 'x.exr', '--size', '16x16', '--spp', '1']
+        self.costs(16 * samples // 3 + SMALL_ROOM, 0, 'render', self.textured(path), *small)
+        self.costs(ENVIRONMENT_BYTES * pixels + SMALL_ROOM, 0, 'render', self.environment(path), *small)
+
+
+# Three floats of the picture, four of a texel and 16 bytes to sample it by.
+ENVIRONMENT_BYTES = 44
+
+if __name__ == '__main__':
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
