@@ -168,7 +168,7 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, RenderPlan
   // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
   const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
   const double footprint = std::max(1 / std::sqrt(samples), 0.125);
-  plan->textures = PrepareTextures(scene, plan->camera, footprint);
+  plan->textures = PrepareTextures(scene, plan->camera, footprint, settings.threads);
   size_t bytes = 0;
   for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
   plan->items.push_back(

@@ -271,6 +271,8 @@ uint64_t HashScene(const Scene& scene) {
     hash.Add(material.emission);
     hash.Word(material.emits_in_front_only);
     hash.Word(static_cast<uint64_t>(material.vertex_colors));
+    hash.Add(material.opacity);
+    hash.Add(material.opacity_cutoff);
     std::visit(AddModel{&hash}, material.model);
     AddMaps(material, &hash);
   }
@@ -294,6 +296,8 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(mesh.uvs.size());
     hash.Word(mesh.second_uvs.size());
     hash.Word(mesh.colors.size());
+    hash.Word(mesh.tangents.size());
+    hash.Word(mesh.opacities.size());
     hash.Word(mesh.triangles.size());
     hash.Word(static_cast<uint64_t>(mesh.interpolation));
     hash.Word(mesh.smooth_terminator);
@@ -302,6 +306,11 @@ uint64_t HashScene(const Scene& scene) {
     for (const Vec2d& uv : mesh.uvs) hash.Add(uv);
     for (const Vec2d& uv : mesh.second_uvs) hash.Add(uv);
     for (const Vec3f& color : mesh.colors) hash.Add(Vec3d(color));
+    for (const float opacity : mesh.opacities) hash.Add(double{opacity});
+    for (const Tangent& tangent : mesh.tangents) {
+      hash.Add(tangent.direction);
+      hash.Add(tangent.sign);
+    }
     for (const uint32_t index : mesh.triangles) hash.Word(index);
     hash.Add(mesh.material);
   }

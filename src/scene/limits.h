@@ -59,6 +59,7 @@ inline constexpr Range kTextureScale{-1e6, 1e6};
 inline constexpr Range kAngleDeg{-36000, 36000};
 inline constexpr Range kDisplacedSegments{3, 4096};
 inline constexpr Range kNormalScale{-100, 100};
+inline constexpr Range kOpacityCutoff{0, 1e6};
 
 // width x height x spp: about a day of rendering at 1e8 samples a second; more is a slip.
 inline constexpr double kMaxSamples = 1e13;

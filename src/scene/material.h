@@ -162,6 +162,13 @@ struct Material {
   NormalMap normal_map{};
   BumpMap bump_map{};
   VertexColors vertex_colors = VertexColors::kNone;
+  // Holes in meshes, as glTF's alphaMode MASK: the surface is there where opacity, times its map
+  // and the mesh's opacities, is at least the cutoff, and elsewhere nothing is, for no ray. A
+  // cutoff above 1 leaves nothing. The map is looked up in the image itself, never in a smaller
+  // copy.
+  double opacity = 1;           // in [0, 1]
+  double opacity_cutoff = 0.5;  // >= 0
+  TextureId opacity_map{};
 };
 
 }  // namespace nacre

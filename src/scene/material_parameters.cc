@@ -72,22 +72,31 @@ constexpr MaterialParameter BaseRoughness() {
 }
 
 constexpr MaterialParameter kEmission = Color<&Material::emission>("emission", limits::kRadiance);
+constexpr MaterialParameter kOpacity = Number<&Material::opacity>("opacity", limits::kUnit);
+constexpr MaterialParameter kOpacityCutoff =
+    Number<&Material::opacity_cutoff>("opacity_cutoff", limits::kOpacityCutoff);
 
 constexpr std::array kLambertParameters = {
     Color<&LambertMaterial::albedo>("albedo", limits::kUnit),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array kOrenNayarParameters = {
     Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit),
     Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array kBurleyParameters = {
     Color<&BurleyMaterial::albedo>("albedo", limits::kUnit),
     Number<&BurleyMaterial::roughness>("roughness", limits::kUnit),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array kPhongParameters = {
@@ -97,6 +106,8 @@ constexpr std::array kPhongParameters = {
     Color<&PhongMaterial::ks>("ks", limits::kUnit),
     Number<&PhongMaterial::shininess>("shininess", limits::kExponent),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array kMetallicRoughnessParameters = {
@@ -108,6 +119,8 @@ constexpr std::array kMetallicRoughnessParameters = {
     Color<&MetallicRoughnessMaterial::f82_tint>("f82_tint", limits::kUnit),
     BaseRoughness<MetallicRoughnessMaterial>(),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array kConductorParameters = {
@@ -115,6 +128,8 @@ constexpr std::array kConductorParameters = {
     Color<&ConductorMaterial::k>("k", limits::kExtinction),
     Number<&ConductorMaterial::roughness>("roughness", limits::kUnit),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array kDielectricParameters = {
@@ -123,6 +138,8 @@ constexpr std::array kDielectricParameters = {
     Number<&DielectricMaterial::roughness>("roughness", limits::kUnit),
     BaseRoughness<DielectricMaterial>(),
     kEmission,
+    kOpacity,
+    kOpacityCutoff,
 };
 
 constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
@@ -175,28 +192,32 @@ constexpr std::array kDielectricChoices = {
     Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels)};
 
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>("emission_map", MapUse::kColor);
+constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>("opacity_map", MapUse::kOpacity);
 constexpr std::array kLambertMaps = {
-    Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap};
+    Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap, kOpacityMap};
 constexpr std::array kOrenNayarMaps = {
-    Map<&OrenNayarMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap};
+    Map<&OrenNayarMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap, kOpacityMap};
 constexpr std::array kBurleyMaps = {Map<&BurleyMaterial::albedo_map>("albedo_map", MapUse::kColor),
-                                    kEmissionMap};
+                                    kEmissionMap, kOpacityMap};
 constexpr std::array kPhongMaps = {
     Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor),
     Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor),
-    Map<&PhongMaterial::shininess_map>("shininess_map", MapUse::kData), kEmissionMap};
+    Map<&PhongMaterial::shininess_map>("shininess_map", MapUse::kData), kEmissionMap, kOpacityMap};
 constexpr std::array kMetallicRoughnessMaps = {
     Map<&MetallicRoughnessMaterial::base_color_map>("base_color_map", MapUse::kColor),
     Map<&MetallicRoughnessMaterial::metallic_roughness_map>("metallic_roughness_map",
                                                             MapUse::kTwoData),
     Map<&MetallicRoughnessMaterial::specular_map>("specular_map", MapUse::kData),
     Map<&MetallicRoughnessMaterial::specular_color_map>("specular_color_map", MapUse::kColor),
-    kEmissionMap};
+    kEmissionMap,
+    kOpacityMap};
 constexpr std::array kConductorMaps = {
-    Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap};
+    Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap,
+    kOpacityMap};
 constexpr std::array kDielectricMaps = {
     Map<&DielectricMaterial::base_color_map>("base_color_map", MapUse::kColor),
-    Map<&DielectricMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap};
+    Map<&DielectricMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap,
+    kOpacityMap};
 
 template <typename Model>
 Material Make() {
@@ -272,6 +293,10 @@ const MaterialModel* ModelOf(const Material& material) {
   if (std::holds_alternative<ConductorMaterial>(material.model)) return &kModels[7];
   if (std::holds_alternative<DielectricMaterial>(material.model)) return &kModels[8];
   return nullptr;
+}
+
+bool CutsHoles(const Material& material) {
+  return material.opacity_map.valid() || material.opacity < material.opacity_cutoff;
 }
 
 const MaterialParameter* FindParameter(const MaterialModel& model, std::string_view name) {

@@ -38,6 +38,7 @@ enum class MapUse : uint8_t {
   kColor,    // its 8- and 16-bit files are sRGB unless they say otherwise
   kData,     // numbers, never encoded; the first channel counts
   kTwoData,  // the same; green and blue count
+  kOpacity,  // its alpha, unless it says otherwise; where surfaces are, not what they look like
 };
 struct MaterialMap {
   std::string_view name;
@@ -64,6 +65,9 @@ const MaterialModel* FindModel(std::string_view name);
 
 // The model of this material; nullptr for a split.
 const MaterialModel* ModelOf(const Material& material);
+
+// Whether its opacity makes holes in meshes that have none of their own (Mesh::opacities).
+bool CutsHoles(const Material& material);
 
 // The parameter of this name, or nullptr.
 const MaterialParameter* FindParameter(const MaterialModel& model, std::string_view name);

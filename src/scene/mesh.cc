@@ -50,6 +50,10 @@ void ApplyTransform(const Transform& transform, Mesh* mesh) {
   }
   const Vec3d& scale = transform.scale;
   const bool mirrored = ((scale.x < 0) != (scale.y < 0)) != (scale.z < 0);
+  for (auto& [direction, sign] : mesh->tangents) {
+    direction = ((direction * scale) * rotation).normalized();
+    if (mirrored) sign = -sign;  // the bitangent is a cross product
+  }
   if (!mirrored) return;
   for (size_t i = 0; i < mesh->triangles.size(); i += 3) {
     std::swap(mesh->triangles[i + 1], mesh->triangles[i + 2]);

@@ -25,7 +25,7 @@ enum class NormalWeighting : uint8_t {
 
 // Gives the mesh normals: unit ones, one per position, each the weighted average of the faces
 // around it; (0, 1, 0) where no face has an area or they cancel out. Positions at the same place
-// that only uvs tell apart are taken as one.
+// that only uvs tell apart are taken as one. Tangents, which belong to the old normals, go.
 //
 // Faces that meet along an edge at more than crease_angle_deg are not averaged over it: positions
 // are then repeated, so that each side has normals of its own. From 180 on nothing is a crease. Of
@@ -51,7 +51,7 @@ struct Transform {
   Vec3d rotate_deg{0, 0, 0};
 };
 
-// Transforms positions and normals; a mirrored mesh keeps its outside outside.
+// Transforms positions, normals and tangents; a mirrored mesh keeps its outside outside.
 void ApplyTransform(const Transform& transform, Mesh* mesh);
 
 }  // namespace nacre

@@ -25,13 +25,23 @@ enum class Interpolation : uint8_t {
   kFaceted,  // nothing but the position: the face normal at each point
 };
 
+// Where x of a normal map points; y points along cross(normal, direction) times the sign.
+struct Tangent {
+  Vec3d direction{1, 0, 0};  // unit, across the normal
+  double sign = 1;           // -1 where the texture is mirrored, else 1
+};
+
 struct Mesh {
   std::string name;
-  std::vector<Vec3d> positions;     // world space
-  std::vector<Vec3d> normals;       // unit, one per position; empty: face normals
-  std::vector<Vec2d> uvs;           // one per position, or empty; (0, 0) is an image's bottom left
-  std::vector<Vec2d> second_uvs;    // likewise, of textures that ask for them
-  std::vector<Vec3f> colors;        // linear, each in [0, 1], one per position, or empty
+  std::vector<Vec3d> positions;   // world space
+  std::vector<Vec3d> normals;     // unit, one per position; empty: face normals
+  std::vector<Vec2d> uvs;         // one per position, or empty; (0, 0) is an image's bottom left
+  std::vector<Vec2d> second_uvs;  // likewise, of textures that ask for them
+  std::vector<Vec3f> colors;      // linear, each in [0, 1], one per position, or empty
+  // As the file has them, one per position that has a normal; or empty: normal maps on `uvs` then
+  // use MakeTangents (scene/tangents.h).
+  std::vector<Tangent> tangents;
+  std::vector<float> opacities;     // each in [0, 1], one per position, or empty: 1
   std::vector<uint32_t> triangles;  // three indices each, counter-clockwise from outside
   MaterialId material;
   Interpolation interpolation = Interpolation::kPhong;

@@ -91,12 +91,16 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
         std::holds_alternative<SplitMaterial>(scene.materials[id.index].model)) {
       faults->Add(place, "is a split itself", "name each band's material in one split");
     }
+    if (id.index < scene.materials.size() && CutsHoles(scene.materials[id.index])) {
+      faults->Add(place, "its opacity cuts holes, which shadows would have in other bands, too",
+                  "give the mesh that material, without a split");
+    }
   }
   if (material.emission != Rgb(0, 0, 0)) {
     faults->Add(where + "/emission", "a split has no emission", "give it to the materials in it");
   }
   if (material.emission_map.valid() || material.normal_map.texture.valid() ||
-      material.bump_map.texture.valid()) {
+      material.bump_map.texture.valid() || CutsHoles(material)) {
     faults->Add(where, "a split has no maps", "give them to the materials in it");
   }
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene/validate_shapes.cc: the part of Validate() that looks at spheres and meshes.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "scene/limits.h"
+#include "scene/material_parameters.h"
 #include "scene/mesh.h"
 #include "scene/validate.h"
 #include "scene/validate_numbers.h"
@@ -42,12 +44,12 @@ void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faul
 }
 
 void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) {
-  for (const size_t count : {mesh.second_uvs.size(), mesh.colors.size()}) {
+  for (const size_t count : {mesh.second_uvs.size(), mesh.colors.size(), mesh.opacities.size()}) {
     if (count == 0 || count == mesh.positions.size()) continue;
-    faults->Add(
-        where,
-        fmt::format("{} coordinates or colours for {} positions", count, mesh.positions.size()),
-        "one per position, or none");
+    faults->Add(where,
+                fmt::format("{} coordinates, colours or opacities for {} positions", count,
+                            mesh.positions.size()),
+                "one per position, or none");
   }
   if (mesh.uvs.empty()) return;
   if (mesh.uvs.size() != mesh.positions.size()) {
@@ -60,6 +62,26 @@ void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) 
     if (limits::kCoordinate.Contains(u) && limits::kCoordinate.Contains(v)) continue;
     faults->Add(fmt::format("{}/uvs/{}", where, i), fmt::format("[{}, {}] is out of range", u, v),
                 "each coordinate " + Describe(limits::kCoordinate));
+    return;
+  }
+}
+
+void ValidateTangents(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  if (mesh.tangents.empty()) return;
+  if (mesh.tangents.size() != mesh.positions.size() ||
+      mesh.normals.size() != mesh.positions.size()) {
+    faults->Add(where + "/tangents",
+                fmt::format("{} tangents for {} positions with {} normals", mesh.tangents.size(),
+                            mesh.positions.size(), mesh.normals.size()),
+                "one per position that has a normal, or none");
+    return;
+  }
+  for (size_t i = 0; i < mesh.tangents.size(); ++i) {
+    const auto& [direction, sign] = mesh.tangents[i];
+    if (std::abs(direction.length() - 1) <= kUnitLengthTolerance && std::abs(sign) == 1) continue;
+    faults->Add(fmt::format("{}/tangents/{}", where, i),
+                fmt::format("has length {} and sign {}", direction.length(), sign),
+                "tangents have length 1 and the sign 1 or -1");
     return;
   }
 }
@@ -87,6 +109,17 @@ bool IsSound(const Sphere& sphere, size_t material_count) {
          sphere.material.index < material_count;
 }
 
+// Spheres are hit by tests of their own, which know no holes.
+void RefuseHoles(const Scene& scene, size_t sphere, FaultList* faults) {
+  const MaterialId material = scene.spheres[sphere].material;
+  if (material.index >= scene.materials.size() || !CutsHoles(scene.materials[material.index])) {
+    return;
+  }
+  faults->Add(fmt::format("/spheres/{}/material", sphere),
+              "its opacity cuts holes, which only meshes have",
+              "make the sphere of triangles: the shapes \"uv_sphere\" and \"icosphere\"");
+}
+
 }  // namespace
 
 void ValidateSphere(const Sphere& sphere, size_t material_count, const std::string& where,
@@ -108,6 +141,7 @@ void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& wh
   ValidatePositions(mesh, where, faults);
   ValidateNormals(mesh, where, faults);
   ValidateUvs(mesh, where, faults);
+  ValidateTangents(mesh, where, faults);
   if (mesh.interpolation == Interpolation::kGouraud && mesh.normals.empty()) {
     faults->Add(where + "/interpolation", "Gouraud's needs a normal at each vertex",
                 "give the mesh normals, or choose another interpolation");
@@ -121,6 +155,9 @@ void ValidateShapes(const Scene& scene, FaultList* faults) {
   for (size_t i = 0; i < scene.spheres.size(); ++i) {
     if (IsSound(scene.spheres[i], material_count)) continue;  // no text made for a million others
     ValidateSphere(scene.spheres[i], material_count, fmt::format("/spheres/{}", i), faults);
+  }
+  if (std::any_of(scene.materials.begin(), scene.materials.end(), CutsHoles)) {
+    for (size_t i = 0; i < scene.spheres.size(); ++i) RefuseHoles(scene, i, faults);
   }
   uint64_t primitives = scene.spheres.size();
   for (size_t i = 0; i < scene.meshes.size(); ++i) {

@@ -145,6 +145,7 @@ std::vector<size_t> SplitPositions(Groups* groups, Mesh* mesh) {
       if (!mesh->uvs.empty()) mesh->uvs.push_back(Vec2d(mesh->uvs[original]));
       if (!mesh->second_uvs.empty()) mesh->second_uvs.push_back(Vec2d(mesh->second_uvs[original]));
       if (!mesh->colors.empty()) mesh->colors.push_back(Vec3f(mesh->colors[original]));
+      if (!mesh->opacities.empty()) mesh->opacities.push_back(float{mesh->opacities[original]});
       group_of.push_back(group);
     }
     group_of[vertex] = group;
@@ -156,6 +157,7 @@ std::vector<size_t> SplitPositions(Groups* groups, Mesh* mesh) {
 }  // namespace
 
 void ComputeNormals(NormalWeighting weighting, double crease_angle_deg, Mesh* mesh) {
+  mesh->tangents.clear();
   std::vector<uint32_t> place = FindPlaces(*mesh);
   std::vector<Vec3d> sums(mesh->positions.size(), Vec3d(0, 0, 0));
   if (crease_angle_deg >= 180) {

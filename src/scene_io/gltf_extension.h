@@ -30,6 +30,11 @@ class GltfExtension {
     return {NumberOf(array.Get(0), name), NumberOf(array.Get(1), name),
             NumberOf(array.Get(2), name)};
   }
+  // The fourth of a colour's numbers.
+  double Alpha(const char* name, double otherwise) const {
+    if (!Has(name) || !Get(name).IsArray() || Get(name).ArrayLen() < 4) return otherwise;
+    return NumberOf(Get(name).Get(3), name);
+  }
   Vec2d Pair(const char* name, const Vec2d& otherwise) const {
     if (!Has(name)) return otherwise;
     const tinygltf::Value& array = ArrayOf(name, 2);

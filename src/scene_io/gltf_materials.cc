@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "scene/limits.h"
 #include "scene_io/gltf_extension.h"
 #include "scene_io/gltf_textures.h"
 #include "scene_io/text_file.h"
@@ -151,6 +152,18 @@ void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material
   }
 }
 
+// alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
+// the base colour's members, too.
+void ApplyMask(const tinygltf::Material& material, double alpha, TextureId alpha_map,
+               const GltfTextures& textures, Material* result) {
+  if (material.alphaMode != "MASK") return;
+  result->opacity = std::clamp(alpha, 0.0, 1.0);
+  result->opacity_cutoff = std::clamp(material.alphaCutoff, 0.0, limits::kOpacityCutoff.max);
+  if (!textures.IsWhite(alpha_map)) result->opacity_map = alpha_map;
+}
+
+double AlphaOf(const std::vector<double>& factor) { return factor.size() < 4 ? 1 : factor[3]; }
+
 void AddCommonTextures(const tinygltf::Material& material, const std::string& place,
                        GltfTextures* textures, Material* result) {
   result->emission_map = AddTexture(material.emissiveTexture, place + "/emissiveTexture",
@@ -158,6 +171,8 @@ void AddCommonTextures(const tinygltf::Material& material, const std::string& pl
   result->normal_map.texture = AddTexture(material.normalTexture, place + "/normalTexture",
                                           TextureEncoding::kLinear, true, textures);
   result->normal_map.scale = material.normalTexture.scale;
+  // "red [0.0 .. 1.0] to X [-1 .. 1]", says the specification: code 128 of 255 is not quite level.
+  result->normal_map.convention = NormalMap::Convention::kLiteral;
 }
 
 Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
@@ -167,16 +182,27 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
   Material result;
   result.name = std::move(name);
   const std::string place = fmt::format("/materials/{}", index);
-  if (!material.alphaMode.empty() && material.alphaMode != "OPAQUE") {
-    document->Warn("transparency is not shown: all materials are opaque");
+  const bool masked = material.alphaMode == "MASK";
+  if (!masked && !material.alphaMode.empty() && material.alphaMode != "OPAQUE") {
+    document->Warn("transparency is not shown: materials whose alphaMode is BLEND are opaque");
   }
   const Rgb base_color = ColorOf(pbr.baseColorFactor, Rgb(1));
+  const auto mask_by_base_color = [&](const std::string& member) {
+    const TextureId alpha = masked ? AddTexture(pbr.baseColorTexture, place + member,
+                                                TextureEncoding::kAlpha, false, textures)
+                                   : TextureId{};
+    ApplyMask(material, AlphaOf(pbr.baseColorFactor), alpha, *textures, &result);
+  };
   if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
     result.model = LambertMaterial{Rgb(0)};
     result.emission = base_color;
     result.emission_map = AddTexture(pbr.baseColorTexture, place + "/baseColorTexture",
                                      TextureEncoding::kSrgb, false, textures);
+    mask_by_base_color("/baseColorTexture");
     return result;
+  }
+  if (material.occlusionTexture.index >= 0) {
+    document->Warn("occlusion textures are left out: lights and their shadows are computed");
   }
   result.emission = EmissionOf(*document, material, index);
   AddCommonTextures(material, place, textures, &result);
@@ -188,6 +214,12 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     nearest.base_color_map = AddTexture(*document, *glossiness, "diffuseTexture",
                                         place + "/extensions/KHR_materials_pbrSpecularGlossiness",
                                         TextureEncoding::kSrgb, textures);
+    const TextureId alpha =
+        masked ? AddTexture(*document, *glossiness, "diffuseTexture",
+                            place + "/extensions/KHR_materials_pbrSpecularGlossiness",
+                            TextureEncoding::kAlpha, textures)
+               : TextureId{};
+    ApplyMask(material, glossiness->Alpha("diffuseFactor", 1), alpha, *textures, &result);
     result.model = nearest;
     return result;
   }
@@ -202,6 +234,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
       pbr.metallicRoughnessTexture, place + "/pbrMetallicRoughness/metallicRoughnessTexture",
       TextureEncoding::kLinear, true, textures);
   ApplyReflectance(document, material, index, textures, &metallic_roughness);
+  mask_by_base_color("/pbrMetallicRoughness/baseColorTexture");
   result.model = metallic_roughness;
   return result;
 }

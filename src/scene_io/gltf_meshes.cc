@@ -147,6 +147,36 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
   MendNormals(mesh);  // some exporters write normals without a direction
 }
 
+// Tangents go by the matrix itself, and a mirrored node turns the sense of their bitangents round.
+// Without normals they are to be ignored, says the specification.
+void ReadTangents(const Primitive& primitive, size_t positions, const Imath::M44d& world_from_node,
+                  GltfDocument* document, Mesh* mesh) {
+  const int index = AttributeOf(primitive, "TANGENT");
+  if (index < 0 || mesh->normals.empty()) return;
+  const GltfAccessor accessor(*document, index, TINYGLTF_TYPE_VEC4);
+  CheckCount(*document, accessor, positions);
+  // How far signed bytes, the coarsest form, can be off: the tolerance of Khronos' validator.
+  constexpr double kTolerance = 0.00674;
+  const double hand = world_from_node.determinant() < 0 ? -1 : 1;
+  mesh->tangents.reserve(primitive.vertices.size());
+  for (const uint32_t element : primitive.vertices) {
+    const Vec3d given = Triple(accessor, element);
+    const double sign = accessor.Number(element, 3);
+    Vec3d direction;
+    world_from_node.multDirMatrix(given, direction);
+    direction.normalize();
+    if (!(std::abs(given.length() - 1) <= kTolerance) || std::abs(sign) != 1 ||
+        direction == Vec3d(0)) {
+      document->Warn(
+          "tangents that are no unit vectors with 1 or -1 behind are left out: MikkTSpace's take "
+          "the place of their mesh's");
+      mesh->tangents.clear();
+      return;
+    }
+    mesh->tangents.push_back({direction, sign * hand});
+  }
+}
+
 void ReadUvs(const GltfDocument& document, const Primitive& primitive, const char* name,
              size_t positions, std::vector<Vec2d>* uvs) {
   const int index = AttributeOf(primitive, name);
@@ -165,8 +195,8 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, const cha
   }
 }
 
-// Linear colours, of which alpha is left out. White ones change nothing, and many exporters write
-// them.
+// Linear colours. White ones change nothing, and many exporters write them. Their alpha counts
+// where the material is a mask.
 void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t positions,
                 Mesh* mesh) {
   const int index = AttributeOf(primitive, "COLOR_0");
@@ -176,11 +206,21 @@ void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t
                      accessors[static_cast<size_t>(index)].type == TINYGLTF_TYPE_VEC4;
   const GltfAccessor accessor(document, index, alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
   CheckCount(document, accessor, positions);
+  const auto& materials = document.model.materials;
+  const bool masked = alpha && mesh->material.index < materials.size() &&
+                      materials[mesh->material.index].alphaMode == "MASK";
+  const auto in_unit = [](double value) { return value > 0 ? std::min(value, 1.0) : 0; };
+  for (size_t i = 0; masked && i < primitive.vertices.size(); ++i) {
+    const double opacity = in_unit(accessor.Number(primitive.vertices[i], 3));
+    mesh->opacities.push_back(static_cast<float>(opacity));
+  }
+  const auto is_one = [](float opacity) { return opacity == 1; };
+  if (std::all_of(mesh->opacities.begin(), mesh->opacities.end(), is_one)) mesh->opacities.clear();
   mesh->colors.reserve(primitive.vertices.size());
   bool white = true;
   for (const uint32_t element : primitive.vertices) {
     Vec3d color = Triple(accessor, element);
-    for (int c = 0; c < 3; ++c) color[c] = color[c] > 0 ? std::min(color[c], 1.0) : 0;
+    for (int c = 0; c < 3; ++c) color[c] = in_unit(color[c]);
     white = white && color == Vec3d(1);
     mesh->colors.emplace_back(color);
   }
@@ -241,6 +281,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
   mesh.triangles = std::move(primitive.triangles);
   ReadPositions(*document, primitive, positions, world_from_node, &mesh);
   ReadNormals(*document, primitive, positions.count(), world_from_node, &mesh);
+  ReadTangents(primitive, positions.count(), world_from_node, document, &mesh);
   ReadUvs(*document, primitive, "TEXCOORD_0", positions.count(), &mesh.uvs);
   if (UsesSecondUvs(*scene, mesh.material)) {
     ReadUvs(*document, primitive, "TEXCOORD_1", positions.count(), &mesh.second_uvs);

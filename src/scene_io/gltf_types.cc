@@ -85,6 +85,7 @@ constexpr std::array kMembers = {
     Member{"materials", "pbrMetallicRoughness", Kind::kObject},
     Member{"materials", "emissiveFactor", Kind::kNumbers, 3},
     Member{"materials", "alphaMode", Kind::kText},
+    Member{"materials", "alphaCutoff", Kind::kNumber},
     Member{"materials", "doubleSided", Kind::kBoolean},
     Member{"materials", "emissiveTexture", Kind::kObject},
     Member{"materials", "normalTexture", Kind::kObject},

@@ -23,6 +23,8 @@ bool DoesNothing(const MaterialParameter& parameter, const Rgb& value) {
   return (parameter.name == "emission" && value == Rgb(0)) ||
          (parameter.name == "dielectric_f0" && value == Rgb(kDielectricF0)) ||
          (parameter.name == "specular" && value == Rgb(1)) ||
+         (parameter.name == "opacity" && value == Rgb(1)) ||
+         (parameter.name == "opacity_cutoff" && value == Rgb(Material().opacity_cutoff)) ||
          (parameter.name == "f82_tint" && value == Rgb(1));
 }
 

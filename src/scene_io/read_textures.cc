@@ -180,10 +180,20 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
   }
   TextureSource& source = found->second;
   if (!source.is_readable) return;  // told before
-  const auto by_use = use == MapUse::kColor ? TextureEncoding::kSrgb : TextureEncoding::kLinear;
+  const auto by_use = use == MapUse::kColor     ? TextureEncoding::kSrgb
+                      : use == MapUse::kOpacity ? TextureEncoding::kAlpha
+                                                : TextureEncoding::kLinear;
   const TextureEncoding encoding = source.encoding.value_or(by_use);
   TextureId& known = source.decoded[static_cast<size_t>(encoding)];
   if (!known.valid()) known = AddTexture(&source, encoding, context, value.faults);
+  if (use == MapUse::kOpacity && known.valid()) {
+    const ImageId image = context->scene->textures[known.index].image;
+    if (context->scene->images[image.index].lacks_alpha) {
+      value.AddFault("\"" + source.file + "\" has no alpha",
+                     "\"encoding\": \"linear\" in the texture takes its first channel as opacity");
+      return;
+    }
+  }
   *id = known;
 }
 

@@ -39,7 +39,8 @@ struct SceneContext {
   bool has_materials = true;                          // false: their names could not be read
   std::unordered_set<uint32_t> unreadable_materials;  // indices of those that have faults
   // Textures by name. One that says nothing of its encoding is sRGB where it is a colour and linear
-  // where it is data: up to two of the scene's textures, read when first used. By encoding.
+  // where it is data, and read for its alpha where it is an opacity: up to three of the scene's
+  // textures, read when first used. By encoding.
   struct TextureSource {
     Texture texture;  // all but the image
     std::string file, part;

@@ -133,6 +133,7 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   }
   SceneImage texture;
   texture.file = file;
+  texture.lacks_alpha = channels.empty();
   if (is_integer) texture.middle = DecodeIntegers(reading.encoding, values);
   if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
     throw Error(ExitCode::kBadInput, path.string(), "holds NaN or infinities",

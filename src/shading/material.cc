@@ -185,8 +185,9 @@ namespace {
 void FindMaps(const Material& material, ShadingMaterial* prepared) {
   if (const MaterialModel* const model = ModelOf(material)) {
     prepared->mapped =
-        std::any_of(model->maps.begin(), model->maps.end(),
-                    [&](const MaterialMap& map) { return map.get(material).valid(); });
+        std::any_of(model->maps.begin(), model->maps.end(), [&](const MaterialMap& map) {
+          return map.use != MapUse::kOpacity && map.get(material).valid();
+        });
   }
   prepared->mapped = prepared->mapped || material.vertex_colors != VertexColors::kNone;
   prepared->turned = material.normal_map.texture.valid() || material.bump_map.texture.valid();

@@ -20,6 +20,8 @@ void Put(const Vec3d& v, size_t i, Soa3<double>* soa) {
 // A triangle, relative to its first corner.
 struct Corners {
   const Mesh* mesh;
+  size_t mesh_number;  // in the scene
+  size_t first;        // the place of its first corner in Mesh::triangles
   uint32_t index[3];
   Vec3d a, e1, e2;  // a: in the world
 };
@@ -30,8 +32,11 @@ Corners CornersOf(const TextureScene& scene, uint32_t triangle) {
   const auto mesh_index = static_cast<size_t>(after - first.begin()) - 1;
   Corners corners;
   corners.mesh = &scene.scene->meshes[mesh_index];
-  const size_t at = 3 * size_t{triangle - first[mesh_index]};
-  for (size_t k = 0; k < 3; ++k) corners.index[k] = corners.mesh->triangles[at + k];
+  corners.mesh_number = mesh_index;
+  corners.first = 3 * size_t{triangle - first[mesh_index]};
+  for (size_t k = 0; k < 3; ++k) {
+    corners.index[k] = corners.mesh->triangles[corners.first + k];
+  }
   corners.a = corners.mesh->positions[corners.index[0]];
   corners.e1 = corners.mesh->positions[corners.index[1]] - corners.a;
   corners.e2 = corners.mesh->positions[corners.index[2]] - corners.a;
@@ -104,6 +109,44 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
     Put(g1 * d1.x + g2 * d2.x, i, &t.gradient_u);
     Put(g1 * d1.y + g2 * d2.y, i, &t.gradient_v);
   }
+}
+
+bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
+                  HitTextures* textures) {
+  if (texture.tangents.empty()) return false;
+  HitTextures& t = *textures;
+  const Scene& scene = *run.scene.scene;
+  const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
+  bool any = false;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    t.normal_length[i] = 0;
+    if (hits.primitive[i] < sphere_count) continue;
+    const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
+    const uint32_t number = texture.tangents[corners.mesh_number];
+    if (number == kNoTangents) continue;
+    const CornerTangents& made = run.scene.tangents[number];
+    const auto [g1, g2] = GradientsOf(corners);
+    const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
+    const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);
+    const double weights[3] = {1 - b1 - b2, b1, b2};
+    const bool smooth = HasSmoothNormals(*corners.mesh);
+    Vec3d normal = smooth ? Vec3d(0) : corners.e1.cross(corners.e2).normalized();
+    Vec3d tangent(0);
+    double sign = 0;  // the same at all corners, unless a file has it otherwise
+    for (size_t k = 0; k < 3; ++k) {
+      const Tangent& corner = made.tangents[made.corners[corners.first + k]];
+      tangent += corner.direction * weights[k];
+      sign += corner.sign * weights[k];
+      if (smooth) normal += corners.mesh->normals[corners.index[k]] * weights[k];
+    }
+    // Seen from behind the frame is the one in front, mirrored at the point.
+    const double side = normal.dot(Get(hits.normal, i)) < 0 ? -1 : 1;
+    Put(tangent * side, i, &t.tangent);
+    Put(normal.cross(tangent) * (sign < 0 ? -side : side), i, &t.bitangent);
+    t.normal_length[i] = normal.length();
+    any = true;
+  }
+  return any;
 }
 
 void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures* textures) {

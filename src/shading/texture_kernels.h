@@ -28,6 +28,10 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
 void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
                          const HitBatch& hits, HitTextures* textures);
 
+// The frames of a normal map on meshes (surface_points.cc). False if no hit has one.
+bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
+                  HitTextures* textures);
+
 // The colours between vertices, white on what has none, in `texels` (surface_points.cc).
 void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
 
@@ -36,9 +40,9 @@ void MakeCoordinates(const TexturedRun& run, const PreparedTexture& texture, con
                      HitTextures* textures);
 
 // Normals turned by textures->texels, of which `middle` counts as 0, or by the slopes in its x and
-// y, times `distance` (turn_kernel.cc).
-void TurnNormals(const TexturedRun& run, float middle, float scale, const HitTextures& textures,
-                 HitBatch* hits, Surface* surface);
+// y, times `distance` (turn_kernel.cc). `frames`: FindTangents found some.
+void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
+                 const HitTextures& textures, HitBatch* hits, Surface* surface);
 void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,
                          HitBatch* hits, Surface* surface);
 void RoundGeometric(const TexturedRun& run, HitTextures* textures);

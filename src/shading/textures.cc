@@ -20,6 +20,51 @@ bool SameCoordinates(const Texture& a, const Texture& b) {
   return key(a) == key(b);
 }
 
+// The tangents of each normal map on each mesh. Textures that transform coordinates alike share
+// them.
+void PrepareTangents(int threads, TextureScene* prepared) {
+  const Scene& scene = *prepared->scene;
+  struct Made {
+    bool second_uvs;
+    UvRows rows;
+    uint32_t index;
+  };
+  std::vector<Made> made;  // of one mesh
+  const auto prepare = [&](MaterialId id, size_t number) {
+    const TextureId map = scene.materials[id.index].normal_map.texture;
+    if (!map.valid() || scene.textures[map.index].mapping != MappingKind::kUv) return;
+    const Mesh& mesh = scene.meshes[number];
+    PreparedTexture& texture = prepared->textures[map.index];
+    texture.tangents.resize(scene.meshes.size(), kNoTangents);
+    const bool second = texture.second_uvs && !mesh.second_uvs.empty();
+    const UvRows rows{texture.u_row, texture.v_row};
+    const auto known = std::find_if(made.begin(), made.end(), [&](const Made& other) {
+      return other.second_uvs == second && other.rows == rows;
+    });
+    if (known != made.end()) {
+      texture.tangents[number] = known->index;
+      return;
+    }
+    const auto index = static_cast<uint32_t>(prepared->tangents.size());
+    texture.tangents[number] = index;
+    made.push_back({second, rows, index});
+    prepared->tangents.push_back(
+        !mesh.tangents.empty() && HasSmoothNormals(mesh)
+            ? TurnTangents(mesh, rows)
+            : MakeTangents(mesh, second ? mesh.second_uvs : mesh.uvs, rows, threads));
+  };
+  for (size_t number = 0; number < scene.meshes.size(); ++number) {
+    made.clear();
+    const MaterialId material = scene.meshes[number].material;
+    const auto* split = std::get_if<SplitMaterial>(&scene.materials[material.index].model);
+    if (split == nullptr) {
+      prepare(material, number);
+    } else {
+      for (const MaterialId part : split->materials) prepare(part, number);
+    }
+  }
+}
+
 // Coordinates made last; kNone before any.
 constexpr size_t kNone = static_cast<size_t>(-1);
 
@@ -81,7 +126,8 @@ class RunTexturer {
     LookUp(map.texture);
     const bool literal = map.convention == NormalMap::Convention::kLiteral;
     const float middle = literal ? 0.5f : run_.scene.textures[map.texture.index].middle;
-    TurnNormals(run_, middle, static_cast<float>(map.scale), *t_, hits_, surface_);
+    const bool frames = FindTangents(run_, run_.scene.textures[map.texture.index], *hits_, t_);
+    TurnNormals(run_, middle, static_cast<float>(map.scale), frames, *t_, hits_, surface_);
   }
 
   void TurnByBumpMap(const BumpMap& map) {
@@ -136,7 +182,8 @@ TextureId MapOf(const Material& material, MapRole role) {
   return {};
 }
 
-TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint) {
+TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
+                             int threads) {
   TextureScene prepared;
   prepared.scene = &scene;
   prepared.camera = camera;
@@ -169,6 +216,7 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
     prepared.mesh_first_triangle.push_back(triangles);
     triangles += static_cast<uint32_t>(mesh.triangles.size() / 3);
   }
+  PrepareTangents(threads, &prepared);
   return prepared;
 }
 

@@ -9,6 +9,7 @@
 #include "hit/batch.h"
 #include "hit/camera_frame.h"
 #include "scene/scene.h"
+#include "scene/tangents.h"
 #include "shading/material.h"
 #include "shading/shade.h"
 
@@ -28,7 +29,11 @@ struct PreparedTexture {
   Vec2d u_row, v_row;
   Vec2d offset;
   size_t coordinates;  // textures with the same mapping have the same number
+  // Of a normal map on coordinates of meshes: for each mesh of the scene that it is on, the index
+  // of its tangents in TextureScene::tangents, else kNoTangents. Of other textures empty.
+  std::vector<uint32_t> tangents;
 };
+inline constexpr uint32_t kNoTangents = 0xffffffffu;
 
 // What looking textures up takes, for all hits of a plan.
 struct TextureScene {
@@ -38,9 +43,12 @@ struct TextureScene {
   double footprint = 1;
   std::vector<PreparedTexture> textures;      // one per texture of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
+  std::vector<CornerTangents> tangents;
 };
 
-TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint);
+// `threads` as in ParallelFor.
+TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
+                             int threads = 0);
 
 // Of the hits of one batch that lie on materials with maps. Large: one per worker, and only if the
 // plan has such materials.
@@ -58,6 +66,12 @@ struct HitTextures {
   Soa3<double> gradient_u, gradient_v;
   AlignedArray<float> du_dx{kBatchCapacity}, dv_dx{kBatchCapacity};
   AlignedArray<float> du_dy{kBatchCapacity}, dv_dy{kBatchCapacity};
+
+  // The frame of a normal map where it is interpolated between a mesh's corners, on the ray's side
+  // and not normalised, as MikkTSpace has it; `normal_length` is that of the normal in it, and 0
+  // where the frame comes from the gradients. Filled for the normal map only.
+  Soa3<double> tangent, bitangent;
+  AlignedArray<double> normal_length{kBatchCapacity};
 
   Soa3<float> texels;  // looked up last
 

@@ -61,30 +61,53 @@ HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& geometric, h
   store(normal.z, &hits->normal.z, &surface->normal.z);
 }
 
+// What the components of a normal map are multiplied by.
+struct Frame {
+  Vec3V<V> tangent, bitangent, normal;
+};
+
 // With the gradients of u and v across the normal n, dP/du is (dv x n) / det and dP/dv is
 // (n x du) / det, det = (du x dv).n, which is below 0 where the image is mirrored. The tangent is
-// unit along dP/du, the bitangent n x tangent on dP/dv's side, so that the three are orthonormal.
-void TurnNormalsT(const TexturedRun& run, float middle, float scale, const HitTextures& t,
-                  HitBatch* hits, Surface* surface) {
+// unit along dP/du, the bitangent n x tangent on dP/dv's side, so that the three are orthonormal;
+// both are reversed where the surface is seen from behind.
+HWY_INLINE Frame FrameOfGradients(const HitTextures& t, size_t i, const Vec3V<V>& n) {
   const D d;
-  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const Vec3V<V> du = Across(Load(t.gradient_u, i), n), dv = Across(Load(t.gradient_v, i), n);
+  const V det = FusedDot(FusedCross(du, dv), n);
+  const V hand = hn::CopySign(hn::Set(d, 1.0), det);
+  const Vec3V<V> tangent = Normalized(Scale(FusedCross(dv, n), hand));
+  const V side = hn::LoadU(d, t.side.data() + i);
+  return {Scale(tangent, side), Scale(FusedCross(n, tangent), hn::Mul(hand, side)), n};
+}
+
+// Where there is one, the frame that was interpolated between a mesh's corners.
+HWY_INLINE Frame FrameOfCorners(const HitTextures& t, size_t i, const Frame& otherwise) {
+  const D d;
+  const V length = hn::LoadU(d, t.normal_length.data() + i);
+  const auto own = hn::Gt(length, hn::Zero(d));
+  return {Select(own, Load(t.tangent, i), otherwise.tangent),
+          Select(own, Load(t.bitangent, i), otherwise.bitangent),
+          Select(own, Scale(otherwise.normal, length), otherwise.normal)};
+}
+
+void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames,
+                  const HitTextures& t, HitBatch* hits, Surface* surface) {
+  const D d;
+  const V zero = hn::Zero(d);
   const V middle_v = hn::Set(d, double{middle});
   const V stretch = hn::Set(d, 1 / (1 - double{middle}));
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> n = Load(hits->normal, i), geometric = Load(t.geometric, i);
-    const Vec3V<V> du = Across(Load(t.gradient_u, i), n), dv = Across(Load(t.gradient_v, i), n);
-    const V det = FusedDot(FusedCross(du, dv), n);
-    const V hand = hn::CopySign(one, det);
-    const Vec3V<V> tangent = Normalized(Scale(FusedCross(dv, n), hand));
-    const Vec3V<V> bitangent = Scale(FusedCross(n, tangent), hand);
+    Frame frame = FrameOfGradients(t, i, n);
+    if (frames) frame = FrameOfCorners(t, i, frame);
     const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
       return hn::Mul(hn::Sub(Promote(from, i), middle_v), stretch);
     };
-    const V side = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, double{scale}));
-    const V x = hn::Mul(component(t.texels.x), side), y = hn::Mul(component(t.texels.y), side);
+    const V factor = hn::Set(d, double{scale});
+    const V x = hn::Mul(component(t.texels.x), factor), y = hn::Mul(component(t.texels.y), factor);
     const V z = component(t.texels.z);
-    const Vec3V<V> turned =
-        Normalized(Add(Add(Scale(tangent, x), Scale(bitangent, y)), Scale(n, z)));
+    const Vec3V<V> turned = Normalized(
+        Add(Add(Scale(frame.tangent, x), Scale(frame.bitangent, y)), Scale(frame.normal, z)));
     // A level map leaves every bit as it is; so do one of length 0, and a place without tangents.
     const auto level = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero));
     const auto sound = IsSound(turned);
@@ -151,9 +174,9 @@ HWY_EXPORT(TurnNormalsBySlopesT);
 HWY_EXPORT(RoundGeometricT);
 HWY_EXPORT(HideBelowHorizonT);
 
-void TurnNormals(const TexturedRun& run, float middle, float scale, const HitTextures& textures,
-                 HitBatch* hits, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(TurnNormalsT)(run, middle, scale, textures, hits, surface);
+void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
+                 const HitTextures& textures, HitBatch* hits, Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(TurnNormalsT)(run, middle, scale, frames, textures, hits, surface);
 }
 
 void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -85,7 +87,17 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
   });
   for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
   const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
-  for (const Mesh& mesh : scene.meshes) AppendMesh(mesh, camera_position, with_normals, &geometry);
+  for (const Mesh& mesh : scene.meshes) {
+    const auto first = static_cast<uint32_t>(geometry.triangles.size());
+    const auto vertex = static_cast<uint32_t>(geometry.positions.size());
+    AppendMesh(mesh, camera_position, with_normals, &geometry);
+    std::optional<CutOut> holes = MakeCutOut(scene, mesh, camera_position);
+    if (!holes) continue;
+    holes->begin = first;
+    holes->end = static_cast<uint32_t>(geometry.triangles.size());
+    holes->first_vertex = vertex;
+    geometry.cut_outs.push_back(std::move(*holes));
+  }
   return geometry;
 }
 

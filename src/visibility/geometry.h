@@ -10,6 +10,7 @@
 #include "base/huge_pages.h"
 #include "base/vec.h"
 #include "scene/scene.h"
+#include "visibility/cut_out.h"
 
 namespace nacre {
 
@@ -38,6 +39,8 @@ struct TraceGeometry {
   std::vector<Vec3d>
       normals;  // one per position, 0 where a mesh has none; empty if no mesh has any
   std::vector<std::array<uint32_t, 3>> triangles;
+  // The holes of meshes, in the order of their triangles: most scenes have none.
+  std::vector<CutOut> cut_outs;
 
   // No point of any primitive is further than this from the camera.
   double extent = 0;

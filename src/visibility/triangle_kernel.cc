@@ -44,19 +44,48 @@ HWY_INLINE TriangleHitV<D> TestLanes(D d, const Packet& packet, int lane, const 
                                    Load3(d, shear[3] + lane, shear[4] + lane, shear[5] + lane)});
 }
 
+// Those of `hits` that are not in a hole of the mesh. Out of line: few scenes have any.
+template <class D>
+HWY_NOINLINE hn::Mask<D> OutsideHoles(D d, const TraceGeometry& geometry, const CutOut& holes,
+                                      uint32_t triangle, const Vec3V<hn::Vec<D>>& weights,
+                                      hn::Mask<D> hits) {
+  alignas(64) double lanes[3][hn::MaxLanes(D())];
+  hn::Store(weights.x, d, lanes[0]);
+  hn::Store(weights.y, d, lanes[1]);
+  hn::Store(weights.z, d, lanes[2]);
+  uint32_t there = 0;
+  for (uint32_t bits = BitsOfMask(d, hits); bits != 0; bits &= bits - 1) {
+    const int lane = __builtin_ctz(bits);
+    const bool is_there = IsThere(holes, geometry.positions, geometry.triangles[triangle],
+                                  {lanes[0][lane], lanes[1][lane], lanes[2][lane]});
+    there |= static_cast<uint32_t>(is_there) << lane;
+  }
+  return MaskOfBits(d, there, 0);
+}
+
+HWY_INLINE const CutOut* HolesOf(const TraceGeometry& geometry, uint32_t triangle) {
+  return geometry.cut_outs.empty() ? nullptr : FindCutOut(geometry.cut_outs, triangle);
+}
+
 void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
   Packet& packet = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const Corners corners = CornersOf(geometry, args->primID);
   const uint32_t lanes = ActiveLanes(packet, args->valid, args->rayhit, args->N);
+  const CutOut* const holes = HolesOf(geometry, args->primID);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   for (int lane = 0; lane < packet.width; lane += step) {
     const auto active = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, active)) continue;
     const auto hit = TestLanes(d, packet, lane, corners);
-    RecordClosest(d, &packet, lane, hn::And(active, hit.hit), hit.t,
-                  geometry.SphereCount() + args->primID);
+    auto met = hn::And(active, hit.hit);
+    if (holes != nullptr) {
+      met = hn::And(met, hn::Le(hit.t, hn::Load(d, packet.best_t + lane)));
+      if (hn::AllFalse(d, met)) continue;
+      met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
+    }
+    RecordClosest(d, &packet, lane, met, hit.t, geometry.SphereCount() + args->primID);
   }
   ReturnDepths(packet, args->valid, args->rayhit, args->N);
 }
@@ -87,6 +116,7 @@ void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
   const Corners corners = CornersOf(geometry, args->primID);
   const uint32_t starting = StartingLanes(packet, geometry.SphereCount() + args->primID);
   const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N) & ~starting;
+  const CutOut* const holes = HolesOf(geometry, args->primID);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
   uint32_t occluded = 0;
@@ -95,8 +125,11 @@ void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
     if (hn::AllFalse(d, active)) continue;
     const auto hit = TestLanes(d, packet, lane, corners);
     const auto within = hn::And(hit.hit, hn::Lt(hit.t, hn::Load(d, packet.t_max + lane)));
-    const auto met = hn::And(active, within);
+    auto met = hn::And(active, within);
     if (hn::AllFalse(d, met)) continue;
+    if (holes != nullptr) {
+      met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
+    }
     occluded |= BitsOfMask(d, hn::AndNot(OnPlane(d, packet, lane, corners), met)) << lane;
   }
   RecordOccluded(&packet, occluded);

@@ -80,6 +80,9 @@ TEST_CASE("what else shows changes the hash") {
   CHECK(differs([](Scene* s) { s->meshes[0].uvs[1].y += 1e-12; }));
   CHECK(differs([](Scene* s) { s->meshes[0].second_uvs = s->meshes[0].uvs; }));
   CHECK(differs([](Scene* s) { s->meshes[0].colors.resize(s->meshes[0].positions.size()); }));
+  CHECK(differs([](Scene* s) { s->meshes[0].opacities.resize(s->meshes[0].positions.size()); }));
+  CHECK(differs([](Scene* s) { s->meshes[0].tangents.resize(s->meshes[0].positions.size()); }));
+  CHECK(differs([](Scene* s) { s->materials[0].opacity_cutoff = 0.25; }));
   CHECK(differs([](Scene* s) { s->meshes[0].interpolation = Interpolation::kFaceted; }));
   CHECK(differs([](Scene* s) { s->meshes[0].smooth_terminator = false; }));
 }

@@ -186,6 +186,50 @@ TEST_CASE("texture coordinates have v up, normals without direction are mended")
   CHECK(mesh.normals == std::vector<Vec3d>{{0, 0, 1}, {0, 0, 1}, {1, 0, 0}, {0, 0, 1}});
 }
 
+TEST_CASE("tangents go by the matrix, and mirroring turns their sense round") {
+  GltfFile file = MakeSquare();
+  Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+  std::vector<float> tangents;
+  for (int i = 0; i < 4; ++i)
+    tangents.insert(tangents.end(), {0.6f, 0.8f, 0, i < 2 ? 1.0f : -1.0f});
+  attributes["TANGENT"] = file.Accessor(tangents, 5126, "VEC4", 4);
+  std::vector<std::string> warnings;
+  CHECK(LoadFile(file, &warnings).meshes.at(0).tangents.empty());  // no normals: to be ignored
+  attributes["NORMAL"] =
+      file.Accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
+  std::vector<Tangent> read = LoadFile(file, &warnings).meshes.at(0).tangents;
+  REQUIRE(read.size() == 4);
+  CHECK((read[0].direction - Vec3d(0.6, 0.8, 0)).length() < 1e-7);  // of floats
+  CHECK(read[0].direction.length() == Approx(1).epsilon(1e-15));
+  CHECK(read[1].sign == 1);
+  CHECK(read[2].sign == -1);
+  file.json["nodes"][0]["scale"] = {-3, 1, 1};
+  read = LoadFile(file, &warnings).meshes.at(0).tangents;
+  CHECK((read[0].direction - Vec3d(-1.8, 0.8, 0).normalized()).length() < 1e-7);
+  CHECK(read[1].sign == -1);
+  CHECK(read[2].sign == 1);
+  CHECK(warnings.empty());
+}
+
+TEST_CASE("tangents that are none are left out and told") {
+  // Of length 0, far from unit length, not a number, and without a sign.
+  const std::vector<std::vector<float>> bad = {
+      {0, 0, 0, 1}, {0.5f, 0, 0, 1}, {NAN, 0, 0, 1}, {1, 0, 0, 0}, {1, 0, 0, 0.5f}};
+  for (const std::vector<float>& tangent : bad) {
+    GltfFile file = MakeSquare();
+    Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    std::vector<float> tangents = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
+    tangents.insert(tangents.end(), tangent.begin(), tangent.end());
+    attributes["TANGENT"] = file.Accessor(tangents, 5126, "VEC4", 4);
+    attributes["NORMAL"] =
+        file.Accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 5126, "VEC3", 3);
+    std::vector<std::string> warnings;
+    CHECK(LoadFile(file, &warnings).meshes.at(0).tangents.empty());
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find("tangents") != std::string::npos);
+  }
+}
+
 TEST_CASE("colours of vertices") {
   GltfFile file = MakeSquare();
   Json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];

@@ -19,12 +19,19 @@ const std::vector<unsigned char> kPng = {
     68,  65,  84,  120, 218, 99,  248, 207, 192, 192, 0,   194, 12,  255, 129, 0,  0,  31, 238,
     5,   251, 241, 171, 186, 119, 0,   0,   0,   0,   73,  69,  78,  68,  174, 66, 96, 130};
 
+// The same with the alphas 1 and 0 above 51/255 and 128/255.
+const std::vector<unsigned char> kPngWithAlpha = {
+    137, 80,  78,  71,  13,  10,  26,  10,  0,  0,   0,   13,  73,  72,  68,  82,  0,   0,  0,  2,
+    0,   0,   0,   2,   8,   6,   0,   0,   0,  114, 182, 13,  36,  0,   0,   0,   22,  73, 68, 65,
+    84,  120, 218, 99,  248, 207, 192, 240, 31, 8,   65,  224, 191, 241, 255, 255, 255, 27, 0,  59,
+    87,  7,   173, 204, 109, 246, 251, 0,   0,  0,   0,   73,  69,  78,  68,  174, 66,  96, 130};
+
 // The square with texture coordinates, and a material that the base colour's texture belongs to.
-GltfFile MakeTexturedSquare() {
+GltfFile MakeTexturedSquare(const std::vector<unsigned char>& png = kPng) {
   GltfFile file = MakeSquare();
-  const size_t offset = file.Append(kPng);
+  const size_t offset = file.Append(png);
   file.json["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", kPng.size()}});
+      {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", png.size()}});
   const size_t view = file.json["bufferViews"].size() - 1;
   file.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] =
       file.Accessor(std::vector<float>{0, 1, 1, 1, 1, 0, 0, 0}, 5126, "VEC2", 2);
@@ -272,6 +279,76 @@ TEST_CASE("images that are not there, or are none, are refused") {
   REQUIRE(start != std::string::npos);
   for (size_t i = 0; i < 30; ++i) file.bytes[start + i] = 'x';  // no PNG file any more
   CHECK(message(file).find("/images/0") != std::string::npos);
+}
+
+TEST_CASE("normal textures are decoded as glTF has it, occlusion textures are told") {
+  GltfFile file = MakeTexturedSquare();
+  std::vector<std::string> warnings;
+  file.json["materials"][0]["normalTexture"] = {{"index", 0}, {"scale", 0.5}};
+  CHECK(LoadFile(file, &warnings).materials.at(0).normal_map.convention ==
+        NormalMap::Convention::kLiteral);
+  CHECK(warnings.empty());
+  file.json["materials"][0]["occlusionTexture"] = {{"index", 0}, {"strength", 0.5}};
+  file.json["materials"].push_back(file.json["materials"][0]);
+  const Scene scene = LoadFile(file, &warnings);
+  REQUIRE(warnings.size() == 1);
+  CHECK(Mentions(warnings, "occlusion"));
+  CHECK(scene.images.size() == 2);  // the base colour's and the normals'
+}
+
+TEST_CASE("alphaMode MASK cuts holes by the base colour's alpha") {
+  GltfFile file = MakeTexturedSquare(kPngWithAlpha);
+  Json& material = file.json["materials"][0];
+  std::vector<std::string> warnings;
+  CHECK_FALSE(LoadFile(file, &warnings).materials.at(0).opacity_map.valid());  // OPAQUE
+  material["alphaMode"] = "MASK";
+  Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  CHECK(scene.materials.at(0).opacity == 1);
+  CHECK(scene.materials[0].opacity_cutoff == 0.5);
+  const TextureId map = scene.materials[0].opacity_map;
+  REQUIRE(map.valid());
+  const MipChain& texels = *scene.images.at(scene.textures.at(map.index).image.index).texels;
+  CHECK(texels.channels == 1);
+  const std::vector<float> values(texels.values.begin(), texels.values.begin() + 4);
+  CHECK(values == std::vector<float>{51.0f / 255, 128.0f / 255, 1, 0});  // from the bottom
+
+  material["alphaCutoff"] = 0.25;
+  material["pbrMetallicRoughness"]["baseColorFactor"] = {1, 1, 1, 0.75};
+  scene = LoadFile(file);
+  CHECK(scene.materials.at(0).opacity == 0.75);
+  CHECK(scene.materials[0].opacity_cutoff == 0.25);
+  material["alphaCutoff"] = 2;  // nothing is left
+  CHECK(LoadFile(file).materials.at(0).opacity_cutoff == 2);
+  material["extensions"] = {{"KHR_materials_unlit", Json::object()}};
+  CHECK(LoadFile(file).materials.at(0).opacity_map.valid());
+  material["extensions"] = {
+      {"KHR_materials_pbrSpecularGlossiness",
+       {{"diffuseTexture", {{"index", 0}}}, {"diffuseFactor", {1, 1, 1, 0.5}}}}};
+  CHECK(LoadFile(file).materials.at(0).opacity_map.valid());
+  CHECK(LoadFile(file).materials.at(0).opacity == 0.5);
+
+  material.erase("extensions");
+  material["alphaMode"] = "BLEND";
+  warnings.clear();
+  CHECK_FALSE(LoadFile(file, &warnings).materials.at(0).opacity_map.valid());
+  CHECK(LoadFile(file).materials.at(0).opacity == 1);
+  CHECK(warnings.size() == 1);
+  CHECK(Mentions(warnings, "BLEND"));
+}
+
+TEST_CASE("an image without alpha cuts no holes, and the alpha of vertices does") {
+  GltfFile file = MakeTexturedSquare();
+  file.json["materials"][0]["alphaMode"] = "MASK";
+  CHECK_FALSE(LoadFile(file).materials.at(0).opacity_map.valid());
+  const std::vector<float> colors = {1, 1, 1, 0, 1, 1, 1, 0.25, 1, 1, 1, 1, 1, 1, 1, 0.5};
+  file.json["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] =
+      file.Accessor(colors, 5126, "VEC4", 4);
+  const Scene scene = LoadFile(file);
+  CHECK(scene.meshes.at(0).opacities == std::vector<float>{0, 0.25f, 1, 0.5f});
+  CHECK(scene.meshes[0].colors.empty());  // all are white
+  file.json["materials"][0]["alphaMode"] = "OPAQUE";
+  CHECK(LoadFile(file).meshes.at(0).opacities.empty());
 }
 
 }  // namespace

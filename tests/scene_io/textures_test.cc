@@ -147,6 +147,34 @@ TEST_CASE("a grey image cannot hold normals, nor metallic and roughness") {
   }
 }
 
+TEST_CASE("an opacity map without alpha says what it is, and its holes are for meshes") {
+  const Folder folder;
+  folder.WritePnm("mask.pgm", 5, 2, 1, {0, 255});
+  const auto load = [&](const std::string& texture, const std::string& shape) {
+    return LoadSceneText(R"({"nacre": 1, "textures": {"t": {"file": "mask.pgm")" + texture +
+                             R"(}}, "materials": {"m": {"model": "lambert", "opacity": 0.75,
+      "opacity_cutoff": 0.25, "opacity_map": "t"}}, "shapes": [{"type": ")" +
+                             shape + R"(", "center": [0, 0, 0], "radius": 1, "material": "m"}]})",
+                         "t.json", folder.path());
+  };
+  const Scene scene = load(R"(, "encoding": "linear")", "uv_sphere");
+  const Material& material = scene.materials.at(0);
+  CHECK(material.opacity == 0.75);
+  CHECK(material.opacity_cutoff == 0.25);
+  REQUIRE(material.opacity_map.valid());
+  CHECK(scene.images.at(0).texels->values.at(1) == 1);
+  const auto fault = [&](const std::string& texture, const std::string& shape) -> std::string {
+    try {
+      load(texture, shape);
+    } catch (const Error& error) {
+      return error.faults().front().what;
+    }
+    return {};
+  };
+  CHECK(fault("", "uv_sphere").find("has no alpha") != std::string::npos);
+  CHECK(fault(R"(, "encoding": "linear")", "sphere").find("holes") != std::string::npos);
+}
+
 TEST_CASE("a mesh without texture coordinates needs a mapping") {
   Scene scene;
   scene.images.push_back({"a", std::make_shared<MipChain>(MakeMipChain(1, 1, 1, {0.5f})), 0.5f});
