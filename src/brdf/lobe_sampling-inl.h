@@ -7,9 +7,12 @@
 #define NACRE_BRDF_LOBE_SAMPLING_INL_H_
 #endif
 
+#include <limits>
+
 #include "base/basis-inl.h"
 #include "base/concentric_disk-inl.h"
 #include "brdf/ggx-inl.h"
+#include "brdf/lobe_sampling.h"
 #include "brdf/phong-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -37,15 +40,16 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>
   const V one = hn::Set(d, 1.0f);
   const BasisV<V> basis = BasisAbout(d, normal);
   const Vec3V<V> v = ToLocal(basis, to_view);
-  const Vec3V<V> scaled{hn::Mul(alpha, v.x), hn::Mul(alpha, v.y), v.z};
+  const V smallest = hn::Set(d, std::numeric_limits<float>::min());
+  const Vec3V<V> scaled{hn::Mul(alpha, v.x), hn::Mul(alpha, v.y), hn::Max(v.z, hn::Zero(d))};
   const V across2 = hn::MulAdd(scaled.x, scaled.x, hn::Mul(scaled.y, scaled.y));
-  const V length = hn::Sqrt(hn::MulAdd(scaled.z, scaled.z, across2));
+  const V length = hn::Max(hn::Sqrt(hn::MulAdd(scaled.z, scaled.z, across2)), smallest);
   const Vec3V<V> squeezed = Scale(scaled, hn::Div(one, length));
   const SinCosV<V> phi = SinCosTurns(d, u0);
   const V top = hn::Add(one, squeezed.z);
   const V half_z = hn::Mul(hn::Sub(one, u1), top);
-  const V one_plus_z =
-      hn::Add(half_z, hn::Div(across2, hn::Mul(length, hn::Add(length, scaled.z))));
+  const V top_square = hn::Mul(length, hn::Add(length, scaled.z));
+  const V one_plus_z = hn::Add(half_z, hn::Div(across2, hn::Max(top_square, smallest)));
   const V sin = hn::Sqrt(hn::Mul(hn::Mul(u1, top), one_plus_z));
   const Vec3V<V> half{hn::Mul(alpha, hn::MulAdd(sin, phi.cos, squeezed.x)),
                       hn::Mul(alpha, hn::MulAdd(sin, phi.sin, squeezed.y)), half_z};
@@ -53,22 +57,28 @@ HWY_INLINE Vec3V<V> SampleGgxVisible(D d, const Vec3V<V>& normal, const Vec3V<V>
   return Mirrored(to_view, ToWorld(basis, Scale(half, inverse)));
 }
 
+// Of a distribution that is known.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V GgxVisiblePdf(D d, V distribution, V n_dot_v, V alpha) {
+  const V cosine = hn::Max(n_dot_v, hn::Zero(d));
+  const V sum = hn::Add(cosine, SmithRoot(d, cosine, alpha));
+  return hn::Div(distribution, hn::Add(sum, sum));
+}
+
+// alpha must not be a delta lobe's.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V GgxVisiblePdf(D d, const AnglesV<V>& a, V alpha) {
-  const V one = hn::Set(d, 1.0f);
-  const auto above = hn::Gt(a.n_dot_v, hn::Zero(d));
-  const V sum = hn::Add(a.n_dot_v, SmithRoot(d, a.n_dot_v, alpha));
-  const V twice = hn::IfThenElse(above, hn::Add(sum, sum), one);
-  return hn::IfThenElseZero(above, hn::Div(GgxDistribution(d, a, alpha), twice));
+  return GgxVisiblePdf(d, GgxDistribution(d, a, alpha), a.n_dot_v, alpha);
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V GgxVisibleWeight(D d, V n_dot_l, V n_dot_v, V alpha) {
   const V zero = hn::Zero(d);
-  const auto above = hn::And(hn::Gt(n_dot_l, zero), hn::Gt(n_dot_v, zero));
-  const V v_root = SmithRoot(d, n_dot_v, alpha);
-  const V sum = hn::MulAdd(n_dot_l, v_root, hn::Mul(n_dot_v, SmithRoot(d, n_dot_l, alpha)));
-  const V weight = hn::Div(hn::Mul(n_dot_l, hn::Add(n_dot_v, v_root)),
+  const auto above = hn::Gt(n_dot_l, zero);
+  const V cosine = hn::Max(n_dot_v, zero);
+  const V v_root = SmithRoot(d, cosine, alpha);
+  const V sum = hn::MulAdd(n_dot_l, v_root, hn::Mul(cosine, SmithRoot(d, n_dot_l, alpha)));
+  const V weight = hn::Div(hn::Mul(n_dot_l, hn::Add(cosine, v_root)),
                            hn::IfThenElse(above, sum, hn::Set(d, 1.0f)));
   return hn::IfThenElseZero(above, weight);
 }
@@ -84,11 +94,37 @@ HWY_INLINE V OneMinusExp2(D d, V y) {
   return hn::IfThenElse(hn::Gt(y, hn::Set(d, -0.5f)), near, far);
 }
 
+// L in base 2: log2(1 + 1 / spread).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> SampleCosinePower(D d, const Vec3V<V>& axis, V shininess, V u0, V u1) {
+HWY_INLINE V KullaContyLog2(D d, V spread) {
   const V one = hn::Set(d, 1.0f);
-  const V log2 = Log2OneMinus(d, u0, hn::Sub(one, u0));
-  const V x = OneMinusExp2(d, hn::Div(log2, hn::Add(shininess, one)));
+  return hn::Neg(Log2(d, hn::Div(spread, hn::Add(spread, one))));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> SampleKullaConty(D d, const Vec3V<V>& normal, V spread, V u0, V u1) {
+  const V one = hn::Set(d, 1.0f);
+  // spread (2^y - 1) = spread 2^y (1 - 2^-y), without cancellation.
+  const V y = hn::Mul(u0, KullaContyLog2(d, spread));
+  const V product = hn::Mul(hn::Mul(spread, Exp2(d, y)), OneMinusExp2(d, hn::Neg(y)));
+  const V squared = hn::Min(product, one);
+  const V sin = hn::Sqrt(hn::Sub(one, squared));
+  const SinCosV<V> phi = SinCosTurns(d, u1);
+  return ToWorld(BasisAbout(d, normal),
+                 Vec3V<V>{hn::Mul(sin, phi.cos), hn::Mul(sin, phi.sin), hn::Sqrt(squared)});
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V KullaContyPdf(D d, V n_dot_l, V spread) {
+  const V scale = hn::Mul(KullaContyLog2(d, spread), hn::Set(d, 2.17758609f));  // pi log(2)
+  const V sum = hn::MulAdd(n_dot_l, n_dot_l, spread);
+  return hn::IfThenElseZero(hn::Gt(n_dot_l, hn::Zero(d)), hn::Div(n_dot_l, hn::Mul(sum, scale)));
+}
+
+// The direction at 1 - cos = x from `axis`.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE Vec3V<V> DirectionAround(D d, const Vec3V<V>& axis, V x, V u1) {
+  const V one = hn::Set(d, 1.0f);
   const V sin = hn::Sqrt(hn::Mul(x, hn::Sub(hn::Set(d, 2.0f), x)));
   const SinCosV<V> phi = SinCosTurns(d, u1);
   return ToWorld(BasisAbout(d, axis),
@@ -96,24 +132,44 @@ HWY_INLINE Vec3V<V> SampleCosinePower(D d, const Vec3V<V>& axis, V shininess, V 
 }
 
 template <class D, class V = hn::Vec<D>>
+HWY_INLINE V OneMinusPowerCosine(D d, V shininess, V u0) {
+  const V one = hn::Set(d, 1.0f);
+  const V log2 = Log2OneMinus(d, u0, hn::Sub(one, u0));
+  return OneMinusExp2(d, hn::Div(log2, hn::Add(shininess, one)));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> IsConstantLobe(D d, V shininess) {
+  return hn::Lt(shininess, hn::Set(d, static_cast<float>(kConstantLobeExponent)));
+}
+
+template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SamplePhongLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                                     V shininess, V u0, V u1) {
-  return SampleCosinePower(d, Mirrored(to_view, normal), shininess, u0, u1);
+  const V x = hn::IfThenElse(IsConstantLobe(d, shininess), hn::Add(u0, u0),
+                             OneMinusPowerCosine(d, shininess, u0));
+  return DirectionAround(d, Mirrored(to_view, normal), x, u1);
+}
+
+// Of a lobe c^shininess that is known: (shininess + 1) / 2 pi c^shininess.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PhongLobePdf(D d, V lobe, V shininess) {
+  const V scale = hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, 0.159154943f));
+  return hn::IfThenElse(IsConstantLobe(d, shininess), hn::Set(d, 0.0795774715f),  // 1 / 4 pi
+                        hn::Mul(scale, lobe));
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PhongLobePdf(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                           const Vec3V<V>& to_light, V shininess) {
   const LobeCosineV<V> cosine = PhongCosine(d, SquaredFromReflection(normal, to_light, to_view));
-  const V scale = hn::Mul(hn::Add(shininess, hn::Set(d, 1.0f)), hn::Set(d, 0.159154943f));
-  return hn::IfThenElseZero(hn::Gt(cosine.c, hn::Zero(d)),
-                            hn::Mul(scale, PhongLobe(d, cosine, shininess)));
+  return PhongLobePdf(d, PhongLobe(d, cosine, shininess), shininess);
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SampleBlinnLobe(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view,
                                     V shininess, V u0, V u1) {
-  return Mirrored(to_view, SampleCosinePower(d, normal, shininess, u0, u1));
+  return Mirrored(to_view, DirectionAround(d, normal, OneMinusPowerCosine(d, shininess, u0), u1));
 }
 
 template <class D, class V = hn::Vec<D>>

@@ -7,10 +7,13 @@
 // hold there too, and integrate to 1 over the whole sphere unless a lobe says otherwise.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/basis.h"
 #include "base/concentric_disk.h"
+#include "brdf/albedo_curve.h"
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 
@@ -31,24 +34,27 @@ Real CosinePdf(Real n_dot_l) {
 
 // GGX normals as far as the viewer sees them, mirrored: Dupuy and Benyoub 2023, "Sampling Visible
 // GGX Normals with Spherical Caps". With the surface squeezed by alpha the normals are those of a
-// hemisphere, and the mirror directions of what v sees of it fill the cap above -v evenly. v must
-// be above the surface. A delta lobe gives the mirror direction.
+// hemisphere, and the mirror directions of what v sees of it fill the cap above -v evenly. A delta
+// lobe gives the mirror direction. Where rounding leaves n.v below 0, it is 0, here, in the density
+// and in the reflection models: the limit for grazing viewers.
 template <typename Real>
 Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
                                    const Imath::Vec3<Real>& to_view, Real alpha, Real u0, Real u1) {
   if (IsDeltaLobe(alpha)) return Mirrored(to_view, normal);
   const Basis<Real> basis = BasisAbout(normal);
   const Imath::Vec3<Real> v = basis.ToLocal(to_view);
-  const Imath::Vec3<Real> scaled(alpha * v.x, alpha * v.y, v.z);
-  const Real length = scaled.length();
+  const Imath::Vec3<Real> scaled(alpha * v.x, alpha * v.y, std::max(v.z, Real(0)));
+  // At least alpha, but for v = -n, which has no azimuth: what follows is then even about n.
+  const Real length = std::max(scaled.length(), std::numeric_limits<Real>::min());
   const Imath::Vec3<Real> squeezed = scaled / length;
   const Real phi = 2 * static_cast<Real>(M_PI) * u0;
   // A point of the cap, z in [-squeezed.z, 1]: 1 - z, and 1 + z and the z of the half vector of
   // both free of cancellation, for they make the lobe's tail.
   const Real half_z = (1 - u1) * (1 + squeezed.z);
   const Real one_minus_z = u1 * (1 + squeezed.z);
-  const Real one_plus_z =
-      half_z + (scaled.x * scaled.x + scaled.y * scaled.y) / (length * (length + scaled.z));
+  const Real across_squared = scaled.x * scaled.x + scaled.y * scaled.y;
+  const Real one_plus_z = half_z + across_squared / std::max(length * (length + scaled.z),
+                                                             std::numeric_limits<Real>::min());
   const Real sin = std::sqrt(one_minus_z * one_plus_z);
   const Imath::Vec3<Real> half(alpha * (sin * std::cos(phi) + squeezed.x),
                                alpha * (sin * std::sin(phi) + squeezed.y), half_z);
@@ -58,8 +64,9 @@ Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
 // D(h) G1(v) / (4 n.v) = D / (2 (n.v + root)), finite at grazing angles. 0 for a delta lobe.
 template <typename Real>
 Real GgxVisiblePdf(const Angles<Real>& a, Real alpha) {
-  if (!(a.n_dot_v > 0)) return 0;
-  return GgxDistribution(a, alpha) / (2 * (a.n_dot_v + SmithRoot(a.n_dot_v, alpha)));
+  if (IsDeltaLobe(alpha)) return 0;
+  const Real n_dot_v = std::max(a.n_dot_v, Real(0));
+  return GgxDistribution(a, alpha) / (2 * (n_dot_v + SmithRoot(n_dot_v, alpha)));
 }
 
 template <typename Real>
@@ -72,33 +79,74 @@ Real GgxVisiblePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_
 // Neither needs D, which carries the roundings of the sample's direction.
 template <typename Real>
 Real GgxVisibleWeight(Real n_dot_l, Real n_dot_v, Real alpha) {
-  if (!(n_dot_l > 0) || !(n_dot_v > 0)) return 0;
-  const Real v_root = SmithRoot(n_dot_v, alpha);
-  return n_dot_l * (n_dot_v + v_root) / (n_dot_l * v_root + n_dot_v * SmithRoot(n_dot_l, alpha));
+  if (!(n_dot_l > 0)) return 0;
+  const Real cosine = std::max(n_dot_v, Real(0));
+  const Real v_root = SmithRoot(cosine, alpha);
+  return n_dot_l * (cosine + v_root) / (n_dot_l * v_root + cosine * SmithRoot(n_dot_l, alpha));
 }
 
-// A direction around `axis` with a density of cos^shininess: cos^(shininess + 1) = 1 - u0.
+// The lobe of Kulla and Conty 2017 in the direction of the light, (1 - E(n.l)) n.l. The loss 1 - E
+// is flat up to an n.l of about sqrt(spread), twice the width of the lobe or of Schlick's masking,
+// and then falls as 1 / (n.l)^2: a density of n.l / ((n.l)^2 + spread) per solid angle. With this
+// spread lobe over density is 1.9 at most and 1.04 rms, relative to their mean, at every roughness.
+// A smooth surface loses light at its horizon alone, which cosine-weighted directions hardly meet.
+//
+// Over the hemisphere the density is pi L, L = log(1 + 1 / spread), and the part of that which lies
+// below n.l is u = log(1 + (n.l)^2 / spread) / L.
+inline float KullaContySpread(const AlbedoShape& shape) {
+  const float twice_width = shape.k > 0 ? 2 * shape.k : shape.offset / 3;
+  return twice_width * twice_width;
+}
+
 template <typename Real>
-Imath::Vec3<Real> SampleCosinePower(const Imath::Vec3<Real>& axis, Real shininess, Real u0,
-                                    Real u1) {
-  const Real x = -std::expm1(std::log1p(-u0) / (shininess + 1));  // 1 - cos
+Imath::Vec3<Real> SampleKullaConty(const Imath::Vec3<Real>& normal, Real spread, Real u0, Real u1) {
+  const Real squared = std::min(spread * std::expm1(u0 * std::log1p(1 / spread)), Real(1));
+  const Real sin = std::sqrt(1 - squared);
+  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
+  return BasisAbout(normal).ToWorld({sin * std::cos(phi), sin * std::sin(phi), std::sqrt(squared)});
+}
+
+template <typename Real>
+Real KullaContyPdf(Real n_dot_l, Real spread) {
+  if (!(n_dot_l > 0)) return 0;
+  const Real total = static_cast<Real>(M_PI) * std::log1p(1 / spread);
+  return n_dot_l / ((n_dot_l * n_dot_l + spread) * total);
+}
+
+// Below this exponent Phong's lobe is constant, on the dark side of its axis, too: c^0 is 1
+// everywhere, and in float any exponent below is 0 (kDarkLog2 in phong-inl.h).
+inline constexpr double kConstantLobeExponent = 0x1p-88;
+
+// The direction at 1 - cos = x from `axis`.
+template <typename Real>
+Imath::Vec3<Real> DirectionAround(const Imath::Vec3<Real>& axis, Real x, Real u1) {
   const Real sin = std::sqrt(x * (2 - x));
   const Real phi = 2 * static_cast<Real>(M_PI) * u1;
   return BasisAbout(axis).ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
 }
 
-// Phong's lobe, around the mirror direction of v.
+// 1 - cos of an angle with a density of cos^shininess per solid angle: cos^(shininess + 1) is
+// 1 - u0.
+template <typename Real>
+Real OneMinusPowerCosine(Real shininess, Real u0) {
+  return -std::expm1(std::log1p(-u0) / (shininess + 1));
+}
+
+// Phong's lobe, around the mirror direction of v; where it is constant, any direction.
 template <typename Real>
 Imath::Vec3<Real> SamplePhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
                                   Real shininess, Real u0, Real u1) {
-  return SampleCosinePower(Mirrored(to_view, normal), shininess, u0, u1);
+  const bool constant = shininess < static_cast<Real>(kConstantLobeExponent);
+  const Real x = constant ? 2 * u0 : OneMinusPowerCosine(shininess, u0);
+  return DirectionAround(Mirrored(to_view, normal), x, u1);
 }
 
 template <typename Real>
 Real PhongLobePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
                   const Imath::Vec3<Real>& to_light, Real shininess) {
-  // An exponent of 0 is 1 on both sides for the model; the sampler takes one.
-  if (!((Mirrored(to_view, normal) ^ to_light) > 0)) return 0;
+  if (shininess < static_cast<Real>(kConstantLobeExponent)) {
+    return 1 / (4 * static_cast<Real>(M_PI));
+  }
   return (shininess + 1) / (2 * static_cast<Real>(M_PI)) *
          PhongLobe(normal, to_light, to_view, shininess);
 }
@@ -108,7 +156,7 @@ Real PhongLobePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_v
 template <typename Real>
 Imath::Vec3<Real> SampleBlinnLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
                                   Real shininess, Real u0, Real u1) {
-  return Mirrored(to_view, SampleCosinePower(normal, shininess, u0, u1));
+  return Mirrored(to_view, DirectionAround(normal, OneMinusPowerCosine(shininess, u0), u1));
 }
 
 // (n + 1) / (2 pi) (n.h)^n / (4 v.h), with v.h = |u| / 2.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.h"
+#include "hit/shading_normal.h"
 #include "render/mesh_points.h"
 #include "render/tile.h"
 #include "sampling/hash.h"
@@ -92,7 +93,7 @@ void MakeHits(const RenderPlan& plan, const Point* points, size_t count, TileScr
     };
     put(point.position, &s->hits.position);
     put(point.normal, &s->hits.normal);
-    put(to_view, &s->hits.to_view);
+    put(GrazingView(point.normal, to_view), &s->hits.to_view);
     s->hits.primitive[i] = point.primitive;
     s->hits.ray[i] = static_cast<uint32_t>(i);
   }

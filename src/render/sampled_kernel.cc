@@ -28,8 +28,9 @@ void ShineAlongT(const LightDirections& directions, const Surface& surface, size
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> l = LoadAt(directions.to_light, i);
     const V n_dot_l = Dot(LoadAt(surface.normal, i), l);
-    const auto shines =
-        hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), hn::Gt(n_dot_l, zero));
+    // Of a direction that is not finite n.l is neither: it brings no light, and no ray follows it.
+    const auto faces = hn::And(hn::Gt(n_dot_l, zero), hn::IsFinite(n_dot_l));
+    const auto shines = hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), faces);
     hn::StoreU(l.x, d, light->to_light.x.data() + i);
     hn::StoreU(l.y, d, light->to_light.y.data() + i);
     hn::StoreU(l.z, d, light->to_light.z.data() + i);
@@ -63,11 +64,18 @@ void AimShadowRaysT(const LightDirections& directions, const float* irradiance, 
                     ShadowRayBatch* rays) {
   const hn::Rebind<float, DD> d;
   const Soa3<float>& l = directions.to_light;
+  const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    Widen(hn::LoadU(d, l.x.data() + i), rays->direction.x.data() + i);
-    Widen(hn::LoadU(d, l.y.data() + i), rays->direction.y.data() + i);
-    Widen(hn::LoadU(d, l.z.data() + i), rays->direction.z.data() + i);
-    const auto lit = hn::Gt(hn::LoadU(d, irradiance + i), hn::Zero(d));
+    const auto lit = hn::Gt(hn::LoadU(d, irradiance + i), zero);
+    // Rays that nobody asks about go anywhere: their directions need not be finite.
+    const auto aim = [&](const AlignedArray<float>& from, auto unasked, AlignedArray<double>* to)
+                         HWY_ATTR {
+                           const auto toward = hn::LoadU(d, from.data() + i);
+                           Widen(hn::IfThenElse(lit, toward, unasked), to->data() + i);
+                         };
+    aim(l.x, zero, &rays->direction.x);
+    aim(l.y, zero, &rays->direction.y);
+    aim(l.z, one, &rays->direction.z);
     const auto end = hn::IfThenElseZero(lit, hn::LoadU(d, directions.distance.data() + i));
     Widen(end, rays->t_max.data() + i);
   }

@@ -195,11 +195,12 @@ void AddByMirror(const Lit& lit) {
   ClearRadiance(lit.count(), &lit.c.unit);
   FaceLight(lit);
   for (const MaterialRun& run : s.runs) {
-    if (HasDeltaLobe(lit.MaterialOf(run))) {
-      MirrorReflectance(lit.MaterialOf(run), lit.RangeOf(run), &lit.c.unit.specular);
-    } else {
-      std::fill(s.light.irradiance.data() + run.begin, s.light.irradiance.data() + run.end, 0.0f);
+    const ShadingMaterial& material = lit.MaterialOf(run);
+    const LobeRange range = lit.RangeOf(run);
+    for (size_t i = run.begin; i < run.end; ++i) {
+      if (!IsMirror(material, range, i)) s.light.irradiance[i] = 0;
     }
+    if (AnyMirror(material, range)) MirrorReflectance(material, range, &lit.c.unit.specular);
   }
   Shadow(lit);
   std::copy_n(s.light.irradiance.data(), lit.count(), lit.c.weight.data());
@@ -210,7 +211,7 @@ void AddByMirror(const Lit& lit) {
 void ShadeByOne(const Lit& lit) {
   bool mirrors = false, lobes = false;
   for (const MaterialRun& run : lit.s.runs) {
-    mirrors = mirrors || HasDeltaLobe(lit.MaterialOf(run));
+    mirrors = mirrors || AnyMirror(lit.MaterialOf(run), lit.RangeOf(run));
     lobes = lobes || HasSampledLobe(lit.MaterialOf(run));
   }
   const size_t flat = FindFlat(lit);

@@ -112,7 +112,7 @@ void TextureRuns(const RenderPlan& plan, TileScratch* s) {
 void HideTurned(const RenderPlan& plan, TileScratch* scratch) {
   for (const MaterialRun& run : scratch->runs) {
     if (!plan.materials[run.material.index].turned) continue;
-    HideBelowHorizon(*scratch->textures, run.begin, run.end, &scratch->light);
+    HideBelowHorizon(scratch->surface, run.begin, run.end, &scratch->light);
   }
 }
 

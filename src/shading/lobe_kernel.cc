@@ -66,15 +66,113 @@ HWY_INLINE Width WidthOf(double uniform, const float* by_hit) {
   return {static_cast<float>(uniform), by_hit};
 }
 
-void SampleGgxT(double alpha, const float* by_hit, const LobeRange& range, const float* u,
-                const float* v, Soa3<float>* to_light) {
+// How hits share their samples out to the lobe of single scattering and to Kulla and Conty's, by
+// about what each reflects; and the spread of the latter.
+class KullaContyShares {
+ public:
+  KullaContyShares(const MicrofacetModel& model, const Surface& surface, const HitTextures* maps,
+                   bool own_fits)
+      : multiple_(surface.multiple.data()),
+        maps_(maps),
+        fit_(own_fits ? maps->fit.data() : nullptr),
+        schlick_direct_(model.shadowing == Shadowing::kSchlickDirect),
+        spread_(KullaContySpread(model.albedo.lobe.shape)),
+        scale_(static_cast<float>(model.multiple)),
+        f90_(static_cast<float>(model.f90)),
+        not_delta_(model.delta ? 0.0f : 1.0f) {
+    for (int c = 0; c < 3; ++c) {
+      f0_ = std::max(f0_, static_cast<float>(model.f0[c]));
+      f_multiple_ = std::max(f_multiple_, static_cast<float>(model.f_multiple[c]));
+    }
+  }
+
+  // The probability of a sample of Kulla and Conty's lobe: all where the other one is a mirror's.
+  HWY_INLINE V Share(size_t i) const {
+    const D d;
+    const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    V scale, f0, f90, f_multiple, not_delta;
+    if (maps_ != nullptr) {
+      scale = hn::LoadU(d, maps_->multiple_scale.data() + i);
+      f0 = MaxChannel(maps_->f0, i);
+      f90 = hn::LoadU(d, maps_->f90.data() + i);
+      f_multiple = MaxChannel(maps_->f_multiple, i);
+      not_delta = hn::LoadU(d, maps_->not_delta.data() + i);
+    } else {
+      scale = hn::Set(d, scale_);
+      f0 = hn::Set(d, f0_);
+      f90 = hn::Set(d, f90_);
+      f_multiple = hn::Set(d, f_multiple_);
+      not_delta = hn::Set(d, not_delta_);
+    }
+    const auto loses = hn::Gt(scale, zero);
+    const V loss = hn::Min(hn::IfThenElseZero(loses, hn::Div(hn::LoadU(d, multiple_ + i),
+                                                             hn::IfThenElse(loses, scale, one))),
+                           one);
+    // The mean of Schlick's curve stands for that of all.
+    const V f_average = hn::MulAdd(hn::Sub(f90, f0), hn::Set(d, 1.0f / 21), f0);
+    const V single = hn::Mul(hn::Mul(f_average, hn::Sub(one, loss)), not_delta);
+    const V multiple = hn::Mul(f_multiple, loss);
+    const auto any = hn::Gt(multiple, zero);
+    const V sum = hn::IfThenElse(any, hn::Add(multiple, single), one);
+    return hn::IfThenElseZero(any, hn::Div(multiple, sum));
+  }
+
+  HWY_INLINE V Spread(size_t i) const {
+    const D d;
+    if (fit_ == nullptr) return hn::Set(d, spread_);
+    // KullaContySpread of the hit's AlbedoShape: `offset` is the fit's first entry, `k` its third.
+    const float* const entry = fit_ + i;
+    const V width = schlick_direct_ ? hn::Add(hn::LoadU(d, entry + 2 * HitTextures::kFitStride),
+                                              hn::LoadU(d, entry + 2 * HitTextures::kFitStride))
+                                    : hn::Div(hn::LoadU(d, entry), hn::Set(d, 3.0f));
+    return hn::Mul(width, width);
+  }
+
+ private:
+  static HWY_INLINE V MaxChannel(const Soa3<float>& soa, size_t i) {
+    const Vec3V<V> v = LoadSoa(D(), soa, i);
+    return hn::Max(hn::Max(v.x, v.y), v.z);
+  }
+
+  const float* multiple_;
+  const HitTextures* maps_;  // null: all hits have the model's numbers
+  const float* fit_;         // null: all hits have the model's spread
+  bool schlick_direct_;
+  float spread_, scale_, f90_, not_delta_;
+  float f0_ = 0, f_multiple_ = 0;  // of the largest channel
+};
+
+void SampleGgxT(const MicrofacetModel& model, const float* by_hit, bool own_fits,
+                const LobeRange& range, const float* u, const float* v, Soa3<float>* to_light) {
   const D d;
-  const Width width = WidthOf(alpha, by_hit);
+  const Width width = WidthOf(model.delta ? 1 : model.alpha, by_hit);
+  const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  if (model.compensation != Compensation::kKullaConty) {
+    ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
+      return SampleGgxVisible(d, LoadSoa(D(), range.surface.normal, i),
+                              LoadSoa(D(), range.surface.to_view, i), width.At(i),
+                              hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    });
+    return;
+  }
+  const KullaContyShares shares(model, range.surface, by_hit != nullptr ? range.textures : nullptr,
+                                own_fits);
+  const V below_one = hn::Set(d, 1 - 0x1p-24f);
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-    // Interpolated normals may lean away from the viewer: there is no lobe, and no density.
-    return SampleGgxVisible(d, LoadSoa(D(), range.surface.normal, i),
-                            LoadSoa(D(), range.surface.to_view, i), width.At(i),
-                            hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+    const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i);
+    const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
+    const V share = shares.Share(i), rest = hn::Sub(one, share);
+    const auto multiple = hn::Lt(u0, share);
+    // What is left of the number is as evenly distributed.
+    const V divisor = hn::IfThenElse(multiple, share, rest);
+    const V offset = hn::IfThenElse(multiple, zero, share);
+    const V again =
+        hn::Min(hn::Div(hn::Sub(u0, offset), hn::IfThenElse(hn::Gt(divisor, zero), divisor, one)),
+                below_one);
+    const Vec3V<V> single =
+        SampleGgxVisible(d, normal, LoadSoa(D(), range.surface.to_view, i), width.At(i), again, u1);
+    if (hn::AllFalse(d, multiple)) return single;
+    return Select(multiple, SampleKullaConty(d, normal, shares.Spread(i), again, u1), single);
   });
 }
 
@@ -93,19 +191,14 @@ void SamplePhongT(const PhongFamilyModel& phong, const float* by_hit, const Lobe
   });
 }
 
-// GgxVisiblePdf of any distribution.
-HWY_INLINE V VisibleDensity(V distribution, V n_dot_v, V alpha) {
+void GgxDensityT(const MicrofacetModel& model, const float* by_hit, bool own_fits,
+                 const LobeRange& range, const LightBatch& light, const float* narrow,
+                 float* density) {
   const D d;
-  const auto above = hn::Gt(n_dot_v, hn::Zero(d));
-  const V sum = hn::Add(n_dot_v, SmithRoot(d, n_dot_v, alpha));
-  const V twice = hn::IfThenElse(above, hn::Add(sum, sum), hn::Set(d, 1.0f));
-  return hn::IfThenElseZero(above, hn::Div(distribution, twice));
-}
-
-void GgxDensityT(const MicrofacetModel& model, const float* by_hit, const LobeRange& range,
-                 const LightBatch& light, const float* narrow, float* density) {
-  const D d;
-  const Width width = WidthOf(model.alpha, by_hit);
+  const Width width = WidthOf(model.delta ? 1 : model.alpha, by_hit);
+  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
+  const KullaContyShares shares(model, range.surface, by_hit != nullptr ? range.textures : nullptr,
+                                own_fits);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const V alpha = width.At(i);
     const AnglesV<V> angles =
@@ -116,8 +209,14 @@ void GgxDensityT(const MicrofacetModel& model, const float* by_hit, const LobeRa
       const V exact = hn::LoadU(d, narrow + i);
       distribution = hn::IfThenElse(hn::Ge(exact, hn::Zero(d)), exact, distribution);
     }
-    hn::BlendedStore(VisibleDensity(distribution, angles.n_dot_v, alpha),
-                     hn::FirstN(d, range.end - i), d, density + i);
+    V value = GgxVisiblePdf(d, distribution, angles.n_dot_v, alpha);
+    if (kulla_conty) {
+      const V share = shares.Share(i);
+      const V single = hn::Mul(hn::Sub(hn::Set(d, 1.0f), share), value);
+      const V multiple = hn::Mul(share, KullaContyPdf(d, angles.n_dot_l, shares.Spread(i)));
+      value = hn::Add(single, hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), multiple));
+    }
+    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, density + i);
   }
 }
 
@@ -127,7 +226,7 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
   const Width width = WidthOf(phong.shininess, by_hit);
   const bool blinn = phong.model == PhongModel::kBlinnPhong;
   const V one = hn::Set(d, 1.0f);
-  const V scale = hn::Set(d, static_cast<float>(M_1_PI / 2));
+  const V half_pi_inverse = hn::Set(d, 0.159154943f);  // 1 / 2 pi
   const V smallest = hn::Set(d, 0x1p-60f);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i),
@@ -145,7 +244,8 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
     }
     const V exponent = width.At(i);
     const V lobe = blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent);
-    V value = hn::Mul(hn::Mul(scale, hn::Add(exponent, one)), lobe);
+    const V scaled = hn::Mul(hn::Mul(half_pi_inverse, hn::Add(exponent, one)), lobe);
+    V value = blinn ? scaled : PhongLobePdf(d, lobe, exponent);
     // |u| = 2 v.h: the density of h over 4 v.h is that of l.
     const V u_length = hn::Sqrt(hn::Max(angles.u_squared, smallest));
     if (blinn) value = hn::Div(value, hn::Add(u_length, u_length));
@@ -176,7 +276,12 @@ HWY_EXPORT(MirrorDirectionsT);
 namespace {
 
 bool HasLobe(const PhongFamilyModel& phong) { return phong.specular.length2() > 0; }
-bool HasLobe(const MicrofacetModel& microfacet) { return !microfacet.delta && microfacet.f90 > 0; }
+// Of a mirror, what Kulla and Conty give back is one.
+bool HasLobe(const MicrofacetModel& microfacet) {
+  const bool multiple =
+      microfacet.compensation == Compensation::kKullaConty && microfacet.multiple > 0;
+  return microfacet.f90 > 0 && (!microfacet.delta || multiple);
+}
 
 const ShadingLight& GivenLight() {
   static const ShadingLight kGiven{.form = LightForm::kGiven};
@@ -217,14 +322,33 @@ const NarrowLobes* Narrow(const PhongFamilyModel& phong, bool mapped, const Lobe
   return scratch;
 }
 
+// What a mirror's reflectance depends on beside the angle of incidence, of one channel of a hit.
+struct MirrorNumbers {
+  double f0, f90, f82_slope, schlick_k;
+};
+
+MirrorNumbers NumbersOf(const MicrofacetModel& model, int channel) {
+  return {model.f0[channel], model.f90, model.f82_slope[channel], model.schlick_k};
+}
+
+// What maps give the hit: the same to the bit where they are constant.
+MirrorNumbers NumbersAt(const HitTextures& t, size_t i, int channel) {
+  const auto at = [&](const Soa3<double>& soa) {
+    return (channel == 0 ? soa.x : channel == 1 ? soa.y : soa.z)[i];
+  };
+  const double roughness = t.width[i];
+  return {at(t.specular), t.exact_f90[i], at(t.exact_slope), (roughness + 1) * (roughness + 1) / 8};
+}
+
 // The model's Fresnel curve at the cosine of the angle of incidence, exactly.
-double FresnelAt(const MicrofacetModel& model, double cosine, int channel) {
+double FresnelAt(const MicrofacetModel& model, const MirrorNumbers& numbers, double cosine,
+                 int channel) {
   const double rest = 1 - cosine;
   switch (model.fresnel) {
     case FresnelForm::kSchlick:
-      return FresnelSchlick(model.f0[channel], model.f90, Power5(rest));
+      return FresnelSchlick(numbers.f0, numbers.f90, Power5(rest));
     case FresnelForm::kF82:
-      return FresnelF82(cosine, rest, model.f0[channel], model.f90, model.f82_slope[channel]);
+      return FresnelF82(cosine, rest, numbers.f0, numbers.f90, numbers.f82_slope);
     case FresnelForm::kDielectric:
       return FresnelDielectric(cosine, rest, model.eta[0]);
     case FresnelForm::kConductor:
@@ -234,14 +358,16 @@ double FresnelAt(const MicrofacetModel& model, double cosine, int channel) {
 }
 
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
-// 2013); Turquin's compensation gives back of that what the reflectance at normal incidence says.
-double MirrorAt(const MicrofacetModel& model, double cosine, int channel) {
-  const double fresnel = FresnelAt(model, cosine, channel);
-  if (model.shadowing != Shadowing::kSchlickDirect || !(cosine > 0)) return fresnel;
-  const double g1 = cosine / (cosine * (1 - model.schlick_k) + model.schlick_k);
+// 2013); Turquin's compensation, a factor of 1 + F0 (1 / E - 1), gives back of that what the
+// reflectance at normal incidence says. Kulla and Conty's is a lobe of its own.
+double MirrorAt(const MicrofacetModel& model, const MirrorNumbers& numbers, double cosine,
+                int channel) {
+  const double fresnel = FresnelAt(model, numbers, cosine, channel);
+  if (model.shadowing != Shadowing::kSchlickDirect) return fresnel;
+  const double g1 = cosine / (cosine * (1 - numbers.schlick_k) + numbers.schlick_k);
   const double single = g1 * g1;
   if (model.compensation != Compensation::kTurquin) return fresnel * single;
-  return fresnel * single * (1 + model.f0[channel] * (1 - single) / single);
+  return fresnel * (single + numbers.f0 * (1 - single));
 }
 
 }  // namespace
@@ -273,11 +399,13 @@ void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const f
                 const float* v, Soa3<float>* to_light) {
   if (!HasSampledLobe(material)) return;
   const float* const by_hit = WidthByHit(material, range);
+  const bool mapped = by_hit != nullptr;
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return HWY_DYNAMIC_DISPATCH(SamplePhongT)(*phong, by_hit, range, u, v, to_light);
   }
-  const double alpha = std::get<MicrofacetModel>(material.model).alpha;
-  HWY_DYNAMIC_DISPATCH(SampleGgxT)(alpha, by_hit, range, u, v, to_light);
+  HWY_DYNAMIC_DISPATCH(SampleGgxT)
+  (std::get<MicrofacetModel>(material.model), by_hit, mapped && HasOwnFits(material), range, u, v,
+   to_light);
 }
 
 void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
@@ -297,7 +425,22 @@ void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const L
   const auto& model = std::get<MicrofacetModel>(material.model);
   const NarrowLobes* const narrow = Narrow(model, mapped, hits, range, scratch);
   HWY_DYNAMIC_DISPATCH(GgxDensityT)
-  (model, by_hit, hits, light, narrow != nullptr ? narrow->first.data() : nullptr, density);
+  (model, by_hit, mapped && HasOwnFits(material), hits, light,
+   narrow != nullptr ? narrow->first.data() : nullptr, density);
+}
+
+bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit) {
+  const auto* model = std::get_if<MicrofacetModel>(&material.model);
+  if (model == nullptr || !HasMappedModel(material)) return HasDeltaLobe(material);
+  return range.textures->not_delta[hit] == 0;
+}
+
+bool AnyMirror(const ShadingMaterial& material, const LobeRange& range) {
+  if (!HasMappedModel(material)) return HasDeltaLobe(material);
+  for (size_t i = range.begin; i < range.end; ++i) {
+    if (IsMirror(material, range, i)) return true;
+  }
+  return false;
 }
 
 void MirrorDirections(const LobeRange& range, Soa3<float>* to_light) {
@@ -309,13 +452,16 @@ void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
   const auto& model = std::get<MicrofacetModel>(material.model);
   const Soa3<float>& n = range.surface.normal;
   const Soa3<float>& v = range.surface.to_view;
+  const bool mapped = HasMappedModel(material);
+  float* const to[3] = {reflectance->x.data(), reflectance->y.data(), reflectance->z.data()};
   for (size_t i = range.begin; i < range.end; ++i) {
-    const double cosine =
+    const double n_dot_v =
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
-    const double clamped = std::clamp(cosine, 0.0, 1.0);
-    reflectance->x[i] = static_cast<float>(MirrorAt(model, clamped, 0));
-    reflectance->y[i] = static_cast<float>(MirrorAt(model, clamped, 1));
-    reflectance->z[i] = static_cast<float>(MirrorAt(model, clamped, 2));
+    const double cosine = std::clamp(n_dot_v, 0.0, 1.0);
+    for (int c = 0; c < 3; ++c) {
+      const MirrorNumbers numbers = mapped ? NumbersAt(*range.textures, i, c) : NumbersOf(model, c);
+      to[c][i] = static_cast<float>(MirrorAt(model, numbers, cosine, c));
+    }
   }
 }
 

@@ -10,7 +10,8 @@
 
 namespace nacre {
 
-// Whether SampleLobe is for the material: it has a specular lobe that is no perfect mirror's.
+// Whether SampleLobe is for the material: it has a specular lobe that is no perfect mirror's, or,
+// by maps, may have one.
 bool HasSampledLobe(const ShadingMaterial& material);
 
 // Whether its diffuse reflection of a light is a function of the viewer's direction times the
@@ -30,8 +31,9 @@ struct LobeRange {
   const HitTextures* textures = nullptr;  // of materials with maps
 };
 
-// Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe, the
-// lobe itself of the Phong family. Directions below the surface reflect nothing.
+// Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe,
+// shared out between it and the lobe of Kulla and Conty's compensation, of which PrepareRun must
+// have run; the lobe itself of the Phong family. Directions below the surface reflect nothing.
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
                 const float* v, Soa3<float>* to_light);
 
@@ -39,6 +41,11 @@ void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const f
 // is not for.
 void LobeDensity(const ShadingMaterial& material, const LobeRange& range, const LightBatch& light,
                  NarrowLobes* scratch, float* density);
+
+// Whether a hit of the range, or any, has a perfect mirror's lobe: the material's, or by maps that
+// give each hit a roughness.
+bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit);
+bool AnyMirror(const ShadingMaterial& material, const LobeRange& range);
 
 // Where perfect mirrors look: the view direction mirrored in the normal, and what the mirror
 // reflects of light from there, per channel.

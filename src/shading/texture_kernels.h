@@ -20,7 +20,7 @@ enum class MapRole : uint8_t {
 };
 TextureId MapOf(const Material& material, MapRole role);
 
-// Fills point, inverse_size, geometric and side (surface_points.cc).
+// Fills point, inverse_size, geometric, unturned and side (surface_points.cc).
 void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
 
 // For meshes with coordinates of their own: u, v and gradients at hits on triangles, before the
@@ -45,7 +45,6 @@ void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
                  const HitTextures& textures, HitBatch* hits, Surface* surface);
 void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,
                          HitBatch* hits, Surface* surface);
-void RoundGeometric(const TexturedRun& run, HitTextures* textures);
 
 // The material's numbers at every hit, each map's values multiplied to them, and what shading and
 // layers make of them (mapped_material.cc).

@@ -78,7 +78,6 @@ class RunTexturer {
     const Material& material = *run_.material.textured;
     if (material.normal_map.texture.valid()) TurnByNormalMap(material.normal_map);
     if (material.bump_map.texture.valid()) TurnByBumpMap(material.bump_map);
-    if (run_.material.turned) RoundGeometric(run_, t_);
     StartMaterial(run_, t_);
     if (material.vertex_colors == VertexColors::kBase) ApplyVertexColors(MapRole::kDiffuse);
     for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kSpecularWeight,

@@ -56,7 +56,8 @@ struct HitTextures {
   // Where the hits are: for spheres their unit outward direction, for meshes the position.
   Soa3<double> point;
   AlignedArray<double> inverse_size{kBatchCapacity};
-  Soa3<double> geometric;  // unit normal of the surface itself, on the ray's side
+  Soa3<double> geometric;  // unit normal of the sphere or triangle, on the ray's side
+  Soa3<double> unturned;   // shading normal before maps turn it: Surface::unturned, not rounded
   AlignedArray<double> side{kBatchCapacity};  // -1 where seen from behind or inside, else 1
   Soa3<double> dp_dx, dp_dy;                  // of the position, from one pixel to the next
   bool any_mesh = false;
@@ -83,7 +84,6 @@ struct HitTextures {
   AlignedArray<double> exact_f90{kBatchCapacity};  // before it is finished: `specular`
   Soa3<double> exact_slope, exact_f_multiple;      // f82_slope and f_multiple, not rounded
   Soa3<float> albedo, ambient, emission;           // for the layers of these names
-  Soa3<float> geometric_rounded;                   // for lights below the horizon
   // The constants of models, rounded: alpha or exponent, pi / alpha^2, Schlick's k; 0 for mirrors
   // and else 1.
   AlignedArray<float> alpha{kBatchCapacity}, pi_over_alpha2{kBatchCapacity};
@@ -114,8 +114,8 @@ struct TexturedRun {
 };
 void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTextures* textures);
 
-// Takes the light from hits [begin, end) where it is below the horizon of the surface itself,
-// though a turned normal faces it.
-void HideBelowHorizon(const HitTextures& textures, size_t begin, size_t end, LightBatch* light);
+// Takes the light from hits [begin, end) where it is below the horizon of the surface, whose normal
+// is that before maps turned it, though the normal that a map turned faces the light.
+void HideBelowHorizon(const Surface& surface, size_t begin, size_t end, LightBatch* light);
 
 }  // namespace nacre

@@ -9,6 +9,7 @@
 #include "hwy/highway.h"
 
 #include "base/vec3-inl.h"
+#include "hit/shading_normal-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -41,14 +42,16 @@ HWY_INLINE hn::Mask<D> IsSound(const Vec3V<V>& v) {
   return hn::And(hn::IsFinite(v.x), hn::And(hn::IsFinite(v.y), hn::IsFinite(v.z)));
 }
 
-// Stores a turned normal in the lanes of `mask`. One that leans below the surface is mirrored at
-// it: the viewer sees the upper side only.
-HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& geometric, hn::Mask<D> mask,
+// Stores a normal-mapped normal in the lanes of `mask`. One that leans below the surface is
+// mirrored at it, as the viewer sees the upper side only; then it is bent to where reflection
+// models can use it.
+HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& unturned, hn::Mask<D> mask,
                             size_t i, HitBatch* hits, Surface* surface) {
   const D d;
   const F f;
-  const V below = hn::Min(FusedDot(turned, geometric), hn::Zero(d));
-  const Vec3V<V> normal = Sub(turned, Scale(geometric, hn::Add(below, below)));
+  const V below = hn::Min(FusedDot(turned, unturned), hn::Zero(d));
+  const Vec3V<V> upper = Sub(turned, Scale(unturned, hn::Add(below, below)));
+  const Vec3V<V> normal = BendNormal(d, upper, unturned, Load(hits->to_view, i));
   const auto store = [&](V value, AlignedArray<double>* exact, AlignedArray<float>* rounded)
                          HWY_ATTR {
                            double* const to = exact->data() + i;
@@ -97,7 +100,7 @@ void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames
   const V middle_v = hn::Set(d, double{middle});
   const V stretch = hn::Set(d, 1 / (1 - double{middle}));
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = Load(hits->normal, i), geometric = Load(t.geometric, i);
+    const Vec3V<V> n = Load(hits->normal, i), unturned = Load(t.unturned, i);
     Frame frame = FrameOfGradients(t, i, n);
     if (frames) frame = FrameOfCorners(t, i, frame);
     const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
@@ -112,7 +115,7 @@ void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames
     const auto level = hn::And(hn::And(hn::Eq(x, zero), hn::Eq(y, zero)), hn::Gt(z, zero));
     const auto sound = IsSound(turned);
     const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
-    StoreNormal(turned, geometric, mask, i, hits, surface);
+    StoreNormal(turned, unturned, mask, i, hits, surface);
   }
 }
 
@@ -122,7 +125,7 @@ void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitText
   const D d;
   const V zero = hn::Zero(d);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = Load(hits->normal, i), geometric = Load(t.geometric, i);
+    const Vec3V<V> n = Load(hits->normal, i), unturned = Load(t.unturned, i);
     // Heights are outwards, seen from wherever.
     const V scale = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, distance));
     const V slope_u = hn::Mul(Promote(t.texels.x, i), scale);
@@ -133,24 +136,13 @@ void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitText
     const auto level = hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero));
     const auto sound = IsSound(turned);
     const auto mask = hn::And(hn::AndNot(level, sound), hn::FirstN(d, run.end - i));
-    StoreNormal(turned, geometric, mask, i, hits, surface);
+    StoreNormal(turned, unturned, mask, i, hits, surface);
   }
 }
 
-void RoundGeometricT(const TexturedRun& run, HitTextures* t) {
-  const D d;
-  const F f;
-  for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = Load(t->geometric, i);
-    hn::StoreU(hn::DemoteTo(f, n.x), f, t->geometric_rounded.x.data() + i);
-    hn::StoreU(hn::DemoteTo(f, n.y), f, t->geometric_rounded.y.data() + i);
-    hn::StoreU(hn::DemoteTo(f, n.z), f, t->geometric_rounded.z.data() + i);
-  }
-}
-
-void HideBelowHorizonT(const HitTextures& t, size_t begin, size_t end, LightBatch* light) {
+void HideBelowHorizonT(const Surface& surface, size_t begin, size_t end, LightBatch* light) {
   const hn::ScalableTag<float> d;
-  const Soa3<float>& n = t.geometric_rounded;
+  const Soa3<float>& n = surface.unturned;
   const Soa3<float>& l = light->to_light;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const auto above = hn::Gt(FusedDot(LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i),
@@ -171,7 +163,6 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(TurnNormalsT);
 HWY_EXPORT(TurnNormalsBySlopesT);
-HWY_EXPORT(RoundGeometricT);
 HWY_EXPORT(HideBelowHorizonT);
 
 void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
@@ -184,12 +175,8 @@ void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextu
   HWY_DYNAMIC_DISPATCH(TurnNormalsBySlopesT)(run, distance, textures, hits, surface);
 }
 
-void RoundGeometric(const TexturedRun& run, HitTextures* textures) {
-  HWY_DYNAMIC_DISPATCH(RoundGeometricT)(run, textures);
-}
-
-void HideBelowHorizon(const HitTextures& textures, size_t begin, size_t end, LightBatch* light) {
-  HWY_DYNAMIC_DISPATCH(HideBelowHorizonT)(textures, begin, end, light);
+void HideBelowHorizon(const Surface& surface, size_t begin, size_t end, LightBatch* light) {
+  HWY_DYNAMIC_DISPATCH(HideBelowHorizonT)(surface, begin, end, light);
 }
 }  // namespace nacre
 #endif

@@ -11,6 +11,7 @@
 #include "hwy/foreach_target.h"
 
 #include "base/geometry-inl.h"
+#include "hit/shading_normal-inl.h"
 #include "visibility/film_test-inl.h"
 #include "visibility/inverse_length-inl.h"
 #include "visibility/sphere_test-inl.h"
@@ -58,7 +59,8 @@ struct Gathered {
 
 struct Surface {
   Vec3V<V> position;
-  Vec3V<V> normal;  // unit, on the ray's side
+  Vec3V<V> normal;   // unit, on the ray's side
+  Vec3V<V> to_view;  // likewise, and above the normal's horizon
 };
 
 // A vector of rays, and what their hits are made of.
@@ -96,7 +98,7 @@ HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const RefineRays& 
     turned = hn::IfThenElse(on_film, radius, turned);
     normal = in.any_anywhere ? Select(on_film, film_normal, normal) : film_normal;
   }
-  return {SpherePosition(center, normal, turned), normal};
+  return {SpherePosition(center, normal, turned), normal, rays.to_view};
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {
@@ -128,7 +130,9 @@ HWY_INLINE Surface RefineTriangle(const Gathered& in, size_t i, const RefineRays
   const Vec3V<V> facing = Scale(vertex_normal, hn::CopySign(hn::Set(d, 1.0), side));
   // 0 where the mesh has no normals, or where they cancel.
   const auto none = hn::Eq(SumOfAbs(vertex_normal), zero);
-  return {Interpolate(in.corner, i, hit.weights), Normalized(Select(none, face_normal, facing))};
+  const Vec3V<V> normal = Normalized(Select(none, face_normal, facing));
+  const Vec3V<V> to_view = Select(none, rays.to_view, GrazingView(d, normal, rays.to_view));
+  return {Interpolate(in.corner, i, hit.weights), normal, to_view};
 }
 
 HWY_INLINE void GatherTriangle(const TraceGeometry& geometry, uint32_t triangle, size_t i,
@@ -181,8 +185,7 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
   }
 }
 
-HWY_INLINE void StoreHits(const Surface& surface, const Vec3V<V>& to_view, size_t first,
-                          const HitsTo& to) {
+HWY_INLINE void StoreHits(const Surface& surface, size_t first, const HitsTo& to) {
   const D d;
   const hn::Rebind<float, D> df;
   HitBatch& hits = *to.hits;
@@ -192,10 +195,10 @@ HWY_INLINE void StoreHits(const Surface& surface, const Vec3V<V>& to_view, size_
   };
   if (to.positions) store(d, surface.position, hits.position);
   store(df, Demote3(d, surface.normal), rounded.normal);
-  store(df, Demote3(d, to_view), rounded.to_view);
+  store(df, Demote3(d, surface.to_view), rounded.to_view);
   if (!to.exact) return;
   store(d, surface.normal, hits.normal);
-  store(d, to_view, hits.to_view);
+  store(d, surface.to_view, hits.to_view);
 }
 
 // The vector of hits gathered at i, to be stored at hits[first].
@@ -208,18 +211,18 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   rays.inverse_dd = hn::Div(hn::Set(d, 1.0), rays.dd);
   rays.inverse_length = InverseLength(d, rays.dd);
   rays.to_view = ToView(rays.direction, rays.inverse_length);
-  const Vec3V<V>& to_view = rays.to_view;
   if (!in.any_triangle) {
-    StoreHits(RefineSphere(in, i, rays), to_view, first, to);
+    StoreHits(RefineSphere(in, i, rays), first, to);
   } else if (!in.any_sphere) {
-    StoreHits(RefineTriangle(in, i, rays), to_view, first, to);
+    StoreHits(RefineTriangle(in, i, rays), first, to);
   } else {
     const Surface sphere = RefineSphere(in, i, rays);
     const Surface triangle = RefineTriangle(in, i, rays);
     const auto is_triangle = hn::Gt(hn::Load(d, in.is_triangle + i), hn::Zero(d));
     StoreHits({Select(is_triangle, triangle.position, sphere.position),
-               Select(is_triangle, triangle.normal, sphere.normal)},
-              to_view, first, to);
+               Select(is_triangle, triangle.normal, sphere.normal),
+               Select(is_triangle, triangle.to_view, sphere.to_view)},
+              first, to);
   }
 }
 

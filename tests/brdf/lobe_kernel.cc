@@ -49,6 +49,8 @@ Vec3V<V> SampleOf(Lobe lobe, const Inputs& in) {
       return SamplePhongLobe(d, in.n, in.v, in.width, in.u0, in.u1);
     case Lobe::kBlinn:
       return SampleBlinnLobe(d, in.n, in.v, in.width, in.u0, in.u1);
+    case Lobe::kKullaConty:
+      return SampleKullaConty(d, in.n, in.width, in.u0, in.u1);
   }
   return in.n;
 }
@@ -65,6 +67,8 @@ V PdfOf(Lobe lobe, const Inputs& in) {
       return PhongLobePdf(d, in.n, in.v, in.l, in.width);
     case Lobe::kBlinn:
       return BlinnLobePdf(d, a, in.width);
+    case Lobe::kKullaConty:
+      return KullaContyPdf(d, a.n_dot_l, in.width);
   }
   return in.width;
 }

@@ -2,7 +2,13 @@
 // tests/render/constant_maps_test.cc: maps that are constant against constants, to the bit.
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "scene/material_parameters.h"
+#include "scene/sphere_mesh.h"
 #include "targets.h"
 #include "textured_scenes.h"
 
@@ -234,6 +240,145 @@ TEST_CASE("a dielectric's roughness map is within its albedo's error of the cons
       CAPTURE(static_cast<int>(compensation), share, worst);
       // tests/brdf/albedo_test.cc: 3e-5 of albedo, of a base that gets at least some tenths.
       CHECK(worst <= 3e-4);
+    }
+  }
+}
+
+// A sphere and a smooth mesh under a light of every kind, each in a layer of its own.
+Scene UnderEveryLight(const Material& material) {
+  Scene scene;
+  scene.image.width = 20;
+  scene.image.height = 12;
+  scene.image.spp = 2;
+  scene.camera.position = Vec3d(0, 0, 6);
+  scene.camera.fov_y_deg = 30;
+  scene.materials = {material};
+  scene.spheres = {{{-1.1, 0, 0}, 1, {0}}};
+  scene.meshes = {MakeMesh(UvSphere{.center = {1.1, 0.1, 0.2}, .segments = 12, .rings = 6})};
+  scene.meshes[0].material = {0};
+  const auto picture = std::make_shared<SkyPicture>(SkyPicture{
+      4, 2, {1, 2, 3, 0, 1, 0, 5, 4, 3, 1, 1, 1, 0.1f, 0.2f, 0.3f, 2, 1, 0, 1, 0, 0, 7, 7, 7}});
+  const auto panel = std::make_shared<Mesh>();
+  panel->positions = {{-3, 3, 2}, {-1, 3, 2}, {-2, 4, 3}};
+  panel->triangles = {0, 2, 1};
+  const auto sky = [](const auto& of) { return EnvironmentLight{.sky = of, .background = false}; };
+  const auto add = [&](const char* name, decltype(Light::kind) kind) {
+    Light light;
+    light.name = name;
+    light.kind = std::move(kind);
+    scene.lights.push_back(std::move(light));
+  };
+  add("ambient", AmbientLight{Rgb(0.1, 0.2, 0.3)});
+  add("directional", DirectionalLight{Vec3d(1, -1, -1), Rgb(0.9, 1, 1.1)});
+  add("point", PointLight{.position = Vec3d(3, 4, 5), .intensity = Rgb(90), .attenuation = {}});
+  add("spot", SpotLight{.position = Vec3d(-3, 0, 5),
+                        .direction_of_travel = Vec3d(3, 0, -5),
+                        .intensity = Rgb(50, 50, 60),
+                        .attenuation = {}});
+  add("sphere", SphereAreaLight{.center = Vec3d(0, 3, 1), .radius = 1, .visible = false});
+  add("rectangle", RectangleAreaLight{.center = Vec3d(-1, 3, 2), .visible = false});
+  add("disk", DiskAreaLight{.center = Vec3d(1, 3, 2), .visible = false});
+  add("mesh", MeshAreaLight{panel, Rgb(3), true, false});
+  add("constant", sky(ConstantSky{Rgb(0.5, 1, 1.5)}));
+  add("gradient", sky(GradientSky{}));
+  add("quadratic", sky(QuadraticSky{Rgb(1), Vec3d(1, 1, 0), 0.5, 0.4, 0.3}));
+  add("picture", sky(PictureSky{picture, Rgb(1)}));
+  return scene;
+}
+
+// What a map's channels multiply.
+struct MappedParameter {
+  std::string_view map;
+  std::vector<std::string_view> parameters;  // of green and blue where there are two, else of all
+};
+const std::vector<MappedParameter> kMappedParameters = {
+    {"albedo_map", {"albedo"}},
+    {"diffuse_map", {"color"}},
+    {"specular_map", {"ks", "specular"}},  // of the Phong family; of metallic_roughness
+    {"shininess_map", {"shininess"}},
+    {"base_color_map", {"base_color"}},
+    {"metallic_roughness_map", {"roughness", "metallic"}},
+    {"specular_color_map", {"dielectric_f0"}},
+    {"roughness_map", {"roughness"}},
+    {"emission_map", {"emission"}},
+};
+
+// Every other choice of the model beside those that each map is walked with.
+std::vector<Material> WithEveryChoice(const MaterialModel& model) {
+  std::vector<Material> made = {model.make()};
+  for (const MaterialChoice& choice : model.choices) {
+    // What the base is does not ask for the lobe; presets set parameters.
+    if (choice.get == nullptr || choice.name == "diffuse") continue;
+    std::vector<Material> more;
+    for (const Material& one : made) {
+      for (size_t option = 0; option < choice.options.size(); ++option) {
+        more.push_back(one);
+        choice.set(more.back(), option);
+      }
+    }
+    made = std::move(more);
+  }
+  return made;
+}
+
+TEST_CASE("every map of every model is the constant, from code 0 to 255, under every light") {
+  size_t walked = 0;
+  for (const MaterialModel& model : MaterialModels()) {
+    for (const Material& factors : WithEveryChoice(model)) {
+      for (const MaterialMap& map : model.maps) {
+        const auto entry =
+            std::find_if(kMappedParameters.begin(), kMappedParameters.end(),
+                         [&](const MappedParameter& known) { return known.map == map.name; });
+        REQUIRE(entry != kMappedParameters.end());
+        for (const int code : {0, 1, 128, 255}) {
+          const double value = Held(code / 255.0);
+          Material constant = factors, mapped = factors;
+          for (const std::string_view name : entry->parameters) {
+            const MaterialParameter* const parameter = FindParameter(model, name);
+            if (parameter == nullptr) continue;
+            // What is multiplied is 1 where it may be, so that codes are the numbers themselves.
+            const double whole = parameter->range.max <= 1 ? parameter->range.max : 60;
+            parameter->set(mapped, Rgb(whole));
+            parameter->set(constant, Rgb(whole * value));
+          }
+          // The exact dielectric's albedo is a blend of those at some roughnesses.
+          const bool blended =
+              model.name == "dielectric" && map.name == "roughness_map" &&
+              std::get<DielectricMaterial>(factors.model).fresnel == DielectricFresnel::kExact;
+          if (blended) continue;
+          Scene scene = UnderEveryLight(mapped);
+          map.set(scene.materials[0], AddConstant(&scene, Rgb(value)));
+          CAPTURE(model.name, map.name, code, walked);
+          CheckSameBits(AllLayers(scene), AllLayers(UnderEveryLight(constant)));
+          ++walked;
+        }
+      }
+    }
+  }
+  CHECK(walked > 400);
+}
+
+TEST_CASE("an exact dielectric's roughness map is the constant mirror and the constant's lobe") {
+  for (const int code : {0, 1, 128, 255}) {
+    const double value = Held(code / 255.0);
+    Material constant, mapped;
+    constant.model = DielectricMaterial{.base_color = Rgb(0.5), .roughness = value};
+    mapped.model = DielectricMaterial{.base_color = Rgb(0.5), .roughness = 1};
+    Scene scene = UnderEveryLight(mapped);
+    std::get<DielectricMaterial>(scene.materials[0].model).roughness_map =
+        AddConstant(&scene, Rgb(value));
+    const Image got = AllLayers(scene), expected = AllLayers(UnderEveryLight(constant));
+    for (size_t c = 0; c < got.channels.size(); ++c) {
+      CAPTURE(code, got.channels[c].name);
+      const auto& a = got.channels[c].samples;
+      const auto& b = expected.channels[c].samples;
+      // The albedo's error, as above: of what a base of .5 gives back.
+      for (size_t i = 0; i < a.size(); ++i) {
+        if (std::abs(a[i] - b[i]) > 3e-4f * std::max(b[i], 1.0f)) {
+          CAPTURE(i, a[i], b[i]);
+          FAIL("differs");
+        }
+      }
     }
   }
 }

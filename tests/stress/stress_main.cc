@@ -22,6 +22,7 @@
 #include "stress/gallery.h"
 #include "stress/leaks.h"
 #include "stress/random_scene.h"
+#include "stress/surface_fuzz.h"
 #include "stress/truth_reflect.h"
 
 namespace nacre {
@@ -38,6 +39,7 @@ struct Options {
   uint64_t random_scenes = 0;
   uint64_t draws = 0;               // of the fuzz; 0: none
   uint64_t rays = 0;                // at the seams of meshes; 0: none
+  uint64_t models = 0;              // broken models on each target; 0: none
   std::vector<std::string> scenes;  // of the gallery; empty: all
   bool gallery = true;
 };
@@ -195,6 +197,22 @@ bool RunLeaks(uint64_t rays) {
   return holds;
 }
 
+bool RunSurfaces(uint64_t models) {
+  bool holds = true;
+  for (const Target target : SupportedTargets()) {
+    PinTarget(target);
+    const SurfaceFuzzResult result = FuzzSurfaces(models, [&](double done) {
+      ShowProgress(fmt::format("models {:<6} {:5.1f} %", TargetName(target), 100 * done));
+    });
+    ShowProgress("");
+    fmt::print("models {:<6} {} broken models: {}\n", TargetName(target), result.scenes,
+               Describe(result));
+    std::fflush(stdout);
+    holds = holds && result.Holds();
+  }
+  return holds;
+}
+
 double ParseNumber(const std::string& name, const std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
@@ -240,6 +258,8 @@ Options ParseOptions(int count, char** arguments) {
       options.draws = static_cast<uint64_t>(ParseNumber(name, value));
     } else if (name == "--rays") {
       options.rays = static_cast<uint64_t>(ParseNumber(name, value));
+    } else if (name == "--models") {
+      options.models = static_cast<uint64_t>(ParseNumber(name, value));
     } else {
       throw Error(ExitCode::kUsage, name, "unknown option", "see scripts/stress --help");
     }
@@ -253,6 +273,7 @@ int Run(const Options& options) {
   if (options.gallery) holds = RunGallery(options);
   if (options.random_scenes > 0) holds = RunRandomScenes(options.random_scenes) && holds;
   if (options.rays > 0) holds = RunLeaks(options.rays) && holds;
+  if (options.models > 0) holds = RunSurfaces(options.models) && holds;
   if (options.draws > 0) holds = RunFuzz(options.draws) && holds;
   fmt::print("{}\n", holds ? "every bound holds" : "a bound is exceeded");
   return holds ? 0 : 1;

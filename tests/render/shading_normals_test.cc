@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/shading_normals_test.cc: interpolated and mapped normals neither make light nor lose
+// more of it than is stated, and a smooth mesh is the sphere that it stands for.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "pictures.h"
+#include "render/render.h"
+#include "scene/sphere_mesh.h"
+#include "textured_scenes.h"
+
+namespace nacre {
+namespace {
+
+Light WhiteSky() {
+  return Named("sky", EnvironmentLight{.sky = ConstantSky{Rgb(1)}, .background = false});
+}
+
+// A dim sky, brighter upwards, with a sun behind the sphere: what a rim mirrors.
+Light SkyWithSunBehind() {
+  auto picture = std::make_shared<SkyPicture>();
+  picture->width = 32;
+  picture->height = 16;
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const bool sun = x <= 1 && y == 6;  // at -z, where the camera looks
+      const auto value = static_cast<float>(sun ? 30 : 0.6 - 0.03 * y);
+      for (int c = 0; c < 3; ++c) picture->rgb.push_back(value);
+    }
+  }
+  return Named("sky", EnvironmentLight{.sky = PictureSky{picture, Rgb(1)}, .background = false});
+}
+
+// The mesh in the place of the sphere.
+Scene AsMesh(Scene scene, Mesh mesh) {
+  scene.spheres.clear();
+  mesh.material = {0};
+  scene.meshes = {std::move(mesh)};
+  return scene;
+}
+
+double Largest(const Image& image) {
+  const std::vector<float>& red = image.Find("R")->samples;
+  return *std::max_element(red.begin(), red.end());
+}
+
+// The sum of what the pictures differ by, over that of the second: background, rim and all.
+double RelativeDifference(const Image& a, const Image& b) {
+  const std::vector<float>& x = a.Find("R")->samples;
+  const std::vector<float>& y = b.Find("R")->samples;
+  double difference = 0, sum = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    difference += std::abs(double{x[i]} - y[i]);
+    sum += y[i];
+  }
+  return difference / sum;
+}
+
+struct Case {
+  std::string name;
+  decltype(Material::model) model;
+  Light light;
+  int spp;
+};
+
+std::vector<Case> RefinedCases() {
+  const MetallicRoughnessMaterial plastic{.base_color = Rgb(0.5), .roughness = 0.35};
+  const MetallicRoughnessMaterial metal{.base_color = Rgb(0.9), .metallic = 1, .roughness = 0.15};
+  const PhongMaterial phong{.model = PhongModel::kBlinnPhong,
+                            .convention = PhongConvention::kRadiometric,
+                            .ks = Rgb(0.5),
+                            .shininess = 60};
+  const Light point = Named(
+      "point", PointLight{.position = Vec3d(-3, 2, -4), .intensity = Rgb(60), .attenuation = {}});
+  const Light lamp =
+      Named("lamp", SphereAreaLight{.center = Vec3d(-3, 2, -3), .radius = 1, .radiance = Rgb(8)});
+  std::vector<Case> cases;
+  const auto add = [&](const std::string& name, const auto& model) {
+    cases.push_back({name + ", sky of one radiance", model, WhiteSky(), 64});
+    cases.push_back({name + ", sky with a sun", model, SkyWithSunBehind(), 256});
+    cases.push_back({name + ", point light", model, point, 16});
+    cases.push_back({name + ", sphere light", model, lamp, 64});
+  };
+  add("plastic", plastic);
+  add("metal", metal);
+  add("blinn_phong", phong);
+  return cases;
+}
+
+TEST_CASE("a smooth mesh becomes the sphere that it stands for as it is refined") {
+  for (const Case& c : RefinedCases()) {
+    Scene sphere = OneSphere(c.model, 48, c.spp);
+    sphere.lights = {c.light};
+    const Image expected = RenderImage(sphere, {});
+    for (const bool uv : {true, false}) {
+      double first = 0, last = 1e9;
+      for (const int level : {2, 3, 4}) {  // edges are half as long each time
+        const int segments = 4 << level;
+        Mesh mesh = uv ? MakeMesh(UvSphere{.segments = segments, .rings = segments / 2})
+                       : MakeMesh(Icosphere{.subdivisions = level});
+        const Image got = RenderImage(AsMesh(sphere, std::move(mesh)), {});
+        const double difference = RelativeDifference(got, expected);
+        CAPTURE(c.name, uv, level, difference, last);
+        // Flat facets and outlines are off by the square of the edges, a quarter each time; where
+        // all light comes from behind, as much of it as they hide may be most of what is seen.
+        CHECK(difference <= 0.6 * last);
+        // No rim is brighter than the sphere's, whose largest value is a pixel's: 10 %, and more
+        // while facets are as large as what they mirror.
+        CHECK(Largest(got) <= (level == 4 ? 1.1 : 1.6) * Largest(expected));
+        if (level == 2) first = difference;
+        last = difference;
+      }
+      CAPTURE(c.name, uv, first, last);
+      CHECK(last <= 0.3 * first);
+      CHECK(last <= 0.2);
+    }
+  }
+}
+
+// White surfaces, each reflecting all light, and every way to turn a normal.
+std::vector<decltype(Material::model)> WhiteModels() {
+  std::vector<decltype(Material::model)> models = {
+      LambertMaterial{Rgb(1)}, OrenNayarMaterial{Rgb(1), 1},
+      MetallicRoughnessMaterial{.base_color = Rgb(1), .roughness = 0.35},
+      DielectricMaterial{.base_color = Rgb(1), .roughness = 0.2}};
+  for (const double roughness : {0.0, 0.005, 0.1, 0.35, 1.0}) {
+    for (const Compensation compensation : {Compensation::kTurquin, Compensation::kKullaConty}) {
+      models.emplace_back(MetallicRoughnessMaterial{.base_color = Rgb(1),
+                                                    .metallic = 1,
+                                                    .roughness = roughness,
+                                                    .compensation = compensation});
+    }
+  }
+  return models;
+}
+
+struct TurnedShape {
+  const char* name;
+  std::function<void(Scene*)> turn;  // a scene of one sphere
+  double most_lost;                  // of a picture's light, by any of the models
+};
+
+TextureId AddBumps(Scene* scene) {
+  return AddTexture(scene, 16, 8, [](int x, int y) {
+    return Rgb(x * 7 % 5 / 4.0, (x * 3 + y * 5) % 7 / 6.0, 0.6 + 0.4 * ((x + y) % 2));
+  });
+}
+
+// What is lost is stated here and in the README: of coarse meshes the little that rays from their
+// lifted origins still meet of them, of maps what would come from below the surface.
+std::vector<TurnedShape> TurnedShapes() {
+  const auto mesh = [](const Mesh& of) {
+    return [of](Scene* scene) { *scene = AsMesh(*scene, of); };
+  };
+  const auto tilt = [](double tangent) {
+    return [tangent](Scene* scene) {
+      scene->materials[0].normal_map.texture =
+          AddConstant(scene, Rgb(0.5 + 0.5 * std::sin(std::atan(tangent)), 0.5,
+                                 0.5 + 0.5 * std::cos(std::atan(tangent))));
+      scene->materials[0].normal_map.convention = NormalMap::Convention::kLiteral;
+    };
+  };
+  return {{"uv sphere of 12 by 6", mesh(MakeMesh(UvSphere{.segments = 12, .rings = 6})), 0.001},
+          {"icosphere of 80", mesh(MakeMesh(Icosphere{.subdivisions = 1})), 0.001},
+          {"tilted by 20 degrees", tilt(std::tan(20 * M_PI / 180)), 0.06},
+          {"tilted by 60 degrees", tilt(std::tan(60 * M_PI / 180)), 0.4},
+          {"bumpy", [](Scene* scene) { scene->materials[0].normal_map.texture = AddBumps(scene); },
+           0.25},
+          {"bumpy mesh",
+           [](Scene* scene) {
+             *scene = AsMesh(*scene, MakeMesh(UvSphere{.segments = 12, .rings = 6}));
+             scene->materials[0].normal_map.texture = AddBumps(scene);
+             scene->textures[0].mapping = MappingKind::kUv;
+           },
+           0.35}};
+}
+
+// Each pixel's mean over several pictures, and how far it may be from the truth.
+struct PixelMean {
+  double value, deviation;
+};
+
+std::vector<PixelMean> MeanPixels(Scene scene) {
+  constexpr int kPictures = 4;
+  std::vector<double> sums, squares;
+  std::vector<float> alpha;
+  for (int k = 0; k < kPictures; ++k) {
+    scene.image.seed = static_cast<uint64_t>(k);
+    const Image image = RenderImage(scene, {});
+    const std::vector<float>& red = image.Find("R")->samples;
+    if (k == 0) alpha = image.Find("A")->samples;
+    sums.resize(red.size());
+    squares.resize(red.size());
+    for (size_t i = 0; i < red.size(); ++i) {
+      sums[i] += red[i];
+      squares[i] += double{red[i]} * red[i];
+    }
+  }
+  std::vector<PixelMean> pixels;
+  double mean_variance = 0;
+  for (size_t i = 0; i < sums.size(); ++i) {
+    if (alpha[i] < 1) continue;
+    const double mean = sums[i] / kPictures;
+    const double variance = std::max(squares[i] / kPictures - mean * mean, 0.0) / (kPictures - 1);
+    pixels.push_back({mean, variance});
+    mean_variance += variance;
+  }
+  mean_variance /= static_cast<double>(pixels.size());
+  // Its own four values may agree by chance: not better than those of all.
+  for (PixelMean& p : pixels) p.deviation = std::sqrt(std::max(p.deviation, mean_variance));
+  return pixels;
+}
+
+TEST_CASE(
+    "no pixel of a white surface is brighter than the light around it, however it is turned") {
+  for (const TurnedShape& shape : TurnedShapes()) {
+    double most_lost = 0, most = 0;
+    for (const auto& model : WhiteModels()) {
+      Scene scene = OneSphere(model, 24, 64);
+      scene.lights = {WhiteSky()};
+      shape.turn(&scene);
+      const std::vector<PixelMean> pixels = MeanPixels(scene);
+      REQUIRE(pixels.size() > 100);
+      double sum = 0;
+      for (const PixelMean& pixel : pixels) {
+        CAPTURE(shape.name, scene.materials[0].model.index(), pixel.value, pixel.deviation);
+        // The compensation's own tolerance, and of thousands of pixels none beyond six deviations.
+        CHECK(pixel.value <= 1 + 1e-3 + 6 * pixel.deviation);
+        CHECK(pixel.deviation <= 0.1);  // it says something
+        most = std::max(most, pixel.value);
+        sum += pixel.value;
+      }
+      most_lost = std::max(most_lost, 1 - sum / static_cast<double>(pixels.size()));
+    }
+    CAPTURE(shape.name, most_lost, most);
+    CHECK(most_lost <= shape.most_lost);
+    CHECK(most_lost >= shape.most_lost / 2 - 1e-3);  // so that what is stated is true
+  }
+}
+
+TEST_CASE("what a tilted normal loses of a matte surface's light comes from below the surface") {
+  // Of the normal's hemisphere a wedge as wide as the tilt: (1 - cos) / 2 of the irradiance.
+  const double tilt = 40 * M_PI / 180;
+  Scene scene = OneSphere(LambertMaterial{Rgb(1)}, 32, 256);
+  scene.lights = {WhiteSky()};
+  scene.materials[0].normal_map.texture =
+      AddConstant(&scene, Rgb(0.5 + 0.5 * std::sin(tilt), 0.5, 0.5 + 0.5 * std::cos(tilt)));
+  scene.materials[0].normal_map.convention = NormalMap::Convention::kLiteral;
+  scene.image.spp = 1024;
+  const Image image = RenderImage(scene, {});
+  const std::vector<float>& red = image.Find("R")->samples;
+  double sum = 0, count = 0;
+  for (size_t y = 12; y < 20; ++y) {  // far from the rim, where normals are bent
+    for (size_t x = 12; x < 20; ++x) {
+      sum += red[32 * y + x];
+      count += 1;
+    }
+  }
+  // A share p of samples is lost: sqrt(p (1 - p) / n), four times.
+  CHECK(sum / count == Approx((1 + std::cos(tilt)) / 2).margin(4 * 0.33 / std::sqrt(64 * 1024)));
+}
+
+TEST_CASE("a level normal map changes no bit of a smooth mesh") {
+  Scene plain = OneSphere(MetallicRoughnessMaterial{.roughness = 0.2}, 24, 16);
+  plain.lights = {SkyWithSunBehind(), Named("sun", DirectionalLight{Vec3d(1, -1, 0.2), Rgb(1)})};
+  plain = AsMesh(plain, MakeMesh(UvSphere{.segments = 12, .rings = 6}));
+  Scene mapped = plain;
+  mapped.materials[0].normal_map.texture = AddConstant(&mapped, Rgb(128.0 / 255, 128.0 / 255, 1));
+  mapped.textures[0].mapping = MappingKind::kUv;
+  CHECK(SameBits(RenderImage(plain, {}), RenderImage(mapped, {})));
+}
+
+}  // namespace
+}  // namespace nacre
