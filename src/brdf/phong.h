@@ -43,7 +43,8 @@ Real BlinnLobe(const Angles<Real>& a, Real shininess) {
   return LobePower(a.nxu_squared / u_squared, cos2 / u_squared, shininess / 2);
 }
 
-// Scale that makes the reflectance of the lobe c^n n.l, seen along the normal, equal to 1.
+// Scale that makes the reflectance of the lobe c^n n.l, seen along the normal, equal to 1. Of light
+// from along the normal, where n.l is 1, lobes without n.l then reflect all, too.
 // Phong, modified Phong: (n + 2) / 2 pi (Lafortune and Willems 1994).
 template <typename Real>
 Real PhongNormalization(Real shininess) {
@@ -55,6 +56,23 @@ template <typename Real>
 Real BlinnNormalization(Real shininess) {
   return (shininess + 2) * (shininess + 4) /
          (8 * static_cast<Real>(M_PI) * (std::exp2(-shininess / 2) + shininess));
+}
+
+// What a viewer along the normal sees of light 1 from everywhere by a lobe of that scale without
+// n.l: the scale times the integral of c^n alone. More than 1 at every exponent, 2 at 0, and the
+// most of all view directions. (The lobe is not reciprocal: of light from along the normal it
+// reflects 1, and of light that grazes the surface, over whose n.l it is to be divided, any
+// multiple.) Phong: (n + 2) / (n + 1).
+template <typename Real>
+Real PhongFurnace(Real shininess) {
+  return (shininess + 2) / (shininess + 1);
+}
+
+// Blinn-Phong: the integral is 8 pi (1 - 2^(-n/2 - 1)) / (n + 2), of h up to 45 degrees.
+template <typename Real>
+Real BlinnFurnace(Real shininess) {
+  const Real power = std::exp2(-shininess / 2);
+  return (shininess + 4) * (1 - power / 2) / (power + shininess);
 }
 
 }  // namespace nacre

@@ -9,8 +9,8 @@
 
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
-#include "brdf/multi_scatter.h"
 #include "shading/material.h"
+#include "shading/scalar_material.h"
 #include "textbook/albedo.h"
 #include "textbook/conventions.h"
 
@@ -39,7 +39,7 @@ CodeChange ComparisonChange(const LessonPictures& lesson, const TextbookFaults& 
   return MeasureChange(lesson.comparison, RenderComparison(settings));
 }
 
-// The model with which nacre renders white surfaces: dielectric (metallic 0) or metal (1).
+// The model with which nacre renders white surfaces: dielectric (metallic 0), metal (1), or a mix.
 MicrofacetModel NacreModel(double roughness, double metallic) {
   MetallicRoughnessMaterial material;
   material.base_color = Rgb(1, 1, 1);
@@ -54,15 +54,17 @@ MicrofacetModel NacreModel(double roughness, double metallic) {
 // the base.
 double NacreAlbedo(double n_dot_v, double roughness, double metallic) {
   const MicrofacetModel model = NacreModel(roughness, metallic);
-  const double f0 = model.f0.x;
-  const double single =
+  const double more = 1 / AlbedoOne(model.albedo.lobe, n_dot_v) - 1;
+  const double lobe =
       LobeAlbedo(n_dot_v, roughness, [&](const Vec3d& to_light, const Vec3d& to_view) {
         const Angles<double> a = ComputeAngles(Vec3d(0, 0, 1), to_light, to_view);
-        return GgxDistribution(a, model.alpha) * FresnelSchlick(f0, SchlickWeight(a)) *
+        const double compensated = FresnelOf(model, VDotH(a), OneMinusVDotH(a)).x +
+                                   more * TurquinTerm(model, VDotH(a), OneMinusVDotH(a)).x;
+        return GgxDistribution(a, model.alpha) * compensated *
                VisibilityHeightCorrelated(a.n_dot_l, a.n_dot_v, model.alpha);
       });
-  const double base = M_PI * model.diffuse.x * (1 - LobeAlbedo(model, n_dot_v, 0));
-  return single * TurquinFactor(f0, AlbedoOne(model.albedo.lobe, n_dot_v)) + base;
+  const double base = M_PI * model.diffuse.x * (1 - CoverAlbedo(model, n_dot_v, 0));
+  return lobe + base;
 }
 
 // The lesson's model without what E4 and E5 do to it.
@@ -131,6 +133,9 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
   const double lesson_white =
       TextbookSpecularAlbedo(0.18, 0.02, 0.04, lesson) + TextbookDiffuseAlbedo(0.18, 0.04, lesson);
   const double nacre_white = NacreAlbedo(0.18, 0.02, 0);
+  constexpr double kHalfF0 = (0.04 + 1) / 2;
+  const double lesson_half = TextbookSpecularAlbedo(1, 0.5, kHalfF0, lesson) +
+                             0.5 * TextbookDiffuseAlbedo(1, kHalfF0, lesson);
   const auto metal = [&](double r) {
     return fmt::format("r = {}: {:.3f} (nacre {:.3f})", r, TextbookSpecularAlbedo(1, r, 1, lesson),
                        NacreAlbedo(1, r, 1));
@@ -146,6 +151,9 @@ AmountLines AmountOfEnergy(const LessonPictures&) {
       fmt::format("white metal, n.v = 1, {}; {}", metal(0.5), metal(1)),
       fmt::format("white dielectric, r = 0.02, n.v = 0.18: {:.3f} (nacre {:.3f})", lesson_white,
                   nacre_white),
+      fmt::format("white half metal, r = 0.5, n.v = 1: {:.3f} (nacre {:.3f}): metallic mixes what "
+                  "two surfaces reflect; the lesson mixes F0 and takes the metal's from the base",
+                  lesson_half, NacreAlbedo(1, 0.5, 0.5)),
   };
 }
 

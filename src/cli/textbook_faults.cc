@@ -30,7 +30,7 @@ constexpr FaultEntry kEntries[] = {
     {"E6", "F0 of metals", "doc2: F0 = 1 for metals; the lesson: gold (1, .765, .336)",
      "metals are coloured", "F0 of a metal is its base colour", AmountOfMetalF0},
     {"E7", "\"energy conserving: yes\"",
-     "kd = 1 - F(v.h), single scattering, and G from k; called conserving",
+     "kd = 1 - F(v.h), of a mixed F0, single scattering, and G from k; called conserving",
      "1 for a white furnace: multiple scattering, and a base under both passes of the gloss",
      "Smith's G, Turquin's compensation, and a base that gets what the gloss leaves",
      AmountOfEnergy},

@@ -2,11 +2,13 @@
 #include "render/plan_notes.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/overloaded.h"
 #include "brdf/burley.h"
+#include "brdf/phong.h"
 
 namespace nacre {
 namespace {
@@ -98,6 +100,41 @@ void NoteDarkness(const Scene& scene, RenderPlan* plan) {
                   emits ? "only what its materials emit is seen" : "every shape is black"));
 }
 
+// The most that a radiometric Phong material lets a viewer see of light 1 from everywhere, of the
+// brightest channel; else 0. The classic convention has no reflectances that could be above 1.
+double PhongGain(const Material& material, PhongModel model) {
+  const auto* phong = std::get_if<PhongMaterial>(&material.model);
+  if (phong == nullptr || phong->model != model) return 0;
+  if (phong->convention != PhongConvention::kRadiometric) return 0;
+  double lobe = 1;
+  // A map may make the exponent smaller, and the lobe wider.
+  const double shininess = phong->shininess_map.valid() ? 0 : phong->shininess;
+  if (model == PhongModel::kPhong) lobe = PhongFurnace(shininess);
+  if (model == PhongModel::kBlinnPhong) lobe = BlinnFurnace(shininess);
+  const Rgb most = phong->kd * phong->color + phong->ks * lobe;
+  return std::max({most.x, most.y, most.z});
+}
+
+void NotePhongGain(const Scene& scene, RenderPlan* plan) {
+  for (const auto& [model, name] : {std::pair{PhongModel::kPhong, "phong"},
+                                    std::pair{PhongModel::kModifiedPhong, "modified_phong"},
+                                    std::pair{PhongModel::kBlinnPhong, "blinn_phong"}}) {
+    double most = 1;
+    const std::string names = NameThose(scene, [&, of = model](size_t i) {
+      const double gain = PhongGain(scene.materials[i], of);
+      most = std::max(most, gain);
+      return gain >= 1.005;  // less is told as 1.00
+    });
+    if (names.empty()) continue;
+    const bool modified = model == PhongModel::kModifiedPhong;
+    plan->notes.push_back(fmt::format(
+        "{}: {} reflects up to {:.2f} times the light from all around{}; {}kd + ks of 1 at most "
+        "keeps energy",
+        names, name, most, modified ? "" : ", and of light that grazes it any multiple",
+        modified ? "" : "modified_phong with "));
+  }
+}
+
 }  // namespace
 
 std::vector<bool> FindUsedMaterials(const Scene& scene) {
@@ -116,6 +153,7 @@ void NoteMaterials(const Scene& scene, RenderPlan* plan) {
   NoteDarkness(scene, plan);
   NoteMirrors(scene, plan);
   NoteGain(scene, plan);
+  NotePhongGain(scene, plan);
 }
 
 }  // namespace nacre

@@ -18,8 +18,8 @@ namespace nacre {
 // How the Phong family's coefficients are read.
 //   kClassic: the equations as the lessons write them: no 1/pi, no lobe normalisation; the
 //     light's irradiance perpendicular to it takes the place of I_l.
-//   kRadiometric: kd/pi, and lobes normalised so that ks is the reflectance at normal incidence;
-//     comparable with the physical models under the same light.
+//   kRadiometric: kd/pi, and lobes normalised so that ks is what they reflect of light from along
+//     the normal (brdf/phong.h); comparable with the physical models under the same light.
 enum class PhongConvention : uint8_t { kClassic, kRadiometric };
 
 enum class PhongModel : uint8_t {
@@ -70,7 +70,7 @@ enum class Compensation : uint8_t {
 
 // How much light the diffuse base gets from under the specular lobe.
 enum class DiffuseCoupling : uint8_t {
-  kAlbedoScaled,     // what the lobe's albedo leaves: a white surface reflects exactly all
+  kAlbedoScaled,     // what the dielectric's albedo leaves: a white surface reflects exactly all
   kOneMinusFresnel,  // 1 - F(v.h), the lesson's; a white surface may reflect 1.8 times the light
   kNone,             // all of it
 };
@@ -81,9 +81,9 @@ enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 // The microfacet models have a GGX lobe each. Roughness is perceptual, in [0, 1]:
 // alpha = roughness^2; 0 is a perfect mirror.
 
-// Metallic-roughness as in glTF 2.0 with KHR_materials_ior and KHR_materials_specular: GGX and
-// Schlick's Fresnel, from F0 = mix(specular dielectric_f0, base_color, metallic) to F90 =
-// mix(specular, 1, metallic), over a diffuse base (1 - metallic) base_color / pi.
+// Metallic-roughness as in glTF 2.0 with KHR_materials_ior and KHR_materials_specular: by metallic
+// a mix of GGX with Schlick's Fresnel from specular dielectric_f0 to specular, over a diffuse base
+// base_color / pi, and of GGX with Schlick's Fresnel from base_color to 1.
 struct MetallicRoughnessMaterial {
   Rgb base_color{0.8, 0.8, 0.8};  // each in [0, 1]
   double metallic = 0;            // in [0, 1]

@@ -53,6 +53,8 @@ struct MicrofacetLightOf {
   // and what it rises by; `diffuse` times 1 - F0 and 1 - F90, what is left at normal incidence and
   // at grazing angles, or times 1 and 0 where the base is not coupled to the lobe.
   Number specular_f0[3], specular_rise[3], diffuse_normal[3], diffuse_grazing[3];
+  // kSchlick and kTurquin: `specular` times turquin_f0 and turquin_f90 - turquin_f0.
+  Number turquin_f0[3], turquin_rise[3];
   Number multiple[3];  // kKullaConty: F_ms * light
 };
 using MicrofacetLight = MicrofacetLightOf<float>;
@@ -68,10 +70,12 @@ struct MicrofacetUniformsOf {
   const MicrofacetLightOf<Number>* lights;
   // The model's, rounded.
   Number alpha, pi_over_alpha2, schlick_k;
-  Number f0[3], f90, f82_slope[3];
+  Number f0[3];
   bool is_bright;  // no channel of f0 is below kBrightF0; not of hits with their own
+  // What covers the base; kKullaConty: with dielectric_f_multiple.
+  Number dielectric_f0[3], dielectric_f90, dielectric_f_multiple[3];
+  Number metallic, metal_f0[3], f82_slope[3];  // kF82, with what is above
   float eta[3], k[3];
-  Number f_multiple[3];
   // The distribution at each hit, formed in double, under one light; or null. Where each hit has
   // its alpha, below 0 at those whose lobe is wide.
   const float* narrow;

@@ -4,9 +4,9 @@
 #include <variant>
 
 #include "base/overloaded.h"
-#include "brdf/fresnel.h"
 #include "shading/lobe_sample.h"
 #include "shading/mapped.h"
+#include "shading/scalar_material.h"
 #include "shading/texture_kernels.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -322,52 +322,28 @@ const NarrowLobes* Narrow(const PhongFamilyModel& phong, bool mapped, const Lobe
   return scratch;
 }
 
-// What a mirror's reflectance depends on beside the angle of incidence, of one channel of a hit.
-struct MirrorNumbers {
-  double f0, f90, f82_slope, schlick_k;
-};
-
-MirrorNumbers NumbersOf(const MicrofacetModel& model, int channel) {
-  return {model.f0[channel], model.f90, model.f82_slope[channel], model.schlick_k};
-}
-
-// What maps give the hit: the same to the bit where they are constant.
-MirrorNumbers NumbersAt(const HitTextures& t, size_t i, int channel) {
-  const auto at = [&](const Soa3<double>& soa) {
-    return (channel == 0 ? soa.x : channel == 1 ? soa.y : soa.z)[i];
-  };
-  const double roughness = t.width[i];
-  return {at(t.specular), t.exact_f90[i], at(t.exact_slope), (roughness + 1) * (roughness + 1) / 8};
-}
-
-// The model's Fresnel curve at the cosine of the angle of incidence, exactly.
-double FresnelAt(const MicrofacetModel& model, const MirrorNumbers& numbers, double cosine,
-                 int channel) {
-  const double rest = 1 - cosine;
-  switch (model.fresnel) {
-    case FresnelForm::kSchlick:
-      return FresnelSchlick(numbers.f0, numbers.f90, Power5(rest));
-    case FresnelForm::kF82:
-      return FresnelF82(cosine, rest, numbers.f0, numbers.f90, numbers.f82_slope);
-    case FresnelForm::kDielectric:
-      return FresnelDielectric(cosine, rest, model.eta[0]);
-    case FresnelForm::kConductor:
-      return FresnelConductor(cosine, rest, model.eta[channel], model.k[channel]);
-  }
-  return 0;
+// Sets what maps give the hit, of all that a mirror's reflectance depends on beside the angle of
+// incidence: the same to the bit as the model's own numbers where maps are constant.
+void TakeMapped(const HitTextures& t, size_t i, MicrofacetModel* model) {
+  const auto at = [i](const Soa3<double>& soa) { return Rgb(soa.x[i], soa.y[i], soa.z[i]); };
+  model->metallic = t.metallic[i];
+  model->dielectric_f0 = at(t.exact_dielectric_f0);
+  model->dielectric_f90 = t.exact_dielectric_f90[i];
+  model->metal_f0 = at(t.exact_metal_f0);
+  model->f82_slope = at(t.exact_slope);
+  model->schlick_k = (t.width[i] + 1) * (t.width[i] + 1) / 8;
 }
 
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
-// 2013); Turquin's compensation, a factor of 1 + F0 (1 / E - 1), gives back of that what the
-// reflectance at normal incidence says. Kulla and Conty's is a lobe of its own.
-double MirrorAt(const MicrofacetModel& model, const MirrorNumbers& numbers, double cosine,
-                int channel) {
-  const double fresnel = FresnelAt(model, numbers, cosine, channel);
+// 2013); Turquin's compensation gives back of that what the reflectance at normal incidence says.
+// Kulla and Conty's is a lobe of its own.
+Rgb MirrorAt(const MicrofacetModel& model, double cosine) {
+  const Rgb fresnel = FresnelOf(model, cosine, 1 - cosine);
   if (model.shadowing != Shadowing::kSchlickDirect) return fresnel;
-  const double g1 = cosine / (cosine * (1 - numbers.schlick_k) + numbers.schlick_k);
+  const double g1 = cosine / (cosine * (1 - model.schlick_k) + model.schlick_k);
   const double single = g1 * g1;
   if (model.compensation != Compensation::kTurquin) return fresnel * single;
-  return fresnel * (single + numbers.f0 * (1 - single));
+  return fresnel * single + TurquinTerm(model, cosine, 1 - cosine) * (1 - single);
 }
 
 }  // namespace
@@ -449,19 +425,18 @@ void MirrorDirections(const LobeRange& range, Soa3<float>* to_light) {
 
 void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
                        Soa3<float>* reflectance) {
-  const auto& model = std::get<MicrofacetModel>(material.model);
+  auto at_hit = std::get<MicrofacetModel>(material.model);
   const Soa3<float>& n = range.surface.normal;
   const Soa3<float>& v = range.surface.to_view;
   const bool mapped = HasMappedModel(material);
-  float* const to[3] = {reflectance->x.data(), reflectance->y.data(), reflectance->z.data()};
   for (size_t i = range.begin; i < range.end; ++i) {
     const double n_dot_v =
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
-    const double cosine = std::clamp(n_dot_v, 0.0, 1.0);
-    for (int c = 0; c < 3; ++c) {
-      const MirrorNumbers numbers = mapped ? NumbersAt(*range.textures, i, c) : NumbersOf(model, c);
-      to[c][i] = static_cast<float>(MirrorAt(model, numbers, cosine, c));
-    }
+    if (mapped) TakeMapped(*range.textures, i, &at_hit);
+    const Rgb mirrored = MirrorAt(at_hit, std::clamp(n_dot_v, 0.0, 1.0));
+    reflectance->x[i] = static_cast<float>(mirrored.x);
+    reflectance->y[i] = static_cast<float>(mirrored.y);
+    reflectance->z[i] = static_cast<float>(mirrored.z);
   }
 }
 

@@ -74,6 +74,8 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   Assign(t.by_specular_rise, light.specular_rise);
   Assign(t.by_diffuse_normal, light.diffuse_normal);
   Assign(t.by_diffuse_grazing, light.diffuse_grazing);
+  Assign(t.by_turquin_f0, light.turquin_f0);
+  Assign(t.by_turquin_rise, light.turquin_rise);
   Assign(t.by_multiple, light.multiple);
   MicrofacetUniformsOf<ByHit> uniforms{};
   uniforms.model = &model;
@@ -82,9 +84,12 @@ void Shade(const MicrofacetModel& model, const ShadeRange& range, bool own_fits,
   uniforms.pi_over_alpha2 = t.pi_over_alpha2.data();
   uniforms.schlick_k = t.schlick_k.data();
   Assign(t.f0, uniforms.f0);
-  uniforms.f90 = t.f90.data();
+  Assign(t.dielectric_f0, uniforms.dielectric_f0);
+  uniforms.dielectric_f90 = t.dielectric_f90.data();
+  Assign(t.dielectric_f_multiple, uniforms.dielectric_f_multiple);
+  uniforms.metallic = t.rounded_metallic.data();
+  Assign(t.metal_f0, uniforms.metal_f0);
   Assign(t.f82_slope, uniforms.f82_slope);
-  Assign(t.f_multiple, uniforms.f_multiple);
   for (int c = 0; c < 3; ++c) {
     uniforms.eta[c] = static_cast<float>(model.eta[c]);
     uniforms.k[c] = static_cast<float>(model.k[c]);

@@ -56,7 +56,7 @@ void StartMaterialT(const TexturedRun& run, HitTextures* t) {
   } else if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
     FillRgb(hits, metallic->base_color, &t->diffuse);
     FillRgb(hits, metallic->dielectric_f0, &t->specular);
-    FillNumber(hits, metallic->specular, &t->exact_f90);
+    FillNumber(hits, metallic->specular, &t->exact_dielectric_f90);
     FillNumber(hits, metallic->metallic, &t->metallic);
     FillNumber(hits, metallic->roughness, &t->width);
   } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
@@ -81,7 +81,7 @@ void ApplyMapT(const TexturedRun& run, MapRole role, HitTextures* t) {
         Multiply(hits, texels, 1, Channel(t->specular, c));
         break;
       case MapRole::kSpecularWeight:
-        if (c == 0) Multiply(hits, texels, 1, t->exact_f90.data());
+        if (c == 0) Multiply(hits, texels, 1, t->exact_dielectric_f90.data());
         break;
       case MapRole::kEmission: {
         const double factor = run.material.emission[c];
@@ -152,6 +152,27 @@ void FinishMaterialT(const TexturedRun& run, HitTextures* t) {
   }
 }
 
+// MixCurves of material.cc, times the light.
+void MakeTurquinProducts(const MappedProducts& products, int c, HitTextures* t) {
+  const Hits hits{products.begin, products.end};
+  const double color = products.color[c];
+  const double* const dielectric = Channel(t->exact_dielectric_f0, c);
+  const double* const metal = Channel(t->exact_metal_f0, c);
+  const double *const f90 = t->exact_dielectric_f90.data(), *const metallic = t->metallic.data();
+  const float* const not_delta = t->not_delta.data();
+  const auto at_normal = [=](size_t i) {
+    return (1 - metallic[i]) * dielectric[i] * dielectric[i] + metallic[i] * metal[i] * metal[i];
+  };
+  const auto at_grazing = [=](size_t i) {
+    return (1 - metallic[i]) * dielectric[i] * f90[i] + metallic[i] * metal[i];
+  };
+  hits.Fill(Channel(t->by_turquin_f0, c),
+            [&](size_t i) { return at_normal(i) * (double{not_delta[i]} * color); });
+  hits.Fill(Channel(t->by_turquin_rise, c), [&](size_t i) {
+    return (at_grazing(i) - at_normal(i)) * (double{not_delta[i]} * color);
+  });
+}
+
 void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
   const Hits hits{products.begin, products.end};
   const auto& model = std::get<MicrofacetModel>(products.material.model);
@@ -172,6 +193,7 @@ void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
                 [&](size_t i) { return (1 - coupled * f0[i]) * diffuse[i] * color; });
       hits.Fill(Channel(t->by_diffuse_grazing, c),
                 [&](size_t i) { return coupled * (1 - f90[i]) * diffuse[i] * color; });
+      if (model.compensation == Compensation::kTurquin) MakeTurquinProducts(products, c, t);
     } else {
       hits.Fill(Channel(t->by_specular, c), [&](size_t i) { return double{not_delta[i]} * color; });
     }

@@ -76,18 +76,25 @@ void PutFit(const HitFit& fit, size_t i, HitTextures* t) {
 }
 
 // Kulla and Conty's lobe of a hit: what PrepareKullaConty of material.cc does.
-// `by_hit`: the mean of the Fresnel curve is each hit's own, not the model's.
+// `by_hit`: the means of the Fresnel curves are each hit's own, not the model's.
 void FinishKullaConty(const MicrofacetModel& model, const HitFit& fit, bool by_hit, size_t i,
                       HitTextures* t) {
   t->multiple_scale[i] = static_cast<float>(KullaContyScale(fit.e_average));
   for (int c = 0; c < 3; ++c) {
-    const double f0 = Channel(t->specular, c)[i];
-    const double f90 = t->exact_f90[i];
-    const double f_average =
-        by_hit ? AverageF82(f0, f90, Channel(t->exact_slope, c)[i]) : model.f_average[c];
-    const double f_multiple = KullaContyFresnel(f_average, fit.e_average);
-    Channel(t->exact_f_multiple, c)[i] = f_multiple;
-    Channel(t->f_multiple, c)[i] = static_cast<float>(f_multiple);
+    const double f0 = Channel(t->exact_dielectric_f0, c)[i];
+    const double f90 = t->exact_dielectric_f90[i];
+    const double metal_f0 = Channel(t->exact_metal_f0, c)[i];
+    const double metallic = t->metallic[i];
+    const double dielectric_f_average =
+        by_hit ? AverageSchlick(f0, f90) : model.dielectric_f_average[c];
+    const double metal_f_average = by_hit ? AverageF82(metal_f0, 1.0, Channel(t->exact_slope, c)[i])
+                                          : model.metal_f_average[c];
+    const double f_multiple = KullaContyFresnel(dielectric_f_average, fit.e_average);
+    const double mixed =
+        (1 - metallic) * f_multiple + metallic * KullaContyFresnel(metal_f_average, fit.e_average);
+    Channel(t->exact_f_multiple, c)[i] = mixed;
+    Channel(t->f_multiple, c)[i] = static_cast<float>(mixed);
+    Channel(t->dielectric_f_multiple, c)[i] = static_cast<float>(f_multiple);
     if (model.coupling != DiffuseCoupling::kAlbedoScaled) continue;
     const double single =
         model.fresnel == FresnelForm::kDielectric
@@ -127,21 +134,26 @@ void FinishBase(const TexturedRun& run, const MicrofacetModel& model,
   FinishRatio(run, at, t);
 }
 
-// F0 and the slope of F82, and what is left for the base, from colour and metallic of each hit.
+// Both Fresnel curves and their mix, and what is left for the base, from colour and metallic of
+// each hit.
 void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMaterial& material,
                              HitTextures* t) {
   FinishLayers(run, Rgb(1), Rgb(1), t);
   const auto& model = std::get<MicrofacetModel>(run.material.model);
   const Hits hits{run.begin, run.end};
   const double* const metallic = t->metallic.data();
-  double* const specular = t->exact_f90.data();
+  const double* const specular = t->exact_dielectric_f90.data();
   FinishBase(run, model, material.diffuse_roughness, t);
   for (int c = 0; c < 3; ++c) {
     double* const diffuse = Channel(t->diffuse, c);
     double* const f0 = Channel(t->specular, c);
+    double* const dielectric_f0 = Channel(t->exact_dielectric_f0, c);
+    double* const metal_f0 = Channel(t->exact_metal_f0, c);
     double* const slope = Channel(t->exact_slope, c);
+    hits.Fill(dielectric_f0, [&](size_t i) { return f0[i] * specular[i]; });
+    hits.Fill(metal_f0, [&](size_t i) { return diffuse[i]; });
     hits.Fill(f0, [&](size_t i) {
-      return specular[i] * f0[i] * (1 - metallic[i]) + diffuse[i] * metallic[i];
+      return (1 - metallic[i]) * dielectric_f0[i] + metallic[i] * metal_f0[i];
     });
     hits.Fill(diffuse, [&](size_t i) { return diffuse[i] * ((1 - metallic[i]) * M_1_PI); });
     if (model.fresnel == FresnelForm::kSchlick) {
@@ -149,20 +161,23 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
       continue;
     }
     const double tint = material.f82_tint[c];
-    hits.Fill(slope, [&](size_t i) {
-      const double f90 = 1 - (1 - specular[i]) * (1 - metallic[i]);
-      return metallic[i] * F82SlopeFromTint(f0[i], f90, tint);
-    });
+    hits.Fill(slope, [&](size_t i) { return F82SlopeFromTint(metal_f0[i], 1.0, tint); });
   }
-  hits.Fill(specular, [&](size_t i) { return 1 - (1 - specular[i]) * (1 - metallic[i]); });
+  hits.Fill(t->exact_f90.data(),
+            [&](size_t i) { return 1 - (1 - specular[i]) * (1 - metallic[i]); });
 }
 
 // Those of a conductor and a dielectric are the model's.
 void FillFresnel(const TexturedRun& run, HitTextures* t) {
   const auto& model = std::get<MicrofacetModel>(run.material.model);
-  FillRgb({run.begin, run.end}, model.f0, &t->specular);
-  FillRgb({run.begin, run.end}, model.f82_slope, &t->exact_slope);
-  FillNumber({run.begin, run.end}, model.f90, &t->exact_f90);
+  const Hits hits{run.begin, run.end};
+  FillRgb(hits, model.f0, &t->specular);
+  FillRgb(hits, model.dielectric_f0, &t->exact_dielectric_f0);
+  FillRgb(hits, model.metal_f0, &t->exact_metal_f0);
+  FillRgb(hits, model.f82_slope, &t->exact_slope);
+  FillNumber(hits, model.f90, &t->exact_f90);
+  FillNumber(hits, model.dielectric_f90, &t->exact_dielectric_f90);
+  FillNumber(hits, model.metallic, &t->metallic);
 }
 
 void FinishConductor(const TexturedRun& run, HitTextures* t) {
@@ -199,6 +214,10 @@ void FinishLobe(const TexturedRun& run, HitTextures* t) {
   }
 }
 
+void Round(const Hits& hits, const double* from, float* to) {
+  hits.Fill(to, [&](size_t i) { return from[i]; });
+}
+
 void FinishMicrofacetT(const TexturedRun& run, HitTextures* t) {
   const Material& material = *run.material.textured;
   if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
@@ -209,16 +228,18 @@ void FinishMicrofacetT(const TexturedRun& run, HitTextures* t) {
     FinishConductor(run, t);
   }
   const Hits hits{run.begin, run.end};
-  for (int c = 0; c < 3; ++c) {
-    const double* const f0 = Channel(t->specular, c);
-    const double* const slope = Channel(t->exact_slope, c);
-    hits.Fill(Channel(t->f0, c), [&](size_t i) { return f0[i]; });
-    hits.Fill(Channel(t->f82_slope, c), [&](size_t i) { return slope[i]; });
-  }
-  const double* const f90 = t->exact_f90.data();
-  hits.Fill(t->f90.data(), [&](size_t i) { return f90[i]; });
-  FinishLobe(run, t);
   const auto& model = std::get<MicrofacetModel>(run.material.model);
+  for (int c = 0; c < 3; ++c) {
+    Round(hits, Channel(t->specular, c), Channel(t->f0, c));
+    Round(hits, Channel(t->exact_dielectric_f0, c), Channel(t->dielectric_f0, c));
+    if (model.fresnel != FresnelForm::kF82) continue;
+    Round(hits, Channel(t->exact_metal_f0, c), Channel(t->metal_f0, c));
+    Round(hits, Channel(t->exact_slope, c), Channel(t->f82_slope, c));
+  }
+  Round(hits, t->exact_f90.data(), t->f90.data());
+  Round(hits, t->exact_dielectric_f90.data(), t->dielectric_f90.data());
+  Round(hits, t->metallic.data(), t->rounded_metallic.data());
+  FinishLobe(run, t);
   if (model.prepared) FinishAlbedo(run, model, t);
 }
 

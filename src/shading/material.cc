@@ -82,23 +82,41 @@ void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
   if (model->base_roughness == 0) model->base_form = DiffuseForm::kLambert;
 }
 
+// F0 and F90 of the mix, and of Turquin's compensation, from those of dielectric and metal.
+void MixCurves(MicrofacetModel* model) {
+  const double m = model->metallic, not_metal = 1 - m;
+  model->f90 = 1 - (1 - model->dielectric_f90) * not_metal;  // 1, not nearly, of the default
+  for (int c = 0; c < 3; ++c) {
+    const double dielectric = model->dielectric_f0[c], metal = model->metal_f0[c];
+    model->f0[c] = not_metal * dielectric + m * metal;
+    model->turquin_f0[c] = not_metal * dielectric * dielectric + m * metal * metal;
+    model->turquin_f90[c] = not_metal * dielectric * model->dielectric_f90 + m * metal;
+  }
+}
+
 // Kulla and Conty 2017: the lobe of what bounced more than once, and, for a reciprocal base, the
 // mean albedo that its scale is divided by.
-void PrepareKullaConty(const Rgb& f_average, MicrofacetModel* model) {
+void PrepareKullaConty(const Rgb& dielectric_f_average, const Rgb& metal_f_average,
+                       MicrofacetModel* model) {
   const double e_average = model->albedo.lobe.e_average;
-  model->f_average = f_average;
-  model->f_multiple =
-      EachChannel([&](int c) { return KullaContyFresnel(f_average[c], e_average); });
+  model->dielectric_f_average = dielectric_f_average;
+  model->metal_f_average = metal_f_average;
+  model->dielectric_f_multiple =
+      EachChannel([&](int c) { return KullaContyFresnel(dielectric_f_average[c], e_average); });
+  model->f_multiple = EachChannel([&](int c) {
+    return (1 - model->metallic) * model->dielectric_f_multiple[c] +
+           model->metallic * KullaContyFresnel(metal_f_average[c], e_average);
+  });
   model->multiple = KullaContyScale(e_average);
   if (model->coupling != DiffuseCoupling::kAlbedoScaled) return;
   const AlbedoFit& lobe = model->albedo.lobe;
   for (int c = 0; c < 3; ++c) {
-    const double f0 = model->f0[c];
-    const double single =
-        model->fresnel == FresnelForm::kDielectric
-            ? model->albedo.average
-            : f0 * (e_average - lobe.schlick_average) + model->f90 * lobe.schlick_average;
-    const double left = 1 - single - model->f_multiple[c] * (1 - e_average);
+    const double f0 = model->dielectric_f0[c];
+    const double single = model->fresnel == FresnelForm::kDielectric
+                              ? model->albedo.average
+                              : f0 * (e_average - lobe.schlick_average) +
+                                    model->dielectric_f90 * lobe.schlick_average;
+    const double left = 1 - single - model->dielectric_f_multiple[c] * (1 - e_average);
     model->diffuse[c] = left > 0 ? model->diffuse[c] / left : 0;
   }
 }
@@ -108,20 +126,23 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   model.coupling = material.diffuse_coupling;
   model.diffuse = material.base_color * ((1 - material.metallic) * M_1_PI);
   PrepareBase(material, &model);
-  const double not_metal = 1 - material.metallic;
-  model.f0 = EachChannel([&](int c) {
-    return material.specular * material.dielectric_f0[c] * not_metal +
-           material.base_color[c] * material.metallic;
-  });
-  model.f90 = 1 - (1 - material.specular) * not_metal;  // 1, not nearly, of the default
-  // The tint is the metal's.
-  model.f82_slope = EachChannel([&](int c) {
-    return material.metallic * F82SlopeFromTint(model.f0[c], model.f90, material.f82_tint[c]);
-  });
-  model.fresnel = model.f82_slope == Rgb(0, 0, 0) ? FresnelForm::kSchlick : FresnelForm::kF82;
+  model.metallic = material.metallic;
+  model.dielectric_f0 = material.dielectric_f0 * material.specular;
+  model.dielectric_f90 = material.specular;
+  model.metal_f0 = material.base_color;
+  MixCurves(&model);
+  // Of a material that is no metal the tint does not show.
+  const bool tinted = material.metallic > 0 && material.f82_tint != Rgb(1);
+  model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
+  if (tinted) {
+    model.f82_slope = EachChannel(
+        [&](int c) { return F82SlopeFromTint(material.base_color[c], 1.0, material.f82_tint[c]); });
+  }
   if (model.compensation == Compensation::kKullaConty) {
     PrepareKullaConty(
-        EachChannel([&](int c) { return AverageF82(model.f0[c], model.f90, model.f82_slope[c]); }),
+        EachChannel(
+            [&](int c) { return AverageSchlick(model.dielectric_f0[c], model.dielectric_f90); }),
+        EachChannel([&](int c) { return AverageF82(model.metal_f0[c], 1.0, model.f82_slope[c]); }),
         &model);
   }
   return model;
@@ -132,12 +153,14 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.eta = material.eta;
   model.k = material.k;
-  model.f0 = EachChannel([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
+  model.metallic = 1;
+  model.metal_f0 = EachChannel([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
+  MixCurves(&model);
   model.fresnel = FresnelForm::kConductor;
   if (material.fresnel == ConductorFresnel::kF82Tint) {
     model.fresnel = FresnelForm::kF82;
     model.f82_slope = EachChannel([&](int c) {
-      return F82Slope(model.f0[c], model.f90,
+      return F82Slope(model.metal_f0[c], 1.0,
                       FresnelConductor(1 - one_minus_seventh, one_minus_seventh, material.eta[c],
                                        material.k[c]));
     });
@@ -145,10 +168,10 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
     model.fresnel = FresnelForm::kSchlick;
   }
   if (model.compensation == Compensation::kKullaConty) {
-    PrepareKullaConty(EachChannel([&](int c) {
+    PrepareKullaConty(Rgb(0), EachChannel([&](int c) {
                         return model.fresnel == FresnelForm::kConductor
                                    ? AverageConductor(material.eta[c], material.k[c])
-                                   : AverageF82(model.f0[c], model.f90, model.f82_slope[c]);
+                                   : AverageF82(model.metal_f0[c], 1.0, model.f82_slope[c]);
                       }),
                       &model);
   }
@@ -162,7 +185,8 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   model.diffuse = material.base_color * M_1_PI;
   PrepareBase(material, &model);
   model.eta = Rgb(material.ior);
-  model.f0 = Rgb(FresnelF0(material.ior, 0.0));
+  model.dielectric_f0 = Rgb(FresnelF0(material.ior, 0.0));
+  MixCurves(&model);
   model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
   if (exact) {
     model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, material.ior);
@@ -173,7 +197,7 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   }
   if (model.compensation == Compensation::kKullaConty) {
     PrepareKullaConty(Rgb(exact ? AverageDielectric(material.ior) : AverageSchlick(model.f0.x)),
-                      &model);
+                      Rgb(0), &model);
   }
   return model;
 }
@@ -192,13 +216,6 @@ void FindMaps(const Material& material, ShadingMaterial* prepared) {
   prepared->mapped = prepared->mapped || material.vertex_colors != VertexColors::kNone;
   prepared->turned = material.normal_map.texture.valid() || material.bump_map.texture.valid();
   if (prepared->mapped || prepared->turned) prepared->textured = &material;
-  auto* const microfacet = std::get_if<MicrofacetModel>(&prepared->model);
-  const auto* const metallic = std::get_if<MetallicRoughnessMaterial>(&material.model);
-  if (!prepared->mapped || microfacet == nullptr || metallic == nullptr) return;
-  // Where maps may make it metallic, a tint shows.
-  if (metallic->f82_tint != Rgb(1) && metallic->metallic > 0) {
-    microfacet->fresnel = FresnelForm::kF82;
-  }
 }
 
 // A metal's base reflects nothing, whatever share of the light it would get: an albedo need not be
@@ -266,17 +283,36 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
   return prepared;
 }
 
-double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
-  const double f0 = model.f0[channel];
+double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
+  const double f0 = model.dielectric_f0[channel];
   const double one = AlbedoOne(model.albedo.lobe, n_dot_v);
   const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
   const double schlick = AlbedoSchlick(model.albedo.lobe, n_dot_v);
   const double single = model.fresnel == FresnelForm::kDielectric
                             ? AlbedoFresnel(model.albedo, n_dot_v)
-                            : f0 * (one - schlick) + model.f90 * schlick;
+                            : f0 * (one - schlick) + model.dielectric_f90 * schlick;
   switch (model.compensation) {
     case Compensation::kTurquin:
       return single * (1 + f0 * loss / one);
+    case Compensation::kKullaConty:
+      return single + model.dielectric_f_multiple[channel] * loss;
+    case Compensation::kNone:
+      break;
+  }
+  return single;
+}
+
+double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
+  if (model.metallic == 0) return CoverAlbedo(model, n_dot_v, channel);
+  const double one = AlbedoOne(model.albedo.lobe, n_dot_v);
+  const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
+  const double schlick = AlbedoSchlick(model.albedo.lobe, n_dot_v);
+  const double single = model.f0[channel] * (one - schlick) + model.f90 * schlick;
+  switch (model.compensation) {
+    case Compensation::kTurquin:
+      return single + loss / one *
+                          (model.turquin_f0[channel] * (one - schlick) +
+                           model.turquin_f90[channel] * schlick);
     case Compensation::kKullaConty:
       return single + model.f_multiple[channel] * loss;
     case Compensation::kNone:

@@ -43,6 +43,13 @@ struct PhongFamilyModel {
 enum class FresnelForm : uint8_t { kSchlick, kF82, kDielectric, kConductor };
 
 // A GGX lobe over a diffuse base: metallic-roughness, conductor and dielectric.
+//
+// Metallic-roughness mixes two surfaces, as glTF 2.0 does (Appendix B.2): (1 - metallic) of a
+// dielectric over a diffuse base, and metallic of a bare metal. Their lobes have the same
+// distribution and visibility, so one lobe with the mix of their Fresnel curves is exactly the mix
+// of their lobes. What is no linear function of the Fresnel curve is mixed itself: compensation,
+// and the base's share of the light, which only the dielectric above it takes from. Conductors are
+// all metal, dielectrics all dielectric.
 struct MicrofacetModel {
   Shadowing shadowing;
   FresnelForm fresnel;
@@ -50,18 +57,29 @@ struct MicrofacetModel {
   DiffuseCoupling coupling;
   Rgb diffuse{0, 0, 0};  // of the base, over pi; with reciprocal scaling also over 1 - mean albedo
   DiffuseForm base_form = DiffuseForm::kLambert;
-  double base_roughness = 0;     // of other forms
-  Rgb base_ratio{0, 0, 0};       // kOrenNayar: EonMultipleRatio of the base's colour
-  Rgb f0{0, 0, 0};               // reflectance at normal incidence
-  double f90 = 1;                // at grazing incidence, of Schlick's curve and F82's
-  Rgb f82_slope{0, 0, 0};        // kF82
+  double base_roughness = 0;  // of other forms
+  Rgb base_ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the base's colour
+  double metallic = 0;        // the metal's share of the mix
+  // Reflectance at normal incidence, and of Schlick's curve (and F82's) at grazing incidence; the
+  // metal's at grazing incidence is 1.
+  Rgb dielectric_f0{0, 0, 0};
+  double dielectric_f90 = 1;
+  Rgb metal_f0{0, 0, 0};
+  Rgb f82_slope{0, 0, 0};        // kF82: the metal's
   Rgb eta{0, 0, 0}, k{0, 0, 0};  // kDielectric (eta), kConductor
-  Rgb f_average{0, 0, 0};        // kKullaConty: the Fresnel curve's mean
-  Rgb f_multiple{0, 0, 0};  // kKullaConty: what light that bounced more than once has left, F_ms
-  double multiple;          // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
-  double alpha;             // of the lobe
-  double schlick_k;         // (roughness + 1)^2 / 8
-  bool delta;               // a perfect mirror, which punctual lights cannot show
+  Rgb f0{0, 0, 0};               // of the mix
+  double f90 = 1;
+  // kTurquin, Schlick's curve: F0 F of both, mixed, at normal and at grazing incidence; see
+  // TurquinTerm.
+  Rgb turquin_f0{0, 0, 0}, turquin_f90{0, 0, 0};
+  // kKullaConty: the means of both Fresnel curves; what light that bounced more than once has left
+  // of the dielectric's reflection, F_ms, and of the mix.
+  Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};
+  Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
+  double multiple;   // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
+  double alpha;      // of the lobe
+  double schlick_k;  // (roughness + 1)^2 / 8
+  bool delta;        // a perfect mirror, which punctual lights cannot show
   bool double_terms;
   bool prepared;            // shading needs what PrepareRun computes
   FresnelAlbedoFit albedo;  // kDielectric: with the curve of its index
@@ -87,7 +105,9 @@ struct ShadingMaterial {
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);
 
-// The directional albedo of the whole lobe, compensation included, seen from n.v, of one channel.
+// The directional albedos of one channel seen from n.v, compensation included: of what covers the
+// base, and of the whole lobe. They are the same but for a mix with a metal.
+double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
 double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
 
 // Whether a lobe's terms are formed in double where maps give the hit this roughness.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/microfacet_albedo-inl.h: what a microfacet lobe reflects in all, and so what is left for
-// its base and for light that bounces more than once. Scalar twin: LobeAlbedo (material.h).
+// the base under it and for light that bounces more than once. Scalar twin: CoverAlbedo
+// (material.h).
 #if defined(NACRE_SHADING_MICROFACET_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_MICROFACET_ALBEDO_INL_H_
 #undef NACRE_SHADING_MICROFACET_ALBEDO_INL_H_

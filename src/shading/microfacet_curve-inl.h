@@ -58,13 +58,21 @@ struct HalfV {
   HWY_INLINE FloatV ULength(FloatTag d) const { return hn::Mul(twice_u_length, hn::Set(d, 0.5f)); }
 };
 
-// A curve's value: Schlick's weight W, F = F0 + (F90 - F0) W, or F of each channel.
+// A curve's value: Schlick's weight W, F = F0 + (F90 - F0) W; F of each channel; or what dielectric
+// and metal reflect, each times its share of the mix.
 struct SchlickCurveV {
   FloatV weight;
 };
 struct FresnelCurveV {
   RgbV fresnel;
 };
+struct MixedCurveV {
+  RgbV dielectric, metal;
+};
+HWY_INLINE RgbV FresnelOf(const FresnelCurveV& curve) { return curve.fresnel; }
+HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) {
+  return AddRgb(curve.dielectric, curve.metal);
+}
 
 // 1 - v.h for Schlick's weight; by kBrightF0.
 template <class Form, class Number>
@@ -91,11 +99,17 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
     const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, u_length);
     const FloatV v_dot_h = VDotH(d, u_length);
     if constexpr (kFresnel == FresnelForm::kF82) {
-      const RgbV f0 = RgbAt(d, uniforms.f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
-      const FloatV f90 = NumberAt(d, uniforms.f90, i);
-      return FresnelCurveV{{FresnelF82(d, v_dot_h, one_minus_vh, f0.r, f90, slope.r),
-                            FresnelF82(d, v_dot_h, one_minus_vh, f0.g, f90, slope.g),
-                            FresnelF82(d, v_dot_h, one_minus_vh, f0.b, f90, slope.b)}};
+      const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
+      const FloatV one = hn::Set(d, 1.0f), metallic = NumberAt(d, uniforms.metallic, i);
+      const RgbV metal{FresnelF82(d, v_dot_h, one_minus_vh, f0.r, one, slope.r),
+                       FresnelF82(d, v_dot_h, one_minus_vh, f0.g, one, slope.g),
+                       FresnelF82(d, v_dot_h, one_minus_vh, f0.b, one, slope.b)};
+      const RgbV other = RgbAt(d, uniforms.dielectric_f0, i);
+      const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i), weight = Power5(one_minus_vh);
+      const RgbV dielectric{FresnelSchlick(d, other.r, f90, weight),
+                            FresnelSchlick(d, other.g, f90, weight),
+                            FresnelSchlick(d, other.b, f90, weight)};
+      return MixedCurveV{ScaleRgb(dielectric, hn::Sub(one, metallic)), ScaleRgb(metal, metallic)};
     } else if constexpr (kFresnel == FresnelForm::kDielectric) {
       const FloatV grey = FresnelDielectric(d, v_dot_h, one_minus_vh, hn::Set(d, uniforms.eta[0]));
       return FresnelCurveV{{grey, grey, grey}};
@@ -114,10 +128,27 @@ HWY_INLINE RgbV ReflectedBy(FloatTag d, const SchlickCurveV& curve, size_t i,
                             const MicrofacetLightOf<Number>& light) {
   return MulAddRgb(RgbAt(d, light.specular_rise, i), curve.weight, RgbAt(d, light.specular_f0, i));
 }
-template <class Number>
-HWY_INLINE RgbV ReflectedBy(FloatTag d, const FresnelCurveV& curve, size_t i,
+template <class Curve, class Number>
+HWY_INLINE RgbV ReflectedBy(FloatTag d, const Curve& curve, size_t i,
                             const MicrofacetLightOf<Number>& light) {
-  return MulRgb(curve.fresnel, RgbAt(d, light.specular, i));
+  return MulRgb(FresnelOf(curve), RgbAt(d, light.specular, i));
+}
+
+// F0 F times the light, each of the two of a mix by its own F0: what Turquin's compensation adds,
+// but for the factor 1 / E - 1 (TurquinTerm of scalar_material.h).
+template <class Number>
+HWY_INLINE RgbV TurquinTerm(FloatTag d, const SchlickCurveV& curve, size_t i,
+                            const MicrofacetUniformsOf<Number>&,
+                            const MicrofacetLightOf<Number>& light) {
+  return MulAddRgb(RgbAt(d, light.turquin_rise, i), curve.weight, RgbAt(d, light.turquin_f0, i));
+}
+template <class Number>
+HWY_INLINE RgbV TurquinTerm(FloatTag d, const MixedCurveV& curve, size_t i,
+                            const MicrofacetUniformsOf<Number>& uniforms,
+                            const MicrofacetLightOf<Number>& light) {
+  const RgbV of_dielectric = MulRgb(RgbAt(d, uniforms.dielectric_f0, i), curve.dielectric);
+  const RgbV of_metal = MulRgb(RgbAt(d, uniforms.metal_f0, i), curve.metal);
+  return MulRgb(AddRgb(of_dielectric, of_metal), RgbAt(d, light.specular, i));
 }
 
 // What the base gets of the light, times its colour and `weight`: all, or 1 - F of it
@@ -146,10 +177,9 @@ HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
   }
   return ScaledPart({r, g, b}, weight);
 }
-template <class Form, class Number>
-HWY_INLINE PartV LeftForBase(FloatTag d, const FresnelCurveV& curve, size_t i,
-                             const MicrofacetModel& model, const MicrofacetLightOf<Number>& light,
-                             FloatV weight) {
+template <class Form, class Curve, class Number>
+HWY_INLINE PartV LeftForBase(FloatTag d, const Curve& curve, size_t i, const MicrofacetModel& model,
+                             const MicrofacetLightOf<Number>& light, FloatV weight) {
   const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
   // The exact curves may round to just above 1 at grazing angles.
   const auto left = [&](FloatV fresnel, size_t c) HWY_ATTR {
@@ -159,7 +189,7 @@ HWY_INLINE PartV LeftForBase(FloatTag d, const FresnelCurveV& curve, size_t i,
     }
     return all;
   };
-  const RgbV& fresnel = curve.fresnel;
+  const RgbV fresnel = FresnelOf(curve);
   return ScaledPart({left(fresnel.r, 0), left(fresnel.g, 1), left(fresnel.b, 2)}, weight);
 }
 

@@ -21,17 +21,13 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// Turquin 2019: 1 + F0 (1 / E(v) - 1); `multiple` is the bracket.
-HWY_INLINE RgbV TurquinScale(FloatTag d, const RgbV& f0, FloatV multiple) {
-  const FloatV one = hn::Set(d, 1.0f);
-  return MulAddRgb(f0, multiple, {one, one, one});
-}
-
 template <FresnelForm kFresnel, class Form, class Number>
 struct Microfacet {
   static constexpr bool kReadsIrradiance = false;
   using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
+  // Of a dielectric and a metal, which Turquin's compensation scales each by its own F0.
+  static constexpr bool kIsMix = kFresnel == FresnelForm::kSchlick || kFresnel == FresnelForm::kF82;
   MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
   // Not of hits that were prepared: there most of the time is the preparation's.
@@ -125,6 +121,20 @@ struct Microfacet {
     }
     PartV reflected = ScaledPart(ReflectedBy(d, curve, p.i, light), lobe);
     PartV base = LeftForBase<Form>(d, curve, p.i, model, light, base_weight);
+    if (CompensationOf<Form>(model) == Compensation::kTurquin) {
+      // The lobe first: a bright light's colour times the weight may be beyond float's range.
+      const FloatV multiple = hn::LoadU(d, view.surface->multiple.data() + p.i);
+      if constexpr (kIsMix) {
+        const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
+        const FloatV more = hn::Min(hn::Mul(multiple, lobe), largest);
+        const RgbV term = TurquinTerm(d, curve, p.i, uniforms, light);
+        reflected = WholePart(d, MulAddRgb(term, more, RgbOf(reflected)));
+      } else {
+        const FloatV one = hn::Set(d, 1.0f);
+        const RgbV scale = MulAddRgb(RgbAt(d, uniforms.f0, p.i), multiple, {one, one, one});
+        reflected = {RgbOf(reflected), scale};
+      }
+    }
     Complete(d, view, p.i, in, light, &reflected, &base.color);
     if (spreads) return {{{RgbOf(base), ScaleRgb(SpreadAt(d, p.i), in.weight)}}, reflected};
     return {{base}, reflected};
@@ -136,8 +146,9 @@ struct Microfacet {
     return MulAddRgb(RgbAt(d, uniforms.base_ratio, i), multiple, {single, single, single});
   }
 
+  // Of what covers the base.
   HWY_INLINE AlbedoV AlbedoAt(FloatTag d, size_t i, FloatV cosine) const {
-    const FloatV f90 = NumberAt(d, uniforms.f90, i);
+    const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
     if constexpr (kSame) {
       return EvaluateAlbedo(d, model, f90, cosine);
     } else {
@@ -147,27 +158,23 @@ struct Microfacet {
     }
   }
 
-  // Adds what bounces more than once, and takes from the base what the lobe's albedo does.
+  // Adds Kulla and Conty's lobe, and takes from the base what the albedo of its cover does.
   HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
                            const MicrofacetLightOf<Number>& light, PartV* reflected,
                            RgbV* base) const {
     const bool scaled = CouplingOf<Form>(model) == DiffuseCoupling::kAlbedoScaled;
     const Surface& surface = *view.surface;
     if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.base, i));
+    if (CompensationOf<Form>(model) != Compensation::kKullaConty) return;
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
-    const Compensation compensation = CompensationOf<Form>(model);
-    if (compensation == Compensation::kTurquin) {
-      // The lobe first: a bright light's colour times the scale may be beyond float's range.
-      *reflected = {RgbOf(*reflected), TurquinScale(d, RgbAt(d, uniforms.f0, i), multiple)};
-    }
-    if (compensation != Compensation::kKullaConty) return;
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
     const FloatV amount = hn::Mul(hn::Mul(multiple, from_light.loss), in.weight);
     const RgbV more = ScaleRgb(RgbAt(d, light.multiple, i), hn::Min(amount, largest));
     *reflected = WholePart(d, AddRgb(RgbOf(*reflected), more));
     if (scaled) {
-      const RgbV f0 = RgbAt(d, uniforms.f0, i), f_multiple = RgbAt(d, uniforms.f_multiple, i);
+      const RgbV f0 = RgbAt(d, uniforms.dielectric_f0, i);
+      const RgbV f_multiple = RgbAt(d, uniforms.dielectric_f_multiple, i);
       *base = MulRgb(*base, {KullaContyBase(d, from_light, f0.r, f_multiple.r),
                              KullaContyBase(d, from_light, f0.g, f_multiple.g),
                              KullaContyBase(d, from_light, f0.b, f_multiple.b)});

@@ -40,18 +40,18 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
   return hn::Zero(d);
 }
 
-// A model's numbers for all hits.
+// A model's numbers for all hits: those of the dielectric, which covers the base.
 struct SameForAll {
   const MicrofacetModel& model;
   float f90, multiple_scale, f0[3], f_multiple[3];  // rounded once
 
   explicit SameForAll(const MicrofacetModel& of)
       : model(of),
-        f90(static_cast<float>(of.f90)),
+        f90(static_cast<float>(of.dielectric_f90)),
         multiple_scale(static_cast<float>(of.multiple)) {
     for (int c = 0; c < 3; ++c) {
-      f0[c] = static_cast<float>(of.f0[c]);
-      f_multiple[c] = static_cast<float>(of.f_multiple[c]);
+      f0[c] = static_cast<float>(of.dielectric_f0[c]);
+      f_multiple[c] = static_cast<float>(of.dielectric_f_multiple[c]);
     }
   }
   HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t, FloatV n_dot_v) const {
@@ -78,7 +78,7 @@ struct ByHit {
     return ComputeAlbedoVariables(d, Fit(i).shape, n_dot_v);
   }
   HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, const AlbedoVariablesV<FloatV>& x) const {
-    const FloatV f90 = hn::LoadU(d, t.f90.data() + i);
+    const FloatV f90 = hn::LoadU(d, t.dielectric_f90.data() + i);
     if (!own_fits) return EvaluateAlbedo(d, model, f90, x);
     return EvaluateAlbedo(d, model, Fit(i), f90, x);
   }
@@ -88,9 +88,11 @@ struct ByHit {
   static HWY_INLINE FloatV Channel(FloatTag d, const Soa3<float>& soa, size_t i, int c) {
     return hn::LoadU(d, (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data() + i);
   }
-  HWY_INLINE FloatV F0(FloatTag d, size_t i, int c) const { return Channel(d, t.f0, i, c); }
+  HWY_INLINE FloatV F0(FloatTag d, size_t i, int c) const {
+    return Channel(d, t.dielectric_f0, i, c);
+  }
   HWY_INLINE FloatV FMultiple(FloatTag d, size_t i, int c) const {
-    return Channel(d, t.f_multiple, i, c);
+    return Channel(d, t.dielectric_f_multiple, i, c);
   }
 };
 

@@ -53,13 +53,35 @@ Reflection ReflectModel(const PhongFamilyModel& model, const Vec3d& n, const Vec
   return {model.diffuse * n_dot_l, model.specular * (lobe * weight)};
 }
 
+// What dielectric and metal reflect, each times its share of the mix, of channel c.
+struct FresnelShares {
+  double dielectric = 0, metal = 0;
+};
+
+FresnelShares SharesOf(const MicrofacetModel& model, double v_dot_h, double one_minus_vh, int c) {
+  const double metallic = model.metallic;
+  switch (model.fresnel) {
+    case FresnelForm::kSchlick:
+    case FresnelForm::kF82:
+      return {
+          (1 - metallic) *
+              FresnelSchlick(model.dielectric_f0[c], model.dielectric_f90, Power5(one_minus_vh)),
+          metallic * FresnelF82(v_dot_h, one_minus_vh, model.metal_f0[c], 1.0, model.f82_slope[c])};
+    case FresnelForm::kDielectric:
+      return {.dielectric = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c])};
+    case FresnelForm::kConductor:
+      return {.metal = FresnelConductor(v_dot_h, one_minus_vh, model.eta[c], model.k[c])};
+  }
+  return {};
+}
+
 // What reaches the base and leaves it again, of channel c.
 double BaseShare(const MicrofacetModel& model, const Angles<double>& a, double fresnel, int c) {
   switch (model.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {
-      const double out = 1 - LobeAlbedo(model, a.n_dot_v, c);
+      const double out = 1 - CoverAlbedo(model, a.n_dot_v, c);
       const bool reciprocal = model.compensation == Compensation::kKullaConty;
-      return reciprocal ? out * (1 - LobeAlbedo(model, a.n_dot_l, c)) : out;
+      return reciprocal ? out * (1 - CoverAlbedo(model, a.n_dot_l, c)) : out;
     }
     case DiffuseCoupling::kOneMinusFresnel:
       return 1 - fresnel;
@@ -73,6 +95,7 @@ Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3
                         const Vec3d& v) {
   const Angles<double> a = ComputeAngles(n, l, v);
   const Rgb fresnel = FresnelOf(model, VDotH(a), OneMinusVDotH(a));
+  const Rgb turquin = TurquinTerm(model, VDotH(a), OneMinusVDotH(a));
   const double lobe = GgxDistribution(a, model.alpha) * VisibilityOf(model, a.n_dot_l, a.n_dot_v);
   const double loss_v = AlbedoLoss(model.albedo.lobe, a.n_dot_v);
   const double loss_l = AlbedoLoss(model.albedo.lobe, a.n_dot_l);
@@ -80,7 +103,7 @@ Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3
   for (int c = 0; c < 3; ++c) {
     double specular = fresnel[c] * lobe;
     if (model.compensation == Compensation::kTurquin) {
-      specular *= TurquinFactor(model.f0[c], 1 - loss_v);
+      specular += turquin[c] * lobe * loss_v / (1 - loss_v);
     } else if (model.compensation == Compensation::kKullaConty) {
       specular += model.f_multiple[c] * model.multiple * loss_v * loss_l;
     }
@@ -105,22 +128,19 @@ Reflection Reflect(const ShadingMaterial& material, const Vec3d& normal, const V
 Rgb FresnelOf(const MicrofacetModel& model, double v_dot_h, double one_minus_vh) {
   Rgb fresnel;
   for (int c = 0; c < 3; ++c) {
-    switch (model.fresnel) {
-      case FresnelForm::kSchlick:
-        fresnel[c] = FresnelSchlick(model.f0[c], model.f90, Power5(one_minus_vh));
-        break;
-      case FresnelForm::kF82:
-        fresnel[c] = FresnelF82(v_dot_h, one_minus_vh, model.f0[c], model.f90, model.f82_slope[c]);
-        break;
-      case FresnelForm::kDielectric:
-        fresnel[c] = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c]);
-        break;
-      case FresnelForm::kConductor:
-        fresnel[c] = FresnelConductor(v_dot_h, one_minus_vh, model.eta[c], model.k[c]);
-        break;
-    }
+    const auto [dielectric, metal] = SharesOf(model, v_dot_h, one_minus_vh, c);
+    fresnel[c] = dielectric + metal;
   }
   return fresnel;
+}
+
+Rgb TurquinTerm(const MicrofacetModel& model, double v_dot_h, double one_minus_vh) {
+  Rgb term;
+  for (int c = 0; c < 3; ++c) {
+    const auto [dielectric, metal] = SharesOf(model, v_dot_h, one_minus_vh, c);
+    term[c] = model.dielectric_f0[c] * dielectric + model.metal_f0[c] * metal;
+  }
+  return term;
 }
 
 double VisibilityOf(const MicrofacetModel& model, double n_dot_l, double n_dot_v) {

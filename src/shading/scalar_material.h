@@ -20,8 +20,12 @@ struct Reflection {
 Reflection Reflect(const ShadingMaterial& material, const Vec3d& normal, const Vec3d& to_light,
                    const Vec3d& to_view);
 
-// Fresnel's term of the model's curve, at cosine v.h.
+// Fresnel's term of the model's curve, at cosine v.h; of a mix of dielectric and metal the mix.
 Rgb FresnelOf(const MicrofacetModel& model, double v_dot_h, double one_minus_vh);
+
+// Turquin's compensation scales a lobe by 1 + F0 (1 / E - 1), of a mix each of the two lobes by its
+// own: the Fresnel term becomes FresnelOf + (1 / E - 1) TurquinTerm, where this is F0 F, mixed.
+Rgb TurquinTerm(const MicrofacetModel& model, double v_dot_h, double one_minus_vh);
 
 // G / (4 n.l n.v) in the model's form.
 double VisibilityOf(const MicrofacetModel& model, double n_dot_l, double n_dot_v);

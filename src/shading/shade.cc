@@ -49,6 +49,10 @@ MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
     Assign((Rgb(model.f90) - model.f0) * specular, light.specular_rise);
     Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_normal);
     Assign(coupled ? (1 - model.f90) * diffuse : Rgb(0), light.diffuse_grazing);
+    if (model.compensation == Compensation::kTurquin) {
+      Assign(model.turquin_f0 * specular, light.turquin_f0);
+      Assign((model.turquin_f90 - model.turquin_f0) * specular, light.turquin_rise);
+    }
   } else {
     Assign(diffuse, light.diffuse);
     Assign(specular, light.specular);
@@ -69,14 +73,19 @@ MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLi
   uniforms.schlick_k = static_cast<float>(model.schlick_k);
   Assign(model.f0, uniforms.f0);
   uniforms.is_bright = std::min({uniforms.f0[0], uniforms.f0[1], uniforms.f0[2]}) >= kBrightF0;
-  uniforms.f90 = static_cast<float>(model.f90);
-  if (model.fresnel == FresnelForm::kF82) Assign(model.f82_slope, uniforms.f82_slope);
+  Assign(model.dielectric_f0, uniforms.dielectric_f0);
+  uniforms.dielectric_f90 = static_cast<float>(model.dielectric_f90);
+  if (model.fresnel == FresnelForm::kF82) {
+    uniforms.metallic = static_cast<float>(model.metallic);
+    Assign(model.metal_f0, uniforms.metal_f0);
+    Assign(model.f82_slope, uniforms.f82_slope);
+  }
   if (model.fresnel == FresnelForm::kDielectric || model.fresnel == FresnelForm::kConductor) {
     Assign(model.eta, uniforms.eta);
     Assign(model.k, uniforms.k);
   }
   if (model.compensation == Compensation::kKullaConty) {
-    Assign(model.f_multiple, uniforms.f_multiple);
+    Assign(model.dielectric_f_multiple, uniforms.dielectric_f_multiple);
   }
   if (model.base_form != DiffuseForm::kLambert) Assign(model.base_ratio, uniforms.base_ratio);
   return uniforms;

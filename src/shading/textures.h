@@ -77,20 +77,24 @@ struct HitTextures {
   Soa3<float> texels;  // looked up last
 
   // What the maps make of a material at each hit: what MicrofacetModel and PhongFamilyModel have of
-  // those names; `specular` of the former is F0.
+  // those names; `specular` of the former is F0. Not rounded: exact_...
   Soa3<double> diffuse, specular;
   AlignedArray<double> width{kBatchCapacity};  // roughness; or the Phong family's exponent
   AlignedArray<double> metallic{kBatchCapacity};
-  AlignedArray<double> exact_f90{kBatchCapacity};  // before it is finished: `specular`
-  Soa3<double> exact_slope, exact_f_multiple;      // f82_slope and f_multiple, not rounded
-  Soa3<float> albedo, ambient, emission;           // for the layers of these names
+  AlignedArray<double> exact_f90{kBatchCapacity};
+  AlignedArray<double> exact_dielectric_f90{kBatchCapacity};
+  Soa3<double> exact_dielectric_f0, exact_metal_f0, exact_slope, exact_f_multiple;
+  Soa3<float> albedo, ambient, emission;  // for the layers of these names
   // The constants of models, rounded: alpha or exponent, pi / alpha^2, Schlick's k; 0 for mirrors
   // and else 1.
   AlignedArray<float> alpha{kBatchCapacity}, pi_over_alpha2{kBatchCapacity};
   AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
   AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
-  Soa3<float> f0, f82_slope, f_multiple;
+  Soa3<float> f0, dielectric_f0, dielectric_f_multiple, metal_f0, f82_slope;
+  AlignedArray<float> dielectric_f90{kBatchCapacity}, rounded_metallic{kBatchCapacity};
+  // Of the mix, which samples are shared out by.
   AlignedArray<float> f90{kBatchCapacity};
+  Soa3<float> f_multiple;
   // Of rough matte surfaces and bases: EonMultipleRatio of their colour; a base's roughness.
   Soa3<float> base_ratio;
   AlignedArray<float> base_roughness{kBatchCapacity};
@@ -101,7 +105,7 @@ struct HitTextures {
   AlignedArray<float> fit{kFitEntries * kFitStride};
   // Products with one light; see MicrofacetLightOf.
   Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rise, by_diffuse_normal,
-      by_diffuse_grazing, by_multiple;
+      by_diffuse_grazing, by_turquin_f0, by_turquin_rise, by_multiple;
 };
 
 // What a material with maps has at hits [begin, end) of the batch, all of it: looks the maps up,

@@ -86,22 +86,23 @@ Rgb ShareOfModel(const PhongFamilyModel& model, ShareOf what, double cosine) {
 // What is reflected of the lobe of channel c, compensation included.
 double LobeShare(const MicrofacetModel& model, ShareOf what, double cosine, int c) {
   const double roughness = std::sqrt(model.alpha);
-  const auto fresnel = [&](double vh, double one_minus_vh) {
-    return FresnelOf(model, vh, one_minus_vh)[c];
-  };
   const AlbedoFit& fit = model.albedo.lobe;
   const bool turquin = model.compensation == Compensation::kTurquin;
-  const auto factor = [&](double n_dot_v) {
-    return turquin ? TurquinFactor(model.f0[c], 1 - AlbedoLoss(fit, n_dot_v)) : 1;
+  // Fresnel's term, compensated as seen from this cosine.
+  const auto curve_from = [&](double n_dot_v) {
+    const double loss = turquin ? AlbedoLoss(fit, n_dot_v) : 0;
+    return [&model, c, more = loss / (1 - loss)](double vh, double one_minus_vh) {
+      return FresnelOf(model, vh, one_minus_vh)[c] + more * TurquinTerm(model, vh, one_minus_vh)[c];
+    };
   };
   double share = 0;
   if (what == ShareOf::kFurnace || !turquin || model.delta) {
-    share = AlbedoOf(model.shadowing, roughness, cosine, fresnel) * factor(cosine);
+    share = AlbedoOf(model.shadowing, roughness, cosine, curve_from(cosine));
   } else {
     const AlbedoQuadrature rule;
     for (const AlbedoNode& node : MakeAlbedoNodes(model.alpha, cosine, rule.points)) {
       share += node.weight * VisibilityOf(model, node.n_dot_l, cosine) *
-               AzimuthIntegral(node, model.alpha, rule, fresnel) * factor(node.n_dot_l);
+               AzimuthIntegral(node, model.alpha, rule, curve_from(node.n_dot_l));
     }
   }
   if (model.compensation == Compensation::kKullaConty) {
@@ -112,7 +113,7 @@ double LobeShare(const MicrofacetModel& model, ShareOf what, double cosine, int 
 
 // 2 int (1 - albedo) mu dmu: what the lobe leaves on average.
 double MeanBaseShare(const MicrofacetModel& model, int c) {
-  return IntegrateTowardsZero([&](double mu) { return 2 * mu * (1 - LobeAlbedo(model, mu, c)); },
+  return IntegrateTowardsZero([&](double mu) { return 2 * mu * (1 - CoverAlbedo(model, mu, c)); },
                               20);
 }
 
@@ -128,7 +129,7 @@ double CoupledShare(const MicrofacetModel& model, double cosine, int c) {
 double BaseShareOf(const MicrofacetModel& model, ShareOf what, double cosine, int c) {
   switch (model.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {
-      const double here = 1 - LobeAlbedo(model, cosine, c);
+      const double here = 1 - CoverAlbedo(model, cosine, c);
       if (model.compensation == Compensation::kKullaConty) return here * MeanBaseShare(model, c);
       return what == ShareOf::kFurnace ? here : MeanBaseShare(model, c);
     }
@@ -144,8 +145,8 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   Rgb share;
   for (int c = 0; c < 3; ++c) {
     const auto same = [&](const Rgb& value) { return c > 0 && value[c] == value[c - 1]; };
-    if (same(model.f0) && same(model.diffuse) && same(model.eta) && same(model.k) &&
-        same(model.f82_slope) && same(model.base_ratio)) {
+    if (same(model.dielectric_f0) && same(model.metal_f0) && same(model.diffuse) &&
+        same(model.eta) && same(model.k) && same(model.f82_slope) && same(model.base_ratio)) {
       share[c] = share[c - 1];
       continue;
     }

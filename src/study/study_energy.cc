@@ -43,14 +43,19 @@ ShadingMaterial Metal(double roughness, Compensation compensation) {
   return PrepareMaterial(material, Rgb(0));
 }
 
-ShadingMaterial Dielectric(double roughness, DiffuseCoupling coupling, Compensation compensation) {
+ShadingMaterial White(double metallic, double roughness, DiffuseCoupling coupling,
+                      Compensation compensation) {
   Material material;
   material.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
-                                             .metallic = 0,
+                                             .metallic = metallic,
                                              .roughness = roughness,
                                              .compensation = compensation,
                                              .diffuse_coupling = coupling};
   return PrepareMaterial(material, Rgb(0));
+}
+
+ShadingMaterial Dielectric(double roughness, DiffuseCoupling coupling, Compensation compensation) {
+  return White(0, roughness, coupling, compensation);
 }
 
 Plot PbrPlot() {
@@ -120,8 +125,7 @@ double WorstFurnaceError(double metallic, Compensation compensation) {
   double worst = 0;
   for (const double roughness : {0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
     const ShadingMaterial material =
-        metallic > 0 ? Metal(roughness, compensation)
-                     : Dielectric(roughness, DiffuseCoupling::kAlbedoScaled, compensation);
+        White(metallic, roughness, DiffuseCoupling::kAlbedoScaled, compensation);
     for (const double cosine : {0.01, 0.1, 0.3, 0.6, 1.0}) {
       const double share = ReflectedShare(material, ShareOf::kFurnace, cosine).x;
       worst = std::max(worst, std::abs(share - 1));
@@ -135,7 +139,8 @@ struct Shares {
   double literal, over_pi, grazing, normalised;  // Phong's
   double rough;                                  // of a white metal of roughness 1, on average
   double coupled;                                // of a dielectric whose base gets 1 - F(v.h)
-  double turquin, kulla, dielectric;             // errors in the furnace
+  double half_coupled;                           // of a half metal of that kind
+  double turquin, kulla, dielectric, half;       // errors in the furnace
   double one_light, one_light_kulla;             // of a dielectric, of light from n.l = 0.02
 };
 
@@ -156,9 +161,14 @@ Shares Measure() {
       .rough = MakeAlbedoFit(Shadowing::kHeightCorrelated, 1).e_average,
       .coupled = dielectric(0.02, DiffuseCoupling::kOneMinusFresnel, Compensation::kNone,
                             ShareOf::kFurnace),
+      .half_coupled =
+          ReflectedShare(White(0.5, 0.5, DiffuseCoupling::kOneMinusFresnel, Compensation::kNone),
+                         ShareOf::kFurnace, 1)
+              .x,
       .turquin = WorstFurnaceError(1, Compensation::kTurquin),
       .kulla = WorstFurnaceError(1, Compensation::kKullaConty),
       .dielectric = WorstFurnaceError(0, Compensation::kTurquin),
+      .half = WorstFurnaceError(0.5, Compensation::kTurquin),
       .one_light = dielectric(0.5, by_albedo, Compensation::kTurquin, ShareOf::kOneLight),
       .one_light_kulla = dielectric(0.5, by_albedo, Compensation::kKullaConty, ShareOf::kOneLight),
   };
@@ -172,9 +182,12 @@ std::vector<StudyNumber> NumbersOf(const Shares& s) {
       {"modified and normalised, n = 64, light at 0 degrees", s.normalised, ""},
       {"white GGX metal, roughness 1, one bounce: average share", s.rough, ""},
       {"white dielectric, base times 1 - F, roughness 0.02, n.v = 0.02", s.coupled, ""},
+      {"white half metal, base times 1 - F of the mixed F0, roughness 0.5, n.v = 1", s.half_coupled,
+       ""},
       {"furnace, white metal, Turquin: largest error", s.turquin, ""},
       {"furnace, white metal, Kulla-Conty: largest error", s.kulla, ""},
       {"furnace, white dielectric, Turquin: largest error", s.dielectric, ""},
+      {"furnace, white half metal, Turquin: largest error", s.half, ""},
       {"one light, n.l = 0.02, white dielectric, roughness 0.5, Turquin", s.one_light, ""},
       {"one light, n.l = 0.02, white dielectric, roughness 0.5, Kulla-Conty", s.one_light_kulla,
        ""},
@@ -193,14 +206,20 @@ std::string AnswerOf(const Shares& s) {
       "That the PBR model has no such problem is not true of the model as the lesson writes it. "
       "GGX with one bounce loses light: a white metal of roughness 1 gives back {:.1f} %. A white "
       "dielectric whose base is scaled by 1 - F(v.h) makes light: {:.2f} times of it at n.v = 0.02 "
-      "and roughness 0.02. With compensation and a base scaled by what the lobe's albedo leaves, "
-      "white stays white in the furnace: within {:.0e} (metal, Turquin), {:.0e} (metal, "
-      "Kulla-Conty) and {:.0e} (dielectric).\n\n"
+      "and roughness 0.02. Between the two, the lesson mixes F0 by metallic and scales the base by "
+      "both 1 - metallic and 1 - F, so that the metal's reflectance is taken from it twice: a "
+      "white "
+      "half metal of roughness 0.5, seen along its normal, gives back {:.1f} %. Metallic mixes two "
+      "surfaces (glTF 2.0), and only the dielectric has a base to take from. With compensation and "
+      "a base scaled by what the dielectric's albedo leaves, white stays white in the furnace: "
+      "within {:.0e} (metal, Turquin), {:.0e} (metal, Kulla-Conty), {:.0e} (dielectric) and {:.0e} "
+      "(half metal).\n\n"
       "A furnace lights from everywhere. Of light from one grazing direction (n.l = 0.02) a white "
       "dielectric of roughness 0.5 reflects {:.2f} with Turquin's compensation, which is not "
       "reciprocal, and {:.4f} with Kulla and Conty's, which is.",
-      kKd, kKs, s.literal, s.over_pi, s.grazing, s.normalised, 100 * s.rough, s.coupled, s.turquin,
-      s.kulla, s.dielectric, s.one_light, s.one_light_kulla);
+      kKd, kKs, s.literal, s.over_pi, s.grazing, s.normalised, 100 * s.rough, s.coupled,
+      100 * s.half_coupled, s.turquin, s.kulla, s.dielectric, s.half, s.one_light,
+      s.one_light_kulla);
 }
 
 }  // namespace

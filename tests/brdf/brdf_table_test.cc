@@ -65,6 +65,82 @@ void CheckRow(const Row& row, const Values& got, double u) {
   CHECK((std::isfinite(got.blinn_ungated) && got.blinn_ungated >= 0));
 }
 
+// The angles and the terms that specular values are products of. The table has no condition numbers
+// for these: they follow from what each is computed from. Null where the row has no finite value.
+class TermCheck {
+ public:
+  TermCheck(const Row& row, double u) : row_(row), u_(u) {
+    const auto dot_cond = [&](const Vec3d& a, const Vec3d& b, const char* name) {
+      double sum = 0;
+      for (int c = 0; c < 3; ++c) sum += std::abs(a[c] * b[c]);
+      return 4 * sum / std::abs(Reference(name));  // two vectors, each normalised
+    };
+    const double v_dot_h = Reference("vh"), sine = std::sqrt(Reference("nxh2"));
+    n_dot_l_ = dot_cond(row.n, row.l, "nl");
+    n_dot_v_ = dot_cond(row.n, row.v, "nv");
+    half_ = 4 / v_dot_h;  // l + v is 2 v.h long
+    n_dot_h_ = 4 * (1 + half_) / std::abs(Reference("nh"));
+    sine2_ = 4 * (1 + half_) / sine;
+  }
+
+  void CheckAngles(const Angles<double>& a) const {
+    const double u_length = std::sqrt(a.u_squared);
+    Column("nl", a.n_dot_l, n_dot_l_);
+    Column("nv", a.n_dot_v, n_dot_v_);
+    Column("nh", a.n_dot_u / u_length, n_dot_h_);
+    Column("vh", VDotH(a), half_);
+    const double sine2 = a.nxu_squared / a.u_squared;
+    Column("nxh2", sine2, sine2_);
+    if (a.n_dot_u > 0) Column("one_minus_nh", sine2 / (1 + a.n_dot_u / u_length), sine2_);
+  }
+
+  void CheckTerms(double distribution, double fresnel, double height_correlated) const {
+    const double nh = Reference("nh"), sine2 = Reference("nxh2"),
+                 alpha2 = std::pow(row_.roughness, 4);
+    if (nh > 0) {
+      const double flat = nh * nh * alpha2, share = sine2 / (flat + sine2);
+      const double of_sine = share > 0 ? 2 * share * sine2_ : 0;
+      Column("D", distribution, of_sine + 4 * (1 - share) * n_dot_h_ + 8);
+    }
+    const double vh = Reference("vh");
+    if (std::isnan(vh)) return;
+    // (1 - v.h)^5 from |l - v|^2 = 4 (1 - (v.h)^2).
+    const double weight = Power5(1 - vh);
+    const double rise = (1 - row_.f0) * weight / FresnelSchlick(row_.f0, weight);
+    const double apart = 2 * std::sqrt(std::max((1 - vh) * (1 + vh), 0.0));
+    Column("F_schlick", fresnel, apart > 0 ? 5 * rise * (half_ + 8 / apart) : 0);
+    if (Reference("nl") > 0 && Reference("nv") > 0) {
+      Column("V_corr", height_correlated, n_dot_l_ + n_dot_v_);
+    }
+  }
+
+ private:
+  // NaN where there is none.
+  double Reference(const char* name) const {
+    const nlohmann::json ref = row_.ref.value(name, nlohmann::json());
+    const double value = ref.is_null() ? std::nan("") : TableNumber(ref);
+    return std::isfinite(value) ? value : std::nan("");
+  }
+
+  // The conditioned rule, of values of either sign.
+  void Column(const char* name, double got, double cond) const {
+    const double reference = Reference(name);
+    if (std::isnan(reference)) return;
+    CAPTURE(row_.id, name, got, reference, cond, u_);
+    const double sign = reference < 0 ? -1 : 1;
+    // What is exactly 0 has no relative error: 64 roundings of 1.
+    if (reference == 0) {
+      CHECK(std::abs(got) <= 64 * u_);
+    } else {
+      CHECK(PassesConditionedRule(std::max(sign * got, 0.0), sign * reference, cond, u_));
+    }
+  }
+
+  const Row& row_;
+  double u_;
+  double n_dot_l_, n_dot_v_, half_, n_dot_h_, sine2_;  // condition numbers
+};
+
 Values Evaluate(const Row& row) {
   // The table's vectors are rounded to float, and its references normalise them exactly first.
   const Vec3d n = row.n.normalized();
@@ -86,7 +162,11 @@ Values Evaluate(const Row& row) {
   values.phong_gated = lit ? values.phong_ungated : 0.0;
   values.blinn_gated = lit ? values.blinn_ungated : 0.0;
   values.lesson_spec_exact = specular(VisibilitySchlickDirect(a.n_dot_l, n_dot_v, row.roughness));
-  values.hc_spec = specular(VisibilityHeightCorrelated(a.n_dot_l, n_dot_v, alpha));
+  const double height_correlated = VisibilityHeightCorrelated(a.n_dot_l, n_dot_v, alpha);
+  values.hc_spec = specular(height_correlated);
+  const TermCheck check(row, kHalfUlpDouble);
+  check.CheckAngles(a);
+  check.CheckTerms(distribution, fresnel, height_correlated);
   return values;
 }
 
@@ -121,6 +201,8 @@ TEST_CASE("SIMD terms pass the hard rows in float on every target", "[table]") {
       values.lesson_spec_exact = specular == 0 ? 0.0f : specular * out.schlick_direct;
       values.hc_spec = specular == 0 ? 0.0f : specular * out.height_correlated;
       CheckRow(rows[i], values, kHalfUlpFloat);
+      TermCheck(rows[i], kHalfUlpFloat)
+          .CheckTerms(out.distribution, out.fresnel, out.height_correlated);
     }
   });
 }

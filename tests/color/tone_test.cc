@@ -37,6 +37,7 @@ TEST_CASE("Reinhard and ACES agree with the table in double", "[color][table]") 
     const double extended = std::min(TableNumber(row.at("reinhard_ext_white4")), 1.0);
     CHECK(Near(ToneReinhardExtended(x, 4.0), extended, kTolerance));
     CHECK(Near(ToneAces(x), TableNumber(row.at("aces_narkowicz_clamped")), kTolerance));
+    CHECK(Near(ToneAces(x), std::min(TableNumber(row.at("aces_narkowicz_raw")), 1.0), kTolerance));
   }
 }
 

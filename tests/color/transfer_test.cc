@@ -23,6 +23,7 @@ TEST_CASE("sRGB encoding agrees with the table", "[color][table]") {
     CAPTURE(x);
     CHECK(std::abs(SrgbOetf(x) - expected) <= kCurveTolerance * expected);
     CHECK(std::floor(255 * SrgbOetf(x) + 0.5) == row.at("srgb8_of_oetf").get<int>());
+    CHECK(Srgb8(static_cast<float>(x)) == row.at("srgb8_of_oetf").get<int>());
   }
 }
 

@@ -24,6 +24,8 @@ struct ExpectedSpot {
   ConeTerms<double> cone;
   double cosine;
   double value;
+  AttenuationTerms<double> terms;  // of the fall-off that is in `total` as well
+  double distance, total;
 };
 
 AttenuationTerms<float> ToFloat(const AttenuationTerms<double>& terms) {
@@ -42,13 +44,17 @@ void LoadRows(std::vector<Expected>* falloffs, std::vector<ExpectedSpot>* spots)
     const auto number = [&](const char* key) { return TableNumber(row[key]); };
     const double distance = number("distance");
     falloffs->push_back({{0, 0, 1}, distance, TableNumber(row["inv_sq"])});
+    falloffs->push_back({{1e-4, 0, 1}, distance, number("lesson_0p0001")});
     falloffs->push_back({{number("eps"), 0, 1}, distance, TableNumber(row["F3_eps"])});
     falloffs->push_back(
         {{number("Kc"), number("Kl"), number("Kq")}, distance, TableNumber(row["F2_poly"])});
     const double cutoff = number("cos_cutoff");
     spots->push_back({{cutoff, cutoff, number("exponent")},
                       number("cos_alpha"),
-                      TableNumber(row["spot_factor"])});
+                      number("spot_factor"),
+                      {number("eps"), 0, 1},
+                      distance,
+                      number("spot_total")});
   }
   REQUIRE_FALSE(falloffs->empty());
 }
@@ -68,6 +74,9 @@ TEST_CASE("fall-offs match the table", "[table]") {
   for (const ExpectedSpot& row : spots) {
     CHECK(Within(SpotFactor(row.cone, row.cosine), row.value, 8 * (row.cone.exponent + 8),
                  kHalfUlpDouble));
+    // Both, and the product's own rounding.
+    CHECK(Within(AttenuationFactor(row.terms, row.distance) * SpotFactor(row.cone, row.cosine),
+                 row.total, 8 * (row.cone.exponent + 8) + 5, kHalfUlpDouble));
   }
   ForEachTarget([&](Target) {
     for (const Expected& row : falloffs) {
@@ -79,6 +88,10 @@ TEST_CASE("fall-offs match the table", "[table]") {
       CAPTURE(row.cosine, row.cone.exponent, row.value);
       CHECK(Within(EvaluateSpot({ToFloat(row.cone)}, {static_cast<float>(row.cosine)})[0],
                    row.value, 8 * (row.cone.exponent + 8), kHalfUlpFloat));
+      const float falloff =
+          EvaluateAttenuation({ToFloat(row.terms)}, {static_cast<float>(row.distance)})[0];
+      const float factor = EvaluateSpot({ToFloat(row.cone)}, {static_cast<float>(row.cosine)})[0];
+      CHECK(Within(falloff * factor, row.total, 8 * (row.cone.exponent + 8) + 5, kHalfUlpFloat));
     }
   });
 }

@@ -115,5 +115,35 @@ TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
   CHECK(notes(base).size() == 1);
 }
 
+TEST_CASE("a plan notes the light that the Phong family makes") {
+  const auto notes = [](const PhongMaterial& phong) {
+    return MakePlan(OneSphere(phong), {}).notes;
+  };
+  const PhongMaterial lobe{.kd = Rgb(0), .ks = Rgb(0.2, 1, 0.2), .shininess = 1};
+  PhongMaterial phong = lobe;
+  REQUIRE(notes(phong).size() == 1);
+  CHECK(
+      notes(phong)[0] ==
+      "material \"clay\": phong reflects up to 1.50 times the light from all around, and of light "
+      "that grazes it any multiple; modified_phong with kd + ks of 1 at most keeps energy");
+  phong.model = PhongModel::kBlinnPhong;
+  REQUIRE(notes(phong).size() == 1);
+  CHECK(notes(phong)[0].find("blinn_phong reflects up to 1.89 times") != std::string::npos);
+  phong.model = PhongModel::kModifiedPhong;
+  CHECK(notes(phong).empty());
+  phong.kd = Rgb(0.3);
+  REQUIRE(notes(phong).size() == 1);
+  CHECK(
+      notes(phong)[0] ==
+      "material \"clay\": modified_phong reflects up to 1.30 times the light from all around; kd + "
+      "ks of 1 at most keeps energy");
+  phong.convention = PhongConvention::kClassic;
+  CHECK(notes(phong).empty());
+  for (const PhongModel model : {PhongModel::kPhong, PhongModel::kBlinnPhong}) {
+    CHECK(notes({.model = model, .kd = Rgb(0.5), .ks = Rgb(0.2)}).empty());
+    CHECK(notes({.model = model, .kd = Rgb(0.5), .ks = Rgb(0.5)}).size() == 1);
+  }
+}
+
 }  // namespace
 }  // namespace nacre

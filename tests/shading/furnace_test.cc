@@ -12,6 +12,7 @@
 #include "sampling/sobol.h"
 #include "scene/material_parameters.h"
 #include "shading/shade.h"
+#include "targets.h"
 
 namespace nacre {
 namespace {
@@ -117,10 +118,10 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
   return sum;
 }
 
-Material WhiteMetal(double roughness, Shadowing shadowing, Compensation compensation) {
+Material White(double metallic, double roughness, Shadowing shadowing, Compensation compensation) {
   Material material;
   material.model = MetallicRoughnessMaterial{.base_color = Rgb(1),
-                                             .metallic = 1,
+                                             .metallic = metallic,
                                              .roughness = roughness,
                                              .shadowing = shadowing,
                                              .compensation = compensation};
@@ -156,7 +157,7 @@ TEST_CASE("a white furnace stays white at every roughness and angle") {
              {Compensation::kTurquin, Compensation::kKullaConty}) {
           CAPTURE(roughness, n_dot_v, static_cast<int>(shadowing), static_cast<int>(compensation));
           const double metal =
-              Furnace(WhiteMetal(roughness, shadowing, compensation), to_view, directions).y;
+              Furnace(White(1, roughness, shadowing, compensation), to_view, directions).y;
           CHECK(std::abs(metal - 1) <= 1e-3);
           metal_error = std::max(metal_error, std::abs(metal - 1));
           for (const DielectricFresnel fresnel :
@@ -175,6 +176,57 @@ TEST_CASE("a white furnace stays white at every roughness and angle") {
     }
   }
   WARN("metals within " << metal_error << " of 1, dielectrics from " << least << " to " << most);
+}
+
+// Metallic mixes a dielectric and a metal, both of which keep all light. The bound is that of the
+// white furnace above.
+TEST_CASE("a white furnace stays white at every metallic") {
+  const FlushDenormals flush;
+  for (const double roughness : {0.01, 0.1, 0.3, 0.6, 1.0}) {
+    for (const double n_dot_v : {1e-4, 0.01, 0.1, 0.4, 1.0}) {
+      const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
+      const auto directions = SampleDirections(to_view, AlphaFromRoughness(roughness));
+      const auto check = [&](double metallic, Shadowing shadowing, Compensation compensation) {
+        CAPTURE(roughness, n_dot_v, metallic, static_cast<int>(shadowing),
+                static_cast<int>(compensation));
+        Material material = White(metallic, roughness, shadowing, compensation);
+        CHECK(std::abs(Furnace(material, to_view, directions).y - 1) <= 1e-3);
+        // Whatever the dielectric's gloss: twice the index of glass, and half the gloss.
+        auto& model = std::get<MetallicRoughnessMaterial>(material.model);
+        model.dielectric_f0 = Rgb(0.25);
+        model.specular = 0.5;
+        CHECK(std::abs(Furnace(material, to_view, directions).y - 1) <= 1e-3);
+      };
+      for (const double metallic : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0}) {
+        check(metallic, Shadowing::kHeightCorrelated, Compensation::kTurquin);
+      }
+      for (const Shadowing shadowing :
+           {Shadowing::kHeightCorrelated, Shadowing::kSeparable, Shadowing::kSchlickDirect}) {
+        for (const Compensation compensation :
+             {Compensation::kTurquin, Compensation::kKullaConty}) {
+          check(0.5, shadowing, compensation);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a white furnace stays white for a half metal on every target") {
+  const FlushDenormals flush;
+  ForEachTarget([](Target) {
+    for (const double roughness : {0.05, 0.5, 1.0}) {
+      for (const double n_dot_v : {0.01, 0.3, 1.0}) {
+        const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
+        const auto directions = SampleDirections(to_view, AlphaFromRoughness(roughness));
+        for (const Compensation compensation :
+             {Compensation::kTurquin, Compensation::kKullaConty}) {
+          CAPTURE(roughness, n_dot_v, static_cast<int>(compensation));
+          const Material half = White(0.5, roughness, Shadowing::kHeightCorrelated, compensation);
+          CHECK(std::abs(Furnace(half, to_view, directions).y - 1) <= 1e-3);
+        }
+      }
+    }
+  });
 }
 
 // Rough diffuse surfaces, alone and as the base under a lobe. The bounds are those of the

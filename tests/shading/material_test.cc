@@ -41,6 +41,68 @@ TEST_CASE("metallic-roughness mixes its base and F0") {
   CHECK(model.schlick_k == Approx(0.21125));  // 1.3^2 / 8
 }
 
+// glTF 2.0, Appendix B: metallic mixes the BRDFs of a dielectric and of a metal, not their numbers.
+TEST_CASE("a part metal reflects the mix of what the dielectric and the metal reflect") {
+  const Vec3d normal(0, 0, 1);
+  for (const Compensation compensation :
+       {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+    for (const DiffuseCoupling coupling :
+         {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kNone}) {
+      for (const Rgb& tint : {Rgb(1), Rgb(0, 0.5, 0.9)}) {
+        for (const Shadowing shadowing :
+             {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect}) {
+          for (const double metallic : {0.1, 0.5, 0.9}) {
+            MetallicRoughnessMaterial material;
+            material.base_color = {0.9, 0.3, 0.02};
+            material.dielectric_f0 = {0.08, 0.04, 0.3};
+            material.specular = 0.7;
+            material.f82_tint = tint;
+            material.roughness = 0.6;
+            material.compensation = compensation;
+            material.diffuse_coupling = coupling;
+            material.shadowing = shadowing;
+            const auto of = [&](double m) {
+              material.metallic = m;
+              return Prepare(material);
+            };
+            const ShadingMaterial dielectric = of(0), metal = of(1), mixed = of(metallic);
+            for (const double view : {0.0, 0.8, 1.5}) {
+              for (const double light : {-1.55, -0.8, 0.3, 1.2}) {
+                CAPTURE(static_cast<int>(compensation), static_cast<int>(coupling), tint.x,
+                        static_cast<int>(shadowing), metallic, view, light);
+                const Vec3d v(std::sin(view), 0, std::cos(view));
+                const Vec3d l(0.6 * std::sin(light), 0.8 * std::sin(light), std::cos(light));
+                const Reflection a = Reflect(dielectric, normal, l, v);
+                const Reflection b = Reflect(metal, normal, l, v);
+                const Reflection got = Reflect(mixed, normal, l, v);
+                CheckEqual(got.specular, a.specular * (1 - metallic) + b.specular * metallic);
+                CheckEqual(got.diffuse, a.diffuse * (1 - metallic));
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("the lesson's coupling takes from the base what the mixed F0 reflects") {
+  MetallicRoughnessMaterial material;
+  material.base_color = {0.9, 0.3, 0.02};
+  material.metallic = 0.5;
+  material.diffuse_coupling = DiffuseCoupling::kOneMinusFresnel;
+  material.compensation = Compensation::kNone;
+  const Vec3d normal(0, 0, 1), v = Vec3d(0.5, 0, 1).normalized(), l = Vec3d(0, 2, 1).normalized();
+  const Angles<double> a = ComputeAngles(normal, l, v);
+  Rgb expected;
+  for (int c = 0; c < 3; ++c) {
+    const double f0 = 0.04 * 0.5 + material.base_color[c] * 0.5;
+    expected[c] =
+        (1 - FresnelSchlick(f0, SchlickWeight(a))) * 0.5 * material.base_color[c] * M_1_PI * l.z;
+  }
+  CheckEqual(Reflect(Prepare(material), normal, l, v).diffuse, expected);
+}
+
 TEST_CASE("what is no metal reflects as much as `specular` says, at all angles") {
   MetallicRoughnessMaterial material;
   material.base_color = {0.8, 0.4, 0.2};
@@ -74,7 +136,7 @@ TEST_CASE("what is no metal reflects as much as `specular` says, at all angles")
   material.roughness = 0.3;
   const MicrofacetModel none = PrepareModel(material);
   for (const double n_dot_v : {1.0, 0.5, 0.01}) {
-    for (int c = 0; c < 3; ++c) CHECK(LobeAlbedo(none, n_dot_v, c) == 0);
+    for (int c = 0; c < 3; ++c) CHECK(CoverAlbedo(none, n_dot_v, c) == 0);
   }
 }
 
@@ -163,7 +225,7 @@ TEST_CASE("a white base under Kulla and Conty's lobe loses and gains nothing") {
     // The base takes (1 - lobe(v)) (1 - lobe(l)): over all l, 1 - lobe(v) is to be left.
     double base = 0;
     for (size_t i = 0; i < rule.x.size(); ++i) {
-      base += rule.w[i] * 2 * rule.x[i] * (1 - LobeAlbedo(model, rule.x[i], 0));
+      base += rule.w[i] * 2 * rule.x[i] * (1 - CoverAlbedo(model, rule.x[i], 0));
     }
     CAPTURE(roughness);
     // The albedo fits are right to 2e-5 (brdf/albedo_curve.h), and the base is most of the light.

@@ -10,6 +10,7 @@
 #include "brdf/eon.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
+#include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 #include "light/punctual.h"
 #include "scene/light.h"
@@ -90,25 +91,34 @@ inline Reflected Reflect(const PhongMaterial& m, const Vec3d& n, const Vec3d& v,
           m.ks * kLightColor * (ks * lobe * weight * in.irradiance)};
 }
 
-inline Rgb Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
-  Rgb fresnel;
+// Fresnel's terms of the dielectric and of the metal that a material mixes, unweighted.
+struct FresnelTerms {
+  Rgb dielectric{0, 0, 0}, metal{0, 0, 0};
+};
+
+inline FresnelTerms Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
+  FresnelTerms terms;
   for (int c = 0; c < 3; ++c) {
     switch (m.fresnel) {
       case FresnelForm::kSchlick:
-        fresnel[c] = FresnelSchlick(m.f0[c], m.f90, SchlickWeight(a));
+        terms.dielectric[c] =
+            FresnelSchlick(m.dielectric_f0[c], m.dielectric_f90, SchlickWeight(a));
+        terms.metal[c] = FresnelSchlick(m.metal_f0[c], SchlickWeight(a));
         break;
       case FresnelForm::kF82:
-        fresnel[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.f0[c], m.f90, m.f82_slope[c]);
+        terms.dielectric[c] =
+            FresnelSchlick(m.dielectric_f0[c], m.dielectric_f90, SchlickWeight(a));
+        terms.metal[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.metal_f0[c], 1.0, m.f82_slope[c]);
         break;
       case FresnelForm::kDielectric:
-        fresnel[c] = FresnelDielectric(VDotH(a), OneMinusVDotH(a), m.eta[c]);
+        terms.dielectric[c] = FresnelDielectric(VDotH(a), OneMinusVDotH(a), m.eta[c]);
         break;
       case FresnelForm::kConductor:
-        fresnel[c] = FresnelConductor(VDotH(a), OneMinusVDotH(a), m.eta[c], m.k[c]);
+        terms.metal[c] = FresnelConductor(VDotH(a), OneMinusVDotH(a), m.eta[c], m.k[c]);
         break;
     }
   }
-  return fresnel;
+  return terms;
 }
 
 inline double Visibility(const MicrofacetModel& m, const Angles<double>& a) {
@@ -127,9 +137,9 @@ inline double Visibility(const MicrofacetModel& m, const Angles<double>& a) {
 inline double BaseShare(const MicrofacetModel& m, const Angles<double>& a, double fresnel, int c) {
   switch (m.coupling) {
     case DiffuseCoupling::kAlbedoScaled: {
-      const double out = 1 - LobeAlbedo(m, a.n_dot_v, c);
+      const double out = 1 - CoverAlbedo(m, a.n_dot_v, c);
       const bool reciprocal = m.compensation == Compensation::kKullaConty;
-      return reciprocal ? out * (1 - LobeAlbedo(m, a.n_dot_l, c)) : out;
+      return reciprocal ? out * (1 - CoverAlbedo(m, a.n_dot_l, c)) : out;
     }
     case DiffuseCoupling::kOneMinusFresnel:
       return 1 - fresnel;
@@ -159,19 +169,27 @@ inline Reflected Reflect(const MicrofacetModel& m, const Vec3d& n, const Vec3d& 
                          const Incident& in) {
   const Angles<double> a = ComputeAngles(n, in.to_light, v);
   const double weight = a.n_dot_l * in.irradiance;
-  const Rgb fresnel = Fresnel(m, a);
+  const FresnelTerms fresnel = Fresnel(m, a);
   const double lobe = GgxDistribution(a, m.alpha) * Visibility(m, a);
   const double loss_v = AlbedoLoss(m.albedo.lobe, a.n_dot_v);
   const double loss_l = AlbedoLoss(m.albedo.lobe, a.n_dot_l);
   Reflected out;
   for (int c = 0; c < 3; ++c) {
-    double specular = fresnel[c] * lobe;
-    if (m.compensation == Compensation::kTurquin) specular *= 1 + m.f0[c] * loss_v / (1 - loss_v);
+    double dielectric = fresnel.dielectric[c] * lobe, metal = fresnel.metal[c] * lobe;
+    if (m.compensation == Compensation::kTurquin) {
+      dielectric *= TurquinFactor(m.dielectric_f0[c], 1 - loss_v);
+      metal *= TurquinFactor(m.metal_f0[c], 1 - loss_v);
+    }
+    const auto mix = [&](double of_dielectric, double of_metal) {
+      return (1 - m.metallic) * of_dielectric + m.metallic * of_metal;
+    };
+    double specular = mix(dielectric, metal);
     if (m.compensation == Compensation::kKullaConty) {
       specular += m.f_multiple[c] * m.multiple * loss_v * loss_l;
     }
     out.specular[c] = specular * kLightColor[c] * weight;
-    const double base = BaseShare(m, a, fresnel[c], c) * BaseSpreadOf(m, a, c);
+    const double base =
+        BaseShare(m, a, mix(fresnel.dielectric[c], fresnel.metal[c]), c) * BaseSpreadOf(m, a, c);
     out.diffuse[c] = base * m.diffuse[c] * kLightColor[c] * weight;
   }
   return out;

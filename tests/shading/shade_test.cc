@@ -230,6 +230,41 @@ TEST_CASE("microfacet kernels agree with the model in double in every combinatio
   });
 }
 
+// The same law as of Reflect (material_test.cc), of the kernels: what each of the two hits' kernels
+// rounds, 2e-6 of a lobe this wide, and 64 roundings of the light for a base that gets 1 minus an
+// albedo.
+TEST_CASE("kernels reflect of a part metal the mix of its dielectric and its metal") {
+  const FlushDenormals flush;
+  ForEachTarget([](Target) {
+    for (const Compensation compensation :
+         {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
+      for (const Rgb& tint : {Rgb(1), Rgb(0, 0.5, 0.9)}) {
+        MetallicRoughnessMaterial material;
+        material.base_color = {1, 0.3, 0.02};
+        material.specular = 0.7;
+        material.f82_tint = tint;
+        material.roughness = 0.7;
+        material.compensation = compensation;
+        const auto shade = [&](double metallic) {
+          material.metallic = metallic;
+          return Shade(Prepare(material), MakeLight("point"));
+        };
+        const ReflectedRadiance dielectric = shade(0), metal = shade(1), mixed = shade(0.4);
+        for (size_t i = 0; i < kHits; ++i) {
+          CAPTURE(static_cast<int>(compensation), tint.x, i);
+          const Rgb specular = At(dielectric.specular, i) * 0.6 + At(metal.specular, i) * 0.4;
+          const Rgb diffuse = At(dielectric.diffuse, i) * 0.6;
+          for (int c = 0; c < 3; ++c) {
+            REQUIRE(std::abs(At(mixed.specular, i)[c] - specular[c]) <= 4e-6 * specular[c]);
+            REQUIRE(std::abs(At(mixed.diffuse, i)[c] - diffuse[c]) <=
+                    4e-6 * diffuse[c] + 64 * 0x1p-24 * kLightColor[c]);
+          }
+        }
+      }
+    }
+  });
+}
+
 TEST_CASE("a delta lobe shows no punctual light, its base does") {
   MetallicRoughnessMaterial smooth;
   smooth.roughness = 0;

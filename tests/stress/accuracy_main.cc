@@ -188,28 +188,33 @@ double WhiteAlbedo(double roughness, double metallic, double n_dot_v) {
   material.model =
       MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = metallic, .roughness = roughness};
   const auto model = std::get<MicrofacetModel>(PrepareMaterial(material, Rgb(0)).model);
-  const double f0 = model.f0.x;
   const double one = AlbedoOfOne(model.shadowing, roughness, n_dot_v);
   const double schlick = AlbedoOfSchlick(model.shadowing, roughness, n_dot_v);
-  const double factor = 1 + f0 * (1 / AlbedoOne(model.albedo.lobe, n_dot_v) - 1);
-  const double lobe = (f0 * one + (1 - f0) * schlick) * factor;
-  return lobe + M_PI * model.diffuse.x * (1 - LobeAlbedo(model, n_dot_v, 0));
+  const double more = 1 / AlbedoOne(model.albedo.lobe, n_dot_v) - 1;
+  const auto lobe_of = [&](double f0) { return (f0 * one + (1 - f0) * schlick) * (1 + f0 * more); };
+  const double lobe =
+      (1 - metallic) * lobe_of(model.dielectric_f0.x) + metallic * lobe_of(model.metal_f0.x);
+  return lobe + M_PI * model.diffuse.x * (1 - CoverAlbedo(model, n_dot_v, 0));
 }
 
 void PrintFurnace() {
   std::printf(
-      "| roughness | white metal without compensation | white metal | white dielectric |\n"
-      "|---|---|---|---|\n");
+      "| roughness | white metal without compensation | white metal | white half metal | white "
+      "dielectric |\n"
+      "|---|---|---|---|---|\n");
   for (const double roughness : {0.0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
     double single = 1;
     double metal = 0;
+    double half = 0;
     double dielectric = 0;
     for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
       single = std::min(single, AlbedoOfOne(Shadowing::kHeightCorrelated, roughness, n_dot_v));
       metal = std::max(metal, std::abs(WhiteAlbedo(roughness, 1, n_dot_v) - 1));
+      half = std::max(half, std::abs(WhiteAlbedo(roughness, 0.5, n_dot_v) - 1));
       dielectric = std::max(dielectric, std::abs(WhiteAlbedo(roughness, 0, n_dot_v) - 1));
     }
-    std::printf("| %g | %.3f | 1 +- %.0e | 1 +- %.0e |\n", roughness, single, metal, dielectric);
+    std::printf("| %g | %.3f | 1 +- %.0e | 1 +- %.0e | 1 +- %.0e |\n", roughness, single, metal,
+                half, dielectric);
   }
 }
 

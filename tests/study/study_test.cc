@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "brdf/albedo_integral.h"
+#include "brdf/phong.h"
 #include "catch.h"
 #include "light/punctual.h"
 #include "study/light_curves.h"
 #include "study/material_curves.h"
 #include "study/rounding.h"
 #include "study/share.h"
+#include "tables.h"
 #include "targets.h"
 
 namespace nacre {
@@ -111,6 +113,63 @@ TEST_CASE("Shares are the integrals that they are said to be") {
       // The grid's own error, of a lobe that is cut by the horizon at most: 1e-4; the albedo fits'
       // another 1e-4.
       for (int c = 0; c < 3; ++c) CHECK(share[c] == Approx(sum[c]).epsilon(3e-4));
+    }
+  }
+}
+
+// Metallic mixes a dielectric over its base and a metal (glTF 2.0, Appendix B). E and B, a lobe's
+// albedos for F = 1 and for Schlick's weight, are the table's, to 5e-14.
+TEST_CASE(
+    "A part metal reflects the shares of its dielectric and its metal, to the table's albedos") {
+  for (const auto& row : LoadTable("energy").at("dfg")) {
+    const double mu = TableNumber(row.at("mu")), roughness = TableNumber(row.at("roughness"));
+    const double one = TableNumber(row.at("E")), schlick = TableNumber(row.at("B"));
+    for (const double metallic : {0.0, 0.3, 0.8, 1.0}) {
+      MetallicRoughnessMaterial material;
+      material.base_color = {1, 0.5, 0.1};
+      material.metallic = metallic;
+      material.roughness = roughness;
+      material.specular = 0.8;
+      Material any;
+      any.model = material;
+      const Rgb share = ReflectedShare(PrepareMaterial(any, Rgb(0)), ShareOf::kFurnace, mu);
+      for (int c = 0; c < 3; ++c) {
+        const double base = material.base_color[c];
+        const auto lobe = [&](double f0, double f90) {  // compensated as Turquin has it
+          return (f0 * (one - schlick) + f90 * schlick) * (1 + f0 * (1 / one - 1));
+        };
+        const double gloss = lobe(0.8 * 0.04, 0.8);
+        const double expected =
+            (1 - metallic) * (gloss + base * (1 - gloss)) + metallic * lobe(base, 1);
+        CAPTURE(roughness, mu, metallic, c, share[c], expected);
+        // The render's own albedos, of E 1e-4 of itself (brdf/albedo.h).
+        CHECK(std::abs(share[c] - expected) <= 1e-4);
+      }
+    }
+  }
+}
+
+// What brdf/phong.h says of the radiometric scale.
+TEST_CASE("ks is what Phong's lobes reflect of light from along the normal") {
+  for (const double shininess : {0.0, 0.5, 1.0, 8.0, 32.0, 1e3, 1e6}) {
+    for (const PhongModel model :
+         {PhongModel::kPhong, PhongModel::kModifiedPhong, PhongModel::kBlinnPhong}) {
+      Material material;
+      material.model =
+          PhongMaterial{.model = model, .kd = Rgb(0), .ks = Rgb(1), .shininess = shininess};
+      const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+      const double furnace = model == PhongModel::kPhong        ? PhongFurnace(shininess)
+                             : model == PhongModel::kBlinnPhong ? BlinnFurnace(shininess)
+                                                                : 1.0;
+      CAPTURE(shininess, static_cast<int>(model));
+      // The quadrature's: c^n of an exponent below 1 ends at the horizon with an infinite slope,
+      // and circles that the horizon cuts with that of a root.
+      const double error = shininess < 1 ? 1e-4 : 1e-6;
+      CHECK(ReflectedShare(prepared, ShareOf::kOneLight, 1).x == Approx(1).epsilon(error));
+      CHECK(ReflectedShare(prepared, ShareOf::kFurnace, 1).x == Approx(furnace).epsilon(error));
+      for (const double cosine : {0.9, 0.5, 0.1}) {
+        CHECK(ReflectedShare(prepared, ShareOf::kFurnace, cosine).x <= furnace * (1 + error));
+      }
     }
   }
 }
