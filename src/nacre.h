@@ -12,8 +12,8 @@
 //
 // Errors are thrown as nacre::Error; what a callback throws comes out as it is. Functions may be
 // called from several threads at once, on the same object too if it is const. The caller's
-// floating-point mode is left as it was. Standard library types cross the border: build with the
-// same standard library.
+// floating-point modes (rounding, denormals, traps) change no bit of any result and are left as
+// they were. Standard library types cross the border: build with the same standard library.
 #pragma once
 
 #include <array>
@@ -275,9 +275,12 @@ struct CompareSettings {
 struct LayerMetrics {
   std::string layer;  // "" is the beauty, R G B
   size_t samples = 0;
-  double rmse = 0, rel_mse = 0;
+  double rmse = 0;
+  double rel_mse = 0;  // the mean of difference^2 / (reference^2 + 1e-4)
   double psnr_db = 0;  // relative to the reference's largest magnitude
-  double max_abs = 0, max_rel = 0;
+  double max_abs = 0;
+  double max_rel = 0;          // of |difference| / |reference|, where the reference is not 0
+  size_t zero_mismatches = 0;  // samples that differ where the reference is 0
   double mean = 0, mean_reference = 0;
   std::optional<double> ssim, flip, hdr_flip;  // perceptual, of layers that are colours
 };
@@ -320,10 +323,12 @@ class NACRE_API Brdf {
   Brdf(const Scene& scene, const std::string& material);
 
   // In double, by the formulas of the papers in their stable form. Black where light or viewer is
-  // not above the surface.
+  // not above the surface. Throws Error for a vector that is not finite, or whose |v|^2 is not 1
+  // within 9.5e-7, which vectors made unit in float keep.
   Reflection Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& to_light) const;
 
-  // The same in float through the SIMD kernels that render, in this thread.
+  // The same in float through the SIMD kernels that render, in this thread. Throws likewise, and
+  // then tells the first such vector.
   Reflections Shade(const Directions& directions) const;
 
  private:

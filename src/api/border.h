@@ -10,6 +10,7 @@
 
 #define NACRE_OWN_SOURCE
 #include "base/error.h"
+#include "base/float_mode.h"
 #include "base/image.h"
 #include "base/vec.h"
 #include "nacre.h"
@@ -18,10 +19,12 @@ namespace nacre::v0 {
 
 Error ToPublic(const nacre::Error& error);
 
-// Calls body(). Errors of the library and a lack of memory come out as v0::Error, anything else
-// (what the caller's own functions throw) as it is.
+// Calls body() in the default floating-point modes, so that the caller's change no bit. Errors of
+// the library and a lack of memory come out as v0::Error, anything else (what the caller's own
+// functions throw) as it is.
 template <class Body>
 auto AtBorder(const Body& body) -> decltype(body()) {
+  const DefaultFloatMode mode;
   try {
     return body();
   } catch (const nacre::Error& error) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/brdf.cc: reflection models of the public API, in double and through the kernels.
 #include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
 
 #include "api/scene_impl.h"
 #include "base/parallel.h"
@@ -37,6 +40,44 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
   throw nacre::Error(
       ExitCode::kUsage, "Brdf", "unknown material \"" + name + "\"",
       nearest.empty() ? "Scene::material_names lists them" : "did you mean \"" + nearest + "\"?");
+}
+
+// What |v|^2 of a unit vector may be off by. One that was made unit in float arithmetic is off by
+// up to 9 roundings of 2^-24 (a sum of squares, its root, the reciprocal and products, each of them
+// counted twice), by some more with the processor's estimate of the root. As much changes what is
+// reflected by as little; of vectors that are not unit the formulas mean nothing.
+constexpr double kUnitSquaredTolerance = 16 * 0x1p-24;
+
+// Throws Error (kUsage) for a vector that is not finite and unit; `number` is counted from 0, or
+// below that for the only one.
+void CheckUnit(const Vec3& v, const char* function, const char* name, std::ptrdiff_t number) {
+  const double squared = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+  if (std::abs(squared - 1) <= kUnitSquaredTolerance) return;  // never of NaN
+  const std::string what = number < 0 ? name : fmt::format("{} {}", name, number);
+  const std::string length = std::isfinite(squared)
+                                 ? fmt::format("has length {}, not 1", std::sqrt(squared))
+                                 : std::string("is not finite, or far too long");
+  throw nacre::Error(ExitCode::kUsage, std::string("Brdf::") + function,
+                     fmt::format("{} ({}, {}, {}) {}", what, v[0], v[1], v[2], length),
+                     "directions are unit vectors: divide them by their lengths in double");
+}
+
+void CheckUnits(const Directions& d) {
+  const auto check = [&](const std::array<const double*, 3>& vectors, const char* name) {
+    for (const double* component : vectors) {
+      if (component != nullptr) continue;
+      throw nacre::Error(ExitCode::kUsage, "Brdf::Shade",
+                         std::string("a component of ") + name + " is a null pointer",
+                         "Directions has three arrays of `count` numbers for each");
+    }
+    for (size_t i = 0; i < d.count; ++i) {
+      CheckUnit({vectors[0][i], vectors[1][i], vectors[2][i]}, "Shade", name,
+                static_cast<std::ptrdiff_t>(i));
+    }
+  };
+  check(d.normal, "normal");
+  check(d.to_view, "to_view");
+  check(d.to_light, "to_light");
 }
 
 double Dot(const Directions& d, const std::array<const double*, 3>& a, size_t i) {
@@ -112,9 +153,14 @@ Brdf::Brdf(const Scene& scene, const std::string& material) {
 }
 
 Reflection Brdf::Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& to_light) const {
-  const nacre::Reflection own =
-      Reflect(impl_->material, ToOwn(normal), ToOwn(to_light), ToOwn(to_view));
-  return {ToPublic(own.diffuse), ToPublic(own.specular)};
+  return AtBorder([&]() -> Reflection {
+    CheckUnit(normal, "Evaluate", "normal", -1);
+    CheckUnit(to_view, "Evaluate", "to_view", -1);
+    CheckUnit(to_light, "Evaluate", "to_light", -1);
+    const nacre::Reflection own =
+        Reflect(impl_->material, ToOwn(normal), ToOwn(to_light), ToOwn(to_view));
+    return {ToPublic(own.diffuse), ToPublic(own.specular)};
+  });
 }
 
 Reflections Brdf::Shade(const Directions& directions) const {
@@ -124,6 +170,7 @@ Reflections Brdf::Shade(const Directions& directions) const {
       for (std::vector<float>& plane : *layer) plane.resize(directions.count);
     }
     if (directions.count == 0) return result;
+    CheckUnits(directions);
     const FlushDenormals flush;  // as in renders
     Batch batch;
     for (size_t begin = 0; begin < directions.count; begin += kBatchCapacity) {

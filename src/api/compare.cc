@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/compare.cc: comparisons of the public API.
+#include <limits>
+
+#include <fmt/format.h>
+
 #include "api/border.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
@@ -16,6 +20,7 @@ LayerMetrics ToPublic(const nacre::LayerMetrics& own) {
   metrics.psnr_db = own.psnr_db;
   metrics.max_abs = own.max_abs;
   metrics.max_rel = own.max_rel;
+  metrics.zero_mismatches = own.zero_mismatches;
   metrics.mean = own.mean_got;
   metrics.mean_reference = own.mean_reference;
   return metrics;
@@ -30,10 +35,27 @@ void AddPerceptual(const PerceptualMetrics& own, std::vector<LayerMetrics>* laye
   }
 }
 
+// Written so that NaN is out of range.
+void RequireUpTo(double value, double most, const char* setting) {
+  if (value >= 0 && value <= most) return;
+  throw nacre::Error(ExitCode::kUsage, std::string("CompareSettings::") + setting,
+                     fmt::format("{} is out of range", value),
+                     most == 1 ? "it is from 0 to 1" : "it is 0 or more");
+}
+
+void CheckSettings(const CompareSettings& settings) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  RequireUpTo(settings.max_abs, infinity, "max_abs");
+  RequireUpTo(settings.max_rel, infinity, "max_rel");
+  RequireUpTo(settings.exceeding_fraction, 1, "exceeding_fraction");
+  RequireUpTo(settings.max_rmse, infinity, "max_rmse");
+}
+
 }  // namespace
 
 Comparison Compare(const Image& image, const Image& reference, const CompareSettings& settings) {
   return AtBorder([&] {
+    CheckSettings(settings);
     const nacre::Image got = ToOwn(image);
     const nacre::Image expected = ToOwn(reference);
     const nacre::CompareOptions options{.layers = settings.layers, .crop = settings.crop};

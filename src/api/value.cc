@@ -36,6 +36,7 @@ std::string Value::ToJson(double number) {
     throw ToPublic(
         nacre::Error(ExitCode::kUsage, "", fmt::format("{} is not a finite number", number)));
   }
+  const DefaultFloatMode mode;       // with DAZ, denormals would be 0
   return fmt::format("{}", number);  // the shortest text that reads as the same double
 }
 

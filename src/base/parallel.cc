@@ -14,11 +14,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "base/float_mode.h"
 #include "base/handover.h"
-
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
 
 namespace nacre {
 namespace {
@@ -126,26 +123,13 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
 void WithThreads(int threads, const std::function<void()>& body) {
   tbb::task_arena& arena = ArenaOf(ThreadCount(threads));
   const AllowThreads allow(threads);
-  arena.execute(body);
+  arena.execute([&] {  // maybe in a worker, which has the modes of whoever started it
+    const DefaultFloatMode mode;
+    body();
+  });
 }
 
-#if defined(__SSE2__)
-FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
-  constexpr unsigned kFlushToZero = 0x8000;
-  constexpr unsigned kDenormalsAreZero = 0x0040;
-  _mm_setcsr(static_cast<unsigned>(saved_) | kFlushToZero | kDenormalsAreZero);
-}
-FlushDenormals::~FlushDenormals() { _mm_setcsr(static_cast<unsigned>(saved_)); }
-#elif defined(__aarch64__)
-FlushDenormals::FlushDenormals() {
-  constexpr uint64_t kFlushToZero = uint64_t{1} << 24;
-  asm volatile("mrs %0, fpcr" : "=r"(saved_));
-  asm volatile("msr fpcr, %0" : : "r"(saved_ | kFlushToZero));
-}
-FlushDenormals::~FlushDenormals() { asm volatile("msr fpcr, %0" : : "r"(saved_)); }
-#else
-FlushDenormals::FlushDenormals() = default;
-FlushDenormals::~FlushDenormals() = default;
-#endif
+FlushDenormals::FlushDenormals() : saved_(EnterFloatMode(Denormals::kFlushed)) {}
+FlushDenormals::~FlushDenormals() { LeaveFloatMode(saved_); }
 
 }  // namespace nacre

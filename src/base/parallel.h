@@ -20,9 +20,9 @@ void WithThreads(int threads, const std::function<void()>& body);
 // The number of threads that ParallelFor uses for `threads`.
 int ThreadCount(int threads);
 
-// While alive, denormal results and operands of this thread are treated as zero (FTZ and DAZ on
-// x86, FZ on arm64): the tails of highlights make denormals, which cost a hundred cycles each on
-// x86. Restores the caller's mode.
+// While alive, denormals of this thread are treated as zero (FTZ and DAZ on x86, FZ on arm64): the
+// tails of highlights make them, and each costs a hundred cycles on x86. All other modes are those
+// of DefaultFloatMode (float_mode.h). Restores the caller's modes.
 class FlushDenormals {
  public:
   FlushDenormals();

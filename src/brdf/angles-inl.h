@@ -30,6 +30,17 @@ struct HalfAnglesV {
   V n_dot_u, u_squared, nxu_squared, lv_squared;
 };
 
+// Each lane's angles of one of the two. All of them: they are formed with different roundings, and
+// a lane that mixes both would have other bits than one that has either.
+template <class M, class V>
+HWY_INLINE HalfAnglesV<V> Choose(const M& mask, const HalfAnglesV<V>& yes,
+                                 const HalfAnglesV<V>& no) {
+  return {hn::IfThenElse(mask, yes.n_dot_u, no.n_dot_u),
+          hn::IfThenElse(mask, yes.u_squared, no.u_squared),
+          hn::IfThenElse(mask, yes.nxu_squared, no.nxu_squared),
+          hn::IfThenElse(mask, yes.lv_squared, no.lv_squared)};
+}
+
 template <class V>
 struct AnglesV : HalfAnglesV<V> {
   V n_dot_l, n_dot_v;

@@ -42,6 +42,10 @@ void PrintTable(const Verdict& verdict) {
     PrintOut("{:<14} {:>11.4g} {:>11.4g} {:>8.2f} {:>11.4g} {:>11.4g} {:>11.4g}  {},{} {}\n",
              LayerName(m.layer), m.rmse, m.rel_mse, m.psnr_db, m.max_abs, m.max_rel, m.p999_rel,
              m.max_abs_at.x, m.max_abs_at.y, m.max_abs_at.channel);
+    if (m.zero_mismatches > 0) {
+      PrintOut("{:<14} {} samples are 0 in the reference only, and have no relative error\n", "",
+               m.zero_mismatches);
+    }
     if (m.nonfinite_mismatches > 0) {
       PrintOut("{:<14} {} samples are not finite in one image only\n", "", m.nonfinite_mismatches);
     }
@@ -158,7 +162,11 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
   command->add_option("--max-abs", a->tolerances.max_abs, "Allowed |difference| of a sample, plus")
       ->check(not_negative)
       ->group(tolerance);
-  command->add_option("--max-rel", a->tolerances.max_rel, "this times |reference|")
+  command
+      ->add_option(
+          "--max-rel", a->tolerances.max_rel,
+          "this times |reference|: with --max-abs 0 the most that \"max rel\" may be, and no "
+          "difference where the reference is 0")
       ->check(not_negative)
       ->group(tolerance);
   command
@@ -183,7 +191,9 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
       ->check(InRange(1e-30, 1e30))
       ->capture_default_str()
       ->group(map);
-  command->add_flag("--absolute", a->absolute, "Absolute errors in place of relative ones")
+  command
+      ->add_flag("--absolute", a->absolute,
+                 "Absolute errors in place of those relative to sqrt(reference^2 + 0.01^2)")
       ->group(map);
   command->add_flag("--json", a->json, "Print JSON");
   command->footer(

@@ -51,8 +51,9 @@ void DrawLegend(int top, HeatQuantity quantity, const HeatScale& scale, HeatPict
     items.push_back(item);
   }
   TextItem title;
-  title.text = quantity == HeatQuantity::kRelative ? "relative error (black: equal)"
-                                                   : "absolute error (black: equal)";
+  title.text = quantity == HeatQuantity::kRelative
+                   ? "error / sqrt(reference^2 + 0.01^2), black: equal"
+                   : "absolute error, black: equal";
   title.x = page->width / 2;
   title.y = top + kBarHeight + 5 + kTextPx;
   title.size_px = kTextPx;

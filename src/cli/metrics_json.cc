@@ -44,6 +44,7 @@ Json MetricsJson(const std::vector<LayerMetrics>& layers,
                  {"max_abs_at", {m.max_abs_at.x, m.max_abs_at.y}},
                  {"max_rel", m.max_rel},
                  {"p999_rel", m.p999_rel},
+                 {"zero_mismatches", m.zero_mismatches},
                  {"mean", m.mean_got},
                  {"mean_reference", m.mean_reference},
                  {"nonfinite_mismatches", m.nonfinite_mismatches}};

@@ -58,7 +58,7 @@ HeatPicture HeatMap(const Image& got, const Image& reference, const std::string&
         const float expected = channel.reference[pair.ReferenceIndex(x, y)];
         double error = SampleError(channel.got[pair.GotIndex(x, y)], expected);
         if (quantity == HeatQuantity::kRelative && std::isfinite(error)) {
-          error = RelativeError(error, expected);
+          error = SoftenedError(error, expected);
         }
         worst = std::max(worst, error);
       }

@@ -31,7 +31,7 @@ struct HeatScale {
   double Value(double t) const;         // its inverse: for the tick labels of a legend
 };
 
-enum class HeatQuantity : uint8_t { kAbsolute, kRelative };  // as SampleError, RelativeError
+enum class HeatQuantity : uint8_t { kAbsolute, kRelative };  // as SampleError, SoftenedError
 
 // An RGB8 picture.
 struct HeatPicture {

@@ -93,7 +93,12 @@ double SampleError(float got, float reference) {
 
 double RelativeError(double error, float reference) {
   if (error == 0) return 0;
-  return error / std::hypot(static_cast<double>(reference), kRelativeFloor);
+  return error / std::abs(static_cast<double>(reference));
+}
+
+double SoftenedError(double error, float reference) {
+  if (error == 0) return 0;
+  return error / std::hypot(static_cast<double>(reference), kDarkReference);
 }
 
 }  // namespace nacre

@@ -58,11 +58,13 @@ ImagePair PairImages(const Image& got, const Image& reference, const CompareOpti
 // only one of them is finite or they are otherwise not comparable. NaN never comes out.
 double SampleError(float got, float reference);
 
-// An error relative to |reference|, softened by kRelativeFloor where that is dark.
+// error / |reference|; 0 for equal samples, infinity where the reference alone is 0: what
+// Tolerances::max_rel is held against.
 double RelativeError(double error, float reference);
 
-// Relative errors are taken to sqrt(reference^2 + kRelativeFloor^2): below 0.01, which any display
-// shows as nearly black, they would grow without bound though nobody could see them.
-inline constexpr double kRelativeFloor = 0.01;
+// error / sqrt(reference^2 + kDarkReference^2), for means and maps of errors: below 0.01, which any
+// display shows as nearly black, relative errors grow without bound though nobody could see them.
+double SoftenedError(double error, float reference);
+inline constexpr double kDarkReference = 0.01;
 
 }  // namespace nacre

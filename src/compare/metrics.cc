@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace nacre {
@@ -31,32 +32,33 @@ class Accumulator {
     }
     if (!std::isfinite(reference)) return;  // the same in both images
     ++finite_;
-    const double relative = RelativeError(error, reference);
+    const double softened = SoftenedError(error, reference);
     squares_ += error * error;
-    relative_squares_ += relative * relative;
+    softened_squares_ += softened * softened;
     sum_got_ += got;
     sum_reference_ += reference;
     metrics_.max_abs = std::max(metrics_.max_abs, error);
     metrics_.psnr_peak = std::max(metrics_.psnr_peak, std::abs(static_cast<double>(reference)));
-    Keep(static_cast<float>(relative));
+    AddRelative(error, reference);
   }
 
   LayerMetrics Finish() {
     if (finite_ == 0) return metrics_;
     const auto count = static_cast<double>(finite_);
     metrics_.rmse = std::sqrt(squares_ / count);
-    metrics_.rel_mse = relative_squares_ / count;
+    metrics_.rel_mse = softened_squares_ / count;
     if (metrics_.rmse > 0) {
       metrics_.psnr_db = 20 * std::log10(metrics_.psnr_peak / metrics_.rmse);
     }
     metrics_.mean_got = sum_got_ / count;
     metrics_.mean_reference = sum_reference_ / count;
-    // Ascending; the largest one is the last. Of fewer finite samples fewer are above the rank.
-    std::sort_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
-    std::reverse(largest_relative_.begin(), largest_relative_.end());
-    metrics_.p999_rel =
-        largest_relative_[largest_relative_.size() - (finite_ - RankOf999(finite_))];
-    metrics_.max_rel = largest_relative_.back();
+    if (relative_count_ > 0) {
+      // Ascending. Of fewer samples fewer are above the rank.
+      std::sort_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
+      std::reverse(largest_relative_.begin(), largest_relative_.end());
+      const size_t above = relative_count_ - RankOf999(relative_count_);
+      metrics_.p999_rel = largest_relative_[largest_relative_.size() - above];
+    }
     return metrics_;
   }
 
@@ -64,6 +66,19 @@ class Accumulator {
   // The index, in ascending order, of the value that 99.9 % of `count` values do not exceed.
   static size_t RankOf999(size_t count) {
     return count == 0 ? 0 : static_cast<size_t>(std::ceil(0.999 * static_cast<double>(count))) - 1;
+  }
+
+  void AddRelative(double error, float reference) {
+    if (reference == 0) {
+      metrics_.zero_mismatches += error > 0;
+      return;
+    }
+    ++relative_count_;
+    const double relative = RelativeError(error, reference);
+    metrics_.max_rel = std::max(metrics_.max_rel, relative);
+    // Kept as floats, of which there may be thousands; references may be denormals.
+    constexpr double kMost = std::numeric_limits<float>::max();
+    Keep(static_cast<float>(std::min(relative, kMost)));
   }
 
   // A heap with the smallest of the kept errors on top: one in a thousand is kept, not all, which
@@ -81,8 +96,8 @@ class Accumulator {
   LayerMetrics metrics_;
   size_t finite_ = 0;
   double largest_ = 0;
-  double squares_ = 0, relative_squares_ = 0, sum_got_ = 0, sum_reference_ = 0;
-  size_t kept_;
+  double squares_ = 0, softened_squares_ = 0, sum_got_ = 0, sum_reference_ = 0;
+  size_t kept_, relative_count_ = 0;
   std::vector<float> largest_relative_;
 };
 

@@ -15,7 +15,7 @@ bool Exceeds(float got, float reference, const Tolerances& tolerances) {
   return error > tolerances.max_abs + tolerances.max_rel * std::abs(static_cast<double>(reference));
 }
 
-// The first sample that differs most from its tolerance, over all layers.
+// The first sample with the largest SoftenedError of those beyond their tolerance, over all layers.
 struct Excess {
   size_t pixels = 0;
   double worst = 0;
@@ -34,9 +34,9 @@ Excess FindExcess(const ImagePair& pair, const Tolerances& tolerances) {
           const float reference = channel.reference[pair.ReferenceIndex(x, y)];
           if (!Exceeds(got, reference, tolerances)) continue;
           exceeds = true;
-          const double relative = RelativeError(SampleError(got, reference), reference);
+          const double softened = SoftenedError(SampleError(got, reference), reference);
           // An infinite reference makes inf / inf.
-          const double size = std::isnan(relative) ? HUGE_VAL : relative;
+          const double size = std::isnan(softened) ? HUGE_VAL : softened;
           if (size > excess.worst) {
             excess.worst = size;
             excess.worst_at = {x, y, channel.name, got, reference};

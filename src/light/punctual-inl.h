@@ -27,25 +27,31 @@ HWY_INLINE V AttenuationFactor(D d, const AttenuationTerms<T>& a, V distance) {
   return hn::IfThenElseZero(lit, hn::Div(one, hn::IfThenElse(lit, denominator, one)));
 }
 
-// Cone with exponent and penumbra; equality with the cutoff is dark.
-template <class D, class T = hn::TFromD<D>, class V = hn::Vec<D>>
-HWY_INLINE V SpotFactor(D d, const ConeTerms<T>& cone, V cos_angle) {
-  const V one = hn::Set(d, T(1));
-  const V cutoff = hn::Set(d, cone.cos_cutoff);
-  V factor = one;
-  if (cone.exponent != T(0)) {
-    const auto positive = hn::Gt(cos_angle, hn::Zero(d));
-    const V log2 = Log2(d, hn::IfThenElse(positive, cos_angle, one));
-    factor = hn::IfThenElseZero(positive, Exp2(d, hn::Mul(hn::Set(d, cone.exponent), log2)));
-  }
-  if (cone.cos_inner > cone.cos_cutoff) {
-    const V inner = hn::Set(d, cone.cos_inner);
-    const V t = hn::Div(hn::Sub(cos_angle, cutoff), hn::Sub(inner, cutoff));
-    const V line = hn::MulAdd(hn::Set(d, cone.edge[1]), t, hn::Set(d, cone.edge[0]));
-    const V edge = hn::Mul(hn::Mul(t, t), line);
-    factor = hn::IfThenElse(hn::Lt(cos_angle, inner), hn::Mul(factor, edge), factor);
-  }
-  return hn::IfThenElseZero(hn::Gt(cos_angle, cutoff), factor);
+// The penumbra's t, in double: next to the cutoff it is the difference of two angles that are
+// nearly equal.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PenumbraPlace(D d, const ConeTerms<double>& cone, V one_minus_cos) {
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V cutoff = hn::Set(d, cone.cutoff);
+  const auto lit = hn::Lt(one_minus_cos, cutoff);
+  if (!(cone.inner < cone.cutoff)) return hn::IfThenElseZero(lit, one);
+  const V t = hn::Div(hn::Sub(cutoff, one_minus_cos), hn::Set(d, cone.cutoff - cone.inner));
+  return hn::Min(hn::Max(t, zero), one);
+}
+
+// The factor by t and by 1 - cos and cos of the angle, which were formed in double.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V SpotFactor(D d, const ConeTerms<double>& cone, V t, V one_minus_cos, V cosine) {
+  const auto constant = [&](double value)
+                            HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
+  const V line = hn::MulAdd(constant(cone.edge[1]), t, constant(cone.edge[0]));
+  const V edge = hn::Mul(hn::Mul(t, t), line);
+  if (cone.exponent == 0) return edge;
+  const V log2 = Log2OneMinus(d, one_minus_cos, cosine);
+  const auto positive = hn::Gt(cosine, hn::Zero(d));
+  return hn::IfThenElseZero(
+      positive,
+      hn::Mul(edge, Exp2(d, hn::Mul(constant(cone.exponent), hn::IfThenElseZero(positive, log2)))));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -21,29 +21,47 @@ Real AttenuationFactor(const AttenuationTerms<Real>& a, Real distance) {
   return denominator > 0 && distance > 0 ? 1 / denominator : 0;
 }
 
-// A spot's cone. All cosines are of angles from the axis.
+// A spot's cone. Angles are from its axis and given by 1 - cos, which keeps the digits of small
+// ones that a cosine rounds away: 1 - cos of 0.01 degrees is 1.5e-8.
 template <typename Real>
 struct ConeTerms {
-  Real cos_cutoff;  // dark where cos <= cos_cutoff
-  Real cos_inner;   // full where cos >= cos_inner; == cos_cutoff: a hard edge
+  Real cutoff;  // dark from here on
+  Real inner;   // full up to here; == cutoff: a hard edge
   Real exponent;
-  // The penumbra is t^2 (edge[0] + edge[1] t), t from 0 at the cutoff to 1 at the inner angle:
-  // smoothstep, or a square.
+  // The penumbra is t^2 (edge[0] + edge[1] t), t from 0 at the cutoff to 1 at the inner angle, even
+  // in the cosine: smoothstep, or a square.
   Real edge[2] = {3, -2};
 };
+
+// 1 - cos of an angle of that many degrees.
+inline double OneMinusCosine(double degrees) {
+  const double sine = std::sin(degrees * (M_PI / 360));
+  return 2 * sine * sine;
+}
+
+// 1 - cos of the angle between two unit vectors: half the square of their distance. 1 minus their
+// product would be off by 1e-16 of 1, not of itself.
+template <typename Vec>
+auto OneMinusCosine(const Vec& a, const Vec& b) {
+  return (a - b).length2() / 2;
+}
+
+// The penumbra's t: 0 at the cutoff and beyond it, 1 within the inner angle.
+template <typename Real>
+Real PenumbraPlace(const ConeTerms<Real>& cone, Real one_minus_cos) {
+  if (!(one_minus_cos < cone.cutoff)) return 0;
+  if (one_minus_cos <= cone.inner) return 1;
+  return (cone.cutoff - one_minus_cos) / (cone.cutoff - cone.inner);
+}
 
 // cos^exponent strictly inside the cone, times a penumbra between cutoff and inner angle. Equality
 // with the cutoff is dark. A cosine below 0 (cutoff over 90 degrees) counts as 0 for the exponent.
 template <typename Real>
-Real SpotFactor(const ConeTerms<Real>& cone, Real cos_angle) {
-  if (!(cos_angle > cone.cos_cutoff)) return 0;
-  const Real base = std::fmax(cos_angle, static_cast<Real>(0));
-  Real factor = cone.exponent == 0 ? 1 : std::pow(base, cone.exponent);
-  if (cos_angle < cone.cos_inner) {
-    const Real t = (cos_angle - cone.cos_cutoff) / (cone.cos_inner - cone.cos_cutoff);
-    factor *= t * t * (cone.edge[0] + cone.edge[1] * t);
-  }
-  return factor;
+Real SpotFactor(const ConeTerms<Real>& cone, Real one_minus_cos) {
+  const Real t = PenumbraPlace(cone, one_minus_cos);
+  const Real edge = t * t * (cone.edge[0] + cone.edge[1] * t);
+  if (cone.exponent == 0) return edge;
+  return one_minus_cos < 1 ? edge * std::exp(cone.exponent * std::log1p(-one_minus_cos)) : 0;
 }
 
 }  // namespace nacre

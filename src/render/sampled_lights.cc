@@ -97,6 +97,12 @@ void WeighSpecular(const Lit& lit, const Ways& ways) {
   if (ways.light) {
     for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
   }
+  // A batch is sampled if any of its hits has a lobe. Those without must not get a share then, or
+  // a pixel would depend on what else is in its tile.
+  for (const MaterialRun& run : lit.s.runs) {
+    if (HasSampledLobe(lit.MaterialOf(run))) continue;
+    std::fill(lit.c.density.data() + run.begin, lit.c.density.data() + run.end, 0.0f);
+  }
   WeighByDensity(lit);
 }
 

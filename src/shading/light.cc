@@ -17,14 +17,11 @@ AttenuationTerms<float> ToTerms(const Attenuation& a) {
           static_cast<float>(a.quadratic)};
 }
 
-ConeTerms<float> ToTerms(const SpotLight& spot) {
-  const auto cosine = [](double degrees) {
-    return static_cast<float>(std::cos(degrees * M_PI / 180));
-  };
-  const float first = spot.edge == SpotEdge::kSquare ? 1.0f : 3.0f;
-  return {cosine(spot.cutoff_deg),
-          cosine(spot.inner_deg),
-          static_cast<float>(spot.exponent),
+ConeTerms<double> ToTerms(const SpotLight& spot) {
+  const double first = spot.edge == SpotEdge::kSquare ? 1 : 3;
+  return {OneMinusCosine(spot.cutoff_deg),
+          OneMinusCosine(spot.inner_deg),
+          spot.exponent,
           {first, 1 - first}};
 }
 
@@ -78,7 +75,7 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
                    prepared.form = LightForm::kSpot;
                    prepared.color = spot.intensity;
                    prepared.position = spot.position - camera_position;
-                   prepared.axis = Vec3f(spot.direction_of_travel.normalized());
+                   prepared.axis = spot.direction_of_travel.normalized();
                    prepared.attenuation = ToTerms(spot.attenuation);
                    prepared.cone = ToTerms(spot);
                  }},
@@ -88,7 +85,8 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
 
 bool OffsetFromSpheres(std::span<const Sphere> spheres, const Camera& camera, ShadingLight* light) {
   light->from_spheres.clear();
-  if (light->form == LightForm::kDirectional || light->form == LightForm::kGiven) return false;
+  // A spot's edge is sharper than what normals of floats tell.
+  if (light->form != LightForm::kInverseSquare && light->form != LightForm::kPoint) return false;
   for (const Sphere& sphere : spheres) {
     const Vec3d offset = light->position - (sphere.center - camera.position);
     if (!(offset.length() >= kFarRadii * sphere.radius)) {

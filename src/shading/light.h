@@ -40,9 +40,9 @@ struct ShadingLight {
   Rgb color{0, 0, 0};
   Vec3d position{0, 0, 0};  // of all but directional lights
   Vec3d to_light{0, 0, 0};  // directional: unit, towards the light
-  Vec3f axis{0, 0, 0};      // spot: unit, from the light into the cone
+  Vec3d axis{0, 0, 0};      // spot: unit, from the light into the cone
   AttenuationTerms<float> attenuation{0, 0, 1};
-  ConeTerms<float> cone{-1, -1, 0};
+  ConeTerms<double> cone{2, 2, 0};
   // One per sphere of the scene: where the light lies from hits is then found from their normals,
   // and neither their positions nor doubles are asked for. Empty: from their positions.
   std::vector<SphereOffset> from_spheres{};
@@ -55,7 +55,7 @@ struct ShadingLight {
 // `light` is punctual.
 ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position);
 
-// Fills `from_spheres`, if the light is a positional one and from each sphere's centre at least
+// Fills `from_spheres`, if the light is a point light and from each sphere's centre at least
 // kFarRadii of its radii away; or returns false. The shaded hits must all lie on these spheres,
 // their normals on the outside: Surface::unturned, where maps have turned them.
 //

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "base/geometry-inl.h"
 #include "base/target_ops-inl.h"
 #include "base/vec3-inl.h"
 #include "light/punctual-inl.h"
@@ -164,7 +165,7 @@ HWY_INLINE LightV InverseSquareAt(FloatTag d, const Vec3V<FloatV>& offset) {
   return {{offset, inverse}, hn::Mul(inverse, inverse)};
 }
 
-// Of a light of any positional form at `offset` from the hits.
+// Of a light of any positional form at `offset` from the hits; of a spot without its cone.
 template <LightForm kForm>
 HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3V<FloatV>& offset) {
   if constexpr (kForm == LightForm::kInverseSquare) {
@@ -174,15 +175,35 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3
     const auto apart = hn::Ge(squared, hn::Set(d, std::numeric_limits<float>::min()));
     const FloatV inverse = hn::IfThenElseZero(apart, ReciprocalSqrt(d, squared));
     const FloatV distance = hn::IfThenElseZero(apart, hn::Mul(squared, inverse));
-    FloatV irradiance = AttenuationFactor(d, light.attenuation, distance);
-    if constexpr (kForm == LightForm::kSpot) {
-      const Vec3V<FloatV> axis{hn::Set(d, light.axis.x), hn::Set(d, light.axis.y),
-                               hn::Set(d, light.axis.z)};
-      const FloatV cos_angle = hn::Mul(FusedDot(axis, offset), hn::Neg(inverse));
-      irradiance = hn::Mul(irradiance, SpotFactor(d, light.cone, cos_angle));
-    }
-    return {{offset, inverse}, irradiance};
+    return {{offset, inverse}, AttenuationFactor(d, light.attenuation, distance)};
   }
+}
+
+// A spot's factor at hits i... Their angles are formed in double, from double positions: the factor
+// falls to 0 at the cutoff, where floats would leave nothing right of it, and cones may be narrow.
+HWY_INLINE FloatV SpotFactorAt(FloatTag d, const ShadingLight& light, const HitBatch& hits,
+                               size_t i) {
+  const hn::ScalableTag<double> dd;
+  const hn::Rebind<float, decltype(dd)> half;
+  constexpr size_t kMostLanes = 2 * kVectorBytes / sizeof(float);
+  alignas(64) float t[kMostLanes], one_minus_cos[kMostLanes], cosine[kMostLanes];
+  const auto one = hn::Set(dd, 1.0);
+  const auto place = SetVec3(dd, light.position), axis = SetVec3(dd, light.axis);
+  for (size_t lane = 0; lane < hn::Lanes(d); lane += hn::Lanes(dd)) {
+    const size_t k = i + lane;
+    const auto away = Sub(LoadU3(dd, hits.position.x.data() + k, hits.position.y.data() + k,
+                                 hits.position.z.data() + k),
+                          place);
+    const auto squared = FusedDot(away, away);
+    const auto apart = hn::Gt(squared, hn::Zero(dd));  // else there is no direction, and no light
+    const auto inverse = hn::Div(one, hn::Sqrt(hn::IfThenElse(apart, squared, one)));
+    const auto off_axis = Sub(Scale(away, inverse), axis);
+    const auto angle = hn::Mul(FusedDot(off_axis, off_axis), hn::Set(dd, 0.5));
+    hn::Store(hn::DemoteTo(half, PenumbraPlace(dd, light.cone, angle)), half, t + lane);
+    hn::Store(hn::DemoteTo(half, angle), half, one_minus_cos + lane);
+    hn::Store(hn::DemoteTo(half, hn::Sub(one, angle)), half, cosine + lane);
+  }
+  return SpotFactor(d, light.cone, hn::Load(d, t), hn::Load(d, one_minus_cos), hn::Load(d, cosine));
 }
 
 // PositionalAt<kInverseSquare> with what all packets share in registers.

@@ -63,7 +63,11 @@ void EvaluatePositional(const ShadingLight& light, const HitBatch& hits, const S
   VisitOffset(d, light, hits, [&](const auto& offset) HWY_ATTR {
     ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
       const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
-      return PositionalAt<kForm>(d, light, offset.At(d, i, normal));
+      LightV at = PositionalAt<kForm>(d, light, offset.At(d, i, normal));
+      if constexpr (kForm == LightForm::kSpot) {
+        at.irradiance = hn::Mul(at.irradiance, SpotFactorAt(d, light, hits, i));
+      }
+      return at;
     });
   });
 }

@@ -142,14 +142,7 @@ HWY_INLINE bool ForHalfAngles(const RangeArrays& given, size_t begin, size_t end
     const HalfAnglesV<FloatV> upright = UprightHalfAngles(
         d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view), block.NDotL(d, at), n_dot_v);
     const HalfAnglesV<FloatV> any = ComputeHalfAngles(d, p.normal, toward.Direction(), p.to_view);
-    const auto is_upright = IsUpright(d, upright);
-    const auto choose = [&](FloatV if_upright, FloatV if_not)
-                            HWY_ATTR { return hn::IfThenElse(is_upright, if_upright, if_not); };
-    use(at,
-        HalfAnglesV<FloatV>{choose(upright.n_dot_u, any.n_dot_u),
-                            choose(upright.u_squared, any.u_squared),
-                            choose(upright.nxu_squared, any.nxu_squared), any.lv_squared},
-        n_dot_v);
+    use(at, Choose(IsUpright(d, upright), upright, any), n_dot_v);
   }
   return true;
 }

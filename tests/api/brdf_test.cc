@@ -109,4 +109,64 @@ TEST_CASE("a material of a scene is that material, and splits and unknown names 
   REQUIRE_THROWS_AS(nacre::SetTarget("sse9"), nacre::Error);
 }
 
+// The error of a call, or "" if there is none.
+template <class Call>
+std::string ErrorOf(const Call& call) {
+  try {
+    call();
+  } catch (const nacre::Error& error) {
+    REQUIRE(error.exit_code() == 64);
+    REQUIRE(error.faults().size() == 1);
+    return error.faults()[0].where + ": " + error.faults()[0].what;
+  }
+  return "";
+}
+
+TEST_CASE("directions that are not finite and unit are refused, and told") {
+  const nacre::Brdf brdf("metallic_roughness");
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  const nacre::Vec3 up{0, 0, 1};
+  const std::vector<nacre::Vec3> bad = {{0, 0, 0},   {0, 0, 2},   {0, nan, 1},      {nan, nan, nan},
+                                        {0, 0, inf}, {inf, 0, 0}, {0, 0, 1 + 5e-7}, {0, 0, 0.5},
+                                        {0, 0, -2},  {1, 1, 1},   {0, 0, 1e300},    {-inf, 0, nan}};
+  for (const nacre::Vec3& v : bad) {
+    CAPTURE(v[0], v[1], v[2]);
+    REQUIRE_THAT(ErrorOf([&] { brdf.Evaluate(v, up, up); }),
+                 Catch::Matchers::StartsWith("Brdf::Evaluate: normal ("));
+    REQUIRE_THAT(ErrorOf([&] { brdf.Evaluate(up, v, up); }),
+                 Catch::Matchers::StartsWith("Brdf::Evaluate: to_view ("));
+    REQUIRE_THAT(ErrorOf([&] { brdf.Evaluate(up, up, v); }),
+                 Catch::Matchers::StartsWith("Brdf::Evaluate: to_light ("));
+    for (size_t which = 0; which < 3; ++which) {
+      Samples samples;
+      for (size_t c = 0; c < 3; ++c) samples.planes[3 * which + c][2100] = v[c];
+      const char* const names[] = {"normal", "to_view", "to_light"};
+      REQUIRE_THAT(
+          ErrorOf([&] { brdf.Shade(samples.directions); }),
+          Catch::Matchers::StartsWith("Brdf::Shade: " + std::string(names[which]) + " 2100 ("));
+    }
+  }
+  REQUIRE(ErrorOf([&] {
+            brdf.Evaluate({0, 0, 2}, up, up);
+          }) == "Brdf::Evaluate: normal (0, 0, 2) has length 2, not 1");
+  const Samples samples;
+  nacre::Directions missing = samples.directions;
+  missing.to_light[1] = nullptr;
+  REQUIRE(ErrorOf([&] { brdf.Shade(missing); }) ==
+          "Brdf::Shade: a component of to_light is a null pointer");
+  REQUIRE(brdf.Shade({}).diffuse[0].empty());  // of no points none is asked for
+}
+
+TEST_CASE("directions made unit in float arithmetic are unit") {
+  const nacre::Brdf brdf("phong");
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  for (int i = 0; i < 20000; ++i) {
+    const float x = uniform(random), y = uniform(random), z = uniform(random);
+    const float inverse = 1 / std::sqrt(x * x + y * y + z * z);
+    const nacre::Vec3 v{x * inverse, y * inverse, z * inverse};
+    REQUIRE(ErrorOf([&] { brdf.Evaluate(v, v, v); }).empty());
+  }
+}
+
 }  // namespace

@@ -8,10 +8,6 @@
 
 #include <malloc.h>
 
-#if defined(__SSE2__)
-#include <xmmintrin.h>
-#endif
-
 #include "catch.h"
 #include "nacre.h"
 
@@ -138,23 +134,6 @@ TEST_CASE("threads may share a scene, all get the same bits, and nothing is prin
     REQUIRE((image.Find("G")->samples == images[0].Find("G")->samples));
   }
 }
-
-#if defined(__SSE2__)
-TEST_CASE("the caller's floating-point mode is left as it was") {
-  const unsigned before = _mm_getcsr();
-  constexpr unsigned kSticky = 0x3f;  // flags of what has happened: any arithmetic sets them
-  for (const unsigned mode : {before & ~0x8040u, before | 0x8040u}) {
-    _mm_setcsr(mode);
-    for (const int threads : {1, 2}) nacre::Render(FirstScene(), Small(threads));
-    const double n[] = {0, 0, 1};
-    nacre::Directions one{1, {n, n + 1, n + 2}, {n, n + 1, n + 2}, {n, n + 1, n + 2}};
-    nacre::Brdf("metallic_roughness").Shade(one);
-    const unsigned after = _mm_getcsr();
-    _mm_setcsr(before);
-    REQUIRE((after & ~kSticky) == (mode & ~kSticky));
-  }
-}
-#endif
 
 // Sanitizers have allocators of their own.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

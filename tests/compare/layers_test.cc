@@ -88,10 +88,16 @@ TEST_CASE("Samples that are not finite equal only themselves", "[compare]") {
 }
 
 TEST_CASE("Relative errors are softened in the dark", "[compare]") {
-  CHECK(RelativeError(0.5, 100) == Approx(0.005).epsilon(1e-7));
-  CHECK(RelativeError(0.001, 0) == Approx(0.1).epsilon(1e-15));
-  CHECK(RelativeError(0.01, -0.01f) == Approx(std::sqrt(0.5)).epsilon(1e-7));
+  CHECK(RelativeError(0.5, 100) == 0.005);
+  CHECK(RelativeError(0.001, -0.25f) == 0.004);
+  CHECK(RelativeError(1e-6, 1e-6f) == Approx(1).epsilon(1e-7));  // however dark
+  CHECK(RelativeError(0, 0) == 0);
   CHECK(RelativeError(0, kInf) == 0);
+  CHECK(std::isinf(RelativeError(1e-30, 0)));
+  CHECK(SoftenedError(0.5, 100) == Approx(0.005).epsilon(1e-7));
+  CHECK(SoftenedError(0.001, 0) == Approx(0.1).epsilon(1e-15));
+  CHECK(SoftenedError(0.01, -0.01f) == Approx(std::sqrt(0.5)).epsilon(1e-7));
+  CHECK(SoftenedError(0, kInf) == 0);
 }
 
 }  // namespace

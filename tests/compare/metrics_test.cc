@@ -8,6 +8,7 @@
 
 #include "catch.h"
 #include "compare/test_images.h"
+#include "compare/verdict.h"
 
 namespace nacre {
 namespace {
@@ -40,7 +41,8 @@ TEST_CASE("A known difference has known figures", "[compare]") {
   CHECK(m.max_abs == 0.5);
   CHECK((m.max_abs_at.x == 3 && m.max_abs_at.y == 4 && m.max_abs_at.channel == "G"));
   CHECK((m.max_abs_at.got == 2.5f && m.max_abs_at.reference == 2));
-  CHECK(m.max_rel == Approx(0.5 / std::sqrt(4.0001)).epsilon(1e-7));  // kept as float
+  CHECK(m.max_rel == 0.25);
+  CHECK(m.zero_mismatches == 0);
   CHECK(m.psnr_peak == 2);
   CHECK(m.psnr_db == Approx(20 * std::log10(2 / m.rmse)).epsilon(1e-14));
   CHECK(m.mean_reference == 2);
@@ -54,8 +56,32 @@ TEST_CASE("The 99.9 % quantile ignores one sample in a thousand", "[compare]") {
   SampleAt(got, "Y", 1, 0) = 9;
   CHECK(CompareImages(got, reference).at(0).p999_rel == 0);  // 2 of 2000
   SampleAt(got, "Y", 2, 0) = 1.5f;
-  CHECK(CompareImages(got, reference).at(0).p999_rel == Approx(0.5).epsilon(1e-4));
-  CHECK(CompareImages(got, reference).at(0).max_rel == Approx(8).epsilon(1e-4));
+  CHECK(CompareImages(got, reference).at(0).p999_rel == 0.5);
+  CHECK(CompareImages(got, reference).at(0).max_rel == 8);
+}
+
+// What the column "max rel" says is what --max-rel is held against.
+TEST_CASE("Relative errors are relative, however dark the reference", "[compare]") {
+  Image got = MakeImage({0, 0, 40, 50}, {"Y"}, 0);  // 0, of which no error is relative
+  Image reference = got;
+  for (int x = 0; x < 40; ++x) SampleAt(got, "Y", x, 0) = SampleAt(reference, "Y", x, 0) = 1;
+  SampleAt(reference, "Y", 3, 0) = 0x1p-20f;
+  SampleAt(got, "Y", 3, 0) = 1.5f * 0x1p-20f;
+  SampleAt(reference, "Y", 4, 0) = -0x1p-140f;  // a denormal
+  SampleAt(got, "Y", 4, 0) = -0x1p-139f;
+  SampleAt(got, "Y", 5, 9) = 0x1p-10f;
+  const LayerMetrics m = CompareImages(got, reference).at(0);
+  CHECK(m.max_rel == 1);
+  CHECK(m.p999_rel == 1);  // of the 40 samples that have a reference
+  CHECK(m.zero_mismatches == 1);
+  SampleAt(got, "Y", 5, 9) = 0;
+  Tolerances tolerances;
+  tolerances.max_rel = m.max_rel;
+  CHECK(Judge(got, reference, tolerances).match);
+  tolerances.max_rel = std::nextafter(m.max_rel, 0);
+  CHECK(Judge(got, reference, tolerances).exceeding_pixels == 1);
+  SampleAt(got, "Y", 4, 0) = 1e38f;  // beyond float's range of its reference
+  CHECK(CompareImages(got, reference).at(0).max_rel == Approx(1e38 / 0x1p-140).epsilon(1e-7));
 }
 
 TEST_CASE("Metrics know NaN and infinity", "[compare]") {

@@ -21,11 +21,15 @@ void EvaluateAttenuationT(const std::vector<AttenuationTerms<float>>& terms,
   }
 }
 
-void EvaluateSpotT(const std::vector<ConeTerms<float>>& cones, const std::vector<float>& cosines,
-                   std::vector<float>* out) {
+void EvaluateSpotT(const std::vector<ConeTerms<double>>& cones,
+                   const std::vector<double>& one_minus_cosines, std::vector<float>* out) {
   const hn::ScalableTag<float> d;
+  const hn::ScalableTag<double> dd;
   for (size_t i = 0; i < cones.size(); ++i) {
-    (*out)[i] = hn::GetLane(SpotFactor(d, cones[i], hn::Set(d, cosines[i])));
+    const double x = one_minus_cosines[i];
+    const double t = hn::GetLane(PenumbraPlace(dd, cones[i], hn::Set(dd, x)));
+    const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
+    (*out)[i] = hn::GetLane(SpotFactor(d, cones[i], set(t), set(x), set(1 - x)));
   }
 }
 
@@ -45,10 +49,10 @@ std::vector<float> EvaluateAttenuation(const std::vector<AttenuationTerms<float>
   return out;
 }
 
-std::vector<float> EvaluateSpot(const std::vector<ConeTerms<float>>& cones,
-                                const std::vector<float>& cosines) {
+std::vector<float> EvaluateSpot(const std::vector<ConeTerms<double>>& cones,
+                                const std::vector<double>& one_minus_cosines) {
   std::vector<float> out(cones.size());
-  HWY_DYNAMIC_DISPATCH(EvaluateSpotT)(cones, cosines, &out);
+  HWY_DYNAMIC_DISPATCH(EvaluateSpotT)(cones, one_minus_cosines, &out);
   return out;
 }
 }  // namespace nacre

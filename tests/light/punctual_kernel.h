@@ -11,7 +11,7 @@ namespace nacre {
 // On the active target, element by element; all vectors of one size.
 std::vector<float> EvaluateAttenuation(const std::vector<AttenuationTerms<float>>& terms,
                                        const std::vector<float>& distances);
-std::vector<float> EvaluateSpot(const std::vector<ConeTerms<float>>& cones,
-                                const std::vector<float>& cosines);
+std::vector<float> EvaluateSpot(const std::vector<ConeTerms<double>>& cones,
+                                const std::vector<double>& one_minus_cosines);
 
 }  // namespace nacre

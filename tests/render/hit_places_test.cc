@@ -31,14 +31,12 @@ Scene LitSpheres() {
   Light lamp;
   lamp.name = "lamp";
   lamp.kind = PointLight{.position = {2, 9, -3}, .intensity = {90, 80, 70}, .attenuation = {}};
-  Light spot;
-  spot.name = "spot";
-  spot.shadows = false;
-  spot.kind = SpotLight{.position = {-6, 5, 3},
-                        .direction_of_travel = {6, -5, -11},
-                        .intensity = {50, 60, 70},
-                        .attenuation = {}};
-  scene.lights = {lamp, spot};
+  Light far;
+  far.name = "far";
+  far.shadows = false;
+  far.kind =
+      PointLight{.position = {-6, 5, 3}, .intensity = {50, 60, 70}, .attenuation = {1, 0.1, 0.01}};
+  scene.lights = {lamp, far};
   scene.camera.position = Vec3d(0, 0, 0);
   scene.camera.look_at = Vec3d(0, 0, -8);
   return scene;
@@ -67,7 +65,7 @@ TEST_CASE("pictures without positions have the bits of those with them") {
       }
       RenderSettings settings;
       settings.threads = 1;
-      settings.layers = {"light.lamp", "light.spot", "N"};
+      settings.layers = {"light.lamp", "light.far", "N"};
       const Image got = RenderImage(scene, settings);
       settings.general_path = true;
       CHECK(MakePlan(scene, settings).all_positions);

@@ -8,6 +8,7 @@
 
 #include "pictures.h"
 #include "render/render.h"
+#include "targets.h"
 
 namespace nacre {
 namespace {
@@ -440,6 +441,42 @@ TEST_CASE("a light's own shape is not in its way") {
     CHECK(on_sphere > 100);
     CHECK(different == 0);
   }
+}
+
+// A perfect mirror beside a rough metal: a batch that holds hits on both is sampled by the light
+// and by the lobes, one of the mirror alone is not.
+TEST_CASE("what mirrors reflect of an area light does not depend on what else is in their tile") {
+  ForEachTarget([](Target) {
+    Scene scene;
+    const auto add = [&](double roughness, const Vec3d& center, double radius) {
+      ConductorMaterial metal;
+      metal.roughness = roughness;
+      metal.shadowing = Shadowing::kSchlickDirect;
+      metal.compensation = Compensation::kKullaConty;
+      scene.materials.emplace_back().model = metal;
+      scene.spheres.push_back(
+          {center, radius, {static_cast<uint32_t>(scene.materials.size() - 1)}});
+    };
+    add(0, {-0.6, 0, 0}, 1);
+    add(0.35, {0.8, 0, 0.3}, 0.8);
+    DiskAreaLight disk;
+    disk.center = Vec3d(-2, 3, 5);
+    disk.facing = Vec3d(2, -3, -5);
+    disk.radius = 0.5;
+    disk.radiance = Rgb(20);
+    scene.lights.push_back(Named("disk", disk));
+    scene.camera.position = Vec3d(0, 0, 9);
+    scene.camera.fov_y_deg = 20;
+    scene.image.width = 90;
+    scene.image.height = 40;
+    scene.image.spp = 4;
+    RenderSettings settings;
+    const Image image = RenderImage(scene, settings);
+    for (const int tile_size : {5, 16, 26, 64}) {
+      settings.tile_size = tile_size;
+      CHECK(SameBits(RenderImage(scene, settings), image));
+    }
+  });
 }
 
 }  // namespace

@@ -4,8 +4,16 @@ import struct
 import zlib
 
 
-def read_exr(path):
-    """{channel: rows of floats} of an uncompressed scanline file of halves, floats and uints."""
+class ExrRows:
+    """The place of an image's pixels and, by channel, its form ('e', 'f', 'I') and rows of bytes."""
+
+    def __init__(self, window):
+        self.x0, self.y0, self.x1, self.y1 = window
+        self.forms, self.rows = {}, {}
+
+
+def read_exr_rows(path):
+    """An uncompressed scanline file of halves, floats and uints."""
     data = path.read_bytes()
     place, header = 8, {}
     while data[place]:
@@ -15,21 +23,28 @@ def read_exr(path):
         header[data[place:name_end].decode()] = data[type_end + 5:type_end + 5 + size]
         place = type_end + 5 + size
     assert header['compression'] == b'\0', 'the file is compressed'
-    x0, y0, x1, y1 = struct.unpack('<4i', header['dataWindow'])
-    channels, entry = [], header['channels']
+    image = ExrRows(struct.unpack('<4i', header['dataWindow']))
+    entry = header['channels']
     while entry[0]:
         end = entry.index(b'\0')
-        channels.append((entry[:end].decode(), 'Ief'[entry[end + 1]]))
+        image.forms[entry[:end].decode()] = 'Ief'[entry[end + 1]]
         entry = entry[end + 17:]
-    width, height = x1 - x0 + 1, y1 - y0 + 1
-    image = {name: [] for name, _ in channels}
-    for row in range(height):
+    image.rows = {name: [] for name in image.forms}
+    width = image.x1 - image.x0 + 1
+    for row in range(image.y1 - image.y0 + 1):
         at = struct.unpack_from('<Q', data, place + 1 + 8 * row)[0] + 8
-        for name, form in channels:
-            values = struct.unpack_from(f'<{width}{form}', data, at)
-            image[name].append(values)
-            at += struct.calcsize(f'<{width}{form}')
+        for name, form in image.forms.items():
+            size = width * struct.calcsize(form)
+            image.rows[name].append(data[at:at + size])
+            at += size
     return image
+
+
+def read_exr(path):
+    """{channel: rows of numbers} of such a file."""
+    image = read_exr_rows(path)
+    return {name: [struct.unpack(f'<{len(row) // struct.calcsize(form)}{form}', row)
+                   for row in image.rows[name]] for name, form in image.forms.items()}
 
 
 def read_png(path):

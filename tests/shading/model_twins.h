@@ -41,10 +41,9 @@ inline Incident Illuminate(const Light& light, const Vec3d& position) {
   }
   const auto& spot = std::get<SpotLight>(light.kind);
   Incident incident = from(spot.position, spot.attenuation);
-  const double degree = M_PI / 180;
   incident.irradiance *= SpotFactor<double>(
-      {std::cos(spot.cutoff_deg * degree), std::cos(spot.inner_deg * degree), spot.exponent},
-      -(incident.to_light ^ spot.direction_of_travel.normalized()));
+      {OneMinusCosine(spot.cutoff_deg), OneMinusCosine(spot.inner_deg), spot.exponent},
+      OneMinusCosine(-incident.to_light, spot.direction_of_travel.normalized()));
   return incident;
 }
 

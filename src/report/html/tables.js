@@ -14,6 +14,7 @@ function metricTable(comparison, names) {
   const {verdict} = comparison, caption = `${names[0]} against ${names[1]}`;
   const notes = verdict.layers.flatMap(m => (m.notes || []).map(note => `${m.layer}: ${note}`));
   for (const m of verdict.layers) {
+    if (m.zero_mismatches) notes.push(`${m.layer}: ${m.zero_mismatches} samples are 0 in the reference only, and have no relative error`);
     if (m.nonfinite_mismatches) notes.push(`${m.layer}: ${m.nonfinite_mismatches} samples are not finite in one picture only`);
   }
   const layers = [...verdict.layers].sort((a, b) => (b.layer === 'beauty') - (a.layer === 'beauty'));
