@@ -72,7 +72,8 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
           "--max-error", o->max_error,
           "Sample until each pixel's error is below this part of its value (0.05 for "
           "darker ones, a white surface's for highlights) with 95 % confidence, e.g. 0.01; "
-          "--spp is then the most samples a pixel takes (4096 if not given)")
+          "--spp is then the most samples a pixel takes (4096 if not given), and how many pixels "
+          "are still unsure after these is told")
       ->check(InRange(1e-6, 1))
       ->type_name("E")
       ->group(picture);

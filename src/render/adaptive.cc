@@ -7,7 +7,9 @@
 
 #include "render/cell_film.h"
 #include "render/convergence.h"
+#include "render/evidence.h"
 #include "render/footprint.h"
+#include "render/rare_features.h"
 #include "render/tile_layers.h"
 #include "sampling/hash.h"
 
@@ -94,6 +96,26 @@ void WidenRanges(const double* values, const double* hits, double* low, double* 
   }
 }
 
+// Takes them all into them, of which all pixels have some.
+void WidenByBlock(const double* __restrict values, double* __restrict low,
+                  double* __restrict high) {
+  for (size_t k = 0; k < kBlockPixels; ++k) {
+    low[k] = values[k] < low[k] ? values[k] : low[k];
+    high[k] = values[k] > high[k] ? values[k] : high[k];
+  }
+}
+
+// The same of a pixel's samples that stand in a row.
+void WidenByPiece(const double* values, size_t count, double* low, double* high) {
+  double least = *low, most = *high;
+  for (size_t i = 0; i < count; ++i) {
+    least = values[i] < least ? values[i] : least;
+    most = values[i] > most ? values[i] : most;
+  }
+  *low = least;
+  *high = most;
+}
+
 void MarkHits(const TileScratch& s, std::vector<double>* hits) {
   std::fill_n(hits->begin(), s.samples.count, 0.0);
   for (size_t i = 0; i < s.hits.count; ++i) (*hits)[s.hits.ray[i]] = 1;
@@ -130,6 +152,9 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
         for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
           const uint32_t pixel = units[i].pixel;
           AddBlock(value, s.weights[0], sums[units[i].replicate] + pixel);
+          if (beauty) {
+            WidenByBlock(value, c->seen_low[channel] + pixel, c->seen_high[channel] + pixel);
+          }
           if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
           WidenRanges(value, c->hits.data() + i, c->low[channel] + pixel, c->high[channel] + pixel);
         }
@@ -137,6 +162,10 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
       }
       for (const Unit& unit : units) {
         sums[unit.replicate][unit.pixel] += SumOfPiece(value, s.weights.data(), count);
+        if (beauty) {
+          WidenByPiece(value, count, c->seen_low[channel] + unit.pixel,
+                       c->seen_high[channel] + unit.pixel);
+        }
         value += count;
       }
     }
@@ -325,7 +354,8 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   StartTile(plan, cell, &s.film);
   std::fill_n(c.samples, kCellPixels, 0u);
   clock->Charge(Stage::kFilm);
-  const uint32_t blocks = BlocksOf(cell, part);
+  // All that the frame has: pixels tell of one another, whatever part is rendered.
+  const uint32_t blocks = BlocksOf(cell, plan.frame);
   c.pictures = PicturesOf(plan.camera, s.candidates);
   const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
   clock->Charge(Stage::kIntersect);
@@ -336,13 +366,15 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   ClearReplicates(sampled, &c);
   ListPixels(sampled, &c.active);
   FindOutlines(plan, cell, &c);
+  ClearEvidence(&c);
+  FindRareSpheres(plan, cell, s.candidates, &c);
   SeekHits(plan, cell, &s, &c, clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, clock, stats);
     DropConverged(plan, level, &c);
     clock->Charge(Stage::kFilm);
   }
-  stats->unsettled_pixels += CountUnsettled(plan, &c);
+  stats->unsettled_pixels += CountUnsettled(plan, cell, part, &c);
   AddReplicates(sampled, c, &s.film);
   ResolveCell(plan, cell, part, s.film, c, strip);
   clock->Charge(Stage::kFilm);

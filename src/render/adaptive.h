@@ -8,7 +8,8 @@
 // block stops as a whole, or its pixels one by one, where in each channel the half-width of the 95
 // % confidence interval from the spread of four independent scramblings (Student's t with three
 // degrees of freedom) is below the wanted error times |L|, of 0.05 at least and of white's at
-// most (white_level.h), and no neighbour in the block is far from that (convergence.h).
+// most (white_level.h), no neighbour in the block is far from that (convergence.h), and there is
+// evidence enough that nothing rare was missed (evidence.h).
 //
 // Most of the error of a picture of spheres is in the pixels on their outlines, where samples tell
 // how much of the pixel is covered. Of a pixel that one outline crosses before the background this
@@ -55,6 +56,12 @@ struct CellScratch {
   // them on the outlines of a block.
   double low[3][kCellPixels], high[3][kCellPixels];
   PixelRange outline_range[3][kCellBlocks];
+  // The range of all samples of a pixel, misses too; and how many it takes at least (evidence.h).
+  double seen_low[3][kCellPixels], seen_high[3][kCellPixels];
+  double least_samples[kCellPixels];
+  // What few samples find of a pixel (rare_features.h): how many find it, and at most how much of
+  // the pixel's radiance it is.
+  double rare_samples[kCellPixels], rare_radiance[kCellPixels];
   // Pixels whose covered share is known, and a place on the film in each that hits.
   struct SoughtHit {
     uint32_t pixel;

@@ -17,6 +17,7 @@ inline constexpr int kReplicates = 4;
 struct AdaptivePlan {
   double max_error = 0;  // 0: every pixel takes the same samples
   double white = 0;      // WhiteLevel
+  double brightest = 0;  // BrightestObject
   int max_samples = 0;   // about, of a pixel
   // Samples are added level by level: as many again as there are, in each replicate. Of most
   // filters they go on in one pattern, of which every such beginning is as well spread as a pattern

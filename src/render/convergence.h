@@ -20,6 +20,8 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* cell_scrat
 
 // Of the pixels that are still active after the last level, those whose error may be more than the
 // wanted part of their value: highlights that are not as exact as white is do not count.
-size_t CountUnsettled(const RenderPlan& plan, CellScratch* cell_scratch);
+// Those of the cell that lie in `part` are counted.
+size_t CountUnsettled(const RenderPlan& plan, const Window& cell, const Window& part,
+                      CellScratch* cell_scratch);
 
 }  // namespace nacre

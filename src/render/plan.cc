@@ -16,6 +16,7 @@
 #include "render/mesh_points.h"
 #include "render/mesh_windows.h"
 #include "render/plan_notes.h"
+#include "render/rare_features.h"
 #include "render/sampled_plan.h"
 #include "render/shadow_cull.h"
 #include "scene/mesh.h"
@@ -227,6 +228,7 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
   if (settings.max_error > 0) {
     plan.adaptive = PlanAdaptive(scene, plan.materials, settings.max_error, settings.max_samples);
+    plan.adaptive.brightest = BrightestObject(plan);
     // A texture may hold anything between pixel centres, and triangles are not binned.
     plan.adaptive.footprints = plan.adaptive.footprints && plan.binned && scene.meshes.empty() &&
                                !plan.splits && !plan.textured;
@@ -237,7 +239,8 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
         {"adaptive sampling", true,
          fmt::format(
              "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
-             "of max(|L|, 0.05){}; {}{}",
+             "of max(|L|, 0.05){}, and there are enough samples to have met what is rare there; "
+             "{}{}",
              settings.max_error,
              std::isinf(plan.adaptive.white)
                  ? ""

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/evidence.h: how many samples a pixel must have before the agreement of its replicates
+// counts. Replicates that all missed what is rare in a pixel agree, too.
+//
+// Three things are asked of a pixel in which anything may be, that is outside the blocks that hold
+// nothing but whole spheres that no shadow falls on:
+// - Its own samples. Between their least and their greatest value one more sample may lie, and
+//   samples that take few values agree by chance: n samples do not settle less than kUnseen / n of
+//   that contrast.
+// - Its cell's samples. What is rare in one pixel is seen in some of the 256 of its cell: pixels
+//   whose samples differ by more than their neighbours' means explain. From their share follows in
+//   how many pixels the same is hidden by chance, and how many samples bring that below 5 %. And
+//   intervals much narrower than those of the cell's other pixels are chance as well.
+// - What is known beforehand (rare_features.h): a part of the pixel that is smaller than a sample's
+//   share of it.
+//
+// Cells lie on a grid of the frame and are evaluated whole, so that none of this depends on crops.
+#pragma once
+
+#include "render/adaptive.h"
+
+namespace nacre {
+
+// The rule of three: what a sample hits with probability p is missed by all of n in 5 % of cases
+// where n p = 3, for e^-3 = 0.0498.
+inline constexpr double kUnseen = 3;
+
+// Before a cell's first sample.
+void ClearEvidence(CellScratch* cell_scratch);
+
+// After a level: takes from the intervals of the active pixels those bits that say that they are
+// narrow enough where there is too little evidence for it.
+void RequireEvidence(const RenderPlan& plan, CellScratch* cell_scratch);
+
+}  // namespace nacre

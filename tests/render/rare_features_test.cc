@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/rare_features_test.cc: pictures to a wanted error in which what matters is rare:
+// covers little of a pixel, is seen by few of its samples, or is drawn by few of the light's.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "pictures.h"
+#include "render/render.h"
+#include "textured_scenes.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kSide = 32;  // of the pictures
+constexpr int kPart = 16;  // of the squares in which errors and what is told are counted
+
+MaterialId Add(Scene* scene, decltype(Material::model) model, const Rgb& emission = Rgb(0)) {
+  Material material;
+  material.model = std::move(model);
+  material.emission = emission;
+  scene->materials.push_back(std::move(material));
+  return {static_cast<uint32_t>(scene->materials.size() - 1)};
+}
+
+MaterialId AddMatte(Scene* scene, double albedo) {
+  return Add(scene, LambertMaterial{Rgb(albedo)});
+}
+
+// One pixel is one unit wide; the camera looks along -z.
+Scene Parallel() {
+  Scene scene;
+  scene.image.width = scene.image.height = kSide;
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.height = kSide;
+  scene.camera.position = {0, 0, 100};
+  scene.camera.look_at = {0, 0, 0};
+  return scene;
+}
+
+// Likewise, over a floor of one colour, a sphere as large as a plane, whose top is at z = 0.
+Scene Floor(double albedo) {
+  Scene scene = Parallel();
+  scene.spheres.push_back({{0, 0, -1e7}, 1e7, AddMatte(&scene, albedo)});
+  return scene;
+}
+
+Light Along(const Vec3d& direction, double irradiance) {
+  return Named("sun", DirectionalLight{direction, Rgb(irradiance)});
+}
+
+// `count` places evenly at random over the picture.
+std::vector<Vec3d> Places(int count, uint32_t seed, double z) {
+  std::mt19937 random(seed);
+  const auto number = [&] { return (static_cast<double>(random()) / 4294967296.0 - 0.5) * kSide; };
+  std::vector<Vec3d> places;
+  for (int i = 0; i < count; ++i) {
+    const double x = number();
+    places.emplace_back(x, number(), z);
+  }
+  return places;
+}
+
+// A triangle or a strip of two, seen from above.
+void AddStrip(const Vec3d& from, const Vec3d& along, const Vec3d& across, Mesh* mesh) {
+  const auto first = static_cast<uint32_t>(mesh->positions.size());
+  for (const Vec3d& p : {from, from + along, from + along + across, from + across}) {
+    mesh->positions.push_back(p);
+  }
+  for (const uint32_t i : {0, 1, 2, 0, 2, 3}) mesh->triangles.push_back(first + i);
+}
+
+// A floor of a mesh with a texture of width x width texels.
+Scene TexturedFloor(double texels_per_pixel, TextureFilter filter, const Rgb& emission,
+                    const std::function<Rgb(int, int)>& of) {
+  Scene scene = Parallel();
+  constexpr int kTexels = 128;
+  const TextureId texture = AddTexture(&scene, kTexels, kTexels, of);
+  scene.textures[0].mapping = MappingKind::kUv;
+  scene.textures[0].sampling.filter = filter;
+  scene.textures[0].sampling.wrap_v = Wrap::kRepeat;
+  LambertMaterial matte{Rgb(0.8)};
+  if (emission.x == 0) matte.albedo_map = texture;
+  const MaterialId id = Add(&scene, matte, emission);
+  if (emission.x > 0) scene.materials[id.index].emission_map = texture;
+  Mesh mesh;
+  AddStrip({-20, -20, 0}, {40, 0, 0}, {0, 40, 0}, &mesh);
+  const double turns = 40 * texels_per_pixel / kTexels;
+  mesh.uvs = {{0.013, 0.017}, {turns, 0.017}, {turns, turns}, {0.013, turns}};
+  mesh.material = id;
+  scene.meshes.push_back(mesh);
+  scene.lights = {Named("ambient", AmbientLight{Rgb(0.2)})};
+  return scene;
+}
+
+// 1 at one in `of` texels, else `other`.
+std::function<Rgb(int, int)> Dots(uint32_t of, double other) {
+  return [=](int x, int y) {
+    std::mt19937 random(static_cast<uint32_t>(x + 1000 * y));
+    return random() % of == 0 ? Rgb(1) : Rgb(other);
+  };
+}
+
+EnvironmentLight Sky(int width, const std::function<double(int, int)>& of) {
+  auto picture = std::make_shared<SkyPicture>();
+  picture->width = width;
+  picture->height = width / 2;
+  for (int y = 0; y < width / 2; ++y) {
+    for (int x = 0; x < width; ++x) {
+      for (int c = 0; c < 3; ++c) picture->rgb.push_back(static_cast<float>(of(x, y)));
+    }
+  }
+  return {.sky = PictureSky{picture, Rgb(1)}, .rotate_deg = 0, .background = true};
+}
+
+// Three in a thousand texels are stars.
+EnvironmentLight Stars() {
+  return Sky(512, [](int x, int y) {
+    std::mt19937 random(static_cast<uint32_t>(x + 1000 * y));
+    return random() % 333 == 0 ? 20.0 : 0.1;
+  });
+}
+
+Scene Dust() {
+  Scene scene = Parallel();
+  const MaterialId matte = AddMatte(&scene, 0.8);
+  for (const Vec3d& place : Places(750, 1, 0)) scene.spheres.push_back({place, 0.05, matte});
+  scene.background = Rgb(0.05);
+  scene.lights = {Along({0, 0, -1}, M_PI)};
+  return scene;
+}
+
+Scene SparseBrightDust() {
+  Scene scene = Parallel();
+  const MaterialId matte = AddMatte(&scene, 0.8);
+  for (const Vec3d& place : Places(150, 2, 0)) scene.spheres.push_back({place, 0.03, matte});
+  scene.lights = {Along({-1, -2, -1}, 300)};
+  return scene;
+}
+
+Scene Sparks() {
+  Scene scene = Floor(0.5);
+  const MaterialId spark = Add(&scene, LambertMaterial{Rgb(0)}, Rgb(8));
+  for (const Vec3d& place : Places(200, 3, 5)) scene.spheres.push_back({place, 0.06, spark});
+  scene.lights = {Along({0, 0, -1}, 1)};
+  return scene;
+}
+
+Scene Bulbs() {
+  Scene scene = Floor(0.5);
+  int number = 0;
+  for (const Vec3d& place : Places(3, 4, 8)) {
+    SphereAreaLight light;
+    light.center = place;
+    light.radius = 0.2;
+    light.radiance = Rgb(200);
+    scene.lights.push_back(Named("bulb" + std::to_string(number++), light));
+  }
+  return scene;
+}
+
+Scene Debris() {
+  Scene scene = Floor(0.3);
+  Mesh mesh;
+  mesh.material = Add(&scene, LambertMaterial{Rgb(0)}, Rgb(6));
+  for (const Vec3d& place : Places(400, 5, 4)) {
+    AddStrip(place, {0.08, 0.05, 0}, {-0.05, 0.08, 0}, &mesh);
+  }
+  scene.meshes.push_back(mesh);
+  scene.lights = {Along({0, 0, -1}, 1)};
+  return scene;
+}
+
+Scene Wires() {
+  Scene scene = Parallel();
+  Mesh mesh;
+  mesh.material = AddMatte(&scene, 0.8);
+  for (int i = -24; i < 24; ++i) AddStrip({i * 1.37, -40, 0}, {20, 80, 0}, {0.06, 0, 0}, &mesh);
+  scene.meshes.push_back(mesh);
+  scene.background = Rgb(0.1);
+  scene.lights = {Named("ambient", AmbientLight{Rgb(1)})};
+  return scene;
+}
+
+Scene FenceShadow() {
+  Scene scene = Floor(0.7);
+  Mesh mesh;
+  mesh.material = AddMatte(&scene, 0.3);
+  for (int i = -40; i < 40; ++i) {
+    AddStrip({i * 0.83 - 60, -60, 30}, {9, 120, 0}, {0.11, 0, 0}, &mesh);
+  }
+  scene.meshes.push_back(mesh);
+  scene.lights = {Along({2, 0, -1}, M_PI)};
+  return scene;
+}
+
+// Out of sight.
+Scene BeadShadows() {
+  Scene scene = Floor(0.7);
+  const MaterialId matte = AddMatte(&scene, 0.3);
+  for (const Vec3d& place : Places(500, 6, 30)) {
+    scene.spheres.push_back({place - Vec3d(60, 0, 0), 0.13, matte});
+  }
+  scene.lights = {Along({2, 0, -1}, M_PI)};
+  return scene;
+}
+
+// Most of the light comes from one texel, which a draw by the cosine seldom finds.
+Scene OneTexelSun() {
+  Scene scene = Floor(0.1);
+  scene.camera.up = {0, 1, 0};
+  EnvironmentLight sky = Sky(16, [](int x, int y) { return x == 8 && y == 2 ? 200.0 : 0.2; });
+  scene.lights = {Named("sky", sky)};
+  return scene;
+}
+
+Scene StarsBehind() {
+  Scene scene;
+  scene.image.width = scene.image.height = kSide;
+  scene.camera.position = {0, 0, 0};
+  scene.camera.look_at = {1, 0.2, 0.3};
+  scene.camera.fov_y_deg = 60;
+  scene.lights = {Named("sky", Stars())};
+  return scene;
+}
+
+Scene StarsMirrored() {
+  MetallicRoughnessMaterial metal;
+  metal.metallic = 1;
+  metal.roughness = 0;
+  Scene scene = OneSphere(metal, kSide);
+  scene.lights = {Named("sky", Stars())};
+  return scene;
+}
+
+// Balls three pixels wide whose highlights are much smaller than a pixel.
+Scene Glints() {
+  Scene scene = Parallel();
+  PhongMaterial phong;
+  phong.shininess = 2000;
+  const MaterialId shiny = Add(&scene, phong);
+  for (int y = -7; y < 8; ++y) {
+    for (int x = -7; x < 8; ++x) {
+      scene.spheres.push_back({{2.13 * x, 2.13 * y, 0}, 1, shiny});
+    }
+  }
+  scene.lights = {Along({-1, -2, -3}, 2), Named("ambient", AmbientLight{Rgb(0.2)})};
+  return scene;
+}
+
+struct Case {
+  const char* name;
+  Scene (*make)();
+  double max_error;
+  // Of the pixels, a fifth more than today. All may be where light is 200 times as bright as what
+  // is around it: a part of a pixel that 4096 samples do not rule out is then more than the error.
+  double most_told;
+};
+
+Image Truth(Scene scene) {
+  scene.image.spp = 4096;
+  scene.image.seed = 99;
+  return RenderImage(scene, {}, nullptr);
+}
+
+// The share of pixels that are beyond the error and not told to be. Which are told is known by
+// parts: a part of a picture has the bits that it has in the whole.
+struct Shares {
+  double untold = 0, told = 0;
+};
+
+Shares SharesOf(const Scene& scene, const Image& truth, double max_error) {
+  Shares shares;
+  for (int y0 = 0; y0 < kSide; y0 += kPart) {
+    for (int x0 = 0; x0 < kSide; x0 += kPart) {
+      RenderSettings settings;
+      settings.max_error = max_error;
+      settings.region = {x0, y0, x0 + kPart, y0 + kPart};
+      RenderStats stats;
+      const Image part = RenderImage(scene, settings, &stats);
+      double beyond = 0;
+      for (int y = 0; y < kPart; ++y) {
+        for (int x = 0; x < kPart; ++x) {
+          bool within = true;
+          for (size_t c = 0; c < 3; ++c) {
+            const double value = part.channels[c].samples[static_cast<size_t>(y * kPart + x)];
+            const double wanted =
+                truth.channels[c].samples[static_cast<size_t>((y0 + y) * kSide + x0 + x)];
+            within =
+                within && std::abs(value - wanted) <= max_error * std::max(std::abs(wanted), 0.05);
+          }
+          beyond += within ? 0 : 1;
+        }
+      }
+      const auto told = static_cast<double>(stats.unsettled_pixels);
+      shares.told += told / (kSide * kSide);
+      shares.untold += std::max(beyond - told, 0.0) / (kSide * kSide);
+    }
+  }
+  return shares;
+}
+
+const Case kCases[] = {
+    {"dust", Dust, 0.1, 0.01},
+    {"dust", Dust, 0.05, 0.05},
+    {"sparse bright dust", SparseBrightDust, 0.05, 0.6},
+    {"sparks", Sparks, 0.05, 0.3},
+    {"bulbs", Bulbs, 0.05, 0.1},
+    {"debris", Debris, 0.05, 0.5},
+    {"wires", Wires, 0.05, 0.05},
+    {"a fence's shadow", FenceShadow, 0.05, 0.01},
+    {"a fence's shadow", FenceShadow, 0.03, 0.01},
+    {"shadows of beads", BeadShadows, 0.05, 0.1},
+    {"a sun of one texel", OneTexelSun, 0.03, 0.01},
+    {"stars behind", StarsBehind, 0.05, 1},
+    {"stars mirrored", StarsMirrored, 0.05, 0.8},
+    {"glints", Glints, 0.05, 0.35},
+    {"bright texels",
+     [] { return TexturedFloor(3.7, TextureFilter::kNearest, Rgb(20), Dots(500, 0)); }, 0.05, 1},
+    {"filtered bright texels",
+     [] { return TexturedFloor(11.3, TextureFilter::kTrilinear, Rgb(20), Dots(500, 0)); }, 0.05, 1},
+    {"white texels",
+     [] { return TexturedFloor(3.7, TextureFilter::kNearest, Rgb(0), Dots(100, 0.05)); }, 0.05,
+     0.2},
+    {"a board aligned with the pixels",
+     [] {
+       return TexturedFloor(4, TextureFilter::kNearest, Rgb(0),
+                            [](int x, int y) { return Rgb((x + y) % 2); });
+     },
+     0.05, 0.05},
+};
+
+TEST_CASE("what is rare is sampled to the wanted error, or told") {
+  for (const Case& c : kCases) {
+    Scene scene = c.make();
+    const Image truth = Truth(scene);
+    const Shares shares = SharesOf(scene, truth, c.max_error);
+    CAPTURE(c.name, c.max_error, shares.untold, shares.told);
+    CHECK(shares.untold <= 0.05);
+    CHECK(shares.told <= c.most_told);
+  }
+}
+
+TEST_CASE("what is rare under filters wider than a pixel is, too") {
+  for (const PixelFilter filter :
+       {PixelFilter{FilterKind::kGaussian, 3}, PixelFilter{FilterKind::kMitchell, 4}}) {
+    for (const auto make : {Dust, Sparks, FenceShadow}) {
+      Scene scene = make();
+      scene.image.filter = filter;
+      const Image truth = Truth(scene);
+      const Shares shares = SharesOf(scene, truth, 0.1);
+      CAPTURE(static_cast<int>(filter.kind), shares.untold, shares.told);
+      CHECK(shares.untold <= 0.05);
+      CHECK(shares.told <= 0.3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace nacre
