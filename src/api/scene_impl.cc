@@ -31,6 +31,8 @@ nacre::Scene Read(const Scene::Impl::Source& source) {
   LoadOptions options;
   options.overrides = source.overrides;
   options.allow_paths = source.allow_paths;
+  // A program may ask for what a stranger's file may not.
+  if (source.allow_paths) options.max_primitives = limits::kMaxPrimitivesMade;
   if (!source.model_path.empty()) {
     if (source.shapes.empty()) return LoadScene(source.model_path, options);
     throw nacre::Error(ExitCode::kUsage, source.model_path, "a model takes no shapes as parameters",

@@ -28,7 +28,13 @@ size_t EditDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 Error::Error(ExitCode code, std::vector<Fault> faults) : code_(code), faults_(std::move(faults)) {
-  for (const Fault& fault : faults_) {
+  for (Fault& fault : faults_) {
+    // What a file says is quoted in excerpts (base/excerpt.h). Should one be forgotten, a message
+    // still ends.
+    constexpr size_t kLongestPart = 2000;
+    for (std::string* part : {&fault.what, &fault.hint}) {
+      if (part->size() > kLongestPart) *part = part->substr(0, kLongestPart) + "...";
+    }
     if (!message_.empty()) message_ += '\n';
     message_ += "error: ";
     if (!fault.where.empty()) message_ += Printable(fault.where) + ": ";

@@ -13,6 +13,7 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/print.h"
+#include "cli/render_options.h"
 #include "image_io/image_file.h"
 #include "image_io/verify_image.h"
 #include "scene/hash.h"
@@ -85,8 +86,8 @@ std::string CountAndNames(const std::vector<Item>& items) {
   return fmt::format("{}{}{}", items.size(), names.empty() ? "" : ": ", fmt::join(names, ", "));
 }
 
-void PrintScene(const std::string& path, bool allow_paths) {
-  const Scene scene = LoadScene(path, {.overrides = {}, .allow_paths = allow_paths});
+void PrintScene(const std::string& path, const LoadOptions& options) {
+  const Scene scene = LoadScene(path, options);
   size_t triangles = 0;
   for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
   PrintOut("{}\n", path);
@@ -116,7 +117,7 @@ void AddInfoCommand(CLI::App* app, int*) {
   struct InfoArguments {
     std::vector<std::string> files;
     std::string part;
-    bool allow_paths = false;
+    LoadOptions load;
     bool verify = false;
   };
   const auto arguments = std::make_shared<InfoArguments>();
@@ -124,8 +125,9 @@ void AddInfoCommand(CLI::App* app, int*) {
       "FILE", arguments->files,
       "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");
   command->add_option("--part", arguments->part, "Only this part of EXR files that have several");
-  command->add_flag("--allow-paths", arguments->allow_paths,
+  command->add_flag("--allow-paths", arguments->load.allow_paths,
                     "Let scenes refer to files outside their own folder");
+  AddMaxPrimitivesOption(command, &arguments->load.max_primitives);
   command->add_flag("--verify", arguments->verify,
                     "Read and decode all of each image and compare its checksums: 65 if one is not "
                     "whole. EXR files of nacre have one in their header");
@@ -137,8 +139,9 @@ void AddInfoCommand(CLI::App* app, int*) {
   command->callback([arguments] {
     if (arguments->files.empty()) PrintBuild();
     for (const std::string& file : arguments->files) {
+      RefuseOtherModels(file);
       if (HasExtension(file, ".json") || IsModelFile(file)) {
-        PrintScene(file, arguments->allow_paths);
+        PrintScene(file, arguments->load);
       } else {
         PrintImage(file, arguments->part);
         if (arguments->verify) PrintOut("  {:<15} {}\n", "verified", VerifyImage(file));

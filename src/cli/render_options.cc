@@ -16,6 +16,7 @@
 #include "color/tone.h"
 #include "image_io/exr_compress.h"
 #include "image_io/exr_writer.h"
+#include "scene/limits.h"
 
 namespace nacre {
 namespace {
@@ -37,6 +38,14 @@ bool ParseIntegers(std::string_view text, char separator, size_t count, std::vec
 }
 
 }  // namespace
+
+CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* max_primitives) {
+  return command
+      ->add_option("--max-primitives", *max_primitives,
+                   "How many spheres and triangles a file may be made into: 20 million if this is "
+                   "not given, fewer of a small model")
+      ->check(CLI::Range(uint64_t{1}, limits::kMaxPrimitivesMade));
+}
 
 std::function<std::string(const std::string&)> InRange(double low, double high) {
   return [=](const std::string& text) -> std::string {
@@ -153,6 +162,7 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
       ->add_flag("--allow-paths", o->allow_paths,
                  "Let the scene refer to files outside its own folder")
       ->group(machine);
+  AddMaxPrimitivesOption(command, &o->max_primitives)->group(machine);
 }
 
 namespace {
@@ -214,6 +224,7 @@ void AddRenderOptions(CLI::App* command, RenderOptions* o) {
 LoadOptions MakeLoadOptions(const RenderOptions& options) {
   LoadOptions load;
   load.allow_paths = options.allow_paths;
+  load.max_primitives = options.max_primitives;
   load.threads = options.threads;
   for (const std::string& set : options.sets) {
     const size_t equals = set.find('=');

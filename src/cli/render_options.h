@@ -40,6 +40,7 @@ struct RenderOptions {
   bool labels = false;
   std::vector<std::string> sets;  // "/json/pointer=value"
   bool allow_paths = false;
+  std::optional<uint64_t> max_primitives;
   bool dry_run = false;
   bool explain = false;
   std::string stats;  // path; empty: none
@@ -60,6 +61,9 @@ void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure
 // Those of the scene's picture, and of how the machine renders it.
 void AddPictureOptions(CLI::App* command, RenderOptions* options);
 void AddMachineOptions(CLI::App* command, RenderOptions* options);
+
+// The option that lifts the bound of what a file may be made into.
+CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* max_primitives);
 
 // What the options ask of scene_io; --size, --spp and --seed are settings of the scene's image
 // like any that --set makes. Throws Error (usage).

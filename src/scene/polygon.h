@@ -18,8 +18,6 @@ Vec3d NewellNormal(std::span<const Vec3d> corners);
 // Cuts a simple polygon of n >= 3 corners, convex or not, into n - 2 triangles of the same
 // orientation by clipping ears, and appends their corners' indices to `triangles`. A polygon that
 // crosses itself or has no area still gives n - 2 triangles, none of them outside its corners.
-// Ours because tinyobjloader's own (2.0 rc10) decides what is an ear by where the polygon lies
-// relative to the origin, and so loses or overlaps triangles of concave polygons.
 void Triangulate(std::span<const Vec3d> corners, std::vector<uint32_t>* triangles);
 
 }  // namespace nacre

@@ -19,7 +19,7 @@ namespace {
 
 // Row vectors: the order of the numbers in the file, whose vectors are columns and whose matrices
 // are stored by columns.
-Imath::M44d MatrixOf(const GltfDocument& document, const tinygltf::Node& node,
+Imath::M44d MatrixOf(const GltfDocument& document, const gltf::Node& node,
                      const std::string& place) {
   Imath::M44d matrix;
   if (!node.matrix.empty()) {
@@ -52,9 +52,9 @@ Imath::M44d MatrixOf(const GltfDocument& document, const tinygltf::Node& node,
 
 // The nodes at the top of the default scene, or, in a file without scenes, those without a parent.
 std::vector<int> RootsOf(const GltfDocument& document) {
-  const tinygltf::Model& model = document.model;
+  const gltf::Model& model = document.model;
   if (!model.scenes.empty()) {
-    const int scene = std::max(model.defaultScene, 0);
+    const int scene = std::max(model.scene, 0);
     if (static_cast<size_t>(scene) >= model.scenes.size()) {
       document.Refuse("/scene", fmt::format("there is no scene {}", scene),
                       fmt::format("the file has {}", model.scenes.size()));
@@ -62,7 +62,7 @@ std::vector<int> RootsOf(const GltfDocument& document) {
     return model.scenes[static_cast<size_t>(scene)].nodes;
   }
   std::vector<bool> has_parent(model.nodes.size());
-  for (const tinygltf::Node& node : model.nodes) {
+  for (const gltf::Node& node : model.nodes) {
     for (const int child : node.children) {
       if (child >= 0 && static_cast<size_t>(child) < has_parent.size()) {
         has_parent[static_cast<size_t>(child)] = true;
@@ -80,7 +80,7 @@ std::vector<int> RootsOf(const GltfDocument& document) {
 class NodeWalk {
  public:
   NodeWalk(uint64_t max_triangles, GltfDocument* document, Scene* scene)
-      : document_(*document), scene_(*scene), budget_{max_triangles} {}
+      : document_(*document), scene_(*scene), budget_(max_triangles) {}
 
   bool has_camera() const { return has_camera_; }
 
@@ -98,7 +98,7 @@ class NodeWalk {
       const auto index = static_cast<size_t>(visit.node);
       if (seen[index]) document_.Refuse(place, "is in the scene twice, or below itself");
       seen[index] = true;
-      const tinygltf::Node& node = document_.model.nodes[index];
+      const gltf::Node& node = document_.model.nodes[index];
       const Imath::M44d world = MatrixOf(document_, node, place) * visit.world_from_parent;
       Add(node, place, world);
       Push(node.children, world);
@@ -115,7 +115,7 @@ class NodeWalk {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack_.push_back({*node, world});
   }
 
-  void Add(const tinygltf::Node& node, const std::string& place, const Imath::M44d& world) {
+  void Add(const gltf::Node& node, const std::string& place, const Imath::M44d& world) {
     if (node.skin >= 0) {
       document_.Warn("skins are left out: meshes are shown as they are before posing");
     }
@@ -126,17 +126,17 @@ class NodeWalk {
       scene_.camera = MakeGltfCamera(document_, node.camera, world);
       has_camera_ = true;
     }
-    const auto light = node.extensions.find("KHR_lights_punctual");
-    if (light == node.extensions.end()) return;
-    if (!light->second.Has("light") || !light->second.Get("light").IsInt()) {
+    const Json* const light = gltf::FindExtension(node.extensions, "KHR_lights_punctual");
+    if (light == nullptr) return;
+    if (!light->contains("light")) {
       document_.Refuse(place + "/extensions/KHR_lights_punctual", "has no \"light\"");
     }
-    AddGltfLight(light->second.Get("light").GetNumberAsInt(), world, &document_, &scene_);
+    AddGltfLight((*light)["light"].get<int>(), world, &document_, &scene_);
   }
 
   GltfDocument& document_;
   Scene& scene_;
-  GltfBudget budget_;
+  SceneBudget budget_;
   std::vector<Visit> stack_;  // not recursion: nodes may be nested a million deep
   bool has_camera_ = false;
 };
@@ -147,14 +147,15 @@ Scene ReadGltf(const std::filesystem::path& path, const LoadOptions& options, bo
   GltfDocument document = ReadGltfDocument(path, options);
   Scene scene;
   scene.materials = MakeGltfMaterials(&document, &scene);
-  NodeWalk walk(std::min(GltfBudget().max_triangles, options.max_primitives), &document, &scene);
+  const uint64_t of_its_size = std::min(TrianglesOfBytes(document.bytes), kDefaultMaxPrimitives);
+  NodeWalk walk(options.max_primitives.value_or(of_its_size), &document, &scene);
   walk.Run();
   SplitColoredMaterials(&scene);
   if (CompleteCoordinates(&scene)) {
     document.Warn("a mesh has images but no texture coordinates: it shows one texel of each");
   }
   *has_camera = walk.has_camera();
-  if (!document.model.animations.empty()) {
+  if (document.model.hasAnimations) {
     document.Warn("animations are left out: nodes are where they are without them");
   }
   if (scene.meshes.empty()) document.Refuse({}, "has no triangles in its scene");

@@ -22,31 +22,34 @@ T Load(const unsigned char* bytes) {
 // 0 for what is no component type of glTF.
 size_t ComponentSize(int type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case gltf::kByte:
+    case gltf::kUnsignedByte:
       return 1;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case gltf::kShort:
+    case gltf::kUnsignedShort:
       return 2;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+    case gltf::kUnsignedInt:
+    case gltf::kFloat:
       return 4;
     default:
       return 0;
   }
 }
 
+// Of the types that are read here, all vectors or scalars.
+size_t ComponentCount(std::string_view type) {
+  return type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
+}
+
 bool IsUnsigned(int type) {
-  return type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-         type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+  return type == gltf::kUnsignedByte || type == gltf::kUnsignedShort || type == gltf::kUnsignedInt;
 }
 
 uint32_t LoadIndex(const unsigned char* bytes, int type) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case gltf::kUnsignedByte:
       return *bytes;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case gltf::kUnsignedShort:
       return Load<uint16_t>(bytes);
     default:
       return Load<uint32_t>(bytes);
@@ -55,14 +58,14 @@ uint32_t LoadIndex(const unsigned char* bytes, int type) {
 
 }  // namespace
 
-GltfAccessor::GltfAccessor(const GltfDocument& document, int index, int type)
+GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::string_view type)
     : place_(fmt::format("/accessors/{}", index)) {
   const auto& accessors = document.model.accessors;
   if (index < 0 || static_cast<size_t>(index) >= accessors.size()) {
     document.Refuse(place_, "there is no such accessor",
                     fmt::format("the file has {}", accessors.size()));
   }
-  const tinygltf::Accessor& accessor = accessors[static_cast<size_t>(index)];
+  const gltf::Accessor& accessor = accessors[static_cast<size_t>(index)];
   component_type_ = accessor.componentType;
   component_size_ = ComponentSize(component_type_);
   if (component_size_ == 0) {
@@ -73,9 +76,7 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index, int type)
     document.Refuse(place_ + "/type", "is not the type that its use asks for",
                     "positions and normals are VEC3, texture coordinates VEC2, indices SCALAR");
   }
-  element_size_ =
-      component_size_ *
-      static_cast<size_t>(tinygltf::GetNumComponentsInType(static_cast<uint32_t>(type)));
+  element_size_ = component_size_ * ComponentCount(type);
   normalized_ = accessor.normalized;
   count_ = accessor.count;
   if (count_ == 0) document.Refuse(place_ + "/count", "is 0");
@@ -86,25 +87,29 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index, int type)
     document.Refuse(place_ + "/count", fmt::format("{} elements without a buffer view", count_),
                     fmt::format("at most {}", kMaxZeros));
   }
-  if (accessor.sparse.isSparse) ReadSparse(document, accessor);
+  if (accessor.isSparse) ReadSparse(document, accessor);
 }
 
 // Each comparison subtracts what is known to be smaller: no sum can wrap around.
 GltfAccessor::Elements GltfAccessor::CheckElements(const GltfDocument& document, int view,
                                                    uint64_t offset, uint64_t count,
                                                    size_t size) const {
-  const tinygltf::Model& model = document.model;
+  const gltf::Model& model = document.model;
   if (view < 0 || static_cast<size_t>(view) >= model.bufferViews.size()) {
     document.Refuse(place_, fmt::format("there is no buffer view {}", view),
                     fmt::format("the file has {}", model.bufferViews.size()));
   }
-  const tinygltf::BufferView& bytes = model.bufferViews[static_cast<size_t>(view)];
+  const gltf::BufferView& bytes = model.bufferViews[static_cast<size_t>(view)];
   const std::string view_place = fmt::format("/bufferViews/{}", view);
   if (bytes.buffer < 0 || static_cast<size_t>(bytes.buffer) >= model.buffers.size()) {
     document.Refuse(view_place + "/buffer", fmt::format("there is no buffer {}", bytes.buffer),
                     fmt::format("the file has {}", model.buffers.size()));
   }
-  const auto& data = model.buffers[static_cast<size_t>(bytes.buffer)].data;
+  const gltf::Buffer& buffer = model.buffers[static_cast<size_t>(bytes.buffer)];
+  if (buffer.data == nullptr) {
+    document.Refuse(fmt::format("/buffers/{}", bytes.buffer), "has no \"uri\" and no data");
+  }
+  const std::string& data = *buffer.data;
   if (bytes.byteOffset > data.size() || bytes.byteLength > data.size() - bytes.byteOffset) {
     document.Refuse(view_place,
                     fmt::format("{} bytes from byte {} on", bytes.byteLength, bytes.byteOffset),
@@ -121,25 +126,24 @@ GltfAccessor::Elements GltfAccessor::CheckElements(const GltfDocument& document,
     document.Refuse(place_, fmt::format("{} elements reach beyond buffer view {}", count, view),
                     fmt::format("that has {} bytes", bytes.byteLength));
   }
-  return {data.data() + bytes.byteOffset + offset, stride};
+  return {reinterpret_cast<const unsigned char*>(data.data()) + bytes.byteOffset + offset, stride};
 }
 
-void GltfAccessor::ReadSparse(const GltfDocument& document, const tinygltf::Accessor& accessor) {
+void GltfAccessor::ReadSparse(const GltfDocument& document, const gltf::Accessor& accessor) {
   const auto& sparse = accessor.sparse;
   const std::string place = place_ + "/sparse";
-  if (sparse.count < 1 || static_cast<size_t>(sparse.count) > count_) {
+  if (sparse.count < 1 || sparse.count > count_) {
     document.Refuse(place + "/count", fmt::format("{} of {} elements", sparse.count, count_));
   }
   if (!IsUnsigned(sparse.indices.componentType)) {
     document.Refuse(place + "/indices/componentType", "is not an unsigned type");
   }
-  const auto count = static_cast<size_t>(sparse.count);
-  const Elements indices = CheckElements(document, sparse.indices.bufferView,
-                                         static_cast<uint64_t>(sparse.indices.byteOffset), count,
-                                         ComponentSize(sparse.indices.componentType));
-  replacements_ =
-      CheckElements(document, sparse.values.bufferView,
-                    static_cast<uint64_t>(sparse.values.byteOffset), count, element_size_);
+  const size_t count = sparse.count;
+  const Elements indices =
+      CheckElements(document, sparse.indices.bufferView, sparse.indices.byteOffset, count,
+                    ComponentSize(sparse.indices.componentType));
+  replacements_ = CheckElements(document, sparse.values.bufferView, sparse.values.byteOffset, count,
+                                element_size_);
   replaced_.reserve(count);
   for (size_t i = 0; i < count; ++i) {
     const uint32_t element =
@@ -172,15 +176,15 @@ double GltfAccessor::Number(size_t element, size_t c) const {
     return normalized_ ? std::max(value / max, -1.0) : value;
   };
   switch (component_type_) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case gltf::kByte:
       return signed_unit(Load<int8_t>(bytes), 127);
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case gltf::kShort:
       return signed_unit(Load<int16_t>(bytes), 32767);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+    case gltf::kUnsignedByte:
       return signed_unit(*bytes, 255);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+    case gltf::kUnsignedShort:
       return signed_unit(Load<uint16_t>(bytes), 65535);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case gltf::kUnsignedInt:
       return Load<uint32_t>(bytes);
     default:
       return Load<float>(bytes);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene_io/gltf_document.h"
@@ -16,8 +17,8 @@ namespace nacre {
 class GltfAccessor {
  public:
   // Throws Error (kBadInput), in the place of the accessor, unless it is there, of the type `type`
-  // (TINYGLTF_TYPE_...), with components of a known type, and in bounds: so are its sparse values.
-  GltfAccessor(const GltfDocument& document, int index, int type);
+  // ("VEC3"), with components of a known type, and in bounds: so are its sparse values.
+  GltfAccessor(const GltfDocument& document, int index, std::string_view type);
 
   size_t count() const { return count_; }
   bool is_unsigned() const;  // of unsigned integers, which can be indices
@@ -37,7 +38,7 @@ class GltfAccessor {
   };
   Elements CheckElements(const GltfDocument& document, int view, uint64_t offset, uint64_t count,
                          size_t size) const;
-  void ReadSparse(const GltfDocument& document, const tinygltf::Accessor& accessor);
+  void ReadSparse(const GltfDocument& document, const gltf::Accessor& accessor);
   const unsigned char* Bytes(size_t element) const;
 
   std::string place_;

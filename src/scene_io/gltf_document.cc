@@ -3,17 +3,23 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstring>
-#include <new>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
 #include "scene_io/gltf_types.h"
 #include "scene_io/text_file.h"
+#include "scene_io/uri.h"
 
 namespace nacre {
 namespace {
@@ -34,15 +40,20 @@ bool IsKnown(const std::string& extension) {
          kKnownExtensions.end();
 }
 
-uint32_t Word(const std::string& bytes, size_t offset) {
+uint32_t Word(std::string_view bytes, size_t offset) {
   std::array<unsigned char, 4> b;
   std::memcpy(b.data(), bytes.data() + offset, 4);
   return b[0] | uint32_t{b[1]} << 8 | uint32_t{b[2]} << 16 | uint32_t{b[3]} << 24;
 }
 
-// The JSON text of a binary file; tinygltf reads up to 8 bytes beyond a chunk that ends too late.
-std::string_view JsonOfBinary(const std::string& bytes, const std::string& file) {
-  constexpr uint32_t kJson = 0x4e4f534a;
+struct BinaryFile {
+  std::string_view json;
+  std::optional<std::string_view> data;  // of the chunk that may follow
+};
+
+// The chunks of a binary file.
+BinaryFile ChunksOf(std::string_view bytes, const std::string& file) {
+  constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
   constexpr size_t kHeader = 12, kChunkHeader = 8;
   const auto refuse = [&](std::string what) {
     throw Error(ExitCode::kBadInput, file, std::move(what), "the file is damaged or incomplete");
@@ -56,147 +67,115 @@ std::string_view JsonOfBinary(const std::string& bytes, const std::string& file)
   if (length > bytes.size()) {
     refuse(fmt::format("has {} bytes, and says that it has {}", bytes.size(), length));
   }
-  for (uint64_t offset = kHeader; offset < length;) {
+  BinaryFile result;
+  size_t chunk = 0;
+  for (uint64_t offset = kHeader; offset < length; ++chunk) {
     if (length - offset < kChunkHeader || length - offset - kChunkHeader < Word(bytes, offset)) {
       refuse(fmt::format("the chunk at byte {} is longer than the file", offset));
     }
-    offset += kChunkHeader + Word(bytes, offset);
+    const uint32_t type = Word(bytes, offset + 4);
+    const std::string_view content = bytes.substr(offset + kChunkHeader, Word(bytes, offset));
+    if (chunk == 0 && type != kJson) break;
+    if (chunk == 0) result.json = content;
+    if (chunk == 1 && type == kBinary) result.data = content;  // others are for extensions
+    offset += kChunkHeader + content.size();
   }
-  if (length < kHeader + kChunkHeader || Word(bytes, kHeader + 4) != kJson) {
-    refuse("its first chunk is not JSON");
-  }
-  return std::string_view(bytes).substr(kHeader + kChunkHeader, Word(bytes, kHeader));
+  if (result.json.empty()) refuse("its first chunk is not JSON");
+  return result;
 }
 
-// What tinygltf's callbacks are given: external buffers are read in the order of the file.
-struct Files {
-  const GltfDocument* document;
-  std::vector<uint64_t> lengths;  // of the external buffers
-  size_t next = 0;
-};
-
-std::vector<uint64_t> ExternalLengths(const Json& root) {
-  std::vector<uint64_t> lengths;
-  for (const Json& buffer : root.value("buffers", Json::array())) {
-    const std::string uri = buffer.value("uri", std::string());
-    if (!uri.empty() && !uri.starts_with("data:")) {
-      lengths.push_back(buffer.value("byteLength", uint64_t{0}));
+// The buffers' bytes. Each file is read once, however many buffers are in it.
+void ReadBuffers(const std::optional<std::string_view>& binary_chunk, GltfDocument* document) {
+  std::map<std::filesystem::path, std::shared_ptr<const std::string>> files;
+  const auto read = [&](const std::string& uri, const std::string& place) {
+    if (IsDataUri(uri)) {
+      std::optional<std::string> data = DecodeDataUri(uri);
+      if (!data) document->Refuse(place + "/uri", "is a malformed data URI");
+      return std::make_shared<const std::string>(std::move(*data));
     }
-  }
-  return lengths;
-}
-
-bool ReadBuffer(std::vector<unsigned char>* out, std::string*, const std::string& name,
-                void* user_data) {
-  Files& files = *static_cast<Files*>(user_data);
-  const GltfDocument& document = *files.document;
-  std::filesystem::path path;
-  try {
-    path = ResolveReference(document.folder, name, document.references);
-  } catch (const Error& error) {
-    const Fault& fault = error.faults().front();
-    const bool is_url = name.find("://") != std::string::npos;
-    document.Refuse("/buffers", fault.what, is_url ? "only files are read, no URLs" : fault.hint);
-  }
-  const uint64_t length = files.next < files.lengths.size() ? files.lengths[files.next++] : 0;
-  const std::string bytes = ReadTextFile(path, kMaxBytes);
-  if (bytes.size() < length) {
-    document.Refuse("/buffers",
-                    fmt::format("\"{}\" has {} bytes, not {}", name, bytes.size(), length));
-  }
-  // It may be longer; tinygltf would have it exact.
-  out->assign(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(length));
-  return true;
-}
-
-// Keeps encoded bytes. Of an image in a buffer view, which tinygltf has not checked, it touches
-// nothing.
-bool KeepImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
-               const unsigned char* bytes, int size, void*) {
-  image->as_is = true;
-  if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
-  return true;
-}
-
-// tinygltf forms a pointer to an image in a buffer view before anybody has looked at its offset.
-void CheckImageOffsets(const Json& root, const GltfDocument& document) {
-  const auto element = [&](const char* array, uint64_t index) {
-    const auto found = root.find(array);
-    return found != root.end() && index < found->size() ? (*found)[index] : Json::object();
+    const std::filesystem::path path = document->Resolve(uri, place + "/uri");
+    std::shared_ptr<const std::string>& bytes = files[path];
+    if (bytes == nullptr) {
+      bytes = std::make_shared<const std::string>(ReadTextFile(path, kMaxBytes));
+      document->bytes += bytes->size();
+    }
+    return bytes;
   };
-  const Json images = root.value("images", Json::array());
-  for (size_t i = 0; i < images.size(); ++i) {
-    if (!images[i].contains("bufferView")) continue;
-    const Json view = element("bufferViews", images[i]["bufferView"].get<uint64_t>());
-    const Json buffer = element("buffers", view.value("buffer", uint64_t{0}));
-    if (view.value("byteOffset", uint64_t{0}) > buffer.value("byteLength", uint64_t{0})) {
-      document.Refuse(fmt::format("/images/{}", i), "reaches beyond its buffer");
+  auto& buffers = document->model.buffers;
+  for (size_t i = 0; i < buffers.size(); ++i) {
+    Json& json = document->root["buffers"][i];
+    const std::string place = fmt::format("/buffers/{}", i);
+    const auto uri = json.find("uri");
+    if (uri != json.end()) {
+      buffers[i].data = read(uri->get_ref<const std::string&>(), place);
+      uri->get_ref<std::string&>().clear();  // data are kept once
+    } else if (i == 0 && binary_chunk) {
+      buffers[i].data = std::make_shared<const std::string>(*binary_chunk);
+    } else {
+      continue;  // what has no data is told where it is used
+    }
+    if (buffers[i].data->size() < buffers[i].byteLength) {
+      document->Refuse(place,
+                       fmt::format("has {} bytes, not the {} of its byteLength",
+                                   buffers[i].data->size(), buffers[i].byteLength),
+                       "the file is damaged or incomplete");
     }
   }
 }
 
-std::string FirstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-// All file access of tinygltf. A template, because newer ones ask for sizes, too, of files that
-// they leave to their reader otherwise; ReadBuffer judges sizes itself.
-template <class Callbacks>
-Callbacks MakeCallbacks(Files* files, Callbacks callbacks) {
-  callbacks.FileExists = [](const std::string&, void*) { return true; };
-  callbacks.ExpandFilePath = [](const std::string& name, void*) { return name; };
-  callbacks.ReadWholeFile = &ReadBuffer;
-  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
-                                void*) { return false; };
-  if constexpr (requires { callbacks.GetFileSizeInBytes; }) {
-    callbacks.GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
-      *size = 1;  // within any limit
-      return true;
-    };
-  }
-  callbacks.user_data = files;
-  return callbacks;
+// The two numbers of a version, "2.0".
+std::optional<std::pair<unsigned, unsigned>> VersionOf(std::string_view text) {
+  std::pair<unsigned, unsigned> version;
+  const char* const end = text.data() + text.size();
+  const auto major = std::from_chars(text.data(), end, version.first);
+  if (major.ec != std::errc() || major.ptr == end || *major.ptr != '.') return std::nullopt;
+  const auto minor = std::from_chars(major.ptr + 1, end, version.second);
+  if (minor.ec != std::errc() || minor.ptr != end) return std::nullopt;
+  return version;
 }
 
-void Parse(const std::string& bytes, bool is_binary, const Json& root, GltfDocument* document) {
-  Files files{document, ExternalLengths(root)};
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(&KeepImage, nullptr);
-  loader.SetFsCallbacks(MakeCallbacks(&files, tinygltf::FsCallbacks{}));
-  std::string error, warning;
-  const auto length = static_cast<unsigned int>(bytes.size());
-  bool is_read = false;
-  try {
-    is_read = is_binary ? loader.LoadBinaryFromMemory(
-                              &document->model, &error, &warning,
-                              reinterpret_cast<const unsigned char*>(bytes.data()), length)
-                        : loader.LoadASCIIFromString(&document->model, &error, &warning,
-                                                     bytes.data(), length, {});
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    error = "there is no memory for it";
-  } catch (const std::exception& e) {
-    error = e.what();
+// Files of glTF 1, whose arrays are objects, would have a fault in every other place.
+void RefuseOldVersion(const GltfDocument& document) {
+  const Json& root = document.root;
+  if (!root.is_object()) return;
+  const auto accessors = root.find("accessors");
+  const auto asset = root.find("asset");
+  const Json version = asset != root.end() && asset->is_object() && asset->contains("version")
+                           ? (*asset)["version"]
+                           : Json();
+  const bool says_so = (version.is_string() && version.get_ref<const std::string&>() == "1.0") ||
+                       (version.is_number() && version.get<double>() == 1);
+  if (says_so || (accessors != root.end() && accessors->is_object())) {
+    document.Refuse("/asset/version", "glTF 1.0", "this program reads glTF 2.0");
   }
-  if (is_read && error.empty()) return;
-  document->Refuse({}, error.empty() ? "is not a glTF file" : FirstLine(error));
 }
 
+// "2.x" is read as 2.0, which each of them extends, unless the file says that this is not enough.
 void CheckVersionAndExtensions(GltfDocument* document) {
-  const tinygltf::Model& model = document->model;
-  if (!model.asset.version.starts_with("2.")) {
-    document->Refuse("/asset/version", fmt::format("glTF {}", model.asset.version),
-                     "this program reads glTF 2.0");
+  const gltf::Model& model = document->model;
+  const std::string reads = "this program reads glTF 2.0";
+  const auto version = VersionOf(model.version);
+  if (!version || version->first != 2) {
+    document->Refuse("/asset/version", fmt::format("glTF {}", Excerpt(model.version)), reads);
+  }
+  if (!model.minVersion.empty()) {
+    const auto least = VersionOf(model.minVersion);
+    if (!least || *least > std::make_pair(2u, 0u)) {
+      document->Refuse("/asset/minVersion",
+                       fmt::format("glTF {} is required", Excerpt(model.minVersion)), reads);
+    }
   }
   for (const std::string& extension : model.extensionsRequired) {
     if (IsKnown(extension)) continue;
-    document->Refuse("/extensionsRequired",
-                     fmt::format("the extension {} is required and not known here", extension),
-                     "export the model without it");
+    document->Refuse(
+        "/extensionsRequired",
+        fmt::format("the extension {} is required and not known here", Excerpt(extension)),
+        "export the model without it");
   }
   for (const std::string& extension : model.extensionsUsed) {
-    if (!IsKnown(extension)) {
-      document->Warn(fmt::format("the extension {} is not known here and left out", extension));
-    }
+    if (IsKnown(extension)) continue;
+    document->Warn(
+        fmt::format("the extension {} is not known here and left out", Excerpt(extension)));
   }
 }
 
@@ -210,6 +189,24 @@ void GltfDocument::Refuse(const std::string& pointer, std::string what, std::str
   throw Error(ExitCode::kBadInput, PlaceInFile(file, pointer), std::move(what), std::move(hint));
 }
 
+std::filesystem::path GltfDocument::Resolve(const std::string& uri,
+                                            const std::string& pointer) const {
+  const bool is_url = uri.find("://") != std::string::npos;
+  const std::string decoded = PercentDecoded(uri);
+  try {
+    return ResolveReference(folder, decoded, references);
+  } catch (const Error& error) {
+    // Some exporters write names as they are, which may hold a % of their own.
+    std::error_code ignored;
+    if (decoded != uri && !std::filesystem::exists(folder / decoded, ignored) &&
+        std::filesystem::exists(folder / uri, ignored)) {
+      return ResolveReference(folder, uri, references);
+    }
+    const Fault& fault = error.faults().front();
+    Refuse(pointer, fault.what, is_url ? "only files are read, no URLs" : fault.hint);
+  }
+}
+
 GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptions& options) {
   GltfDocument document;
   document.file = path.string();
@@ -217,19 +214,21 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   document.references = {options.allow_paths, options.on_file};
   document.on_warning = options.on_warning;
   const std::string bytes = ReadTextFile(path, kMaxBytes);
-  const bool is_binary = bytes.starts_with("glTF");
-  const std::string_view text = is_binary ? JsonOfBinary(bytes, document.file) : bytes;
+  document.bytes = bytes.size();
+  const BinaryFile chunks =
+      bytes.starts_with("glTF") ? ChunksOf(bytes, document.file) : BinaryFile{bytes, {}};
   FaultList faults;
-  const Json root = ParseJson(text, document.file, &faults, options.on_progress);
-  CheckGltfTypes(root, &faults);
+  document.root = ParseJson(chunks.json, document.file, &faults, options.on_progress);
+  RefuseOldVersion(document);
+  CheckGltfTypes(&document.root, &faults);
   if (faults.count() > 0) {
     std::vector<Fault> all = faults.All();
     for (Fault& fault : all) fault.where = PlaceInFile(document.file, fault.where);
     throw Error(ExitCode::kBadInput, std::move(all));
   }
-  CheckImageOffsets(root, document);
-  Parse(bytes, is_binary, root, &document);
+  document.model = gltf::ReadModel(document.root);
   CheckVersionAndExtensions(&document);
+  ReadBuffers(chunks.data, &document);
   return document;
 }
 

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/gltf_document.h: a glTF 2.0 file (.gltf with its buffers, or .glb), parsed by tinygltf.
-//
-// tinygltf takes the default for what it cannot read and checks no index, so the types of all
-// members are checked before it sees them (gltf_types.h), and what they refer to where it is used.
+// scene_io/gltf_document.h: a glTF 2.0 file (.gltf with its buffers, or .glb). The types of all
+// members that are read have been checked (gltf_types.h), and the buffers are there; what indices
+// and offsets refer to is checked where they are used.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <unordered_set>
 
+#include "scene_io/gltf_model.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/text_file.h"
-#include "scene_io/tiny_gltf_model.h"
 
 namespace nacre {
 
 struct GltfDocument {
-  tinygltf::Model model;
+  Json root;  // the model refers to the extensions in it
+  gltf::Model model;
   std::string file;              // what errors call it
   std::filesystem::path folder;  // what its buffers and images are below
   ReferenceRules references;
+  uint64_t bytes = 0;  // of the file and its buffers
   std::function<void(const std::string&)> on_warning;
   std::unordered_set<std::string> warned;
 
@@ -29,10 +31,14 @@ struct GltfDocument {
   // Throws Error (kBadInput) for the part of the file that the JSON pointer names.
   [[noreturn]] void Refuse(const std::string& pointer, std::string what,
                            std::string hint = {}) const;
+  // The file that a URI names, which is no data URI; `pointer` says where it is named. Throws Error
+  // (kBadInput) for URLs, and as ResolveReference (text_file.h) does.
+  std::filesystem::path Resolve(const std::string& uri, const std::string& pointer) const;
 };
 
-// Throws Error (kBadInput) for what is not glTF 2.0, for members of wrong types, missing or short
-// buffers, buffers outside the file's folder and extensions that are required and not known here.
+// Throws Error (kBadInput) for what is not glTF 2.0 or needs a later version, for members of wrong
+// types, missing or short buffers, buffers outside the file's folder and extensions that are
+// required and not known here.
 GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptions& options);
 
 }  // namespace nacre

@@ -15,20 +15,19 @@ namespace nacre {
 // members of wrong types.
 class GltfExtension {
  public:
-  GltfExtension(const GltfDocument& document, const tinygltf::Value& value, std::string place)
+  GltfExtension(const GltfDocument& document, const Json& value, std::string place)
       : document_(document), value_(value), place_(std::move(place)) {}
 
-  bool Has(const char* name) const { return value_.Has(name); }
-  const tinygltf::Value& Get(const char* name) const { return value_.Get(name); }
+  bool Has(const char* name) const { return value_.contains(name); }
+  const Json& Get(const char* name) const { return value_[name]; }  // one that it has
 
   double Number(const char* name, double otherwise) const {
     return Has(name) ? NumberOf(Get(name), name) : otherwise;
   }
   Rgb Color(const char* name, const Rgb& otherwise) const {
     if (!Has(name)) return otherwise;
-    const tinygltf::Value& array = ArrayOf(name, 3);
-    return {NumberOf(array.Get(0), name), NumberOf(array.Get(1), name),
-            NumberOf(array.Get(2), name)};
+    const Json& array = ArrayOf(name, 3);
+    return {NumberOf(array[0], name), NumberOf(array[1], name), NumberOf(array[2], name)};
   }
   // The fourth of a colour's numbers.
   double Alpha(const char* name, double otherwise) const {
@@ -37,26 +36,26 @@ class GltfExtension {
   }
   Vec2d Pair(const char* name, const Vec2d& otherwise) const {
     if (!Has(name)) return otherwise;
-    const tinygltf::Value& array = ArrayOf(name, 2);
-    return {NumberOf(array.Get(0), name), NumberOf(array.Get(1), name)};
+    const Json& array = ArrayOf(name, 2);
+    return {NumberOf(array[0], name), NumberOf(array[1], name)};
   }
 
  private:
-  const tinygltf::Value& ArrayOf(const char* name, size_t least) const {
-    const tinygltf::Value& array = Get(name);
-    if (!array.IsArray() || array.ArrayLen() < least) Refuse(name, "is not an array of numbers");
+  const Json& ArrayOf(const char* name, size_t least) const {
+    const Json& array = Get(name);
+    if (!array.is_array() || array.size() < least) Refuse(name, "is not an array of numbers");
     return array;
   }
-  double NumberOf(const tinygltf::Value& value, const char* name) const {
-    if (!value.IsNumber()) Refuse(name, "is not a number");
-    return value.GetNumberAsDouble();
+  double NumberOf(const Json& value, const char* name) const {
+    if (!value.is_number()) Refuse(name, "is not a number");
+    return value.get<double>();
   }
   [[noreturn]] void Refuse(const char* name, const char* what) const {
     document_.Refuse(place_ + "/" + name, what);
   }
 
   const GltfDocument& document_;
-  const tinygltf::Value& value_;
+  const Json& value_;
   std::string place_;
 };
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/excerpt.h"
 #include "scene/limits.h"
 #include "scene/validate.h"
 
@@ -36,20 +37,19 @@ std::string UniqueName(const std::string& wanted, const Scene& scene) {
   return fmt::format("{} {}", name, scene.lights.size());
 }
 
-SpotLight MakeSpot(const tinygltf::Light& light, const std::string& place,
+SpotLight MakeSpot(const gltf::Light& light, const std::string& place,
                    const Imath::M44d& world_from_node, GltfDocument* document) {
   SpotLight spot;
   spot.direction_of_travel = DirectionOf(world_from_node, {0, 0, -1});
-  const auto& cone = light.spot;
-  if (!(cone.innerConeAngle >= 0) || !(cone.outerConeAngle >= cone.innerConeAngle) ||
-      !(cone.outerConeAngle > 0) || !(cone.outerConeAngle <= std::numbers::pi / 2 + 1e-6)) {
+  if (!(light.innerConeAngle >= 0) || !(light.outerConeAngle >= light.innerConeAngle) ||
+      !(light.outerConeAngle > 0) || !(light.outerConeAngle <= std::numbers::pi / 2 + 1e-6)) {
     document->Refuse(
         place + "/spot",
-        fmt::format("its cone is from {} to {}", cone.innerConeAngle, cone.outerConeAngle),
+        fmt::format("its cone is from {} to {}", light.innerConeAngle, light.outerConeAngle),
         "angles in radians, 0 <= innerConeAngle < outerConeAngle <= pi / 2");
   }
-  spot.cutoff_deg = cone.outerConeAngle * kDegrees;
-  spot.inner_deg = cone.innerConeAngle * kDegrees;
+  spot.cutoff_deg = light.outerConeAngle * kDegrees;
+  spot.inner_deg = light.innerConeAngle * kDegrees;
   spot.edge = SpotEdge::kSquare;
   return spot;
 }
@@ -64,21 +64,24 @@ Camera MakeGltfCamera(const GltfDocument& document, int camera,
     document.Refuse(place, "there is no such camera",
                     fmt::format("the file has {}", cameras.size()));
   }
-  const tinygltf::Camera& source = cameras[static_cast<size_t>(camera)];
+  const gltf::Camera& source = cameras[static_cast<size_t>(camera)];
   Camera result;
   if (source.type == "perspective") {
-    result.fov_y_deg = source.perspective.yfov * kDegrees;
+    result.fov_y_deg = source.yfov * kDegrees;
     if (!(result.fov_y_deg > 0 && result.fov_y_deg < 180)) {
-      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.perspective.yfov),
+      document.Refuse(place + "/perspective/yfov", fmt::format("{}", source.yfov),
                       "radians, greater than 0 and less than pi");
     }
-  } else {
+  } else if (source.type == "orthographic") {
     result.projection = Projection::kOrthographic;
-    result.height = 2 * std::abs(source.orthographic.ymag);
+    result.height = 2 * std::abs(source.ymag);
     if (!limits::kLength.Contains(result.height)) {
-      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.orthographic.ymag),
+      document.Refuse(place + "/orthographic/ymag", fmt::format("{}", source.ymag),
                       "half the height of the view, not 0");
     }
+  } else {
+    document.Refuse(place + "/type", fmt::format("unknown type \"{}\"", Excerpt(source.type)),
+                    "perspective or orthographic");
   }
   result.position = world_from_node.translation();
   const Vec3d forward = DirectionOf(world_from_node, {0, 0, -1});
@@ -99,13 +102,8 @@ void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* d
     document->Refuse(place, "there is no such light",
                      fmt::format("the file has {}", lights.size()));
   }
-  const tinygltf::Light& source = lights[static_cast<size_t>(light)];
-  if (!source.color.empty() && source.color.size() != 3) {
-    document->Refuse(place + "/color", "is not an array of 3 numbers");
-  }
-  const Rgb color =
-      source.color.empty() ? Rgb(1) : Rgb(source.color[0], source.color[1], source.color[2]);
-  const Rgb intensity = color * source.intensity;
+  const gltf::Light& source = lights[static_cast<size_t>(light)];
+  const Rgb intensity = Rgb(source.color[0], source.color[1], source.color[2]) * source.intensity;
   if (source.range > 0) document->Warn("the ranges of lights are left out: they have no end");
   Light result;
   result.name = UniqueName(source.name, *scene);
@@ -122,7 +120,7 @@ void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* d
     spot.intensity = intensity;
     result.kind = spot;
   } else {
-    document->Refuse(place + "/type", fmt::format("unknown type \"{}\"", source.type),
+    document->Refuse(place + "/type", fmt::format("unknown type \"{}\"", Excerpt(source.type)),
                      "one of: directional, point, spot");
   }
   scene->lights.push_back(std::move(result));

@@ -2,9 +2,7 @@
 #include "scene_io/gltf_materials.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -14,35 +12,17 @@
 #include "scene/limits.h"
 #include "scene_io/gltf_extension.h"
 #include "scene_io/gltf_textures.h"
-#include "scene_io/text_file.h"
+#include "scene_io/uri.h"
 
 namespace nacre {
 namespace {
 
-// A reference of a URI as the name of a file: RFC 3986, 2.1. What is no code stays.
-std::string PercentDecoded(std::string_view uri) {
-  std::string decoded;
-  for (size_t i = 0; i < uri.size(); ++i) {
-    unsigned code = 0;
-    const char* const digits = uri.data() + i + 1;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
-      decoded += static_cast<char>(code);
-      i += 2;
-    } else {
-      decoded += uri[i];
-    }
-  }
-  return decoded;
-}
-
 std::optional<GltfExtension> FindExtension(const GltfDocument& document,
-                                           const tinygltf::Material& material, size_t index,
+                                           const gltf::Material& material, size_t index,
                                            const char* name) {
-  const auto found = material.extensions.find(name);
-  if (found == material.extensions.end()) return std::nullopt;
-  return GltfExtension(document, found->second,
-                       fmt::format("/materials/{}/extensions/{}", index, name));
+  const Json* const found = gltf::FindExtension(material.extensions, name);
+  if (found == nullptr) return std::nullopt;
+  return GltfExtension(document, *found, fmt::format("/materials/{}/extensions/{}", index, name));
 }
 
 Rgb ColorOf(const std::vector<double>& factor, const Rgb& otherwise) {
@@ -82,7 +62,7 @@ MetallicRoughnessMaterial FromSpecularGlossiness(const GltfExtension& extension)
   return result;
 }
 
-Rgb EmissionOf(const GltfDocument& document, const tinygltf::Material& material, size_t index) {
+Rgb EmissionOf(const GltfDocument& document, const gltf::Material& material, size_t index) {
   const auto strength = FindExtension(document, material, index, "KHR_materials_emissive_strength");
   return ColorOf(material.emissiveFactor, Rgb(0)) *
          (strength ? strength->Number("emissiveStrength", 1) : 1);
@@ -92,32 +72,28 @@ Rgb EmissionOf(const GltfDocument& document, const tinygltf::Material& material,
 template <class Info>
 TextureId AddTexture(const Info& info, const std::string& place, TextureEncoding encoding,
                      bool needs_rgb, GltfTextures* textures) {
-  return textures->Add({info.index, info.texCoord, &info.extensions, encoding, needs_rgb}, place);
+  return textures->Add({info.index, info.texCoord, info.extensions, encoding, needs_rgb}, place);
 }
 
 // The texture that an extension has as its member `name`.
 TextureId AddTexture(const GltfDocument& document, const GltfExtension& extension, const char* name,
                      const std::string& place, TextureEncoding encoding, GltfTextures* textures) {
   if (!extension.Has(name)) return {};
-  const tinygltf::Value& info = extension.Get(name);
+  const Json& info = extension.Get(name);
   const std::string member = place + "/" + name;
   const GltfExtension reader(document, info, member);
   const double index = reader.Number("index", -1), tex_coord = reader.Number("texCoord", 0);
   if (!(index >= 0 && index < 1e9) || !(tex_coord >= 0 && tex_coord < 1e9)) {
     document.Refuse(member, "has no texture's \"index\"");
   }
-  tinygltf::ExtensionMap extensions;
-  if (reader.Has("extensions") && reader.Get("extensions").IsObject()) {
-    for (const std::string& key : reader.Get("extensions").Keys()) {
-      extensions.emplace(key, reader.Get("extensions").Get(key));
-    }
-  }
+  const bool has_extensions = reader.Has("extensions") && reader.Get("extensions").is_object();
+  const gltf::Extensions extensions = has_extensions ? &reader.Get("extensions") : nullptr;
   return textures->Add(
-      {static_cast<int>(index), static_cast<int>(tex_coord), &extensions, encoding, false}, member);
+      {static_cast<int>(index), static_cast<int>(tex_coord), extensions, encoding, false}, member);
 }
 
 // KHR_materials_ior and KHR_materials_specular: what a material reflects where it is no metal.
-void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material, size_t index,
+void ApplyReflectance(GltfDocument* document, const gltf::Material& material, size_t index,
                       GltfTextures* textures, MetallicRoughnessMaterial* result) {
   const std::string place = fmt::format("/materials/{}/extensions/", index);
   const auto check = [&](bool is_right, const char* member, const char* what) {
@@ -154,7 +130,7 @@ void ApplyReflectance(GltfDocument* document, const tinygltf::Material& material
 
 // alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
 // the base colour's members, too.
-void ApplyMask(const tinygltf::Material& material, double alpha, TextureId alpha_map,
+void ApplyMask(const gltf::Material& material, double alpha, TextureId alpha_map,
                const GltfTextures& textures, Material* result) {
   if (material.alphaMode != "MASK") return;
   result->opacity = std::clamp(alpha, 0.0, 1.0);
@@ -164,7 +140,7 @@ void ApplyMask(const tinygltf::Material& material, double alpha, TextureId alpha
 
 double AlphaOf(const std::vector<double>& factor) { return factor.size() < 4 ? 1 : factor[3]; }
 
-void AddCommonTextures(const tinygltf::Material& material, const std::string& place,
+void AddCommonTextures(const gltf::Material& material, const std::string& place,
                        GltfTextures* textures, Material* result) {
   result->emission_map = AddTexture(material.emissiveTexture, place + "/emissiveTexture",
                                     TextureEncoding::kSrgb, false, textures);
@@ -177,7 +153,7 @@ void AddCommonTextures(const tinygltf::Material& material, const std::string& pl
 
 Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
                       GltfTextures* textures) {
-  const tinygltf::Material& material = document->model.materials[index];
+  const gltf::Material& material = document->model.materials[index];
   const auto& pbr = material.pbrMetallicRoughness;
   Material result;
   result.name = std::move(name);
@@ -242,35 +218,34 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
 }  // namespace
 
 GltfImage FindGltfImage(const GltfDocument& document, int image) {
-  const tinygltf::Model& model = document.model;
+  const gltf::Model& model = document.model;
   const std::string place = fmt::format("/images/{}", image);
   if (image < 0 || static_cast<size_t>(image) >= model.images.size()) {
     document.Refuse(place, "there is no such image",
                     fmt::format("the file has {}", model.images.size()));
   }
-  const tinygltf::Image& source = model.images[static_cast<size_t>(image)];
-  if (source.bufferView < 0 && source.uri.empty()) return {{}, source.image};  // of a data URI
+  const gltf::Image& source = model.images[static_cast<size_t>(image)];
   if (source.bufferView < 0) {
-    try {
-      const std::string name = PercentDecoded(source.uri);
-      return {ResolveReference(document.folder, name, document.references), {}};
-    } catch (const Error& error) {
-      document.Refuse(place, error.faults().front().what, error.faults().front().hint);
-    }
+    if (source.uri.empty()) document.Refuse(place, "has no \"uri\" and no \"bufferView\"");
+    if (!IsDataUri(source.uri)) return {document.Resolve(source.uri, place), {}};
+    std::optional<std::string> data = DecodeDataUri(source.uri);
+    if (!data || data->empty()) document.Refuse(place + "/uri", "is a malformed data URI");
+    return {{}, std::move(*data)};
   }
   if (static_cast<size_t>(source.bufferView) >= model.bufferViews.size()) {
     document.Refuse(place, fmt::format("there is no buffer view {}", source.bufferView));
   }
-  const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(source.bufferView)];
-  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model.buffers.size()) {
+  const gltf::BufferView& view = model.bufferViews[static_cast<size_t>(source.bufferView)];
+  if (view.buffer < 0 || static_cast<size_t>(view.buffer) >= model.buffers.size() ||
+      model.buffers[static_cast<size_t>(view.buffer)].data == nullptr) {
     document.Refuse(place, fmt::format("there is no buffer {}", view.buffer));
   }
-  const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
+  const std::string& data = *model.buffers[static_cast<size_t>(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
     document.Refuse(place, "reaches beyond its buffer");
   }
-  const auto first = data.begin() + static_cast<std::ptrdiff_t>(view.byteOffset);
-  return {{}, {first, first + static_cast<std::ptrdiff_t>(view.byteLength)}};
+  if (view.byteLength == 0) document.Refuse(place, "has no bytes");
+  return {{}, data.substr(view.byteOffset, view.byteLength)};
 }
 
 std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
@@ -290,24 +265,6 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
   otherwise.name = "default";
   otherwise.model = MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 1};
   return materials;
-}
-
-void SplitColoredMaterials(Scene* scene) {
-  std::map<uint32_t, uint32_t> colored;  // copies by their originals
-  for (Mesh& mesh : scene->meshes) {
-    if (mesh.colors.empty()) continue;
-    const auto next = static_cast<uint32_t>(scene->materials.size());
-    const auto [copy, is_new] = colored.try_emplace(mesh.material.index, next);
-    if (is_new) {
-      Material material = scene->materials[mesh.material.index];
-      const auto* const lambert = std::get_if<LambertMaterial>(&material.model);
-      const bool unlit = lambert != nullptr && lambert->albedo == Rgb(0);
-      material.vertex_colors = unlit ? VertexColors::kEmission : VertexColors::kBase;
-      material.name += " with vertex colours";
-      scene->materials.push_back(std::move(material));
-    }
-    mesh.material = {copy->second};
-  }
 }
 
 }  // namespace nacre

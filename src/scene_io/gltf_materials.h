@@ -12,18 +12,16 @@ namespace nacre {
 
 // Where an image of the file is: a file of its own, or bytes within.
 struct GltfImage {
-  std::filesystem::path file;        // resolved; empty: `bytes` hold it
-  std::vector<unsigned char> bytes;  // encoded (PNG, JPEG...)
+  std::filesystem::path file;  // resolved; empty: `bytes` hold it
+  std::string bytes;           // encoded (PNG, JPEG...)
 };
 
-// Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder.
+// Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder, and
+// for malformed data URIs.
 GltfImage FindGltfImage(const GltfDocument& document, int image);
 
 // A material for each of the file's, by the same number, with unique names, and after them the one
 // of primitives that name none. Their textures and images go to the scene.
 std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene);
-
-// Gives meshes that have colours a material of their own that asks for them, after its original.
-void SplitColoredMaterials(Scene* scene);
 
 }  // namespace nacre

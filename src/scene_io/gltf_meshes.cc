@@ -18,7 +18,7 @@ namespace {
 
 // A primitive on its way into the scene.
 struct Primitive {
-  const tinygltf::Primitive& source;
+  const gltf::Primitive& source;
   std::string place;
   // The elements of the accessors that triangles use, ascending, and three indices into them for
   // each triangle.
@@ -33,36 +33,27 @@ int AttributeOf(const Primitive& primitive, const char* name) {
 
 // Which corners, as numbered by the primitive, triangle i has.
 std::array<size_t, 3> CornersOf(int mode, size_t i) {
-  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) return {i, i + 1 + i % 2, i + 2 - i % 2};
-  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {i + 1, i + 2, 0};
+  if (mode == gltf::kTriangleStrip) return {i, i + 1 + i % 2, i + 2 - i % 2};
+  if (mode == gltf::kTriangleFan) return {i + 1, i + 2, 0};
   return {3 * i, 3 * i + 1, 3 * i + 2};
 }
 
 // How many triangles `corners` make; refuses what are no whole ones.
 size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, size_t corners) {
-  const bool is_list = primitive.source.mode == TINYGLTF_MODE_TRIANGLES;
+  const bool is_list = primitive.source.mode == gltf::kTriangles;
   if (corners < 3 || (is_list && corners % 3 != 0)) {
     document.Refuse(primitive.place, fmt::format("{} corners are no whole triangles", corners));
   }
   return is_list ? corners / 3 : corners - 2;
 }
 
-void Spend(uint64_t corners, const GltfDocument& document, GltfBudget* budget) {
-  if (corners > budget->corners_left) {
-    document.Refuse({},
-                    fmt::format("has more than {} triangles, counted as often as nodes show them",
-                                budget->max_triangles));
-  }
-  budget->corners_left -= corners;
-}
-
 // Indices into the accessors, three a triangle.
 std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitive& primitive,
-                                    size_t vertex_count, GltfBudget* budget) {
+                                    size_t vertex_count, SceneBudget* budget) {
   std::vector<uint32_t> triangles;
   const auto fill = [&](size_t corners, const auto& index_of) {
     const size_t count = TriangleCount(document, primitive, corners);
-    Spend(3 * uint64_t{count}, document, budget);
+    SpendTriangles(count, document.file, budget);
     triangles.reserve(3 * count);
     for (size_t i = 0; i < count; ++i) {
       for (const size_t corner : CornersOf(primitive.source.mode, i)) {
@@ -74,7 +65,7 @@ std::vector<uint32_t> ReadTriangles(const GltfDocument& document, const Primitiv
     fill(vertex_count, [](size_t corner) { return static_cast<uint32_t>(corner); });
     return triangles;
   }
-  const GltfAccessor indices(document, primitive.source.indices, TINYGLTF_TYPE_SCALAR);
+  const GltfAccessor indices(document, primitive.source.indices, "SCALAR");
   if (!indices.is_unsigned()) {
     document.Refuse(indices.place() + "/componentType", "indices are of an unsigned type");
   }
@@ -131,7 +122,7 @@ void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_
                  const Imath::M44d& world_from_node, Mesh* mesh) {
   const int index = AttributeOf(primitive, "NORMAL");
   if (index < 0) return;  // "flat normals", says the specification: those of the faces
-  const GltfAccessor accessor(document, index, TINYGLTF_TYPE_VEC3);
+  const GltfAccessor accessor(document, index, "VEC3");
   CheckCount(document, accessor, positions);
   // Normals go by the inverse transpose: the cofactors, which do not mind a determinant of 0.
   const auto row = [&](int i) {
@@ -181,7 +172,7 @@ void ReadUvs(const GltfDocument& document, const Primitive& primitive, const cha
              size_t positions, std::vector<Vec2d>* uvs) {
   const int index = AttributeOf(primitive, name);
   if (index < 0) return;
-  const GltfAccessor accessor(document, index, TINYGLTF_TYPE_VEC2);
+  const GltfAccessor accessor(document, index, "VEC2");
   CheckCount(document, accessor, positions);
   uvs->reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
@@ -203,8 +194,8 @@ void ReadColors(const GltfDocument& document, const Primitive& primitive, size_t
   if (index < 0) return;
   const auto& accessors = document.model.accessors;
   const bool alpha = static_cast<size_t>(index) < accessors.size() &&
-                     accessors[static_cast<size_t>(index)].type == TINYGLTF_TYPE_VEC4;
-  const GltfAccessor accessor(document, index, alpha ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3);
+                     accessors[static_cast<size_t>(index)].type == "VEC4";
+  const GltfAccessor accessor(document, index, alpha ? "VEC4" : "VEC3");
   CheckCount(document, accessor, positions);
   const auto& materials = document.model.materials;
   const bool masked = alpha && mesh->material.index < materials.size() &&
@@ -252,19 +243,19 @@ MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) 
 }
 
 void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
-  if (!primitive.source.targets.empty()) {
+  if (primitive.source.hasTargets) {
     document->Warn("morph targets are left out: meshes are shown in their basic form");
   }
 }
 
 void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44d& world_from_node,
-                  GltfDocument* document, GltfBudget* budget, Scene* scene) {
+                  GltfDocument* document, SceneBudget* budget, Scene* scene) {
   const int mode = primitive.source.mode;
-  if (mode < TINYGLTF_MODE_TRIANGLES) {
+  if (mode < gltf::kTriangles) {
     document->Warn("points and lines are not shown");
     return;
   }
-  if (mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+  if (mode > gltf::kTriangleFan) {
     document->Refuse(primitive.place + "/mode", fmt::format("{} is none", mode), "from 0 to 6");
   }
   WarnOfRest(primitive, document);
@@ -272,7 +263,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
     document->Warn("primitives without positions are left out");
     return;
   }
-  const GltfAccessor positions(*document, AttributeOf(primitive, "POSITION"), TINYGLTF_TYPE_VEC3);
+  const GltfAccessor positions(*document, AttributeOf(primitive, "POSITION"), "VEC3");
   primitive.triangles = ReadTriangles(*document, primitive, positions.count(), budget);
   Compact(&primitive);
   Mesh mesh;
@@ -305,7 +296,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
 }  // namespace
 
 void AddGltfMesh(int mesh, const std::string& name, const Imath::M44d& world_from_node,
-                 GltfDocument* document, GltfBudget* budget, Scene* scene) {
+                 GltfDocument* document, SceneBudget* budget, Scene* scene) {
   const auto& meshes = document->model.meshes;
   if (mesh < 0 || static_cast<size_t>(mesh) >= meshes.size()) {
     document->Refuse(fmt::format("/meshes/{}", mesh), "there is no such mesh",

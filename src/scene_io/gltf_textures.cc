@@ -16,23 +16,20 @@ namespace nacre {
 namespace {
 
 // The suffix that decides who decodes the bytes.
-std::string SuffixOf(const std::vector<unsigned char>& bytes) {
-  const std::string_view head(reinterpret_cast<const char*>(bytes.data()),
-                              std::min<size_t>(bytes.size(), 4));
-  if (head.starts_with("\x89PNG")) return ".png";
-  return head.starts_with("\xff\xd8") ? ".jpg" : ".image";
+std::string SuffixOf(std::string_view bytes) {
+  if (bytes.starts_with("\x89PNG")) return ".png";
+  return bytes.starts_with("\xff\xd8") ? ".jpg" : ".image";
 }
 
 Wrap WrapOf(int gl_constant) {
-  if (gl_constant == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::kClamp;
-  return gl_constant == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::kMirror : Wrap::kRepeat;
+  if (gl_constant == gltf::kClampToEdge) return Wrap::kClamp;
+  return gl_constant == gltf::kMirroredRepeat ? Wrap::kMirror : Wrap::kRepeat;
 }
 
 // Nearest if it says so for large texels; without mip levels if it says so for small ones.
-TextureFilter FilterOf(const tinygltf::Sampler& sampler) {
-  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) return TextureFilter::kNearest;
-  return sampler.minFilter == TINYGLTF_TEXTURE_FILTER_LINEAR ? TextureFilter::kBilinear
-                                                             : TextureFilter::kTrilinear;
+TextureFilter FilterOf(const gltf::Sampler& sampler) {
+  if (sampler.magFilter == gltf::kNearest) return TextureFilter::kNearest;
+  return sampler.minFilter == gltf::kLinear ? TextureFilter::kBilinear : TextureFilter::kTrilinear;
 }
 
 // KHR_texture_transform, whose v points down, in coordinates whose v points up:
@@ -56,13 +53,15 @@ ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   const auto known = images_.find({image, encoding});
   if (known != images_.end()) return known->second;
   const GltfImage source = FindGltfImage(document_, image);
-  const tinygltf::Image& named = document_.model.images[static_cast<size_t>(image)];
+  const gltf::Image& named = document_.model.images[static_cast<size_t>(image)];
   const std::string name = source.bytes.empty() ? named.uri : fmt::format("image {}", image);
   try {
     if (source.bytes.empty()) {
       AddTextureImage(source.file, name, {.encoding = encoding, .part = {}}, &scene_);
     } else {
-      const TemporaryFile file(source.bytes, SuffixOf(source.bytes));
+      const TemporaryFile file(
+          {reinterpret_cast<const unsigned char*>(source.bytes.data()), source.bytes.size()},
+          SuffixOf(source.bytes));
       AddTextureImage(file.path(), name, {.encoding = encoding, .part = {}}, &scene_);
     }
   } catch (const Error& error) {
@@ -84,12 +83,12 @@ bool GltfTextures::IsWhite(TextureId texture) const {
 
 TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {
   if (use.texture < 0) return {};
-  const tinygltf::Model& model = document_.model;
+  const gltf::Model& model = document_.model;
   if (static_cast<size_t>(use.texture) >= model.textures.size()) {
     document_.Refuse(place, fmt::format("there is no texture {}", use.texture),
                      fmt::format("the file has {}", model.textures.size()));
   }
-  const tinygltf::Texture& source = model.textures[static_cast<size_t>(use.texture)];
+  const gltf::Texture& source = model.textures[static_cast<size_t>(use.texture)];
   if (source.source < 0) {
     document_.Warn("textures whose images only an extension names are left out");
     return {};
@@ -98,10 +97,8 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
   texture.name = fmt::format("texture {} of {}", use.texture, place);
   UvChange change;
   double tex_coord = use.tex_coord;
-  const auto transform = use.extensions->find("KHR_texture_transform");
-  if (transform != use.extensions->end()) {
-    const GltfExtension reader(document_, transform->second,
-                               place + "/extensions/KHR_texture_transform");
+  if (const Json* transform = gltf::FindExtension(use.extensions, "KHR_texture_transform")) {
+    const GltfExtension reader(document_, *transform, place + "/extensions/KHR_texture_transform");
     change.offset = reader.Pair("offset", change.offset);
     change.scale = reader.Pair("scale", change.scale);
     change.rotation = reader.Number("rotation", 0);
@@ -118,7 +115,7 @@ TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place)
       document_.Refuse(fmt::format("/textures/{}/sampler", use.texture),
                        fmt::format("there is no sampler {}", source.sampler));
     }
-    const tinygltf::Sampler& sampler = model.samplers[static_cast<size_t>(source.sampler)];
+    const gltf::Sampler& sampler = model.samplers[static_cast<size_t>(source.sampler)];
     texture.sampling = {FilterOf(sampler), WrapOf(sampler.wrapS), WrapOf(sampler.wrapT)};
   }
   texture.image = AddImage(source.source, use.encoding);

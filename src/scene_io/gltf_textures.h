@@ -15,7 +15,7 @@ namespace nacre {
 struct GltfTextureUse {
   int texture = -1;  // below 0: none
   int tex_coord = 0;
-  const tinygltf::ExtensionMap* extensions = nullptr;
+  gltf::Extensions extensions = nullptr;
   TextureEncoding encoding = TextureEncoding::kLinear;
   bool needs_rgb = false;
 };

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/gltf_types.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -24,14 +26,21 @@ enum class Kind : uint8_t {
 };
 
 struct Member {
-  std::string_view object;  // where: the names on the way, arrays left out
-  std::string_view name;    // empty: every one
+  // Where: the names on the way, arrays left out. In an extension it is the extension's name and
+  // the names on the way from there.
+  std::string_view object;
+  std::string_view name;  // empty: every one
   Kind kind;
-  size_t length = 0;
+  size_t length = 0;  // of kNumbers; of kObjects the most that there may be
+  bool is_required = false;
 };
 
+constexpr Member Required(std::string_view object, std::string_view name, Kind kind) {
+  return {object, name, kind, 0, true};
+}
+
 constexpr std::array kMembers = {
-    Member{"", "asset", Kind::kObject},
+    Required("", "asset", Kind::kObject),
     Member{"", "scene", Kind::kIndex},
     Member{"", "extensionsUsed", Kind::kTexts},
     Member{"", "extensionsRequired", Kind::kTexts},
@@ -40,43 +49,44 @@ constexpr std::array kMembers = {
     Member{"", "bufferViews", Kind::kObjects},
     Member{"", "cameras", Kind::kObjects},
     Member{"", "images", Kind::kObjects},
-    Member{"", "materials", Kind::kObjects},
+    Member{"", "materials", Kind::kObjects, 1 << 16},
     Member{"", "meshes", Kind::kObjects},
     Member{"", "nodes", Kind::kObjects},
     Member{"", "samplers", Kind::kObjects},
     Member{"", "scenes", Kind::kObjects},
     Member{"", "textures", Kind::kObjects},
-    Member{"asset", "version", Kind::kText},
+    Required("asset", "version", Kind::kText),
+    Member{"asset", "minVersion", Kind::kText},
     Member{"accessors", "bufferView", Kind::kIndex},
     Member{"accessors", "byteOffset", Kind::kSize},
-    Member{"accessors", "componentType", Kind::kIndex},
+    Required("accessors", "componentType", Kind::kIndex),
     Member{"accessors", "normalized", Kind::kBoolean},
-    Member{"accessors", "count", Kind::kSize},
-    Member{"accessors", "type", Kind::kText},
+    Required("accessors", "count", Kind::kSize),
+    Required("accessors", "type", Kind::kText),
     Member{"accessors", "sparse", Kind::kObject},
-    Member{"accessors/sparse", "count", Kind::kIndex},
-    Member{"accessors/sparse", "indices", Kind::kObject},
-    Member{"accessors/sparse", "values", Kind::kObject},
-    Member{"accessors/sparse/indices", "bufferView", Kind::kIndex},
-    Member{"accessors/sparse/indices", "byteOffset", Kind::kIndex},
-    Member{"accessors/sparse/indices", "componentType", Kind::kIndex},
-    Member{"accessors/sparse/values", "bufferView", Kind::kIndex},
-    Member{"accessors/sparse/values", "byteOffset", Kind::kIndex},
+    Required("accessors/sparse", "count", Kind::kIndex),
+    Required("accessors/sparse", "indices", Kind::kObject),
+    Required("accessors/sparse", "values", Kind::kObject),
+    Required("accessors/sparse/indices", "bufferView", Kind::kIndex),
+    Member{"accessors/sparse/indices", "byteOffset", Kind::kSize},
+    Required("accessors/sparse/indices", "componentType", Kind::kIndex),
+    Required("accessors/sparse/values", "bufferView", Kind::kIndex),
+    Member{"accessors/sparse/values", "byteOffset", Kind::kSize},
     Member{"buffers", "uri", Kind::kText},
-    Member{"buffers", "byteLength", Kind::kSize},
-    Member{"bufferViews", "buffer", Kind::kIndex},
+    Required("buffers", "byteLength", Kind::kSize),
+    Required("bufferViews", "buffer", Kind::kIndex),
     Member{"bufferViews", "byteOffset", Kind::kSize},
-    Member{"bufferViews", "byteLength", Kind::kSize},
+    Required("bufferViews", "byteLength", Kind::kSize),
     Member{"bufferViews", "byteStride", Kind::kSize},
-    Member{"cameras", "type", Kind::kText},
+    Required("cameras", "type", Kind::kText),
     Member{"cameras", "perspective", Kind::kObject},
     Member{"cameras", "orthographic", Kind::kObject},
-    Member{"cameras/perspective", "yfov", Kind::kNumber},
+    Required("cameras/perspective", "yfov", Kind::kNumber),
     Member{"cameras/perspective", "aspectRatio", Kind::kNumber},
     Member{"cameras/perspective", "znear", Kind::kNumber},
     Member{"cameras/perspective", "zfar", Kind::kNumber},
     Member{"cameras/orthographic", "xmag", Kind::kNumber},
-    Member{"cameras/orthographic", "ymag", Kind::kNumber},
+    Required("cameras/orthographic", "ymag", Kind::kNumber),
     Member{"cameras/orthographic", "znear", Kind::kNumber},
     Member{"cameras/orthographic", "zfar", Kind::kNumber},
     Member{"images", "uri", Kind::kText},
@@ -90,24 +100,26 @@ constexpr std::array kMembers = {
     Member{"materials", "emissiveTexture", Kind::kObject},
     Member{"materials", "normalTexture", Kind::kObject},
     Member{"materials", "occlusionTexture", Kind::kObject},
-    Member{"materials/emissiveTexture", "index", Kind::kIndex},
+    Required("materials/emissiveTexture", "index", Kind::kIndex),
     Member{"materials/emissiveTexture", "texCoord", Kind::kIndex},
-    Member{"materials/normalTexture", "index", Kind::kIndex},
+    Required("materials/normalTexture", "index", Kind::kIndex),
     Member{"materials/normalTexture", "texCoord", Kind::kIndex},
     Member{"materials/normalTexture", "scale", Kind::kNumber},
-    Member{"materials/occlusionTexture", "index", Kind::kIndex},
+    Required("materials/occlusionTexture", "index", Kind::kIndex),
+    Member{"materials/occlusionTexture", "texCoord", Kind::kIndex},
+    Member{"materials/occlusionTexture", "strength", Kind::kNumber},
     Member{"materials/pbrMetallicRoughness", "baseColorFactor", Kind::kNumbers, 4},
     Member{"materials/pbrMetallicRoughness", "metallicFactor", Kind::kNumber},
     Member{"materials/pbrMetallicRoughness", "roughnessFactor", Kind::kNumber},
     Member{"materials/pbrMetallicRoughness", "baseColorTexture", Kind::kObject},
     Member{"materials/pbrMetallicRoughness", "metallicRoughnessTexture", Kind::kObject},
-    Member{"materials/pbrMetallicRoughness/baseColorTexture", "index", Kind::kIndex},
+    Required("materials/pbrMetallicRoughness/baseColorTexture", "index", Kind::kIndex),
     Member{"materials/pbrMetallicRoughness/baseColorTexture", "texCoord", Kind::kIndex},
-    Member{"materials/pbrMetallicRoughness/metallicRoughnessTexture", "index", Kind::kIndex},
+    Required("materials/pbrMetallicRoughness/metallicRoughnessTexture", "index", Kind::kIndex),
     Member{"materials/pbrMetallicRoughness/metallicRoughnessTexture", "texCoord", Kind::kIndex},
     Member{"meshes", "name", Kind::kText},
-    Member{"meshes", "primitives", Kind::kObjects},
-    Member{"meshes/primitives", "attributes", Kind::kObject},
+    Required("meshes", "primitives", Kind::kObjects),
+    Required("meshes/primitives", "attributes", Kind::kObject),
     Member{"meshes/primitives/attributes", "", Kind::kIndex},
     Member{"meshes/primitives", "indices", Kind::kIndex},
     Member{"meshes/primitives", "material", Kind::kIndex},
@@ -121,48 +133,75 @@ constexpr std::array kMembers = {
     Member{"nodes", "rotation", Kind::kNumbers, 4},
     Member{"nodes", "scale", Kind::kNumbers, 3},
     Member{"nodes", "translation", Kind::kNumbers, 3},
+    Member{"samplers", "magFilter", Kind::kIndex},
+    Member{"samplers", "minFilter", Kind::kIndex},
+    Member{"samplers", "wrapS", Kind::kIndex},
+    Member{"samplers", "wrapT", Kind::kIndex},
     Member{"scenes", "nodes", Kind::kIndices},
     Member{"textures", "sampler", Kind::kIndex},
     Member{"textures", "source", Kind::kIndex},
+    Member{"KHR_lights_punctual", "light", Kind::kIndex},
+    Member{"KHR_lights_punctual", "lights", Kind::kObjects},
+    Member{"KHR_lights_punctual/lights", "name", Kind::kText},
+    Required("KHR_lights_punctual/lights", "type", Kind::kText),
+    Member{"KHR_lights_punctual/lights", "color", Kind::kNumbers, 3},
+    Member{"KHR_lights_punctual/lights", "intensity", Kind::kNumber},
+    Member{"KHR_lights_punctual/lights", "range", Kind::kNumber},
+    Member{"KHR_lights_punctual/lights", "spot", Kind::kObject},
+    Member{"KHR_lights_punctual/lights/spot", "innerConeAngle", Kind::kNumber},
+    Member{"KHR_lights_punctual/lights/spot", "outerConeAngle", Kind::kNumber},
+    Member{"KHR_texture_transform", "offset", Kind::kNumbers, 2},
+    Member{"KHR_texture_transform", "scale", Kind::kNumbers, 2},
+    Member{"KHR_texture_transform", "rotation", Kind::kNumber},
+    Member{"KHR_texture_transform", "texCoord", Kind::kIndex},
 };
 
-bool IsWhole(const Json& json, double max) {
-  return json.is_number_integer() && json.get<double>() >= 0 && json.get<double>() <= max;
-}
-
-bool AllOf(const Json& json, bool (*is_right)(const Json&)) {
-  if (!json.is_array()) return false;
-  for (const Json& element : json) {
-    if (!is_right(element)) return false;
-  }
+// JSON has one kind of number, so that 3.0 and 3e0 are as whole as 3: they become it.
+bool IsWhole(Json* json, double max) {
+  if (!json->is_number()) return false;
+  const auto number = json->get<double>();
+  if (!(number >= 0) || number > max || number != std::floor(number)) return false;
+  if (!json->is_number_integer()) *json = static_cast<uint64_t>(number);
   return true;
 }
 
-bool IsIndex(const Json& json) { return IsWhole(json, 0x7fffffff); }
+bool IsIndex(Json* json) { return IsWhole(json, 0x7fffffff); }
 
-bool HasKind(const Json& json, const Member& member) {
+bool AllOf(Json* json, bool (*is_right)(Json*)) {
+  return json->is_array() &&
+         std::all_of(json->begin(), json->end(), [&](Json& element) { return is_right(&element); });
+}
+
+// An object of three bytes of text takes up to a kilobyte here.
+size_t MostOf(const Member& member) {
+  constexpr size_t kMostObjects = size_t{1} << 20;
+  return member.length > 0 ? member.length : kMostObjects;
+}
+
+bool HasKind(const Member& member, Json* json) {
   switch (member.kind) {
     case Kind::kIndex:
       return IsIndex(json);
     case Kind::kSize:
       return IsWhole(json, 0x1p53);
     case Kind::kNumber:
-      return json.is_number();
+      return json->is_number();
     case Kind::kText:
-      return json.is_string();
+      return json->is_string();
     case Kind::kBoolean:
-      return json.is_boolean();
+      return json->is_boolean();
     case Kind::kIndices:
       return AllOf(json, &IsIndex);
     case Kind::kTexts:
-      return AllOf(json, [](const Json& element) { return element.is_string(); });
+      return AllOf(json, [](Json* element) { return element->is_string(); });
     case Kind::kNumbers:
-      return json.size() == member.length &&
-             AllOf(json, [](const Json& element) { return element.is_number(); });
+      return json->size() == member.length &&
+             AllOf(json, [](Json* element) { return element->is_number(); });
     case Kind::kObject:
-      return json.is_object();
+      return json->is_object();
     case Kind::kObjects:
-      return AllOf(json, [](const Json& element) { return element.is_object(); });
+      return json->size() <= MostOf(member) &&
+             AllOf(json, [](Json* element) { return element->is_object(); });
   }
   return false;
 }
@@ -187,7 +226,7 @@ std::string Describe(const Member& member) {
     case Kind::kObject:
       return "an object";
     case Kind::kObjects:
-      return "an array of objects";
+      return fmt::format("an array of objects, {} at most", MostOf(member));
   }
   return {};
 }
@@ -199,49 +238,63 @@ const Member* FindMember(std::string_view object, std::string_view name) {
   return nullptr;
 }
 
-// They are read where they are used, as objects.
-void CheckExtensions(const Json& extensions, const std::string& where, FaultList* faults) {
-  if (!extensions.is_object()) {
-    faults->Add(where, "is not an object");
+void CheckObject(const std::string& pointer, const std::string& place, Json* object,
+                 FaultList* faults);
+
+// Those that are not in the table are read where they are used, as objects.
+void CheckExtensions(const std::string& pointer, Json* extensions, FaultList* faults) {
+  if (!extensions->is_object()) {
+    faults->Add(pointer, "is not an object");
     return;
   }
-  for (const auto& [name, json] : extensions.items()) {
-    if (!json.is_object()) faults->Add(where + "/" + PointerToken(name), "is not an object");
+  for (auto& [name, json] : extensions->items()) {
+    const std::string where = pointer + "/" + PointerToken(name);
+    if (json.is_object()) {
+      CheckObject(where, name, &json, faults);
+    } else {
+      faults->Add(where, "is not an object");
+    }
   }
 }
 
 // `object` is found at `pointer`; `place` is where that is in the table.
-void CheckObject(const Json& object, const std::string& pointer, const std::string& place,
+void CheckObject(const std::string& pointer, const std::string& place, Json* object,
                  FaultList* faults) {
-  for (const auto& [name, json] : object.items()) {
+  for (auto& [name, json] : object->items()) {
     const std::string where = pointer + "/" + PointerToken(name);
     if (name == "extensions") {
-      CheckExtensions(json, where, faults);
+      CheckExtensions(where, &json, faults);
       continue;
     }
     const Member* const member = FindMember(place, name);
     if (member == nullptr) continue;
-    if (!HasKind(json, *member)) {
+    if (!HasKind(*member, &json)) {
       faults->Add(where, "is not " + Describe(*member));
       continue;
     }
     const std::string inner = place.empty() ? name : place + "/" + name;
-    if (member->kind == Kind::kObject) CheckObject(json, where, inner, faults);
+    if (member->kind == Kind::kObject) CheckObject(where, inner, &json, faults);
     if (member->kind != Kind::kObjects) continue;
     for (size_t i = 0; i < json.size(); ++i) {
-      CheckObject(json[i], fmt::format("{}/{}", where, i), inner, faults);
+      CheckObject(fmt::format("{}/{}", where, i), inner, &json[i], faults);
+    }
+  }
+  for (const Member& member : kMembers) {
+    if (member.is_required && member.object == place && !object->contains(member.name)) {
+      faults->Add(pointer, fmt::format("has no \"{}\"", member.name),
+                  fmt::format("{} is required there", Describe(member)));
     }
   }
 }
 
 }  // namespace
 
-void CheckGltfTypes(const Json& root, FaultList* faults) {
-  if (!root.is_object()) {
+void CheckGltfTypes(Json* root, FaultList* faults) {
+  if (!root->is_object()) {
     faults->Add({}, "is not a glTF file", "a glTF file is a JSON object");
     return;
   }
-  CheckObject(root, {}, {}, faults);
+  CheckObject({}, {}, root, faults);
 }
 
 }  // namespace nacre

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
 
 namespace nacre {
 namespace {
@@ -127,10 +128,13 @@ void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::
   if (!nearest.empty()) {
     hint = fmt::format("did you mean \"{}\"?", nearest);
   } else if (is_kept && count > 0) {
-    hint = fmt::format("one of: {}{}", fmt::join(names.begin(), names.begin() + count, ", "),
-                       count == kMaxNames ? ", ..." : "");
+    constexpr size_t kLongest = 400;
+    hint =
+        Excerpt(fmt::format("one of: {}{}", fmt::join(names.begin(), names.begin() + count, ", "),
+                            count == kMaxNames ? ", ..." : ""),
+                kLongest);
   }
-  value.AddFault(fmt::format("unknown {} \"{}\"", kind, word), hint);
+  value.AddFault(fmt::format("unknown {} \"{}\"", kind, Excerpt(word)), hint);
 }
 
 JsonObject::JsonObject(const JsonValue& value, std::string_view hint) : value_(value) {

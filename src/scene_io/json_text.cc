@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
+#include "scene_io/text_lines.h"
 
 namespace nacre {
 namespace {
@@ -71,7 +73,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   bool key(string_t& name) override {
     Level& level = levels_.back();
     if (IsRepeated(name, &level)) {
-      faults_->Add(Pointer(), fmt::format("\"{}\" is there twice", name), "keep one of them");
+      faults_->Add(Pointer(), fmt::format("\"{}\" is there twice", Excerpt(name)),
+                   "keep one of them");
     }
     level.name = std::move(name);
     return true;
@@ -82,14 +85,19 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
       throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
-                  fmt::format("{} is not a finite number", token), "at most 1.8e308 in magnitude");
+                  fmt::format("{} is not a finite number", Excerpt(token)),
+                  "at most 1.8e308 in magnitude");
     }
     // "[json.exception.parse_error.101] parse error at line 1, column 2: what we want"
-    const std::string message = error.what();
+    std::string_view message = error.what();
     const size_t start = message.find(": ", message.find("column"));
+    if (start != std::string_view::npos) message.remove_prefix(start + 2);
+    // "; last read: '...'": the whole of a string, for example.
+    const size_t quoted = message.find("last read: '");
+    std::string shown(message.substr(0, quoted));
+    if (quoted != std::string_view::npos) shown += Excerpt(message.substr(quoted));
     throw Error(ExitCode::kBadInput, file_ + ":" + LineAndColumn(text_, bytes_read),
-                "not JSON: " + (start == std::string::npos ? message : message.substr(start + 2)),
-                "JSON has no comments and no comma after the last item");
+                "not JSON: " + shown, "JSON has no comments and no comma after the last item");
   }
 
  private:
@@ -205,12 +213,13 @@ std::string JsonText(const Json& json, int indent) {
 }
 
 std::string PlaceInFile(const std::string& file, const std::string& pointer) {
-  return pointer.empty() ? file : file + ": " + pointer;
+  constexpr size_t kLongest = 400;  // names in it are a file's
+  return pointer.empty() ? file : file + ": " + Excerpt(pointer, kLongest);
 }
 
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress) {
-  TreeBuilder builder(text, file, faults, on_progress);
+  TreeBuilder builder(WithoutByteOrderMark(text, file), file, faults, on_progress);
   Json::sax_parse(builder.begin(), builder.end(), &builder);
   return builder.TakeRoot();
 }

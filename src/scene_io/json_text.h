@@ -21,8 +21,8 @@ using Json = nlohmann::ordered_json;
 inline constexpr size_t kMaxJsonDepth = 100;
 
 // What `text` says. Names that an object has twice are added to `faults` by JSON pointer. Throws
-// Error (kBadInput) with `file` in its place for text that is not JSON (line and column), numbers
-// too large for a double (pointer) and nesting deeper than 100.
+// Error (kBadInput) with `file` in its place for text that is not JSON (line and column), UTF-16,
+// numbers too large for a double (pointer) and nesting deeper than 100.
 // `on_progress`, if any, is told now and then which share of the text has been read.
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress = {});
@@ -34,7 +34,8 @@ std::optional<Json> TryParseJson(std::string_view text);
 // an OBJ file's materials may hold, become U+FFFD.
 std::string JsonText(const Json& json, int indent = -1);
 
-// "scenes/grid.json: /materials/gold"; the file alone for the pointer to all of it.
+// "scenes/grid.json: /materials/gold", of a long pointer its beginning; the file alone for the
+// pointer to all of it.
 std::string PlaceInFile(const std::string& file, const std::string& pointer);
 
 }  // namespace nacre

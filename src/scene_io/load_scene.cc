@@ -2,6 +2,7 @@
 #include "scene_io/load_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include <fmt/format.h>
@@ -115,7 +116,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   context.threads = options.threads;
   context.scene = &scene;
   context.on_warning = options.on_warning;
-  SceneBudget budget(options.max_primitives);
+  SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
   context.budget = &budget;
   ReadRoot(root, &faults, &context);
   AddValidation(scene, &faults);
@@ -151,7 +152,46 @@ bool IsModelFile(const std::filesystem::path& path) {
          HasExtension(file, ".ply");
 }
 
+void RefuseOtherModels(const std::filesystem::path& path) {
+  struct Format {
+    std::string_view extension, name;
+  };
+  struct Other {
+    std::string_view extension, what, hint;
+  };
+  constexpr std::array kConverted = {
+      Format{".fbx", "an FBX"},  Format{".stl", "an STL"},      Format{".blend", "a Blender"},
+      Format{".usd", "a USD"},   Format{".usda", "a USD"},      Format{".usdc", "a USD"},
+      Format{".usdz", "a USD"},  Format{".abc", "an Alembic"},  Format{".dae", "a Collada"},
+      Format{".3ds", "a 3DS"},   Format{".max", "a 3ds Max"},   Format{".ma", "a Maya"},
+      Format{".mb", "a Maya"},   Format{".c4d", "a Cinema 4D"}, Format{".lwo", "a LightWave"},
+      Format{".x3d", "an X3D"},  Format{".wrl", "a VRML"},      Format{".step", "a STEP"},
+      Format{".stp", "a STEP"},  Format{".iges", "an IGES"},    Format{".igs", "an IGES"},
+      Format{".3mf", "a 3MF"},   Format{".off", "an OFF"},      Format{".skp", "a SketchUp"},
+      Format{".pbrt", "a pbrt"}, Format{".xml", "an XML"}};
+  constexpr std::array kOthers = {
+      Other{".mtl", "is a material library", "name the .obj file that refers to it"},
+      Other{".mtlx", "is a MaterialX document, which is not read",
+            "write its materials into a scene, or export a model with them as glTF"},
+      Other{".vrm", "is a VRM model, which is a GLB file of another name", "rename it to .glb"},
+      Other{".bin", "is the buffer of a glTF file", "name the .gltf file that refers to it"},
+      Other{".zip", "is an archive", "unpack it, and name the .gltf, .glb or .obj file in it"},
+      Other{".gz", "is compressed", "unpack it first"}};
+  const std::string file = path.string();
+  for (const Format& format : kConverted) {
+    if (!HasExtension(file, format.extension)) continue;
+    throw Error(ExitCode::kBadInput, file,
+                fmt::format("is {} file, which is not read", format.name),
+                "save it as glTF (.glb), OBJ or PLY, for example with Blender");
+  }
+  for (const auto& [extension, what, hint] : kOthers) {
+    if (!HasExtension(file, extension)) continue;
+    throw Error(ExitCode::kBadInput, file, std::string(what), std::string(hint));
+  }
+}
+
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
+  RefuseOtherModels(path);
   if (IsModelFile(path)) return LoadModel(path, options);
   const std::string text = ReadTextFile(path, kMaxSceneBytes);
   return LoadSceneText(text, path.string(), path.parent_path(), options);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,10 @@
 #include "scene/scene.h"
 
 namespace nacre {
+
+// Of a stranger's file: a hundred bytes can ask for a hundred million spheres. A sphere takes about
+// 130 bytes until it is rendered, a triangle 150 to 500.
+inline constexpr uint64_t kDefaultMaxPrimitives = 20'000'000;
 
 struct LoadOptions {
   // JSON pointer and JSON text of the value to put there before anything is read ("--set"):
@@ -32,8 +37,9 @@ struct LoadOptions {
   int threads = 0;
 
   // How many spheres and triangles the file may be made into, all shapes and lights together. A
-  // sphere with a material of its own, as grids have them, counts as 16.
-  uint64_t max_primitives = limits::kMaxPrimitivesMade;
+  // sphere with a material of its own, as grids have them, counts as 16. None:
+  // kDefaultMaxPrimitives, and of a model no more than its size explains (scene_budget.h).
+  std::optional<uint64_t> max_primitives = {};
 
   // Told now and then which share of the file has been read. Throwing from it stops the reading.
   std::function<void(double)> on_progress = {};
@@ -45,6 +51,10 @@ struct LoadOptions {
 // True for files that hold a model, by their extension (.gltf, .glb, .obj, .ply), and not a scene
 // in JSON.
 bool IsModelFile(const std::filesystem::path& path);
+
+// Throws Error (kBadInput) for files that, by their extension, hold a model of a kind that is not
+// read (.fbx, .stl, .blend...), with what to do instead.
+void RefuseOtherModels(const std::filesystem::path& path);
 
 // Reads a scene file (JSON, up to 1 GiB) or a model, which gets a camera that sees all of it and
 // studio lights if it has none. The scene has passed Validate().

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <utility>
@@ -159,6 +160,24 @@ bool CompleteCoordinates(Scene* scene) {
   return any;
 }
 
+void SplitColoredMaterials(Scene* scene) {
+  std::map<uint32_t, uint32_t> colored;  // copies by their originals
+  for (Mesh& mesh : scene->meshes) {
+    if (mesh.colors.empty()) continue;
+    const auto next = static_cast<uint32_t>(scene->materials.size());
+    const auto [copy, is_new] = colored.try_emplace(mesh.material.index, next);
+    if (is_new) {
+      Material material = scene->materials[mesh.material.index];
+      const auto* const lambert = std::get_if<LambertMaterial>(&material.model);
+      const bool unlit = lambert != nullptr && lambert->albedo == Rgb(0);
+      material.vertex_colors = unlit ? VertexColors::kEmission : VertexColors::kBase;
+      material.name += " with vertex colours";
+      scene->materials.push_back(std::move(material));
+    }
+    mesh.material = {copy->second};
+  }
+}
+
 void FrameScene(Scene* scene) {
   Imath::Box3d box;
   ForEachPoint(*scene, [&](const Vec3d& point, double reach) {
@@ -247,8 +266,11 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   context.references = {options.allow_paths, options.on_file};
   context.scene = scene;
   context.on_warning = options.on_warning;
-  SceneBudget budget(options.max_primitives);
+  SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
   context.budget = &budget;
+  for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may name them
+    context.materials.try_emplace(scene->materials[i].name, MaterialId{i});
+  }
   overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });
   overrides.Member("textures", [&](const JsonValue& value) { ReadTextures(value, &context); });
   overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, &context); });

@@ -14,6 +14,9 @@ namespace nacre {
 // as the usual viewers do. Returns whether there were any.
 bool CompleteCoordinates(Scene* scene);
 
+// Gives meshes that have colours a material of their own that asks for them, after its original.
+void SplitColoredMaterials(Scene* scene);
+
 // Points the camera at all spheres and meshes, from the front, the right and above: three quarters.
 // Keeps its kind and field of view.
 void FrameScene(Scene* scene);
@@ -24,9 +27,10 @@ void FrameScene(Scene* scene);
 void AddStudioLights(Scene* scene);
 
 // Gives the scene of a model the overrides, a camera unless it has one, and light if it has none.
-// Overrides work as in scene files, on camera, image, lights, background, textures, and parameters
-// and maps of the materials that there are. Throws Error: kBadInput for values out of range and
-// names that mean nothing, kUsage for overrides that cannot be made.
+// Overrides work as in scene files, on camera, image, lights, background, textures, and the
+// materials that there are: on their parameters and maps, or, with a "model", on all of one. Throws
+// Error: kBadInput for values out of range and names that mean nothing, kUsage for overrides that
+// cannot be made.
 void CompleteModelScene(const LoadOptions& options, const std::string& file, bool has_camera,
                         Scene* scene);
 

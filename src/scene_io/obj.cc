@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene_io/obj.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "base/error.h"
 #include "scene/mesh.h"
@@ -20,28 +19,20 @@ namespace nacre {
 namespace {
 
 // Whether every corner has a normal, or a uv.
-bool AllHave(const ObjFile& obj, int tinyobj::index_t::*index) {
-  for (const tinyobj::shape_t& shape : obj.shapes) {
-    for (const tinyobj::index_t& corner : shape.mesh.indices) {
-      if (corner.*index < 0) return false;
-    }
-  }
-  return true;
-}
-
-Vec3d Triple(const std::vector<double>& numbers, int index) {
-  const auto i = 3 * static_cast<size_t>(index);
-  return {numbers[i], numbers[i + 1], numbers[i + 2]};
+bool AllHave(const ObjFile& obj, int32_t ObjCorner::*index) {
+  return std::all_of(obj.corners.begin(), obj.corners.end(),
+                     [&](const ObjCorner& corner) { return corner.*index >= 0; });
 }
 
 // What makes a vertex of its own.
 struct VertexKey {
-  int position, normal, uv;
+  uint32_t position;
+  int32_t normal, uv;
   bool operator==(const VertexKey&) const = default;
 };
 struct HashKey {
   size_t operator()(const VertexKey& key) const {
-    uint64_t hash = static_cast<uint32_t>(key.position);
+    uint64_t hash = key.position;
     for (const int index : {key.normal, key.uv}) {
       hash = (hash ^ hash >> 32) * 0x9e3779b97f4a7c15u + static_cast<uint32_t>(index);
     }
@@ -49,53 +40,49 @@ struct HashKey {
   }
 };
 
+// What of the file all of its meshes have.
+struct ObjContents {
+  explicit ObjContents(const ObjFile& obj)
+      : normals(AllHave(obj, &ObjCorner::normal)), uvs(AllHave(obj, &ObjCorner::uv)) {}
+  bool normals, uvs;
+};
+
 // Collects vertices: OBJ numbers positions, normals and uvs apart, a mesh has them by position.
 class MeshBuilder {
  public:
-  MeshBuilder(const ObjFile& obj, const std::string& file)
-      : obj_(obj),
-        file_(file),
-        with_normals_(AllHave(obj, &tinyobj::index_t::normal_index)),
-        with_uvs_(AllHave(obj, &tinyobj::index_t::texcoord_index)) {}
+  MeshBuilder(const ObjFile& obj, const ObjContents& contents)
+      : obj_(obj), with_normals_(contents.normals), with_uvs_(contents.uvs) {}
 
-  void AddFace(const tinyobj::index_t* corners, size_t count) {
+  void AddFace(const ObjCorner* corners, size_t count) {
     face_.clear();
-    for (size_t i = 0; i < count; ++i) {
-      face_.push_back(Triple(obj_.attributes.vertices, corners[i].vertex_index));
-    }
+    for (size_t i = 0; i < count; ++i) face_.push_back(obj_.positions[corners[i].position]);
     local_.clear();
     Triangulate(face_, &local_);
     for (const uint32_t i : local_) mesh_.triangles.push_back(Vertex(corners[i]));
   }
 
-  Mesh Take() { return std::move(mesh_); }
+  Mesh Take() {
+    if (with_normals_) MendNormals(&mesh_);  // some exporters write normals of length 0
+    return std::move(mesh_);
+  }
 
  private:
-  uint32_t Vertex(const tinyobj::index_t& corner) {
-    const VertexKey key{corner.vertex_index, with_normals_ ? corner.normal_index : 0,
-                        with_uvs_ ? corner.texcoord_index : 0};
+  uint32_t Vertex(const ObjCorner& corner) {
+    const VertexKey key{corner.position, with_normals_ ? corner.normal : 0,
+                        with_uvs_ ? corner.uv : 0};
     const auto [entry, is_new] =
         vertices_.try_emplace(key, static_cast<uint32_t>(mesh_.positions.size()));
     if (!is_new) return entry->second;
-    mesh_.positions.push_back(Triple(obj_.attributes.vertices, corner.vertex_index));
+    mesh_.positions.push_back(obj_.positions[corner.position]);
+    if (!obj_.colors.empty()) mesh_.colors.push_back(obj_.colors[corner.position]);
     if (with_normals_) {
-      const Vec3d unit = Triple(obj_.attributes.normals, corner.normal_index).normalized();
-      if (unit == Vec3d(0, 0, 0)) {
-        throw Error(ExitCode::kBadInput, file_,
-                    fmt::format("normal {} has length 0", key.normal + 1),
-                    "leave the normals out to have smooth ones computed");
-      }
-      mesh_.normals.push_back(unit);
+      mesh_.normals.push_back(obj_.normals[static_cast<size_t>(key.normal)].normalized());
     }
-    if (with_uvs_) {
-      const auto uv = 2 * static_cast<size_t>(key.uv);
-      mesh_.uvs.emplace_back(obj_.attributes.texcoords[uv], obj_.attributes.texcoords[uv + 1]);
-    }
+    if (with_uvs_) mesh_.uvs.push_back(obj_.uvs[static_cast<size_t>(key.uv)]);
     return entry->second;
   }
 
   const ObjFile& obj_;
-  const std::string& file_;
   bool with_normals_, with_uvs_;
   std::unordered_map<VertexKey, uint32_t, HashKey> vertices_;
   std::vector<Vec3d> face_;      // of one face: its corners,
@@ -103,57 +90,62 @@ class MeshBuilder {
   Mesh mesh_;
 };
 
-// Calls use(material, corners, count) for each face; a material below 0 is none.
+// Calls use(material, corners, count) for each face; the material is a place in
+// obj.material_names, or kNoMaterial.
+constexpr uint32_t kNoMaterial = 0xffffffffu;
 template <class Use>
 void ForEachFace(const ObjFile& obj, const Use& use) {
-  for (const tinyobj::shape_t& shape : obj.shapes) {
-    const tinyobj::index_t* corners = shape.mesh.indices.data();
-    for (size_t face = 0; face < shape.mesh.num_face_vertices.size(); ++face) {
-      const size_t count = shape.mesh.num_face_vertices[face];
-      use(shape.mesh.material_ids[face], corners, count);
-      corners += count;
-    }
+  const ObjCorner* corners = obj.corners.data();
+  auto next = obj.uses.begin();
+  uint32_t material = kNoMaterial;
+  for (size_t face = 0; face < obj.corner_counts.size(); ++face) {
+    if (next != obj.uses.end() && next->first_face == face) material = (next++)->name;
+    use(material, corners, obj.corner_counts[face]);
+    corners += obj.corner_counts[face];
   }
 }
 
 }  // namespace
 
 Mesh ReadObj(const std::filesystem::path& path) {
-  const std::string file = path.string();
-  const ObjFile obj = ReadObjFile(path, nullptr);
-  MeshBuilder builder(obj, file);
-  ForEachFace(obj, [&](int, const tinyobj::index_t* corners, size_t count) {
+  const ObjFile obj = ReadObjFile(path, {});
+  MeshBuilder builder(obj, ObjContents(obj));
+  ForEachFace(obj, [&](uint32_t, const ObjCorner* corners, size_t count) {
     builder.AddFace(corners, count);
   });
   Mesh mesh = builder.Take();
   mesh.name = path.stem().string();
+  mesh.colors.clear();  // its material is the scene's
   return mesh;
 }
 
 Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options) {
   const std::string file = path.string();
-  MtlReader reader(path, options);
-  const ObjFile obj = ReadObjFile(path, &reader);
+  const auto warn = [&](const std::string& text) {
+    if (options.on_warning) options.on_warning(file + ": " + text);
+  };
+  const ObjFile obj = ReadObjFile(path, warn);
   Scene scene;
-  scene.materials = reader.MakeMaterials(obj.materials, &scene);
-  const auto none = static_cast<int>(scene.materials.size()) - 1;
-  std::map<int, MeshBuilder> builders;  // by material
-  ForEachFace(obj, [&](int material, const tinyobj::index_t* corners, size_t count) {
-    const int known = material >= 0 && material < none ? material : none;
-    builders.try_emplace(known, obj, file).first->second.AddFace(corners, count);
+  const std::vector<MaterialId> materials = AddObjMaterials(path, obj, options, &scene);
+  const ObjContents contents(obj);
+  std::map<uint32_t, MeshBuilder> builders;  // by material
+  ForEachFace(obj, [&](uint32_t name, const ObjCorner* corners, size_t count) {
+    const MaterialId material = name == kNoMaterial ? materials.back() : materials[name];
+    builders.try_emplace(material.index, obj, contents).first->second.AddFace(corners, count);
   });
   for (auto& [material, builder] : builders) {
     Mesh& mesh = scene.meshes.emplace_back(builder.Take());
     mesh.name = path.stem().string();
-    mesh.material = {static_cast<uint32_t>(material)};
+    mesh.material = {material};
     if (mesh.normals.empty()) {
       ComputeNormals(NormalWeighting::kAngle, kModelCreaseAngleDeg, &mesh);
     }
   }
   DropMeshesWithoutArea(&scene);
   if (scene.meshes.empty()) throw Error(ExitCode::kBadInput, file, "has no face with an area");
-  if (CompleteCoordinates(&scene) && options.on_warning) {
-    options.on_warning(file + ": a mesh has images but no uvs: it shows one texel of each");
+  SplitColoredMaterials(&scene);
+  if (CompleteCoordinates(&scene)) {
+    warn("a mesh has images but no uvs: it shows one texel of each");
   }
   return scene;
 }

@@ -10,17 +10,16 @@
 namespace nacre {
 
 // All faces of the file as one mesh, polygons cut into triangles, named after the file. Normals
-// are the file's, made unit, if all corners of all faces have one; otherwise there are none. The
-// same goes for texture coordinates. Groups, lines, points and materials (MTL) are not read.
-// Throws Error (kBadInput) with the file, and the line where it is known, for numbers that are none
-// or not finite, indices out of range, faces of fewer than 3 or more than 255 corners, normals
-// of length 0 and files without faces.
+// are the file's, made unit, if all corners of all faces have one, and averages in the place of
+// those of length 0; otherwise there are none. The same goes for texture coordinates. Groups,
+// lines, points, colours and materials (MTL) are not read. Throws Error (kBadInput) as ReadObjFile
+// (obj_file.h) does.
 Mesh ReadObj(const std::filesystem::path& path);
 
 // The same faces as a scene of their own, with the materials of the libraries (MTL) that the file
-// names; faces without normals get averages, parted where they meet at more than
-// kModelCreaseAngleDeg. Camera and light are left to CompleteModelScene (model_scene.h). What is
-// not shown is told by options.on_warning.
+// names and the colours of its vertices; faces without normals get averages, parted where they meet
+// at more than kModelCreaseAngleDeg. Camera and light are left to CompleteModelScene
+// (model_scene.h). What is not shown is told by options.on_warning.
 Scene ReadObjScene(const std::filesystem::path& path, const LoadOptions& options);
 
 }  // namespace nacre

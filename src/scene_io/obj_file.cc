@@ -5,154 +5,249 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <exception>
-#include <new>
-#include <sstream>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
+#include "color/transfer.h"
+#include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
+#include "scene_io/text_lines.h"
 
 namespace nacre {
 namespace {
 
 constexpr uint64_t kMaxObjBytes = uint64_t{4} << 30;
+constexpr size_t kMaxObjCorners = 255;
 
-[[noreturn]] void RefuseObj(const std::string& where, std::string what, std::string hint = {}) {
-  throw Error(ExitCode::kBadInput, where, std::move(what), std::move(hint));
+// Statements that say nothing about what is shown here.
+constexpr std::array<std::string_view, 15> kIgnored = {
+    "g",        "o",        "s", "mg", "usemap",     "maplib",    "lod", "bevel",
+    "c_interp", "d_interp", "t", "vw", "shadow_obj", "trace_obj", "vp"};
+constexpr std::array<std::string_view, 18> kFreeForm = {
+    "curv", "curv2", "surf", "cstype", "deg", "bmat",  "step",  "parm", "trim",
+    "hole", "scrv",  "sp",   "end",    "con", "ctech", "stech", "bsp",  "bzp"};
+
+bool IsOneOf(const auto& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool IsFiniteNumber(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
-}
+class ObjReader {
+ public:
+  ObjReader(const std::filesystem::path& path, const std::function<void(const std::string&)>& warn)
+      : file_(path.string()), warn_(warn) {}
 
-// What is not used of a line: tinyobjloader would read its numbers, whose exponents it lets
-// overflow.
-void BlankAfter(size_t words, std::string_view line, std::string* text) {
-  for (size_t i = 0; i < words; ++i) NextObjWord(&line);
-  std::fill_n(text->begin() + (line.data() - text->data()), line.size(), ' ');
-}
-
-// What tinyobjloader would not survive or not tell: it takes numbers that it cannot read as 0, and
-// makes room for as many tags (t) as the file says there are. Tags and weights (vw) become
-// comments.
-void Prepare(const std::string& file, std::string* text) {
-  size_t start = 0;
-  for (size_t line_number = 1; start < text->size(); ++line_number) {
-    const size_t end = std::min(text->find('\n', start), text->size());
-    std::string_view line = std::string_view(*text).substr(start, end - start);
-    const std::string_view keyword = NextObjWord(&line);
-    if (keyword == "v" || keyword == "vn") {
-      CheckObjNumbers(line, keyword, 3, 3, fmt::format("{}:{}", file, line_number));
-      BlankAfter(3, line, text);
-    } else if (keyword == "vt") {
-      CheckObjNumbers(line, keyword, 1, 2, fmt::format("{}:{}", file, line_number));
-    } else if (keyword == "t" || keyword == "vw") {
-      (*text)[static_cast<size_t>(keyword.data() - text->data())] = '#';
+  ObjFile Read(std::string_view text) {
+    budget_ = SceneBudget(TrianglesOfBytes(text.size()));
+    TextLines lines(WithoutByteOrderMark(text, file_));
+    for (std::string_view line; lines.Next(&line);) {
+      number_ = lines.number();
+      ReadStatement(line);
     }
-    start = end + 1;
+    if (obj_.corner_counts.empty()) {
+      throw Error(ExitCode::kBadInput, file_, "has no faces");
+    }
+    CheckIndices();
+    FinishColors();
+    return std::move(obj_);
   }
-}
 
-ObjFile Parse(std::string text, const std::string& file, tinyobj::MaterialReader* materials) {
-  ObjFile obj;
-  std::string warning;
-  std::string error;
-  std::istringstream stream(std::move(text));
-  constexpr bool kTriangulate = false;  // see scene/polygon.h
-  constexpr bool kColorsByDefault = false;
-  bool is_read = false;
-  try {
-    is_read = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &obj.materials, &warning, &error,
-                               &stream, materials, kTriangulate, kColorsByDefault);
-  } catch (const Error&) {  // of the reader of materials
-    throw;
-  } catch (const std::bad_alloc&) {
-    error = "there is no memory for it";
-  } catch (const std::exception& e) {
-    error = e.what();
+ private:
+  [[noreturn]] void Refuse(size_t line, std::string what, std::string hint = {}) const {
+    throw Error(ExitCode::kBadInput, fmt::format("{}:{}", file_, line), std::move(what),
+                std::move(hint));
   }
-  if (!is_read || !error.empty()) {
-    while (!error.empty() && error.back() == '\n') error.pop_back();
-    RefuseObj(file, error.empty() ? "is not an OBJ file" : error);
-  }
-  if (warning.find("Degenerated face") != std::string::npos) {
-    RefuseObj(file, "a face has fewer than three corners");
-  }
-  return obj;
-}
 
-void CheckIndices(const ObjFile& obj, const std::string& file) {
-  const size_t positions = obj.attributes.vertices.size() / 3;
-  const size_t normals = obj.attributes.normals.size() / 3;
-  const size_t uvs = obj.attributes.texcoords.size() / 2;
-  const auto check = [&](int index, size_t count, const char* what) {
-    if (index < -1 || (index >= 0 && static_cast<size_t>(index) >= count)) {
-      RefuseObj(file, fmt::format("a face has {} {}", what, int64_t{index} + 1),
-                fmt::format("there are {}", count));
+  void WarnOnce(const std::string& text) {
+    if (warn_ && warned_.insert(text).second) warn_(text);
+  }
+
+  void ReadStatement(std::string_view line) {
+    const std::string_view written = NextWord(&line);
+    if (written.empty() || written.starts_with('#')) return;
+    keyword_ = written.substr(0, 16);
+    for (char& c : keyword_) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (keyword_ == "v") {
+      ReadPosition(line);
+    } else if (keyword_ == "vn") {
+      std::array<double, 3> n{};
+      ReadNumbers(line, 3, n);
+      obj_.normals.emplace_back(n[0], n[1], n[2]);
+    } else if (keyword_ == "vt") {
+      std::array<double, 2> uv{};
+      ReadNumbers(line, 1, uv);
+      obj_.uvs.emplace_back(uv[0], uv[1]);
+    } else if (keyword_ == "f" || keyword_ == "fo") {
+      ReadFace(line);
+    } else if (keyword_ == "usemtl") {
+      UseMaterial(std::string(Trimmed(line)));
+    } else if (keyword_ == "mtllib") {
+      const auto [name, is_new] = libraries_.emplace(Trimmed(line));
+      if (is_new) obj_.libraries.push_back(*name);
+    } else if (keyword_ == "l") {
+      WarnOnce("lines are not shown");
+    } else if (keyword_ == "p") {
+      WarnOnce("points are not shown");
+    } else if (keyword_ == "call" || keyword_ == "csh") {
+      WarnOnce("other files and commands are not called");
+    } else if (IsOneOf(kFreeForm, keyword_)) {
+      WarnOnce("free-form curves and surfaces are not shown");
+    } else if (!IsOneOf(kIgnored, keyword_) && !std::exchange(told_unknown_, true)) {
+      WarnOnce(fmt::format("statements that are not known are left out, the first is \"{}\"",
+                           Excerpt(written)));
     }
-  };
-  size_t corners = 0;
-  for (const tinyobj::shape_t& shape : obj.shapes) {
-    size_t expected = 0;
-    size_t most = 0;
-    for (const size_t count : shape.mesh.num_face_vertices) {
-      expected += count;
-      most = std::max(most, count);
-    }
-    // Release 2.0.0rc10 counts them modulo 256; the bound is the same with all.
-    if (most > 255 || expected != shape.mesh.indices.size()) {
-      RefuseObj(file, "a face has more than 255 corners", "cut it into triangles before");
-    }
-    for (const tinyobj::index_t& corner : shape.mesh.indices) {
-      if (corner.vertex_index < 0 || static_cast<size_t>(corner.vertex_index) >= positions) {
-        RefuseObj(file, fmt::format("a face has position {}", int64_t{corner.vertex_index} + 1),
-                  fmt::format("there are {}", positions));
+  }
+
+  // The first numbers of `line`, of which `fewest` must be there. Returns how many there are.
+  template <size_t N>
+  size_t ReadNumbers(std::string_view line, size_t fewest, std::array<double, N>& numbers) const {
+    for (size_t i = 0; i < N; ++i) {
+      const std::string_view word = NextWord(&line);
+      if (i >= fewest && (word.empty() || word.starts_with('#'))) return i;
+      const std::optional<double> number = ParseNumber(word);
+      if (!number) {
+        constexpr std::array<std::string_view, 4> kNames = {"no", "one", "two", "three"};
+        Refuse(number_, fmt::format("\"{}\" is not a finite number", Excerpt(word)),
+               fmt::format("\"{}\" is followed by {}", keyword_, kNames[fewest]));
       }
-      check(corner.normal_index, normals, "normal");
-      check(corner.texcoord_index, uvs, "uv");
+      numbers[i] = *number;
     }
-    corners += expected;
+    return N;
   }
-  if (corners == 0) RefuseObj(file, "has no faces");
-}
+
+  // Three numbers, and then a weight, which only free-form surfaces have, or a colour.
+  void ReadPosition(std::string_view line) {
+    std::array<double, 6> numbers{};
+    const size_t count = ReadNumbers(line, 3, numbers);
+    obj_.positions.emplace_back(numbers[0], numbers[1], numbers[2]);
+    if (count < 6) {
+      if (!obj_.colors.empty()) obj_.colors.emplace_back(1);
+      return;
+    }
+    obj_.colors.resize(obj_.positions.size(), Vec3f(1));  // vertices before the first one are white
+    Vec3f& color = obj_.colors.back();
+    for (int c = 0; c < 3; ++c) {
+      const auto value = static_cast<float>(numbers[static_cast<size_t>(3 + c)]);
+      color[c] = value > 0 ? value : 0;
+      largest_color_ = std::max(largest_color_, color[c]);
+    }
+  }
+
+  // Takes an index off the front of `word`, up to a slash: 0 if there is none.
+  int64_t NextIndex(std::string_view* word) const {
+    const size_t length = std::min(word->find('/'), word->size());
+    std::string_view digits = word->substr(0, length);
+    word->remove_prefix(std::min(length + 1, word->size()));
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.empty()) return 0;
+    int64_t index = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (error != std::errc() || end != digits.data() + digits.size()) {
+      Refuse(number_, fmt::format("\"{}\" is no index", Excerpt(digits)),
+             "a corner is a position, or position/uv/normal, counted from 1");
+    }
+    return index;
+  }
+
+  // The place that an index means: from 1 on it counts from the first, below 0 from the last one
+  // so far; 0 is none. Places after the last one so far are looked at in the end.
+  int64_t PlaceOf(int64_t index, size_t so_far, std::string_view what) const {
+    if (index > 0) return std::min<int64_t>(index - 1, 0x7fffffff);
+    const auto count = static_cast<int64_t>(so_far);
+    if (index < -count) {
+      Refuse(number_, fmt::format("a face has {} {}", what, index),
+             fmt::format("there are {} before it", count));
+    }
+    return index == 0 ? -1 : count + index;
+  }
+
+  void ReadFace(std::string_view line) {
+    size_t count = 0;
+    for (std::string_view word = NextWord(&line); !word.empty() && !word.starts_with('#');
+         word = NextWord(&line)) {
+      if (++count > kMaxObjCorners) {
+        Refuse(number_, fmt::format("a face has more than {} corners", kMaxObjCorners),
+               "cut it into triangles before");
+      }
+      const int64_t position = PlaceOf(NextIndex(&word), obj_.positions.size(), "position");
+      if (position < 0) Refuse(number_, "a face has position 0", "indices are counted from 1");
+      const bool has_uv = !word.empty();
+      const int64_t uv = NextIndex(&word);
+      const bool has_normal = !word.empty();
+      const int64_t normal = NextIndex(&word);
+      if (has_normal && normal == 0) {
+        WarnOnce("normals of index 0 are taken for none: indices are counted from 1");
+      } else if (has_uv && uv == 0 && !has_normal) {
+        WarnOnce("texture coordinates of index 0 are taken for none: indices are counted from 1");
+      }
+      obj_.corners.push_back(
+          {static_cast<uint32_t>(position),
+           static_cast<int32_t>(PlaceOf(uv, obj_.uvs.size(), "uv")),
+           static_cast<int32_t>(PlaceOf(normal, obj_.normals.size(), "normal"))});
+    }
+    if (count < 3) Refuse(number_, "a face has fewer than three corners");
+    SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
+    obj_.corner_counts.push_back(static_cast<unsigned char>(count));
+    face_lines_.push_back(static_cast<uint32_t>(number_));
+  }
+
+  void UseMaterial(std::string name) {
+    const auto next = static_cast<uint32_t>(obj_.material_names.size());
+    const auto [known, is_new] = materials_.try_emplace(std::move(name), next);
+    if (is_new) obj_.material_names.push_back(known->first);
+    const size_t first_face = obj_.corner_counts.size();
+    if (!obj_.uses.empty() && obj_.uses.back().first_face == first_face) obj_.uses.pop_back();
+    obj_.uses.push_back({first_face, known->second});
+  }
+
+  void CheckIndices() const {
+    const auto check = [&](size_t face, int64_t place, size_t count, std::string_view what) {
+      if (place < static_cast<int64_t>(count)) return;
+      Refuse(face_lines_[face], fmt::format("a face has {} {}", what, place + 1),
+             fmt::format("there are {}", count));
+    };
+    const ObjCorner* corner = obj_.corners.data();
+    for (size_t face = 0; face < obj_.corner_counts.size(); ++face) {
+      for (size_t i = 0; i < obj_.corner_counts[face]; ++i, ++corner) {
+        check(face, corner->position, obj_.positions.size(), "position");
+        check(face, corner->normal, obj_.normals.size(), "normal");
+        check(face, corner->uv, obj_.uvs.size(), "uv");
+      }
+    }
+  }
+
+  void FinishColors() {
+    const double scale = largest_color_ > 1 ? 1.0 / 255 : 1;
+    for (Vec3f& color : obj_.colors) {
+      for (int c = 0; c < 3; ++c) {
+        color[c] = static_cast<float>(SrgbEotf(std::min(scale * double{color[c]}, 1.0)));
+      }
+    }
+  }
+
+  const std::string file_;
+  const std::function<void(const std::string&)>& warn_;
+  ObjFile obj_;
+  size_t number_ = 0;    // of the line that is read,
+  std::string keyword_;  // and its first word, in lower case
+  float largest_color_ = 0;
+  SceneBudget budget_{0};
+  bool told_unknown_ = false;
+  std::vector<uint32_t> face_lines_;
+  std::unordered_map<std::string, uint32_t> materials_;
+  std::unordered_set<std::string> warned_, libraries_;
+};
 
 }  // namespace
 
-std::string_view NextObjWord(std::string_view* line) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const size_t begin = std::min(line->find_first_not_of(kBlanks), line->size());
-  const size_t end = std::min(line->find_first_of(kBlanks, begin), line->size());
-  const std::string_view word = line->substr(begin, end - begin);
-  line->remove_prefix(end);
-  return word;
-}
-
-void CheckObjNumbers(std::string_view line, std::string_view keyword, int fewest, int most,
-                     const std::string& place) {
-  constexpr std::array<std::string_view, 4> kNumberNames = {"no", "one", "two", "three"};
-  for (int i = 0; i < most; ++i) {
-    const std::string_view word = NextObjWord(&line);
-    if (IsFiniteNumber(word) || (word.empty() && i >= fewest)) continue;
-    RefuseObj(place, fmt::format("\"{}\" is not a finite number", word),
-              fmt::format("\"{}\" is followed by {}", keyword,
-                          kNumberNames[static_cast<size_t>(fewest)]));
-  }
-}
-
-ObjFile ReadObjFile(const std::filesystem::path& path, tinyobj::MaterialReader* materials) {
-  const std::string file = path.string();
-  std::string text = ReadTextFile(path, kMaxObjBytes);
-  Prepare(file, &text);
-  ObjFile obj = Parse(std::move(text), file, materials);
-  CheckIndices(obj, file);
-  return obj;
+ObjFile ReadObjFile(const std::filesystem::path& path,
+                    const std::function<void(const std::string&)>& warn) {
+  return ObjReader(path, warn).Read(ReadTextFile(path, kMaxObjBytes));
 }
 
 }  // namespace nacre

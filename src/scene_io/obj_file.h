@@ -1,32 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/obj_file.h: Wavefront OBJ files as tinyobjloader reads them, checked before and after.
+// scene_io/obj_file.h: the statements of a Wavefront OBJ file that say what its polygons are.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include <tiny_obj_loader.h>
+#include "base/vec.h"
 
 namespace nacre {
 
-struct ObjFile {
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
+struct ObjCorner {
+  uint32_t position = 0;
+  int32_t uv = -1, normal = -1;  // below 0: none
 };
 
-// `materials` reads the material libraries that the file names; null: nobody does. All indices of
-// positions, normals and uvs are within range, or -1 where a corner has no normal or uv. Throws
-// Error (kBadInput) as ReadObj does (obj.h), and what `materials` throws.
-ObjFile ReadObjFile(const std::filesystem::path& path, tinyobj::MaterialReader* materials);
+// All indices are within range.
+struct ObjFile {
+  std::vector<Vec3d> positions;
+  std::vector<Vec3f> colors;  // linear, one per position; empty: the file has none
+  std::vector<Vec3d> normals;
+  std::vector<Vec2d> uvs;
 
-// Takes the next word off the front of `line`.
-std::string_view NextObjWord(std::string_view* line);
+  std::vector<unsigned char> corner_counts;  // of each face, at least 3
+  std::vector<ObjCorner> corners;            // of all faces, one after the other
 
-// Throws Error (kBadInput) unless `line` begins with `fewest` finite numbers, or more up to `most`.
-void CheckObjNumbers(std::string_view line, std::string_view keyword, int fewest, int most,
-                     const std::string& place);
+  // Faces from `first_face` on have the material of this name; those before the first have none.
+  struct Use {
+    size_t first_face;
+    uint32_t name;  // in material_names
+  };
+  std::vector<Use> uses;
+  std::vector<std::string> material_names;  // each once
+  std::vector<std::string> libraries;       // what follows "mtllib", each once
+};
+
+// Numbers in colours (v x y z r g b) are decoded as sRGB, as the programs that write them do;
+// colours with a number above 1 are in [0, 255]. An index 0 of a uv or a normal, which some
+// exporters write, stands for none. What is not read (lines, points, free-form curves and surfaces)
+// is told by `warn`, each kind once, unless that is empty.
+// Throws Error (kBadInput) with the file and the line for numbers that are none or not finite,
+// indices out of range, faces of fewer than 3 or more than 255 corners, and files without faces.
+ObjFile ReadObjFile(const std::filesystem::path& path,
+                    const std::function<void(const std::string&)>& warn);
 
 }  // namespace nacre

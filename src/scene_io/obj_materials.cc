@@ -2,202 +2,339 @@
 #include "scene_io/obj_materials.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <sstream>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene_io/obj_file.h"
+#include "base/excerpt.h"
+#include "scene_io/mtl_file.h"
 #include "scene_io/text_file.h"
+#include "scene_io/text_lines.h"
+#include "scene_io/texture_image.h"
 
 namespace nacre {
 namespace {
 
-constexpr uint64_t kMaxMtlBytes = uint64_t{64} << 20;
-
-// Of an image: tinyobjloader lets the exponents of its options overflow.
-void CheckOptions(std::string_view line, const std::string& place) {
-  for (auto word = NextObjWord(&line); !word.empty(); word = NextObjWord(&line)) {
-    double number = 0;
-    const auto sign = static_cast<size_t>(word.starts_with('+'));
-    const auto read = std::from_chars(word.data() + sign, word.data() + word.size(), number);
-    if (read.ec != std::errc::result_out_of_range) continue;
-    throw Error(ExitCode::kBadInput, place, fmt::format("\"{}\" is not a finite number", word));
-  }
-}
-
-// tinyobjloader takes numbers that it cannot read as 0, and materials that name no illumination
-// for those of illumination 0, which is none. They get 2 at first, ambient, diffuse and specular.
-std::string Prepare(const std::string& text, const std::string& file) {
-  std::string prepared;
-  constexpr std::array<std::string_view, 4> kColors = {"Ka", "Kd", "Ks", "Ke"};
-  constexpr std::array<std::string_view, 4> kNumbers = {"Ns", "d", "Tr", "illum"};
-  constexpr std::array<std::string_view, 4> kImages = {"norm", "bump", "disp", "refl"};
-  constexpr std::array<std::string_view, 10> kUnused = {"Kt", "Tf", "Ni",  "Pr",    "Pm",
-                                                        "Ps", "Pc", "Pcr", "aniso", "anisor"};
-  const auto is_one_of = [](const auto& words, std::string_view word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
-  size_t start = 0;
-  for (size_t number = 1; start < text.size(); ++number) {
-    const size_t end = std::min(text.find('\n', start), text.size());
-    std::string_view line = std::string_view(text).substr(start, end - start);
-    const std::string_view keyword = NextObjWord(&line);
-    const std::string place = fmt::format("{}:{}", file, number);
-    std::string_view rest = line;
-    const std::string_view first = NextObjWord(&rest);
-    start = end + 1;
-    if (is_one_of(kUnused, keyword)) continue;
-    if (keyword.starts_with("map_") || is_one_of(kImages, keyword)) CheckOptions(line, place);
-    prepared.append(text, static_cast<size_t>(keyword.data() - text.data()),
-                    end - static_cast<size_t>(keyword.data() - text.data()));
-    prepared += keyword == "newmtl" ? "\nillum 2\n" : "\n";
-    if (is_one_of(kColors, keyword)) {
-      if (first == "spectral" || first == "xyz") {
-        throw Error(ExitCode::kBadInput, place, fmt::format("a color by \"{}\"", first),
-                    "three numbers, red, green and blue, are read");
-      }
-      CheckObjNumbers(line, keyword, 3, 3, place);
-    } else if (is_one_of(kNumbers, keyword) && first != "-halo") {
-      CheckObjNumbers(line, keyword, 1, 1, place);
-    }
-  }
-  return prepared;
-}
-
-Rgb ColorOf(const tinyobj::real_t (&color)[3]) { return {color[0], color[1], color[2]}; }
-
-}  // namespace
-
-MtlReader::MtlReader(const std::filesystem::path& obj, const LoadOptions& options)
-    : folder_(obj.parent_path()), file_(obj.string()), options_(options) {}
-
-void MtlReader::Warn(const std::string& text) {
-  if (!told_.insert(text).second) return;
-  if (options_.on_warning) options_.on_warning(file_ + ": " + text);
-}
-
-bool MtlReader::operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                           std::map<std::string, int>* numbers, std::string* warning,
-                           std::string* error) {
-  std::error_code ignored;
-  std::filesystem::path path;
-  try {
-    path = ResolveReference(folder_, name, {options_.allow_paths, options_.on_file});
-  } catch (const Error& refused) {
-    const Fault& fault = refused.faults().front();
-    if (fault.what.starts_with("there is no file")) {
-      Warn(fmt::format("its materials are left out: there is no file \"{}\"", name));
-      return false;
-    }
-    throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
-  }
-  if (!libraries_.insert(path.string()).second) return true;  // a file may name it a million times
-  std::istringstream stream(Prepare(ReadTextFile(path, kMaxMtlBytes), path.string()));
-  tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
-  return true;
-}
-
-// -s and -o: uv times the scale plus the offset.
-TextureId MtlReader::AddTexture(const std::string& name, const tinyobj::texture_option_t& options,
-                                TextureEncoding encoding, Scene* scene) {
-  if (name.empty()) return {};
-  auto image = images_.find({name, encoding});
-  if (image == images_.end()) {
-    try {
-      const auto path = ResolveReference(folder_, name, {options_.allow_paths, options_.on_file});
-      AddTextureImage(path, name, {.encoding = encoding, .part = {}}, scene);
-    } catch (const Error& error) {
-      const Fault& fault = error.faults().front();
-      if (fault.what.starts_with("there is no file")) {  // models often come without
-        Warn(fmt::format("an image is left out: {}", fault.what));
-        return {};
-      }
-      throw Error(error.code(), file_, fmt::format("its image \"{}\": {}", name, fault.what),
-                  fault.hint);
-    }
-    const ImageId id{static_cast<uint32_t>(scene->images.size() - 1)};
-    image = images_.emplace(std::make_pair(name, encoding), id).first;
-  }
-  Texture& texture = scene->textures.emplace_back();
-  texture.name = name;
-  texture.image = image->second;
-  texture.scale = {options.scale[0], options.scale[1]};
-  texture.offset = {options.origin_offset[0], options.origin_offset[1]};
-  if (options.clamp) texture.sampling.wrap_u = texture.sampling.wrap_v = Wrap::kClamp;
-  return {static_cast<uint32_t>(scene->textures.size() - 1)};
-}
-
-void MtlReader::AddMaps(const tinyobj::material_t& source, Scene* scene, Material* material) {
-  auto& phong = std::get<PhongMaterial>(material->model);
-  const auto add = [&](const std::string& name, const tinyobj::texture_option_t& options,
-                       TextureEncoding encoding) {
-    return AddTexture(name, options, encoding, scene);
-  };
-  phong.diffuse_map = add(source.diffuse_texname, source.diffuse_texopt, TextureEncoding::kSrgb);
-  phong.specular_map = add(source.specular_texname, source.specular_texopt, TextureEncoding::kSrgb);
-  phong.shininess_map = add(source.specular_highlight_texname, source.specular_highlight_texopt,
-                            TextureEncoding::kLinear);
-  material->emission_map =
-      add(source.emissive_texname, source.emissive_texopt, TextureEncoding::kSrgb);
-  material->normal_map.texture =
-      add(source.normal_texname, source.normal_texopt, TextureEncoding::kLinear);
-  // Exporters that write a map often leave its factor at 0.
-  if (phong.diffuse_map.valid() && phong.kd == Rgb(0)) phong.kd = Rgb(1);
-  if (material->emission_map.valid() && material->emission == Rgb(0)) material->emission = Rgb(1);
-  for (const std::string* image : {&source.ambient_texname, &source.bump_texname,
-                                   &source.displacement_texname, &source.alpha_texname}) {
-    if (!image->empty()) Warn("ambient, bump, displacement and alpha images are not shown");
-  }
-}
-
-Material MtlReader::MakeMaterial(const tinyobj::material_t& source, Scene* scene) {
-  Material result;
-  result.emission = ColorOf(source.emission);
-  if (source.dissolve < 1) Warn("transparency is not shown: all materials are opaque");
-  if (source.illum > 2) Warn("reflections and refraction (illum above 2) are not shown");
+// The material of Blinn-Phong, in the classic reading, with the library's numbers.
+PhongMaterial MakePhong(const MtlMaterial& source) {
   PhongMaterial phong;
   phong.model = PhongModel::kBlinnPhong;
   phong.convention = PhongConvention::kClassic;
-  phong.ka = ColorOf(source.ambient);
-  phong.kd = ColorOf(source.diffuse);
-  phong.ks = source.illum == 1 ? Rgb(0) : ColorOf(source.specular);
-  phong.shininess = source.shininess;
-  if (source.illum == 0) {  // a constant colour
-    result.emission += phong.kd;
-    phong.ka = phong.kd = phong.ks = Rgb(0);
+  phong.ka = source.ka;
+  phong.kd = source.kd;
+  phong.ks = source.illum == 1 ? Rgb(0) : source.ks;
+  phong.shininess = source.ns;
+  return phong;
+}
+
+// What the extension of the format for physically based rendering says. Where it says nothing of
+// the roughness, the exponent gives the width of the highlight: alpha^2 = 2 / (n + 2).
+MetallicRoughnessMaterial MakeMetallicRoughness(const MtlMaterial& source) {
+  MetallicRoughnessMaterial result;
+  result.base_color = source.kd;
+  result.metallic = source.pm.value_or(source.map_pm.file.empty() ? 0 : 1);
+  const double from_exponent =
+      source.ns > 1 ? std::sqrt(std::sqrt(2 / (source.ns + 2))) : result.roughness;
+  result.roughness = source.pr.value_or(source.map_pr.file.empty() ? from_exponent : 1);
+  if (source.ni > 1) {  // 1, which changes nothing, is written by default
+    const double root = (source.ni - 1) / (source.ni + 1);
+    result.dielectric_f0 = Rgb(root * root);
   }
-  result.model = phong;
-  if (source.illum != 0) AddMaps(source, scene, &result);
   return result;
 }
 
-std::vector<Material> MtlReader::MakeMaterials(const std::vector<tinyobj::material_t>& sources,
-                                               Scene* scene) {
-  std::vector<Material> materials;
-  materials.reserve(sources.size() + 1);
-  std::unordered_set<std::string> names;
-  for (size_t i = 0; i < sources.size(); ++i) {
-    std::string name = sources[i].name;
-    if (name.empty() || !names.insert(name).second) name += fmt::format("#{}", i);
-    names.insert(name);
-    materials.push_back(MakeMaterial(sources[i], scene));
-    materials.back().name = std::move(name);
+class ObjMaterials {
+ public:
+  ObjMaterials(const std::filesystem::path& obj, const LoadOptions& options, Scene* scene)
+      : folder_(obj.parent_path()), file_(obj.string()), options_(options), scene_(*scene) {}
+
+  std::vector<MaterialId> Add(const ObjFile& obj) {
+    for (const std::string& line : obj.libraries) ReadLibraries(line);
+    for (size_t i = 0; i < sources_.size(); ++i) AddMaterial(i);
+    const MaterialId none{static_cast<uint32_t>(scene_.materials.size())};
+    scene_.materials.push_back(MakeClay());
+    // In the reading of the others, so that the same light suits it.
+    if (IsClassic()) {
+      scene_.materials.back().model = PhongMaterial{.model = PhongModel::kBlinnPhong,
+                                                    .convention = PhongConvention::kClassic,
+                                                    .ka = Rgb(0.7),
+                                                    .ks = Rgb(0.1)};
+    }
+    std::vector<MaterialId> ids;
+    for (const std::string& name : obj.material_names) {
+      const auto found = by_name_.find(name);
+      if (found == by_name_.end()) WarnOfName(name);
+      ids.push_back(found == by_name_.end() ? none : found->second);
+    }
+    if (unknown_names_ > kMaxNames) {
+      Warn(fmt::format("and {} more materials that no library has", unknown_names_ - kMaxNames));
+    }
+    ids.push_back(none);
+    return ids;
   }
-  materials.push_back(MakeClay());
-  // In the reading of the others, so that the same light suits it.
-  if (!sources.empty()) {
-    materials.back().model = PhongMaterial{.model = PhongModel::kBlinnPhong,
-                                           .convention = PhongConvention::kClassic,
-                                           .ka = Rgb(0.7),
-                                           .ks = Rgb(0.1)};
+
+ private:
+  static constexpr size_t kMaxNames = 8;
+
+  void Warn(const std::string& text) {
+    if (told_.insert(text).second && options_.on_warning) options_.on_warning(file_ + ": " + text);
   }
-  return materials;
+
+  void WarnOfName(const std::string& name) {
+    if (library_is_missing_ || ++unknown_names_ > kMaxNames) return;  // that has been told
+    Warn(fmt::format("no material library has \"{}\": its faces are grey", Excerpt(name)));
+  }
+
+  bool IsClassic() const {
+    return std::any_of(scene_.materials.begin(), scene_.materials.end(), [](const Material& m) {
+      return std::holds_alternative<PhongMaterial>(m.model);
+    });
+  }
+
+  // The file that a name means, with Windows' backslashes, too, or nothing if there is none. Throws
+  // Error (kBadInput) for one outside the folder.
+  std::optional<std::filesystem::path> Find(const std::string& name) const {
+    std::string with_slashes = name;
+    std::replace(with_slashes.begin(), with_slashes.end(), '\\', '/');
+    std::vector<std::string> candidates = {name};
+    if (with_slashes != name) {
+      // An absolute path, or one of another folder's, of the machine that the model was made on.
+      candidates = {with_slashes, with_slashes.substr(with_slashes.rfind('/') + 1), name};
+    }
+    for (size_t i = 0; i < candidates.size(); ++i) {
+      try {
+        return ResolveReference(folder_, candidates[i], {options_.allow_paths, options_.on_file});
+      } catch (const Error& error) {
+        const Fault& fault = error.faults().front();
+        const bool is_last = i + 1 == candidates.size();
+        if (!is_last || fault.what.starts_with("there is no file")) continue;
+        throw Error(ExitCode::kBadInput, file_, fault.what, fault.hint);
+      }
+    }
+    return std::nullopt;
+  }
+
+  // What follows "mtllib": one name, with blanks in it perhaps, or several.
+  void ReadLibraries(const std::string& line) {
+    std::vector<std::filesystem::path> paths;
+    std::string missing;
+    std::optional<std::filesystem::path> whole;
+    const bool has_blanks = line.find_first_of(" \t") != std::string::npos;
+    try {
+      whole = Find(line);
+    } catch (const Error&) {
+      if (!has_blanks) throw;
+    }
+    if (whole) paths.push_back(*whole);
+    std::string_view rest = has_blanks && !whole ? std::string_view(line) : std::string_view();
+    for (auto word = NextWord(&rest); !word.empty(); word = NextWord(&rest)) {
+      if (auto path = Find(std::string(Trimmed(word)))) {
+        paths.push_back(std::move(*path));
+      } else if (missing.empty()) {
+        missing = word;
+      }
+    }
+    if (paths.empty()) missing = line;
+    if (!missing.empty() || paths.empty()) {
+      library_is_missing_ = true;
+      Warn(fmt::format("its materials are left out: there is no file \"{}\"", Excerpt(missing)));
+    }
+    for (const std::filesystem::path& path : paths) {
+      if (!libraries_.insert(path.string()).second) continue;
+      for (MtlMaterial& material :
+           ReadMtlFile(path, [&](const std::string& text) { Warn(text); })) {
+        sources_.push_back(std::move(material));
+      }
+    }
+  }
+
+  void AddMaterial(size_t index) {
+    const MtlMaterial& source = sources_[index];
+    std::string name = source.name;
+    const MaterialId id{static_cast<uint32_t>(scene_.materials.size())};
+    by_name_.try_emplace(name, id);  // the first of several
+    if (name.empty() || !names_.insert(name).second) name += fmt::format("#{}", index);
+    names_.insert(name);
+    Material material = MakeMaterial(source);
+    material.name = std::move(name);
+    scene_.materials.push_back(std::move(material));
+  }
+
+  Material MakeMaterial(const MtlMaterial& source) {
+    Material result;
+    result.emission = source.ke;
+    if (source.opacity < 1) Warn("transparency is not shown: all materials are opaque");
+    if (source.illum > 2) Warn("reflections and refraction (illum above 2) are not shown");
+    if (source.illum == 0) {  // a constant colour
+      result.emission += source.kd;
+      PhongMaterial black = MakePhong(source);
+      black.ka = black.kd = black.ks = Rgb(0);
+      result.model = black;
+      return result;
+    }
+    AddCommonMaps(source, &result);
+    const TextureId diffuse = AddTexture(source.map_kd, TextureEncoding::kSrgb);
+    // Exporters that write a map often leave its factor at 0.
+    const Rgb kd = diffuse.valid() && source.kd == Rgb(0) ? Rgb(1) : source.kd;
+    if (source.pr || source.pm || !source.map_pr.file.empty() || !source.map_pm.file.empty()) {
+      MetallicRoughnessMaterial model = MakeMetallicRoughness(source);
+      model.base_color = kd;
+      model.base_color_map = diffuse;
+      model.metallic_roughness_map = AddMetallicRoughness(source);
+      result.model = model;
+      return result;
+    }
+    PhongMaterial model = MakePhong(source);
+    model.kd = kd;
+    model.diffuse_map = diffuse;
+    model.specular_map = AddTexture(source.map_ks, TextureEncoding::kSrgb);
+    model.shininess_map = AddTexture(source.map_ns, TextureEncoding::kLinear);
+    result.model = model;
+    return result;
+  }
+
+  void AddCommonMaps(const MtlMaterial& source, Material* material) {
+    material->emission_map = AddTexture(source.map_ke, TextureEncoding::kSrgb);
+    if (material->emission_map.valid() && material->emission == Rgb(0)) material->emission = Rgb(1);
+    material->normal_map.texture = AddTexture(source.norm, TextureEncoding::kLinear);
+    const bool ambient = !source.map_ka.file.empty() && source.map_ka.file != source.map_kd.file;
+    if (ambient) Warn("ambient images (map_Ka) are not shown");
+    if (!source.bump.file.empty()) Warn("bump images are not shown: normal ones (norm) are");
+    if (!source.disp.file.empty()) Warn("displacement images are not shown");
+    if (!source.map_d.file.empty()) Warn("transparency is not shown: all materials are opaque");
+  }
+
+  std::optional<ImageId> AddImage(const std::string& name, TextureEncoding encoding) {
+    const auto known = images_.find({name, encoding});
+    if (known != images_.end()) return known->second;
+    const auto path = FindImage(name);
+    if (!path) return std::nullopt;
+    const ImageId id = WithImage(name, [&] {
+      return AddTextureImage(*path, name, {.encoding = encoding, .part = {}}, &scene_);
+    });
+    images_.emplace(std::make_pair(name, encoding), id);
+    return id;
+  }
+
+  // Models often come without their images.
+  std::optional<std::filesystem::path> FindImage(const std::string& name) {
+    std::optional<std::filesystem::path> path = Find(name);
+    if (!path) {
+      Warn(fmt::format("an image is left out: there is no file \"{}\"", Excerpt(name)));
+    }
+    return path;
+  }
+
+  // Calls read(), whose errors get the image's name.
+  template <class Read>
+  auto WithImage(const std::string& name, const Read& read) -> decltype(read()) {
+    try {
+      return read();
+    } catch (const Error& error) {
+      const Fault& fault = error.faults().front();
+      throw Error(error.code(), file_,
+                  fmt::format("its image \"{}\": {}", Excerpt(name), fault.what), fault.hint);
+    }
+  }
+
+  TextureId AddTextureOf(const MtlImage& source, ImageId image) {
+    Texture& texture = scene_.textures.emplace_back();
+    texture.name = source.file;
+    texture.image = image;
+    texture.scale = source.scale;
+    texture.offset = source.offset;
+    if (source.clamp) texture.sampling.wrap_u = texture.sampling.wrap_v = Wrap::kClamp;
+    return {static_cast<uint32_t>(scene_.textures.size() - 1)};
+  }
+
+  TextureId AddTexture(const MtlImage& source, TextureEncoding encoding) {
+    if (source.file.empty()) return {};
+    const std::optional<ImageId> image = AddImage(source.file, encoding);
+    return image ? AddTextureOf(source, *image) : TextureId{};
+  }
+
+  // map_Pr and map_Pm as the green and blue of one image. A file that is both has them there
+  // already, if it has colours.
+  TextureId AddMetallicRoughness(const MtlMaterial& source) {
+    const MtlImage& first = source.map_pr.file.empty() ? source.map_pm : source.map_pr;
+    if (first.file.empty()) return {};
+    const auto key = std::make_pair(source.map_pr.file, source.map_pm.file);
+    auto known = metallic_roughness_.find(key);
+    if (known == metallic_roughness_.end()) {
+      const std::optional<ImageId> image = MakeMetallicRoughnessImage(source);
+      if (!image) return {};
+      known = metallic_roughness_.emplace(key, *image).first;
+    }
+    return AddTextureOf(first, known->second);
+  }
+
+  std::optional<ImageId> MakeMetallicRoughnessImage(const MtlMaterial& source) {
+    const size_t left = TexelValuesLeft(scene_);
+    const auto read = [&](const std::string& name) -> std::shared_ptr<const MipChain> {
+      if (name.empty()) return nullptr;
+      const auto path = FindImage(name);
+      if (!path) return nullptr;
+      return WithImage(name, [&] {
+        return ReadTextureImage(*path, name, {.encoding = TextureEncoding::kLinear, .part = {}},
+                                left / 3)
+            .texels;
+      });
+    };
+    const auto roughness = read(source.map_pr.file), metallic = read(source.map_pm.file);
+    if (roughness == nullptr && metallic == nullptr) return std::nullopt;
+    const MipLevel& size = (roughness != nullptr ? roughness : metallic)->levels[0];
+    if (roughness != nullptr && metallic != nullptr &&
+        (metallic->levels[0].width != size.width || metallic->levels[0].height != size.height)) {
+      Warn("images of roughness and metallic (map_Pr, map_Pm) that differ in size are not shown");
+      return std::nullopt;
+    }
+    const bool is_packed = source.map_pr.file == source.map_pm.file && roughness->channels >= 3;
+    const auto value = [&](const std::shared_ptr<const MipChain>& image, size_t texel,
+                           size_t packed_channel) {
+      if (image == nullptr) return 1.0f;
+      return image
+          ->values[texel * static_cast<size_t>(image->channels) + (is_packed ? packed_channel : 0)];
+    };
+    const size_t texels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
+    std::vector<float> values;
+    values.reserve(3 * texels);
+    for (size_t i = 0; i < texels; ++i) {
+      values.insert(values.end(), {1.0f, value(roughness, i, 1), value(metallic, i, 2)});
+    }
+    SceneImage& image = scene_.images.emplace_back();
+    image.file = source.map_pr.file.empty() ? source.map_pm.file : source.map_pr.file;
+    image.texels = std::make_shared<const MipChain>(
+        MakeMipChain(size.width, size.height, 3, std::move(values)));
+    return ImageId{static_cast<uint32_t>(scene_.images.size() - 1)};
+  }
+
+  std::filesystem::path folder_;
+  std::string file_;
+  const LoadOptions& options_;
+  Scene& scene_;
+  std::vector<MtlMaterial> sources_;
+  bool library_is_missing_ = false;
+  size_t unknown_names_ = 0;
+  std::unordered_map<std::string, MaterialId> by_name_;
+  std::unordered_set<std::string> names_, told_, libraries_;
+  std::map<std::pair<std::string, TextureEncoding>, ImageId> images_;          // by name
+  std::map<std::pair<std::string, std::string>, ImageId> metallic_roughness_;  // by both names
+};
+
+}  // namespace
+
+std::vector<MaterialId> AddObjMaterials(const std::filesystem::path& path, const ObjFile& obj,
+                                        const LoadOptions& options, Scene* scene) {
+  return ObjMaterials(path, options, scene).Add(obj);
 }
 
 Material MakeClay() {

@@ -1,52 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/obj_materials.h: material libraries (MTL) of Wavefront OBJ files.
+// scene_io/obj_materials.h: the material libraries (MTL) of Wavefront OBJ files as materials.
 #pragma once
 
 #include <filesystem>
-#include <map>
-#include <string>
-#include <unordered_set>
-#include <utility>
 #include <vector>
-
-#include <tiny_obj_loader.h>
 
 #include "scene/scene.h"
 #include "scene_io/load_scene.h"
-#include "scene_io/texture_image.h"
+#include "scene_io/obj_file.h"
 
 namespace nacre {
 
-// Reads the libraries that an OBJ file names, from its folder.
-class MtlReader : public tinyobj::MaterialReader {
- public:
-  MtlReader(const std::filesystem::path& obj, const LoadOptions& options);
-
-  // Called by tinyobjloader. A library that is missing is told, and one outside the folder or with
-  // numbers that are none throws Error (kBadInput).
-  bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                  std::map<std::string, int>* numbers, std::string* warning,
-                  std::string* error) override;
-
-  // One for each, by the same number, with unique names: Blinn-Phong in the classic reading, as the
-  // format defines it (its H is the bisector of L and V). After them the one of faces without any.
-  // Textures and images go to the scene.
-  std::vector<Material> MakeMaterials(const std::vector<tinyobj::material_t>& sources,
-                                      Scene* scene);
-
- private:
-  void Warn(const std::string& text);
-  Material MakeMaterial(const tinyobj::material_t& source, Scene* scene);
-  void AddMaps(const tinyobj::material_t& source, Scene* scene, Material* material);
-  TextureId AddTexture(const std::string& name, const tinyobj::texture_option_t& options,
-                       TextureEncoding encoding, Scene* scene);
-
-  std::filesystem::path folder_;
-  std::string file_;
-  const LoadOptions& options_;
-  std::unordered_set<std::string> told_, libraries_;
-  std::map<std::pair<std::string, TextureEncoding>, ImageId> images_;  // by name
-};
+// Adds the materials of the libraries that the OBJ file `path` names, with unique names, and after
+// them the one of faces without any; their textures and images go to the scene, too. Returns the
+// material of each of obj.material_names, and as the last one that of faces without any.
+//
+// Materials are Blinn-Phong in the classic reading, as the format defines them (its H is the
+// bisector of L and V), or metallic-roughness where the library gives them a roughness or a
+// metallic (Pr, Pm and their images).
+//
+// Told by options.on_warning: libraries and images that are missing, names that no library has,
+// and what is not shown. Throws Error (kBadInput) for libraries and images outside the folder,
+// broken images, and numbers that are none or not finite.
+std::vector<MaterialId> AddObjMaterials(const std::filesystem::path& path, const ObjFile& obj,
+                                        const LoadOptions& options, Scene* scene);
 
 // What models without any material are made of: a light grey that is neither matt nor glossy.
 Material MakeClay();

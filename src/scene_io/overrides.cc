@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
 
 namespace nacre {
 namespace {
@@ -35,19 +36,19 @@ std::vector<std::string> Split(const std::string& pointer) {
 
 Json ParseValue(const std::string& pointer, const std::string& text) {
   if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
-  RefuseOverride(pointer, fmt::format("{} is not JSON", text),
-                 fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, text));
+  RefuseOverride(pointer, fmt::format("{} is not JSON", Excerpt(text)),
+                 fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, Excerpt(text)));
 }
 
 Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
   if (parent->is_object()) return &(*parent)[token];  // made if missing
   if (!parent->is_array())
-    RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", token), {});
+    RefuseOverride(pointer, fmt::format("there is no \"{}\" in a value", Excerpt(token)), {});
   size_t index = 0;
   const char* const last = token.data() + token.size();
   const auto [end, error] = std::from_chars(token.data(), last, index);
   if (error != std::errc() || end != last || index >= parent->size()) {
-    RefuseOverride(pointer, fmt::format("there is no element \"{}\"", token),
+    RefuseOverride(pointer, fmt::format("there is no element \"{}\"", Excerpt(token)),
                    fmt::format("the array has {}, counted from 0", parent->size()));
   }
   return &(*parent)[index];

@@ -17,8 +17,10 @@
 #include "scene/limits.h"
 #include "scene/mesh.h"
 #include "scene/polygon.h"
+#include "scene_io/model_scene.h"
 #include "scene_io/obj_materials.h"
 #include "scene_io/ply_file.h"
+#include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
 
 namespace nacre {
@@ -31,6 +33,7 @@ struct PlyData {
   std::vector<Vec3d> positions, normals;
   std::vector<Vec2d> uvs;
   std::vector<Rgb> colors;  // linear
+  bool has_face_colors = false, has_face_uvs = false;
   std::vector<double> radii;
   std::vector<uint32_t> triangles;
 };
@@ -41,7 +44,8 @@ class PlyReader {
       : file_(path.string()),
         bytes_(ReadTextFile(path, kMaxPlyBytes)),
         header_(ReadPlyHeader(bytes_, file_)),
-        numbers_(bytes_, header_, file_) {}
+        numbers_(bytes_, header_, file_),
+        budget_(TrianglesOfBytes(bytes_.size())) {}
 
   PlyData Read() {
     const auto vertices =
@@ -88,17 +92,32 @@ class PlyReader {
     return places;
   }
 
+  // The places of the first of several names that are all there.
+  template <size_t N, size_t Count>
+  static std::array<size_t, N> FindFirst(
+      const PlyElement& element, const std::array<std::array<std::string_view, N>, Count>& names) {
+    for (const auto& candidate : names) {
+      const auto places = FindAll<N>(element, candidate);
+      if (places[0] != PlyElement::kNone) return places;
+    }
+    return FindAll<N>(element, names[0]);
+  }
+
+  static constexpr std::array<std::array<std::string_view, 3>, 3> kColorNames = {
+      {{"red", "green", "blue"},
+       {"diffuse_red", "diffuse_green", "diffuse_blue"},
+       {"r", "g", "b"}}};
+
   void ReadVertices(const PlyElement& element) {
     const auto xyz = FindAll<3>(element, {"x", "y", "z"});
     if (xyz[0] == PlyElement::kNone) Refuse("its vertices have no x, y and z");
-    const auto normal = FindAll<3>(element, {"nx", "ny", "nz"});
-    const auto color = FindAll<3>(element, {"red", "green", "blue"});
+    const auto normal =
+        FindFirst<3, 2>(element, {{{"nx", "ny", "nz"}, {"normal_x", "normal_y", "normal_z"}}});
+    const auto color = FindFirst(element, kColorNames);
     const auto radius = FindAll<1>(element, {"radius"});
-    auto uv = FindAll<2>(element, {"u", "v"});
-    for (const auto& names :
-         {std::array<std::string_view, 2>{"s", "t"}, {"texture_u", "texture_v"}}) {
-      if (uv[0] == PlyElement::kNone) uv = FindAll<2>(element, names);
-    }
+    const auto uv = FindFirst<2, 4>(
+        element,
+        {{{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}});
     data_.positions.reserve(element.count);
     std::vector<double> values(element.properties.size());
     const auto triple = [&](const std::array<size_t, 3>& at) {
@@ -133,13 +152,16 @@ class PlyReader {
     data_.positions.push_back(position);
   }
 
-  // Bytes are codes for displays; floats are taken as linear.
+  // Integers are codes for displays; floats are taken as linear.
   static Rgb Linear(const Vec3d& color, PlyType type) {
-    if (type != PlyType::kUint8) {
-      const auto unit = [](double c) { return std::isnan(c) ? 0 : std::clamp(c, 0.0, 1.0); };
-      return {unit(color.x), unit(color.y), unit(color.z)};
+    const bool is_real = type == PlyType::kFloat || type == PlyType::kDouble;
+    const double largest = is_real ? 1 : type == PlyType::kUint16 ? 65535 : 255;
+    Rgb linear;
+    for (int c = 0; c < 3; ++c) {
+      const double value = color[c] > 0 ? std::min(color[c] / largest, 1.0) : 0;  // NaN is 0
+      linear[c] = is_real ? value : SrgbEotf(value);
     }
-    return {SrgbEotf(color.x / 255), SrgbEotf(color.y / 255), SrgbEotf(color.z / 255)};
+    return linear;
   }
 
   uint32_t NextIndex(const PlyProperty& list) {
@@ -152,12 +174,20 @@ class PlyReader {
     return static_cast<uint32_t>(index);
   }
 
-  void ReadFaces(const PlyElement& element) {
-    size_t indices = element.Find("vertex_indices");
-    if (indices == PlyElement::kNone) indices = element.Find("vertex_index");
-    if (indices == PlyElement::kNone || !element.properties[indices].is_list) {
-      Refuse("its faces have no list \"vertex_indices\"");
+  // The place of the list of vertices, or kNone.
+  static size_t FindIndices(const PlyElement& element) {
+    for (const std::string_view name : {"vertex_indices", "vertex_index", "vertex_indexes"}) {
+      const size_t place = element.Find(name);
+      if (place != PlyElement::kNone && element.properties[place].is_list) return place;
     }
+    return PlyElement::kNone;
+  }
+
+  void ReadFaces(const PlyElement& element) {
+    const size_t indices = FindIndices(element);
+    if (indices == PlyElement::kNone) Refuse("its faces have no list \"vertex_indices\"");
+    data_.has_face_colors = FindFirst(element, kColorNames)[0] != PlyElement::kNone;
+    data_.has_face_uvs = element.Find("texcoord") != PlyElement::kNone;
     constexpr size_t kMaxCorners = 255;
     for (uint64_t i = 0; i < element.count; ++i) {
       for (size_t k = 0; k < element.properties.size(); ++k) {
@@ -171,6 +201,7 @@ class PlyReader {
           Refuse(fmt::format("face {} has {} corners", faces_, count),
                  fmt::format("from 3 to {}", kMaxCorners));
         }
+        SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
         corner_counts_.push_back(static_cast<unsigned char>(count));
         for (size_t c = 0; c < count; ++c) corners_.push_back(NextIndex(property));
       }
@@ -180,14 +211,16 @@ class PlyReader {
 
   // Strips one after the other, with -1 between them.
   void ReadStrips(const PlyElement& element) {
+    const size_t indices = FindIndices(element);
     for (uint64_t i = 0; i < element.count; ++i) {
       for (const PlyProperty& property : element.properties) {
-        if (property.name != "vertex_indices" || !property.is_list) {
+        if (&property - element.properties.data() != static_cast<std::ptrdiff_t>(indices)) {
           numbers_.Skip(property);
           continue;
         }
         std::vector<uint32_t> strip;
         const size_t count = numbers_.NextLength(property);
+        SpendTriangles(count, file_, &budget_, kTooManyForItsSize);
         for (size_t k = 0; k < count; ++k) AddToStrip(numbers_.Next(property.type), &strip);
       }
     }
@@ -230,6 +263,7 @@ class PlyReader {
   std::string bytes_;
   PlyHeader header_;
   PlyNumbers numbers_;
+  SceneBudget budget_;
   PlyData data_;
   uint64_t vertex_count_ = 0;
   uint64_t faces_ = 0;
@@ -336,16 +370,22 @@ Scene ReadPlyScene(const std::filesystem::path& path, const LoadOptions& options
     AddCloud(data, path.string(), options, &scene);
     return scene;
   }
-  if (!data.colors.empty() && options.on_warning) {
-    options.on_warning(path.string() + ": colours of vertices are not shown on faces");
+  const auto warn = [&](const char* text) {
+    if (options.on_warning) options.on_warning(path.string() + ": " + text);
+  };
+  if (data.has_face_colors) warn("the colours of faces are not shown: those of vertices are");
+  if (data.has_face_uvs) {
+    warn("texture coordinates of faces are left out: those of vertices are read");
   }
   scene.materials.push_back(MakeClay());
   Mesh& mesh = scene.meshes.emplace_back(TakeMesh(path, &data));
   mesh.material = {0};
+  mesh.colors.assign(data.colors.begin(), data.colors.end());
   if (mesh.normals.empty()) ComputeNormals(NormalWeighting::kAngle, kModelCreaseAngleDeg, &mesh);
   if (!HasArea(mesh)) {
     throw Error(ExitCode::kBadInput, path.string(), "has no face with an area");
   }
+  SplitColoredMaterials(&scene);
   return scene;
 }
 

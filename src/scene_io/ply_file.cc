@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
+#include "scene_io/text_lines.h"
 
 namespace nacre {
 namespace {
@@ -54,7 +56,15 @@ bool Holds(PlyType type, double value) {
 // The lines of a header, in words.
 class HeaderReader {
  public:
-  HeaderReader(const std::string& bytes, const std::string& file) : bytes_(bytes), file_(file) {}
+  HeaderReader(const std::string& bytes, const std::string& file)
+      : bytes_(bytes),
+        file_(file),
+        position_(bytes.size() - WithoutByteOrderMark(bytes, file).size()) {
+    // As its first line ends, so do the others.
+    const size_t end = bytes_.find_first_of("\r\n", position_);
+    const bool is_mac = end < bytes_.size() && bytes_[end] == '\r' && bytes_[end + 1] != '\n';
+    line_end_ = is_mac ? '\r' : '\n';
+  }
 
   PlyHeader Read() {
     if (NextLine() != std::vector<std::string_view>{"ply"}) {
@@ -71,7 +81,7 @@ class HeaderReader {
       } else if (words[0] == "property") {
         ReadProperty(words);
       } else {
-        Refuse(fmt::format("unknown keyword \"{}\"", words[0].substr(0, 40)));
+        Refuse(fmt::format("unknown keyword \"{}\"", Excerpt(words[0], 40)));
       }
     }
     if (!has_format_) Refuse("the header names no format");
@@ -89,7 +99,7 @@ class HeaderReader {
   std::vector<std::string_view> NextLine() {
     ++line_;
     constexpr size_t kMaxLine = 4096;
-    const size_t end = bytes_.find('\n', position_);
+    const size_t end = bytes_.find(line_end_, position_);
     if (end == std::string::npos || end - position_ > kMaxLine) {
       Refuse(line_ == 1 ? "is not a PLY file" : "the header does not end");
     }
@@ -138,7 +148,7 @@ class HeaderReader {
     for (const TypeName& known : kTypeNames) {
       if (known.name == word) return known.type;
     }
-    Refuse(fmt::format("unknown type \"{}\"", word.substr(0, 40)),
+    Refuse(fmt::format("unknown type \"{}\"", Excerpt(word, 40)),
            "char, uchar, short, ushort, int, uint, float or double");
   }
 
@@ -172,7 +182,7 @@ class HeaderReader {
       if (element.count > 0 && (least == 0 || element.count > rest / least)) {
         throw Error(ExitCode::kBadInput, file_,
                     fmt::format("{} elements \"{}\" are more than the file holds", element.count,
-                                element.name),
+                                Excerpt(element.name)),
                     "the file is damaged or incomplete");
       }
     }
@@ -180,11 +190,21 @@ class HeaderReader {
 
   const std::string& bytes_;
   const std::string& file_;
-  size_t position_ = 0;
+  size_t position_;
+  char line_end_;
   size_t line_ = 0;
   bool has_format_ = false;
   PlyHeader header_;
 };
+
+// NaN or an infinity, by one of their names.
+std::optional<double> ParseNonFinite(std::string_view word) {
+  double number = 0;
+  const char* const end = word.data() + word.size();
+  const auto read = std::from_chars(word.data(), end, number);
+  if (read.ec != std::errc() || read.ptr != end || std::isfinite(number)) return std::nullopt;
+  return number;
+}
 
 template <typename T>
 double Load(const char* bytes, bool swap) {
@@ -254,18 +274,14 @@ double PlyNumbers::Next(PlyType type) {
     position_ += size;
     return LoadNumber(bytes, type, format_ == PlyFormat::kBigEndian);
   }
-  std::string_view word = NextWord();
-  const std::string_view whole = word;
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double number = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) {
-    Refuse(fmt::format("\"{}\" is not a number", whole.substr(0, 40)));
+  const std::string_view word = NextWord();
+  std::optional<double> number = ParseNumber(word);
+  if (!number && IsReal(type)) number = ParseNonFinite(word);  // of a property that is not read
+  if (!number) Refuse(fmt::format("\"{}\" is not a number", Excerpt(word, 40)));
+  if (!IsReal(type) && !Holds(type, *number)) {
+    Refuse(fmt::format("{} is not a number of its type", *number));
   }
-  if (!IsReal(type) && !Holds(type, number)) {
-    Refuse(fmt::format("{} is not a number of its type", number));
-  }
-  return number;
+  return *number;
 }
 
 size_t PlyNumbers::NextLength(const PlyProperty& list) {

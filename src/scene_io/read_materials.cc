@@ -119,6 +119,13 @@ void ReadMaterials(const JsonValue& value, SceneContext* context) {
 }
 
 void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material) {
+  if (value.json.is_object() && value.json.contains("model")) {
+    Material whole;
+    whole.name = material->name;
+    ReadMaterial(value, context, &whole);
+    *material = std::move(whole);
+    return;
+  }
   JsonObject object(value);
   if (const MaterialModel* const model = ModelOf(*material)) {
     ReadParameters(*model, &object, material);

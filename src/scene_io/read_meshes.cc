@@ -11,6 +11,7 @@
 #include "scene/displace.h"
 #include "scene/mesh.h"
 #include "scene/sphere_mesh.h"
+#include "scene_io/load_scene.h"
 #include "scene_io/obj.h"
 #include "scene_io/ply.h"
 #include "scene_io/readers.h"
@@ -116,6 +117,11 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
   if (!ReadText(value, &file)) return std::nullopt;
   try {
     const auto path = ResolveReference(context.folder, file, context.references);
+    RefuseOtherModels(file);
+    if (HasExtension(file, ".gltf") || HasExtension(file, ".glb")) {
+      throw Error(ExitCode::kBadInput, {}, "a glTF file is a scene of its own",
+                  "render it alone, or save its mesh as OBJ or PLY");
+    }
     Mesh mesh = HasExtension(file, ".ply") ? ReadPly(path) : ReadObj(path);
     context.budget->Spend(mesh.triangles.size() / 3);
     ApplyTransform(transform, &mesh);

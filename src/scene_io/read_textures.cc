@@ -206,7 +206,7 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
   for (const MaterialMap& map : model.maps) {
     member(map.name, [&](const JsonValue& value) {
       TextureId id;
-      ReadTextureId(value, map.use, context, &id);
+      if (!value.json.is_null()) ReadTextureId(value, map.use, context, &id);
       map.set(*material, id);
     });
   }
@@ -223,6 +223,10 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
   };
   member("normal_map", [&](const JsonValue& value) {
     NormalMap& normal = material->normal_map;
+    if (value.json.is_null()) {
+      normal = {};
+      return;
+    }
     texture_of(value, &normal.texture, [&](JsonObject* map) {
       map->Number("scale", limits::kNormalScale, &normal.scale);
       ReadChoice(map, "convention", kConventions, &normal.convention);
@@ -230,6 +234,10 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
   });
   member("bump_map", [&](const JsonValue& value) {
     BumpMap& bump = material->bump_map;
+    if (value.json.is_null()) {
+      bump = {};
+      return;
+    }
     texture_of(value, &bump.texture, [&](JsonObject* map) {
       map->Number("distance", limits::kCoordinate, &bump.distance);
     });

@@ -82,14 +82,15 @@ void ReadTextures(const JsonValue& value, SceneContext* context);
 // A texture by its name. Its absence is a fault.
 void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, TextureId* id);
 
-// The members of a material that name textures.
+// The members of a material that name textures; null takes the one that is there away.
 void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* context,
               Material* material);
 
 // The object "materials": all of them, in its order.
 void ReadMaterials(const JsonValue& value, SceneContext* context);
 
-// Sets what the object says of a material that is there, its maps too; its model stays.
+// Sets what the object says of a material that is there, its maps too. With a "model" it says all
+// of the material, and only the name stays.
 void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* material);
 
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.

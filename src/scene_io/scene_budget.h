@@ -4,28 +4,35 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "scene/limits.h"
 
 namespace nacre {
+
+inline constexpr const char* kPrimitivesHint = "ask for fewer, or allow them with --max-primitives";
+
+// How many triangles a model file of this many bytes, with its buffers, may be made into. Files
+// name vertices of which they have few again and again (strips and polygons take a byte a
+// triangle), and glTF shows a mesh as often as nodes ask for it; what is written out takes 8 bytes
+// a triangle at least.
+inline uint64_t TrianglesOfBytes(uint64_t bytes) { return 1'000'000 + bytes / 4; }
 
 class SceneBudget {
  public:
   // What a sphere with a material of its own counts: such a pair is about as large as that many.
   static constexpr uint64_t kWithMaterial = 16;
 
-  explicit SceneBudget(uint64_t primitives = limits::kMaxPrimitivesMade)
-      : allowed_(primitives), left_(primitives) {}
+  explicit SceneBudget(uint64_t primitives) : allowed_(primitives), left_(primitives) {}
 
   // To be called before they are made. Throws Error (kBadInput), without a place.
   void Spend(uint64_t primitives) {
     if (primitives > left_) {
       throw Error(ExitCode::kBadInput, {},
                   fmt::format("the scene would have more than {} spheres and triangles", allowed_),
-                  "ask for fewer");
+                  kPrimitivesHint);
     }
     left_ -= primitives;
   }
@@ -41,5 +48,19 @@ class SceneBudget {
   uint64_t allowed_, left_;
   bool has_sky_picture_ = false;
 };
+
+// The same for a model file: the error is told in its place.
+inline void SpendTriangles(uint64_t triangles, const std::string& file, SceneBudget* budget,
+                           const char* hint = kPrimitivesHint) {
+  try {
+    budget->Spend(triangles);
+  } catch (const Error& error) {
+    throw Error(error.code(), file, error.faults().front().what, hint);
+  }
+}
+
+// Of files that show nothing twice, whose bound is their size alone.
+inline constexpr const char* kTooManyForItsSize =
+    "these are more than a file of its size needs: name each vertex a few times";
 
 }  // namespace nacre

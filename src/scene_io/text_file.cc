@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
 
 namespace nacre {
 namespace {
@@ -70,19 +71,21 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
   std::filesystem::path path =
       error ? std::filesystem::path() : std::filesystem::weakly_canonical(base / name, error);
   if (error || name.empty()) {
-    throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a path", name));
+    throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a path", Excerpt(name)));
   }
   // Before looking whether it exists, which is nobody's business outside the folder.
   if (!rules.allow_paths && !IsBelow(path, base)) {
-    throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is outside the scene's folder", name),
+    throw Error(ExitCode::kBadInput, {},
+                fmt::format("\"{}\" is outside the scene's folder", Excerpt(name)),
                 "move it there, or allow it with --allow-paths");
   }
   if (!std::filesystem::exists(path, error)) {
-    throw Error(ExitCode::kBadInput, {}, fmt::format("there is no file \"{}\"", name),
+    throw Error(ExitCode::kBadInput, {}, fmt::format("there is no file \"{}\"", Excerpt(name)),
                 fmt::format("it was looked for as {}", path.string()));
   }
   if (!std::filesystem::is_regular_file(path, error)) {
-    throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a regular file", name));
+    throw Error(ExitCode::kBadInput, {},
+                fmt::format("\"{}\" is not a regular file", Excerpt(name)));
   }
   if (rules.on_file) rules.on_file(path);
   return path;

@@ -144,15 +144,19 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   return texture;
 }
 
-ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
-                        const TextureReading& reading, Scene* scene) {
+size_t TexelValuesLeft(const Scene& scene) {
   size_t left = kMaxTexelValues;
-  for (const SceneImage& image : scene->images) {
+  for (const SceneImage& image : scene.images) {
     const MipLevel& level = image.texels->levels[0];
     left -= static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
             static_cast<size_t>(image.texels->channels);
   }
-  scene->images.push_back(ReadTextureImage(path, file, reading, left));
+  return left;
+}
+
+ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
+                        const TextureReading& reading, Scene* scene) {
+  scene->images.push_back(ReadTextureImage(path, file, reading, TexelValuesLeft(*scene)));
   return {static_cast<uint32_t>(scene->images.size() - 1)};
 }
 

@@ -36,7 +36,10 @@ struct TextureReading {
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
                             const TextureReading& reading, size_t max_values = kMaxTexelValues);
 
-// The same, added to the scene, whose images have 2^30 values at most together.
+// How many values more the scene's images may have: 2^30 together.
+size_t TexelValuesLeft(const Scene& scene);
+
+// The same as ReadTextureImage, added to the scene, whose images have 2^30 values at most together.
 ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
                         const TextureReading& reading, Scene* scene);
 

@@ -58,7 +58,6 @@ HEADER_RULES = (
     (r"hwy/", SIMD_FILE, "Highway only in *-inl.h and *_kernel.cc"),
     (r"\w+/\w+-inl\.h", SIMD_FILE, "-inl.h only in *-inl.h and *_kernel.cc"),
     (r"nlohmann/", rf"(?!({'|'.join(sorted(TRUNK_FOLDERS))})/)", "JSON in no folder up to render/"),
-    (r"tiny_obj_loader\.h|tiny_gltf\.h", r"scene_io/", "scene file libraries only in scene_io/"),
     (r"CLI/", r"cli/", "CLI11 only in cli/"),
 )
 

@@ -94,7 +94,6 @@ class CheckIncludes(unittest.TestCase):
             ("color/a.cc", '"color/tone-inl.h"'),
             ("scene/a.cc", "<nlohmann/json.hpp>"),
             ("render/a.cc", "<nlohmann/json_fwd.hpp>"),
-            ("render/a.cc", "<tiny_obj_loader.h>"),
             ("scene_io/a.cc", "<CLI/CLI.hpp>"),
             ("color/deeper/a.cc", '"scene/scene.h"'),
             ("render/a.cc", '"textbook/shading.h"'),  # the lesson's program stays apart

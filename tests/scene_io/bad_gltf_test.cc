@@ -86,7 +86,6 @@ TEST_CASE("what is wrong in a glTF file is told in its place") {
       {"/nodes/0/scale", "[1, 1, \"x\"]", "/nodes/0/scale: is not an array of 3 numbers"},
       {"/nodes/0/scale", "[1e300, 1, 1]", "position 1 is out of range"},
       {"/nodes/0/camera", "1", "/cameras/1: there is no such camera"},
-      // Newer releases of tinygltf say it themselves.
       {"/nodes/0/extensions/KHR_lights_punctual", "{}", "KHR_lights_punctual"},
       {"/nodes/0/extensions/KHR_lights_punctual/light", "3", "lights/3: there is no such light"},
       {"/nodes/0/extensions", "3", "/nodes/0/extensions: is not an object"},
@@ -102,7 +101,7 @@ TEST_CASE("what is wrong in a glTF file is told in its place") {
       {"/materials/0/extensions/KHR_materials_ior/ior", "\"x\"", "KHR_materials_ior/ior: is not"},
       {"/meshes/0/primitives/0/material", "1", "/primitives/0/material: there is no material 1"},
       {"/meshes/0/primitives/0/mode", "7", "/meshes/0/primitives/0/mode: 7 is none"},
-      {"/meshes/0/primitives/0/indices", "9", "primitive indices accessor out of bounds"},
+      {"/meshes/0/primitives/0/indices", "9", "/accessors/9: there is no such"},
       {"/meshes/0/primitives/0/indices", "0", "accessors/0/type: is not the type"},
       {"/meshes/0/primitives/0/attributes/POSITION", "9", "/accessors/9: there is no such"},
       {"/meshes/0/primitives/0/attributes/POSITION", "1", "/accessors/1/type: is not the type"},
@@ -119,7 +118,7 @@ TEST_CASE("what is wrong in a glTF file is told in its place") {
       {"/accessors/2/byteOffset", "4", "/accessors/2: 4 elements reach beyond buffer view 2"},
       {"/accessors/2/byteOffset", "9007199254740992", "elements reach beyond buffer view 2"},
       {"/accessors/2/bufferView", "77", "/accessors/2: there is no buffer view 77"},
-      {"/accessors/2/type", "\"VEC9\"", "VEC9"},
+      {"/accessors/2/type", "\"VEC9\"", "/accessors/2/type: is not the type"},
       {"/accessors/4/sparse/count", "5", "/accessors/4/sparse/count: 5 of 4 elements"},
       {"/accessors/4/sparse/count", "0", "/accessors/4/sparse/count: 0 of 4"},
       {"/accessors/4/sparse/indices/bufferView", "66", "there is no buffer view 66"},
@@ -134,11 +133,12 @@ TEST_CASE("what is wrong in a glTF file is told in its place") {
       {"/bufferViews/2/buffer", "1", "/bufferViews/2/buffer: there is no buffer 1"},
       {"/buffers/0/byteLength", "100000", "byteLength"},
       {"/buffers/0/byteLength", "9007199254740992", "byteLength"},
-      {"/buffers/0/uri", "\"missing.bin\"", "/buffers: there is no file \"missing.bin\""},
-      {"/buffers/0/uri", "\"../secret.bin\"", "/buffers: \"../secret.bin\" is outside"},
-      {"/buffers/0/uri", "\"/etc/passwd\"", "/buffers: \"/etc/passwd\" is outside"},
+      {"/buffers/0/uri", "\"missing.bin\"", "/buffers/0/uri: there is no file \"missing.bin\""},
+      {"/buffers/0/uri", "\"../secret.bin\"", "/buffers/0/uri: \"../secret.bin\" is outside"},
+      {"/buffers/0/uri", "\"/etc/passwd\"", "/buffers/0/uri: \"/etc/passwd\" is outside"},
       {"/buffers/0/uri", "\"https://example.com/a.bin\"", "only files are read, no URLs"},
-      {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAAA\"", "decode"},
+      {"/buffers/0/uri", "\"data:application/octet-stream;base64,AAAA\"",
+       "/buffers/0: has 3 bytes, not"},
   };
   for (const Case& test : cases) {
     GltfFile file = MakeRichFile();
@@ -200,7 +200,17 @@ TEST_CASE("binary files that are cut or lie about their lengths") {
   CHECK(Contains(with_word(20 + json_length, static_cast<uint32_t>(good.size())), "longer than"));
   CHECK(Contains(MessageOf("a.gltf", ""), "not JSON"));
   CHECK(Contains(MessageOf("a.gltf", "[]"), "is not a glTF file"));
-  CHECK(Contains(MessageOf("a.gltf", "{\"a\": 1}"), "\"asset\" object not found"));
+  for (const char* old : {R"({"asset": {"version": "1.0"}, "meshes": {}})",
+                          R"({"asset": {"version": 1.0}})", R"({"accessors": {"a": {}}})"}) {
+    CHECK(MessageOf("a.gltf", old)
+              .ends_with("a.gltf: /asset/version: glTF 1.0\n  hint: this program reads glTF 2.0"));
+  }
+  // A buffer that nothing is shown of needs no data.
+  GltfFile without = MakeSquare();
+  without.json["buffers"].push_back({{"byteLength", 8}});
+  CHECK(MessageOf("a.glb", without.Binary()) == "fine");
+  CHECK(Contains(MessageOf("a.gltf", without.json.dump()), "/buffers/0: has no \"uri\" and no"));
+  CHECK(Contains(MessageOf("a.gltf", "{\"a\": 1}"), "has no \"asset\""));
   CHECK(Contains(MessageOf("a.gltf", std::string(300000, '[')), "nested deeper than 100"));
 }
 
@@ -211,17 +221,63 @@ TEST_CASE("few bytes cannot ask for much memory") {
   accessor.erase("bufferView");
   accessor["count"] = 1000000000;
   CHECK(Contains(MessageOf("a.glb", file.Binary()), "elements without a buffer view"));
-  // A mesh of sixteen million triangles, shown a hundred times.
+  // Sixteen million triangles of no bytes at all.
   accessor["count"] = 1 << 24;
   file.json["meshes"][0]["primitives"][0].erase("indices");
   file.json["meshes"][0]["primitives"][0]["mode"] = 5;
+  const std::string bound = "would have more than 10";  // 1 million and one for each 4 bytes
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), bound));
+  // A mesh of 50 000, shown twenty-five times.
+  accessor["count"] = 50'002;
   Json children = Json::array();
-  for (int i = 1; i <= 100; ++i) {
+  for (int i = 1; i <= 25; ++i) {
     children.push_back(i);
     file.json["nodes"].push_back({{"mesh", 0}});
   }
   file.json["nodes"][0] = {{"children", children}};
-  CHECK(Contains(MessageOf("a.glb", file.Binary()), "more than 100000000 triangles"));
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), bound));
+  // The same in as many primitives as there are accessors for: their views overlap.
+  file = MakeSquare();
+  const int indices = file.Accessor(std::vector<unsigned char>(60'000, 1), 5121, "SCALAR", 1);
+  Json primitive = file.json["meshes"][0]["primitives"][0];
+  primitive["indices"] = indices;
+  for (int i = 0; i < 60; ++i) file.json["meshes"][0]["primitives"].push_back(primitive);
+  CHECK(Contains(MessageOf("a.glb", file.Binary()), bound));
+  // Who asks for it gets it.
+  const ModelFolder folder;
+  LoadOptions options;
+  options.max_primitives = 3'000'000;
+  CHECK(LoadScene(folder.Write("b.glb", file.Binary()), options).meshes.size() == 1);
+}
+
+TEST_CASE("few bytes of OBJ and PLY cannot ask for much memory, and lists of objects end") {
+  std::string face = "f";
+  for (int i = 0; i < 255; ++i) face += " 1";
+  std::string obj = "v 0 0 0\n";
+  for (int i = 0; i < 12000; ++i) obj += face + "\n";
+  CHECK(Contains(MessageOf("a.obj", obj), "a.obj: the scene would have more than"));
+  std::string ply =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
+      "property float y\nproperty float z\n";
+  const std::string points(12, '\0'), bytes(2'000'000, '\0');
+  const uint32_t count = 2'000'000;
+  const std::string length(reinterpret_cast<const char*>(&count), 4);
+  CHECK(Contains(MessageOf("a.ply", ply +
+                                        "element tristrips 1\nproperty list uint uchar "
+                                        "vertex_indices\nend_header\n" +
+                                        points + length + bytes),
+                 "a.ply: the scene would have more than"));
+  std::string faces;
+  for (int i = 0; i < 8000; ++i) faces += '\xff' + std::string(255, '\0');
+  CHECK(Contains(MessageOf("a.ply", ply +
+                                        "element face 8000\nproperty list uchar uchar "
+                                        "vertex_indices\nend_header\n" +
+                                        points + faces),
+                 "a.ply: the scene would have more than"));
+  std::string materials = R"({"asset": {"version": "2.0"}, "materials": [{})";
+  for (int i = 0; i < 1 << 16; ++i) materials += ",{}";
+  CHECK(Contains(MessageOf("a.gltf", materials + "]}"),
+                 "/materials: is not an array of objects, 65536 at most"));
 }
 
 TEST_CASE("a chain of a hundred thousand nodes is no deep recursion") {
@@ -232,6 +288,79 @@ TEST_CASE("a chain of a hundred thousand nodes is no deep recursion") {
   nodes.push_back({{"mesh", 0}});
   file.json["nodes"] = nodes;
   CHECK(MessageOf("a.glb", file.Binary()) == "fine");
+}
+
+TEST_CASE("members that the specification requires are missed by name") {
+  const std::pair<const char*, const char*> cases[] = {
+      {"/asset/version", "/asset: has no \"version\""},
+      {"/accessors/0/count", "/accessors/0: has no \"count\""},
+      {"/accessors/0/type", "/accessors/0: has no \"type\""},
+      {"/bufferViews/0/buffer", "/bufferViews/0: has no \"buffer\""},
+      {"/buffers/0/byteLength", "/buffers/0: has no \"byteLength\""},
+      {"/meshes/0/primitives/0/attributes", "/meshes/0/primitives/0: has no \"attributes\""},
+      {"/cameras/0/perspective/yfov", "/cameras/0/perspective: has no \"yfov\""},
+      {"/extensions/KHR_lights_punctual/lights/0/type", "lights/0: has no \"type\""},
+      {"/nodes/0/extensions/KHR_lights_punctual/light", "KHR_lights_punctual: has no \"light\""},
+  };
+  for (const auto& [pointer, expected] : cases) {
+    GltfFile file = MakeRichFile();
+    const Json::json_pointer place(pointer);
+    file.json[place.parent_pointer()].erase(place.back());
+    const std::string message = MessageOf("a.glb", file.Binary());
+    INFO(message);
+    CHECK(Contains(message, expected));
+  }
+}
+
+TEST_CASE("a version that is not read is told, and 2.x is read") {
+  const auto message = [](const char* version, const char* least) {
+    GltfFile file = MakeSquare();
+    file.json["asset"]["version"] = version;
+    if (least != nullptr) file.json["asset"]["minVersion"] = least;
+    return MessageOf("a.glb", file.Binary());
+  };
+  CHECK(message("2.9", nullptr) == "fine");
+  CHECK(message("2.1", "2.0") == "fine");
+  CHECK(Contains(message("2.0", "2.1"), "/asset/minVersion: glTF 2.1 is required"));
+  CHECK(Contains(message("2.0", "3.0"), "/asset/minVersion: glTF 3.0 is required"));
+  CHECK(Contains(message("2.0", "x"), "/asset/minVersion: glTF x is required"));
+  CHECK(Contains(message("2.x", nullptr), "/asset/version: glTF 2.x"));
+  CHECK(Contains(message("2", nullptr), "/asset/version: glTF 2"));
+  CHECK(Contains(message("3.0", nullptr), "/asset/version: glTF 3.0"));
+}
+
+TEST_CASE("a message holds a line of a file's text at most") {
+  const std::string mega(1 << 20, 'x');
+  const auto of_length = [](const std::string& message) {
+    INFO(message.substr(0, 1000));
+    CHECK(message != "fine");
+    CHECK(message.size() < 1000);
+  };
+  GltfFile file = MakeSquare();
+  for (const char* uri : {"data:application/octet-stream;base64,*", "data:nothing", "", "../"}) {
+    file.json["buffers"][0]["uri"] = uri + mega;
+    of_length(MessageOf("a.glb", file.Binary()));
+  }
+  file = MakeSquare();
+  file.json["asset"]["version"] = mega;
+  of_length(MessageOf("a.glb", file.Binary()));
+  file = MakeSquare();
+  file.json["extensionsRequired"] = {mega};
+  of_length(MessageOf("a.glb", file.Binary()));
+  file = MakeSquare();
+  file.json["nodes"][0]["extensions"][mega] = 1;
+  of_length(MessageOf("a.glb", file.Binary()));
+  of_length(MessageOf("a.gltf", "{\"" + mega));
+  of_length(MessageOf("a.gltf", "{\"a\": \"" + mega + "\" 1}"));
+  of_length(MessageOf("a.gltf", "{\"a\": 1e" + std::string(1 << 20, '9') + "}"));
+  of_length(MessageOf("a.json", "{\"nacre\": 1, \"" + mega + "\": 1}"));
+  of_length(MessageOf("a.json", "{\"nacre\": 1, \"materials\": {\"" + mega + "\": 1}}"));
+  of_length(MessageOf("a.obj", "v " + mega));
+  of_length(MessageOf("a.obj", "mtllib ../" + mega + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  of_length(MessageOf("a.ply",
+                      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                      "property float y\nproperty float z\nend_header\n" +
+                          mega));
 }
 
 // Whatever bytes are changed, a file is read or refused.

@@ -5,6 +5,8 @@
 #include <functional>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "catch.h"
 #include "scene/mesh.h"
 #include "scene_io/gltf_builder.h"
@@ -420,6 +422,152 @@ TEST_CASE("a model without camera and lights gets both") {
   }
   CHECK(std::max(across, up) < 0.95);
   CHECK(std::max(across, up) > 0.85);
+}
+
+TEST_CASE("whole numbers are whole however they are written") {
+  GltfFile file = MakeSquare();
+  file.json["scene"] = 0.0;
+  file.json["accessors"][0]["count"] = 4.0;
+  file.json["accessors"][0]["componentType"] = 5126.0;
+  file.json["bufferViews"][1]["byteOffset"] = 48.0;
+  file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 0.0;
+  file.json["scenes"][0]["nodes"] = {0.0};
+  CHECK(LoadFile(file).meshes.at(0).triangles.size() == 6);
+  CHECK(Json::parse("3e0").is_number_float());  // what the parser makes of it
+}
+
+TEST_CASE("buffers come as files and data URIs of every form") {
+  const GltfFile file = MakeSquare();
+  std::string percent;
+  for (const char c : file.bytes) {
+    percent += fmt::format("%{:02x}", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  const auto base64 = [&](bool padded) {
+    constexpr std::string_view kDigits =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text, bytes = file.bytes;
+    const size_t rest = (3 - bytes.size() % 3) % 3;
+    bytes.append(rest, '\0');
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+      unsigned word = 0;
+      for (size_t k = 0; k < 3; ++k) word = word << 8 | static_cast<unsigned char>(bytes[i + k]);
+      for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[word >> shift & 63];
+    }
+    text.resize(text.size() - rest);
+    return padded ? text + std::string(rest, '=') : text;
+  };
+  const ModelFolder folder;
+  folder.Write("my mat\xc3\xa9.bin", file.bytes);
+  folder.Write("100%25.bin", file.bytes);
+  folder.Write("long.bin", file.bytes + "and more");
+  const std::string uris[] = {"data:application/octet-stream;base64," + base64(true),
+                              "data:application/gltf-buffer;base64," + base64(false),
+                              "data:;base64," + base64(true),
+                              "DATA:Application/X;charset=utf-8;BASE64," + base64(true),
+                              "data:application/octet-stream," + percent,
+                              "data:," + percent,
+                              "my%20mat%C3%A9.bin",
+                              "my mat\xc3\xa9.bin",
+                              "./my%20mat%c3%a9.bin",
+                              "100%25.bin",
+                              "long.bin"};
+  for (const std::string& uri : uris) {
+    INFO(uri);
+    Json json = file.json;
+    json["buffers"][0]["uri"] = uri;
+    const Scene scene = LoadScene(folder.Write("model.gltf", json.dump()));
+    CHECK(scene.meshes.at(0).positions.at(2) == Vec3d(1, 1, 0));
+  }
+}
+
+TEST_CASE("what is left out may be anything, and is told once") {
+  GltfFile file = MakeSquare();
+  file.json["nodes"][0]["skin"] = 0;
+  file.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  file.json["scenes"][0]["nodes"] = {0, 1};
+  file.json["skins"] = Json::parse(R"([{"joints": [0]}, {"joints": 7, "skeleton": "x"}])");
+  file.json["animations"] = Json::parse(R"([{"channels": [{"sampler": 0, "target":
+      {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/0"}}}}],
+      "samplers": [{"input": 1.0, "output": null}]}])");
+  file.json["extras"] = Json::parse(R"({"a": [[[1]]]})");
+  file.json["meshes"][0]["extras"] = 3;
+  file.json["extensionsUsed"] = {"EXT_a", "EXT_a", "EXT_b"};
+  file.json["cameras"] = Json::array();
+  std::vector<std::string> warnings;
+  CHECK(LoadFile(file, &warnings).meshes.size() == 2);
+  CHECK(warnings.size() == 4);  // skins, animations, two extensions
+  // An accessor without a buffer view is zeros, indices too.
+  file = MakeSquare();
+  Json& primitives = file.json["meshes"][0]["primitives"];
+  primitives.push_back(primitives[0]);
+  const size_t zeros = file.json["accessors"].size();
+  file.json["accessors"].push_back({{"componentType", 5123}, {"type", "SCALAR"}, {"count", 3}});
+  primitives[1]["indices"] = zeros;
+  warnings.clear();
+  CHECK(LoadFile(file, &warnings).meshes.size() == 1);
+  CHECK(warnings.size() == 1);  // a mesh without an area
+}
+
+TEST_CASE("--set replaces a material of a model whole, and takes its maps away") {
+  GltfFile file = MakeSquare();
+  file.json["materials"] = Json::parse(R"([{"name": "a", "pbrMetallicRoughness":
+      {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 0}}])");
+  file.json["textures"] = Json::parse(R"([{"source": 0}])");
+  file.json["images"] = Json::parse(R"([{"uri": "data:image/x;base64,UDYKMSAxCjI1NQphYmM="}])");
+  file.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const ModelFolder folder;
+  const auto path = folder.Write("model.glb", file.Binary());
+  const auto material = [&](std::vector<std::pair<std::string, std::string>> overrides) {
+    LoadOptions options;
+    options.overrides = std::move(overrides);
+    return LoadScene(path, options).materials.at(0);
+  };
+  const Material before = material({});
+  CHECK(std::get<MetallicRoughnessMaterial>(before.model).base_color_map.valid());
+  CHECK(before.normal_map.texture.valid());
+  const Material bare =
+      material({{"/materials/a/base_color_map", "null"}, {"/materials/a/normal_map", "null"}});
+  CHECK(!std::get<MetallicRoughnessMaterial>(bare.model).base_color_map.valid());
+  CHECK(!bare.normal_map.texture.valid());
+  const Material gold =
+      material({{"/materials/a", R"({"model": "conductor", "preset": "gold", "roughness": 0.2})"}});
+  CHECK(gold.name == "a");
+  CHECK(std::get<ConductorMaterial>(gold.model).roughness == 0.2);
+  CHECK(!gold.normal_map.texture.valid());
+}
+
+TEST_CASE("models of other kinds are named, with what to do") {
+  const ModelFolder folder;
+  const auto message = [&](const std::string& name) -> std::string {
+    try {
+      LoadScene(folder.Write(name, "anything"));
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::kBadInput);
+      return error.what();
+    }
+    return "fine";
+  };
+  for (const char* name :
+       {"a.fbx", "a.STL", "a.blend", "a.usdz", "a.abc", "a.dae", "a.3ds", "a.x3d", "a.step"}) {
+    INFO(name);
+    CHECK(message(name).find("which is not read\n  hint: save it as glTF") != std::string::npos);
+  }
+  CHECK(message("a.mtl").find("hint: name the .obj file") != std::string::npos);
+  CHECK(message("a.gltf.zip").find("hint: unpack it") != std::string::npos);
+  const std::string scene = R"({"nacre": 1, "shapes": [{"type": "mesh", "file": "NAME",
+      "material": {"model": "lambert"}}]})";
+  for (const char* name : {"a.stl", "b.glb"}) {
+    folder.Write(name, "");
+    std::string text = scene;
+    text.replace(text.find("NAME"), 4, name);
+    try {
+      LoadSceneText(text, "scene.json", folder.path);
+      CHECK(false);
+    } catch (const Error& error) {
+      INFO(error.what());
+      CHECK(std::string(error.what()).find("OBJ") != std::string::npos);
+    }
+  }
 }
 
 TEST_CASE("--set reaches the camera, the image, the lights and the materials of a model") {

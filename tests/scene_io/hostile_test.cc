@@ -156,11 +156,11 @@ TEST_CASE("a material library is read once, however often a file names it") {
   CHECK(scene.materials.size() == 2);  // with the one of faces without any
 }
 
-// tinyobjloader multiplies exponents out as an int.
-TEST_CASE("numbers of OBJ and MTL that no double holds reach no library") {
+TEST_CASE("numbers of OBJ and MTL that no double holds are told") {
   const HostileFolder folder;
-  const std::string faces = "v 1 0 0 1e2147483649 1 1\nv 0 1 0\nvw 0 1 1e2147483649\nf 1 2 3\n";
-  folder.Write("a.mtl", "newmtl a\nNi 1e2147483649\nPr 1e2147483649\n");
+  const std::string faces = "v 1 0 0\nv 0 1 0\nvw 0 1 1e2147483649\nf 1 2 3\n";
+  folder.Write("a.mtl", "newmtl a\nTf 1e2147483649\nNi 1e-2147483649\n");
+  folder.Write("d.mtl", "newmtl a\nPr 1e2147483649\n");
   folder.Write("b.mtl", "newmtl b\nmap_Kd -o 1e2147483649 x.png\n");
   folder.Write("c.mtl", "newmtl c\nmap_Kd -s 2 2 1.5 3d picture.png\n");
   const auto message = [&](const std::string& first) {
@@ -168,6 +168,8 @@ TEST_CASE("numbers of OBJ and MTL that no double holds reach no library") {
     return MessageOf([&] { LoadScene(path); });
   };
   CHECK(message("mtllib a.mtl") == "no error");
+  CHECK(Contains(message("mtllib d.mtl"), "d.mtl:2: \"1e2147483649\" is not a finite number"));
+  CHECK(Contains(message("v 0 0 0 1e2147483649 1 1"), "a.obj:1: \"1e2147483649\" is not"));
   CHECK(Contains(message("mtllib b.mtl"), "b.mtl:2: \"1e2147483649\" is not a finite number"));
   CHECK(message("mtllib c.mtl") == "no error");
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OBJ files as scenes of their own, with their material libraries.
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "catch.h"
@@ -85,8 +87,139 @@ TEST_CASE("what libraries say and nobody shows is told") {
   CHECK(missing.scene.meshes.size() == 1);
 }
 
+TEST_CASE("material libraries are read however they are written") {
+  const auto kd = [](const std::string& obj, const std::string& mtl) {
+    const auto [scene, warnings] = Load(obj, mtl);
+    for (const std::string& warning : warnings) UNSCOPED_INFO(warning);
+    CHECK(warnings.empty());
+    const auto* phong =
+        std::get_if<PhongMaterial>(&scene.materials.at(scene.meshes.at(0).material.index).model);
+    return phong == nullptr ? Rgb(-1) : phong->kd;
+  };
+  const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red thing\nf 1 2 3\n";
+  const std::string obj = "mtllib a.mtl\n" + faces;
+  CHECK(kd(obj, "newmtl red thing\nKd 1 0 0\n") == Rgb(1, 0, 0));
+  CHECK(kd(obj, "\xef\xbb\xbfnewmtl red thing\nKd 1 0 0\n") == Rgb(1, 0, 0));
+  CHECK(kd(obj, "newmtl red thing\rKd 1 0 0\r") == Rgb(1, 0, 0));
+  CHECK(kd(obj, "NEWMTL red thing \r\n\tKD 1. \\\r\n 0 .0\r\n") == Rgb(1, 0, 0));
+  CHECK(kd(obj, "newmtl red thing\nKd .5\n") == Rgb(0.5));
+  CHECK(kd("mtllib \"a.mtl\"\n" + faces, "newmtl red thing\nKd 1 0 0\n") == Rgb(1, 0, 0));
+  CHECK(kd("mtllib ./a.mtl\nmtllib a.mtl\n" + faces, "newmtl red thing\nKd 1 0 0\n") ==
+        Rgb(1, 0, 0));
+  CHECK(kd("mtllib .\\a.mtl\n" + faces, "newmtl red thing\nKd 1 0 0\n") == Rgb(1, 0, 0));
+  // A name with blanks, and several names.
+  const ModelFolder folder;
+  folder.Write("my mat.mtl", "newmtl red thing\nKd 1 0 0\n");
+  folder.Write("b.mtl", "newmtl other\nKd 0 1 0\n");
+  for (const char* names : {"my mat.mtl", "\"my mat.mtl\""}) {
+    const Scene scene =
+        LoadScene(folder.Write("m.obj", std::string("mtllib ") + names + "\n" + faces));
+    CHECK(std::get<PhongMaterial>(scene.materials.at(0).model).kd == Rgb(1, 0, 0));
+  }
+  folder.Write("c.mtl", "newmtl red thing\nKd 1 0 0\n");
+  const Scene two = LoadScene(folder.Write("m.obj", "mtllib b.mtl c.mtl\n" + faces));
+  CHECK(two.materials.size() == 3);
+  CHECK(two.meshes.at(0).material.index == 1);
+}
+
+TEST_CASE("images of material libraries are found by Windows' paths, with their options") {
+  const ModelFolder folder;
+  std::filesystem::create_directory(folder.path / "sub");
+  folder.Write("sub/my tex.ppm", "P6\n1 1\n255\nabc");
+  folder.Write("tex.ppm", "P6\n1 1\n255\nabc");
+  const std::string obj =
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+  for (const char* name :
+       {"sub\\my tex.ppm", "sub/my tex.ppm", "\"sub/my tex.ppm\"", "D:\\art\\tex.ppm",
+        "-s 2 2 1 -o 0.5 0 -clamp on -bm 3 tex.ppm", "tex.ppm -bm 0.3"}) {
+    INFO(name);
+    folder.Write("a.mtl", std::string("newmtl m\nmap_Kd ") + name + "\n");
+    std::vector<std::string> warnings;
+    LoadOptions options;
+    options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+    const Scene scene = LoadScene(folder.Write("m.obj", obj), options);
+    CHECK(warnings.empty());
+    REQUIRE(scene.textures.size() == 1);
+    const bool has_options = std::string(name).starts_with("-s");
+    CHECK(scene.textures[0].scale == (has_options ? Vec2d(2, 2) : Vec2d(1, 1)));
+    CHECK(scene.textures[0].offset == (has_options ? Vec2d(0.5, 0) : Vec2d(0, 0)));
+    CHECK(scene.textures[0].sampling.wrap_u == (has_options ? Wrap::kClamp : Wrap::kRepeat));
+  }
+}
+
+TEST_CASE("materials with a roughness or a metallic are metallic-roughness") {
+  const std::string mtl =
+      "newmtl red\nKd 0.5 0.25 1\nPr 0.3\nPm 0.75\nNi 1.5\nKe 0 1 0\n"
+      "newmtl blue\nKd 1 1 1\nNs 6\nPm 1\nPs 0.5\nPc 1\nPcr 0.2\n";
+  const auto [scene, warnings] = Load(kCorner, mtl);
+  CHECK(warnings.size() == 2);  // sheen, and the clear coat
+  const auto& red = std::get<MetallicRoughnessMaterial>(scene.materials.at(0).model);
+  CHECK(red.base_color == Rgb(0.5, 0.25, 1));
+  CHECK(red.roughness == 0.3);
+  CHECK(red.metallic == 0.75);
+  CHECK(red.dielectric_f0.x == Approx(0.04).epsilon(1e-15));
+  CHECK(scene.materials.at(0).emission == Rgb(0, 1, 0));
+  // alpha^2 = 2 / (6 + 2), and roughness^2 = alpha.
+  const auto& blue = std::get<MetallicRoughnessMaterial>(scene.materials.at(1).model);
+  CHECK(blue.roughness == Approx(std::sqrt(0.5)).epsilon(1e-15));
+  // Their images, as green and blue of one.
+  const ModelFolder folder;
+  folder.Write("r.ppm", "P6\n1 1\n255\n" + std::string(3, '\x33'));
+  folder.Write("m.ppm", "P6\n1 1\n255\n" + std::string(3, '\x66'));
+  folder.Write("a.mtl", "newmtl red\nmap_Pr r.ppm\nmap_Pm m.ppm\nnewmtl blue\nmap_Pr r.ppm\n");
+  const Scene mapped = LoadScene(folder.Write("m.obj", kCorner));
+  const auto texel = [&](size_t material, int channel) {
+    const auto& model = std::get<MetallicRoughnessMaterial>(mapped.materials.at(material).model);
+    const Texture& texture = mapped.textures.at(model.metallic_roughness_map.index);
+    return mapped.images.at(texture.image.index).texels->Value(0, 0, 0, channel);
+  };
+  CHECK(texel(0, 1) == 0.2f);
+  CHECK(texel(0, 2) == 0.4f);
+  CHECK(texel(1, 1) == 0.2f);
+  CHECK(texel(1, 2) == 1);
+  const auto& both = std::get<MetallicRoughnessMaterial>(mapped.materials.at(0).model);
+  CHECK(both.roughness == 1);
+  CHECK(both.metallic == 1);
+}
+
+TEST_CASE("colours of vertices are shown") {
+  const Scene scene = Load("v 0 0 0 1 0 0\nv 1 0 0 0 0.5 1\nv 0 1 0\nf 1 2 3\n", "").scene;
+  REQUIRE(scene.meshes.size() == 1);
+  const Mesh& mesh = scene.meshes[0];
+  REQUIRE(mesh.colors.size() == 3);
+  CHECK(mesh.colors[0] == Vec3f(1, 0, 0));
+  CHECK(mesh.colors[1].y == Approx(0.21404114).epsilon(1e-6));  // sRGB 0.5, IEC 61966-2-1
+  CHECK(mesh.colors[2] == Vec3f(1));
+  CHECK(scene.materials.at(mesh.material.index).vertex_colors == VertexColors::kBase);
+  // Codes of bytes.
+  const Scene codes = Load("v 0 0 0 255 0 0\nv 1 0 0 0 51 0\nv 0 1 0 0 0 0\nf 1 2 3\n", "").scene;
+  CHECK(codes.meshes.at(0).colors.at(0) == Vec3f(1, 0, 0));
+  CHECK(codes.meshes.at(0).colors.at(1).y == Approx(0.03310477).epsilon(1e-6));  // sRGB 0.2
+}
+
+TEST_CASE("what is left out of an OBJ file is told once") {
+  std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  for (int i = 0; i < 3; ++i) obj += "l 1 2\np 1\ncurv 0 1 1 2\nsurf 0 1 0 1 1\nhello 1\nworld\n";
+  for (int i = 0; i < 30; ++i) obj += "usemtl n" + std::to_string(i) + "\nf 1 2 3\n";
+  const std::vector<std::string> warnings = Load(obj, kMtl).warnings;
+  const auto count = [&](const std::string& part) {
+    return std::count_if(warnings.begin(), warnings.end(),
+                         [&](const std::string& text) { return Contains(text, part); });
+  };
+  CHECK(count("lines are not shown") == 1);
+  CHECK(count("points are not shown") == 1);
+  CHECK(count("free-form") == 1);
+  CHECK(count("the first is \"hello\"") == 1);
+  CHECK(count("no material library has \"n0\"") == 1);
+  CHECK(count("no material library has") == 8);
+  CHECK(count("and 22 more materials") == 1);
+  CHECK(warnings.size() == 13);
+}
+
 TEST_CASE("what is wrong with a material library is said") {
   CHECK(Contains(MessageOf(kCorner, "newmtl red\nKd 1 x 0\n"), "a.mtl:2: \"x\" is not a finite"));
+  CHECK(Contains(MessageOf(kCorner, "newmtl red\nPr nan\n"), "a.mtl:2: \"nan\" is not a finite"));
+  CHECK(Contains(MessageOf(kCorner, "newmtl red\nPm 2\n"), "/materials/red/metallic: 2 is out"));
   CHECK(Contains(MessageOf(kCorner, "newmtl red\nNs inf\n"), "a.mtl:2: \"inf\" is not a finite"));
   CHECK(Contains(MessageOf(kCorner, "newmtl red\nKd spectral a.rfl\n"), "a color by \"spectral\""));
   CHECK(Contains(MessageOf(kCorner, "newmtl red\nKd 2 0 0\n"),

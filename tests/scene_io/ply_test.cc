@@ -55,6 +55,72 @@ std::string Bytes(T value, bool big) {
   return bytes;
 }
 
+TEST_CASE("headers are read however they are written") {
+  const std::string text = kVertices + kFaces + kPoints + "4 0 1 2 3\n";
+  const std::vector<Vec3d> positions = LoadPly(text).meshes.at(0).positions;
+  const auto with_line_ends = [&](const std::string& ends) {
+    std::string changed;
+    for (const char c : text) changed += c == '\n' ? ends : std::string(1, c);
+    return changed;
+  };
+  CHECK(LoadPly("\xef\xbb\xbf" + text).meshes.at(0).positions == positions);
+  CHECK(LoadPly(with_line_ends("\r\n")).meshes.at(0).positions == positions);
+  CHECK(LoadPly(with_line_ends("\r")).meshes.at(0).positions == positions);
+  CHECK(Refused("\xff\xfep", "is text in UTF-16"));
+  // Bytes after each line end; the first of them looks like one.
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    std::string header =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\n"
+        "property float x\nproperty float y\nproperty uchar z\n"
+        "element face 1\nproperty list uchar ushort vertex_index\nend_header\n";
+    std::string bytes;
+    for (const char c : header) bytes += c == '\n' ? std::string(end) : std::string(1, c);
+    const float x = 0x1.00000ap-126f;  // its first byte is that of \n
+    for (const float at : {x, 1.0f, 0.0f}) {
+      bytes += Bytes(at, false) + Bytes(at == x ? 0.0f : 1.0f - at, false) + '\0';
+    }
+    bytes +=
+        '\3' + Bytes(uint16_t{0}, false) + Bytes(uint16_t{1}, false) + Bytes(uint16_t{2}, false);
+    CHECK(LoadPly(bytes).meshes.at(0).positions.at(1) == Vec3d(1, 0, 0));
+  }
+}
+
+TEST_CASE("properties have several names, and numbers any form") {
+  const Mesh mesh =
+      LoadPly(
+          "ply\nformat ascii 1.0\nobj_info a\nelement vertex 3\nproperty double x\n"
+          "property double y\nproperty double z\nproperty float normal_x\n"
+          "property float normal_y\nproperty float normal_z\nproperty float texture_s\n"
+          "property float texture_t\nproperty float quality\nelement edge 1\n"
+          "property int vertex1\nproperty list char float weights\nelement face 1\n"
+          "property uchar flags\nproperty list int uint vertex_indexes\nend_header\n"
+          "0. .0 1e-400 0 0 1 0 .25 nan\n+1 0 0 0 0 1 1 0 inf\n0 1e0 0 0 0 1 0 1 0\n"
+          "7 2 0.5 1.5\n3 3 0 1 2\n")
+          .meshes.at(0);
+  CHECK(mesh.positions == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  CHECK(mesh.normals.size() == 3);
+  CHECK(mesh.uvs == std::vector<Vec2d>{{0, 0.25}, {1, 0}, {0, 1}});
+}
+
+TEST_CASE("colours of vertices are shown on faces, those of faces are told") {
+  std::vector<std::string> warnings;
+  const Scene scene = LoadPly(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nproperty ushort red\nproperty ushort green\n"
+      "property ushort blue\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+      "property list uchar float texcoord\nend_header\n0 0 0 65535 0 0\n"
+      "1 0 0 0 65535 0\n0 1 0 0 0 13107\n3 0 1 2 1 2 3 6 0 0 1 0 0 1\n",
+      &warnings);
+  CHECK(warnings.size() == 2);
+  const Mesh& mesh = scene.meshes.at(0);
+  REQUIRE(mesh.colors.size() == 3);
+  CHECK(mesh.colors[0] == Vec3f(1, 0, 0));
+  CHECK(mesh.colors[1] == Vec3f(0, 1, 0));
+  CHECK(mesh.colors[2].z == Approx(0.03310477).epsilon(1e-6));  // sRGB 0.2
+  CHECK(scene.materials.at(mesh.material.index).vertex_colors == VertexColors::kBase);
+}
+
 TEST_CASE("a square as text") {
   const Scene scene = LoadPly(kVertices + kFaces + kPoints + "4 0 1 2 3\n");
   REQUIRE(scene.meshes.size() == 1);

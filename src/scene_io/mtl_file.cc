@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/mtl_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/excerpt.h"
+#include "scene_io/text_file.h"
+#include "scene_io/text_lines.h"
+
+namespace nacre {
+namespace {
+
+constexpr uint64_t kMaxMtlBytes = uint64_t{64} << 20;
+
+struct ColorKey {
+  std::string_view name;
+  Rgb MtlMaterial::*member;
+};
+constexpr std::array kColorKeys = {
+    ColorKey{"ka", &MtlMaterial::ka}, ColorKey{"kd", &MtlMaterial::kd},
+    ColorKey{"ks", &MtlMaterial::ks}, ColorKey{"ke", &MtlMaterial::ke}};
+
+struct ImageKey {
+  std::string_view name;
+  MtlImage MtlMaterial::*member;
+};
+constexpr std::array kImageKeys = {
+    ImageKey{"map_ka", &MtlMaterial::map_ka}, ImageKey{"map_kd", &MtlMaterial::map_kd},
+    ImageKey{"map_ks", &MtlMaterial::map_ks}, ImageKey{"map_ns", &MtlMaterial::map_ns},
+    ImageKey{"map_ke", &MtlMaterial::map_ke}, ImageKey{"map_emissive", &MtlMaterial::map_ke},
+    ImageKey{"map_d", &MtlMaterial::map_d},   ImageKey{"map_tr", &MtlMaterial::map_d},
+    ImageKey{"map_pr", &MtlMaterial::map_pr}, ImageKey{"map_pm", &MtlMaterial::map_pm},
+    ImageKey{"norm", &MtlMaterial::norm},     ImageKey{"map_kn", &MtlMaterial::norm},
+    ImageKey{"bump", &MtlMaterial::bump},     ImageKey{"map_bump", &MtlMaterial::bump},
+    ImageKey{"disp", &MtlMaterial::disp},     ImageKey{"map_disp", &MtlMaterial::disp}};
+
+// What is left out and told, if it is not 0.
+struct NotShown {
+  std::string_view name;
+  std::string_view warning;
+};
+constexpr std::array kNumbersNotShown = {
+    NotShown{"ps", "sheen (Ps) is not shown"},
+    NotShown{"pc", "clear coats (Pc, Pcr) are not shown"},
+    NotShown{"aniso", "anisotropy (aniso, anisor) is not shown"}};
+constexpr std::array kImagesNotShown = {
+    NotShown{"refl", "reflection images (refl) are not shown"},
+    NotShown{"map_refl", "reflection images (refl) are not shown"},
+    NotShown{"decal", "decals are not shown"},
+    NotShown{"map_ps", "images of sheen (map_Ps) are not shown"},
+    NotShown{"map_pc", "images of clear coats (map_Pc, map_Pcr) are not shown"},
+    NotShown{"map_pcr", "images of clear coats (map_Pc, map_Pcr) are not shown"},
+    NotShown{"map_rma", "images of several channels (map_RMA, map_ORM) are not shown"},
+    NotShown{"map_orm", "images of several channels (map_RMA, map_ORM) are not shown"}};
+
+// Of transmission, which illum and d tell of; filters and sampling; and the roughness and the angle
+// of what is not shown.
+constexpr std::array<std::string_view, 8> kSilent = {"kt",  "tf",     "km",      "sharpness",
+                                                     "pcr", "anisor", "map_aat", "interpolatemode"};
+
+std::string LowerCase(std::string_view text) {
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return lower;
+}
+
+class MtlFileReader {
+ public:
+  MtlFileReader(const std::filesystem::path& path,
+                const std::function<void(const std::string&)>& warn)
+      : file_(path.string()), warn_(warn) {}
+
+  std::vector<MtlMaterial> Read(std::string_view text) {
+    TextLines lines(WithoutByteOrderMark(text, file_));
+    for (std::string_view line; lines.Next(&line);) {
+      number_ = lines.number();
+      const std::string_view word = NextWord(&line);
+      if (word.empty() || word.starts_with('#')) continue;
+      ReadStatement(word, LowerCase(word.substr(0, 20)), line);
+    }
+    return std::move(materials_);
+  }
+
+ private:
+  [[noreturn]] void Refuse(std::string what, std::string hint = {}) const {
+    throw Error(ExitCode::kBadInput, fmt::format("{}:{}", file_, number_), std::move(what),
+                std::move(hint));
+  }
+
+  void ReadStatement(std::string_view written, const std::string& keyword, std::string_view line) {
+    if (keyword == "newmtl") {
+      materials_.emplace_back().name = Trimmed(line);
+      return;
+    }
+    const auto is_keyword = [&](const auto& known) { return known.name == keyword; };
+    const auto number = std::find_if(kNumbersNotShown.begin(), kNumbersNotShown.end(), is_keyword);
+    const auto image = std::find_if(kImagesNotShown.begin(), kImagesNotShown.end(), is_keyword);
+    if (number != kNumbersNotShown.end()) {
+      if (Number(keyword, line) != 0) warn_(std::string(number->warning));
+    } else if (image != kImagesNotShown.end()) {
+      warn_(std::string(image->warning));
+    } else if (materials_.empty()) {
+      warn_("what a material library says before its first material (newmtl) is left out");
+    } else if (!ReadMember(keyword, line, &materials_.back()) &&
+               std::find(kSilent.begin(), kSilent.end(), keyword) == kSilent.end()) {
+      if (told_unknown_) return;
+      told_unknown_ = true;
+      warn_(fmt::format("statements that are not known are left out, the first is \"{}\"",
+                        Excerpt(written)));
+    }
+  }
+
+  // Whether `keyword` is a member of materials.
+  bool ReadMember(const std::string& keyword, std::string_view line, MtlMaterial* material) {
+    for (const ColorKey& color : kColorKeys) {
+      if (color.name != keyword) continue;
+      material->*color.member = Color(keyword, line);
+      return true;
+    }
+    for (const ImageKey& image : kImageKeys) {
+      if (image.name != keyword) continue;
+      material->*image.member = Image(line);
+      return true;
+    }
+    if (keyword == "ns") {
+      material->ns = Number(keyword, line);
+    } else if (keyword == "ni") {
+      material->ni = Number(keyword, line);
+    } else if (keyword == "d") {
+      std::string_view rest = line;
+      if (NextWord(&rest) == "-halo") line = rest;
+      material->opacity = Number(keyword, line);
+    } else if (keyword == "tr") {
+      material->opacity = 1 - Number(keyword, line);
+    } else if (keyword == "illum") {
+      material->illum = static_cast<int>(std::clamp(Number(keyword, line), 0.0, 10.0));
+    } else if (keyword == "pr") {
+      material->pr = Number(keyword, line);
+    } else if (keyword == "pm") {
+      material->pm = Number(keyword, line);
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  double NumberOf(std::string_view word, std::string_view keyword, std::string_view count) const {
+    const std::optional<double> number = ParseNumber(word);
+    if (number) return *number;
+    Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)),
+           fmt::format("\"{}\" is followed by {}", keyword, count));
+  }
+
+  double Number(std::string_view keyword, std::string_view line) const {
+    return NumberOf(NextWord(&line), keyword, "one");
+  }
+
+  // Three numbers, or one for grey.
+  Rgb Color(std::string_view keyword, std::string_view line) const {
+    const std::string_view first = NextWord(&line);
+    if (first == "spectral" || first == "xyz") {
+      Refuse(fmt::format("a color by \"{}\"", first),
+             "three numbers, red, green and blue, are read");
+    }
+    Rgb color(NumberOf(first, keyword, "three"));
+    const std::string_view second = NextWord(&line);
+    if (second.empty() || second.starts_with('#')) return color;
+    color.y = NumberOf(second, keyword, "three");
+    color.z = NumberOf(NextWord(&line), keyword, "three");
+    return color;
+  }
+
+  // Takes the numbers off the front of `line`, up to three. Others stay as they were.
+  void Numbers(std::string_view* line, std::array<double, 3>* numbers) const {
+    for (double& number : *numbers) {
+      std::string_view rest = *line;
+      const std::string_view word = NextWord(&rest);
+      const std::optional<double> value = ParseNumber(word);
+      if (!value) {
+        // A number that no double holds is none that a file could be called.
+        if (word.find_first_not_of("+-.0123456789eE") == std::string_view::npos &&
+            word.find_first_of("0123456789") != std::string_view::npos) {
+          Refuse(fmt::format("\"{}\" is not a finite number", Excerpt(word)));
+        }
+        return;
+      }
+      number = *value;
+      *line = rest;
+    }
+  }
+
+  // Options, and then the name of the file, which may hold blanks. Options after the name, where
+  // the format has none, are seen in many files.
+  MtlImage Image(std::string_view line) const {
+    MtlImage image;
+    ReadOptions(&line, &image);
+    const size_t later = std::min({line.find(" -bm "), line.find(" -s "), line.find(" -o "),
+                                   line.find(" -clamp "), line.size()});
+    std::string_view options = line.substr(later);
+    ReadOptions(&options, &image);
+    image.file = Trimmed(line.substr(0, later));
+    return image;
+  }
+
+  void ReadOptions(std::string_view* line, MtlImage* image) const {
+    while (true) {
+      std::string_view rest = *line;
+      const std::string_view option = NextWord(&rest);
+      if (option.size() < 2 || option[0] != '-') return;
+      if (option == "-s" || option == "-o" || option == "-t") {
+        std::array<double, 3> numbers = {option == "-s" ? 1.0 : 0.0, option == "-s" ? 1.0 : 0.0, 0};
+        Numbers(&rest, &numbers);
+        if (option == "-s") image->scale = {numbers[0], numbers[1]};
+        if (option == "-o") image->offset = {numbers[0], numbers[1]};
+        const bool turbulent = numbers[0] != 0 || numbers[1] != 0 || numbers[2] != 0;
+        if (option == "-t" && turbulent) warn_("the turbulence of images (-t) is not shown");
+      } else if (option == "-mm") {
+        std::array<double, 3> numbers = {0, 1, 0};
+        Numbers(&rest, &numbers);
+        if (numbers[0] != 0 || numbers[1] != 1) {
+          warn_("the base and gain of images (-mm) are left out");
+        }
+      } else if (option == "-bm" || option == "-boost" || option == "-texres") {
+        std::array<double, 3> numbers{};
+        Numbers(&rest, &numbers);
+      } else if (option == "-clamp") {
+        image->clamp = NextWord(&rest) == "on";
+      } else if (option == "-imfchan" || option == "-blendu" || option == "-blendv" ||
+                 option == "-cc" || option == "-type") {
+        NextWord(&rest);
+      } else {
+        return;  // it is the name
+      }
+      *line = rest;
+    }
+  }
+
+  const std::string file_;
+  const std::function<void(const std::string&)>& warn_;
+  size_t number_ = 0;
+  bool told_unknown_ = false;
+  std::vector<MtlMaterial> materials_;
+};
+
+}  // namespace
+
+std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path,
+                                     const std::function<void(const std::string&)>& warn) {
+  return MtlFileReader(path, warn).Read(ReadTextFile(path, kMaxMtlBytes));
+}
+
+}  // namespace nacre

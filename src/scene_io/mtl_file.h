@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene_io/mtl_file.h: the statements of a Wavefront material library (MTL).
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace nacre {
+
+// An image on a material.
+struct MtlImage {
+  std::string file;                 // as it is written; empty: none
+  Vec2d scale{1, 1}, offset{0, 0};  // texture coordinates times the one plus the other
+  bool clamp = false;
+};
+
+// Numbers have the letters that the format gives them.
+struct MtlMaterial {
+  std::string name;
+  Rgb ka{0, 0, 0}, kd{0, 0, 0}, ks{0, 0, 0}, ke{0, 0, 0};
+  double ns = 1;                 // exponent
+  double opacity = 1;            // d, or 1 - Tr
+  double ni = 1;                 // index of refraction
+  int illum = 2;                 // 0: the colour; 1: no highlight; 2: all; above: what is not shown
+  std::optional<double> pr, pm;  // roughness and metallic
+  MtlImage map_ka, map_kd, map_ks, map_ns, map_ke, map_d, map_pr, map_pm, norm, bump, disp;
+};
+
+// Calls warn for what is not read, and whatever is left out, several times perhaps. Throws Error
+// (kBadInput) with the file and the line for numbers that are none or not finite.
+std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path,
+                                     const std::function<void(const std::string&)>& warn);
+
+}  // namespace nacre

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/text_lines.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace nacre {
+namespace {
+
+constexpr std::string_view kLineBlanks = " \t\v\f\r\n";
+
+// Whether a number that std::from_chars finds out of range is too small rather than too large. Its
+// digits cannot make up for an exponent that they have not: a text of that many would be needed.
+bool IsTooSmall(std::string_view word) {
+  const size_t exponent = word.find_first_of("eE");
+  if (exponent != std::string_view::npos) return word[exponent + 1] == '-';
+  const size_t first = word.find_first_not_of("+-0");
+  return first != std::string_view::npos && word[first] == '.';
+}
+
+}  // namespace
+
+std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file) {
+  using namespace std::string_view_literals;
+  if (text.starts_with("\xef\xbb\xbf"sv)) return text.substr(3);
+  for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv}) {
+    if (!text.starts_with(mark)) continue;
+    throw Error(ExitCode::kBadInput, file, "is text in UTF-16 or UTF-32", "save it as UTF-8");
+  }
+  return text;
+}
+
+std::string_view TextLines::NextInFile() {
+  const size_t end = std::min(text_.find_first_of("\r\n", position_), text_.size());
+  const std::string_view line = text_.substr(position_, end - position_);
+  position_ = text_.substr(end).starts_with("\r\n") ? end + 2 : end + 1;
+  ++lines_;
+  return line;
+}
+
+bool TextLines::Next(std::string_view* line) {
+  if (position_ >= text_.size()) return false;
+  *line = NextInFile();
+  number_ = lines_;
+  if (!line->ends_with('\\') || Trimmed(*line).starts_with('#')) return true;
+  joined_ = *line;
+  while (joined_.ends_with('\\')) {
+    joined_.back() = ' ';
+    if (position_ < text_.size()) joined_ += NextInFile();
+  }
+  *line = joined_;
+  return true;
+}
+
+std::string_view NextWord(std::string_view* line) {
+  const size_t begin = std::min(line->find_first_not_of(kLineBlanks), line->size());
+  const size_t end = std::min(line->find_first_of(kLineBlanks, begin), line->size());
+  const std::string_view word = line->substr(begin, end - begin);
+  line->remove_prefix(end);
+  return word;
+}
+
+std::string_view Trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kLineBlanks), text.size()));
+  text.remove_suffix(text.size() - (text.find_last_not_of(kLineBlanks) + 1));  // npos + 1 is 0
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    text.remove_prefix(1);
+    text.remove_suffix(1);
+  }
+  return text;
+}
+
+std::optional<double> ParseNumber(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with('+')) return std::nullopt;
+  double number = 0;
+  const char* const word_end = word.data() + word.size();
+  const auto [end, error] = std::from_chars(word.data(), word_end, number);
+  if (end != word_end) return std::nullopt;
+  if (error == std::errc::result_out_of_range && IsTooSmall(word)) return 0.0;
+  if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+}  // namespace nacre

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene_io/text_lines.h: text files of lines, words and numbers (OBJ, MTL, PLY), however their
+// lines end.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace nacre {
+
+// The text without the byte-order mark of UTF-8 that editors put before it. Throws Error
+// (kBadInput) with `file` for those of UTF-16 and UTF-32.
+std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file);
+
+// Goes through the statements of an OBJ or MTL file. A line ends with LF, CR LF or CR, and goes on
+// in the next one if its last character is a backslash. Comments end with their line.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : text_(text) {}
+
+  // Sets *line to the next one, which is valid until the next call. False at the end.
+  bool Next(std::string_view* line);
+  // The number, from 1 on, of the file's line in which it began.
+  size_t number() const { return number_; }
+
+ private:
+  std::string_view NextInFile();
+
+  std::string_view text_;
+  size_t position_ = 0;
+  size_t number_ = 0, lines_ = 0;
+  std::string joined_;
+};
+
+// Takes the next word off the front of `line`; empty at its end.
+std::string_view NextWord(std::string_view* line);
+
+// The text between blanks at both ends, and between quotation marks if it is in some.
+std::string_view Trimmed(std::string_view text);
+
+// The number that is all of `word`, which may begin with a + and have no digits on one side of its
+// point. Numbers too small for a double are 0. Nothing for what is no number, NaN, and what is not
+// finite.
+std::optional<double> ParseNumber(std::string_view word);
+
+}  // namespace nacre
