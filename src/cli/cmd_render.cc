@@ -15,6 +15,7 @@ void AddRenderCommand(CLI::App* app, int*) {
   struct RenderArguments {
     std::string scene;
     std::string preset;
+    std::string environment;
     RenderOptions options;
   };
   const auto arguments = std::make_shared<RenderArguments>();
@@ -31,6 +32,12 @@ void AddRenderCommand(CLI::App* app, int*) {
                    "display-referred, in float; PNG its codes, x * 255 truncated. See nacre "
                    "explain textbook")
       ->check(CLI::IsMember({"textbook"}));
+  command
+      ->add_option("--environment", arguments->environment,
+                   "An image of the surroundings (latitude and longitude, EXR or HDR) in the place "
+                   "of the scene's lights; --set /lights/environment/rotate_deg=90 turns it")
+      ->type_name("FILE")
+      ->group("Picture");
   AddRenderOptions(command, &arguments->options);
   command->footer(
       "Examples:\n"
@@ -48,7 +55,10 @@ void AddRenderCommand(CLI::App* app, int*) {
       return;
     }
     RunRenderJob(arguments->options, {arguments->scene},
-                 [&](const LoadOptions& load) { return LoadScene(arguments->scene, load); });
+                 [&](LoadOptions load) {
+                   load.environment = arguments->environment;
+                   return LoadScene(arguments->scene, load);
+                 });
   });
 }
 

@@ -40,8 +40,8 @@ ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& argu
     for (const ImagePart& part : image.parts) {
       const std::optional<ColorChannels> colors = FindColors(channels, part.name);
       if (!colors) continue;
-      PrintError(fmt::format("warning: {}: shows part \"{}\" of {}; --part chooses another\n",
-                             image.path, part.name, image.parts.size()));
+      PrintError("warning: {}: shows part \"{}\" of {}; --part chooses another\n",
+                 image.path, part.name, image.parts.size());
       return *colors;
     }
   } else if (const std::optional<ColorChannels> colors = FindColors(channels, layer)) {

@@ -151,6 +151,17 @@ void ResolveColors(Png* png) {
   }
 }
 
+// A tEXt chunk: a keyword, a zero byte and text in Latin-1, of which ASCII is kept. What the file
+// says of itself in words never takes the place of what its other chunks say.
+void ParseText(std::span<const uint8_t> data, Png* png) {
+  const auto end = std::find(data.begin(), data.end(), 0);
+  const std::string keyword(data.begin(), end);
+  if (end == data.end() || !keyword.starts_with("nacre:")) return;
+  std::string text;
+  for (auto c = end + 1; c != data.end(); ++c) text += *c < 0x80 ? static_cast<char>(*c) : '?';
+  png->colors.emplace(keyword, text);
+}
+
 // False for broken files.
 bool ParseChunks(Png* png) {
   const std::vector<uint8_t>& file = png->file;
@@ -172,6 +183,7 @@ bool ParseChunks(Png* png) {
       return true;
     }
     if (name == "tRNS") png->plain = false;
+    if (name == "tEXt") ParseText(data, png);
     if (name == "PLTE") png->palette = data;
     if (name == "IDAT") png->pixels.push_back(data);
     if (name == "eXIf") png->orientation = OrientationOfTag(ExifOrientation(data));

@@ -31,8 +31,8 @@ class GltfExtension {
   }
   // The fourth of a colour's numbers.
   double Alpha(const char* name, double otherwise) const {
-    if (!Has(name) || !Get(name).IsArray() || Get(name).ArrayLen() < 4) return otherwise;
-    return NumberOf(Get(name).Get(3), name);
+    if (!Has(name) || !Get(name).is_array() || Get(name).size() < 4) return otherwise;
+    return NumberOf(Get(name)[3], name);
   }
   Vec2d Pair(const char* name, const Vec2d& otherwise) const {
     if (!Has(name)) return otherwise;

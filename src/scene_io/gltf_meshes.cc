@@ -144,7 +144,7 @@ void ReadTangents(const Primitive& primitive, size_t positions, const Imath::M44
                   GltfDocument* document, Mesh* mesh) {
   const int index = AttributeOf(primitive, "TANGENT");
   if (index < 0 || mesh->normals.empty()) return;
-  const GltfAccessor accessor(*document, index, TINYGLTF_TYPE_VEC4);
+  const GltfAccessor accessor(*document, index, "VEC4");
   CheckCount(*document, accessor, positions);
   // How far signed bytes, the coarsest form, can be off: the tolerance of Khronos' validator.
   constexpr double kTolerance = 0.00674;

@@ -106,13 +106,13 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
   FaultList faults;
   Json root = ParseJson(text, file, &faults, options.on_progress);
-  for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, &root);
+  ApplyOptions(options, &root);
   CheckVersion(root, file);
 
   Scene scene;
   SceneContext context;
   context.folder = folder;
-  context.references = {options.allow_paths, options.on_file};
+  context.references = RulesOf(options);
   context.threads = options.threads;
   context.scene = &scene;
   context.on_warning = options.on_warning;

@@ -26,6 +26,11 @@ struct LoadOptions {
   // {"/image/spp", "64"}. Objects on the way are made; places in arrays must exist.
   std::vector<std::pair<std::string, std::string>> overrides;
 
+  // An image of the surroundings that lights the scene in the place of its own lights
+  // ("--environment"): the light "environment", of which overrides may change the rest. It is the
+  // caller's choice, and may lie anywhere. Empty: none.
+  std::filesystem::path environment = {};
+
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;
 

@@ -243,7 +243,7 @@ void AddStudioLights(Scene* scene) {
 void CompleteModelScene(const LoadOptions& options, const std::string& file, bool has_camera,
                         Scene* scene) {
   Json root = Json::object();
-  for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, &root);
+  ApplyOptions(options, &root);
   FaultList faults;
   Overrides overrides(root, &faults);
   overrides.Member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
@@ -257,13 +257,14 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   }
   // A value for all of "lights" leaves none of the others, as in a scene file.
   const bool own_lights =
+      !options.environment.empty() ||
       std::any_of(options.overrides.begin(), options.overrides.end(),
                   [](const auto& override) { return override.first == "/lights"; });
   if (own_lights) scene->lights.clear();
   if (!own_lights && scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
   SceneContext context;
   context.folder = std::filesystem::path(file).parent_path();
-  context.references = {options.allow_paths, options.on_file};
+  context.references = RulesOf(options);
   context.scene = scene;
   context.on_warning = options.on_warning;
   SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,23 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
     place = Step(pointer, token, place);
   }
   *place = std::move(value);
+}
+
+void ApplyOptions(const LoadOptions& options, Json* root) {
+  if (!options.environment.empty() && root->is_object()) {
+    const std::string image = std::filesystem::absolute(options.environment).string();
+    (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image}}}};
+  }
+  for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, root);
+}
+
+ReferenceRules RulesOf(const LoadOptions& options) {
+  std::error_code error;  // of a path that means nothing: then nothing is trusted
+  ReferenceRules rules{options.allow_paths, options.on_file, {}};
+  if (!options.environment.empty()) {
+    rules.trusted = std::filesystem::weakly_canonical(options.environment, error);
+  }
+  return rules;
 }
 
 }  // namespace nacre

@@ -1,15 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/overrides.h: values put into a scene file's tree before it is read ("--set").
+// scene_io/overrides.h: what the caller puts into a scene file's tree before it is read ("--set",
+// "--environment").
 #pragma once
 
 #include <string>
 
 #include "scene_io/json_text.h"
+#include "scene_io/load_scene.h"
+#include "scene_io/text_file.h"
 
 namespace nacre {
 
 // Puts the value that `text` is JSON for where `pointer` points. Objects on the way that are
 // missing are made; places in arrays must exist. Throws Error (kUsage) if that cannot be done.
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root);
+
+// Puts the options' environment into the tree in the place of all lights, then their overrides.
+void ApplyOptions(const LoadOptions& options, Json* root);
+
+// Which files the scene may refer to: those that the options allow, and their environment.
+ReferenceRules RulesOf(const LoadOptions& options);
 
 }  // namespace nacre

@@ -11,7 +11,6 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "hit/batch.h"
-#include "visibility/hidden_spheres.h"
 
 namespace nacre {
 namespace {
@@ -87,7 +86,6 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     extents[block] = extent;
   });
   for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
-  MarkHiddenSpheres(scene, camera_position, threads, &geometry);
   const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
   for (const Mesh& mesh : scene.meshes) {
     const auto first = static_cast<uint32_t>(geometry.triangles.size());

@@ -34,9 +34,6 @@ std::vector<uint32_t> FirstTwins(const HugeArray<TraceSphere>& spheres,
 struct TraceGeometry {
   HugeArray<TraceSphere> spheres;  // in scene order
 
-  // By sphere, 1: no ray need be tested against it (hidden_spheres.h); empty: none is so.
-  std::vector<uint8_t> hidden;
-
   // The vertices of all meshes, one after the other, and their triangles, indexing them.
   std::vector<Vec3d> positions;
   std::vector<Vec3d>
@@ -48,7 +45,6 @@ struct TraceGeometry {
   // No point of any primitive is further than this from the camera.
   double extent = 0;
 
-  bool IsHidden(size_t sphere) const { return !hidden.empty() && hidden[sphere] != 0; }
   uint32_t SphereCount() const { return static_cast<uint32_t>(spheres.size()); }
 };
 

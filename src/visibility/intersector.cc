@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -48,12 +47,6 @@ void SphereBounds(const RTCBoundsFunctionArguments* args) {
   TakeOver(args->geometryUserPtr);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const auto& [center, radius] = geometry.spheres[args->primID];
-  if (geometry.IsHidden(args->primID)) {  // no bounds: Embree leaves it out
-    args->bounds_o->lower_x = std::numeric_limits<float>::infinity();
-    args->bounds_o->upper_x = -std::numeric_limits<float>::infinity();
-    HandOver(args->geometryUserPtr);
-    return;
-  }
   SetBounds(center - Vec3d(radius), center + Vec3d(radius),
             BoundsMargin(geometry, center.length() + radius), args->bounds_o);
   HandOver(args->geometryUserPtr);

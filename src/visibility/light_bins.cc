@@ -31,8 +31,7 @@ struct Bounds {
 class Binner {
  public:
   Binner(const TraceGeometry& geometry, const ShadowLight& light, size_t room, int threads)
-      : geometry_(geometry),
-        spheres_(geometry.spheres),
+      : spheres_(geometry.spheres),
         threads_(threads),
         room_(static_cast<double>(room) / static_cast<double>(spheres_.size())) {
     bins_.positional = light.positional;
@@ -56,12 +55,7 @@ class Binner {
 
   void TakeSample() {
     const size_t step = std::max<size_t>(spheres_.size() / kSampleSize, 1);
-    for (size_t i = 0; i < spheres_.size(); i += step) {
-      if (!geometry_.IsHidden(i)) sample_.push_back(i);
-    }
-    for (size_t i = 0; sample_.empty(); ++i) {  // what hides others is not hidden
-      if (!geometry_.IsHidden(i)) sample_.push_back(i);
-    }
+    for (size_t i = 0; i < spheres_.size(); i += step) sample_.push_back(i);
   }
 
   // All margins are relative to where most spheres are: a few that are far away go without.
@@ -229,7 +223,6 @@ class Binner {
   // more that there is not.
   template <class Emit>
   void ForBlocks(size_t i, const Emit& emit) const {
-    if (geometry_.IsHidden(i)) return;
     const Boxes found = BoxesOf(Place(i));
     const double reach = bins_.max_reach - spheres_[i].radius;
     const bool beyond = reach < 0 || spheres_[i].center.length2() > reach * reach;
@@ -329,7 +322,6 @@ class Binner {
     bins_.meeting = sum / std::max<double>(1, static_cast<double>(bins_.entries()));
   }
 
-  const TraceGeometry& geometry_;
   const HugeArray<TraceSphere>& spheres_;
   int threads_;
   double room_;  // in entries for each sphere

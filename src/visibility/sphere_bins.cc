@@ -96,7 +96,7 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
       const FilmBounds b = Project(bins->projector, geometry.spheres[i]);
       boxes[i] = {PlacesOf(b.x0 - reach, b.x1 + reach, window.x0, kCellSize, bins->columns),
                   PlacesOf(b.y0 - reach, b.y1 + reach, window.y0, 1, window.height())};
-      if (!b.visible || geometry.IsHidden(i)) boxes[i].rows = {1, 0};
+      if (!b.visible) boxes[i].rows = {1, 0};
     }
   });
   const auto for_cells = [&](size_t i, const auto& emit) {

@@ -556,7 +556,7 @@ class CliTest(unittest.TestCase):
             ('--rows', ['grid', *out, '--rows', 'roughness']),
             ('--material', ['grid', *out, '--material', '{broken']),
             ('--rows', ['grid', *out, '--rows', 'roughness=0:1:65']),
-            ('--columns', ['grid', *out, '--columns', 'roughness=0:1:2']),
+            ('--columns', ['grid', *out, '--rows', 'roughness=0:1:2', '--columns', 'roughness=0:1:2']),
             ('--light', ['grid', *out, '--light', 'moon']),
             ('--lights', ['grid', *out, '--lights', '{broken']),
             ('--background', ['grid', *out, '--background', 'reddish']),

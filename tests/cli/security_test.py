@@ -128,7 +128,7 @@ class PlantedCodeTest(SecurityTest):
         shutil.copy(PROGRAM, alone / 'nacre')
         for cwd in self.folder, alone:
             for argv0 in 'nacre', 'alone/nacre':
-                result = subprocess.run([argv0, 'info', SOURCE / 'scenes/textures/tiles.png'],
+                result = subprocess.run([argv0, 'grid', '-o', self.out / 'g.png', '--sphere-size', '20'],
                                         executable=alone / 'nacre', cwd=cwd, env=self.env,
                                         capture_output=True, check=False)
                 self.check_not_sprung(result, 70)

@@ -93,9 +93,28 @@ TEST_CASE("a white Oren-Nayar sphere cannot be told from a white sky") {
   }
 }
 
+// With a light, so that no note says that there is none.
+Scene Lit(Scene scene) {
+  Light light;
+  light.name = "key";
+  light.kind = DirectionalLight{};
+  scene.lights.push_back(light);
+  return scene;
+}
+
+TEST_CASE(
+    "a scene that nothing lights says so, and one that shines does not say that it is black") {
+  Scene scene = OneSphere(LambertMaterial{});
+  CHECK(MakePlan(Lit(scene), {}).notes.empty());
+  REQUIRE(MakePlan(scene, {}).notes.size() == 1);
+  CHECK(MakePlan(scene, {}).notes[0].starts_with("the scene has no lights: every shape is black"));
+  scene.materials.at(0).emission = Rgb(1);
+  CHECK(MakePlan(scene, {}).notes.at(0).find("only what its materials emit") != std::string::npos);
+}
+
 TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
   const auto notes = [](const decltype(Material::model)& model) {
-    const Scene scene = OneSphere(model);
+    const Scene scene = Lit(OneSphere(model));
     return MakePlan(scene, {}).notes;
   };
   CHECK(notes(BurleyMaterial{Rgb(0.5), 1}).empty());
@@ -117,7 +136,8 @@ TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
 
 TEST_CASE("a plan notes the light that the Phong family makes") {
   const auto notes = [](const PhongMaterial& phong) {
-    return MakePlan(OneSphere(phong), {}).notes;
+    const Scene scene = Lit(OneSphere(phong));
+    return MakePlan(scene, {}).notes;
   };
   const PhongMaterial lobe{.kd = Rgb(0), .ks = Rgb(0.2, 1, 0.2), .shininess = 1};
   PhongMaterial phong = lobe;

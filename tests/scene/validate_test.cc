@@ -25,10 +25,10 @@ Scene GoodScene() {
   SplitMaterial split{.at = {0.5}, .materials = {MaterialId{0}, MaterialId{1}}};
   Material half{.name = "half", .emission = kBlack, .model = split};
   scene.materials = {red, phong, pbr, half};
-  scene.lights = {{"sky", true, false, AmbientLight{}},
-                  {"sun", true, false, DirectionalLight{}},
-                  {"key", true, false, PointLight{}},
-                  {"lamp", true, false, SpotLight{}}};
+  scene.lights = {{"sky", true, AmbientLight{}},
+                  {"sun", true, DirectionalLight{}},
+                  {"key", true, PointLight{}},
+                  {"lamp", true, SpotLight{}}};
   scene.spheres = {{Vec3d(0, 0, 0), 1, MaterialId{0}}, {Vec3d(0, 0, 0), 1, MaterialId{3}}};
   Mesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

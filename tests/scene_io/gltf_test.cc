@@ -453,7 +453,7 @@ TEST_CASE("buffers come as files and data URIs of every form") {
       for (size_t k = 0; k < 3; ++k) word = word << 8 | static_cast<unsigned char>(bytes[i + k]);
       for (int shift = 18; shift >= 0; shift -= 6) text += kDigits[word >> shift & 63];
     }
-    text.resize(text.size() - rest);
+    for (size_t i = 0; i < rest; ++i) text.pop_back();
     return padded ? text + std::string(rest, '=') : text;
   };
   const ModelFolder folder;

@@ -193,10 +193,10 @@ TEST_CASE("names of files end where they end") {
   folder.Write("a.obj", "");
   std::filesystem::create_directory(folder.path / "scene");
   for (const std::string& name : {"a\0b"s, "../a.obj\0"s, "\0"s}) {
-    CHECK(Contains(MessageOf([&] { ResolveReference(folder.path / "scene", name, false); }),
+    CHECK(Contains(MessageOf([&] { ResolveReference(folder.path / "scene", name, {}); }),
                    "has a character 0 in it"));
   }
-  CHECK(Contains(MessageOf([&] { ResolveReference(folder.path, std::string(5000, 'x'), false); }),
+  CHECK(Contains(MessageOf([&] { ResolveReference(folder.path, std::string(5000, 'x'), {}); }),
                  "is not a path"));
 }
 

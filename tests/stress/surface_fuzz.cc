@@ -29,8 +29,11 @@ class BrokenModelMaker {
     const size_t count = 1 + random_.Below(3);
     for (size_t i = 0; i < count; ++i) AddMesh(AddMaterial());
     if (random_.OneIn(2)) {
+      const uint32_t material = AddMaterial();
+      scene_.materials[material].opacity = 1;  // holes are for meshes
+      scene_.materials[material].opacity_map = {};
       scene_.spheres.push_back(
-          {Direction() * random_.Uniform(0, 1), random_.Uniform(0.2, 0.8), {AddMaterial()}});
+          {Direction() * random_.Uniform(0, 1), random_.Uniform(0.2, 0.8), {material}});
     }
     const size_t lights = 1 + random_.Below(2);
     for (size_t i = 0; i < lights; ++i) AddLight(i);

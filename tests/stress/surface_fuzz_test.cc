@@ -12,7 +12,9 @@ namespace {
 TEST_CASE("models with shading normals from anywhere make finite pictures under every light") {
   for (uint64_t seed = 0; seed < 100; ++seed) {
     CAPTURE(seed);
-    REQUIRE(Validate(MakeBrokenModel(seed)).empty());
+    const std::vector<Fault> faults = Validate(MakeBrokenModel(seed));
+    CAPTURE(faults.empty() ? std::string() : faults[0].where + ": " + faults[0].what);
+    REQUIRE(faults.empty());
   }
   ForEachTarget([](Target) {
     const SurfaceFuzzResult result = FuzzSurfaces(600, {});
