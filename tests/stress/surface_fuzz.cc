@@ -31,6 +31,7 @@ class BrokenModelMaker {
     if (random_.OneIn(2)) {
       const uint32_t material = AddMaterial();
       scene_.materials[material].opacity = 1;  // holes are for meshes
+      scene_.materials[material].opacity_cutoff = 0.5;
       scene_.materials[material].opacity_map = {};
       scene_.spheres.push_back(
           {Direction() * random_.Uniform(0, 1), random_.Uniform(0.2, 0.8), {material}});
