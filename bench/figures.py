@@ -172,8 +172,7 @@ _FORM_KERNELS = {
     ("ggx", "textbook"): "textbook_ggx",
     ("ggx", "stable_float"): "ggx_plain_schlick_direct",
     ("ggx", "double_terms"): "ggx_double_terms",
-    # On hits that all have a lobe, as those of all points have. Double terms are not packed: their
-    # kernel takes the same time for any.
+    # On hits that all have a lobe, as those of all points have.
     ("phong", "textbook"): "naive_phong_in_lobe",
     ("phong", "stable_float"): "given_phong_in_lobe",
     ("phong", "double_terms"): "phong_double_terms",

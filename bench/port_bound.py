@@ -35,11 +35,6 @@ _RAYS = {"avx3": 8, "avx2": 4, "sse4": 2}
 # Those loops, of src/visibility/alone-inl.h, and where they are measured.
 _EXACT = re.compile(r"TestRays|AppendBlock")
 EXACT_HITS = "visibility/tiles_without_positions/grid"
-# Functions with these in their names do kPacketsAtOnce packets a turn.
-_AT_ONCE = re.compile(r"ShadeAtOnce|ShadeTextbook")
-_PACKETS_AT_ONCE = {"avx3": 2}
-# What of all loops of a kernel the loop of powers alone has: 2^y on AVX-512, log2 elsewhere.
-_POWER = re.compile(r"vscalefps|v?cvtdq2ps")
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
 _LEAST_VECTORS = 8  # instructions on these, in a loop over hits
 _SECONDS = 2  # long enough for what prepares a benchmark to be below _LEAST_SHARE
@@ -206,19 +201,16 @@ def _taken(code, begin, end, samples):
             yield from (text for _, text in code[first:last] if not NOT_COUNTED.match(text))
 
 
-def turns_a_hit(function, loop, target, powers):
-    """How many turns a hit takes of a loop in this function. `powers`: of how many of the hits a
-    power is taken."""
+def turns_a_hit(function, target):
+    """How many turns a hit takes of a loop in this function."""
     if _EXACT.search(function):
         return 1 / _RAYS[target]
-    packets = _PACKETS_AT_ONCE.get(target, 1) if _AT_ONCE.search(function) else 1
-    share = powers if any(_POWER.match(text) for text in loop) else 1
-    return share / (packets * _HITS[target])
+    return 1 / _HITS[target]
 
 
-def cycles_a_hit(model, program, disassembly, benchmark, target, powers=1, only=""):
-    """Least cycles a hit of all its loops together, or None where no loop was seen. `powers`: of
-    how many of the hits one is taken; `only`: the functions that count."""
+def cycles_a_hit(model, program, disassembly, benchmark, target, only=""):
+    """Least cycles a hit of all its loops together, or None where no loop was seen. `only`: the
+    functions that count."""
     code, functions = disassembly
     samples = _sample(program, benchmark)
     total = sum(samples.values())
@@ -240,7 +232,7 @@ def cycles_a_hit(model, program, disassembly, benchmark, target, powers=1, only=
         function = functions[bisect.bisect_right(functions, (code[begin][0], "~")) - 1][1]
         if not re.search(only, function):
             continue
-        found += model.cycles(loop) * turns_a_hit(function, loop, target, powers)
+        found += model.cycles(loop) * turns_a_hit(function, target)
     return found or None
 
 
@@ -260,8 +252,7 @@ def measure(program, benchmarks, target):
     for name in benchmarks:
         parts = name.split("/")
         if parts[0] == "shade" and len(parts) == 3 and parts[2] == target:
-            powers = benchmarks[name]["counters"].get("powers_per_hit", 1)
-            cycles = cycles_a_hit(model, program, disassembly, name, target, powers)
+            cycles = cycles_a_hit(model, program, disassembly, name, target)
             if cycles:
                 found[name] = 1e9 * cycles / clock
     return found, model.name

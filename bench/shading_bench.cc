@@ -9,9 +9,8 @@
 //   *_double_terms         lobes so narrow that their half vector is formed in double
 //   *_by_position          the lights are found from the hits' positions, in double, as near lights
 //                          and those of meshes are; else from their normals (SphereOffset)
-//   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none. Of
-//                          these plain C++ knows the power at once, and kernels of one sphere under
-//                          one light take none
+//   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none, of
+//                          which plain C++ knows the power at once
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
 //                          (ForHalfAngles in packets-inl.h)
 //   textbook_*, naive_*    SIMD, but the textbook's forms: what stability costs. Their constants,
@@ -38,7 +37,6 @@ constexpr double kRoughness = 0.3;
 
 const Sphere kSphere{.center = {0, 0, -6}, .radius = 1, .material = {}};
 
-const Camera kAtOrigin{.position = {0, 0, 0}, .look_at = {0, 0, -1}};
 const Vec3d kLight{3, 4, 2};
 
 bool HasPhongLobe(const Vec3d& n, const Vec3d& to_light, const Vec3d& to_view) {
@@ -72,17 +70,6 @@ HitBatch MakeHits(bool in_lobe) {
     ++i;
   }
   return hits;
-}
-
-// Kernels that take powers for the hits alone that have Phong's lobe tell for how many.
-void ReportPowers(benchmark::State& state, const HitBatch& hits) {
-  size_t powers = 0;
-  for (size_t i = 0; i < hits.count; ++i) {
-    const auto at = [i](const Soa3<double>& soa) { return Vec3d(soa.x[i], soa.y[i], soa.z[i]); };
-    const Vec3d to_light = (kLight - at(hits.position)).normalized();
-    powers += HasPhongLobe(at(hits.normal), to_light, at(hits.to_view));
-  }
-  state.counters["powers_per_hit"] = static_cast<double>(powers) / static_cast<double>(hits.count);
 }
 
 // `shades`: hits times lights of an iteration.
@@ -119,7 +106,7 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
                             .intensity = {60, 60, 60},
                             .attenuation = {}};
     lights.push_back(PrepareLight(light, {0, 0, 0}));
-    if (!by.by_position && !OffsetFromSpheres({&kSphere, 1}, kAtOrigin, &lights.back())) {
+    if (!by.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back())) {
       state.SkipWithError("the light is too near for its offset from the sphere");
     }
   }
@@ -144,12 +131,6 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
                PrepareRun(prepared, 0, kHits, surface);
                ShadeRun(prepared, lit, 0, kHits, &scratch, radiance);
              });
-  const auto* phong = std::get_if<PhongMaterial>(&material.model);
-  const bool is_packed = lights.count == 1 && !lights.by_position && !lights.from_behind;
-  if (phong != nullptr && phong->model != PhongModel::kBlinnPhong && is_packed &&
-      phong->shininess < kDoubleTermsShininess) {
-    ReportPowers(state, MakeHits(lights.in_lobe));
-  }
 }
 
 ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
@@ -178,7 +159,6 @@ void BenchGiven(benchmark::State& state, PhongKernel kernel, PhongModel model, T
   BenchShade(state, target, lights, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
     kernel(uniforms, RangeOf(lit, radiance));
   });
-  if (model == PhongModel::kPhong) ReportPowers(state, MakeHits(in_lobe));
 }
 
 struct GivenBench {

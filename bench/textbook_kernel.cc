@@ -10,7 +10,6 @@
 
 #include "brdf/fresnel-inl.h"
 #include "brdf/ggx-inl.h"
-#include "shading/packed_phong-inl.h"
 #include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -19,10 +18,15 @@ namespace HWY_NAMESPACE {
 
 // Its numbers are copies: nothing that a kernel stores is in them.
 struct TextbookGgx {
+  static constexpr bool kReadsIrradiance = false;
+  using Incident = IncidentV;
+  struct View {};
   TextbookGgxLight light;
   float alpha2, k, pi_over_alpha2;
 
-  HWY_INLINE RgbV Reflect(FloatTag d, const PacketV& p, const IncidentV& in) const {
+  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                                size_t) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
     const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
@@ -38,13 +42,15 @@ struct TextbookGgx {
     const FloatV weight = Power5(hn::Sub(one, FusedDot(p.to_view, h)));
     const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), weight, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, weight), in.weight);
-    return SumOf(
-        ReflectedV{{ScaledPart(SetRgb(d, light.diffuse), left)}, ScaledPart(fresnel, lobe)});
+    return {{ScaledPart(SetRgb(d, light.diffuse), left)}, ScaledPart(fresnel, lobe)};
   }
 };
 
 // Term by term.
 struct WrittenGgx {
+  static constexpr bool kReadsIrradiance = false;
+  using Incident = IncidentV;
+  struct View {};
   TextbookGgxLight light;
   float alpha2, k;
 
@@ -58,7 +64,9 @@ struct WrittenGgx {
     return hn::Div(cosine, hn::MulAdd(cosine, hn::Set(d, 1 - k), hn::Set(d, k)));
   }
 
-  HWY_INLINE RgbV Reflect(FloatTag d, const PacketV& p, const IncidentV& in) const {
+  HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
+                                size_t) const {
     const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const Vec3V<FloatV>& offset = in.toward.offset;
     const Vec3V<FloatV> l = Normalize(d, offset), h = Normalize(d, Add(l, p.to_view));
@@ -77,58 +85,27 @@ struct WrittenGgx {
     const FloatV power = Power5(hn::Sub(one, v_dot_h));
     const RgbV fresnel = MulAddRgb(SetRgb(d, light.rest), power, SetRgb(d, light.f0));
     const FloatV left = hn::Mul(hn::Sub(one, power), weight);
-    return SumOf(ReflectedV{{ScaledPart(SetRgb(d, light.diffuse), left)},
-                            ScaledPart(fresnel, hn::Mul(specular, weight))});
+    return {{ScaledPart(SetRgb(d, light.diffuse), left)},
+            ScaledPart(fresnel, hn::Mul(specular, weight))};
   }
 };
 
-// In one loop of several packets where ShadeAtOnce is, with as little around it.
-template <class Ggx>
-HWY_NOINLINE void ShadeTextbook(const Ggx& given_model, const ShadeRange& range) {
+// Phong's cosine as it is written, and what rounding leaves of 1 - c.
+HWY_NOINLINE void FillNaivePhong(const RangeArrays& arrays, size_t begin, size_t end,
+                                 IncidentBlock* block) {
   const FloatTag d;
-  const Ggx model = given_model;
-  const RangeArrays arrays(range);
-  const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
-  size_t i = range.begin;
-  for (; i + kPacketsAtOnce * hn::Lanes(d) <= range.end; i += kPacketsAtOnce * hn::Lanes(d)) {
-    IncidentV in[kPacketsAtOnce];
-    HWY_UNROLL(kPacketsAtOnce)
-    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
-      const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
-      in[k] = MakeIncident(d, light.At(d, p.i, p.normal), p.normal);
-    }
-    HWY_UNROLL(kPacketsAtOnce)
-    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
-      const PacketV p = arrays.Packet(d, i + k * hn::Lanes(d));
-      StoreWhole(d, model.Reflect(d, p, in[k]), arrays.sum, p.i);
-    }
-  }
-  for (; i < range.end; i += hn::Lanes(d)) {
-    const PacketV p = arrays.Packet(d, i);
-    const IncidentV in = MakeIncident(d, light.At(d, i, p.normal), p.normal);
-    arrays.Store(d, model.Reflect(d, p, in), arrays.sum, i);
+  for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
+    const PacketV p = arrays.Packet(d, begin + at);
+    const TowardV toward = block->Toward(d, at);
+    const FloatV n_dot_l = block->NDotL(d, at);
+    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
+    const FloatV l_dot_v = hn::Mul(FusedDot(toward.offset, p.to_view), toward.inverse_length);
+    const FloatV cosine = hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
+    block->StoreLobe(d, at, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine});
   }
 }
 
-// Phong's cosine as it is written; all else is as in Phong's own kernel.
-struct NaiveCosine {
-  static HWY_INLINE FloatV Number(const PacketV& p, const Vec3V<FloatV>& offset,
-                                  FloatV inverse_length) {
-    const FloatV n_dot_l = hn::Mul(FusedDot(p.normal, offset), inverse_length);
-    const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-    const FloatV l_dot_v = hn::Mul(FusedDot(offset, p.to_view), inverse_length);
-    return hn::MulSub(hn::Add(n_dot_l, n_dot_l), n_dot_v, l_dot_v);
-  }
-  static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Zero(d); }
-  static HWY_INLINE hn::Mask<FloatTag> HasLobe(FloatTag d, FloatV cosine) {
-    return hn::Gt(cosine, hn::Zero(d));
-  }
-  static HWY_INLINE FloatV Lobe(FloatTag d, FloatV cosine, FloatV shininess) {
-    return PhongLobe(d, {hn::Sub(hn::Set(d, 1.0f), cosine), cosine}, shininess);
-  }
-};
-
-// Blinn's cosine likewise, and what rounding leaves of 1 - c.
+// Blinn's likewise.
 HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, size_t end,
                                       IncidentBlock* block) {
   const FloatTag d;
@@ -141,8 +118,8 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, s
   }
 }
 
-struct NaiveBlinnPhong {
-  static constexpr bool kAtOnce = false;
+template <void (*kFill)(const RangeArrays&, size_t, size_t, IncidentBlock*)>
+struct NaiveLobe {
   static constexpr bool kReadsIrradiance = true;
   using Incident = LobeIncidentV;
   struct View {};
@@ -151,7 +128,7 @@ struct NaiveBlinnPhong {
   HWY_INLINE bool ReadsLobe() const { return true; }
   HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
                            IncidentBlock* block) const {
-    FillNaiveBlinnPhong(arrays, begin, end, block);
+    kFill(arrays, begin, end, block);
   }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in,
@@ -166,19 +143,19 @@ struct NaiveBlinnPhong {
 void ShadeTextbookGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
   const float alpha2 = uniforms.alpha2;
   const TextbookGgx ggx{*uniforms.light, alpha2, uniforms.k, 3.14159265f / alpha2};
-  ShadeTextbook(ggx, range);
+  ShadePackets(FloatTag(), ggx, range);
 }
 
 void ShadeWrittenGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& range) {
-  ShadeTextbook(WrittenGgx{*uniforms.light, uniforms.alpha2, uniforms.k}, range);
+  ShadePackets(FloatTag(), WrittenGgx{*uniforms.light, uniforms.alpha2, uniforms.k}, range);
 }
 
 void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePackedPhong<NaiveCosine, false>(uniforms, range);
+  ShadePackets(FloatTag(), NaiveLobe<FillNaivePhong>{uniforms}, range);
 }
 
 void ShadeNaiveBlinnPhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), NaiveBlinnPhong{uniforms}, range);
+  ShadePackets(FloatTag(), NaiveLobe<FillNaiveBlinnPhong>{uniforms}, range);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench/textbook_kernel.h: the textbook's forms of three models as SIMD kernels, with nacre's light
-// and loop around them: what the stable forms cost. Not for use in the renderer: ranges are hits of
-// one sphere under one point light with offsets from it (IsOneSphereUnderOneLight).
+// and loop around them: what the stable forms cost. Not for use in the renderer.
 #pragma once
 
 #include "shading/kernels.h"

@@ -24,13 +24,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET <= HWY_AVX3
 template <typename T>
 using ShadeTag = hn::WideTag<hn::ScalableTag<T>>;
-// Packets whose numbers one turn of a kernel's loop can keep in registers and the cache next to
-// them. 1: loops that do less are better there.
-inline constexpr size_t kPacketsAtOnce = 2;
 #else
 template <typename T>
 using ShadeTag = hn::ScalableTag<T>;
-inline constexpr size_t kPacketsAtOnce = 1;
 #endif
 
 // 1 / x for normal x of either sign, within 1 ulp; 0 for infinity.

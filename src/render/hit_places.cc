@@ -46,7 +46,7 @@ const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
 void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
   if (!settings.offsets_by_normal || !LieOnSpheres(scene, *plan)) return;
   for (PlannedLight& planned : plan->lights) {
-    if (!OffsetFromSpheres(scene.spheres, scene.camera, &planned.light)) continue;
+    if (!OffsetFromSpheres(scene.spheres, scene.camera.position, &planned.light)) continue;
     plan->substitutions.push_back(
         {fmt::format("light \"{}\"", scene.lights[planned.index].name), true,
          fmt::format("it is {} radii or more from every sphere's centre: where it lies from a hit "

@@ -31,22 +31,6 @@ bool IsUsual(const Rgb& color) {
   return usual(color.x) && usual(color.y) && usual(color.z);
 }
 
-// How far directions to a place that is `distance` away from a ball's centre turn from there to
-// anywhere in the ball.
-double Spread(double radius, double distance) {
-  return distance > radius ? std::asin(radius / distance) : M_PI;
-}
-
-bool IsUprightOn(const Sphere& sphere, const Vec3d& to_light, const Camera& camera) {
-  const bool parallel = camera.projection == Projection::kOrthographic;
-  const Vec3d to_view =
-      parallel ? camera.position - camera.look_at : camera.position - sphere.center;
-  const double cosine = to_light.normalized().dot(to_view.normalized());
-  const double turn = Spread(sphere.radius, to_light.length()) +
-                      (parallel ? 0 : Spread(sphere.radius, to_view.length()));
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) + turn <= kMostUpright;
-}
-
 }  // namespace
 
 double ShadingLight::TMax() const {
@@ -83,18 +67,18 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
   return prepared;
 }
 
-bool OffsetFromSpheres(std::span<const Sphere> spheres, const Camera& camera, ShadingLight* light) {
+bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
+                       ShadingLight* light) {
   light->from_spheres.clear();
   // A spot's edge is sharper than what normals of floats tell.
   if (light->form != LightForm::kInverseSquare && light->form != LightForm::kPoint) return false;
   for (const Sphere& sphere : spheres) {
-    const Vec3d offset = light->position - (sphere.center - camera.position);
+    const Vec3d offset = light->position - (sphere.center - camera_position);
     if (!(offset.length() >= kFarRadii * sphere.radius)) {
       light->from_spheres.clear();
       return false;
     }
-    light->from_spheres.push_back(
-        {Vec3f(offset), static_cast<float>(sphere.radius), IsUprightOn(sphere, offset, camera)});
+    light->from_spheres.push_back({Vec3f(offset), static_cast<float>(sphere.radius)});
   }
   return !light->from_spheres.empty();
 }

@@ -28,10 +28,7 @@ enum class LightForm : uint8_t {
 struct SphereOffset {
   Vec3f offset;
   float radius;
-  bool upright;  // light and viewer are kMostUpright apart at most, seen from any hit
 };
-// |l + v| >= 1/2 up to 151 degrees: IsUpright of brdf/angles-inl.h.
-inline constexpr double kMostUpright = 150 * M_PI / 180;
 
 // A punctual light prepared for shading. Positions are relative to the camera.
 struct ShadingLight {
@@ -64,6 +61,7 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position);
 // the result leave 4/3 u, 1/3 u, 1/3 u and u of |l|; targets without fused products round r n, too:
 // 1/3 u more.
 inline constexpr double kFarRadii = 4;
-bool OffsetFromSpheres(std::span<const Sphere> spheres, const Camera& camera, ShadingLight* light);
+bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
+                       ShadingLight* light);
 
 }  // namespace nacre

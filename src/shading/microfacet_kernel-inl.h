@@ -30,8 +30,6 @@ struct Microfacet {
   static constexpr bool kIsMix = kFresnel == FresnelForm::kSchlick || kFresnel == FresnelForm::kF82;
   MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
-  // Not of hits that were prepared: there most of the time is the preparation's.
-  static constexpr bool kAtOnce = kPacketsAtOnce > 1 && Form::kTypical && !Form::kPrepared;
 
   struct View {
     const Surface* surface;  // with what was prepared, loaded where it is needed
@@ -70,7 +68,7 @@ struct Microfacet {
     FloatV wide = LobeBy(d, hn::Mul(hn::Mul(q, q), masking),
                          hn::Mul(hn::Mul(in.half.u_squared, in.half.u_squared), in.weight));
     // On spheres n.v of what is seen, and n.u of what is lit, too, round to above -4e-7: that is 0.
-    if (!in.above) wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, -0x1p-20f)), wide);
+    wide = hn::IfThenElseZero(hn::Gt(in.half.n_dot_u, hn::Set(d, -0x1p-20f)), wide);
     if (in.any_short) {
       const FloatV inverse = hn::Div(hn::Set(d, 4.0f), twice_u_length);  // 2 / |u|
       const FloatV four_q = hn::Mul(q, hn::Mul(inverse, inverse));

@@ -4,8 +4,7 @@
 // A shading formula is one long chain of dependent operations, and a processor's window holds few
 // of them. So it is cut in pieces: for a block of hits, small enough for the nearest cache, first
 // what the light is, then the half vector's angles, then what is reflected. Each loop is short
-// enough for several of its turns to overlap. Where there are registers for several packets at a
-// time, the most frequent models do better in one loop over them: ShadeAtOnce.
+// enough for several of its turns to overlap.
 #if defined(NACRE_SHADING_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_PACKETS_INL_H_
 #undef NACRE_SHADING_PACKETS_INL_H_
@@ -85,8 +84,7 @@ class IncidentBlock {
     return {Load(d, at),
             {n_dot_u, USquared(n_dot_u, nxu_squared), nxu_squared, hn::Load(d, lv_squared_ + at)},
             hn::Load(d, n_dot_v_ + at),
-            any_short_,
-            false};
+            any_short_};
   }
 
  private:
@@ -159,65 +157,6 @@ HWY_NOINLINE void FillHalf(const RangeArrays& arrays, size_t begin, size_t end,
   block->SetAnyShort(ForHalfAngles(arrays, begin, end, *block, store));
 }
 
-// What ways of their own are for: one light of the most frequent form, hits that are all on one
-// sphere, and only their sum to be left.
-HWY_INLINE bool IsOneSphereUnderOneLight(const ShadeRange& range) {
-  if (range.lights.size() != 1 || range.leaves != Leaves::kSum) return false;
-  const LightOnBatch& light = range.lights[0];
-  return light.evaluated == nullptr && light.light->form == LightForm::kInverseSquare &&
-         !light.light->from_spheres.empty() && range.hits.one_primitive;
-}
-
-// Does all of ShadeBlock in one loop, with the same bits, for as many groups of kPacketsAtOnce from
-// hit `begin` on as are whole and have half vectors that are upright; returns the first hit that is
-// left. `kUpright`: SphereOffset::upright of theirs. The last group of a batch is whole, too, with
-// whatever lies behind: what is left in the sum there nobody reads. A group's chains overlap, and
-// nothing but the sum is stored; more of the loop, such as a test before the end, and GCC would
-// find what all turns share anew in each.
-template <bool kUpright, class Model>
-HWY_NOINLINE size_t ShadeAtOnce(const Model& given_model, const ShadeRange& range,
-                                const RangeArrays& given, size_t begin) {
-  const FloatTag d;
-  const size_t lanes = hn::Lanes(d);
-  // Copies, kept in registers: what is stored cannot be in them.
-  const RangeArrays arrays = given;
-  const auto products = given_model.uniforms.lights[0];
-  Model model = given_model;
-  model.uniforms.lights = &products;
-  const PointLightV light(FromOneSphere(d, *range.lights[0].light, range.hits));
-  const FloatV enough = hn::Set(d, kUprightUSquared);
-  const size_t least_hits = range.end == range.hits.count ? 1 : kPacketsAtOnce * lanes;
-  size_t i = begin;
-  for (; i + least_hits <= range.end; i += kPacketsAtOnce * lanes) {
-    HalfIncidentV in[kPacketsAtOnce];
-    FloatV least = enough;
-    HWY_UNROLL(kPacketsAtOnce)
-    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
-      const PacketV p = arrays.Packet(d, i + k * lanes);
-      const IncidentV incident = MakeIncident(d, light.At(d, p.i, p.normal), p.normal);
-      const FloatV n_dot_v = FusedDot(p.normal, p.to_view);
-      const TowardV& toward = incident.toward;
-      in[k].n_dot_l = incident.n_dot_l;
-      in[k].weight = incident.weight;
-      in[k].half = UprightHalfAngles(d, p.normal, toward.Plus(p.to_view), toward.Minus(p.to_view),
-                                     incident.n_dot_l, n_dot_v);
-      in[k].n_dot_v = hn::Max(n_dot_v, hn::Zero(d));
-      in[k].any_short = false;
-      in[k].above = kUpright;
-      if constexpr (!kUpright) least = hn::Min(in[k].half.u_squared, least);
-    }
-    HWY_UNROLL(kPacketsAtOnce)
-    for (size_t k = 0; k < kPacketsAtOnce; ++k) {
-      const size_t at = i + k * lanes;
-      const PacketV p{at, {}, {}};
-      const auto view = model.SeenBy(d, p, range.surface);
-      StoreWhole(d, SumOf(model.Reflect(d, view, p, in[k], 0)), arrays.sum, at);
-    }
-    if (!kUpright && !hn::AllTrue(d, hn::Ge(least, enough))) break;  // to be shaded anew
-  }
-  return std::min(i, range.end);
-}
-
 template <class Model>
 HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& range,
                            const RangeArrays& arrays, size_t k, size_t begin, size_t end,
@@ -253,28 +192,12 @@ HWY_INLINE void ShadeBlock(FloatTag d, const Model& model, const ShadeRange& ran
 // whether IncidentV::irradiance has a meaning to the model, model.ReadsLv() whether
 // HalfAnglesV::lv_squared has, and model.ReadsLobe() whether LobeIncidentV::log2_cosine has, of
 // the cosines that model.FillLobe(arrays, begin, end, block) stores; else they need not be there.
-// Model::kAtOnce: ShadeAtOnce may do it all; such a model has its uniforms by value, and reads
-// neither directions nor irradiance nor lv_squared.
 template <class Model>
 HWY_INLINE void ShadePackets(FloatTag d, const Model& model, const ShadeRange& range) {
   const RangeArrays arrays(range);
   IncidentBlock block;
-  bool at_once = false, upright = false;
-  if constexpr (Model::kAtOnce) {
-    at_once = IsOneSphereUnderOneLight(range);
-    upright = at_once && range.lights[0].light->from_spheres[range.hits.primitive[0]].upright;
-  }
-  size_t end = range.begin;
-  while (end < range.end) {
-    size_t begin = end, count = IncidentBlock::kHits;
-    if constexpr (Model::kAtOnce) {
-      if (at_once) {
-        begin = upright ? ShadeAtOnce<true>(model, range, arrays, begin)
-                        : ShadeAtOnce<false>(model, range, arrays, begin);
-        count = kPacketsAtOnce * hn::Lanes(d);
-      }
-    }
-    end = std::min(begin + count, range.end);
+  for (size_t begin = range.begin; begin < range.end; begin += IncidentBlock::kHits) {
+    const size_t end = std::min(begin + IncidentBlock::kHits, range.end);
     for (size_t k = 0; k < range.lights.size(); ++k) {
       ShadeBlock(d, model, range, arrays, k, begin, end, &block);
     }

@@ -9,7 +9,6 @@
 #include "hwy/highway.h"
 
 #include "brdf/phong-inl.h"
-#include "shading/packed_phong-inl.h"
 #include "shading/packets-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,7 +38,6 @@ HWY_NOINLINE void FillBlinn(const RangeArrays& arrays, size_t begin, size_t end,
 
 template <PhongModel kModel, class Number>
 struct PhongFamily {
-  static constexpr bool kAtOnce = false;
   static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
   using Incident = LobeIncidentV;
   struct View {};
@@ -82,21 +80,6 @@ struct PhongFamily {
   }
 };
 
-// By |r - v|^2.
-struct StableCosine {
-  static HWY_INLINE FloatV Number(const PacketV& p, const Vec3V<FloatV>& offset,
-                                  FloatV inverse_length) {
-    return SquaredFromReflection(p.normal, offset, inverse_length, p.to_view);
-  }
-  static HWY_INLINE FloatV NumberWithout(FloatTag d) { return hn::Set(d, 2.0f); }
-  static HWY_INLINE hn::Mask<FloatTag> HasLobe(FloatTag d, FloatV squared) {
-    return hn::Lt(squared, hn::Set(d, 2.0f));
-  }
-  static HWY_INLINE FloatV Lobe(FloatTag d, FloatV squared, FloatV shininess) {
-    return PhongLobe(d, PhongCosine(d, squared), shininess);
-  }
-};
-
 template <class Number>
 void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.model) {
@@ -112,16 +95,7 @@ void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& ran
 }
 
 void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
-  // Nearly all lit hits have Blinn's lobe: packing would be for nothing. Where the exponent is 0
-  // all have Phong's.
-  if (uniforms.model == PhongModel::kBlinnPhong || uniforms.shininess < kLeastPackedExponent ||
-      uniforms.narrow != nullptr || !IsOneSphereUnderOneLight(range)) {
-    ShadePhongOf(uniforms, range);
-  } else if (uniforms.model == PhongModel::kPhong) {
-    ShadePackedPhong<StableCosine, false>(uniforms, range);
-  } else {
-    ShadePackedPhong<StableCosine, true>(uniforms, range);
-  }
+  ShadePhongOf(uniforms, range);
 }
 
 void ShadePhongMapsT(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range) {

@@ -88,7 +88,6 @@ struct HalfIncidentV : IncidentV {
   HalfAnglesV<FloatV> half;
   FloatV n_dot_v;
   bool any_short;  // false: all half vectors of the block are IsUpright
-  bool above;      // where the surface is lit they surely lie above it, but for roundings
 };
 
 // With LobeLog2 of the cosine of Phong's lobe, or of the square of Blinn's.

@@ -15,7 +15,6 @@ namespace HWY_NAMESPACE {
 
 template <DiffuseForm kForm, class Number>
 struct RoughMatte {
-  static constexpr bool kAtOnce = false;
   static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   using View = typename RoughDiffuse<kForm>::View;
