@@ -108,66 +108,26 @@ void AddMaps(const Material& material, Hasher* hash) {
   }
 }
 
-struct AddModel {
-  Hasher* hash;
-  template <class Microfacet>
-  void Lobe(const Microfacet& m) const {
-    hash->Add(m.roughness);
-    hash->Word(static_cast<uint64_t>(m.shadowing));
-    hash->Word(static_cast<uint64_t>(m.compensation));
+void AddSplit(const SplitMaterial& split, Hasher* hash) {
+  hash->Word(split.at.size());
+  for (const double at : split.at) hash->Add(at);
+  hash->Word(split.materials.size());
+  for (const MaterialId id : split.materials) hash->Add(id);
+}
+
+// All that the table of parameters names.
+void AddModel(const Material& material, Hasher* hash) {
+  const MaterialModel* const model = ModelOf(material);
+  if (model == nullptr) return AddSplit(std::get<SplitMaterial>(material.model), hash);
+  hash->Add(model->name);
+  for (const MaterialParameter& parameter : model->parameters) {
+    const Rgb value = parameter.get(material);
+    parameter.is_color ? hash->Add(value) : hash->Add(value.x);
   }
-  template <class RoughMatte>
-  void Matte(const RoughMatte& m) const {
-    hash->Add(m.albedo);
-    hash->Add(m.roughness);
+  for (const MaterialChoice& choice : model->choices) {
+    if (choice.get != nullptr) hash->Word(choice.get(material));
   }
-  template <class Microfacet>
-  void Base(const Microfacet& m) const {
-    hash->Word(static_cast<uint64_t>(m.diffuse_coupling));
-    hash->Word(static_cast<uint64_t>(m.diffuse));
-    hash->Add(m.diffuse_roughness.value_or(-1));
-  }
-  void operator()(const LambertMaterial& m) const { hash->Add(m.albedo); }
-  void operator()(const OrenNayarMaterial& m) const { Matte(m); }
-  void operator()(const BurleyMaterial& m) const { Matte(m); }
-  void operator()(const PhongMaterial& m) const {
-    hash->Word(static_cast<uint64_t>(m.model));
-    hash->Word(static_cast<uint64_t>(m.convention));
-    hash->Add(m.color);
-    hash->Add(m.ka);
-    hash->Add(m.kd);
-    hash->Add(m.ks);
-    hash->Add(m.shininess);
-  }
-  void operator()(const MetallicRoughnessMaterial& m) const {
-    hash->Add(m.base_color);
-    hash->Add(m.metallic);
-    hash->Add(m.dielectric_f0);
-    hash->Add(m.specular);
-    hash->Add(m.f82_tint);
-    Base(m);
-    Lobe(m);
-  }
-  void operator()(const ConductorMaterial& m) const {
-    hash->Add(m.eta);
-    hash->Add(m.k);
-    hash->Word(static_cast<uint64_t>(m.fresnel));
-    Lobe(m);
-  }
-  void operator()(const DielectricMaterial& m) const {
-    hash->Add(m.base_color);
-    hash->Add(m.ior);
-    hash->Word(static_cast<uint64_t>(m.fresnel));
-    Base(m);
-    Lobe(m);
-  }
-  void operator()(const SplitMaterial& m) const {
-    hash->Word(m.at.size());
-    for (const double at : m.at) hash->Add(at);
-    hash->Word(m.materials.size());
-    for (const MaterialId id : m.materials) hash->Add(id);
-  }
-};
+}
 
 struct AddLightKind {
   Hasher* hash;
@@ -267,13 +227,9 @@ uint64_t HashScene(const Scene& scene) {
   for (const Texture& texture : scene.textures) Add(texture, &hash);
   hash.Word(scene.materials.size());  // sizes, so that no value can pass for one of the next array
   for (const Material& material : scene.materials) {
-    hash.Word(material.model.index());
-    hash.Add(material.emission);
     hash.Word(material.emits_in_front_only);
     hash.Word(static_cast<uint64_t>(material.vertex_colors));
-    hash.Add(material.opacity);
-    hash.Add(material.opacity_cutoff);
-    std::visit(AddModel{&hash}, material.model);
+    AddModel(material, &hash);
     AddMaps(material, &hash);
   }
   hash.Word(scene.lights.size());

@@ -25,42 +25,55 @@ auto& FieldOf(AnyMaterial& material) {
 }
 
 template <auto kMember>
-constexpr MaterialParameter Number(std::string_view name, const Range& range) {
-  return {name, false, range,
+constexpr MaterialParameter Number(std::string_view name, const Range& range,
+                                   std::string_view meaning) {
+  return {name,
+          false,
+          range,
           [](const Material& material) {
             const double value = FieldOf<kMember>(material);
             return Rgb(value, value, value);
           },
-          [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value.x; }};
+          [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value.x; },
+          meaning};
 }
 
 template <auto kMember>
-constexpr MaterialParameter Color(std::string_view name, const Range& range) {
-  return {name, true, range, [](const Material& material) { return FieldOf<kMember>(material); },
-          [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value; }};
+constexpr MaterialParameter Color(std::string_view name, const Range& range,
+                                  std::string_view meaning) {
+  return {name,
+          true,
+          range,
+          [](const Material& material) { return FieldOf<kMember>(material); },
+          [](Material& material, const Rgb& value) { FieldOf<kMember>(material) = value; },
+          meaning};
 }
 
 // `options` in the order of the enumeration.
 template <auto kMember>
-constexpr MaterialChoice Choice(std::string_view name, std::span<const std::string_view> options) {
+constexpr MaterialChoice Choice(std::string_view name, std::span<const std::string_view> options,
+                                std::string_view meaning) {
   return {name, options,
           [](const Material& material) { return static_cast<size_t>(FieldOf<kMember>(material)); },
           [](Material& material, size_t option) {
             auto& field = FieldOf<kMember>(material);
             field = static_cast<std::remove_reference_t<decltype(field)>>(option);
-          }};
+          },
+          meaning};
 }
 
 template <auto kMember>
-constexpr MaterialMap Map(std::string_view name, MapUse use) {
+constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning) {
   return {name, use, [](const Material& material) { return FieldOf<kMember>(material); },
-          [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; }};
+          [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; }, meaning};
 }
 
 // The roughness of a base: the lobe's unless it is set. One out of range is the lobe's fault alone.
 template <class Struct>
 constexpr MaterialParameter BaseRoughness() {
-  return {"diffuse_roughness", false, limits::kUnit,
+  return {"diffuse_roughness",
+          false,
+          limits::kUnit,
           [](const Material& material) {
             const auto& model = std::get<Struct>(material.model);
             const double lobe = limits::kUnit.Contains(model.roughness) ? model.roughness : 0;
@@ -68,55 +81,96 @@ constexpr MaterialParameter BaseRoughness() {
           },
           [](Material& material, const Rgb& value) {
             std::get<Struct>(material.model).diffuse_roughness = value.x;
-          }};
+          },
+          "Roughness of a base that is not lambert. Absent: \"roughness\"."};
 }
 
-constexpr MaterialParameter kEmission = Color<&Material::emission>("emission", limits::kRadiance);
-constexpr MaterialParameter kOpacity = Number<&Material::opacity>("opacity", limits::kUnit);
-constexpr MaterialParameter kOpacityCutoff =
-    Number<&Material::opacity_cutoff>("opacity_cutoff", limits::kOpacityCutoff);
+// What several models have.
+constexpr std::string_view kRoughnessMeaning =
+    "Perceptual roughness: alpha is its square. 0: a perfect mirror.";
+constexpr std::string_view kShadowingMeaning =
+    "Masking and shadowing of microfacets. height_correlated: Smith (Heitz 2014). separable: "
+    "Smith, product of two terms. schlick_direct: Schlick's with k = (roughness + 1)^2 / 8 (Karis "
+    "2013).";
+constexpr std::string_view kCompensationMeaning =
+    "What is done for light that bounces more than once between microfacets. turquin: the "
+    "highlight is scaled to the viewer's share (Turquin 2019). kulla_conty: a second lobe (Kulla "
+    "and Conty 2017), reciprocal. none: that light is lost, up to 59 %.";
+constexpr std::string_view kCouplingMeaning =
+    "How much light the diffuse base gets. albedo_scaled: what the albedo of the dielectric's "
+    "highlight leaves, so that a white surface reflects exactly all, at every metallic. "
+    "one_minus_fresnel: 1 - F(v.h), as many lessons have it; of metallic_roughness with the F of "
+    "dielectric and metal mixed, so that part metals are dark. none: all of it.";
+constexpr std::string_view kDiffuseMeaning =
+    "How the diffuse base reflects. oren_nayar: EON (Portsmouth et al. 2025), which keeps energy. "
+    "burley: Burley 2012, which does not.";
+
+constexpr MaterialParameter kEmission =
+    Color<&Material::emission>("emission", limits::kRadiance, "Emitted radiance.");
+constexpr MaterialParameter kOpacity = Number<&Material::opacity>(
+    "opacity", limits::kUnit,
+    "Meshes only: the surface is there where this, times its map, is at least opacity_cutoff; "
+    "elsewhere no ray meets it. Nothing is half transparent.");
+constexpr MaterialParameter kOpacityCutoff = Number<&Material::opacity_cutoff>(
+    "opacity_cutoff", limits::kOpacityCutoff, "As glTF's alphaCutoff. Above 1 nothing is left.");
 
 constexpr std::array kLambertParameters = {
-    Color<&LambertMaterial::albedo>("albedo", limits::kUnit),
+    Color<&LambertMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
 };
 
 constexpr std::array kOrenNayarParameters = {
-    Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit),
-    Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit),
+    Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
+    Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit,
+                                          "The model's own. 0: Lambert."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
 };
 
 constexpr std::array kBurleyParameters = {
-    Color<&BurleyMaterial::albedo>("albedo", limits::kUnit),
-    Number<&BurleyMaterial::roughness>("roughness", limits::kUnit),
+    Color<&BurleyMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
+    Number<&BurleyMaterial::roughness>(
+        "roughness", limits::kUnit,
+        "Perceptual. Below 0.5 darker, above it brighter towards grazing angles."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
 };
 
 constexpr std::array kPhongParameters = {
-    Color<&PhongMaterial::color>("color", limits::kUnit),
-    Color<&PhongMaterial::ka>("ka", limits::kUnit),
-    Color<&PhongMaterial::kd>("kd", limits::kUnit),
-    Color<&PhongMaterial::ks>("ks", limits::kUnit),
-    Number<&PhongMaterial::shininess>("shininess", limits::kExponent),
+    Color<&PhongMaterial::color>("color", limits::kUnit, "Multiplies ambient and diffuse."),
+    Color<&PhongMaterial::ka>("ka", limits::kUnit, "Ambient coefficient."),
+    Color<&PhongMaterial::kd>("kd", limits::kUnit, "Diffuse coefficient."),
+    Color<&PhongMaterial::ks>("ks", limits::kUnit, "Specular coefficient."),
+    Number<&PhongMaterial::shininess>("shininess", limits::kExponent,
+                                      "Exponent of the highlight's cosine."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
 };
 
 constexpr std::array kMetallicRoughnessParameters = {
-    Color<&MetallicRoughnessMaterial::base_color>("base_color", limits::kUnit),
-    Number<&MetallicRoughnessMaterial::metallic>("metallic", limits::kUnit),
-    Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit),
-    Color<&MetallicRoughnessMaterial::dielectric_f0>("dielectric_f0", limits::kUnit),
-    Number<&MetallicRoughnessMaterial::specular>("specular", limits::kUnit),
-    Color<&MetallicRoughnessMaterial::f82_tint>("f82_tint", limits::kUnit),
+    Color<&MetallicRoughnessMaterial::base_color>(
+        "base_color", limits::kUnit, "Diffuse colour of dielectrics, reflectance of metals."),
+    Number<&MetallicRoughnessMaterial::metallic>(
+        "metallic", limits::kUnit,
+        "0: dielectric, 1: metal. Between: what both reflect, mixed, as glTF 2.0 has it."),
+    Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
+    Color<&MetallicRoughnessMaterial::dielectric_f0>(
+        "dielectric_f0", limits::kUnit,
+        "What is reflected at normal incidence where there is no metal: ((ior - 1) / (ior + 1))^2 "
+        "of an index of refraction."),
+    Number<&MetallicRoughnessMaterial::specular>(
+        "specular", limits::kUnit,
+        "How much of a dielectric's reflection there is, at all angles; 0: none, a matte surface. "
+        "Metal keeps its own."),
+    Color<&MetallicRoughnessMaterial::f82_tint>(
+        "f82_tint", limits::kUnit,
+        "What the reflectance of a metal at 81.8 degrees (cosine 1/7) is multiplied by: the dip of "
+        "real metals before grazing. 1: Schlick's curve."),
     BaseRoughness<MetallicRoughnessMaterial>(),
     kEmission,
     kOpacity,
@@ -124,18 +178,21 @@ constexpr std::array kMetallicRoughnessParameters = {
 };
 
 constexpr std::array kConductorParameters = {
-    Color<&ConductorMaterial::eta>("eta", limits::kEta),
-    Color<&ConductorMaterial::k>("k", limits::kExtinction),
-    Number<&ConductorMaterial::roughness>("roughness", limits::kUnit),
+    Color<&ConductorMaterial::eta>("eta", limits::kEta,
+                                   "Real part of the index, one number or [r, g, b]."),
+    Color<&ConductorMaterial::k>("k", limits::kExtinction,
+                                 "Extinction coefficient, one number or [r, g, b]."),
+    Number<&ConductorMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
     kEmission,
     kOpacity,
     kOpacityCutoff,
 };
 
 constexpr std::array kDielectricParameters = {
-    Color<&DielectricMaterial::base_color>("base_color", limits::kUnit),
-    Number<&DielectricMaterial::ior>("ior", limits::kIor),
-    Number<&DielectricMaterial::roughness>("roughness", limits::kUnit),
+    Color<&DielectricMaterial::base_color>("base_color", limits::kUnit,
+                                           "Reflectance of the diffuse base."),
+    Number<&DielectricMaterial::ior>("ior", limits::kIor, "Index of refraction."),
+    Number<&DielectricMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
     BaseRoughness<DielectricMaterial>(),
     kEmission,
     kOpacity,
@@ -160,64 +217,98 @@ Rgb ToRgb(const std::array<double, 3>& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
 
 // Measured indices of refraction by name (brdf/presets.h).
 constexpr MaterialChoice kConductorPreset = {
-    "preset", kConductorNames, nullptr, [](Material& material, size_t option) {
+    "preset", kConductorNames, nullptr,
+    [](Material& material, size_t option) {
       const IndexPreset& preset = *FindIndexPreset(kConductorNames[option]);
       auto& conductor = std::get<ConductorMaterial>(material.model);
       conductor.eta = ToRgb(preset.eta);
       conductor.k = ToRgb(preset.k);
-    }};
+    },
+    "Sets eta and k to measured values."};
 constexpr MaterialChoice kDielectricPreset = {
-    "preset", kDielectricNames, nullptr, [](Material& material, size_t option) {
+    "preset", kDielectricNames, nullptr,
+    [](Material& material, size_t option) {
       const IndexPreset& preset = *FindIndexPreset(kDielectricNames[option]);
       std::get<DielectricMaterial>(material.model).ior = preset.eta[0];
-    }};
+    },
+    "Sets ior to a measured value."};
 
-constexpr std::array kPhongChoices = {
-    Choice<&PhongMaterial::convention>("convention", kConventions)};
+constexpr std::array kPhongChoices = {Choice<&PhongMaterial::convention>(
+    "convention", kConventions,
+    "radiometric: kd / pi, and lobes normalised so that ks is the share that they reflect of light "
+    "from along the normal. Seen along the normal under light from everywhere that is ks of "
+    "modified_phong too, but ks (n + 2) / (n + 1) of phong and 1.13 ks (n = 32) to 2 ks (n = 0) of "
+    "blinn_phong: without n.l they make light, of light that grazes the surface any multiple; "
+    "render notes what exceeds 1. classic: the equations as the lessons write them, without "
+    "either, and no reflectances.")};
 constexpr std::array kMetallicRoughnessChoices = {
-    Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings),
-    Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations),
-    Choice<&MetallicRoughnessMaterial::diffuse_coupling>("diffuse_coupling", kCouplings),
-    Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms)};
+    Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
+    Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations,
+                                                     kCompensationMeaning),
+    Choice<&MetallicRoughnessMaterial::diffuse_coupling>("diffuse_coupling", kCouplings,
+                                                         kCouplingMeaning),
+    Choice<&MetallicRoughnessMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning)};
 constexpr std::array kConductorChoices = {
-    kConductorPreset, Choice<&ConductorMaterial::shadowing>("shadowing", kShadowings),
-    Choice<&ConductorMaterial::compensation>("compensation", kCompensations),
-    Choice<&ConductorMaterial::fresnel>("fresnel", kConductorFresnels)};
+    kConductorPreset,
+    Choice<&ConductorMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
+    Choice<&ConductorMaterial::compensation>("compensation", kCompensations, kCompensationMeaning),
+    Choice<&ConductorMaterial::fresnel>(
+        "fresnel", kConductorFresnels,
+        "exact: Fresnel's equations. f82_tint: a curve through their values at 0 and 81.8 degrees. "
+        "schlick: through the value at 0.")};
 constexpr std::array kDielectricChoices = {
     kDielectricPreset,
-    Choice<&DielectricMaterial::shadowing>("shadowing", kShadowings),
-    Choice<&DielectricMaterial::compensation>("compensation", kCompensations),
-    Choice<&DielectricMaterial::diffuse_coupling>("diffuse_coupling", kCouplings),
-    Choice<&DielectricMaterial::diffuse>("diffuse", kDiffuseForms),
-    Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels)};
+    Choice<&DielectricMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
+    Choice<&DielectricMaterial::compensation>("compensation", kCompensations, kCompensationMeaning),
+    Choice<&DielectricMaterial::diffuse_coupling>("diffuse_coupling", kCouplings, kCouplingMeaning),
+    Choice<&DielectricMaterial::diffuse>("diffuse", kDiffuseForms, kDiffuseMeaning),
+    Choice<&DielectricMaterial::fresnel>("fresnel", kDielectricFresnels,
+                                         "exact: Fresnel's equations. schlick: Schlick's curve "
+                                         "through their value at normal incidence.")};
 
-constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>("emission_map", MapUse::kColor);
-constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>("opacity_map", MapUse::kOpacity);
+constexpr MaterialMap kEmissionMap =
+    Map<&Material::emission_map>("emission_map", MapUse::kColor, "Multiplies emission.");
+constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>(
+    "opacity_map", MapUse::kOpacity,
+    "Multiplies opacity: the image's alpha, or its first channel where the texture's encoding is "
+    "linear. Looked up in the image itself, never in a smaller copy.");
 constexpr std::array kLambertMaps = {
-    Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap, kOpacityMap};
+    Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo."),
+    kEmissionMap, kOpacityMap};
 constexpr std::array kOrenNayarMaps = {
-    Map<&OrenNayarMaterial::albedo_map>("albedo_map", MapUse::kColor), kEmissionMap, kOpacityMap};
-constexpr std::array kBurleyMaps = {Map<&BurleyMaterial::albedo_map>("albedo_map", MapUse::kColor),
-                                    kEmissionMap, kOpacityMap};
+    Map<&OrenNayarMaterial::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo."),
+    kEmissionMap, kOpacityMap};
+constexpr std::array kBurleyMaps = {
+    Map<&BurleyMaterial::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo."),
+    kEmissionMap, kOpacityMap};
 constexpr std::array kPhongMaps = {
-    Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor),
-    Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor),
-    Map<&PhongMaterial::shininess_map>("shininess_map", MapUse::kData), kEmissionMap, kOpacityMap};
+    Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor,
+                                     "Multiplies color, and so kd and ka."),
+    Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor, "Multiplies ks."),
+    Map<&PhongMaterial::shininess_map>("shininess_map", MapUse::kData, "Multiplies shininess."),
+    kEmissionMap, kOpacityMap};
 constexpr std::array kMetallicRoughnessMaps = {
-    Map<&MetallicRoughnessMaterial::base_color_map>("base_color_map", MapUse::kColor),
-    Map<&MetallicRoughnessMaterial::metallic_roughness_map>("metallic_roughness_map",
-                                                            MapUse::kTwoData),
-    Map<&MetallicRoughnessMaterial::specular_map>("specular_map", MapUse::kData),
-    Map<&MetallicRoughnessMaterial::specular_color_map>("specular_color_map", MapUse::kColor),
+    Map<&MetallicRoughnessMaterial::base_color_map>("base_color_map", MapUse::kColor,
+                                                    "Multiplies base_color."),
+    Map<&MetallicRoughnessMaterial::metallic_roughness_map>(
+        "metallic_roughness_map", MapUse::kTwoData,
+        "As in glTF: green multiplies roughness, blue metallic."),
+    Map<&MetallicRoughnessMaterial::specular_map>(
+        "specular_map", MapUse::kData,
+        "Multiplies specular, by its first channel; glTF has it in alpha (encoding)."),
+    Map<&MetallicRoughnessMaterial::specular_color_map>("specular_color_map", MapUse::kColor,
+                                                        "Multiplies dielectric_f0."),
     kEmissionMap,
     kOpacityMap};
 constexpr std::array kConductorMaps = {
-    Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap,
-    kOpacityMap};
+    Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData, "Multiplies roughness."),
+    kEmissionMap, kOpacityMap};
 constexpr std::array kDielectricMaps = {
-    Map<&DielectricMaterial::base_color_map>("base_color_map", MapUse::kColor),
-    Map<&DielectricMaterial::roughness_map>("roughness_map", MapUse::kData), kEmissionMap,
-    kOpacityMap};
+    Map<&DielectricMaterial::base_color_map>("base_color_map", MapUse::kColor,
+                                             "Multiplies base_color."),
+    Map<&DielectricMaterial::roughness_map>("roughness_map", MapUse::kData,
+                                            "Multiplies roughness."),
+    kEmissionMap, kOpacityMap};
 
 template <typename Model>
 Material Make() {
@@ -242,13 +333,17 @@ constexpr std::string_view kAlbedoAxis = "albedo=0.1:0.9:5";
 
 // The Phong family first and in the order of its enumeration: see ModelOf.
 constexpr std::array<MaterialModel, 9> kModels = {{
-    {"phong", MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps,
+    {"phong", "Phong: highlight (r.v)^n where the light is above the surface",
+     MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps, kExponentAxis,
+     kKsAxis},
+    {"modified_phong", "Modified Phong: highlight (r.v)^n n.l",
+     MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices, kPhongMaps,
      kExponentAxis, kKsAxis},
-    {"modified_phong", MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices,
-     kPhongMaps, kExponentAxis, kKsAxis},
-    {"blinn_phong", MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices, kPhongMaps,
-     kExponentAxis, kKsAxis},
+    {"blinn_phong", "Blinn-Phong: highlight (n.h)^n where the light is above the surface",
+     MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices, kPhongMaps, kExponentAxis,
+     kKsAxis},
     {"lambert",
+     "Lambert: perfectly diffuse",
      Make<LambertMaterial>,
      kLambertParameters,
      {},
@@ -256,19 +351,33 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      "emission=0:0.2:3",
      kAlbedoAxis},
     {"oren_nayar",
+     "Oren-Nayar: rough and perfectly diffuse, as clay or the moon (EON, Portsmouth et al. 2025, "
+     "which keeps energy)",
      Make<OrenNayarMaterial>,
      kOrenNayarParameters,
      {},
      kOrenNayarMaps,
      kMatteAxis,
      kAlbedoAxis},
-    {"burley", Make<BurleyMaterial>, kBurleyParameters, {}, kBurleyMaps, kMatteAxis, kAlbedoAxis},
-    {"metallic_roughness", Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters,
-     kMetallicRoughnessChoices, kMetallicRoughnessMaps, kRoughnessAxis, "metallic=0:1:5"},
-    {"conductor", Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kConductorMaps,
+    {"burley",
+     "Burley 2012: Disney's diffuse term, which reflects up to 1.56 times the light that grazes it",
+     Make<BurleyMaterial>,
+     kBurleyParameters,
+     {},
+     kBurleyMaps,
+     kMatteAxis,
+     kAlbedoAxis},
+    {"metallic_roughness", "Metallic-roughness as in glTF 2.0: GGX and Schlick's Fresnel",
+     Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters, kMetallicRoughnessChoices,
+     kMetallicRoughnessMaps, kRoughnessAxis, "metallic=0:1:5"},
+    {"conductor", "Conductor: a bare metal, by its complex index of refraction eta - i k",
+     Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kConductorMaps,
      kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
-    {"dielectric", Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
-     kDielectricMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
+    {"dielectric",
+     "Dielectric: a clear coat over a diffuse base. Nothing is transmitted: a black base shows the "
+     "reflection of glass alone.",
+     Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices, kDielectricMaps,
+     kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
 }};
 
 }  // namespace

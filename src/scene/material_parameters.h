@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene/material_parameters.h: the parameters of each material model by name, defined once. The
-// reader of scene files, the axes of grids, Validate() and the test of the JSON Schema use it.
+// reader of scene files, the JSON Schema, the scene's hash, the axes of grids, Validate() and the
+// tables of scenes/README.md are made of it.
 #pragma once
 
 #include <cstddef>
@@ -22,6 +23,7 @@ struct MaterialParameter {
   Range range;  // of the number or of each component
   Rgb (*get)(const Material&);
   void (*set)(Material&, const Rgb&);
+  std::string_view meaning;  // for people: a sentence or two
 };
 
 // One of several named options of a material, numbered from 0. A "preset" sets parameters: choices
@@ -31,6 +33,7 @@ struct MaterialChoice {
   std::span<const std::string_view> options;
   size_t (*get)(const Material&);  // null for a preset, which leaves no trace of its name
   void (*set)(Material&, size_t option);
+  std::string_view meaning;
 };
 
 // A texture that multiplies a parameter.
@@ -45,11 +48,13 @@ struct MaterialMap {
   MapUse use;
   TextureId (*get)(const Material&);
   void (*set)(Material&, TextureId);
+  std::string_view meaning;
 };
 
 struct MaterialModel {
   std::string_view name;  // "metallic_roughness"
-  Material (*make)();     // one with every default
+  std::string_view title;
+  Material (*make)();  // one with every default
   std::span<const MaterialParameter> parameters;
   std::span<const MaterialChoice> choices;
   std::span<const MaterialMap> maps;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene_io/load_scene.h: scene files, and models as scenes. What scene files may contain is written
-// down in scenes/nacre.schema.json, which SceneSchema() returns.
+// down in scenes/nacre.schema.json, which is what SceneSchema() returns.
 #pragma once
 
 #include <cstdint>
