@@ -16,6 +16,7 @@
 #include "cli/render_options.h"
 #include "compare/perceptual.h"
 #include "compare/verdict.h"
+#include "image_io/color_channels.h"
 #include "image_io/image_file.h"
 #include "image_io/output_file.h"
 #include "scene_io/json_text.h"
@@ -77,7 +78,7 @@ void CheckSameColorSpace(const ImageFile& image, const ImageFile& reference) {
     return found == file.parts.front().metadata.end() ? std::string() : found->second;
   };
   const std::string a = primaries(image), b = primaries(reference);
-  if (a == b || a.empty() || b.empty()) return;
+  if (a.empty() || b.empty() || SamePrimaries(a, b)) return;
   throw Error(ExitCode::kCannotCompare, image.path,
               fmt::format("its primaries are {}, those of {} {}", a, reference.path, b),
               "convert one of them first");

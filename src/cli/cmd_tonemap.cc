@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -40,8 +41,8 @@ ColorChannels RequireColors(const ImageFile& image, const TonemapArguments& argu
     for (const ImagePart& part : image.parts) {
       const std::optional<ColorChannels> colors = FindColors(channels, part.name);
       if (!colors) continue;
-      PrintError("warning: {}: shows part \"{}\" of {}; --part chooses another\n",
-                 image.path, part.name, image.parts.size());
+      PrintError("warning: {}: shows part \"{}\" of {}; --part chooses another\n", image.path,
+                 part.name, image.parts.size());
       return *colors;
     }
   } else if (const std::optional<ColorChannels> colors = FindColors(channels, layer)) {
@@ -110,7 +111,8 @@ void RunTonemap(const TonemapArguments& arguments) {
   if (!colors.is_grey()) CheckPrimaries(image);
   const ShownPixels shown = ReadShown(image, colors);
   const auto aspect = image.parts.front().metadata.find("pixelAspectRatio");
-  if (aspect != image.parts.front().metadata.end() && aspect->second != "1") {
+  if (aspect != image.parts.front().metadata.end() &&
+      std::strtod(aspect->second.c_str(), nullptr) != 1) {
     PrintError(
         fmt::format("warning: {}: its pixels are {} times as wide as high, and are shown as "
                     "squares\n",

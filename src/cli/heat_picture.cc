@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "image_io/oiio.h"
+#include "image_io/draw_text.h"
 #include "image_io/png_writer.h"
 
 namespace nacre {

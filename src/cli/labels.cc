@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image_io/oiio.h"
+#include "image_io/draw_text.h"
 #include "render/camera.h"
 
 namespace nacre {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cli/render_options.h"
+#include "image_io/draw_text.h"
 #include "image_io/exr_writer.h"
-#include "image_io/oiio.h"
 #include "image_io/png_writer.h"
 #include "render/film.h"
 #include "render/plan.h"

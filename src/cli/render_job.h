@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/render_options.h"
-#include "image_io/oiio.h"
+#include "image_io/draw_text.h"
 
 namespace nacre {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cli/wrap_text.h"
-#include "image_io/text_width.h"
+#include "image_io/draw_text.h"
 
 namespace nacre {
 namespace {

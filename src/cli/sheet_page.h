@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "image_io/oiio.h"
+#include "image_io/draw_text.h"
 
 namespace nacre {
 

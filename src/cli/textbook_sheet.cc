@@ -11,7 +11,7 @@
 #include "cli/progress.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
-#include "image_io/oiio.h"
+#include "image_io/draw_text.h"
 #include "image_io/png_writer.h"
 #include "render/render.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "image_io/text_width.h"
+#include "image_io/draw_text.h"
 
 namespace nacre {
 namespace {

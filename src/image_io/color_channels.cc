@@ -66,17 +66,20 @@ void CheckPrimaries(const ImageFile& image) {
   const auto& metadata = image.parts.front().metadata;
   const auto found = metadata.find("chromaticities");
   if (found == metadata.end()) return;
-  // Red, green, blue, white (ITU-R BT.709-6). Written with four digits at most.
-  constexpr double kRec709[] = {0.64, 0.33, 0.30, 0.60, 0.15, 0.06, 0.3127, 0.3290};
-  constexpr double kDigits = 1.5e-3;
-  std::istringstream text(found->second);
-  for (const double known : kRec709) {
-    double value = 0;
-    if (text >> value && std::abs(value - known) <= kDigits) continue;
-    throw Error(ExitCode::kBadInput, image.path,
-                "its primaries (" + found->second + ") are not Rec. 709's",
-                "convert its colours to linear Rec. 709 (sRGB's primaries) first");
+  // Red, green, blue, white (ITU-R BT.709-6).
+  if (SamePrimaries(found->second, "0.64 0.33 0.30 0.60 0.15 0.06 0.3127 0.3290")) return;
+  throw Error(ExitCode::kBadInput, image.path,
+              "its primaries (" + found->second + ") are not Rec. 709's",
+              "convert its colours to linear Rec. 709 (sRGB's primaries) first");
+}
+
+bool SamePrimaries(const std::string& a, const std::string& b) {
+  std::istringstream text_a(a), text_b(b);
+  for (int i = 0; i < 8; ++i) {
+    double x = 0, y = 0;
+    if (!(text_a >> x) || !(text_b >> y) || !(std::abs(x - y) <= kPrimariesError)) return false;
   }
+  return true;
 }
 
 Window WholeWindow(const ImageFile& image, const std::string& what) {

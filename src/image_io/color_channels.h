@@ -35,6 +35,14 @@ std::optional<ColorChannels> FindColors(const std::vector<Channel>& channels,
 // left alone.
 void CheckPrimaries(const ImageFile& image);
 
+// How far a coordinate of the same primary may be off in another file: three digits are off by
+// 5e-4, and there is a white of .3127 .3290 and of .3128 .3292.
+inline constexpr double kPrimariesError = 1e-3;
+
+// Whether two attributes "chromaticities" mean the same primaries: x and y of red, green, blue and
+// white.
+bool SamePrimaries(const std::string& a, const std::string& b);
+
 // The display window, which is the image. Throws Error (kBadInput) if the file has no samples for
 // all of it, or has several parts; `what` ("a texture") needs it.
 Window WholeWindow(const ImageFile& image, const std::string& what);

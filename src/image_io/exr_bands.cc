@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "image_io/exr_checksum.h"
+#include "image_io/exr_chunk_check.h"
 #include "image_io/exr_compress.h"
 #include "image_io/exr_container.h"
 #include "image_io/exr_header_check.h"
@@ -98,8 +99,8 @@ struct ExrBandReader::State {
     }
   }
 
-  // What is stored as it is has its full length, and what is compressed is not longer than that.
-  // The library takes what is missing for zeros.
+  // An uncompressed chunk has exactly its full size, and a compressed one is never larger. OpenEXR
+  // fills what is missing with zeros.
   void CheckChunkSize(int y, int size) const {
     const Imf::Header& header = file->header();
     const Window data = ToWindow(header.dataWindow());
@@ -173,6 +174,9 @@ std::vector<uint8_t> ExrBandReader::ReadChunk(int y) {
 }
 
 void ExrBandReader::DecodeAll() {
+  // OpenEXR's reader makes room for what the header says, and leaves as it is what short chunks do
+  // not fill.
+  CheckExrChunks(state_->path, 0, std::filesystem::file_size(state_->path));
   const Imf::Header& header = state_->file->header();
   const Window data = ToWindow(header.dataWindow());
   std::vector<std::string> channels;

@@ -80,7 +80,7 @@ uint64_t RunsSize(std::span<const uint8_t> packed) {
   return size;
 }
 
-// The others check themselves what they decode.
+// The other compressions fail by themselves on short data.
 uint64_t DecodedSize(int compression, std::span<const uint8_t> packed, uint64_t expected) {
   switch (compression) {
     case EXR_COMPRESSION_NONE:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/exr_chunk_check.h: whether the chunks of an EXR file are whole, before OpenEXR's C++
-// reader sees them: it makes room for what a header says, and reads a chunk that is too short, or
-// that inflates to too little, as whatever was in that room before.
+// reader sees them: it allocates what a header promises, and leaves samples uninitialised where a
+// chunk is too short or inflates to too little.
 #pragma once
 
 #include <cstdint>

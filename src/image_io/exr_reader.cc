@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <set>
 #include <utility>
 
 #include <OpenEXR/ImfBoxAttribute.h>
@@ -250,7 +251,7 @@ OpenedExr OpenParts(const std::string& path) {
   OpenedExr opened;
   WithLibrary(path, [&] {
     constexpr int kNoThreads = 0;
-    // What its chunks are is looked at when they are read: only then the table must be whole.
+    // The table of chunks may be incomplete here: ReadPart checks it before it decodes.
     opened.file = std::make_unique<Imf::MultiPartInputFile>(path.c_str(), kNoThreads);
     for (int i = 0; i < opened.file->parts(); ++i) {
       opened.parts.push_back(DescribePart(opened.file->header(i)));
@@ -314,6 +315,12 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
       sources.emplace_back(i, channel.name);
     }
     for (const auto& [name, value] : from.metadata) image.header.metadata[prefix + name] = value;
+  }
+  std::set<std::string> names;
+  for (const Channel& channel : image.header.channels) {
+    if (names.insert(channel.name).second) continue;
+    Fail(path, "channels of two of its parts are both called \"" + channel.name + "\"",
+         "choose a part; nacre info lists them");
   }
   const Window& all = image.header.data;
   constexpr int64_t kFar = std::numeric_limits<int>::max();

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "image_io/color_channels.h"
 #include "image_io/orientation.h"
 
 namespace nacre {
@@ -68,6 +69,7 @@ struct HdrHeader {
   int width = 0, height = 0;  // of the image that is seen
   Orientation orientation;
   std::array<double, 3> exposure = {1, 1, 1};  // that pixels were multiplied by
+  double pixel_aspect = 1;                     // height of a pixel over its width
   std::map<std::string, std::string> variables;
 };
 
@@ -114,14 +116,13 @@ std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
   }
 }
 
-// x and y of red, green, blue and white. Written with four digits at most.
+// x and y of red, green, blue and white.
 bool AreKnownPrimaries(const std::vector<double>& given) {
-  constexpr double kDigits = 1.5e-3;
   constexpr double kRadiance[] = {0.640, 0.330, 0.290, 0.600, 0.150, 0.060, 0.3333, 0.3333};
   constexpr double kRec709[] = {0.640, 0.330, 0.300, 0.600, 0.150, 0.060, 0.3127, 0.3290};
   const auto near = [&](const double* known) {
     return std::equal(given.begin(), given.end(), known,
-                      [](double a, double b) { return std::abs(a - b) <= kDigits; });
+                      [](double a, double b) { return std::abs(a - b) <= kPrimariesError; });
   };
   return given.size() == 8 && (near(kRadiance) || near(kRec709));
 }
@@ -167,7 +168,16 @@ void ReadVariable(const std::string& path, const std::string& line, HdrHeader* h
   if (name == "GAMMA" && numbers(1)[0] != 1) {
     FailHdr(path, "its GAMMA is not 1", "pixels must be linear");
   }
-  std::string& known = header->variables[name == "PIXASPECT" ? "pixelAspectRatio" : name];
+  if (name == "PIXASPECT") {
+    header->pixel_aspect *= numbers(1)[0];
+    if (!(header->pixel_aspect > 0) || !std::isfinite(header->pixel_aspect)) {
+      FailHdr(path, "cannot be read: PIXASPECT makes no factor above 0");
+    }
+    // Of EXR it is how much wider than high pixels are, of Radiance the other way round.
+    header->variables["pixelAspectRatio"] = fmt::format("{:.6g}", 1 / header->pixel_aspect);
+    return;
+  }
+  std::string& known = header->variables[name];
   known += known.empty() ? value : ", " + value;
 }
 
@@ -177,7 +187,6 @@ HdrHeader ReadHeader(const std::string& path, HdrBytes* bytes) {
   for (std::string line = bytes->Line(); !line.empty(); line = bytes->Line()) {
     ReadVariable(path, line, &header);
   }
-  if (!header.variables.contains("FORMAT")) FailHdr(path, "cannot be read: it has no FORMAT");
   if (!ParseResolution(bytes->Line(), &header)) {
     FailHdr(path, "cannot be read: its resolution is not like -Y 512 +X 1024, up to 65536 a side");
   }
@@ -249,11 +258,13 @@ class RowReader {
   HdrBytes* bytes_;
 };
 
-void ReadPixels(const std::string& path, const Window& region,
+// `size`: of the image when it was opened.
+void ReadPixels(const std::string& path, const Window& size, const Window& region,
                 std::span<const SampleTarget> targets) {
   HdrBytes bytes(path);
   const HdrHeader header = ReadHeader(path, &bytes);
   const RowPlacer placer(header.orientation, {0, 0, header.width, header.height}, region, targets);
+  CheckUnchanged(path, header.width == size.width() && header.height == size.height());
   const auto width = static_cast<size_t>(placer.stored_width());
   RowReader reader(path, &bytes);
   Row row(width);
@@ -279,8 +290,8 @@ ImageFile OpenHdr(const std::string& path) {
   ImageFile image;
   image.path = path;
   image.file_bytes = std::filesystem::file_size(path);
-  // A run of 127 pixels takes 8 bytes: a file that is far shorter is broken, and is told so before
-  // anybody makes room for it. The oldest files' repetitions are not held to that.
+  // A lower bound on the file's size, before anybody makes room for its pixels: the densest rows,
+  // of the oldest files, repeat a pixel 65536 times in 16 bytes, 4096 times a byte.
   const double pixels = static_cast<double>(header.width) * header.height;
   if (pixels / 4096 > static_cast<double>(image.file_bytes)) {
     FailHdr(path, "cannot be read: it is cut off");
@@ -292,8 +303,9 @@ ImageFile OpenHdr(const std::string& path) {
     image.header.channels.push_back({name, PixelType::kFloat, {}});
   }
   image.parts = {PartOf(image.header)};
-  image.read = [path](const Window& region, std::span<const SampleTarget> targets) {
-    ReadPixels(path, region, targets);
+  image.read = [path, size = image.header.data](const Window& region,
+                                                std::span<const SampleTarget> targets) {
+    ReadPixels(path, size, region, targets);
   };
   return image;
 }

@@ -15,7 +15,8 @@ namespace nacre {
 // What the header says of the pixels is honoured: all eight orientations of the resolution string,
 // EXPOSURE and COLORCORR (each may stand several times and multiplies), which are divided out, so
 // that values are radiance. Refused are XYZE pixels, PRIMARIES other than Radiance's own and Rec.
-// 709's, and GAMMA other than 1; PIXASPECT is told by the metadata pixelAspectRatio.
+// 709's, and GAMMA other than 1. PIXASPECT, which multiplies as well, becomes pixelAspectRatio, its
+// reciprocal. FORMAT may be missing: RADIANCE's own programs take such files as RGBE, too.
 //
 // Throws Error (kBadInput) for these, and for a broken file.
 ImageFile OpenHdr(const std::string& path);

@@ -2,23 +2,20 @@
 // image_io/icc_profile.h: whether an ICC profile is sRGB's.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
-#include <string_view>
+#include <string>
 
 namespace nacre {
 
-// By its description (ICC.1, "profileDescriptionTag"), which is ASCII or UTF-16: makers of profiles
-// name the space, and there are hundreds of sRGB profiles that differ in their last digits.
-inline bool IsSrgbProfile(std::span<const uint8_t> profile) {
-  using std::string_view_literals::operator""sv;
-  for (const std::string_view name :
-       {"sRGB"sv, "s\0R\0G\0B"sv, "IEC61966-2.1"sv, "IEC61966-2-1"sv}) {
-    const auto found = std::search(profile.begin(), profile.end(), name.begin(), name.end());
-    if (found != profile.end()) return true;
-  }
-  return false;
-}
+// What is said of an image's colours in its metadata, of a profile that is embedded in its file.
+struct IccProfile {
+  std::string name;  // "sRGB", or how the profile calls itself
+  bool is_srgb = false;
+};
+
+// By what the profile makes of colours, not by its name: there are hundreds of sRGB profiles, and
+// "Linear sRGB" is none. Of a grey one its curve counts.
+IccProfile ReadIccProfile(std::span<const uint8_t> profile);
 
 }  // namespace nacre

@@ -4,9 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 #include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -14,15 +12,19 @@
 #include "base/path.h"
 #include "image_io/exr_reader.h"
 #include "image_io/hdr_reader.h"
+#include "image_io/jpeg_reader.h"
 #include "image_io/oiio.h"
 #include "image_io/png_reader.h"
+#include "image_io/pnm_reader.h"
+#include "image_io/tga_reader.h"
 
 namespace nacre {
 namespace {
 
-enum class FileFormat : uint8_t { kExr, kHdr, kPng, kOther };
+enum class FileFormat : uint8_t { kExr, kHdr, kPng, kJpeg, kPnm, kTga, kOther };
 
-// By its first bytes; a file that is called .exr or .hdr is told to be a broken one.
+// By its first bytes. A file named .exr is opened as EXR in any case, so that the error says what
+// is wrong with the EXR.
 FileFormat FormatOf(const std::string& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -34,6 +36,11 @@ FileFormat FormatOf(const std::string& path) {
   std::ifstream(path, std::ios::binary).read(bytes.data(), bytes.size());
   const std::string_view head(bytes.data(), bytes.size());
   if (head == "\x89PNG") return FileFormat::kPng;
+  if (head.starts_with("\xff\xd8")) return FileFormat::kJpeg;
+  if (head[0] == 'P' && std::string_view("123456Ff").find(head[1]) != std::string_view::npos) {
+    return FileFormat::kPnm;
+  }
+  if (HasExtension(path, ".tga")) return FileFormat::kTga;  // has no first bytes of its own
   if (head == "\x76\x2f\x31\x01" || HasExtension(path, ".exr")) return FileFormat::kExr;
   if (head.starts_with("#?")) return FileFormat::kHdr;
   return FileFormat::kOther;
@@ -62,6 +69,10 @@ void CheckSampleCount(const std::string& path, uint64_t file_bytes, int64_t widt
   }
 }
 
+void CheckUnchanged(const std::string& path, bool same) {
+  if (!same) throw Error(ExitCode::kBadInput, path, "changed while it was being read");
+}
+
 ImagePart PartOf(const Image& header) {
   ImagePart part{.name = {},
                  .display = header.display,
@@ -82,10 +93,10 @@ ImageFile OpenImage(const std::string& path, const std::string& part) {
                 "only EXR files have parts");
   }
   if (format == FileFormat::kHdr) return OpenHdr(path);
-  // Plain PNG files need no library that takes longer to load than they do to read.
-  if (format == FileFormat::kPng) {
-    if (std::optional<ImageFile> plain = OpenPlainPng(path)) return *std::move(plain);
-  }
+  if (format == FileFormat::kPng) return OpenPng(path);
+  if (format == FileFormat::kJpeg) return OpenJpeg(path);
+  if (format == FileFormat::kPnm) return OpenPnm(path);
+  if (format == FileFormat::kTga) return OpenTga(path);
   return OpenWithOiio(path);
 }
 

@@ -30,6 +30,10 @@ inline constexpr uint64_t kMaxSamples = uint64_t{1} << 30;
 void CheckSampleCount(const std::string& path, uint64_t file_bytes, int64_t width, int64_t height,
                       uint64_t channels);
 
+// For files that are opened a second time to read their samples: throws Error (kBadInput) unless
+// `same`, which says that the header still asks for what the caller made room for.
+void CheckUnchanged(const std::string& path, bool same);
+
 // One of the images that a file holds: EXR files may hold several.
 struct ImagePart {
   struct PartChannel {

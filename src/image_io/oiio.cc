@@ -14,7 +14,6 @@
 #include <link.h>
 
 #include "base/error.h"
-#include "base/printable.h"
 #include "image_io/oiio_abi.h"
 #include "image_io/orientation.h"
 
@@ -29,7 +28,6 @@ struct Module {
   decltype(&NacreOiioOpen) open;
   decltype(&NacreOiioReadRows) read_rows;
   decltype(&NacreOiioClose) close;
-  decltype(&NacreOiioDrawText) draw_text;
 };
 
 template <typename Function>
@@ -85,13 +83,12 @@ Module LoadModule() {
     if (library == nullptr) throw Error(ExitCode::kInternal, path, dlerror());
     return {Find<decltype(Module::open)>(library, "NacreOiioOpen"),
             Find<decltype(Module::read_rows)>(library, "NacreOiioReadRows"),
-            Find<decltype(Module::close)>(library, "NacreOiioClose"),
-            Find<decltype(Module::draw_text)>(library, "NacreOiioDrawText")};
+            Find<decltype(Module::close)>(library, "NacreOiioClose")};
   }
   throw Error(
       ExitCode::kInternal, kModuleName,
       "the module for it is neither beside the program or library nor where it is installed",
-      "EXR files need no module; for other formats and labels build or install it");
+      "only TIFF files need it: build or install it");
 }
 
 const Module& GetModule() {
@@ -180,11 +177,15 @@ ImageFile OpenWithOiio(const std::string& path) {
   image.header = HeaderOf(opened.get(), orientation);
   image.parts = {PartOf(image.header)};
   // Opened again for each reading, which goes through the rows from the first one on.
-  image.read = [path, orientation, data = image.header.data](
-                   const Window& region, std::span<const SampleTarget> targets) {
+  image.read = [path, orientation, channels = image.header.channels.size(),
+                data = image.header.data](const Window& region,
+                                          std::span<const SampleTarget> targets) {
     OpenFile file(path);
     const RowPlacer placer(orientation, data, region, targets);
-    const auto channels = static_cast<size_t>(file.get().channel_count);
+    const Window stored = ToWindow(file.get().data_window);
+    CheckUnchanged(path, placer.stored_width() == stored.width() &&
+                             placer.stored_height() == stored.height() &&
+                             channels == static_cast<size_t>(file.get().channel_count));
     const size_t row = static_cast<size_t>(placer.stored_width()) * channels;
     const int band = std::clamp(file.get().band_rows, 1, placer.stored_height());
     std::vector<float> values(row * static_cast<size_t>(band));
@@ -197,31 +198,6 @@ ImageFile OpenWithOiio(const std::string& path) {
     }
   };
   return image;
-}
-
-void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items) {
-  if (width < 1 || height < 1 ||
-      rgb8.size() != 3 * static_cast<size_t>(width) * static_cast<size_t>(height)) {
-    throw Error(ExitCode::kInternal, "labels", "the buffer is not of the picture's size");
-  }
-  std::vector<std::string> printable;
-  printable.reserve(items.size());
-  std::vector<NacreOiioText> texts;
-  texts.reserve(items.size());
-  for (const TextItem& item : items) {
-    printable.push_back(Printable(item.text));
-    texts.push_back({printable.back().c_str(),
-                     item.x,
-                     item.y,
-                     item.size_px,
-                     static_cast<int32_t>(item.align_x) - 1,
-                     static_cast<int32_t>(item.align_y) - 1,
-                     {item.color[0], item.color[1], item.color[2]},
-                     static_cast<uint8_t>(item.outline ? 1 : 0)});
-  }
-  const char* const failure = GetModule().draw_text(rgb8.data(), width, height, texts.data(),
-                                                    static_cast<int32_t>(texts.size()));
-  if (failure != nullptr) throw Error(ExitCode::kInternal, "labels", failure);
 }
 
 }  // namespace nacre

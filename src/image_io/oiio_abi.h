@@ -23,25 +23,12 @@ struct NacreOiioFile {
   char* attributes;         // name NUL value NUL ...; an empty name ends them
 };
 
-// A line of text in an RGB picture.
-struct NacreOiioText {
-  const char* text;  // UTF-8
-  int32_t x, y;      // pixels from the top left corner
-  int32_t size_px;
-  int32_t align_x;  // x is the text's: -1 left end, 0 middle, 1 right end
-  int32_t align_y;  // y is: -1 top, 0 middle of capital letters, 1 bottom of descenders
-  uint8_t color[3];
-  uint8_t outline;  // 1: a dark outline
-};
-
 // All return null, or the reason for failing, valid until the thread's next call. None lets an
 // exception out. Images with tiles of more than max_samples samples are refused.
 const char* NacreOiioOpen(const char* path, uint64_t max_samples, NacreOiioFile* file);
 // Rows y0 to y1 - 1 as they are stored, from 0 on, the channels of a pixel together. In ascending
 // order; y0 is a multiple of band_rows, and y1 y0 + band_rows or the last row's end.
 const char* NacreOiioReadRows(NacreOiioFile* file, int32_t y0, int32_t y1, float* values);
-const char* NacreOiioDrawText(uint8_t* rgb8, int32_t width, int32_t height,
-                              const NacreOiioText* items, int32_t item_count);
 
 void NacreOiioClose(NacreOiioFile* file);
 

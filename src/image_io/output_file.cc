@@ -129,9 +129,12 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(FollowLin
   CheckTarget(path_, target_);
   const std::string folder = Folder(target_);
   descriptor_ = OpenAnonymous(folder);
+  // What replaces a file that others may not read must not be readable before it has that file's
+  // mode (TakeOver).
+  const mode_t mode = access(target_.c_str(), F_OK) == 0 ? 0600 : 0666;
   for (int i = 0; descriptor_ < 0 && i < kNameAttempts; ++i) {
     beside_ = NameBeside(target_);
-    descriptor_ = open(beside_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+    descriptor_ = open(beside_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, mode);
     if (descriptor_ < 0 && errno != EEXIST) break;
   }
   if (descriptor_ >= 0) return;

@@ -3,362 +3,290 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <filesystem>
+#include <map>
 #include <memory>
+#include <new>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <spng.h>
 
 #include "base/error.h"
+#include "image_io/c_file.h"
+#include "image_io/exif.h"
 #include "image_io/icc_profile.h"
 #include "image_io/orientation.h"
 
 namespace nacre {
 namespace {
 
-constexpr std::array<uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-constexpr uint32_t kLargestSide = 65536;
+constexpr uint32_t kLargestPngSide = 65536;
+// Of a text, a colour profile and the like once unpacked, and of all of them together.
+constexpr size_t kLargestChunk = size_t{1} << 24, kAllChunks = size_t{1} << 26;
 
-uint32_t Big32(const uint8_t* bytes) {
-  return uint32_t{bytes[0]} << 24 | uint32_t{bytes[1]} << 16 | uint32_t{bytes[2]} << 8 | bytes[3];
+[[noreturn]] void FailToRead(const std::string& path, const std::string& reason) {
+  throw Error(ExitCode::kBadInput, path, "cannot be read: " + reason);
 }
 
-// Views into the file's bytes.
-struct Png {
-  std::vector<uint8_t> file;
-  uint32_t width = 0, height = 0;
-  uint8_t bits = 0, kind = 0;
-  bool plain = false;                            // what OpenPlainPng reads
-  std::span<const uint8_t> palette;              // r, g, b of each index
-  std::vector<std::span<const uint8_t>> pixels;  // the IDAT chunks
-  Orientation orientation;
-  std::map<std::string, std::string> colors;  // as PngColors
-
-  // Samples of a pixel in the file.
-  size_t channels() const {
-    switch (kind) {
-      case 2:
-        return 3;
-      case 4:
-        return 2;
-      case 6:
-        return 4;
-      default:
-        return 1;
-    }
-  }
-  size_t pixel_bytes() const { return channels() * bits / 8; }
-  size_t row_bytes() const { return size_t{width} * pixel_bytes(); }
-};
-
-bool ParseHeader(std::span<const uint8_t> data, Png* png) {
-  if (data.size() != 13) return false;
-  png->width = Big32(data.data());
-  png->height = Big32(&data[4]);
-  png->bits = data[8];
-  png->kind = data[9];
-  const bool known_kind =
-      png->kind == 0 || png->kind == 2 || png->kind == 3 || png->kind == 4 || png->kind == 6;
-  const bool known_bits = png->bits == 8 || (png->bits == 16 && png->kind != 3);
-  const bool simple = data[10] == 0 && data[11] == 0 && data[12] == 0;
-  png->plain = known_kind && known_bits && simple && png->width >= 1 && png->height >= 1 &&
-               png->width <= kLargestSide && png->height <= kLargestSide;
-  return true;
-}
-
-// EXIF's orientation tag (0x0112) in a block that begins as TIFF files do; 1 if there is none.
-int ExifOrientation(std::span<const uint8_t> exif) {
-  if (exif.size() < 8) return 1;
-  const bool little = exif[0] == 'I';
-  const auto number = [&](size_t at, size_t bytes) {
-    size_t value = 0;
-    for (size_t i = 0; i < bytes && at + bytes <= exif.size(); ++i) {
-      value |= size_t{exif[at + i]} << 8 * (little ? i : bytes - 1 - i);
-    }
-    return value;
-  };
-  constexpr size_t kOrientation = 0x0112, kEntry = 12;
-  const size_t first = number(4, 4);
-  const size_t entries = number(first, 2);
-  for (size_t i = 0; i < entries && first + 2 + (i + 1) * kEntry <= exif.size(); ++i) {
-    const size_t at = first + 2 + i * kEntry;
-    if (number(at, 2) == kOrientation) return static_cast<int>(number(at + 8, 2));
-  }
-  return 1;
-}
-
-// An iCCP chunk: a name, a method (deflate), the profile, which is looked at as far as it is short.
-std::string ProfileName(std::span<const uint8_t> data) {
-  const auto end = std::find(data.begin(), data.end(), 0);
-  const std::string name(data.begin(), end);
-  if (data.end() - end < 3) return name;
-  const auto packed = data.subspan(static_cast<size_t>(end - data.begin()) + 2);
-  constexpr uLongf kLongest = 1 << 20;
-  std::vector<uint8_t> profile(kLongest);
-  uLongf size = kLongest;
-  if (uncompress(profile.data(), &size, packed.data(), packed.size()) != Z_OK) return name;
-  return IsSrgbProfile(std::span(profile).first(size)) ? "sRGB" : name;
-}
-
-void ParseColors(std::string_view type, std::span<const uint8_t> data, Png* png) {
-  constexpr double kUnit = 1e5;
-  // libpng's PNG_GAMMA_THRESHOLD: exponents that differ less look the same.
-  constexpr double kGammaThreshold = 0.05;
-  if (type == "sRGB") png->colors["srgb_intent"] = std::to_string(data.empty() ? 0 : data[0]);
-  if (type == "gAMA" && data.size() == 4 && Big32(data.data()) != 0) {
-    const double gamma = kUnit / Big32(data.data());
-    png->colors["gamma"] = fmt::format("{:.6g}", gamma);
-    if (std::abs(gamma / 2.2 - 1) > kGammaThreshold) {
-      png->colors["not_srgb"] = fmt::format("a gamma of {:.4g} (gAMA)", gamma);
-    }
-  }
-  if (type == "cHRM" && data.size() == 32) {
-    // White, red, green, blue of Rec. 709. A hundredth: what files with digits of 1/2 unit differ
-    // by and what no eye sees.
-    constexpr double kRec709[] = {0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06};
-    constexpr double kNear = 0.01;
-    std::string text;
-    bool near = true;
-    for (size_t i = 0; i < 8; ++i) {
-      const double value = Big32(&data[4 * i]) / kUnit;
-      text += fmt::format("{}{:.5g}", i == 0 ? "" : " ", value);
-      near = near && std::abs(value - kRec709[i]) <= kNear;
-    }
-    png->colors["primaries"] = text;
-    if (!near) png->colors["not_srgb"] = "primaries that are not sRGB's (cHRM)";
-  }
-  if (type == "iCCP") png->colors["icc_profile"] = ProfileName(data);
-}
-
-// A chunk for colours is overruled by those that say more: sRGB, then iCCP (W3C PNG, 4.3).
-void ResolveColors(Png* png) {
-  const auto profile = png->colors.find("icc_profile");
-  if (profile != png->colors.end()) {
-    png->colors.erase("not_srgb");
-    if (profile->second != "sRGB") {
-      png->colors["not_srgb"] = "the ICC profile \"" + profile->second + "\"";
-    }
-  } else if (png->colors.contains("srgb_intent")) {
-    png->colors.erase("not_srgb");
-  }
-}
-
-// A tEXt chunk: a keyword, a zero byte and text in Latin-1, of which ASCII is kept. What the file
-// says of itself in words never takes the place of what its other chunks say.
-void ParseText(std::span<const uint8_t> data, Png* png) {
-  const auto end = std::find(data.begin(), data.end(), 0);
-  const std::string keyword(data.begin(), end);
-  if (end == data.end() || !keyword.starts_with("nacre:")) return;
-  std::string text;
-  for (auto c = end + 1; c != data.end(); ++c) text += *c < 0x80 ? static_cast<char>(*c) : '?';
-  png->colors.emplace(keyword, text);
-}
-
-// False for broken files.
-bool ParseChunks(Png* png) {
-  const std::vector<uint8_t>& file = png->file;
-  size_t at = kSignature.size();
-  bool first = true;
-  while (file.size() - at >= 12) {
-    const size_t size = Big32(&file[at]);
-    if (size > file.size() - at - 12) return false;
-    const uint8_t* const type = &file[at + 4];
-    const std::span<const uint8_t> data(type + 4, size);
-    const uLong crc = crc32(0, type, static_cast<uInt>(size + 4));
-    if (crc != Big32(type + 4 + size)) return false;
-    const std::string_view name(reinterpret_cast<const char*>(type), 4);
-    if (first != (name == "IHDR")) return false;
-    if (first && !ParseHeader(data, png)) return false;
-    first = false;
-    if (name == "IEND") {
-      ResolveColors(png);
-      return true;
-    }
-    if (name == "tRNS") png->plain = false;
-    if (name == "tEXt") ParseText(data, png);
-    if (name == "PLTE") png->palette = data;
-    if (name == "IDAT") png->pixels.push_back(data);
-    if (name == "eXIf") png->orientation = OrientationOfTag(ExifOrientation(data));
-    ParseColors(name, data, png);
-    at += size + 12;
-  }
-  return false;
-}
-
-// Nothing for other and for broken files.
-std::shared_ptr<const Png> ParsePng(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::array<uint8_t, kSignature.size()> signature{};
-  stream.read(reinterpret_cast<char*>(signature.data()), signature.size());
-  if (!stream || signature != kSignature) return {};
-  stream.seekg(0, std::ios::end);
-  const std::streamoff length = stream.tellg();
-  constexpr std::streamoff kLongest = std::streamoff{1} << 32;
-  if (length < static_cast<std::streamoff>(kSignature.size()) || length > kLongest) return {};
-  auto png = std::make_shared<Png>();
-  png->file.resize(static_cast<size_t>(length));
-  stream.seekg(0);
-  stream.read(reinterpret_cast<char*>(png->file.data()), length);
-  if (!stream || !ParseChunks(png.get())) return {};
-  return png;
-}
-
-// The predictor of PNG's filter 4 (W3C PNG, 9.4).
-int Paeth(int left, int up, int up_left) {
-  const int estimate = left + up - up_left;
-  const int d_left = std::abs(estimate - left), d_up = std::abs(estimate - up);
-  const int d_up_left = std::abs(estimate - up_left);
-  if (d_left <= d_up && d_left <= d_up_left) return left;
-  return d_up <= d_up_left ? up : up_left;
-}
-
-// Undoes a row's filter. `above`: the row before, zeros for the first one.
-bool Unfilter(int filter, const uint8_t* above, size_t step, size_t size, uint8_t* row) {
-  if (filter > 4) return false;
-  for (size_t i = 0; i < size; ++i) {
-    const int left = i >= step ? row[i - step] : 0;
-    const int up = above[i];
-    const int up_left = i >= step ? above[i - step] : 0;
-    int prediction = 0;
-    if (filter == 1) prediction = left;
-    if (filter == 2) prediction = up;
-    if (filter == 3) prediction = (left + up) / 2;
-    if (filter == 4) prediction = Paeth(left, up, up_left);
-    row[i] = static_cast<uint8_t>(row[i] + prediction);
-  }
-  return true;
-}
-
-// The file's rows, one after the other.
-class PngRows {
+// A file that is open, at its first row. Every checksum counts: a flipped bit is damage.
+class PngFile {
  public:
-  PngRows(const std::string& path, const Png& png)
-      : path_(path), png_(png), above_(png.row_bytes() + 1), row_(png.row_bytes() + 1) {
-    if (inflateInit(&stream_) != Z_OK) throw std::bad_alloc();
-  }
-  ~PngRows() { inflateEnd(&stream_); }
-  PngRows(const PngRows&) = delete;
-  PngRows& operator=(const PngRows&) = delete;
-
-  // Valid until the next call.
-  const uint8_t* Next() {
-    std::swap(above_, row_);
-    stream_.next_out = row_.data();
-    stream_.avail_out = static_cast<uInt>(row_.size());
-    while (stream_.avail_out > 0) Inflate();
-    if (!Unfilter(row_[0], &above_[1], png_.pixel_bytes(), png_.row_bytes(), &row_[1])) Damaged();
-    return &row_[1];
+  explicit PngFile(const std::string& path)
+      : path_(path), file_(OpenToRead(path)), png_(spng_ctx_new(0), &spng_ctx_free) {
+    if (!file_) FailToRead(path, std::strerror(errno));
+    if (!png_) throw std::bad_alloc();
+    Check(spng_set_crc_action(get(), SPNG_CRC_ERROR, SPNG_CRC_ERROR));
+    Check(spng_set_image_limits(get(), kLargestPngSide, kLargestPngSide));
+    Check(spng_set_chunk_limits(get(), kLargestChunk, kAllChunks));
+    Check(spng_set_option(get(), SPNG_KEEP_UNKNOWN_CHUNKS, 1));  // cICP is one to libspng
+    Check(spng_set_png_file(get(), file_.get()));
+    Check(spng_get_ihdr(get(), &header_));
+    Check(spng_decode_chunks(get()));  // those before the pixels
+    spng_trns transparency{};
+    has_alpha_ = (header_.color_type & 4) != 0 || spng_get_trns(get(), &transparency) == 0;
   }
 
-  // After the last row: that the data end here, and their checksum.
-  void Finish() {
-    uint8_t more = 0;
-    stream_.next_out = &more;
-    stream_.avail_out = 1;
-    while (!ended_) {
-      Inflate();
-      if (stream_.avail_out == 0) Damaged();
+  spng_ctx* get() const { return png_.get(); }
+  const spng_ihdr& header() const { return header_; }
+  bool is_color() const { return (header_.color_type & 2) != 0; }
+  bool has_alpha() const { return has_alpha_; }
+  size_t channels() const { return (is_color() ? 3 : 1) + (has_alpha_ ? 1 : 0); }
+  bool is_wide() const { return header_.bit_depth == 16; }
+
+  // Calls with_row(y, samples) for each row from the first one on; samples are codes of 8 or, if
+  // is_wide(), 16 bits in the processor's order.
+  template <class WithRow>
+  void ForEachRow(const WithRow& with_row) {
+    const size_t row_bytes = header_.width * channels() * (is_wide() ? 2 : 1);
+    const int flags = has_alpha_ ? SPNG_DECODE_TRNS : 0;
+    if (header_.interlace_method != 0) {
+      std::vector<uint8_t> image(row_bytes * header_.height);
+      Check(spng_decode_image(get(), image.data(), image.size(), Format(), flags));
+      for (uint32_t y = 0; y < header_.height; ++y) with_row(y, image.data() + row_bytes * y);
+    } else {
+      std::vector<uint8_t> row(row_bytes);
+      Check(spng_decode_image(get(), nullptr, 0, Format(), flags | SPNG_DECODE_PROGRESSIVE));
+      for (uint32_t y = 0; y < header_.height; ++y) {
+        const int status = spng_decode_row(get(), row.data(), row.size());
+        if (status != SPNG_EOI || y + 1 < header_.height) Check(status);
+        with_row(y, row.data());
+      }
+    }
+    Check(spng_decode_chunks(get()));
+    // libspng reads past the checksum of the last chunk, IEND, and does not look at it.
+    std::array<uint8_t, 4> end{};
+    constexpr std::array<uint8_t, 4> kEnd = {0xae, 0x42, 0x60, 0x82};
+    if (std::fseek(file_.get(), -4, SEEK_CUR) != 0 ||
+        std::fread(end.data(), end.size(), 1, file_.get()) != 1 || end != kEnd) {
+      FailToRead(path_, "the file ends too early");
     }
   }
 
  private:
-  [[noreturn]] void Damaged() const {
-    throw Error(
-        ExitCode::kBadInput, path_,
-        "cannot be read: its compressed data are damaged, or not as many as its header says");
-  }
-  void Inflate() {
-    if (ended_) Damaged();
-    if (stream_.avail_in == 0) {
-      if (next_ == png_.pixels.size()) Damaged();
-      const std::span<const uint8_t> chunk = png_.pixels[next_++];
-      stream_.next_in = const_cast<uint8_t*>(chunk.data());
-      stream_.avail_in = static_cast<uInt>(chunk.size());
-      if (chunk.empty()) return;
+  // What libspng unpacks to: one sample a channel, transparency that a colour stands for as alpha.
+  int Format() const {
+    const bool by_palette_or_bits = header_.color_type == 3 || header_.bit_depth < 8;
+    if (!is_color()) {
+      if (!has_alpha_) return is_wide() ? SPNG_FMT_PNG : SPNG_FMT_G8;
+      if ((header_.color_type & 4) != 0) return SPNG_FMT_PNG;
+      return is_wide() ? SPNG_FMT_GA16 : SPNG_FMT_GA8;
     }
-    const int status = inflate(&stream_, Z_NO_FLUSH);
-    if (status != Z_OK && status != Z_STREAM_END) Damaged();
-    ended_ = status == Z_STREAM_END;
+    if (has_alpha_) return is_wide() ? SPNG_FMT_RGBA16 : SPNG_FMT_RGBA8;
+    return by_palette_or_bits || !is_wide() ? SPNG_FMT_RGB8 : SPNG_FMT_PNG;
   }
 
-  const std::string& path_;
-  const Png& png_;
-  std::vector<uint8_t> above_, row_;  // a byte of filter first
-  z_stream stream_{};
-  size_t next_ = 0;  // of the chunks
-  bool ended_ = false;
+  void Check(int status) const {
+    if (status == SPNG_EMEM) throw std::bad_alloc();
+    if (status == SPNG_IO_EOF) FailToRead(path_, "the file ends too early");
+    if (status != 0) FailToRead(path_, spng_strerror(status));
+  }
+
+  std::string path_;
+  CFile file_;
+  std::unique_ptr<spng_ctx, decltype(&spng_ctx_free)> png_;
+  spng_ihdr header_{};
+  bool has_alpha_ = false;
 };
 
-void ReadPngPixels(const std::string& path, const Png& png, const Window& data,
-                   const Window& region, std::span<const SampleTarget> targets) {
-  const RowPlacer placer(png.orientation, data, region, targets);
-  const float maximum = png.bits == 8 ? 255 : 65535;
-  const size_t channels = png.kind == 3 ? 3 : png.channels();
-  const size_t codes = png.width * png.channels();
-  std::vector<float> values(png.width * channels);
-  PngRows rows(path, png);
-  for (uint32_t y = 0; y < png.height; ++y) {
-    const uint8_t* const row = rows.Next();
-    for (size_t i = 0; i < codes; ++i) {
-      if (png.kind == 3) {
-        const size_t entry = 3 * size_t{row[i]};
-        if (entry + 3 > png.palette.size()) {
-          throw Error(ExitCode::kBadInput, path, "cannot be read: a pixel is beyond its palette");
-        }
-        for (size_t c = 0; c < 3; ++c) {
-          values[3 * i + c] = static_cast<float>(png.palette[entry + c]) / maximum;
-        }
-      } else {
-        const int code = png.bits == 8 ? row[i] : row[2 * i] << 8 | row[2 * i + 1];
-        values[i] = static_cast<float>(code) / maximum;
-      }
-    }
-    placer.Place(static_cast<int>(y), values.data(), channels);
+using Metadata = std::map<std::string, std::string>;
+
+void AddGamma(const PngFile& png, Metadata* metadata) {
+  // libpng's PNG_GAMMA_THRESHOLD: exponents that differ less look the same.
+  constexpr double kGammaThreshold = 0.05;
+  double encoding = 0;
+  if (spng_get_gama(png.get(), &encoding) != 0 || !(encoding > 0)) return;
+  const double gamma = 1 / encoding;
+  (*metadata)["gamma"] = fmt::format("{:.6g}", gamma);
+  if (std::abs(gamma / 2.2 - 1) > kGammaThreshold) {
+    (*metadata)["not_srgb"] = fmt::format("a gamma of {:.4g} (gAMA)", gamma);
   }
-  rows.Finish();
+}
+
+void AddPrimaries(const PngFile& png, Metadata* metadata) {
+  spng_chrm given{};
+  if (spng_get_chrm(png.get(), &given) != 0) return;
+  // White, red, green, blue of Rec. 709. A hundredth: what files with digits of 1/2 unit differ by
+  // and what no eye sees.
+  constexpr double kRec709[] = {0.3127, 0.3290, 0.64, 0.33, 0.30, 0.60, 0.15, 0.06};
+  constexpr double kNear = 0.01;
+  const double values[] = {given.white_point_x, given.white_point_y, given.red_x,  given.red_y,
+                           given.green_x,       given.green_y,       given.blue_x, given.blue_y};
+  std::string text;
+  bool near = true;
+  for (size_t i = 0; i < 8; ++i) {
+    text += fmt::format("{}{:.5g}", i == 0 ? "" : " ", values[i]);
+    near = near && std::abs(values[i] - kRec709[i]) <= kNear;
+  }
+  (*metadata)["primaries"] = text;
+  if (!near) (*metadata)["not_srgb"] = "primaries that are not sRGB's (cHRM)";
+}
+
+// A chunk for colours is overruled by those that say more: sRGB, then iCCP (W3C PNG, 4.3), then
+// cICP.
+void AddProfile(const PngFile& png, Metadata* metadata) {
+  uint8_t intent = 0;
+  if (spng_get_srgb(png.get(), &intent) == 0) {
+    (*metadata)["srgb_intent"] = std::to_string(intent);
+    metadata->erase("not_srgb");
+  }
+  spng_iccp profile{};
+  if (spng_get_iccp(png.get(), &profile) != 0) return;
+  metadata->erase("not_srgb");
+  const IccProfile read =
+      ReadIccProfile({reinterpret_cast<const uint8_t*>(profile.profile), profile.profile_len});
+  (*metadata)["icc_profile"] = read.name;
+  if (!read.is_srgb) (*metadata)["not_srgb"] = "the ICC profile \"" + read.name + "\"";
+}
+
+// cICP overrules them all. By ITU-T H.273: primaries 1 are Rec. 709's, transfer 13 is sRGB's,
+// matrix 0 and range 1 are RGB of full range.
+void AddCodePoints(const PngFile& png, Metadata* metadata) {
+  uint32_t count = 0;
+  if (spng_get_unknown_chunks(png.get(), nullptr, &count) != 0) return;
+  std::vector<spng_unknown_chunk> chunks(count);
+  if (spng_get_unknown_chunks(png.get(), chunks.data(), &count) != 0) return;
+  for (const spng_unknown_chunk& chunk : chunks) {
+    if (std::memcmp(chunk.type, "cICP", 4) != 0 || chunk.length != 4) continue;
+    const auto* const points = static_cast<const uint8_t*>(chunk.data);
+    const std::string text = fmt::format("{} {} {} {}", points[0], points[1], points[2], points[3]);
+    (*metadata)["code_points"] = text;
+    metadata->erase("not_srgb");
+    if (text != "1 13 0 1") {
+      (*metadata)["not_srgb"] = "the code points " + text + ", not 1 13 0 1 (cICP)";
+    }
+  }
+}
+
+std::string Utf8FromLatin1(std::string_view latin1) {
+  std::string text;
+  for (const char c : latin1) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x80) {
+      text += c;
+    } else {
+      text += static_cast<char>(0xc0 | code >> 6);
+      text += static_cast<char>(0x80 | (code & 0x3f));
+    }
+  }
+  return text;
+}
+
+// What the file says of itself in words never takes the place of what nacre says of its colours.
+void AddTexts(const PngFile& png, Metadata* metadata) {
+  uint32_t count = 0;
+  if (spng_get_text(png.get(), nullptr, &count) != 0) return;
+  std::vector<spng_text> texts(count);
+  if (spng_get_text(png.get(), texts.data(), &count) != 0) return;
+  for (const spng_text& text : texts) {
+    const std::string keyword = Utf8FromLatin1(text.keyword);
+    const std::string_view value(text.text, text.length);
+    constexpr std::array kOurs = {"gamma",       "primaries", "icc_profile", "srgb_intent",
+                                  "code_points", "not_srgb",  "transfer"};
+    if (std::ranges::find(kOurs, keyword) != kOurs.end()) continue;
+    metadata->emplace(keyword, text.type == SPNG_ITXT ? std::string(value) : Utf8FromLatin1(value));
+  }
+}
+
+Metadata MetadataOf(const PngFile& png) {
+  Metadata metadata;
+  AddGamma(png, &metadata);
+  AddPrimaries(png, &metadata);
+  AddProfile(png, &metadata);
+  AddCodePoints(png, &metadata);
+  AddTexts(png, &metadata);
+  metadata["transfer"] = "display";
+  return metadata;
+}
+
+Orientation OrientationOf(const PngFile& png) {
+  spng_exif exif{};
+  if (spng_get_exif(png.get(), &exif) != 0) return {};
+  return OrientationOfTag(
+      ExifOrientation({reinterpret_cast<const uint8_t*>(exif.data), exif.length}));
+}
+
+// Deflate makes 1032 bytes of one at most: what promises more would only cost memory.
+void CheckPromise(const PngFile& png, const std::string& path, uint64_t file_bytes) {
+  constexpr uint64_t kMaxRatio = 1032;
+  const spng_ihdr& header = png.header();
+  constexpr int kSamples[] = {1, 0, 3, 1, 2, 0, 4};
+  const uint64_t bits = uint64_t{header.width} * header.bit_depth *
+                        static_cast<uint64_t>(kSamples[header.color_type]);
+  if ((bits / 8 + 1) * header.height / kMaxRatio > file_bytes) {
+    FailToRead(path, fmt::format("{} bytes cannot hold its {} x {} pixels", file_bytes,
+                                 header.width, header.height));
+  }
+}
+
+template <typename Code>
+void ToFloats(const uint8_t* codes, std::vector<float>* values) {
+  constexpr auto kMost = static_cast<float>(static_cast<Code>(-1));
+  for (size_t i = 0; i < values->size(); ++i) {
+    Code code = 0;
+    std::memcpy(&code, codes + i * sizeof(Code), sizeof(Code));
+    (*values)[i] = static_cast<float>(code) / kMost;
+  }
 }
 
 }  // namespace
 
-std::map<std::string, std::string> PngColors(const std::string& path) {
-  const auto png = ParsePng(path);
-  return png ? png->colors : std::map<std::string, std::string>();
-}
-
-std::optional<ImageFile> OpenPlainPng(const std::string& path) {
-  const auto png = ParsePng(path);
-  if (!png || !png->plain) return {};
-  // Deflate makes 1032 bytes of one at most: what promises more would only cost memory.
-  constexpr uint64_t kMaxRatio = 1032;
-  uint64_t compressed = 0;
-  for (const auto& chunk : png->pixels) compressed += chunk.size();
-  if ((png->row_bytes() + 1) * png->height / kMaxRatio > compressed) return {};
+ImageFile OpenPng(const std::string& path) {
   ImageFile image;
   image.path = path;
-  image.file_bytes = png->file.size();
-  Image& header = image.header;
-  int width = static_cast<int>(png->width), height = static_cast<int>(png->height);
-  if (png->orientation.transpose) std::swap(width, height);
-  header.data = header.display = {0, 0, width, height};
-  header.metadata = png->colors;
-  header.metadata["transfer"] = "display";
-  const bool is_color = png->kind != 0 && png->kind != 4;
+  image.file_bytes = std::filesystem::file_size(path);
+  const PngFile png(path);
+  CheckPromise(png, path, image.file_bytes);
+  const Orientation orientation = OrientationOf(png);
+  int width = static_cast<int>(png.header().width), height = static_cast<int>(png.header().height);
+  if (orientation.transpose) std::swap(width, height);
+  image.header.data = image.header.display = {0, 0, width, height};
+  image.header.metadata = MetadataOf(png);
   std::vector<const char*> names = {"Y"};
-  if (is_color) names = {"R", "G", "B"};
-  if (png->kind == 4 || png->kind == 6) names.push_back("A");
-  for (const char* name : names) header.channels.push_back({name, PixelType::kFloat, {}});
-  image.parts = {PartOf(header)};
-  image.read = [path, png, data = header.data](const Window& region,
-                                               std::span<const SampleTarget> targets) {
-    ReadPngPixels(path, *png, data, region, targets);
+  if (png.is_color()) names = {"R", "G", "B"};
+  if (png.has_alpha()) names.push_back("A");
+  for (const char* name : names) image.header.channels.push_back({name, PixelType::kFloat, {}});
+  image.parts = {PartOf(image.header)};
+  // Opened again for each reading, which goes through the rows from the first one on.
+  image.read = [path, orientation, channels = names.size(), data = image.header.data](
+                   const Window& region, std::span<const SampleTarget> targets) {
+    PngFile file(path);
+    const RowPlacer placer(orientation, data, region, targets);
+    CheckUnchanged(path, placer.stored_width() == static_cast<int>(file.header().width) &&
+                             placer.stored_height() == static_cast<int>(file.header().height) &&
+                             channels == file.channels());
+    std::vector<float> values(file.header().width * channels);
+    file.ForEachRow([&](uint32_t y, const uint8_t* codes) {
+      file.is_wide() ? ToFloats<uint16_t>(codes, &values) : ToFloats<uint8_t>(codes, &values);
+      placer.Place(static_cast<int>(y), values.data(), channels);
+    });
   };
   return image;
 }

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "image_io/oiio.h"
-#include "image_io/text_width.h"
+#include "image_io/draw_text.h"
 #include "render/render.h"
 
 namespace nacre {

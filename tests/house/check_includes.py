@@ -52,6 +52,8 @@ HEADER_RULES = (
     (r"OpenImageIO/", r"oiio_module/", "OpenImageIO only in oiio_module/"),
     (r"OpenEXR/|Imf\w*\.h|openexr\w*\.h", r"image_io/", "OpenEXR only in image_io/"),
     (r"isa-l|igzip|zlib\.h", r"image_io/", "deflate only in image_io/"),
+    (r"spng\.h|jpeglib\.h|jerror\.h|ft2build\.h", r"image_io/",
+     "libspng, libjpeg and FreeType only in image_io/"),
     (r"(oneapi/)?tbb/", r"base/", "TBB only in base/"),
     (r"hwy/highway\.h", rf"{SIMD_FILE}|base/(highway_targets|target)\.cc",
      "Highway only in *-inl.h and *_kernel.cc, highway.h also in base/{highway_targets,target}.cc"),

@@ -16,6 +16,7 @@
 #include <OpenEXR/ImfTiledOutputFile.h>
 #include <OpenEXR/ImfVecAttribute.h>
 
+#include "image_io/color_channels.h"
 #include "pictures.h"
 
 namespace nacre {
@@ -88,6 +89,39 @@ TEST_CASE("all parts are read, under their names, or one of them") {
   CHECK(second.Find("Y")->samples == samples[1]);
   CHECK(Catching([&] { ReadImage(folder / "a.exr", "secund"); }).Says("did you mean \"second\"?"));
   CHECK(DescribeImage(folder / "a.exr").size() == 2);
+}
+
+TEST_CASE("parts whose channels would have the same name are to be chosen") {
+  const TestFolder folder;
+  std::vector<float> samples = Ramp(0);
+  std::vector<Imf::Header> headers(2, Imf::Header(kWidth, kHeight));
+  const char* const names[] = {"a", "a.b"};
+  const char* const channels[] = {"b.Y", "Y"};
+  for (size_t i = 0; i < 2; ++i) {
+    headers[i].setName(names[i]);
+    headers[i].setType(Imf::SCANLINEIMAGE);
+    headers[i].channels().insert(channels[i], Imf::Channel(Imf::FLOAT));
+  }
+  {
+    Imf::MultiPartOutputFile file((folder / "a.exr").c_str(), headers.data(), 2);
+    for (int i = 0; i < 2; ++i) {
+      Imf::FrameBuffer frame;
+      frame.insert(channels[i],
+                   Imf::Slice::Make(Imf::FLOAT, samples.data(), Imath::V2i(0, 0), kWidth, kHeight));
+      Imf::OutputPart part(file, i);
+      part.setFrameBuffer(frame);
+      part.writePixels(kHeight);
+    }
+  }
+  CHECK(Catching([&] { ReadImage(folder / "a.exr"); }).Says("both called \"a.b.Y\""));
+  CHECK(ReadImage(folder / "a.exr", "a.b").channels.size() == 1);
+}
+
+TEST_CASE("primaries are the same within the digits that files give them") {
+  const std::string rec709 = "0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329";
+  CHECK(SamePrimaries(rec709, "0.640 0.330 0.300 0.600 0.150 0.060 0.31271 0.32902"));
+  CHECK_FALSE(SamePrimaries(rec709, "0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329"));
+  CHECK_FALSE(SamePrimaries(rec709, "0.64 0.33 0.3 0.6 0.15 0.06 0.3127"));
 }
 
 // Any region, into any places: what textures ask for.

@@ -183,5 +183,18 @@ TEST_CASE("other and broken Radiance files are refused") {
   says(Header(20, 1) + std::string("\1\1\1\24", 4), "a repetition");
 }
 
+TEST_CASE("PIXASPECT is height over width, multiplies, and FORMAT may be missing") {
+  const std::string pixels = "\n-Y 1 +X 1\n\x80\x80\x80\x80";
+  const auto aspect = [&](const std::string& lines) {
+    const HdrFile file("#?RADIANCE\n" + lines + pixels);
+    return OpenHdr(file.path).header.metadata.at("pixelAspectRatio");
+  };
+  CHECK(aspect("FORMAT=32-bit_rle_rgbe\nPIXASPECT=2\n") == "0.5");
+  CHECK(aspect("PIXASPECT= 1.0\n") == "1");
+  CHECK(aspect("PIXASPECT=2\nPIXASPECT=.25\n") == "2");
+  const HdrFile zero("#?RADIANCE\nPIXASPECT=0\n" + pixels);
+  CHECK_THROWS_AS(OpenHdr(zero.path), Error);
+}
+
 }  // namespace
 }  // namespace nacre

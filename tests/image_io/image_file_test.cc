@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "image_io/oiio.h"
+#include "image_io/draw_text.h"
 #include "pictures.h"
 
 namespace nacre {

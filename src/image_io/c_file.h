@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// image_io/c_file.h: a FILE that closes itself, for the libraries that read from one.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+namespace nacre {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using CFile = std::unique_ptr<std::FILE, CloseFile>;
+
+// To read; null, and errno says why not.
+inline CFile OpenToRead(const std::string& path) { return CFile(std::fopen(path.c_str(), "rbe")); }
+
+}  // namespace nacre

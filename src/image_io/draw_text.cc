@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_io/draw_text.h"
+
+#include <algorithm>
+#include <climits>
+#include <cstddef>
+#include <memory>
+
+#include <ft2build.h>
+#include FT_FREETYPE_H
+
+#include "base/error.h"
+#include "base/printable.h"
+
+namespace nacre {
+namespace {
+
+// Where Debian has the font, and where Fedora and Arch have it.
+constexpr const char* kFontFiles[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                      "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                      "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+
+using Library = std::unique_ptr<FT_LibraryRec_, decltype(&FT_Done_FreeType)>;
+using Face = std::unique_ptr<FT_FaceRec_, decltype(&FT_Done_Face)>;
+
+// DejaVu Sans, open.
+class Font {
+ public:
+  Font() {
+    FT_Library library = nullptr;
+    if (FT_Init_FreeType(&library) != 0)
+      throw Error(ExitCode::kInternal, "labels", "FreeType cannot start");
+    library_.reset(library);
+    for (const char* const file : kFontFiles) {
+      FT_Face face = nullptr;
+      if (FT_New_Face(library, file, 0, &face) != 0) continue;
+      face_.reset(face);
+      return;
+    }
+    throw Error(ExitCode::kInternal, "labels", "the font DejaVu Sans is not installed",
+                "Debian has it in the package fonts-dejavu-core");
+  }
+
+  void SetSize(int size_px) { FT_Set_Pixel_Sizes(face_.get(), 0, static_cast<FT_UInt>(size_px)); }
+
+  // The glyph of a character, drawn at the current size; valid until the next call.
+  const FT_GlyphSlotRec_& Glyph(char32_t character) {
+    if (FT_Load_Char(face_.get(), character, FT_LOAD_RENDER) != 0) {
+      throw Error(ExitCode::kInternal, "labels", "the font DejaVu Sans is damaged");
+    }
+    return *face_->glyph;
+  }
+
+ private:
+  Library library_{nullptr, &FT_Done_FreeType};
+  Face face_{nullptr, &FT_Done_Face};
+};
+
+// The characters of UTF-8, which Printable() leaves valid.
+std::u32string Decode(const std::string& utf8) {
+  std::u32string text;
+  for (size_t i = 0; i < utf8.size();) {
+    const auto first = static_cast<unsigned char>(utf8[i++]);
+    const int more = first < 0x80 ? 0 : first < 0xe0 ? 1 : first < 0xf0 ? 2 : 3;
+    char32_t character = more == 0 ? first : first & (0x3fu >> more);
+    for (int k = 0; k < more && i < utf8.size(); ++k) {
+      character = character << 6 | (static_cast<unsigned char>(utf8[i++]) & 0x3fu);
+    }
+    text += character;
+  }
+  return text;
+}
+
+// Pixels [x0, x1) x [y0, y1) from the start of the baseline; y grows downwards.
+struct Box {
+  int x0 = INT_MAX, y0 = INT_MAX, x1 = INT_MIN, y1 = INT_MIN;
+
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+
+// How much of each pixel a line's strokes cover, from 0 to 1.
+struct Strokes {
+  Box box;
+  std::vector<float> coverage;
+
+  int width() const { return box.x1 - box.x0; }
+  size_t IndexOf(int x, int y) const {
+    return static_cast<size_t>(y - box.y0) * static_cast<size_t>(width()) +
+           static_cast<size_t>(x - box.x0);
+  }
+  float At(int x, int y) const { return coverage[IndexOf(x, y)]; }
+  float& At(int x, int y) { return coverage[IndexOf(x, y)]; }
+};
+
+// Calls with_glyph(glyph, x) for each character of a line, which starts at 0. Advances are whole
+// pixels, without kerning: letters of small text then all look alike.
+template <class WithGlyph>
+void ForEachGlyph(const std::u32string& text, Font* font, const WithGlyph& with_glyph) {
+  int x = 0;
+  for (const char32_t character : text) {
+    const FT_GlyphSlotRec_& glyph = font->Glyph(character);
+    with_glyph(glyph, x);
+    x += static_cast<int>(glyph.advance.x >> 6);
+  }
+}
+
+Box BoundsOf(const std::u32string& text, Font* font) {
+  Box box;
+  ForEachGlyph(text, font, [&](const FT_GlyphSlotRec_& glyph, int x) {
+    const int left = x + glyph.bitmap_left, top = -glyph.bitmap_top;
+    box.x0 = std::min(box.x0, left);
+    box.y0 = std::min(box.y0, top);
+    // A space has no pixels, but takes its room.
+    box.x1 = std::max({box.x1, left + static_cast<int>(glyph.bitmap.width),
+                       x + static_cast<int>(glyph.advance.x >> 6)});
+    box.y1 = std::max(box.y1, top + static_cast<int>(glyph.bitmap.rows));
+  });
+  return box;
+}
+
+// `room`: pixels around the strokes.
+Strokes DrawStrokes(const std::u32string& text, int room, Font* font) {
+  Strokes strokes;
+  strokes.box = BoundsOf(text, font);
+  if (strokes.box.empty()) return strokes;
+  strokes.box.x0 -= room;
+  strokes.box.y0 -= room;
+  strokes.box.x1 += room;
+  strokes.box.y1 += room;
+  strokes.coverage.resize(static_cast<size_t>(strokes.width()) *
+                          static_cast<size_t>(strokes.box.y1 - strokes.box.y0));
+  ForEachGlyph(text, font, [&](const FT_GlyphSlotRec_& glyph, int x) {
+    const FT_Bitmap& bitmap = glyph.bitmap;
+    for (int j = 0; j < static_cast<int>(bitmap.rows); ++j) {
+      for (int i = 0; i < static_cast<int>(bitmap.width); ++i) {
+        const float covered = static_cast<float>(bitmap.buffer[j * bitmap.pitch + i]) / 255;
+        float& at = strokes.At(x + glyph.bitmap_left + i, j - glyph.bitmap_top);
+        at = std::max(at, covered);
+      }
+    }
+  });
+  return strokes;
+}
+
+// Each pixel becomes the largest within `radius` rows and columns.
+Strokes Widen(const Strokes& strokes, int radius) {
+  Strokes rows = strokes, result = strokes;
+  const Box& box = strokes.box;
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) {
+      float& most = rows.At(x, y);
+      for (int i = std::max(x - radius, box.x0); i < std::min(x + radius + 1, box.x1); ++i) {
+        most = std::max(most, strokes.At(i, y));
+      }
+    }
+  }
+  for (int y = box.y0; y < box.y1; ++y) {
+    for (int x = box.x0; x < box.x1; ++x) {
+      float& most = result.At(x, y);
+      for (int j = std::max(y - radius, box.y0); j < std::min(y + radius + 1, box.y1); ++j) {
+        most = std::max(most, rows.At(x, j));
+      }
+    }
+  }
+  return result;
+}
+
+// From the start of the baseline to the point that the item places. Vertically that depends on the
+// font only, so that labels in a row stand on one line.
+struct Offset {
+  int x, y;
+};
+
+Offset AlignmentOffset(const TextItem& item, const Box& text, Font* font) {
+  const Box capital = BoundsOf(U"H", font), descender = BoundsOf(U"g", font);
+  return {item.align_x == AlignX::kLeft    ? text.x0
+          : item.align_x == AlignX::kRight ? text.x1
+                                           : (text.x0 + text.x1) / 2,
+          item.align_y == AlignY::kTop      ? capital.y0
+          : item.align_y == AlignY::kBottom ? descender.y1
+                                            : (capital.y0 + capital.y1) / 2};
+}
+
+void DrawItem(const TextItem& item, std::span<uint8_t> rgb8, int width, int height, Font* font) {
+  font->SetSize(item.size_px);
+  const std::u32string text = Decode(Printable(item.text));
+  const int outline = item.outline ? std::max(1, item.size_px / 12) : 0;
+  Strokes strokes = DrawStrokes(text, outline, font);
+  if (strokes.box.empty()) return;
+  Strokes shade = outline > 0 ? Widen(strokes, outline) : strokes;
+  Box bounds = strokes.box;
+  bounds.x0 += outline;
+  bounds.x1 -= outline;
+  const Offset offset = AlignmentOffset(item, bounds, font);
+  const int64_t left = int64_t{item.x} - offset.x, top = int64_t{item.y} - offset.y;
+  for (int y = strokes.box.y0; y < strokes.box.y1; ++y) {
+    for (int x = strokes.box.x0; x < strokes.box.x1; ++x) {
+      const int64_t to_x = left + x, to_y = top + y;
+      if (to_x < 0 || to_x >= width || to_y < 0 || to_y >= height) continue;
+      uint8_t* const pixel = &rgb8[3 * static_cast<size_t>(to_y * width + to_x)];
+      const float stroke = strokes.At(x, y), shown = 1 - shade.At(x, y);
+      for (size_t c = 0; c < 3; ++c) {
+        const float code =
+            static_cast<float>(item.color[c]) * stroke + static_cast<float>(pixel[c]) * shown;
+        pixel[c] = static_cast<uint8_t>(std::clamp(code + 0.5f, 0.0f, 255.0f));
+      }
+    }
+  }
+}
+
+// Advance widths of the characters 32 to 126 of DejaVu Sans 2.37, in units of 1/2048 of the size.
+constexpr std::array<uint16_t, 95> kAdvances = {
+    651,  821,  942,  1716, 1303, 1946, 1597, 563,  799,  799,  1024, 1716, 651,  739,  651,  690,
+    1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 1303, 690,  690,  1716, 1716, 1716, 1087,
+    2048, 1401, 1405, 1430, 1577, 1294, 1178, 1587, 1540, 604,  604,  1343, 1141, 1767, 1532, 1612,
+    1235, 1612, 1423, 1300, 1251, 1499, 1401, 2025, 1403, 1251, 1403, 799,  690,  799,  1716, 1024,
+    1024, 1255, 1300, 1126, 1300, 1260, 721,  1300, 1298, 569,  569,  1186, 569,  1995, 1298, 1253,
+    1300, 1300, 842,  1067, 803,  1298, 1212, 1675, 1212, 1212, 1075, 1303, 690,  1303, 1716};
+constexpr double kUnits = 2048;
+
+}  // namespace
+
+void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items) {
+  if (rgb8.size() != 3 * static_cast<size_t>(width) * static_cast<size_t>(height)) {
+    throw Error(ExitCode::kInternal, "labels", "the buffer is not of the picture's size");
+  }
+  if (items.empty()) return;
+  Font font;
+  for (const TextItem& item : items) DrawItem(item, rgb8, width, height, &font);
+}
+
+double TextWidth(std::string_view text, double size_px) {
+  double units = 0;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if ((code & 0xc0u) == 0x80u) continue;  // a later byte of a letter
+    const bool known = code >= 32 && code < 127;
+    units += known ? kAdvances[code - 32u] : kAdvances['0' - 32];
+  }
+  return units / kUnits * size_px;
+}
+
+}  // namespace nacre

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_io/jpeg_reader.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <csetjmp>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+// In this order: the library's header needs FILE.
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include "base/error.h"
+#include "image_io/c_file.h"
+#include "image_io/exif.h"
+#include "image_io/icc_profile.h"
+#include "image_io/orientation.h"
+
+namespace nacre {
+namespace {
+
+// A progressive file may have a scan for every bit of every coefficient, and a hostile one any
+// number, each of which goes through the whole image. libjpeg-turbo's own tests stop at as many.
+constexpr int kMostScans = 500;
+
+// What libjpeg calls and is called with; C only, as its errors leave by longjmp.
+struct Decoder {
+  jpeg_decompress_struct jpeg{};
+  jpeg_error_mgr errors{};
+  jpeg_progress_mgr progress{};
+  std::jmp_buf leave{};
+  char message[JMSG_LENGTH_MAX] = {};
+};
+
+void OnError(j_common_ptr common) {
+  auto* const decoder = static_cast<Decoder*>(common->client_data);
+  common->err->format_message(common, decoder->message);
+  std::longjmp(decoder->leave, 1);
+}
+
+// The library goes on after what it only warns of, with pixels that it made up; but for these,
+// which leave the pixels as they are.
+void OnMessage(j_common_ptr common, int level) {
+  if (level >= 0) return;
+  const int code = common->err->msg_code;
+  if (code == JWRN_EXTRANEOUS_DATA || code == JWRN_ADOBE_XFORM || code == JWRN_JFIF_MAJOR) return;
+  OnError(common);
+}
+
+void OnScan(j_common_ptr common) {
+  auto* const decoder = static_cast<Decoder*>(common->client_data);
+  if (decoder->jpeg.input_scan_number <= kMostScans) return;
+  std::snprintf(decoder->message, sizeof decoder->message, "it has more than %d scans", kMostScans);
+  std::longjmp(decoder->leave, 1);
+}
+
+struct DestroyDecoder {
+  void operator()(Decoder* decoder) const {
+    jpeg_destroy_decompress(&decoder->jpeg);
+    delete decoder;
+  }
+};
+
+// A file that is open.
+class JpegFile {
+ public:
+  explicit JpegFile(const std::string& path) : path_(path), file_(OpenToRead(path)) {
+    if (!file_) Fail(std::strerror(errno));
+    jpeg_decompress_struct& jpeg = decoder_->jpeg;
+    jpeg.err = jpeg_std_error(&decoder_->errors);
+    decoder_->errors.error_exit = &OnError;
+    decoder_->errors.emit_message = &OnMessage;
+    decoder_->progress.progress_monitor = &OnScan;
+    jpeg.client_data = decoder_.get();
+    if (!ReadHeader()) FailWithMessage();
+  }
+
+  const jpeg_decompress_struct& header() const { return decoder_->jpeg; }
+  bool is_grey() const { return header().out_color_space == JCS_GRAYSCALE; }
+
+  Orientation orientation() const {
+    constexpr char kExif[] = "Exif\0";  // and a zero that ends it
+    for (auto marker = header().marker_list; marker != nullptr; marker = marker->next) {
+      if (marker->marker != JPEG_APP0 + 1 || marker->data_length < sizeof kExif) continue;
+      if (std::memcmp(marker->data, kExif, sizeof kExif) != 0) continue;
+      return OrientationOfTag(
+          ExifOrientation({marker->data + sizeof kExif, marker->data_length - sizeof kExif}));
+    }
+    return {};
+  }
+
+  // The embedded profile, or nothing.
+  std::vector<uint8_t> profile() {
+    JOCTET* bytes = nullptr;
+    unsigned size = 0;
+    if (!TryReadProfile(&bytes, &size)) FailWithMessage();
+    const std::unique_ptr<JOCTET, decltype(&std::free)> owner(bytes, &std::free);
+    return {bytes, bytes + size};
+  }
+
+  // Starts to decode rows, of `width` pixels with `components` samples each.
+  void Start() {
+    if (!TryStart()) FailWithMessage();
+  }
+  void ReadRow(uint8_t* row) {
+    if (!TryReadRow(row)) FailWithMessage();
+  }
+  // After the last row: what follows it must be whole.
+  void Finish() {
+    if (!TryFinish()) FailWithMessage();
+  }
+
+ private:
+  // Of functions that libjpeg may leave by longjmp, which must not pass over an object of C++ with
+  // a destructor: false if it does.
+  bool ReadHeader() {
+    if (setjmp(decoder_->leave) != 0) return false;
+    jpeg_decompress_struct& jpeg = decoder_->jpeg;
+    jpeg_create_decompress(&jpeg);
+    jpeg.client_data = decoder_.get();
+    jpeg.progress = &decoder_->progress;
+    jpeg_stdio_src(&jpeg, file_.get());
+    constexpr unsigned kLongest = 0xffff;
+    jpeg_save_markers(&jpeg, JPEG_APP0 + 1, kLongest);
+    jpeg_save_markers(&jpeg, JPEG_APP0 + 2, kLongest);
+    jpeg_read_header(&jpeg, TRUE);
+    const bool is_cmyk = jpeg.jpeg_color_space == JCS_CMYK || jpeg.jpeg_color_space == JCS_YCCK;
+    jpeg.out_color_space = jpeg.jpeg_color_space == JCS_GRAYSCALE ? JCS_GRAYSCALE
+                           : is_cmyk                              ? JCS_CMYK
+                                                                  : JCS_RGB;
+    jpeg_calc_output_dimensions(&jpeg);
+    return true;
+  }
+  bool TryReadProfile(JOCTET** bytes, unsigned* size) {
+    if (setjmp(decoder_->leave) != 0) return false;
+    jpeg_read_icc_profile(&decoder_->jpeg, bytes, size);
+    return true;
+  }
+  bool TryStart() {
+    if (setjmp(decoder_->leave) != 0) return false;
+    jpeg_start_decompress(&decoder_->jpeg);
+    return true;
+  }
+  bool TryReadRow(uint8_t* row) {
+    if (setjmp(decoder_->leave) != 0) return false;
+    jpeg_read_scanlines(&decoder_->jpeg, &row, 1);
+    return true;
+  }
+  bool TryFinish() {
+    if (setjmp(decoder_->leave) != 0) return false;
+    jpeg_finish_decompress(&decoder_->jpeg);
+    return true;
+  }
+
+  [[noreturn]] void Fail(const std::string& reason) const {
+    throw Error(ExitCode::kBadInput, path_, "cannot be read: " + reason);
+  }
+  [[noreturn]] void FailWithMessage() const { Fail(decoder_->message); }
+
+  std::string path_;
+  CFile file_;
+  std::unique_ptr<Decoder, DestroyDecoder> decoder_{new Decoder};
+};
+
+// Values of a row in [0, 1]. CMYK is stored as Adobe's programs do, 255 for no ink, by those that
+// leave their marker; else 0 for no ink. Colours are then what light is left of each ink by black.
+void ToFloats(const jpeg_decompress_struct& jpeg, const std::vector<uint8_t>& codes,
+              std::vector<float>* values) {
+  if (jpeg.out_color_space != JCS_CMYK) {
+    std::ranges::transform(codes, values->begin(),
+                           [](uint8_t code) { return static_cast<float>(code) / 255; });
+    return;
+  }
+  const auto light = [&](uint8_t code) {
+    return static_cast<float>(jpeg.saw_Adobe_marker ? code : 255 - code) / 255;
+  };
+  for (size_t x = 0; x < codes.size() / 4; ++x) {
+    for (size_t c = 0; c < 3; ++c) {
+      (*values)[3 * x + c] = light(codes[4 * x + c]) * light(codes[4 * x + 3]);
+    }
+  }
+}
+
+}  // namespace
+
+ImageFile OpenJpeg(const std::string& path) {
+  JpegFile jpeg(path);
+  ImageFile image;
+  image.path = path;
+  image.file_bytes = std::filesystem::file_size(path);
+  const Orientation orientation = jpeg.orientation();
+  int width = static_cast<int>(jpeg.header().output_width);
+  int height = static_cast<int>(jpeg.header().output_height);
+  if (orientation.transpose) std::swap(width, height);
+  image.header.data = image.header.display = {0, 0, width, height};
+  image.header.metadata["transfer"] = "display";
+  if (const std::vector<uint8_t> embedded = jpeg.profile(); !embedded.empty()) {
+    const IccProfile profile = ReadIccProfile(embedded);
+    image.header.metadata["icc_profile"] = profile.name;
+    if (!profile.is_srgb) {
+      image.header.metadata["not_srgb"] = "the ICC profile \"" + profile.name + "\"";
+    }
+  }
+  for (const char* name : {"R", "G", "B"}) {
+    image.header.channels.push_back({jpeg.is_grey() ? "Y" : name, PixelType::kFloat, {}});
+    if (jpeg.is_grey()) break;
+  }
+  image.parts = {PartOf(image.header)};
+  // Opened again for each reading, which goes through the rows from the first one on.
+  image.read = [path, orientation, is_grey = jpeg.is_grey(), data = image.header.data](
+                   const Window& region, std::span<const SampleTarget> targets) {
+    JpegFile file(path);
+    const RowPlacer placer(orientation, data, region, targets);
+    CheckUnchanged(path,
+                   placer.stored_width() == static_cast<int>(file.header().output_width) &&
+                       placer.stored_height() == static_cast<int>(file.header().output_height) &&
+                       is_grey == file.is_grey());
+    const auto stored_width = static_cast<size_t>(placer.stored_width());
+    const size_t channels = file.is_grey() ? 1 : 3;
+    file.Start();
+    std::vector<uint8_t> codes(stored_width * static_cast<size_t>(file.header().output_components));
+    std::vector<float> values(stored_width * channels);
+    for (int y = 0; y < placer.stored_height(); ++y) {
+      file.ReadRow(codes.data());
+      ToFloats(file.header(), codes, &values);
+      placer.Place(y, values.data(), channels);
+    }
+    file.Finish();
+  };
+  return image;
+}
+
+}  // namespace nacre
