@@ -151,15 +151,57 @@ void ResolveColors(Png* png) {
   }
 }
 
-// A tEXt chunk: a keyword, a zero byte and text in Latin-1, of which ASCII is kept. What the file
-// says of itself in words never takes the place of what its other chunks say.
-void ParseText(std::span<const uint8_t> data, Png* png) {
-  const auto end = std::find(data.begin(), data.end(), 0);
-  const std::string keyword(data.begin(), end);
-  if (end == data.end() || !keyword.starts_with("nacre:")) return;
+// Takes what is before the next zero byte off the front of *data, and the zero byte.
+std::string TakeWord(std::span<const uint8_t>* data) {
+  const auto end = std::find(data->begin(), data->end(), 0);
+  std::string word(data->begin(), end);
+  *data = data->subspan(std::min(word.size() + 1, data->size()));
+  return word;
+}
+
+// The beginning of a text that deflate made, as much of it as anybody reads: a few bytes of it may
+// promise megabytes.
+std::string InflateText(std::span<const uint8_t> data) {
+  constexpr uLongf kLongest = 1 << 16;
+  std::string text(kLongest, '\0');
+  uLongf size = kLongest;
+  const int status = uncompress(reinterpret_cast<Bytef*>(text.data()), &size, data.data(),
+                                static_cast<uLong>(data.size()));
+  if (status != Z_OK && status != Z_BUF_ERROR) return "(damaged)";
+  text.resize(size);
+  return text;
+}
+
+std::string Utf8FromLatin1(std::string_view latin1) {
+  std::string utf8;
+  for (const char c : latin1) {
+    const auto code = static_cast<uint8_t>(c);
+    if (code >= 0x80) utf8 += static_cast<char>(0xc0 | code >> 6);
+    utf8 += static_cast<char>(code < 0x80 ? code : 0x80 | (code & 0x3f));
+  }
+  return utf8;
+}
+
+// tEXt: a keyword, a zero byte and text in Latin-1. zTXt: the text compressed, after its method.
+// iTXt: whether and how it is compressed, the language, the keyword in it, and text in UTF-8 (W3C
+// PNG, 11.3.3).
+void ParseText(std::string_view type, std::span<const uint8_t> data, Png* png) {
+  const std::string keyword = Utf8FromLatin1(TakeWord(&data));
   std::string text;
-  for (auto c = end + 1; c != data.end(); ++c) text += *c < 0x80 ? static_cast<char>(*c) : '?';
-  png->colors.emplace(keyword, text);
+  if (type == "iTXt") {
+    if (data.size() < 2) return;
+    const bool compressed = data[0] == 1;
+    data = data.subspan(2);
+    TakeWord(&data);  // the language
+    TakeWord(&data);  // the keyword in it
+    text = compressed ? InflateText(data) : std::string(data.begin(), data.end());
+  } else {
+    if (type == "zTXt") data = data.subspan(std::min<size_t>(data.size(), 1));
+    text =
+        Utf8FromLatin1(type == "zTXt" ? InflateText(data) : std::string(data.begin(), data.end()));
+  }
+  // The first of several.
+  png->colors.emplace(keyword.starts_with("nacre:") ? keyword : "png:" + keyword, text);
 }
 
 // False for broken files.
@@ -183,7 +225,7 @@ bool ParseChunks(Png* png) {
       return true;
     }
     if (name == "tRNS") png->plain = false;
-    if (name == "tEXt") ParseText(data, png);
+    if (name == "tEXt" || name == "zTXt" || name == "iTXt") ParseText(name, data, png);
     if (name == "PLTE") png->palette = data;
     if (name == "IDAT") png->pixels.push_back(data);
     if (name == "eXIf") png->orientation = OrientationOfTag(ExifOrientation(data));

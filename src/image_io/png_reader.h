@@ -22,7 +22,9 @@ std::optional<ImageFile> OpenPlainPng(const std::string& path);
 
 // "gamma" (of gAMA, the encoding's exponent), "primaries" (of cHRM), "icc_profile" (of iCCP, "sRGB"
 // or its name), "srgb_intent": those that the file has. "not_srgb" says in words what of them
-// contradicts sRGB. Nothing for broken files.
+// contradicts sRGB. Texts (tEXt, zTXt, iTXt) under their keywords, those that are not nacre's own
+// under "png:KEYWORD", so that a file's words never stand where a chunk's meaning does. Nothing for
+// broken files.
 std::map<std::string, std::string> PngColors(const std::string& path);
 
 }  // namespace nacre
