@@ -55,6 +55,13 @@ def log_fit(sizes, values):
     return exponent, math.exp(y_mean - exponent * x_mean)
 
 
+def first_of_last_decade(sizes):
+    """Where, of ascending sizes, those begin that are a tenth of the last one or more; two at
+    least."""
+    first = next(i for i, size in enumerate(sizes) if 10 * size >= sizes[-1])
+    return max(0, min(first, len(sizes) - 2))
+
+
 def steepest_step(sizes, values):
     """(exponent, from size, to size) where the values grow fastest from one size to the next."""
     steps = [(math.log(values[i + 1] / values[i]) / math.log(sizes[i + 1] / sizes[i]),

@@ -36,29 +36,50 @@ def with_this_run(runs, results):
     return [own] + [run for run in runs if run["processor"] != processor]
 
 
-def headline_table(runs):
-    """A column a processor; blank what one was not asked for."""
-    names = list(dict.fromkeys(name for run in runs for name in run["headlines"]))
+# The numbers that come first, in words.
+FIRST = {
+    "process_ms_grid_1080p_1spp": "`material_grid.json` at 1920x1080, one sample a pixel, to EXR: the "
+                                  "whole process, ms",
+    "frame_ms_grid_1080p_16spp": "the same with 16 samples, the frame in memory, ms",
+    "process_s_million_1spp": "a million spheres at 1920x1080, one sample: the whole process, s",
+    "grid_visibility_over_embree_spheres": "exact hits of the grid, times Embree's own spheres in "
+                                           "float",
+    "visibility_1e5_over_embree_spheres": "the same of 100 000 spheres",
+    "ggx_over_scalar": "GGX shading, times plain C++",
+    "phong_over_scalar": "Phong shading, times plain C++",
+    "adaptive_0.03_over_uniform": "`--max-error 0.03` on the grid, times equal samples for all pixels "
+                                  "that reach the same error",
+}
+
+
+def headline_table(runs, words=None):
+    """A column a processor; blank what one was not asked for. `words`: the rows, by name; without
+    it all there are, by their names."""
+    names = words or list(dict.fromkeys(name for run in runs for name in run["headlines"]))
     rows = ["| headline | " + " | ".join(run["processor"] for run in runs) + " |",
             "|---|" + "---|" * len(runs)]
     for name in names:
         values = [_number(run["headlines"][name]) if name in run["headlines"] else ""
                   for run in runs]
-        rows.append(f"| `{name}` | " + " | ".join(values) + " |")
+        rows.append(f"| {words[name] if words else f'`{name}`'} | " + " | ".join(values) + " |")
     return rows
 
 
+def _folded(title, lines):
+    """Shown when it is asked for."""
+    return ["<details>", f"<summary>{title}</summary>", "", *lines, "", "</details>", ""]
+
+
 def markdown(results, runs):
-    """The short form: kernels beside plain C++, and the headline numbers of all runs, of which
-    the first one is this."""
+    """The headline numbers of all runs, of which the first one is this: a few, and folded behind
+    them the kernels beside plain C++ and all numbers."""
     best = results["best_target"]
     rows = [row for row in report.kernel_rows(results["benchmarks"])
             if row[1] == "cached" and row[2] in ("avx2", best)]
     by_model = {}
     for model, _, target, ns, rate, ratio, _ in rows:
         by_model.setdefault(model, {})[target] = (ns, rate, ratio)
-    lines = [f"Measured by `{results['command']}`: {machine.line(results['machine'])}.", "",
-             f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}"
+    lines = [f"Per hit and light, one thread; \"plain\" is {results['scalar_baseline']}"
              + (f"; {report.ports(results)}." if report.ports(results) else "."), "",
              f"| kernel | {best}, ns | million/s | times plain | of port bound | times plain at it "
              "| avx2, ns |", "|---|---|---|---|---|---|---|"]
@@ -71,16 +92,18 @@ def markdown(results, runs):
                      f"{f'{ratio:.1f}' if ratio else ''} | "
                      f"{report.share_of_bound(results, model, best, ns)} | "
                      f"{report.ratio_at_bound(results, model, best, ns, ratio)} | {avx2} |")
-    lines += ["", "Ways to do the same work: `a_over_b` is how many times faster a is, or in how "
+    ways = ["Ways to do the same work: `a_over_b` is how many times faster a is, or in how "
               "many times fewer rays if its name ends in `in_rays`; in memory, each frame in that "
               "of the one before, unless it says process. Embree's spheres are traced bare, in "
               "float, their tree built before; what says in_float is the nearest sphere and its "
               "depth on both sides, the rest exact hits with points and normals on ours. What says "
               "at_port_bound is counted: the exact test alone, its vectors full and nothing waiting.",
               "", *headline_table(runs)]
+    measured = [f"Measured by `{results['command']}`: {machine.line(results['machine'])}."]
     if runs[1:]:
-        lines += ["", "The other columns: " + "; ".join(run["line"] for run in runs[1:]) + "."]
-    return "\n".join(lines)
+        measured.append("The other columns: " + "; ".join(run["line"] for run in runs[1:]) + ".")
+    return "\n".join([*headline_table(runs, FIRST), "", *measured, "",
+                      *_folded("Kernels", lines), *_folded("All numbers", ways)])
 
 
 def update(root, results, folder):

@@ -149,7 +149,7 @@ def _scaling(curves):
                  f"{p['mib']:.0f}") for p in curve["points"]]
         fit = curve["fits"]
         growth = "; ".join(
-            f"{label} ~ n^{fit[key]['exponent']:.2f}, steepest step n^{fit[key]['steepest']:.2f} "
+            f"{label} ~ n^{fit[key]['exponent']:.2f} in the last decade, steepest step n^{fit[key]['steepest']:.2f} "
             f"from {fit[key]['from']:,} to {fit[key]['to']:,}"
             f"{', a CLIFF' if fit[key]['steepest'] > _CLIFF else ''}"
             for label, key in (("frame", "frame_s"), ("memory", "mib")))

@@ -6,13 +6,15 @@ from processes import say
 
 
 def fits(points):
-    """Of a curve, [{size, frame_s, process_s, mib}...]: the growth of each number over all of it,
-    and the steepest step, which a cliff would show in."""
+    """Of a curve, [{size, frame_s, process_s, mib}...]: the growth of each number over the last
+    decade of sizes, where what does not grow has become small beside what does, and the steepest
+    step of all, which a cliff would show in."""
     sizes = [point["size"] for point in points]
+    first = estimates.first_of_last_decade(sizes)
     found = {}
     for key in ("frame_s", "process_s", "mib"):
         values = [point[key] for point in points]
-        exponent, _ = estimates.log_fit(sizes, values)
+        exponent, _ = estimates.log_fit(sizes[first:], values[first:])
         steepest, begin, end = estimates.steepest_step(sizes, values)
         found[key] = {"exponent": exponent, "steepest": steepest, "from": begin, "to": end}
     return found

@@ -26,9 +26,15 @@ inline nlohmann::json LoadTable(const std::string& name) {
   return nlohmann::json::parse(file);
 }
 
-// A reference value, which tables hold as a decimal string of 20 to 30 digits.
+// A reference value, which tables hold as a decimal string of 20 to 30 digits. Numbers below
+// double's range are denormals or 0, which std::stod refuses.
 inline double TableNumber(const nlohmann::json& value) {
-  return value.is_string() ? std::stod(value.get<std::string>()) : value.get<double>();
+  if (!value.is_string()) return value.get<double>();
+  const auto text = value.get<std::string>();
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0') throw std::runtime_error("\"" + text + "\" is no number");
+  return number;
 }
 
 // Half an ulp of 1 in float and in double.

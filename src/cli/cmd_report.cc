@@ -103,7 +103,8 @@ void RunReport(const ReportArguments& arguments) {
     if (kind == ReportInput::kBench) sections.push_back(BenchSection(path));
     if (kind == ReportInput::kReferences) {
       ValidationSection validation(perceptual, limit / FindReferences(path).size(), &page);
-      RunReferences(path, arguments.render.threads, [&](const ReferenceOutcome& outcome) {
+      const ReferenceOptions references{arguments.render.threads, arguments.render.allow_paths};
+      RunReferences(path, references, [&](const ReferenceOutcome& outcome) {
         CheckOutputsAreNoInputs({arguments.output}, outcome.read);
         validation.Add(outcome);
       });

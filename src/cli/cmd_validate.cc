@@ -20,7 +20,7 @@ struct ValidateArguments {
   std::string folder = "tests/references";
   std::string report;  // path; empty: none
   std::string target = "auto";
-  int threads = 0;
+  ReferenceOptions references;
 };
 
 // A line of the table.
@@ -50,7 +50,7 @@ ExitCode Validate(const ValidateArguments& arguments) {
            "99.9% rel", "exceed", "tolerance's reason, or what differs");
   bool all_match = true;
   bool all_compared = true;
-  RunReferences(arguments.folder, arguments.threads, [&](const ReferenceOutcome& outcome) {
+  RunReferences(arguments.folder, arguments.references, [&](const ReferenceOutcome& outcome) {
     PrintOutcome(outcome);
     all_compared = all_compared && outcome.run;
     all_match = all_match && outcome.run && outcome.run->verdict.match;
@@ -78,10 +78,14 @@ void AddValidateCommand(CLI::App* app, int* exit_code) {
       ->add_option("--report", a->report,
                    "Also one HTML file with all pictures, their references and errors")
       ->type_name("OUT.html");
-  command->add_option("--threads", a->threads, "Threads to use; 0: as many as the machine has")
+  command
+      ->add_option("--threads", a->references.threads,
+                   "Threads to use; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024));
   command->add_option("--target", a->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
       ->capture_default_str();
+  command->add_flag("--allow-paths", a->references.allow_paths,
+                    "Let references name files outside their folder, and scenes, too");
   command->footer(
       "NAME.reference.json names a scene, its image by somebody else, tolerances and their "
       "reason:\n"

@@ -18,6 +18,7 @@
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/help_text.h"
+#include "cli/manual.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/unknown_option.h"
@@ -26,11 +27,17 @@ namespace {
 
 // CLI11 takes an unknown command for a missing one; this names it and the one likely meant.
 void CheckCommandName(const CLI::App& app, const std::vector<std::string>& reversed) {
-  if (reversed.empty() || reversed.back().empty() || reversed.back()[0] == '-') return;
+  if (reversed.empty()) {
+    throw nacre::Error(nacre::ExitCode::kUsage, "", "the command is missing",
+                       "nacre help tells what there is");
+  }
+  if (reversed.back().empty() || reversed.back()[0] == '-') return;
   const std::string& word = reversed.back();
+  const auto known =
+      app.get_subcommands([&](const CLI::App* command) { return command->get_name() == word; });
+  if (!known.empty()) return;
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  for (const CLI::App* command : nacre::ShownCommands(app)) names.push_back(command->get_name());
   const std::string nearest = nacre::NearestName(word, names);
   throw nacre::Error(nacre::ExitCode::kUsage, "", fmt::format("unknown command \"{}\"", word),
                      nearest.empty() ? fmt::format("the commands are {}", fmt::join(names, ", "))
@@ -89,6 +96,10 @@ int Run(int argc, char** argv) {
   nacre::AddPlotCommand(&app, &exit_code);
   nacre::AddStudyCommand(&app, &exit_code);
   nacre::AddDocsCommand(&app, &exit_code);
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+  for (CLI::App* command : app.get_subcommands({})) {
+    if (!command->get_group().empty()) command->group("Commands");  // empty: not shown
+  }
   try {
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();

@@ -12,11 +12,6 @@
 namespace nacre {
 namespace {
 
-// What help shows: not what is in the nameless group.
-std::vector<const CLI::App*> Commands(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
-}
-
 std::vector<const CLI::Option*> Options(const CLI::App& app) {
   return app.get_options([](const CLI::Option* option) { return !option->get_group().empty(); });
 }
@@ -100,6 +95,10 @@ std::string CommandCases(const CLI::App& command) {
 
 }  // namespace
 
+std::vector<const CLI::App*> ShownCommands(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
+}
+
 std::string ManPage(const CLI::App& app) {
   std::string text = fmt::format(
       ".TH NACRE 1 \"\" \"nacre {}\" \"User Commands\"\n.SH NAME\nnacre \\- {}\n"
@@ -108,19 +107,19 @@ std::string ManPage(const CLI::App& app) {
   text += ".SH DESCRIPTION\n" + Roff(app.get_description()) + "\n.SH OPTIONS\n";
   for (const CLI::Option* option : Options(app)) text += OptionEntry(*option);
   text += ".SH COMMANDS\n";
-  for (const CLI::App* command : Commands(app)) text += CommandSection(*command);
+  for (const CLI::App* command : ShownCommands(app)) text += CommandSection(*command);
   text += ".SH NOTES\n.nf\n" + Roff(app.get_footer()) + "\n.fi\n";
   return text;
 }
 
 std::string BashCompletion(const CLI::App& app) {
   std::vector<std::string> first;
-  for (const CLI::App* command : Commands(app)) first.push_back(command->get_name());
+  for (const CLI::App* command : ShownCommands(app)) first.push_back(command->get_name());
   for (const CLI::Option* option : Options(app)) {
     for (const std::string& name : NamesOf(*option)) first.push_back(name);
   }
   std::string cases;
-  for (const CLI::App* command : Commands(app)) cases += CommandCases(*command);
+  for (const CLI::App* command : ShownCommands(app)) cases += CommandCases(*command);
   return "# bash completion for nacre. Written by nacre itself: nacre docs bash.\n"
          "_nacre() {\n"
          "  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} words=\n"

@@ -3,10 +3,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <CLI/App.hpp>
 
 namespace nacre {
+
+// What help shows: not what is in the nameless group.
+std::vector<const CLI::App*> ShownCommands(const CLI::App& app);
 
 // A manual page (man 7 man) of the program and all of its commands.
 std::string ManPage(const CLI::App& app);

@@ -46,8 +46,10 @@ std::string OptionText(const CLI::Option& option) {
     text += fmt::format(" ({} to {})", type.substr(bounds + 5, dash - bounds - 5),
                         type.substr(dash + 3, type.rfind(']') - dash - 3));
   }
-  // Flags and empty texts have no value worth telling.
-  const std::string value = option.get_default_str();
+  // Flags and empty texts have no value worth telling. CLI11 writes lists in brackets, which is not
+  // how they are given.
+  std::string value = option.get_default_str();
+  if (value.starts_with('[') && value.ends_with(']')) value = value.substr(1, value.size() - 2);
   if (TakesValue(option) && !value.empty()) text += " (default: " + value + ")";
   return text;
 }

@@ -25,6 +25,23 @@ void RequireText(JsonObject* object, std::string_view name, std::string* text) {
   if (object->Require(name, kReferenceHint) != nullptr) object->Text(name, text);
 }
 
+// The member's text as a path beside the reference. Faults unless scenes there could refer to it.
+fs::path FindFile(const fs::path& folder, std::string_view name, const ReferenceOptions& options,
+                  JsonObject* object) {
+  std::string text;
+  RequireText(object, name, &text);
+  const Json* const json = object->Find(name);
+  if (json == nullptr || !json->is_string()) return {};  // told
+  try {
+    ResolveReference(folder, text, {.allow_paths = options.allow_paths});
+  } catch (const Error& error) {
+    for (const Fault& fault : error.faults()) {
+      object->faults()->Add(object->path().Member(name).ToString(), fault.what, fault.hint);
+    }
+  }
+  return folder / text;
+}
+
 void ReadLayers(JsonObject* object, std::vector<std::string>* layers) {
   const Json* const json = object->Find("layers");
   if (json == nullptr) return;
@@ -55,20 +72,19 @@ void ReadTolerances(JsonObject* object, Tolerances* tolerances) {
 
 }  // namespace
 
-Reference ReadReference(const fs::path& path) {
+Reference ReadReference(const fs::path& path, const ReferenceOptions& options) {
   constexpr uint64_t kMaxBytes = uint64_t{1} << 20;
   const std::string file = path.string();
   Reference reference;
   FaultList faults;
-  std::string scene, image;
   if (!fs::is_regular_file(path)) {
     throw Error(ExitCode::kCannotCompare, file, "is not a regular file");
   }
   try {
     const Json root = ParseJson(ReadTextFile(path, kMaxBytes), file, &faults);
     JsonObject object({root, JsonPath{}, &faults}, kReferenceHint);
-    RequireText(&object, "scene", &scene);
-    RequireText(&object, "image", &image);
+    reference.scene = FindFile(path.parent_path(), "scene", options, &object);
+    reference.image = FindFile(path.parent_path(), "image", options, &object);
     ReadLayers(&object, &reference.layers);
     ReadTolerances(&object, &reference.tolerances);
     RequireText(&object, "reason", &reference.reason);
@@ -82,8 +98,6 @@ Reference ReadReference(const fs::path& path) {
     throw Error(ExitCode::kCannotCompare, std::move(all));
   }
   reference.name = path.stem().stem().string();
-  reference.scene = path.parent_path() / scene;
-  reference.image = path.parent_path() / image;
   return reference;
 }
 
@@ -114,13 +128,15 @@ CompareOptions OptionsOf(const Reference& reference) {
 namespace {
 
 // Throws Error for a scene or image that cannot be read or that do not belong together.
-ReferenceRun RunReference(const Reference& reference, int threads, std::vector<std::string>* read) {
+ReferenceRun RunReference(const Reference& reference, const ReferenceOptions& options,
+                          std::vector<std::string>* read) {
   ReferenceRun run;
   LoadOptions load;
+  load.allow_paths = options.allow_paths;
   load.on_file = [&](const fs::path& file) { read->push_back(file.string()); };
   const Scene scene = LoadScene(reference.scene, load);
   RenderSettings settings;
-  settings.threads = threads;
+  settings.threads = options.threads;
   settings.on_progress = [](double) { ThrowIfStopped(); };
   run.got = RenderImage(scene, settings);
   run.expected = ReadImage(reference.image.string());
@@ -130,17 +146,17 @@ ReferenceRun RunReference(const Reference& reference, int threads, std::vector<s
 
 }  // namespace
 
-void RunReferences(const std::string& folder, int threads,
+void RunReferences(const std::string& folder, const ReferenceOptions& options,
                    const std::function<void(const ReferenceOutcome&)>& done) {
   for (const fs::path& path : FindReferences(folder)) {
     ReferenceOutcome outcome;
     outcome.name = path.stem().stem().string();
     try {
       outcome.read = {path.string()};
-      outcome.reference = ReadReference(path);
+      outcome.reference = ReadReference(path, options);
       outcome.read.push_back(outcome.reference.scene.string());
       outcome.read.push_back(outcome.reference.image.string());
-      outcome.run = RunReference(outcome.reference, threads, &outcome.read);
+      outcome.run = RunReference(outcome.reference, options, &outcome.read);
     } catch (const Error& error) {
       // Told, and the others still get their turn.
       if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;

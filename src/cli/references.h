@@ -28,9 +28,16 @@ struct Reference {
 // none.
 std::vector<std::filesystem::path> FindReferences(const std::string& folder);
 
+// How references are validated.
+struct ReferenceOptions {
+  int threads = 0;           // 0: as many as the machine has
+  bool allow_paths = false;  // scenes, images and what scenes name outside the folder, too
+};
+
 // Throws Error (kCannotCompare) with all faults, as scene files have theirs told, for a file that
-// is not what is described above.
-Reference ReadReference(const std::filesystem::path& path);
+// is not what is described above, and for scenes and images outside its folder unless they are
+// allowed: a folder of references from elsewhere should not read other files of its user.
+Reference ReadReference(const std::filesystem::path& path, const ReferenceOptions& options);
 
 // What a reference's scene renders to, beside its image.
 struct ReferenceRun {
@@ -52,7 +59,7 @@ struct ReferenceOutcome {
 };
 
 // All references of the folder, one after another; `done` is called with each. Throws Error.
-void RunReferences(const std::string& folder, int threads,
+void RunReferences(const std::string& folder, const ReferenceOptions& options,
                    const std::function<void(const ReferenceOutcome&)>& done);
 
 }  // namespace nacre

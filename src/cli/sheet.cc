@@ -81,7 +81,7 @@ bool IsLightGround(const Lighting& lighting, const RenderOptions& render) {
 
 Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
                 const SheetPage& page, LoadOptions load) {
-  if (!options.lighting.environment.empty()) load.allow_paths = true;
+  load.trusted_files = {options.lighting.environment};
   if (page.width > 65536 || page.height > 65536) {
     throw Error(ExitCode::kUsage, "--sphere-size", "the picture would be larger than 65536 pixels",
                 "give smaller spheres");

@@ -33,7 +33,8 @@ SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& 
 // Whether the ground looks light in a PNG.
 bool IsLightGround(const Lighting& lighting, const RenderOptions& render);
 
-// Loads a sheet's scene; images that the command line names may be anywhere.
+// Loads a sheet's scene. The image of --environment may be anywhere, those that --lights names only
+// below the working folder, unless the options allow more.
 Scene LoadSheet(const std::string& text, const std::string& command, const SheetOptions& options,
                 const SheetPage& page, LoadOptions load);
 

@@ -199,7 +199,8 @@ std::string Utf8FromLatin1(std::string_view latin1) {
   return text;
 }
 
-// What the file says of itself in words never takes the place of what nacre says of its colours.
+// Words of a file never stand where nacre says what its other chunks mean. The first of several
+// texts of one keyword counts.
 void AddTexts(const PngFile& png, Metadata* metadata) {
   uint32_t count = 0;
   if (spng_get_text(png.get(), nullptr, &count) != 0) return;
@@ -208,10 +209,8 @@ void AddTexts(const PngFile& png, Metadata* metadata) {
   for (const spng_text& text : texts) {
     const std::string keyword = Utf8FromLatin1(text.keyword);
     const std::string_view value(text.text, text.length);
-    constexpr std::array kOurs = {"gamma",       "primaries", "icc_profile", "srgb_intent",
-                                  "code_points", "not_srgb",  "transfer"};
-    if (std::ranges::find(kOurs, keyword) != kOurs.end()) continue;
-    metadata->emplace(keyword, text.type == SPNG_ITXT ? std::string(value) : Utf8FromLatin1(value));
+    metadata->emplace(keyword.starts_with("nacre:") ? keyword : "png:" + keyword,
+                      text.type == SPNG_ITXT ? std::string(value) : Utf8FromLatin1(value));
   }
 }
 

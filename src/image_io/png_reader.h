@@ -12,7 +12,8 @@ namespace nacre {
 // orientation is honoured. Beside the caller's samples, reading takes two rows, or of an interlaced
 // file the whole image in the file's own type. Throws Error (kBadInput) for broken files.
 //
-// Metadata: the file's texts by their keywords; "gamma" (of gAMA, the encoding's exponent),
+// Metadata: texts (tEXt, zTXt, iTXt) under their keywords, those that are not nacre's own as
+// "png:KEYWORD"; "gamma" (of gAMA, the encoding's exponent),
 // "primaries" (of cHRM), "icc_profile" (of iCCP, its name or "sRGB"), "srgb_intent", "code_points"
 // (of cICP); "not_srgb" says in words what of them contradicts sRGB.
 ImageFile OpenPng(const std::string& path);

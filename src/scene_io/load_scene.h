@@ -34,6 +34,9 @@ struct LoadOptions {
   // Let the scene refer to files outside its own folder.
   bool allow_paths = false;
 
+  // Files that the caller chose himself, and that may lie anywhere, as `environment` may.
+  std::vector<std::filesystem::path> trusted_files = {};
+
   // Told of each file that the scene refers to, by its path without links, before it is read. May
   // be told of one several times.
   std::function<void(const std::filesystem::path&)> on_file = {};

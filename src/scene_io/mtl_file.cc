@@ -228,12 +228,18 @@ class MtlFileReader {
           warn_("the base and gain of images (-mm) are left out");
         }
       } else if (option == "-bm" || option == "-boost" || option == "-texres") {
-        std::array<double, 3> numbers{};
+        std::array<double, 3> numbers = {1, 0, 0};
         Numbers(&rest, &numbers);
+        if (option == "-bm") image->multiplier = numbers[0];
       } else if (option == "-clamp") {
         image->clamp = NextWord(&rest) == "on";
-      } else if (option == "-imfchan" || option == "-blendu" || option == "-blendv" ||
-                 option == "-cc" || option == "-type") {
+      } else if (option == "-imfchan") {
+        const std::string_view channel = NextWord(&rest);
+        if (channel != "l" && channel != "m" && channel != "r") {
+          warn_("the channel of an image (-imfchan) is left out: its first one is read");
+        }
+      } else if (option == "-blendu" || option == "-blendv" || option == "-cc" ||
+                 option == "-type") {
         NextWord(&rest);
       } else {
         return;  // it is the name

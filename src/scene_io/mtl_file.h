@@ -17,6 +17,7 @@ struct MtlImage {
   std::string file;                 // as it is written; empty: none
   Vec2d scale{1, 1}, offset{0, 0};  // texture coordinates times the one plus the other
   bool clamp = false;
+  double multiplier = 1;  // of a relief
 };
 
 // Numbers have the letters that the format gives them.

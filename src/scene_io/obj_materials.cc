@@ -174,15 +174,12 @@ class ObjMaterials {
     result.emission = source.ke;
     if (source.opacity < 1) Warn("transparency is not shown: all materials are opaque");
     if (source.illum > 2) Warn("reflections and refraction (illum above 2) are not shown");
-    if (source.illum == 0) {  // a constant colour
-      result.emission += source.kd;
-      PhongMaterial black = MakePhong(source);
-      black.ka = black.kd = black.ks = Rgb(0);
-      result.model = black;
-      return result;
-    }
     AddCommonMaps(source, &result);
     const TextureId diffuse = AddTexture(source.map_kd, TextureEncoding::kSrgb);
+    if (source.illum == 0) {
+      SetConstantColor(source, diffuse, &result);
+      return result;
+    }
     // Exporters that write a map often leave its factor at 0.
     const Rgb kd = diffuse.valid() && source.kd == Rgb(0) ? Rgb(1) : source.kd;
     if (source.pr || source.pm || !source.map_pr.file.empty() || !source.map_pm.file.empty()) {
@@ -190,6 +187,9 @@ class ObjMaterials {
       model.base_color = kd;
       model.base_color_map = diffuse;
       model.metallic_roughness_map = AddMetallicRoughness(source);
+      if (!source.map_ks.file.empty() || !source.map_ns.file.empty()) {
+        Warn("images of highlights (map_Ks, map_Ns) are not shown beside roughness and metallic");
+      }
       result.model = model;
       return result;
     }
@@ -202,10 +202,27 @@ class ObjMaterials {
     return result;
   }
 
+  // illum 0: the colour Kd, whatever the light.
+  void SetConstantColor(const MtlMaterial& source, TextureId diffuse, Material* material) {
+    PhongMaterial black = MakePhong(source);
+    black.ka = black.kd = black.ks = Rgb(0);
+    material->model = black;
+    if (!diffuse.valid() && !material->emission_map.valid()) {
+      material->emission += source.kd;
+    } else if (material->emission != Rgb(0)) {
+      // One image multiplies one colour: the sum of two that have images is neither's.
+      Warn("the colour of a material that glows as well (illum 0 with Ke) is not shown");
+    } else {
+      material->emission_map = diffuse;
+      material->emission = source.kd == Rgb(0) ? Rgb(1) : source.kd;
+    }
+  }
+
   void AddCommonMaps(const MtlMaterial& source, Material* material) {
     material->emission_map = AddTexture(source.map_ke, TextureEncoding::kSrgb);
     if (material->emission_map.valid() && material->emission == Rgb(0)) material->emission = Rgb(1);
     material->normal_map.texture = AddTexture(source.norm, TextureEncoding::kLinear);
+    material->normal_map.scale = source.norm.multiplier;
     const bool ambient = !source.map_ka.file.empty() && source.map_ka.file != source.map_kd.file;
     if (ambient) Warn("ambient images (map_Ka) are not shown");
     if (!source.bump.file.empty()) Warn("bump images are not shown: normal ones (norm) are");

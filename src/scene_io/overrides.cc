@@ -76,11 +76,15 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
 }
 
 ReferenceRules RulesOf(const LoadOptions& options) {
-  std::error_code error;  // of a path that means nothing: then nothing is trusted
   ReferenceRules rules{options.allow_paths, options.on_file, {}};
-  if (!options.environment.empty()) {
-    rules.trusted = std::filesystem::weakly_canonical(options.environment, error);
-  }
+  const auto trust = [&](const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
+    // A path that means nothing leads nowhere.
+    if (!error && !file.empty()) rules.trusted.push_back(std::move(path));
+  };
+  trust(options.environment);
+  for (const std::filesystem::path& file : options.trusted_files) trust(file);
   return rules;
 }
 

@@ -18,7 +18,7 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
 // Puts the options' environment into the tree in the place of all lights, then their overrides.
 void ApplyOptions(const LoadOptions& options, Json* root);
 
-// Which files the scene may refer to: those that the options allow, and their environment.
+// Which files the scene may refer to: those that the options allow, and those that they name.
 ReferenceRules RulesOf(const LoadOptions& options);
 
 }  // namespace nacre

@@ -74,7 +74,9 @@ std::filesystem::path ResolveReference(const std::filesystem::path& folder, cons
     throw Error(ExitCode::kBadInput, {}, fmt::format("\"{}\" is not a path", Excerpt(name)));
   }
   // Before looking whether it exists, which is nobody's business outside the folder.
-  if (!rules.allow_paths && path != rules.trusted && !IsBelow(path, base)) {
+  const bool is_trusted =
+      std::find(rules.trusted.begin(), rules.trusted.end(), path) != rules.trusted.end();
+  if (!rules.allow_paths && !is_trusted && !IsBelow(path, base)) {
     throw Error(ExitCode::kBadInput, {},
                 fmt::format("\"{}\" is outside the scene's folder", Excerpt(name)),
                 "move it there, or allow it with --allow-paths");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace nacre {
 
@@ -17,7 +18,7 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes);
 struct ReferenceRules {
   bool allow_paths = false;                                     // outside the scene's folder, too
   std::function<void(const std::filesystem::path&)> on_file{};  // each file, before it is read
-  std::filesystem::path trusted{};  // a file that may lie anywhere; without links
+  std::vector<std::filesystem::path> trusted{};  // files that may lie anywhere; without links
 };
 
 // The file that a scene in `folder` refers to as `name`. Throws Error (kBadInput, without a place)

@@ -302,25 +302,6 @@ double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
   return single;
 }
 
-double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {
-  if (model.metallic == 0) return CoverAlbedo(model, n_dot_v, channel);
-  const double one = AlbedoOne(model.albedo.lobe, n_dot_v);
-  const double loss = AlbedoLoss(model.albedo.lobe, n_dot_v);
-  const double schlick = AlbedoSchlick(model.albedo.lobe, n_dot_v);
-  const double single = model.f0[channel] * (one - schlick) + model.f90 * schlick;
-  switch (model.compensation) {
-    case Compensation::kTurquin:
-      return single + loss / one *
-                          (model.turquin_f0[channel] * (one - schlick) +
-                           model.turquin_f90[channel] * schlick);
-    case Compensation::kKullaConty:
-      return single + model.f_multiple[channel] * loss;
-    case Compensation::kNone:
-      break;
-  }
-  return single;
-}
-
 bool HasDoubleTerms(const ShadingMaterial& material) {
   if (material.textured != nullptr) return true;  // mappings start from the exact normal, too
   return std::visit(

@@ -105,10 +105,9 @@ struct ShadingMaterial {
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);
 
-// The directional albedos of one channel seen from n.v, compensation included: of what covers the
-// base, and of the whole lobe. They are the same but for a mix with a metal.
+// The directional albedo of one channel seen from n.v, compensation included, of what covers the
+// base: of a mix with a metal, the dielectric.
 double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
-double LobeAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
 
 // Whether a lobe's terms are formed in double where maps give the hit this roughness.
 inline bool IsNarrow(double roughness, double alpha) {

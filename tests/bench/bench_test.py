@@ -111,6 +111,20 @@ class Growth(unittest.TestCase):
         self.assertAlmostEqual(exponent, 0.75)
         self.assertAlmostEqual(factor, 3)
 
+    def test_growth_is_that_of_the_last_decade(self):
+        first = estimates.first_of_last_decade
+        self.assertEqual(first([1, 3, 10, 30, 100]), 2)
+        self.assertEqual(first([4 ** i for i in range(6)]), 4)
+        self.assertEqual(first([1, 2, 4]), 0)
+        self.assertEqual(first([1, 100, 10_000]), 1)  # a line needs two
+        self.assertEqual(first([7]), 0)
+        # What a frame costs without any spheres hides what they cost while they are few.
+        points = [{"size": n, "frame_s": 1 + n ** 0.9, "process_s": 1, "mib": 10 + n}
+                  for n in (1, 10, 100, 1e6, 1e7)]
+        fits = scaling.fits(points)
+        self.assertAlmostEqual(fits["frame_s"]["exponent"], 0.9, places=4)
+        self.assertAlmostEqual(fits["mib"]["exponent"], 1, places=4)
+
     def test_a_cliff_is_the_steepest_step(self):
         steepest, begin, end = estimates.steepest_step([1, 10, 100, 1000], [1, 10, 1000, 10000])
         self.assertAlmostEqual(steepest, 2)
@@ -294,8 +308,18 @@ class Tables(unittest.TestCase):
             runs = readme.with_this_run(runs, results(processor, value))
         self.assertEqual(readme.headline_table(runs),
                          ["| headline | one | two |", "|---|---|---|", "| `a` | 300 | 2.5 |"])
+        self.assertEqual(readme.headline_table(runs, {"a": "in words", "b": "not measured"}),
+                         ["| headline | one | two |", "|---|---|---|", "| in words | 300 | 2.5 |",
+                          "| not measured |  |  |"])
         del runs[0]["headlines"]["a"]
         self.assertEqual(readme.headline_table(runs)[-1], "| `a` |  | 2.5 |")
+
+    def test_readme_begins_with_eight_numbers_that_are_measured(self):
+        self.assertEqual(len(readme.FIRST), 8)
+        values, missing = summary.headlines(results_of())
+        for name in readme.FIRST:
+            if not name.startswith("adaptive"):  # named by the tolerances of the run
+                self.assertIn(name, {*values, *missing})
 
     def test_readme_keeps_what_is_outside_the_marks(self):
         text = readme.replace_between("a\n<B>\nold\n<E>\nz", "<B>", "<E>", "new\n")

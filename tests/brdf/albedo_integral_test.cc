@@ -46,6 +46,7 @@ TEST_CASE("averages and Schlick albedos are the table's", "[table]") {
     CAPTURE(roughness);
     const double e_average = AverageAlbedoOfOne(Shadowing::kHeightCorrelated, roughness);
     CHECK(std::abs(e_average - TableNumber(row.at("E_avg_corr"))) <= kTableTolerance);
+    CHECK(std::abs(1 - e_average - TableNumber(row.at("loss_corr"))) <= kTableTolerance);
     CHECK(std::abs(AverageAlbedoOfOne(Shadowing::kSchlickDirect, roughness) -
                    TableNumber(row.at("E_avg_lessonG"))) <= kTableTolerance);
     for (const char* f0 : {"0.04", "0.5", "0.9", "1.0"}) {

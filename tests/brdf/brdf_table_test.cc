@@ -170,6 +170,16 @@ Values Evaluate(const Row& row) {
   return values;
 }
 
+TEST_CASE("tables may hold denormal numbers, and nothing that is no number") {
+  CHECK(TableNumber("4.94065645841246544177e-324") == 0x1p-1074);
+  CHECK(TableNumber("-2.5e-310") == -2.5e-310);
+  CHECK(TableNumber("1e-400") == 0);
+  CHECK(TableNumber(1e-310) == 1e-310);
+  CHECK(TableNumber("0.1") == 0.1);
+  CHECK_THROWS(TableNumber(""));
+  CHECK_THROWS(TableNumber("1.5x"));
+}
+
 TEST_CASE("scalar twins pass the hard rows in double", "[table]") {
   for (const Row& row : LoadRows()) CheckRow(row, Evaluate(row), kHalfUlpDouble);
 }

@@ -528,7 +528,7 @@ class CliTest(unittest.TestCase):
         scene = FIRST_SCENE
         out = ['-o', self.out / 'a.exr']
         cases = [
-            ('subcommand', []),
+            ('the command is missing', []),
             ('paint', ['paint']),
             ('--output', ['render', scene]),
             ('SCENE', ['render', *out]),

@@ -19,7 +19,7 @@ def docs(kind):
 
 def commands():
     text = subprocess.run([PROGRAM, '--help'], capture_output=True, text=True, check=True).stdout
-    return re.findall(r'^  ([a-z]+) ', text.partition('Subcommands:')[2], re.M)
+    return re.findall(r'^  ([a-z]+) ', text.partition('Commands:')[2], re.M)
 
 
 class DocsTest(unittest.TestCase):

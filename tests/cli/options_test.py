@@ -123,7 +123,7 @@ class OptionsTest(unittest.TestCase):
 
     def test_help_fits_a_terminal_and_has_examples(self):
         text = self.check_works('--help').stdout
-        names = re.findall(r'^  ([a-z]+) ', text.partition('Subcommands:')[2], re.M)
+        names = re.findall(r'^  ([a-z]+) ', text.partition('Commands:')[2], re.M)
         self.assertGreater(len(names), 10)
         for name in names:
             help_text = self.check_works(name, '--help').stdout

@@ -518,6 +518,35 @@ class MessagesTest(SecurityTest):
         self.assertEqual(len(there), int(count))
         self.assertIn(pathlib.Path(last), there)
 
+    def test_environments_come_from_anywhere_and_let_in_nothing_else(self):
+        elsewhere = tempfile.TemporaryDirectory()
+        self.addCleanup(elsewhere.cleanup)
+        for name in 'sky.exr', 'other.exr':
+            shutil.copy(SOURCE / 'scenes/textures/evening.exr', f'{elsewhere.name}/{name}')
+        sky, other = f'{elsewhere.name}/sky.exr', f'{elsewhere.name}/other.exr'
+        (self.out / 's.json').write_text(json.dumps({
+            'nacre': 1, 'image': {'width': 32, 'height': 18, 'spp': 4}, 'shapes': [
+                {'type': 'sphere', 'center': [0, 0, 0], 'radius': 1, 'material': {'model': 'metallic_roughness'}}]}))
+        lights = json.dumps({'environment': {'type': 'environment', 'image': sky, 'rotate_deg': 30}})
+        for name, options in (('a.exr', ['--environment', sky, '--set', '/lights/environment/rotate_deg=30']),
+                              ('b.exr', ['--set', '/lights=' + lights, '--allow-paths']),
+                              ('c.exr', ['--environment', os.path.relpath(sky, self.out), '--set', '/lights/environment/rotate_deg=30'])):
+            self.assertEqual(run('render', 's.json', '-o', name, *options, cwd=self.out).returncode, 0)
+        for name in 'b.exr', 'c.exr':
+            self.assertEqual(run('compare', 'a.exr', name, '--max-rel', '0', '--max-abs', '0', cwd=self.out).returncode, 0)
+        self.check_refused(run('render', 's.json', '-o', 'd.exr', '--set', '/lights=' + lights, cwd=self.out), 65, 'outside')
+        self.check_refused(run('render', 's.json', '-o', 'd.exr', '--environment', sky, '--set',
+                               f'/textures/t={{"file": "{other}"}}', cwd=self.out), 65, 'other.exr" is outside')
+        small = ['--size', '64x64', '--spp', '1', '-o', 'd.png']
+        box = json.dumps({'box': {'type': 'environment', 'image': other}})
+        for verb in ['grid'], ['pair', '--a', 'phong', '--b', 'blinn_phong'], \
+                ['pair', '--a', 'phong', '--b', 'blinn_phong', '--layout', 'difference']:
+            with self.subTest(verb=verb):
+                result = run(*verb, *small, '--environment', sky, cwd=self.out)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.check_refused(run(*verb, *small, '--lights', box, cwd=self.out), 65, 'outside')
+                self.check_refused(run(*verb, *small, '--environment', sky, '--lights', box, cwd=self.out), 65, 'outside')
+
     def test_references_are_read_as_scenes_are(self):
         path = self.out / 'a.reference.json'
         good = {'scene': 's.json', 'image': 's.exr', 'tolerances': {'max_abs': 0}, 'reason': 'none'}
@@ -538,6 +567,28 @@ class MessagesTest(SecurityTest):
                 result = run('validate', self.out)
                 self.check_refused(result, 2, f'error: {path}', *words)
                 self.assertNotIn(b'json.exception', result.stderr + result.stdout)
+        (self.out / 's.json').write_text('{"nacre": 1, "image": {"width": 8, "height": 8, "spp": 1}}')
+        self.assertEqual(run('render', 's.json', '-o', 's.exr', cwd=self.out).returncode, 0)
+        elsewhere = tempfile.TemporaryDirectory()
+        self.addCleanup(elsewhere.cleanup)
+        for suffix in 'json', 'exr':
+            shutil.copy(self.out / f's.{suffix}', f'{elsewhere.name}/x.{suffix}')
+            (self.out / f'link.{suffix}').symlink_to(f'{elsewhere.name}/x.{suffix}')
+        (self.out / 'sub').mkdir()
+        for member, suffix in ('scene', 'json'), ('image', 'exr'):
+            for name, words in (('../x.' + suffix, 'outside'), (f'/x.{suffix}', 'outside'), ('link.' + suffix, 'outside'),
+                                ('none.' + suffix, 'there is no file'), ('sub', 'not a regular file'), ('a\0b', 'character 0')):
+                with self.subTest(member=member, name=name):
+                    path.write_text(json.dumps({**good, member: name}))
+                    self.check_refused(run('validate', self.out), 2, f'{path}: /{member}: ', words)
+        path.write_text(json.dumps({**good, 'scene': 'link.json', 'image': 'link.exr'}))
+        for verb, outcome in (['validate', self.out], b' match '), (['report', self.out / 'r.html', self.out], b''):
+            result = run(*verb, '--allow-paths')
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(outcome, result.stdout)
+        self.assertIn('"outcome":"match"', (self.out / 'r.html').read_text())
+        self.assertEqual(run('report', self.out / 'r.html', self.out).returncode, 0)
+        self.assertIn('outside the', (self.out / 'r.html').read_text())
         for name in good:
             path.write_text(json.dumps({key: value for key, value in good.items() if key != name}))
             self.check_refused(run('validate', self.out), 2, f'missing key "{name}"')

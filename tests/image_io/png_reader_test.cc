@@ -176,14 +176,18 @@ TEST_CASE("texts of PNG files are metadata, but not in the place of facts") {
   using std::string_literals::operator""s;
   text("tEXt", "Author\0J\xfcrgen"s);
   text("iTXt", "Title\0\0\0de\0Titel\0K\xc3\xbcgelchen"s);
+  text("tEXt", "Author\0again"s);
+  text("tEXt", "nacre:scene\0ball"s);
   text("tEXt", "transfer\0linear"s);
   text("tEXt", "not_srgb\0a lie"s);
   AppendPixels({0, 128}, &file);
   WriteBytes(folder / "a.png", file);
   const Image image = ReadImage(folder / "a.png");
-  CHECK(image.metadata.at("Author") == "J\xc3\xbcrgen");
-  CHECK(image.metadata.at("Title") == "K\xc3\xbcgelchen");
+  CHECK(image.metadata.at("png:Author") == "J\xc3\xbcrgen");
+  CHECK(image.metadata.at("png:Title") == "K\xc3\xbcgelchen");
+  CHECK(image.metadata.at("png:transfer") == "linear");
   CHECK(image.metadata.at("transfer") == "display");
+  CHECK(image.metadata.at("nacre:scene") == "ball");
   CHECK_FALSE(image.metadata.contains("not_srgb"));
 }
 

@@ -35,6 +35,20 @@ inline Scene OneSphere(decltype(Material::model) model, int side = 64, int spp =
   return scene;
 }
 
+// The same seen in parallel along -z, so that all its points are seen from (0, 0, 1).
+inline Scene OrthographicSphere(decltype(Material::model) model, int spp) {
+  Scene scene = OneSphere(std::move(model), 64, spp);
+  scene.camera.projection = Projection::kOrthographic;
+  scene.camera.height = 2.2;
+  return scene;
+}
+
+// A sky of radiance 1 that is not seen itself, so that shapes stand out.
+inline Light WhiteSky() {
+  return Named("sky",
+               EnvironmentLight{.sky = ConstantSky{Rgb(1)}, .rotate_deg = 0, .background = false});
+}
+
 inline bool SameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }

@@ -6,23 +6,16 @@
 #include "brdf/burley.h"
 #include "brdf/eon.h"
 #include "catch.h"
+#include "pictures.h"
 #include "render/plan.h"
 #include "render/render.h"
 
 namespace nacre {
 namespace {
 
-// A unit sphere before an orthographic camera far off: the view direction is +z.
-Scene OneSphere(decltype(Material::model) model) {
-  Scene scene;
-  scene.materials.emplace_back().model = std::move(model);
+Scene ClaySphere(decltype(Material::model) model) {
+  Scene scene = OrthographicSphere(std::move(model), 1);
   scene.materials[0].name = "clay";
-  scene.spheres.push_back({Vec3d(0, 0, 0), 1, {0}});
-  scene.camera.projection = Projection::kOrthographic;
-  scene.camera.position = Vec3d(0, 0, 10);
-  scene.camera.height = 2.2;
-  scene.image.width = scene.image.height = 64;
-  scene.image.spp = 1;
   return scene;
 }
 
@@ -58,10 +51,10 @@ TEST_CASE("pictures of rough matte spheres are those of the scalar models") {
     const Vec3d l = to_light.normalized();
     for (const double roughness : {0.0, 0.4, 1.0}) {
       CAPTURE(to_light.x, roughness);
-      Scene scene = OneSphere(OrenNayarMaterial{Rgb(0.8), roughness});
+      Scene scene = ClaySphere(OrenNayarMaterial{Rgb(0.8), roughness});
       scene.lights = {sun};
       CheckPicture(scene, l, [&](const Angles<double>& a) { return Eon(a, 0.8, roughness); });
-      scene = OneSphere(BurleyMaterial{Rgb(0.8), roughness});
+      scene = ClaySphere(BurleyMaterial{Rgb(0.8), roughness});
       scene.lights = {sun};
       CheckPicture(scene, l,
                    [&](const Angles<double>& a) { return 0.8 * BurleyDiffuse(a, roughness); });
@@ -70,41 +63,25 @@ TEST_CASE("pictures of rough matte spheres are those of the scalar models") {
 }
 
 TEST_CASE("a white Oren-Nayar sphere cannot be told from a white sky") {
-  EnvironmentLight sky{.sky = ConstantSky{Rgb(1)}, .rotate_deg = 0, .background = false};
   for (const double roughness : {0.3, 1.0}) {
-    Scene scene = OneSphere(OrenNayarMaterial{Rgb(1), roughness});
-    scene.lights.emplace_back().kind = sky;
-    scene.lights[0].name = "sky";
-    scene.image.spp = 256;
-    const Image image = RenderImage(scene, {});
-    double sum = 0, squares = 0, count = 0;
-    for (size_t i = 0; i < image.data.pixel_count(); ++i) {
-      if (image.Find("A")->samples[i] < 1) continue;
-      const double x = image.Find("R")->samples[i];
-      sum += x;
-      squares += x * x;
-      count += 1;
-    }
-    const double mean = sum / count;
-    const double error = std::sqrt(std::max(squares / count - mean * mean, 0.0) / count);
-    CAPTURE(roughness, mean, error);
-    CHECK(std::abs(mean - 1) <= 4 * error + 1e-6);
-    CHECK(error < 1e-3);  // the check above could fail
+    Scene scene = OrthographicSphere(OrenNayarMaterial{Rgb(1), roughness}, 256);
+    scene.lights = {WhiteSky()};
+    const Mean mean = MeanRed(RenderImage(scene, {}));
+    CAPTURE(roughness, mean.value, mean.error);
+    CHECK(std::abs(mean.value - 1) <= 4 * mean.error + 1e-6);
+    CHECK(mean.error < 1e-3);  // the check above could fail
   }
 }
 
 // With a light, so that no note says that there is none.
 Scene Lit(Scene scene) {
-  Light light;
-  light.name = "key";
-  light.kind = DirectionalLight{};
-  scene.lights.push_back(light);
+  scene.lights.push_back(Named("key", DirectionalLight{}));
   return scene;
 }
 
 TEST_CASE(
     "a scene that nothing lights says so, and one that shines does not say that it is black") {
-  Scene scene = OneSphere(LambertMaterial{});
+  Scene scene = ClaySphere(LambertMaterial{});
   CHECK(MakePlan(Lit(scene), {}).notes.empty());
   REQUIRE(MakePlan(scene, {}).notes.size() == 1);
   CHECK(MakePlan(scene, {}).notes[0].starts_with("the scene has no lights: every shape is black"));
@@ -114,7 +91,7 @@ TEST_CASE(
 
 TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
   const auto notes = [](const decltype(Material::model)& model) {
-    const Scene scene = Lit(OneSphere(model));
+    const Scene scene = Lit(ClaySphere(model));
     return MakePlan(scene, {}).notes;
   };
   CHECK(notes(BurleyMaterial{Rgb(0.5), 1}).empty());
@@ -136,7 +113,7 @@ TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
 
 TEST_CASE("a plan notes the light that the Phong family makes") {
   const auto notes = [](const PhongMaterial& phong) {
-    const Scene scene = Lit(OneSphere(phong));
+    const Scene scene = Lit(ClaySphere(phong));
     return MakePlan(scene, {}).notes;
   };
   const PhongMaterial lobe{.kd = Rgb(0), .ks = Rgb(0.2, 1, 0.2), .shininess = 1};

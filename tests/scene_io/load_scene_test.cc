@@ -411,6 +411,112 @@ TEST_CASE("files outside the scene's folder need leave") {
   }
 }
 
+TEST_CASE("an environment that the caller chooses takes the place of all lights of a scene") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path / "scene");
+  const std::filesystem::path sky = folder.path / "sky.exr";
+  std::filesystem::copy_file(kScenes / "textures/evening.exr", sky,
+                             std::filesystem::copy_options::overwrite_existing);
+  std::filesystem::create_symlink("sky.exr", folder.path / "link.exr");
+  const auto scene_file = [&](const std::string& members) {
+    const std::filesystem::path path = folder.path / "scene/scene.json";
+    std::ofstream(path) << R"({"nacre": 1)" << members << "}";
+    return path;
+  };
+  const auto load = [&](const std::string& members, const std::filesystem::path& environment,
+                        std::vector<std::pair<std::string, std::string>> overrides = {}) {
+    LoadOptions options;
+    options.overrides = std::move(overrides);
+    options.environment = environment;
+    return LoadScene(scene_file(members), options);
+  };
+  // The environment's light, which must be the only one.
+  const auto only = [](const Scene& scene) {
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(scene.lights[0].name == "environment");
+    const auto* const light = std::get_if<EnvironmentLight>(&scene.lights[0].kind);
+    REQUIRE(light != nullptr);
+    REQUIRE(std::get<PictureSky>(light->sky).picture != nullptr);
+    return *light;
+  };
+  const std::string lamp =
+      R"(, "lights": {"key": {"type": "point", "position": [0, 1, 0], "intensity": 5}})";
+  const std::string faulty = R"(, "lights": {"key": {"type": "lantern"}})";
+  for (const std::string& members : {std::string(), lamp, faulty}) {
+    const EnvironmentLight light = only(load(members, sky));
+    CHECK(light.background);
+    CHECK(light.rotate_deg == 0);
+    CHECK(std::get<PictureSky>(light.sky).picture->width == 96);
+  }
+  // From where the caller is, not the scene, and by a link.
+  only(load(lamp, std::filesystem::relative(sky)));
+  only(load(lamp, folder.path / "link.exr"));
+  // --set comes after it: changes it, adds to it, takes its place.
+  CHECK(only(load(lamp, sky, {{"/lights/environment/rotate_deg", "90"}})).rotate_deg == 90);
+  const std::string sun = R"({"type": "directional", "direction_of_travel": [0, -1, 0],
+                              "irradiance": 1})";
+  CHECK(load(lamp, sky, {{"/lights/sun", sun}}).lights.size() == 2);
+  const Scene replaced = load(lamp, sky, {{"/lights", "{\"sun\": " + sun + "}"}});
+  REQUIRE(replaced.lights.size() == 1);
+  CHECK(replaced.lights[0].name == "sun");
+  // It alone is let in from outside the folder.
+  std::filesystem::copy_file(sky, folder.path / "other.exr",
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(Contains(MessageOf([&] { load(R"(, "textures": {"t": {"file": "../other.exr"}})", sky); }),
+                 "/textures/t/file: \"../other.exr\" is outside the scene's folder"));
+  CHECK(Contains(MessageOf([&] {
+                   load("", sky, {{"/lights/environment/image", "\"../other.exr\""}});
+                 }),
+                 "/lights/environment/image: \"../other.exr\" is outside the scene's folder"));
+}
+
+TEST_CASE("an environment that the caller chooses takes the place of a model's studio") {
+  const std::filesystem::path model = kScenes / "models/pawns.glb";
+  LoadOptions options;
+  options.environment = kScenes / "textures/evening.exr";  // outside the model's folder
+  const auto names = [&](std::vector<std::pair<std::string, std::string>> overrides) {
+    options.overrides = std::move(overrides);
+    std::string all;
+    for (const Light& light : LoadScene(model, options).lights) all += light.name + " ";
+    return all;
+  };
+  CHECK(names({}) == "environment ");
+  CHECK(names({{"/lights/environment/rotate_deg", "90"}}) == "environment ");
+  CHECK(names({{"/lights/lamp", R"({"type": "point", "position": [0, 1, 0], "intensity": 1})"}}) ==
+        "environment lamp ");
+  CHECK(names({{"/lights",
+                R"({"lamp": {"type": "point", "position": [0, 1, 0], "intensity": 1}})"}}) ==
+        "lamp ");
+}
+
+TEST_CASE("an environment that is none is refused, of scenes and of models") {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "scene.json") << R"({"nacre": 1})";
+  std::ofstream(folder.path / "text.exr") << "no picture";
+  const auto message = [&](const std::filesystem::path& file,
+                           const std::filesystem::path& environment) {
+    LoadOptions options;
+    options.environment = environment;
+    try {
+      LoadScene(file, options);
+    } catch (const Error& error) {
+      CHECK(error.code() == ExitCode::kBadInput);
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  for (const std::filesystem::path& file :
+       {folder.path / "scene.json", kScenes / "models/pawns.glb"}) {
+    const std::string place = file.string() + ": /lights/environment/image: ";
+    CAPTURE(file.string());
+    CHECK(Contains(message(file, folder.path / "missing.exr"), place + "there is no file"));
+    CHECK(Contains(message(file, folder.path), "is not a regular file"));
+    CHECK(Contains(message(file, folder.path / "text.exr"), place));
+    // Codes of a display are no radiance.
+    CHECK(Contains(message(file, kScenes / "textures/globe.png"), place));
+  }
+}
+
 TEST_CASE("scenes that cannot be read") {
   CHECK(Contains(MessageOf([] { LoadScene("/no/such/scene.json"); }),
                  "/no/such/scene.json: cannot be opened: No such file or directory"));

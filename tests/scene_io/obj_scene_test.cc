@@ -87,6 +87,80 @@ TEST_CASE("what libraries say and nobody shows is told") {
   CHECK(missing.scene.meshes.size() == 1);
 }
 
+TEST_CASE("every image of a material library is shown, or told once") {
+  const ModelFolder folder;
+  folder.Write("t.ppm", "P6\n1 1\n255\nabc");
+  const std::string obj =
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+  const auto load = [&](const std::string& mtl) {
+    Loaded loaded;
+    LoadOptions options;
+    options.on_warning = [&](const std::string& text) { loaded.warnings.push_back(text); };
+    folder.Write("a.mtl", "newmtl m\nKd .5 .5 .5\n" + mtl);
+    loaded.scene = LoadScene(folder.Write("m.obj", obj), options);
+    for (const std::string& warning : loaded.warnings) UNSCOPED_INFO(warning);
+    return loaded;
+  };
+  for (const std::string shown : {"map_Kd", "map_Ks", "map_Ns", "map_Ke", "map_emissive", "norm",
+                                  "map_Kn", "map_Pr", "map_Pm", "MAP_PR"}) {
+    for (const std::string reading : {"", "Pr .5\n"}) {
+      CAPTURE(shown, reading);
+      const auto [scene, warnings] = load(reading + shown + " t.ppm\n");
+      const bool classic_alone = shown == "map_Ks" || shown == "map_Ns";
+      if (reading.empty() || !classic_alone) {
+        CHECK(warnings.empty());
+        CHECK(scene.textures.size() == 1);
+      } else {
+        CHECK(warnings.size() == 1);
+      }
+    }
+  }
+  for (const std::string told :
+       {"bump", "map_Bump", "map_bump -bm 0.3", "disp", "map_disp", "refl",
+        "refl -type sphere -mm 0 1", "map_refl", "decal", "map_d", "map_Tr", "map_Ka", "map_Ps",
+        "map_Pc", "map_Pcr", "map_RMA", "map_ORM", "map_opacity"}) {
+    for (const std::string reading : {"", "Pr .5\n", "illum 0\n"}) {
+      CAPTURE(told, reading);
+      const auto [scene, warnings] = load(reading + told + " t.ppm\n" + told + " t.ppm\nd .5\n");
+      const bool transparent = told == "map_d" || told == "map_Tr";
+      CHECK(warnings.size() == (transparent ? 1 : 2));  // d is told as well
+    }
+  }
+  CHECK(load("map_Ns -imfchan g t.ppm\n").warnings.size() == 1);
+  CHECK(load("map_Ns -imfchan l t.ppm\n").warnings.empty());
+  const Scene raised = load("norm -bm 0.25 t.ppm\n").scene;
+  CHECK(raised.materials.at(0).normal_map.scale == 0.25);
+}
+
+TEST_CASE("a constant colour has its image, too") {
+  const ModelFolder folder;
+  folder.Write("t.ppm", "P6\n1 1\n255\nabc");
+  const std::string obj =
+      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
+  std::vector<std::string> warnings;
+  const auto material = [&](const std::string& mtl) {
+    LoadOptions options;
+    warnings.clear();
+    options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+    folder.Write("a.mtl", "newmtl m\nillum 0\n" + mtl);
+    return LoadScene(folder.Write("m.obj", obj), options).materials.at(0);
+  };
+  const Material plain = material("Kd .5 .25 0\n");
+  CHECK(plain.emission == Rgb(0.5, 0.25, 0));
+  CHECK(!plain.emission_map.valid());
+  const Material pictured = material("Kd .5 .25 0\nmap_Kd t.ppm\n");
+  CHECK(pictured.emission == Rgb(0.5, 0.25, 0));
+  CHECK(pictured.emission_map.valid());
+  CHECK(std::get<PhongMaterial>(pictured.model).kd == Rgb(0));
+  CHECK(material("Kd 0 0 0\nmap_Kd t.ppm\n").emission == Rgb(1));
+  CHECK(warnings.empty());
+  CHECK(material("Kd .5 .25 0\nKe 1 1 1\n").emission == Rgb(1.5, 1.25, 1));
+  CHECK(warnings.empty());
+  const Material both = material("Kd .5 .25 0\nmap_Kd t.ppm\nKe 0 1 0\n");
+  CHECK(both.emission == Rgb(0, 1, 0));
+  CHECK(warnings.size() == 1);
+}
+
 TEST_CASE("material libraries are read however they are written") {
   const auto kd = [](const std::string& obj, const std::string& mtl) {
     const auto [scene, warnings] = Load(obj, mtl);

@@ -9,6 +9,7 @@
 #include "brdf/angles.h"
 #include "brdf/fresnel.h"
 #include "brdf/ggx.h"
+#include "brdf/multi_scatter.h"
 #include "brdf/quadrature.h"
 #include "shading/light_batch.h"
 #include "shading/lobe_sample.h"
@@ -230,6 +231,61 @@ TEST_CASE("a white base under Kulla and Conty's lobe loses and gains nothing") {
     CAPTURE(roughness);
     // The albedo fits are right to 2e-5 (brdf/albedo_curve.h), and the base is most of the light.
     CHECK(base * M_PI * model.diffuse.x == Approx(1).epsilon(1e-4));
+  }
+}
+
+// Its colour is that of light that has met the first lobe's curve again and again: the curve that
+// the material has, averaged, and not the one that would be exact.
+TEST_CASE("Kulla and Conty's lobe takes the average of the Fresnel curve that the first lobe has") {
+  std::vector<Material> materials;
+  const auto add = [&](const auto& model) {
+    Material material;
+    material.model = model;
+    materials.push_back(material);
+  };
+  for (const ConductorFresnel fresnel :
+       {ConductorFresnel::kExact, ConductorFresnel::kF82Tint, ConductorFresnel::kSchlick}) {
+    ConductorMaterial iron;  // whose three curves average to 0.497, 0.497 and 0.520 in blue
+    iron.eta = {2.9114, 2.9497, 2.5845};
+    iron.k = {3.0893, 2.9318, 2.7670};
+    iron.fresnel = fresnel;
+    iron.roughness = 0.7;
+    iron.compensation = Compensation::kKullaConty;
+    add(iron);
+  }
+  for (const DielectricFresnel fresnel : {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
+    DielectricMaterial glass;
+    glass.ior = 1.5;
+    glass.fresnel = fresnel;
+    glass.roughness = 0.7;
+    glass.compensation = Compensation::kKullaConty;
+    add(glass);
+  }
+  for (const double metallic : {0.0, 1.0}) {
+    for (const Rgb& tint : {Rgb(1), Rgb(0.5, 0.8, 0.9)}) {
+      MetallicRoughnessMaterial mixed;
+      mixed.base_color = {0.9, 0.5, 0.1};
+      mixed.metallic = metallic;
+      mixed.specular = 0.6;
+      mixed.f82_tint = tint;
+      mixed.roughness = 0.7;
+      mixed.compensation = Compensation::kKullaConty;
+      add(mixed);
+    }
+  }
+  const QuadratureRule& rule = GaussLegendre(32);
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const auto model = std::get<MicrofacetModel>(PrepareMaterial(materials[i], Rgb(0)).model);
+    Rgb average(0);
+    for (size_t k = 0; k < rule.x.size(); ++k) {
+      average += FresnelOf(model, rule.x[k], 1 - rule.x[k]) * (2 * rule.x[k] * rule.w[k]);
+    }
+    Rgb expected;
+    for (int c = 0; c < 3; ++c) {
+      expected[c] = KullaContyFresnel(average[c], model.albedo.lobe.e_average);
+    }
+    CAPTURE(i, average.x, average.y, average.z);
+    CheckEqual(model.f_multiple, expected);
   }
 }
 

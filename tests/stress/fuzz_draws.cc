@@ -8,13 +8,6 @@
 namespace nacre {
 namespace {
 
-Vec3d RandomDirection(FuzzRandom* random) {
-  for (;;) {
-    const Vec3d v(random->Uniform(-1, 1), random->Uniform(-1, 1), random->Uniform(-1, 1));
-    if (v.length() > 0.1 && v.length() < 1) return v.normalized();
-  }
-}
-
 // Along an axis, or as near to it as 1 - u, with components that are 0, -0, denormal or tiny.
 Vec3d AxisDirection(FuzzRandom* random) {
   constexpr double kSmall[] = {0.0, -0.0, 1e-40, -1e-42, 1e-20, 6e-8, -3e-4, 1e-300};
@@ -25,7 +18,7 @@ Vec3d AxisDirection(FuzzRandom* random) {
 
 // A unit direction whose cosine with n is this.
 Vec3d AtCosine(const Vec3d& n, double cosine, FuzzRandom* random) {
-  const Vec3d across = n.cross(RandomDirection(random)).normalized();
+  const Vec3d across = n.cross(random->Direction()).normalized();
   return n * cosine + across * std::sqrt(1 - cosine * cosine);
 }
 
@@ -38,9 +31,9 @@ Vec3d Mirrored(const Vec3d& n, const Vec3d& v) { return n * (2 * n.dot(v)) - v; 
 
 FuzzDirections SpecialDirections(FuzzRandom* random) {
   FuzzDirections d;
-  d.normal = random->OneIn(2) ? AxisDirection(random) : RandomDirection(random);
-  d.to_light = random->OneIn(2) ? AxisDirection(random) : RandomDirection(random);
-  d.to_view = random->OneIn(2) ? AxisDirection(random) : RandomDirection(random);
+  d.normal = random->OneIn(2) ? AxisDirection(random) : random->Direction();
+  d.to_light = random->OneIn(2) ? AxisDirection(random) : random->Direction();
+  d.to_view = random->OneIn(2) ? AxisDirection(random) : random->Direction();
   switch (random->Below(8)) {
     case 0:
       d.to_light = d.to_view = d.normal;
@@ -63,7 +56,7 @@ FuzzDirections SpecialDirections(FuzzRandom* random) {
       d.to_view = AtCosine(d.normal, GrazingCosine(random), random);
       break;
     case 6: {
-      const Vec3d off = RandomDirection(random) * random->Magnitude(1e-8, 1e-2);
+      const Vec3d off = random->Direction() * random->Magnitude(1e-8, 1e-2);
       d.to_light = (Mirrored(d.normal, d.to_view) + off).normalized();
       break;
     }
@@ -104,7 +97,7 @@ double DrawNumber(const MaterialParameter& parameter, FuzzRandom* random) {
 
 FuzzDirections DrawDirections(FuzzRandom* random) {
   if (random->OneIn(4)) return SpecialDirections(random);
-  FuzzDirections d{RandomDirection(random), RandomDirection(random), RandomDirection(random)};
+  FuzzDirections d{random->Direction(), random->Direction(), random->Direction()};
   // Viewers behind the surface, which interpolated normals make, need no half of the draws.
   if (d.normal.dot(d.to_view) < 0 && !random->OneIn(8)) d.to_view = -d.to_view;
   if (d.normal.dot(d.to_light) < 0 && !random->OneIn(8)) d.to_light = -d.to_light;

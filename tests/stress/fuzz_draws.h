@@ -31,6 +31,13 @@ class FuzzRandom {
   double Magnitude(double low, double high) {
     return std::exp(Uniform(std::log(low), std::log(high)));
   }
+  // Unit, uniform over the sphere.
+  Vec3d Direction() {
+    for (;;) {
+      const Vec3d v(Uniform(-1, 1), Uniform(-1, 1), Uniform(-1, 1));
+      if (v.length() > 0.1 && v.length() < 1) return v.normalized();
+    }
+  }
   template <class T, size_t kCount>
   T Pick(const T (&values)[kCount]) {
     return values[Below(kCount)];

@@ -28,13 +28,6 @@ class Maker {
   }
 
  private:
-  Vec3d Direction() {
-    for (;;) {
-      const Vec3d v(random_.Uniform(-1, 1), random_.Uniform(-1, 1), random_.Uniform(-1, 1));
-      if (v.length() > 0.1 && v.length() < 1) return v.normalized();
-    }
-  }
-
   Rgb Color() {
     return {random_.Uniform(0.1, 0.9), random_.Uniform(0.1, 0.9), random_.Uniform(0.1, 0.9)};
   }
@@ -65,7 +58,7 @@ class Maker {
   void AddSpheres() {
     const size_t count = 1 + random_.Below(8);
     for (size_t i = 0; i < count; ++i) {
-      const Vec3d center = Direction() * random_.Uniform(0, 2);
+      const Vec3d center = random_.Direction() * random_.Uniform(0, 2);
       const double radius = random_.OneIn(3) ? random_.Magnitude(1e-6, 1) : random_.Uniform(0.2, 1);
       AddSphere(center, radius);
       if (random_.OneIn(5)) AddSphere(center, radius);  // equal
@@ -73,7 +66,7 @@ class Maker {
         AddSphere(center, radius * (1 + random_.Magnitude(1e-7, 1e-2)));  // shell
       if (random_.OneIn(5)) {                                             // touching
         const double other = random_.Magnitude(1e-3, 1);
-        AddSphere(center + Direction() * (radius + other), other);
+        AddSphere(center + random_.Direction() * (radius + other), other);
       }
     }
     if (random_.OneIn(3)) {
@@ -90,19 +83,19 @@ class Maker {
     const Sphere& subject = AnySphere();
     const double size = random_.OneIn(3) ? 2 : std::min(subject.radius, 3.0);
     const double distance = size * random_.Magnitude(1, 1e6);
-    camera.look_at = subject.center + Direction() * (subject.radius - size);
-    camera.position = camera.look_at + Direction() * distance;
+    camera.look_at = subject.center + random_.Direction() * (subject.radius - size);
+    camera.position = camera.look_at + random_.Direction() * distance;
     const double fov = 2 * std::atan(random_.Uniform(0.5, 3) * size / distance) * 180 / M_PI;
     camera.fov_y_deg = std::min(fov, 150.0);
     switch (random_.Below(8)) {
       case 0:  // inside
         camera.position =
-            subject.center + Direction() * (subject.radius * random_.Uniform(0, 0.99));
+            subject.center + random_.Direction() * (subject.radius * random_.Uniform(0, 0.99));
         camera.fov_y_deg = 100;
         break;
       case 1:  // just above a surface
-        camera.position =
-            subject.center + Direction() * (subject.radius * (1 + random_.Magnitude(1e-6, 1)));
+        camera.position = subject.center +
+                          random_.Direction() * (subject.radius * (1 + random_.Magnitude(1e-6, 1)));
         camera.fov_y_deg = 90;
         break;
       case 2:
@@ -114,14 +107,14 @@ class Maker {
     }
     camera.look_at = camera.position +
                      (camera.look_at - camera.position).normalized() * std::max(distance, 1e-3);
-    camera.up = Direction();
+    camera.up = random_.Direction();
   }
 
   // On, or just off, some sphere; or anywhere about.
   Vec3d LightPosition() {
-    if (random_.OneIn(2)) return Direction() * random_.Uniform(1, 6);
+    if (random_.OneIn(2)) return random_.Direction() * random_.Uniform(1, 6);
     const Sphere& sphere = AnySphere();
-    return sphere.center + Direction() * (sphere.radius * (1 + random_.Magnitude(1e-4, 3)));
+    return sphere.center + random_.Direction() * (sphere.radius * (1 + random_.Magnitude(1e-4, 3)));
   }
 
   void AddLights() {
@@ -132,7 +125,8 @@ class Maker {
       const Rgb color = Color();
       switch (random_.Below(3)) {
         case 0:
-          light.kind = DirectionalLight{.direction_of_travel = Direction(), .irradiance = color};
+          light.kind =
+              DirectionalLight{.direction_of_travel = random_.Direction(), .irradiance = color};
           break;
         case 1:
           light.kind =
@@ -150,8 +144,9 @@ class Maker {
   // Attenuation other than by the square knows lengths: it scales along.
   void ScaleAndMove() {
     const double scale = random_.OneIn(2) ? 1 : random_.Magnitude(1e-6, 1e6);
-    const Vec3d offset =
-        random_.OneIn(2) ? Vec3d(0, 0, 0) : Direction() * (scale * random_.Magnitude(1, 1e6));
+    const Vec3d offset = random_.OneIn(2)
+                             ? Vec3d(0, 0, 0)
+                             : random_.Direction() * (scale * random_.Magnitude(1, 1e6));
     const auto place = [&](Vec3d* p) { *p = *p * scale + offset; };
     place(&scene_.camera.position);
     place(&scene_.camera.look_at);

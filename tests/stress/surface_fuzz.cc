@@ -34,7 +34,7 @@ class BrokenModelMaker {
       scene_.materials[material].opacity_cutoff = 0.5;
       scene_.materials[material].opacity_map = {};
       scene_.spheres.push_back(
-          {Direction() * random_.Uniform(0, 1), random_.Uniform(0.2, 0.8), {material}});
+          {random_.Direction() * random_.Uniform(0, 1), random_.Uniform(0.2, 0.8), {material}});
     }
     const size_t lights = 1 + random_.Below(2);
     for (size_t i = 0; i < lights; ++i) AddLight(i);
@@ -43,13 +43,6 @@ class BrokenModelMaker {
   }
 
  private:
-  Vec3d Direction() {
-    for (;;) {
-      const Vec3d v(random_.Uniform(-1, 1), random_.Uniform(-1, 1), random_.Uniform(-1, 1));
-      if (v.length() > 0.1 && v.length() < 1) return v.normalized();
-    }
-  }
-
   TextureId AddNoise() {
     constexpr int kSize = 4;
     constexpr float kValues[] = {0, 1, 0.5f, 128.0f / 255};
@@ -94,7 +87,7 @@ class BrokenModelMaker {
         if (!mesh.normals.empty()) return -mesh.normals.back();
         [[fallthrough]];
       default:
-        return Direction();
+        return random_.Direction();
     }
   }
 
@@ -109,7 +102,7 @@ class BrokenModelMaker {
     mesh.smooth_terminator = random_.OneIn(2);
     const size_t triangles = 1 + random_.Below(8);
     for (size_t i = 0; i < 3 * triangles; ++i) {
-      Vec3d position = Direction() * random_.Uniform(0, 1.5);
+      Vec3d position = random_.Direction() * random_.Uniform(0, 1.5);
       // Of no area, all but the first, and as thin as can be.
       if (i % 3 == 2 && i > 2 && random_.OneIn(8)) position = mesh.positions.back();
       if (i % 3 == 2 && random_.OneIn(8)) position = mesh.positions.back() + Vec3d(1e-7, 0, 0);
@@ -134,7 +127,7 @@ class BrokenModelMaker {
   }
 
   void AddLight(size_t number) {
-    const Vec3d place = Direction() * random_.Uniform(0.5, 4), facing = Direction();
+    const Vec3d place = random_.Direction() * random_.Uniform(0.5, 4), facing = random_.Direction();
     const Rgb color(random_.Uniform(0.1, 3), random_.Uniform(0.1, 3), random_.Uniform(0.1, 3));
     Light light;
     light.name = fmt::format("light {}", number);
@@ -171,7 +164,7 @@ class BrokenModelMaker {
         break;
       case 6: {
         auto mesh = std::make_shared<Mesh>();
-        for (int i = 0; i < 4; ++i) mesh->positions.push_back(place + Direction());
+        for (int i = 0; i < 4; ++i) mesh->positions.push_back(place + random_.Direction());
         mesh->triangles = {0, 1, 2, 0, 2, 3};
         light.kind = MeshAreaLight{mesh, color, random_.OneIn(2), random_.OneIn(2)};
         break;

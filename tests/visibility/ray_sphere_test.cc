@@ -60,6 +60,9 @@ void CheckPoint(const TableRow& row, const SphereHit<double>& hit) {
   const Vec3d& direction = row.ray.direction;
   const double cond = TableNumber(reference["cond_t"]);
   const double half_chord = hit.root / direction.length2();
+  const double discriminant = TableNumber(reference["disc4"]);
+  const double scale = direction.length2() * row.sphere.radius * row.sphere.radius;
+  CHECK(std::abs(hit.root * hit.root - discriminant) <= 64 * kHalfUlpDouble * scale);
   // The root farther from the origin, which is no difference.
   const bool ahead = hit.closest > 0;
   const double far = ahead ? hit.closest + half_chord : hit.closest - half_chord;
