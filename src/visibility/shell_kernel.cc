@@ -45,8 +45,7 @@ HWY_INLINE ShellV EnterShell(const Shell& shell, const ShellRays& rays) {
   const ShellTag d;
   const auto zero = hn::Zero(d);
   const Vec3V<ShellV> center = SetVec3(d, shell.center);
-  const ShellV sum =
-      hn::Add(rays.reach, hn::Add(SumOfAbs(center), hn::Set(d, shell.outer)));
+  const ShellV sum = hn::Add(rays.reach, hn::Add(SumOfAbs(center), hn::Set(d, shell.outer)));
   const ShellV margin = hn::Mul(sum, hn::Set(d, 2 * kShellMargin));
   const ShellV outer = hn::Add(hn::Set(d, shell.outer), margin);
   const ShellV inner = hn::Max(hn::Sub(hn::Set(d, shell.inner), margin), zero);
@@ -94,8 +93,7 @@ HWY_INLINE void VisitNodes(const Packet& packet, uint32_t lanes, const ShellNode
     if (hn::AllFalse(d, asked)) continue;
     const ShellRays rays = LoadShellRays(packet, lane);
     for (int i = 0; i < kNodes; ++i) {
-      const ShellV first =
-          hn::IfThenElse(asked, EnterShell(nodes[i].shell, rays), infinity);
+      const ShellV first = hn::IfThenElse(asked, EnterShell(nodes[i].shell, rays), infinity);
       nearest[i] = hn::Min(nearest[i], first);
       visits[i].lanes |= BitsOfMask(d, hn::Lt(first, infinity)) << lane;
     }

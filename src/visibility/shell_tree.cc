@@ -2,6 +2,7 @@
 #include "visibility/shell_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -11,8 +12,9 @@
 namespace nacre {
 namespace {
 
-// Linear tests of fewer nested spheres do not take long enough to matter.
-constexpr size_t kFewestNested = 256;
+// Linear tests of fewer nested spheres do not take long enough to matter. (Where the sample's
+// groups cut through others, of up to eight times as many.)
+constexpr size_t kFewestNested = 128;
 // So many spheres tell whether there are any; and so many of these have to.
 constexpr size_t kNestedSample = 4096;
 constexpr size_t kFewestSampled = 8;
@@ -35,9 +37,9 @@ Vec3d CenterOf(const SpherePoint& point) { return {point.at[0], point.at[1], poi
 struct PointBounds {
   double low[4], high[4];
 
-  int Widest() const {
+  int Widest(int dimensions = 4) const {
     int widest = 0;
-    for (int i = 1; i < 4; ++i) {
+    for (int i = 1; i < dimensions; ++i) {
       if (high[i] - low[i] > high[widest] - low[widest]) widest = i;
     }
     return widest;
@@ -62,9 +64,13 @@ PointBounds BoundsOf(std::span<const SpherePoint> points) {
   return bounds;
 }
 
+double MiddleOf(const PointBounds& bounds, int i) {
+  return bounds.low[i] + (bounds.high[i] - bounds.low[i]) / 2;
+}
+
 Shell ShellOf(std::span<const SpherePoint> points, const PointBounds& bounds) {
   Shell shell;
-  for (int i = 0; i < 3; ++i) shell.center[i] = bounds.low[i] + (bounds.high[i] - bounds.low[i]) / 2;
+  for (int i = 0; i < 3; ++i) shell.center[i] = MiddleOf(bounds, i);
   shell.inner = std::numeric_limits<double>::infinity();
   for (const SpherePoint& point : points) {
     const double distance = (CenterOf(point) - shell.center).length();
@@ -74,11 +80,10 @@ Shell ShellOf(std::span<const SpherePoint> points, const PointBounds& bounds) {
   return shell;
 }
 
-// Sorts the points into two groups, neither of which is empty; returns the size of the first.
-size_t Split(std::span<SpherePoint> points, const PointBounds& bounds, int depth) {
-  const int i = bounds.Widest();
+// Sorts the points into two groups along a dimension, neither of which is empty; returns the size
+// of the first.
+size_t Split(std::span<SpherePoint> points, int i, double middle, int depth) {
   if (depth < kMaxMiddleSplits) {
-    const double middle = bounds.low[i] + (bounds.high[i] - bounds.low[i]) / 2;
     const auto end = std::partition(points.begin(), points.end(),
                                     [&](const SpherePoint& p) { return p.at[i] <= middle; });
     if (end != points.begin() && end != points.end()) {
@@ -91,14 +96,18 @@ size_t Split(std::span<SpherePoint> points, const PointBounds& bounds, int depth
   return half;
 }
 
-// Whether so many of the points are a group that has much of its inside in common: a shell whose
-// hole is a quarter of its size.
+// Whether so many of the points are a group of spheres that all hold one place. Groups are first of
+// about the same radius, so that a small sphere does not tell large ones apart.
 bool HasNested(std::span<SpherePoint> points, size_t fewest, int depth) {
   if (points.size() < fewest) return false;
   const PointBounds bounds = BoundsOf(points);
   const Shell shell = ShellOf(points, bounds);
-  if (shell.inner >= shell.outer / 4) return true;
-  const size_t first = Split(points, bounds, depth);
+  if (shell.inner > 0) return true;
+  const bool by_radius = bounds.high[3] > 2 * bounds.low[3];
+  const int i = by_radius ? 3 : bounds.Widest(3);
+  const double middle =
+      by_radius ? std::sqrt(bounds.low[3]) * std::sqrt(bounds.high[3]) : MiddleOf(bounds, i);
+  const size_t first = Split(points, i, middle, depth);
   return HasNested(points.first(first), fewest, depth + 1) ||
          HasNested(points.subspan(first), fewest, depth + 1);
 }
@@ -128,7 +137,7 @@ void FillNode(std::span<SpherePoint> points, size_t node, int depth, ShellTree* 
     return;
   }
   tree->nodes.resize(first + 2);
-  const size_t size = Split(points, bounds, depth);
+  const size_t size = Split(points, widest, MiddleOf(bounds, widest), depth);
   FillNode(points.first(size), first, depth + 1, tree);
   FillNode(points.subspan(size), first + 1, depth + 1, tree);
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/shell_tree.h: a bounding volume hierarchy for spheres that lie within one another.
 //
-// A tree of boxes cannot cull these: the boxes of a thousand nested, coincident or nearly coincident
-// spheres all hold the same space, and a ray through it has to be tested against every one. But all
-// that a ray can hit of a sphere is its surface. The surfaces of a group of spheres lie in a shell,
-// the space between two concentric balls, and shells of spheres of about the same centre and radius
-// are thin: a ray that has hit one sphere stops before the others' shells, a ray that leaves them
-// does not meet any, and one that starts inside them all crosses a hole first. Nothing is assumed of
-// where rays start and go to: the tree only leaves out tests that would miss.
+// A tree of boxes cannot cull these: the boxes of a thousand nested, coincident or nearly
+// coincident spheres all hold the same space, and a ray through it has to be tested against every
+// one. But all that a ray can hit of a sphere is its surface. The surfaces of a group of spheres
+// lie in a shell, the space between two concentric balls, and shells of spheres of about the same
+// centre and radius are thin: a ray that has hit one sphere stops before the others' shells, a ray
+// that leaves them does not meet any, and one that starts inside them all crosses a hole first.
+// Nothing is assumed of where rays start and go to: the tree only leaves out tests that would miss.
 #pragma once
 
 #include <cstdint>
@@ -27,8 +27,8 @@ struct Shell {
   double outer = 0;
 };
 
-// How much thicker a shell has to be taken when a ray is tested against it, as a share of the sum of
-// all coordinates involved: those of the ray's origin, the shell's centre and its radius.
+// How much thicker a shell has to be taken when a ray is tested against it, as a share of the sum
+// of all coordinates involved: those of the ray's origin, the shell's centre and its radius.
 //
 // The exact tests of a sphere (sphere_test.h, film_test.h) and the shell's own test err like a
 // change of the radii and of the way along the ray by a few 2^-53 of that sum; this is a few
@@ -58,8 +58,8 @@ struct ShellTree {
   bool empty() const { return nodes.empty(); }
 };
 
-// Whether so many of the spheres have much of their insides in common that a shell tree is worth
-// it: it takes longer than Embree's tree or bins where spheres lie side by side. Looks at a sample.
+// Whether so many of the spheres hold one place together that a shell tree is worth it: it takes
+// longer than Embree's tree or bins where spheres lie side by side. Looks at a sample.
 bool AreNested(const HugeArray<TraceSphere>& spheres);
 
 // Takes O(n log n) on one thread.
