@@ -184,7 +184,7 @@ def text(results):
     parts = [machine.line(results["machine"]),
              f"x scalar: times as fast as {results['scalar_baseline']}", ports(results),
              _kernels(results), _plain(benchmarks, "visibility/", "ms", 1e-6),
-             _float_visibility(benchmarks),
+             _float_visibility(benchmarks), _plain(benchmarks, "nested/", "ms", 1e-6),
              _frames(benchmarks), math, _processes(results["processes"]),
              _scaling(results.get("scaling", {})) or None,
              _precision(results["precision"]) if "precision" in results else None,

@@ -44,7 +44,7 @@ class Settings:
     # Which benchmarks, as regular expressions of Google Benchmark; what one of them names is run in
     # random order.
     groups: tuple = ("^(shade|machine)/", "^access/", "^math/", "^visibility/", "^frame/.*/1920x1080/",
-                     "^frame/.*/480x270/")
+                     "^frame/.*/480x270/", "^nested/")
 
 
 FULL = Settings()
@@ -77,7 +77,7 @@ QUICK = Settings(
     groups=("^(shade|machine)/", "^access/.*/avx[23]$", "^math/",
             "^visibility/", "^frame/[a-z_]+/1920x1080/1spp/(avx2|avx3.*)$"
             "|^frame/material_grid(_plain)?/1920x1080/16spp/",
-            "^frame/material_grid/480x270/(1|4|16)spp/"),
+            "^frame/material_grid/480x270/(1|4|16)spp/", "^nested/"),
 )
 # What the headline numbers are made of, and no more.
 SUMMARY_GROUPS = ("^(shade|machine)/", "^math/ggx/0.3/", "^visibility/",

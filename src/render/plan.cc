@@ -91,12 +91,13 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
   const std::string shapes =
       fmt::format("{} spheres, {} triangles; exact hits in double on {}", scene.spheres.size(),
                   triangles, TargetName(ActiveTarget()));
-  const bool want_tiles =
-      settings.intersector != IntersectorChoice::kEmbree && !scene.spheres.empty();
   plan->eye_outside = EyeIsOutside(scene, settings.threads);
   plan->intersector = std::make_unique<Intersector>(
       scene, scene.camera.position,
       IntersectorSettings{.threads = settings.threads, .embree = false});
+  const bool nested = plan->intersector->SpheresAreNested();
+  const bool want_tiles =
+      settings.intersector != IntersectorChoice::kEmbree && !scene.spheres.empty() && !nested;
   const auto tell = [&](double done) {
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
@@ -117,6 +118,7 @@ void PlanGeometry(const Scene& scene, const RenderSettings& settings, RenderPlan
                          plan->tiles  ? "spheres binned to 16x16 pixels need no tree: " + shapes
                          : want_tiles ? "the bins would not fit 256 MiB"
                          : scene.spheres.empty() ? "there are no spheres"
+                         : nested                ? kNestedSpheres
                                                  : "--intersector embree"});
   tell(0.4);
   const bool tree_for_punctual = PlanShadows(scene, settings, plan);

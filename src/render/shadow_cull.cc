@@ -85,6 +85,9 @@ std::string WhyTree(const Scene& scene, const RenderSettings& settings, const Re
   if (settings.general_path) return "the general path is asked for";
   if (!scene.meshes.empty()) return "there are triangles";
   if (settings.intersector == IntersectorChoice::kEmbree) return kEmbreeAskedFor;
+  if (scene.spheres.size() > kMaxListedSpheres && plan.intersector->SpheresAreNested()) {
+    return kNestedSpheres;
+  }
   if (settings.intersector == IntersectorChoice::kTiles) return {};
   // Measured: by then one tree is made faster than the bins of all lights, and takes less room.
   constexpr double kMostPairs = 8e6;

@@ -6,6 +6,10 @@
 
 namespace nacre {
 
+// Why Intersector::SpheresAreNested leaves a tree to find what rays meet.
+inline constexpr char kNestedSpheres[] =
+    "many spheres lie within one another: a tree of shells tells them apart sooner";
+
 // True if every camera ray surely starts outside every sphere: what is seen of one is then its
 // outside, and light that it faces cannot be behind itself.
 bool EyeIsOutside(const Scene& scene, int threads);

@@ -86,6 +86,7 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     extents[block] = extent;
   });
   for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
+  if (AreNested(geometry.spheres)) geometry.shells = BuildShellTree(geometry.spheres);
   const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
   for (const Mesh& mesh : scene.meshes) {
     const auto first = static_cast<uint32_t>(geometry.triangles.size());

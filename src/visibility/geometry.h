@@ -11,6 +11,7 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 #include "visibility/cut_out.h"
+#include "visibility/shell_tree.h"
 
 namespace nacre {
 
@@ -33,6 +34,7 @@ std::vector<uint32_t> FirstTwins(const HugeArray<TraceSphere>& spheres,
 
 struct TraceGeometry {
   HugeArray<TraceSphere> spheres;  // in scene order
+  ShellTree shells;  // of the spheres, if so many lie within one another that trees of boxes fail
 
   // The vertices of all meshes, one after the other, and their triangles, indexing them.
   std::vector<Vec3d> positions;

@@ -15,6 +15,7 @@
 #include "visibility/geometry.h"
 #include "visibility/packet.h"
 #include "visibility/refine_kernel.h"
+#include "visibility/shell_kernel.h"
 #include "visibility/sphere_kernel.h"
 #include "visibility/trace_kernel.h"
 #include "visibility/triangle_kernel.h"
@@ -49,6 +50,16 @@ void SphereBounds(const RTCBoundsFunctionArguments* args) {
   const auto& [center, radius] = geometry.spheres[args->primID];
   SetBounds(center - Vec3d(radius), center + Vec3d(radius),
             BoundsMargin(geometry, center.length() + radius), args->bounds_o);
+  HandOver(args->geometryUserPtr);
+}
+
+// Of all spheres at once.
+void ShellBounds(const RTCBoundsFunctionArguments* args) {
+  TakeOver(args->geometryUserPtr);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const Shell& all = geometry.shells.nodes.front().shell;
+  SetBounds(all.center - Vec3d(all.outer), all.center + Vec3d(all.outer),
+            BoundsMargin(geometry, all.center.length() + all.outer), args->bounds_o);
   HandOver(args->geometryUserPtr);
 }
 
@@ -98,6 +109,8 @@ struct Intersector::State {
   ScenePointer scene, triangle_scene;
   int packet_width = 0;
 
+  bool HasShells() const { return !geometry.shells.empty(); }
+
   TraceScene Traced() const { return {scene.get(), packet_width, &geometry}; }
 
   // A committed scene of the spheres, if they are asked for, and of the triangles.
@@ -112,7 +125,9 @@ ScenePointer Intersector::State::Build(bool with_spheres) {
   ScenePointer built(rtcNewScene(device->get()));
   device->ThrowIfFailed();
   rtcSetSceneFlags(built.get(), RTC_SCENE_FLAG_ROBUST);
-  if (with_spheres) {
+  if (with_spheres && HasShells()) {
+    Attach(device->get(), built.get(), &geometry, 1, &ShellBounds, ShellCallbacks());
+  } else if (with_spheres) {
     Attach(device->get(), built.get(), &geometry, geometry.spheres.size(), &SphereBounds,
            SphereCallbacks());
   }
@@ -145,6 +160,8 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
 void Intersector::BuildTree() {
   if (!state_->scene) state_->scene = state_->Build(true);
 }
+
+bool Intersector::SpheresAreNested() const { return state_->HasShells(); }
 
 void Intersector::BuildTriangleTree() {
   if (!state_->triangle_scene) state_->triangle_scene = state_->Build(false);

@@ -52,6 +52,10 @@ class Intersector {
   Intersector(Intersector&&) noexcept;
   Intersector& operator=(Intersector&&) noexcept;
 
+  // Whether so many spheres lie within one another that Closest and Occluded are faster than what
+  // is found in bins (shell_tree.h).
+  bool SpheresAreNested() const;
+
   // Makes what Closest and Occluded need, if it is not there.
   void BuildTree();
 

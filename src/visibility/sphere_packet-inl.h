@@ -9,6 +9,7 @@
 #endif
 
 #include "visibility/film_test-inl.h"
+#include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/sphere_test-inl.h"
 
@@ -91,6 +92,34 @@ HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, ui
       RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
     }
   }
+}
+
+// The lanes whose ray starts on this sphere, or on one that coincides with it.
+template <class D>
+HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
+  const auto same = [&](int i, double value) HWY_ATTR {
+    return hn::Eq(hn::Load(d, packet.start_sphere[i] + lane), hn::Set(d, value));
+  };
+  return hn::And(hn::And(same(0, sphere.center.x), same(1, sphere.center.y)),
+                 hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
+}
+
+// Marks those of `lanes`, as bits, that the sphere is in the way of.
+HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* packet) {
+  lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
+  if (lanes == 0) return;
+  const hn::ScalableTag<double> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  uint32_t occluded = 0;
+  for (int lane = 0; lane < packet->width; lane += step) {
+    const auto proposed = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, proposed)) continue;
+    const auto hit = TestLanes(d, *packet, lane, sphere);
+    const auto in_the_way = InTheWay(d, hit, StartsOn(d, *packet, lane, sphere), packet->outward,
+                                     hn::Load(d, packet->t_max + lane));
+    occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
+  }
+  RecordOccluded(packet, occluded);
 }
 
 }  // namespace HWY_NAMESPACE

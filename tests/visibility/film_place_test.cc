@@ -164,10 +164,28 @@ Nearest NearestOf(const TraceGeometry& geometry, const FilmView& view, const Vec
   return nearest;
 }
 
-// A few spheres, of which each ray hits one or several, or, `lone`, a single one.
-Scene SpheresBefore(const CameraFrame& frame, bool lone, Random* random) {
+// What rays may hit: a single sphere, one or several of a few, or one of many within one another.
+enum class Before { kSingle, kSeveral, kNested };
+
+Scene NestedBefore(const CameraFrame& frame, Random* random) {
   Scene scene;
-  for (int i = 0; i < (lone ? 1 : 8); ++i) {
+  const double distance = random->Magnitude(2, 1e3);
+  const double radius = distance * random->Uniform(9, 60) * frame.step_x.length();
+  const Vec3d center = (frame.corner + frame.step_x * random->Uniform(0, kFilmWidth) +
+                        frame.step_y * random->Uniform(0, kFilmHeight)) *
+                       distance;
+  const double apart = random->Magnitude(1e-16, 0.1) * radius;
+  for (int i = 0; i < 200; ++i) {
+    scene.spheres.push_back(MakeSphere(center + random->InBox(Vec3d(-apart), Vec3d(apart)),
+                                       radius + (i % 2 == 0 ? apart * random->Uniform(-1, 1) : 0)));
+  }
+  return scene;
+}
+
+Scene SpheresBefore(const CameraFrame& frame, Before what, Random* random) {
+  if (what == Before::kNested) return NestedBefore(frame, random);
+  Scene scene;
+  for (int i = 0; i < (what == Before::kSingle ? 1 : 8); ++i) {
     const double distance = random->Magnitude(2, 1e3);
     const double size = (i == 7 ? 2 : random->Uniform(9, 60)) * frame.step_x.length();
     const Vec3d at = frame.corner + frame.step_x * random->Uniform(0, kFilmWidth) +
@@ -206,7 +224,7 @@ void HitTile(const CameraFrame& frame, const FilmBatch& film, Intersector* inter
 }
 
 TEST_CASE("tiles hit what the scalar twins hit, on every target") {
-  const bool lone = GENERATE(false, true);
+  const Before what = GENERATE(Before::kSeveral, Before::kSingle, Before::kNested);
   ForEachTarget([&](Target) {
     Random random(3);
     const FilmBatch film = CentersOfTile();
@@ -215,7 +233,7 @@ TEST_CASE("tiles hit what the scalar twins hit, on every target") {
     for (int round = 0; round < 40; ++round) {
       const CameraFrame frame = FrameOf(random.Magnitude(1e-3, 1), &random);
       const FilmView view = MakeFilmView(frame);
-      const Scene scene = SpheresBefore(frame, lone, &random);
+      const Scene scene = SpheresBefore(frame, what, &random);
       const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
       Intersector intersector(scene, Vec3d(0), {.embree = false});
       HitTile(frame, film, &intersector, &hits);
@@ -239,7 +257,7 @@ TEST_CASE("tiles hit what the scalar twins hit, on every target") {
 
 // In double: pictures in float would not tell the two tests apart.
 TEST_CASE("camera rays by Embree have all bits of the tiles' hits, on every target") {
-  const bool lone = GENERATE(false, true);
+  const Before what = GENERATE(Before::kSeveral, Before::kSingle, Before::kNested);
   ForEachTarget([&](Target) {
     Random random(4);
     const FilmBatch film = CentersOfTile();
@@ -248,8 +266,9 @@ TEST_CASE("camera rays by Embree have all bits of the tiles' hits, on every targ
     ClosestHits closest;
     for (int round = 0; round < 20; ++round) {
       const CameraFrame frame = FrameOf(random.Magnitude(1e-3, 1), &random);
-      const Scene scene = SpheresBefore(frame, lone, &random);
+      const Scene scene = SpheresBefore(frame, what, &random);
       Intersector intersector(scene, Vec3d(0));
+      REQUIRE(intersector.SpheresAreNested() == (what == Before::kNested));
       HitTile(frame, film, &intersector, &by_tiles);
       RayBatch rays;
       rays.count = film.count;

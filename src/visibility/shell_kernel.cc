@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// visibility/shell_kernel.cc: walks packets of rays through the tree of shells (shell_tree.h); what
+// decides hits in its leaves is what decides them elsewhere.
+#include "visibility/shell_kernel.h"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "visibility/shell_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "visibility/sphere_packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using ShellTag = hn::ScalableTag<double>;
+using ShellV = hn::Vec<ShellTag>;
+
+struct ShellRays {
+  Vec3V<ShellV> origin, direction;
+  ShellV inverse_dd, t_max;
+  ShellV reach;  // the sum of the origin's coordinates
+};
+
+HWY_INLINE ShellRays LoadShellRays(const Packet& packet, int lane) {
+  const ShellTag d;
+  ShellRays rays;
+  rays.origin = Origin(d, packet, lane);
+  rays.direction = Direction(d, packet, lane);
+  rays.inverse_dd = hn::Load(d, packet.inverse_dd + lane);
+  rays.t_max = hn::Load(d, packet.t_max + lane);
+  rays.reach = SumOfAbs(rays.origin);
+  return rays;
+}
+
+// Where rays are first in a shell: infinity for those that are not, at any t in [0, t_max].
+//
+// Twice the margin: once for what the radii err by, and as moving a sphere outward by that moves
+// where rays enter it by no less, once for what the way along the ray does.
+HWY_INLINE ShellV EnterShell(const Shell& shell, const ShellRays& rays) {
+  const ShellTag d;
+  const auto zero = hn::Zero(d);
+  const Vec3V<ShellV> center = SetVec3(d, shell.center);
+  const ShellV sum = hn::Add(rays.reach, hn::Add(SumOfAbs(center), hn::Set(d, shell.outer)));
+  const ShellV margin = hn::Mul(sum, hn::Set(d, 2 * kShellMargin));
+  const ShellV outer = hn::Add(hn::Set(d, shell.outer), margin);
+  const ShellV inner = hn::Max(hn::Sub(hn::Set(d, shell.inner), margin), zero);
+  const ShellV outer2 = hn::Mul(outer, outer);
+  const ShellV inner2 = hn::Mul(inner, inner);
+
+  const Vec3V<ShellV> to_center = Sub(center, rays.origin);
+  const ShellV distance2 = Dot(to_center, to_center);
+  const ShellV closest = hn::Mul(Dot(to_center, rays.direction), rays.inverse_dd);
+  const Vec3V<ShellV> across = Sub(to_center, Scale(rays.direction, closest));
+  const ShellV across2 = Dot(across, across);
+
+  const auto in_hole = hn::Lt(distance2, inner2);
+  const ShellV discriminant = hn::Sub(hn::IfThenElse(in_hole, inner2, outer2), across2);
+  const ShellV half = hn::Sqrt(hn::Mul(hn::Max(discriminant, zero), rays.inverse_dd));
+  const ShellV first = hn::Add(closest, hn::IfThenElse(in_hole, half, hn::Neg(half)));
+  const auto meets = hn::Or(in_hole, hn::Ge(discriminant, zero));
+  const auto ahead = hn::Or(hn::Gt(closest, zero), hn::Le(distance2, outer2));
+  const auto in_time = hn::And(hn::Le(first, rays.t_max), hn::Gt(rays.t_max, zero));
+  const auto enters = hn::And(hn::And(meets, ahead), in_time);
+  return hn::IfThenElse(enters, first, hn::Set(d, std::numeric_limits<double>::infinity()));
+}
+
+// A node and the lanes whose rays may meet spheres of it, from `nearest` on.
+struct ShellVisit {
+  const ShellNode* node;
+  uint32_t lanes = 0;
+  double nearest = 0;
+};
+
+// Finds out who of `lanes` visits nodes that follow one another.
+template <int kNodes>
+HWY_INLINE void VisitNodes(const Packet& packet, uint32_t lanes, const ShellNode* nodes,
+                           ShellVisit (&visits)[kNodes]) {
+  const ShellTag d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  const ShellV infinity = hn::Set(d, std::numeric_limits<double>::infinity());
+  ShellV nearest[kNodes];
+  for (int i = 0; i < kNodes; ++i) {
+    visits[i] = {nodes + i};
+    nearest[i] = infinity;
+  }
+  for (int lane = 0; lane < packet.width; lane += step) {
+    const auto asked = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, asked)) continue;
+    const ShellRays rays = LoadShellRays(packet, lane);
+    for (int i = 0; i < kNodes; ++i) {
+      const ShellV first = hn::IfThenElse(asked, EnterShell(nodes[i].shell, rays), infinity);
+      nearest[i] = hn::Min(nearest[i], first);
+      visits[i].lanes |= BitsOfMask(d, hn::Lt(first, infinity)) << lane;
+    }
+  }
+  for (int i = 0; i < kNodes; ++i) {
+    visits[i].nearest = hn::GetLane(hn::MinOfLanes(d, nearest[i]));
+  }
+}
+
+HWY_INLINE double LargestLimit(const Packet& packet, uint32_t lanes) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (; lanes != 0; lanes &= lanes - 1) {
+    largest = std::max(largest, packet.t_max[__builtin_ctz(lanes)]);
+  }
+  return largest;
+}
+
+// Calls test(member, lanes) for the spheres that the lanes' rays may hit within their limits,
+// nearest shells first. Limits may shrink, and lanes be occluded, meanwhile.
+template <class Test>
+HWY_INLINE void WalkShells(const ShellTree& tree, uint32_t lanes, const Packet& packet,
+                           const Test& test) {
+  ShellVisit stack[kMaxShellDepth + 1];
+  int size = 0;
+  const auto push = [&](const ShellVisit& visit) {
+    if (visit.lanes != 0) stack[size++] = visit;
+  };
+  ShellVisit root[1];
+  VisitNodes(packet, lanes, tree.nodes.data(), root);
+  push(root[0]);
+  while (size > 0) {
+    ShellVisit visit = stack[--size];
+    visit.lanes &= ~packet.occluded;
+    if (visit.nearest > LargestLimit(packet, visit.lanes)) continue;
+    const ShellNode& node = *visit.node;
+    if (node.count > 0) {
+      for (uint32_t i = 0; i < node.count; ++i) test(tree.members[node.first + i], visit.lanes);
+      continue;
+    }
+    ShellVisit children[2];
+    VisitNodes(packet, visit.lanes, tree.nodes.data() + node.first, children);
+    const int near = children[1].nearest < children[0].nearest ? 1 : 0;
+    push(children[1 - near]);
+    push(children[near]);
+  }
+}
+
+void IntersectShells(const RTCIntersectFunctionNArguments* args) {
+  Packet& packet = PacketOf(args->context);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const uint32_t active = ActiveLanes(packet, args->valid, args->rayhit, args->N);
+  WalkShells(geometry.shells, active, packet, [&](const ShellMember& member, uint32_t lanes) {
+    IntersectLanes(geometry.spheres[member.lowest], member.lowest, lanes, &packet);
+  });
+  ReturnDepths(packet, args->valid, args->rayhit, args->N);
+}
+
+void OccludedByShells(const RTCOccludedFunctionNArguments* args) {
+  Packet& packet = PacketOf(args->context);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const uint32_t active = ActiveLanes(packet, args->valid, args->ray, args->N);
+  WalkShells(geometry.shells, active, packet, [&](const ShellMember& member, uint32_t lanes) {
+    if (packet.target.Contains(member.lowest) && packet.target.Contains(member.highest)) return;
+    OccludeLanes(geometry.spheres[member.lowest], lanes, &packet);
+  });
+  ReturnDepths(packet, args->valid, args->ray, args->N);
+}
+
+PrimitiveCallbacks CallbacksOfShells() { return {&IntersectShells, &OccludedByShells}; }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(CallbacksOfShells);
+PrimitiveCallbacks ShellCallbacks() { return HWY_DYNAMIC_DISPATCH(CallbacksOfShells)(); }
+}  // namespace nacre
+#endif
