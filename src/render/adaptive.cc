@@ -96,24 +96,34 @@ void WidenRanges(const double* values, const double* hits, double* low, double* 
   }
 }
 
-// Takes them all into them, of which all pixels have some.
-void WidenByBlock(const double* __restrict values, double* __restrict low,
-                  double* __restrict high) {
+// Sorts a sample into the two least and the two greatest ones.
+void WidenExtremes(double value, double* low1, double* low2, double* high2, double* high1) {
+  *low2 = std::min(*low2, std::max(*low1, value));
+  *low1 = std::min(*low1, value);
+  *high2 = std::max(*high2, std::min(*high1, value));
+  *high1 = std::max(*high1, value);
+}
+
+// One of each of a block's pixels, of which all have some.
+void WidenByBlock(const double* values, int channel, uint32_t pixel, CellScratch* c) {
+  double* __restrict const low1 = c->low1[channel] + pixel;
+  double* __restrict const low2 = c->low2[channel] + pixel;
+  double* __restrict const high2 = c->high2[channel] + pixel;
+  double* __restrict const high1 = c->high1[channel] + pixel;
   for (size_t k = 0; k < kBlockPixels; ++k) {
-    low[k] = values[k] < low[k] ? values[k] : low[k];
-    high[k] = values[k] > high[k] ? values[k] : high[k];
+    WidenExtremes(values[k], low1 + k, low2 + k, high2 + k, high1 + k);
   }
 }
 
-// The same of a pixel's samples that stand in a row.
-void WidenByPiece(const double* values, size_t count, double* low, double* high) {
-  double least = *low, most = *high;
-  for (size_t i = 0; i < count; ++i) {
-    least = values[i] < least ? values[i] : least;
-    most = values[i] > most ? values[i] : most;
-  }
-  *low = least;
-  *high = most;
+// A pixel's samples that stand in a row.
+void WidenByPiece(const double* values, size_t count, int channel, uint32_t pixel, CellScratch* c) {
+  double low1 = c->low1[channel][pixel], low2 = c->low2[channel][pixel];
+  double high2 = c->high2[channel][pixel], high1 = c->high1[channel][pixel];
+  for (size_t i = 0; i < count; ++i) WidenExtremes(values[i], &low1, &low2, &high2, &high1);
+  c->low1[channel][pixel] = low1;
+  c->low2[channel][pixel] = low2;
+  c->high2[channel][pixel] = high2;
+  c->high1[channel][pixel] = high1;
 }
 
 void MarkHits(const TileScratch& s, std::vector<double>* hits) {
@@ -152,9 +162,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
         for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
           const uint32_t pixel = units[i].pixel;
           AddBlock(value, s.weights[0], sums[units[i].replicate] + pixel);
-          if (beauty) {
-            WidenByBlock(value, c->seen_low[channel] + pixel, c->seen_high[channel] + pixel);
-          }
+          if (beauty) WidenByBlock(value, channel, pixel, c);
           if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
           WidenRanges(value, c->hits.data() + i, c->low[channel] + pixel, c->high[channel] + pixel);
         }
@@ -162,10 +170,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
       }
       for (const Unit& unit : units) {
         sums[unit.replicate][unit.pixel] += SumOfPiece(value, s.weights.data(), count);
-        if (beauty) {
-          WidenByPiece(value, count, c->seen_low[channel] + unit.pixel,
-                       c->seen_high[channel] + unit.pixel);
-        }
+        if (beauty) WidenByPiece(value, count, channel, unit.pixel, c);
         value += count;
       }
     }

@@ -56,9 +56,9 @@ struct CellScratch {
   // them on the outlines of a block.
   double low[3][kCellPixels], high[3][kCellPixels];
   PixelRange outline_range[3][kCellBlocks];
-  // The range of all samples of a pixel, misses too; and how many it takes at least (evidence.h).
-  double seen_low[3][kCellPixels], seen_high[3][kCellPixels];
-  double least_samples[kCellPixels];
+  // The two least and the two greatest of all samples of a pixel, misses too (evidence.h).
+  double low1[3][kCellPixels], low2[3][kCellPixels];
+  double high2[3][kCellPixels], high1[3][kCellPixels];
   // What few samples find of a pixel (rare_features.h): how many find it, and at most how much of
   // the pixel's radiance it is.
   double rare_samples[kCellPixels], rare_radiance[kCellPixels];

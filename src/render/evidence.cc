@@ -13,12 +13,6 @@ namespace {
 // Of the pixels 95 % are to be within the wanted error.
 constexpr double kMayBeBeyond = 0.05;
 
-// The share of a chi-squared variable with three degrees of freedom at its median, 2.366, over
-// three times the 3.182^2 / 1.96^2 by which an interval from four replicates is wider than one of
-// a known spread: what the median of a cell's squared half-widths is to the square of the interval
-// that the same spread gives where it is known.
-constexpr double kOfMedian = 1.96 * 1.96 / (3.182446305 * 3.182446305) / (2.366 / 3);
-
 // What a pixel's samples hit: misses see the background alone.
 enum Kind : uint8_t { kMisses, kMixed, kHits };
 
@@ -26,7 +20,8 @@ struct PixelEvidence {
   uint32_t pixel;
   Kind kind;
   double contrast;  // of its samples, in its widest channel
-  bool isolated;    // its neighbours do not explain that
+  double single;    // from its least or greatest sample to the next: what only one has met
+  bool isolated;    // its neighbours do not explain the contrast
 };
 
 bool IsOpen(const CellScratch& c, uint32_t pixel) {
@@ -67,6 +62,14 @@ Kind KindOf(const CellScratch& c, uint32_t pixel) {
   return std::abs(hits - samples) < 1e-6 * samples ? kHits : kMixed;
 }
 
+double SamplesTaken(const CellScratch& c, uint32_t pixel) {
+  return double{kReplicates} * c.samples[pixel];
+}
+
+double WantedOf(const CellScratch& c, uint32_t pixel) {
+  return c.intervals[pixel / kBlockPixels].wanted[pixel % kBlockPixels];
+}
+
 // Whether what the pixel's samples differ by is more than twice that of the means around it: of an
 // edge between two parts of the picture, both sides are seen there.
 bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double contrast) {
@@ -87,13 +90,16 @@ bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double con
 
 // What is brighter than `white` counts as that.
 PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel, double white) {
-  PixelEvidence evidence{pixel, KindOf(c, pixel), 0, false};
+  PixelEvidence evidence{pixel, KindOf(c, pixel), 0, 0, false};
   size_t widest = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const double contrast =
-        std::min(c.seen_high[channel][pixel], white) - std::min(c.seen_low[channel][pixel], white);
-    if (!(contrast > evidence.contrast)) continue;
-    evidence.contrast = contrast;
+    const double low1 = std::min(c.low1[channel][pixel], white);
+    const double low2 = std::min(c.low2[channel][pixel], white);
+    const double high2 = std::min(c.high2[channel][pixel], white);
+    const double high1 = std::min(c.high1[channel][pixel], white);
+    evidence.single = std::max({evidence.single, low2 - low1, high1 - high2});
+    if (!(high1 - low1 > evidence.contrast)) continue;
+    evidence.contrast = high1 - low1;
     widest = channel;
   }
   evidence.isolated = evidence.contrast > 0 && IsIsolated(c, pixel, widest, evidence.contrast);
@@ -102,11 +108,8 @@ PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel, double white) {
 
 // What pixels of some kinds tell of one another.
 struct Pool {
-  double contrast = 0;  // mean of the isolated ones
-  double share = 0;     // of the pixels that are isolated
-  // Of their half-widths relative to what is wanted, squared, where most are isolated: what then
-  // makes their spread is the same in all.
-  double median_width2 = 0;
+  double contrast = 0;  // mean of the witnesses' (evidence.h), by one sample each
+  double share = 0;     // of the pixels that are witnesses
 };
 
 // All pixels but those at the cell's border, whose neighbours are not known.
@@ -115,50 +118,31 @@ bool IsInner(uint32_t pixel) {
   return at.column > 0 && at.row > 0 && at.column + 1 < kCellSide && at.row + 1 < kCellSide;
 }
 
+// Pixels of the kind `left_out` tell nothing.
 Pool PoolOf(const CellScratch& c, const std::vector<PixelEvidence>& all, Kind left_out) {
   Pool pool;
-  std::vector<double> widths2;  // of the isolated ones
-  size_t inner = 0;
+  size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
     if (e.kind == left_out || !IsInner(e.pixel)) continue;
     ++inner;
-    if (!e.isolated) continue;
-    const BlockIntervals& intervals = c.intervals[e.pixel / kBlockPixels];
-    const size_t i = e.pixel % kBlockPixels;
-    const double width = intervals.half_width[i] / intervals.wanted[i];
-    widths2.push_back(width * width);
-    pool.contrast += e.contrast;
+    if (!e.isolated || e.single <= WantedOf(c, e.pixel)) continue;
+    pool.contrast += e.single;
+    ++witnesses;
   }
-  if (widths2.size() < 2) return pool;
-  const auto isolated = static_cast<double>(widths2.size());
-  pool.contrast /= isolated;
-  // One alone makes no pattern.
-  pool.share = (isolated - 1) / static_cast<double>(inner);
-  if (2 * widths2.size() < inner) return pool;
-  const auto middle = widths2.begin() + static_cast<std::ptrdiff_t>(widths2.size() / 2);
-  std::nth_element(widths2.begin(), middle, widths2.end());
-  pool.median_width2 = *middle;
+  // One pixel makes no pattern.
+  if (witnesses < 2) return {};
+  pool.contrast /= static_cast<double>(witnesses);
+  pool.share = static_cast<double>(witnesses - 1) / static_cast<double>(inner);
   return pool;
 }
 
-// The samples that a pixel needs of which the pool is true. What matters covers wanted / contrast
-// of a pixel at least. n samples of a pixel see that with about the probability n wanted /
-// contrast, so there are so many times as many pixels with it as are seen; with m samples e^(-m
-// wanted / contrast) of them are missed.
+// The samples that a pixel needs of which the pool is true (evidence.h).
 double SamplesFor(const Pool& pool, double wanted, double samples) {
   if (pool.share == 0) return 0;
   const double least = wanted / pool.contrast;
   if (least >= 1) return 0;
   const double affected = std::min(pool.share / std::min(samples * least, 1.0), 1.0);
   return std::max(std::log(affected / kMayBeBeyond), 0.0) / least;
-}
-
-double SamplesTaken(const CellScratch& c, uint32_t pixel) {
-  return double{kReplicates} * c.samples[pixel];
-}
-
-double WantedOf(const CellScratch& c, uint32_t pixel) {
-  return c.intervals[pixel / kBlockPixels].wanted[pixel % kBlockPixels];
 }
 
 // Takes back that the pixel's interval is narrow enough.
@@ -170,9 +154,8 @@ void Doubt(uint32_t pixel, CellScratch* c) {
 
 void ClearEvidence(CellScratch* c) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::fill_n(&c->seen_low[0][0], 3 * kCellPixels, kInfinity);
-  std::fill_n(&c->seen_high[0][0], 3 * kCellPixels, -kInfinity);
-  std::fill_n(c->least_samples, kCellPixels, 0.0);
+  for (auto* low : {c->low1, c->low2}) std::fill_n(&low[0][0], 3 * kCellPixels, kInfinity);
+  for (auto* high : {c->high1, c->high2}) std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
 void RequireEvidence(const RenderPlan& plan, CellScratch* c) {
@@ -188,10 +171,8 @@ void RequireEvidence(const RenderPlan& plan, CellScratch* c) {
   for (const PixelEvidence& e : all) {
     const Pool& pool = pools[e.kind];
     const double wanted = WantedOf(*c, e.pixel), samples = SamplesTaken(*c, e.pixel);
-    double& least = c->least_samples[e.pixel];
-    least = std::max(least, SamplesFor(pool, wanted, samples));
     const bool by_own = !e.isolated || samples * wanted >= kUnseen * e.contrast;
-    const bool by_cell = samples >= least && kOfMedian * pool.median_width2 <= 1;
+    const bool by_cell = samples >= SamplesFor(pool, wanted, samples);
     if (!by_own || !by_cell) Doubt(e.pixel, c);
   }
   for (const uint32_t pixel : c->active) {

@@ -7,10 +7,14 @@
 // - Its own samples. Between their least and their greatest value one more sample may lie, and
 //   samples that take few values agree by chance: n samples do not settle less than kUnseen / n of
 //   that contrast.
-// - Its cell's samples. What is rare in one pixel is seen in some of the 256 of its cell: pixels
-//   whose samples differ by more than their neighbours' means explain. From their share follows in
-//   how many pixels the same is hidden by chance, and how many samples bring that below 5 %. And
-//   intervals much narrower than those of the cell's other pixels are chance as well.
+// - Its cell's samples. What all samples of some pixels miss, a single sample of other pixels has
+//   met (Good 1953: the share of what was never seen follows from what was seen once). Witnesses
+//   are pixels in which one sample differs from all others by more than is wanted, and whose
+//   neighbours' means do not explain it. What matters covers a share wanted / contrast of a pixel
+//   at least, and n samples meet it once with about n times that probability: so many times as many
+//   pixels have it as are witnesses. With m samples e^(-m wanted / contrast) of these miss it: m is
+//   enough where that leaves 5 % of the pixels. What most pixels' samples meet again and again, the
+//   noise of a light with an extent, say, has few witnesses and asks for nothing.
 // - What is known beforehand (rare_features.h): a part of the pixel that is smaller than a sample's
 //   share of it.
 //

@@ -30,6 +30,14 @@ HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
   return {hn::BitCast(d, exponent), hn::BitCast(d, negated)};
 }
 
+// Components that Embree replaces by 1e-18 before it takes their reciprocals, and a few more, are
+// 0: it does so whatever their sign, and a packet's frustum of those that are negative is then
+// empty. What that moves a ray by is far less than what rounding it does.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V FlushTiny(D d, V component) {
+  return hn::IfThenElseZero(hn::Gt(hn::Abs(component), hn::Set(d, 0x1p-56)), component);
+}
+
 // Rounds the rays to float. Their directions are first divided by a power of two, so that the
 // largest component is in [1, 2] and no product leaves float's range.
 template <class D>
@@ -54,9 +62,9 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   store(origin.x, &RTCRayN_org_x(rays, width, 0));
   store(origin.y, &RTCRayN_org_y(rays, width, 0));
   store(origin.z, &RTCRayN_org_z(rays, width, 0));
-  store(scaled.x, &RTCRayN_dir_x(rays, width, 0));
-  store(scaled.y, &RTCRayN_dir_y(rays, width, 0));
-  store(scaled.z, &RTCRayN_dir_z(rays, width, 0));
+  store(FlushTiny(d, scaled.x), &RTCRayN_dir_x(rays, width, 0));
+  store(FlushTiny(d, scaled.y), &RTCRayN_dir_y(rays, width, 0));
+  store(FlushTiny(d, scaled.z), &RTCRayN_dir_z(rays, width, 0));
   hn::StoreU(UpperDepth(d, t_max, scale.power), df, packet->tfar() + lane);
   hn::StoreU(scaled_inverse_dd, df, packet->ray_inverse_dd + lane);
   hn::StoreU(hn::Mul(hn::Sqrt(scaled_inverse_dd), hn::Set(df, 1 + 0x1p-22f)), df,

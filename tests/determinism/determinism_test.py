@@ -41,8 +41,11 @@ class Configuration:
         self.picture = ['--size', f'{self.width}x{self.height}', '--depth', 'float',
                         '--compression', 'none', '--quiet']
         self.scene = self.choose_scene(source)
-        if r.random() < 0.15:
-            self.picture += ['--max-error', r.choice(('0.3', '0.1', '0.03')), '--spp', '64']
+        # What adaptive sampling decides from, the intersectors must agree on, too.
+        self.adaptive = r.random() < 0.25
+        if self.adaptive:
+            self.picture += ['--max-error', r.choice(('0.3', '0.1', '0.03')),
+                             '--spp', r.choice(('16', '64', '64', '300'))]
         else:
             self.picture += ['--spp', str(r.choice((1, 1, 2, 3, 4, 5, 8, 9, 16)))]
         self.picture += ['--target', r.choice(targets)]
@@ -67,7 +70,7 @@ class Configuration:
             options += ['--tile-size', str(r.choice((r.randint(1, 64), 16, 32)))]
         if r.random() < 0.4:
             options += ['--layers', r.choice(('all', ','.join(r.sample(LAYERS, 3))))]
-        if r.random() < 0.5:
+        if r.random() < (0.9 if self.adaptive else 0.5):
             options += ['--intersector', r.choice(('embree', 'tiles'))]
         return options
 

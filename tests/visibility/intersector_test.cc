@@ -260,6 +260,55 @@ TEST_CASE("directions along the axes and in their planes") {
   CheckClosest(scene, Vec3d(0, 0, -3), rays);
 }
 
+// The middle column of a camera's rays points almost along an axis, to one side or the other by
+// rounding alone, and shares packets with rays that lean to the same side.
+TEST_CASE("directions almost along the axes, among others") {
+  Random random(26);
+  const double tiny[] = {0.0,    -0.0,    0x1p-80, -0x1p-80, 0x1p-59, -0x1p-59,
+                         1e-300, -1e-300, 1e-40,   -1e-40,   1e-15,   -1e-15};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      Scene scene;
+      std::vector<Ray> rays;
+      Vec3d along(0);
+      along[axis] = side;
+      for (int i = 0; i < 12; ++i) {
+        const Vec3d aside = random.Direction() * 0.05;
+        scene.spheres.push_back(MakeSphere(along * random.Uniform(2, 9) + aside, 0.1));
+      }
+      for (int i = 0; i < 3000; ++i) {
+        Vec3d direction = along;
+        for (int k = 0; k < 3; ++k) {
+          const auto which = static_cast<size_t>(random.Uniform(0, std::size(tiny)));
+          if (k != axis) {
+            direction[k] = random.Uniform(0, 1) < 0.3 ? tiny[which] : random.Uniform(-0.03, 0.03);
+          }
+        }
+        rays.push_back({Vec3d(0), direction});
+      }
+      CheckClosest(scene, Vec3d(0), rays);
+      std::vector<ShadowRay> shadows;
+      for (const Ray& ray : rays) shadows.push_back({ray, 20, kNoPrimitive});
+      const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
+      ForEachTarget([&](Target) {
+        const std::vector<bool> occluded = TraceShadows(Intersector(scene, Vec3d(0)), shadows);
+        for (size_t i = 0; i < shadows.size(); ++i) {
+          REQUIRE(occluded[i] == BruteForceOccluded(geometry, shadows[i]));
+        }
+      });
+      Mesh& mesh = scene.meshes.emplace_back();
+      for (const Sphere& sphere : scene.spheres) {
+        for (int corner = 0; corner < 3; ++corner) {
+          mesh.triangles.push_back(static_cast<uint32_t>(mesh.positions.size()));
+          mesh.positions.push_back(sphere.center + random.Direction() * 0.2);
+        }
+      }
+      scene.spheres.clear();
+      CheckClosest(scene, Vec3d(0), rays);
+    }
+  }
+}
+
 TEST_CASE("padding repeats the last hit") {
   Random random(22);
   Scene scene;
