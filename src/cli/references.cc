@@ -76,11 +76,7 @@ Reference ReadReference(const fs::path& path) {
   } catch (const Error& error) {
     throw Error(ExitCode::kCannotCompare, error.faults());
   }
-  if (faults.count() > 0) {
-    std::vector<Fault> all = faults.All();
-    for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
-    throw Error(ExitCode::kCannotCompare, std::move(all));
-  }
+  ThrowFaults(faults, file, ExitCode::kCannotCompare);
   reference.name = path.stem().stem().string();
   reference.scene = path.parent_path() / scene;
   reference.image = path.parent_path() / image;
@@ -142,7 +138,7 @@ void RunReferences(const std::string& folder, int threads,
       outcome.read.push_back(outcome.reference.image.string());
       outcome.run = RunReference(outcome.reference, threads, &outcome.read);
     } catch (const Error& error) {
-      // Told, and the others still get their turn.
+      // Reported; the remaining references still run.
       if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
       outcome.failure = error.faults().front().what;
       outcome.message = error.what();

@@ -69,8 +69,17 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
 
 void ApplyOptions(const LoadOptions& options, Json* root) {
   if (!options.environment.empty() && root->is_object()) {
-    const std::string image = std::filesystem::absolute(options.environment).string();
-    (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image}}}};
+    // Its faults are the command line's. What is wrong with its contents is found by its reader.
+    const std::filesystem::path image = std::filesystem::absolute(options.environment);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(image, ignored)) {
+      const std::string name = Excerpt(options.environment.string());
+      throw Error(ExitCode::kBadInput, "--environment",
+                  std::filesystem::exists(image, ignored)
+                      ? fmt::format("\"{}\" is not a regular file", name)
+                      : fmt::format("there is no file \"{}\"", name));
+    }
+    (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image.string()}}}};
   }
   for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, root);
 }
@@ -79,7 +88,8 @@ ReferenceRules RulesOf(const LoadOptions& options) {
   std::error_code error;  // of a path that means nothing: then nothing is trusted
   ReferenceRules rules{options.allow_paths, options.on_file, {}};
   if (!options.environment.empty()) {
-    rules.trusted = std::filesystem::weakly_canonical(options.environment, error);
+    rules.trusted =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(options.environment), error);
   }
   return rules;
 }
