@@ -20,10 +20,11 @@ std::string WithShapes(const Scene::Impl::Source& source) {
   Json& shapes = root["shapes"];
   if (shapes.is_null()) shapes = Json::array();
   if (!shapes.is_array()) return source.text;
+  ThrowFaults(faults, source.file);
   for (const std::string& shape : source.shapes) {
     shapes.push_back(ParseJson(shape, "AddShape", &faults));
+    ThrowFaults(faults, "AddShape");
   }
-  if (faults.count() > 0) throw nacre::Error(ExitCode::kBadInput, faults.All());
   return JsonText(root);
 }
 

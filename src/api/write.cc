@@ -2,10 +2,12 @@
 // api/write.cc: images of the public API to EXR and PNG files.
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <locale>
 #include <set>
 #include <sstream>
+#include <system_error>
 
 #include "api/border.h"
 #include "base/parallel.h"
@@ -64,11 +66,15 @@ bool IsFilesOwn(const std::string& name) {
 
 // Attributes keep the types that nacre itself gives them.
 nacre::ExrAttribute ToAttribute(const std::string& name, const std::string& text) {
-  try {
-    if (name == "samplesPerPixel") return std::stoi(text);
-    if (name == "renderTime" || name == "nacre:maxError") return std::stof(text);
-  } catch (const std::exception&) {  // no number: then it is a text
-  }
+  // If all of the text is a number; else it stays text.
+  const auto number = [&](auto value) -> nacre::ExrAttribute {
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || last != end) return text;
+    return value;
+  };
+  if (name == "samplesPerPixel") return number(int{});
+  if (name == "renderTime" || name == "nacre:maxError") return number(float{});
   return text;
 }
 

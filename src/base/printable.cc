@@ -34,12 +34,13 @@ Utf8Character FirstCharacter(std::string_view text) {
   return {code, bytes};
 }
 
-bool Acts(uint32_t code) {
+// The characters that Printable (printable.h) replaces.
+bool IsControlOrBidi(uint32_t code) {
   return code < 0x20 || (code >= 0x7f && code <= 0x9f) || (code >= 0x2028 && code <= 0x202e) ||
          (code >= 0x2066 && code <= 0x2069);
 }
 
-std::string SpellOut(uint32_t code) {
+std::string EscapeSequence(uint32_t code) {
   switch (code) {
     case '\n':
       return "\\n";
@@ -60,8 +61,8 @@ std::string MakePrintable(std::string_view text, bool keep_lines) {
     const bool is_layout = keep_lines && (first.code == '\n' || first.code == '\t');
     if (first.bytes == 0) {
       out += fmt::format("\\x{:02x}", static_cast<uint8_t>(text[0]));
-    } else if (Acts(first.code) && !is_layout) {
-      out += SpellOut(first.code);
+    } else if (IsControlOrBidi(first.code) && !is_layout) {
+      out += EscapeSequence(first.code);
     } else {
       out += text.substr(0, first.bytes);
     }

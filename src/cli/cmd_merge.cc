@@ -41,7 +41,9 @@ class MergedFiles {
     png.height = whole.header.display.height();
     for (const char* name : {"Software", "nacre:shadowing"}) {
       const auto found = attributes.find(name);
-      if (found != attributes.end()) png.text[name] = std::get<std::string>(found->second);
+      if (found == attributes.end()) continue;
+      // A foreign file may have an attribute of this name and of another type.
+      if (const auto* text = std::get_if<std::string>(&found->second)) png.text[name] = *text;
     }
     png.text["nacre:tonemap"] = arguments.tonemap;
     for (const std::string& path : arguments.outputs) {

@@ -102,7 +102,7 @@ Json ReadLightsText(const std::string& text) {
   } else {
     FaultList faults;
     lights = ParseJson(ReadTextFile(text, kMaxBytes), text, &faults);
-    if (faults.count() > 0) throw Error(ExitCode::kBadInput, faults.All());
+    ThrowFaults(faults, text);
   }
   if (lights.is_object() && lights.contains("lights")) lights = lights["lights"];  // of a scene
   if (lights.is_object()) return lights;

@@ -2,7 +2,10 @@
 #include "cli/merge_tiles.h"
 
 #include <algorithm>
+#include <charconv>
+#include <optional>
 #include <set>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -60,7 +63,7 @@ void CheckAttribute(const HeaderOfTile& a, const HeaderOfTile& b, const std::str
                     const std::string& hint) {
   const std::string of_a = TextOf(a.header(), name);
   const std::string of_b = TextOf(b.header(), name);
-  // Every tile takes its own time, but either all tell it or none.
+  // Every tile takes its own time, but either all have it or none.
   const bool same =
       name == kRenderTimeAttribute ? (of_a == "none") == (of_b == "none") : of_a == of_b;
   if (!same) ThrowDifference(a, b, name, of_a, of_b, hint);
@@ -139,32 +142,56 @@ std::string RowsText(int first, int end) {
                           : fmt::format("rows {} to {}", first, end - 1);
 }
 
-// The tiles i/N that are not there, if all come from one N.
-std::string MissingTiles(const std::vector<HeaderOfTile>& tiles) {
-  std::set<std::string> there;
-  std::set<std::string> counts;
-  for (const HeaderOfTile& tile : tiles) {
-    const std::string name = TextOf(tile.header(), kTileAttribute);
-    there.insert(name);
-    counts.insert(name.substr(name.find('/') + 1));
-  }
-  if (counts.size() != 1 || *counts.begin() == "none") return "render what is missing with --tile";
-  std::vector<std::string> missing;
-  for (int i = 0; i < std::stoi(*counts.begin()); ++i) {
-    std::string name = fmt::format("{}/{}", i, *counts.begin());
-    if (!there.contains(name)) missing.push_back(std::move(name));
-  }
-  return fmt::format("render what is missing: --tile {}", fmt::join(missing, ", "));
+struct TileNumber {
+  int index, count;
+};
+
+// The tile that a header says it is, "i/N"; nothing if it says anything that --tile does not. A
+// tile has at least a row of the picture.
+std::optional<TileNumber> NumberOf(const HeaderOfTile& tile) {
+  const std::string text = TextOf(tile.header(), kTileAttribute);
+  const char* const end = text.data() + text.size();
+  TileNumber number{};
+  const auto [slash, error] = std::from_chars(text.data(), end, number.index);
+  if (error != std::errc() || slash == end || *slash != '/') return std::nullopt;
+  const auto [last, error_of_count] = std::from_chars(slash + 1, end, number.count);
+  const bool is_tile = error_of_count == std::errc() && last == end && number.index >= 0 &&
+                       number.index < number.count &&
+                       number.count <= tile.header().display.height();
+  return is_tile ? std::optional(number) : std::nullopt;
 }
 
-// That the tiles, sorted, hold every row once. Tells all that is wrong.
+// How to get the rows that no tile has: by the tiles i/N that are not there, if all have one N.
+std::string HintForGap(const std::vector<HeaderOfTile>& tiles) {
+  constexpr size_t kMostNamed = 20;
+  const std::string general = "render what is missing with --tile";
+  std::set<int> there;
+  int count = 0;
+  for (const HeaderOfTile& tile : tiles) {
+    const std::optional<TileNumber> number = NumberOf(tile);
+    if (!number || (count != 0 && number->count != count)) return general;
+    count = number->count;
+    there.insert(number->index);
+  }
+  std::vector<std::string> missing;
+  for (int i = 0; i < count; ++i) {
+    if (!there.contains(i)) missing.push_back(fmt::format("{}/{}", i, count));
+  }
+  if (missing.empty()) return general;
+  const size_t others = missing.size() - std::min(missing.size(), kMostNamed);
+  missing.resize(missing.size() - others);
+  return fmt::format("render what is missing: --tile {}{}", fmt::join(missing, ", "),
+                     others == 0 ? "" : fmt::format(" and {} more", others));
+}
+
+// That the tiles, sorted, hold every row once. Reports all that is wrong.
 void CheckCover(const std::vector<HeaderOfTile>& tiles) {
   const Window& frame = tiles[0].header().display;
   std::vector<Fault> faults;
-  std::string gap_hint = MissingTiles(tiles);
+  bool has_gap = false;
   const auto gap = [&](const std::string& files, int first, int end, const char* place) {
     faults.push_back({files, fmt::format("{} {} in no tile", RowsText(first, end), place),
-                      std::exchange(gap_hint, "")});
+                      std::exchange(has_gap, true) ? "" : HintForGap(tiles)});
   };
   const int top = tiles.front().header().data.y0;
   if (top > frame.y0) gap(tiles.front().path, frame.y0, top, "above it are");

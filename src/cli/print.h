@@ -18,7 +18,8 @@ namespace nacre {
 // Results: whole lines. Whether they arrived is checked once, by FinishOutput.
 void PrintOut(std::string_view text);
 
-// Everything else. Standard error may be full or closed: then there is nobody to tell.
+// Everything else, to standard error. Failures to write there are ignored: there is nowhere left
+// to report them.
 void PrintError(std::string_view text);
 
 // An argument as it is printed: texts on one line, everything else as it is.

@@ -92,11 +92,7 @@ Reference ReadReference(const fs::path& path, const ReferenceOptions& options) {
   } catch (const Error& error) {
     throw Error(ExitCode::kCannotCompare, error.faults());
   }
-  if (faults.count() > 0) {
-    std::vector<Fault> all = faults.All();
-    for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
-    throw Error(ExitCode::kCannotCompare, std::move(all));
-  }
+  ThrowFaults(faults, file, ExitCode::kCannotCompare);
   reference.name = path.stem().stem().string();
   return reference;
 }
@@ -158,7 +154,7 @@ void RunReferences(const std::string& folder, const ReferenceOptions& options,
       outcome.read.push_back(outcome.reference.image.string());
       outcome.run = RunReference(outcome.reference, options, &outcome.read);
     } catch (const Error& error) {
-      // Told, and the others still get their turn.
+      // Reported; the remaining references still run.
       if (error.code() != ExitCode::kBadInput && error.code() != ExitCode::kCannotCompare) throw;
       outcome.failure = error.faults().front().what;
       outcome.message = error.what();

@@ -54,10 +54,8 @@ void AddMetadata(const RenderPlan& plan, Image* image) {
 Json ReadJson(const std::string& path) {
   FaultList faults;
   Json json = ParseJson(ReadTextFile(path, kMaxJsonBytes), path, &faults);
-  if (faults.count() == 0) return json;
-  std::vector<Fault> all = faults.All();
-  for (Fault& fault : all) fault.where = PlaceInFile(path, fault.where);
-  throw Error(ExitCode::kBadInput, std::move(all));
+  ThrowFaults(faults, path);
+  return json;
 }
 
 ReportInput KindOfInput(const std::string& path) {

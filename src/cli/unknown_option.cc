@@ -16,7 +16,7 @@ namespace nacre {
 namespace {
 
 // Names that other renderers, viewers and comparing tools have for options of ours. Where a command
-// has not the option, the pair is passed over.
+// does not have the option, the pair is passed over.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 28> kOtherNames = {{
     {"--samples", "--spp"},
     {"--sample-count", "--spp"},
@@ -55,14 +55,17 @@ const CLI::App* NamedCommand(const CLI::App& app) {
   return command;
 }
 
+// The nearest of the command's names and of the other names for its options, or "".
 std::string OptionMeant(const std::string& word, const std::vector<std::string>& names) {
-  const auto other = std::find_if(kOtherNames.begin(), kOtherNames.end(),
-                                  [&](const auto& pair) { return pair.first == word; });
-  if (other != kOtherNames.end()) {
-    const std::string ours(other->second);
-    if (std::find(names.begin(), names.end(), ours) != names.end()) return ours;
+  std::vector<std::string> candidates = names;
+  for (const auto& [other, ours] : kOtherNames) {
+    if (std::find(names.begin(), names.end(), ours) != names.end()) candidates.emplace_back(other);
   }
-  return NearestName(word, names);
+  const std::string nearest = NearestName(word, candidates);
+  const auto other = std::find_if(kOtherNames.begin(), kOtherNames.end(),
+                                  [&](const auto& pair) { return pair.first == nearest; });
+  const bool is_ours = std::find(names.begin(), names.end(), nearest) != names.end();
+  return is_ours || other == kOtherNames.end() ? nearest : std::string(other->second);
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
   const CLI::App& command = *NamedCommand(app);
   const std::vector<std::string> rest = app.remaining(/*recurse=*/true);
   // CLI11 gives the values of unknown options as well, and in an order of its own: an option is
-  // told before a value.
+  // reported before a value.
   const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) {
     return word.size() > 1 && word[0] == '-';
   });

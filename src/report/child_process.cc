@@ -97,9 +97,9 @@ std::optional<std::string> FindProgram(const std::string& name) {
   return std::nullopt;
 }
 
-// What the child is told of this process's environment: where programs, libraries, fonts and their
-// caches are, and the language. All else that gnuplot and its libraries listen to (GNUPLOT_LIB,
-// GNUTERM, GIO_EXTRA_MODULES, ...) would change the diagram or name code to load.
+// The variables that are passed on to the child: where programs, libraries, fonts and their caches
+// are, and the language. All others that gnuplot and its libraries read (GNUPLOT_LIB, GNUTERM,
+// GIO_EXTRA_MODULES, ...) would change the diagram or name code to load.
 std::vector<std::string> ChildEnvironment() {
   std::vector<std::string> environment;
   for (const char* name : {"LANG", "LC_ALL", "LC_CTYPE"}) {

@@ -131,12 +131,13 @@ class NodeWalk {
     if (!light->contains("light")) {
       document_.Refuse(place + "/extensions/KHR_lights_punctual", "has no \"light\"");
     }
-    AddGltfLight((*light)["light"].get<int>(), world, &document_, &scene_);
+    AddGltfLight((*light)["light"].get<int>(), world, &document_, &light_names_, &scene_);
   }
 
   GltfDocument& document_;
   Scene& scene_;
   SceneBudget budget_;
+  UniqueNames light_names_;
   std::vector<Visit> stack_;  // not recursion: nodes may be nested a million deep
   bool has_camera_ = false;
 };

@@ -26,8 +26,7 @@ namespace {
 
 constexpr uint64_t kMaxBytes = 0xffffffffu;  // the length in a GLB header
 
-// All that are understood, at least in part, or that change nothing that is shown here. The last
-// one is for images, which are warned of on their own.
+// Extensions that are supported, at least in part, or that do not change the picture.
 constexpr std::array<std::string_view, 9> kKnownExtensions = {
     "KHR_lights_punctual",    "KHR_materials_emissive_strength",
     "KHR_materials_ior",      "KHR_materials_pbrSpecularGlossiness",
@@ -112,7 +111,7 @@ void ReadBuffers(const std::optional<std::string_view>& binary_chunk, GltfDocume
     } else if (i == 0 && binary_chunk) {
       buffers[i].data = std::make_shared<const std::string>(*binary_chunk);
     } else {
-      continue;  // what has no data is told where it is used
+      continue;  // missing data is reported where it is used
     }
     if (buffers[i].data->size() < buffers[i].byteLength) {
       document->Refuse(place,
@@ -191,18 +190,18 @@ void GltfDocument::Refuse(const std::string& pointer, std::string what, std::str
 
 std::filesystem::path GltfDocument::Resolve(const std::string& uri,
                                             const std::string& pointer) const {
-  const bool is_url = uri.find("://") != std::string::npos;
-  const std::string decoded = PercentDecoded(uri);
+  // Some exporters write names as they are, which may hold a % of their own.
+  std::string name = PercentDecoded(uri);
+  std::error_code ignored;
+  if (name != uri && !std::filesystem::exists(folder / name, ignored) &&
+      std::filesystem::exists(folder / uri, ignored)) {
+    name = uri;
+  }
   try {
-    return ResolveReference(folder, decoded, references);
+    return ResolveReference(folder, name, references);
   } catch (const Error& error) {
-    // Some exporters write names as they are, which may hold a % of their own.
-    std::error_code ignored;
-    if (decoded != uri && !std::filesystem::exists(folder / decoded, ignored) &&
-        std::filesystem::exists(folder / uri, ignored)) {
-      return ResolveReference(folder, uri, references);
-    }
     const Fault& fault = error.faults().front();
+    const bool is_url = uri.find("://") != std::string::npos;
     Refuse(pointer, fault.what, is_url ? "only files are read, no URLs" : fault.hint);
   }
 }
@@ -221,11 +220,7 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   document.root = ParseJson(chunks.json, document.file, &faults, options.on_progress);
   RefuseOldVersion(document);
   CheckGltfTypes(&document.root, &faults);
-  if (faults.count() > 0) {
-    std::vector<Fault> all = faults.All();
-    for (Fault& fault : all) fault.where = PlaceInFile(document.file, fault.where);
-    throw Error(ExitCode::kBadInput, std::move(all));
-  }
+  ThrowFaults(faults, document.file);
   document.model = gltf::ReadModel(document.root);
   CheckVersionAndExtensions(&document);
   ReadBuffers(chunks.data, &document);

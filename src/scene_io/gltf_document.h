@@ -26,7 +26,7 @@ struct GltfDocument {
   std::function<void(const std::string&)> on_warning;
   std::unordered_set<std::string> warned;
 
-  // Tells `text` once.
+  // Reports `text` once.
   void Warn(const std::string& text);
   // Throws Error (kBadInput) for the part of the file that the JSON pointer names.
   [[noreturn]] void Refuse(const std::string& pointer, std::string what,

@@ -23,18 +23,13 @@ Vec3d DirectionOf(const Imath::M44d& world_from_node, const Vec3d& direction) {
   return result.normalized();
 }
 
-// A name that can name a layer and that no other light has.
-std::string UniqueName(const std::string& wanted, const Scene& scene) {
+// The name as one of a layer, with room for a number.
+std::string LayerName(const std::string& wanted) {
   std::string name = wanted.empty() ? "light" : wanted.substr(0, 48);
   for (char& c : name) {
     if (!IsLayerName(std::string(1, c))) c = '_';
   }
-  const auto is_taken = [&](const std::string& candidate) {
-    return std::any_of(scene.lights.begin(), scene.lights.end(),
-                       [&](const Light& light) { return light.name == candidate; });
-  };
-  if (!is_taken(name)) return name;
-  return fmt::format("{} {}", name, scene.lights.size());
+  return name;
 }
 
 SpotLight MakeSpot(const gltf::Light& light, const std::string& place,
@@ -95,7 +90,7 @@ Camera MakeGltfCamera(const GltfDocument& document, int camera,
 }
 
 void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* document,
-                  Scene* scene) {
+                  UniqueNames* names, Scene* scene) {
   const auto& lights = document->model.lights;
   const std::string place = fmt::format("/extensions/KHR_lights_punctual/lights/{}", light);
   if (light < 0 || static_cast<size_t>(light) >= lights.size()) {
@@ -106,7 +101,7 @@ void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* d
   const Rgb intensity = Rgb(source.color[0], source.color[1], source.color[2]) * source.intensity;
   if (source.range > 0) document->Warn("the ranges of lights are left out: they have no end");
   Light result;
-  result.name = UniqueName(source.name, *scene);
+  result.name = names->Take(LayerName(source.name), " ", scene->lights.size());
   if (source.type == "directional") {
     result.kind = DirectionalLight{DirectionOf(world_from_node, {0, 0, -1}), intensity};
   } else if (source.type == "point") {

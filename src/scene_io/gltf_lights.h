@@ -5,6 +5,7 @@
 #include "base/vec.h"
 #include "scene/scene.h"
 #include "scene_io/gltf_document.h"
+#include "scene_io/unique_names.h"
 
 namespace nacre {
 
@@ -12,9 +13,9 @@ namespace nacre {
 // for one that is not there or has no view. Clipping planes are left out: nothing is clipped.
 Camera MakeGltfCamera(const GltfDocument& document, int camera, const Imath::M44d& world_from_node);
 
-// Adds a light of the file to the scene. Intensities are taken as they are: lux as irradiance,
-// candela as radiant intensity.
+// Adds a light of the file to the scene, under a name that `names` has not returned. Intensities
+// are taken as they are: lux as irradiance, candela as radiant intensity.
 void AddGltfLight(int light, const Imath::M44d& world_from_node, GltfDocument* document,
-                  Scene* scene);
+                  UniqueNames* names, Scene* scene);
 
 }  // namespace nacre

@@ -12,6 +12,7 @@
 #include "scene/limits.h"
 #include "scene_io/gltf_extension.h"
 #include "scene_io/gltf_textures.h"
+#include "scene_io/unique_names.h"
 #include "scene_io/uri.h"
 
 namespace nacre {
@@ -131,11 +132,11 @@ void ApplyReflectance(GltfDocument* document, const gltf::Material& material, si
 // alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
 // the base colour's members, too.
 void ApplyMask(const gltf::Material& material, double alpha, TextureId alpha_map,
-               const GltfTextures& textures, Material* result) {
+               GltfTextures* textures, Material* result) {
   if (material.alphaMode != "MASK") return;
   result->opacity = std::clamp(alpha, 0.0, 1.0);
   result->opacity_cutoff = std::clamp(material.alphaCutoff, 0.0, limits::kOpacityCutoff.max);
-  if (!textures.IsWhite(alpha_map)) result->opacity_map = alpha_map;
+  if (!textures->IsWhite(alpha_map)) result->opacity_map = alpha_map;
 }
 
 double AlphaOf(const std::vector<double>& factor) { return factor.size() < 4 ? 1 : factor[3]; }
@@ -167,7 +168,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
     const TextureId alpha = masked ? AddTexture(pbr.baseColorTexture, place + member,
                                                 TextureEncoding::kAlpha, false, textures)
                                    : TextureId{};
-    ApplyMask(material, AlphaOf(pbr.baseColorFactor), alpha, *textures, &result);
+    ApplyMask(material, AlphaOf(pbr.baseColorFactor), alpha, textures, &result);
   };
   if (FindExtension(*document, material, index, "KHR_materials_unlit")) {
     result.model = LambertMaterial{Rgb(0)};
@@ -195,7 +196,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
                             place + "/extensions/KHR_materials_pbrSpecularGlossiness",
                             TextureEncoding::kAlpha, textures)
                : TextureId{};
-    ApplyMask(material, glossiness->Alpha("diffuseFactor", 1), alpha, *textures, &result);
+    ApplyMask(material, glossiness->Alpha("diffuseFactor", 1), alpha, textures, &result);
     result.model = nearest;
     return result;
   }
@@ -227,10 +228,18 @@ GltfImage FindGltfImage(const GltfDocument& document, int image) {
   const gltf::Image& source = model.images[static_cast<size_t>(image)];
   if (source.bufferView < 0) {
     if (source.uri.empty()) document.Refuse(place, "has no \"uri\" and no \"bufferView\"");
-    if (!IsDataUri(source.uri)) return {document.Resolve(source.uri, place), {}};
+    GltfImage found;
+    if (!IsDataUri(source.uri)) {
+      found.file = document.Resolve(source.uri, place);
+      found.key = found.file.string();
+      return found;
+    }
     std::optional<std::string> data = DecodeDataUri(source.uri);
     if (!data || data->empty()) document.Refuse(place + "/uri", "is a malformed data URI");
-    return {{}, std::move(*data)};
+    found.data = std::make_shared<const std::string>(std::move(*data));
+    found.bytes = *found.data;
+    found.key = fmt::format("image {}", image);
+    return found;
   }
   if (static_cast<size_t>(source.bufferView) >= model.bufferViews.size()) {
     document.Refuse(place, fmt::format("there is no buffer view {}", source.bufferView));
@@ -240,12 +249,17 @@ GltfImage FindGltfImage(const GltfDocument& document, int image) {
       model.buffers[static_cast<size_t>(view.buffer)].data == nullptr) {
     document.Refuse(place, fmt::format("there is no buffer {}", view.buffer));
   }
-  const std::string& data = *model.buffers[static_cast<size_t>(view.buffer)].data;
-  if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset) {
+  const auto& data = model.buffers[static_cast<size_t>(view.buffer)].data;
+  if (view.byteOffset > data->size() || view.byteLength > data->size() - view.byteOffset) {
     document.Refuse(place, "reaches beyond its buffer");
   }
   if (view.byteLength == 0) document.Refuse(place, "has no bytes");
-  return {{}, data.substr(view.byteOffset, view.byteLength)};
+  // Buffers that are one file share their data.
+  return {.file = {},
+          .data = data,
+          .bytes = std::string_view(*data).substr(view.byteOffset, view.byteLength),
+          .key = fmt::format("{} {} {}", static_cast<const void*>(data.get()), view.byteOffset,
+                             view.byteLength)};
 }
 
 std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
@@ -253,16 +267,14 @@ std::vector<Material> MakeGltfMaterials(GltfDocument* document, Scene* scene) {
   std::vector<Material> materials;
   const size_t count = document->model.materials.size();
   materials.reserve(count + 1);
-  std::unordered_set<std::string> names;
+  UniqueNames names;
   for (size_t i = 0; i < count; ++i) {
-    std::string name = document->model.materials[i].name;
-    if (name.empty() || !names.insert(name).second) name += fmt::format("#{}", i);
-    names.insert(name);
+    std::string name = names.Take(document->model.materials[i].name, "#", i);
     materials.push_back(MakeMaterial(document, i, std::move(name), &textures));
   }
   // The defaults of the specification: white, metallic 1, roughness 1, which few files mean.
   Material& otherwise = materials.emplace_back();
-  otherwise.name = "default";
+  otherwise.name = names.Take("default", "#", count);
   otherwise.model = MetallicRoughnessMaterial{.base_color = Rgb(1), .metallic = 1, .roughness = 1};
   return materials;
 }

@@ -2,7 +2,10 @@
 // scene_io/gltf_materials.h: the materials of a glTF file as materials of the scene.
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/scene.h"
@@ -12,8 +15,10 @@ namespace nacre {
 
 // Where an image of the file is: a file of its own, or bytes within.
 struct GltfImage {
-  std::filesystem::path file;  // resolved; empty: `bytes` hold it
-  std::string bytes;           // encoded (PNG, JPEG...)
+  std::filesystem::path file;               // resolved; empty: `bytes` hold it
+  std::shared_ptr<const std::string> data;  // of the buffer or the data URI
+  std::string_view bytes;                   // in `data`: encoded (PNG, JPEG...)
+  std::string key;  // the same for images that are one file, or the same bytes of one buffer
 };
 
 // Throws Error (kBadInput) for images that are not there, out of bounds, or outside the folder, and

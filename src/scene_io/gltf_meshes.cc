@@ -38,7 +38,7 @@ std::array<size_t, 3> CornersOf(int mode, size_t i) {
   return {3 * i, 3 * i + 1, 3 * i + 2};
 }
 
-// How many triangles `corners` make; refuses what are no whole ones.
+// How many triangles the corners make. Refuses lists that end within a triangle.
 size_t TriangleCount(const GltfDocument& document, const Primitive& primitive, size_t corners) {
   const bool is_list = primitive.source.mode == gltf::kTriangles;
   if (corners < 3 || (is_list && corners % 3 != 0)) {
@@ -248,21 +248,35 @@ void WarnOfRest(const Primitive& primitive, GltfDocument* document) {
   }
 }
 
+// The sparse elements of its accessors, which are read whenever a node shows the primitive, whether
+// or not its triangles use them.
+uint64_t SparseElements(const gltf::Model& model, const gltf::Primitive& primitive) {
+  uint64_t count = 0;
+  const auto add = [&](int accessor) {
+    if (accessor < 0 || static_cast<size_t>(accessor) >= model.accessors.size()) return;
+    count += model.accessors[static_cast<size_t>(accessor)].sparse.count;
+  };
+  add(primitive.indices);
+  for (const auto& [name, accessor] : primitive.attributes) add(accessor);
+  return count;
+}
+
 void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44d& world_from_node,
                   GltfDocument* document, SceneBudget* budget, Scene* scene) {
   const int mode = primitive.source.mode;
-  if (mode < gltf::kTriangles) {
-    document->Warn("points and lines are not shown");
-    return;
-  }
+  const auto leave_out = [&](const char* warning) {
+    SpendTriangles(1, document->file, budget);  // nodes may visit it without end
+    document->Warn(warning);
+  };
+  if (mode < gltf::kTriangles) return leave_out("points and lines are not shown");
   if (mode > gltf::kTriangleFan) {
     document->Refuse(primitive.place + "/mode", fmt::format("{} is none", mode), "from 0 to 6");
   }
   WarnOfRest(primitive, document);
   if (AttributeOf(primitive, "POSITION") < 0) {
-    document->Warn("primitives without positions are left out");
-    return;
+    return leave_out("primitives without positions are left out");
   }
+  SpendTriangles(SparseElements(document->model, primitive.source), document->file, budget);
   const GltfAccessor positions(*document, AttributeOf(primitive, "POSITION"), "VEC3");
   primitive.triangles = ReadTriangles(*document, primitive, positions.count(), budget);
   Compact(&primitive);

@@ -86,7 +86,6 @@ void ReadTextureInfo(const Json& parent, const char* name, TextureInfo* info) {
   Get(*json, "index", &info->index);
   Get(*json, "texCoord", &info->texCoord);
   Get(*json, "scale", &info->scale);
-  Get(*json, "strength", &info->strength);
   info->extensions = Find(*json, "extensions");
 }
 

@@ -104,8 +104,7 @@ struct Sampler {
 
 struct TextureInfo {
   int index = -1, texCoord = 0;
-  double scale = 1;     // of a normal texture
-  double strength = 1;  // of an occlusion texture
+  double scale = 1;  // of a normal texture
   Extensions extensions = nullptr;
 };
 

@@ -52,33 +52,52 @@ struct UvChange {
 ImageId GltfTextures::AddImage(int image, TextureEncoding encoding) {
   const auto known = images_.find({image, encoding});
   if (known != images_.end()) return known->second;
-  const GltfImage source = FindGltfImage(document_, image);
-  const gltf::Image& named = document_.model.images[static_cast<size_t>(image)];
-  const std::string name = source.bytes.empty() ? named.uri : fmt::format("image {}", image);
-  try {
-    if (source.bytes.empty()) {
-      AddTextureImage(source.file, name, {.encoding = encoding, .part = {}}, &scene_);
-    } else {
-      const TemporaryFile file(
-          {reinterpret_cast<const unsigned char*>(source.bytes.data()), source.bytes.size()},
-          SuffixOf(source.bytes));
-      AddTextureImage(file.path(), name, {.encoding = encoding, .part = {}}, &scene_);
-    }
-  } catch (const Error& error) {
-    if (error.code() != ExitCode::kBadInput) throw;
-    document_.Refuse(fmt::format("/images/{}", image), error.faults().front().what,
-                     "save it again as PNG or JPEG");
-  }
-  const ImageId id{static_cast<uint32_t>(scene_.images.size() - 1)};
+  const ImageId id = DecodeImage(image, encoding);
   images_.emplace(std::make_pair(image, encoding), id);
   return id;
 }
 
-bool GltfTextures::IsWhite(TextureId texture) const {
+ImageId GltfTextures::DecodeImage(int image, TextureEncoding encoding) {
+  const GltfImage source = FindGltfImage(document_, image);
+  const auto key = std::make_pair(source.key, encoding);
+  const auto known = decoded_.find(key);
+  if (known != decoded_.end()) return known->second;
+  const gltf::Image& named = document_.model.images[static_cast<size_t>(image)];
+  const bool is_file = !source.file.empty();
+  const std::string name = is_file ? named.uri : fmt::format("image {}", image);
+  const auto add = [&](const std::filesystem::path& path) {
+    return AddTextureImage(path, name, {.encoding = encoding, .part = {}}, &texels_, &scene_);
+  };
+  try {
+    ImageId id;
+    if (is_file) {
+      texels_.AddFile(source.file);
+      id = add(source.file);
+    } else {
+      const TemporaryFile file(
+          {reinterpret_cast<const unsigned char*>(source.bytes.data()), source.bytes.size()},
+          SuffixOf(source.bytes));
+      id = add(file.path());
+    }
+    decoded_.emplace(key, id);
+    return id;
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kBadInput) throw;
+    const Fault& fault = error.faults().front();
+    document_.Refuse(fmt::format("/images/{}", image), fault.what,
+                     fault.hint.empty() ? "save it again as PNG or JPEG" : fault.hint);
+  }
+}
+
+bool GltfTextures::IsWhite(TextureId texture) {
   if (!texture.valid()) return false;
   const ImageId image = scene_.textures[texture.index].image;
-  const std::vector<float>& texels = scene_.images[image.index].texels->values;
-  return std::all_of(texels.begin(), texels.end(), [](float value) { return value == 1; });
+  const auto [known, is_new] = is_white_.try_emplace(image.index);
+  if (is_new) {
+    const std::vector<float>& texels = scene_.images[image.index].texels->values;
+    known->second = std::all_of(texels.begin(), texels.end(), [](float v) { return v == 1; });
+  }
+  return known->second;
 }
 
 TextureId GltfTextures::Add(const GltfTextureUse& use, const std::string& place) {

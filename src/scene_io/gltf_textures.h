@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <string>
 #include <utility>
 
 #include "scene/scene.h"
@@ -20,25 +21,31 @@ struct GltfTextureUse {
   bool needs_rgb = false;
 };
 
-// Adds textures and their images to a scene, each image once for each encoding.
+// Adds textures and their images to a scene, each image once for each encoding, however many of the
+// document's images are the same file or bytes.
 class GltfTextures {
  public:
-  GltfTextures(GltfDocument* document, Scene* scene) : document_(*document), scene_(*scene) {}
+  GltfTextures(GltfDocument* document, Scene* scene)
+      : document_(*document), scene_(*scene), texels_(document->bytes) {}
 
   // The texture as it is used, in nacre's coordinates: v up. None where `use` has none, and, with a
   // warning, where nacre cannot show it. `place`: of the use, for errors. Throws Error (kBadInput)
-  // for images that are missing or broken.
+  // for images that are missing or broken, or more than TexelBudget allows.
   TextureId Add(const GltfTextureUse& use, const std::string& place);
 
   // Whether it is a texture that changes nothing: all of its texels are 1.
-  bool IsWhite(TextureId texture) const;
+  bool IsWhite(TextureId texture);
 
  private:
   ImageId AddImage(int image, TextureEncoding encoding);
+  ImageId DecodeImage(int image, TextureEncoding encoding);
 
   GltfDocument& document_;
   Scene& scene_;
-  std::map<std::pair<int, TextureEncoding>, ImageId> images_;
+  TexelBudget texels_;
+  std::map<std::pair<int, TextureEncoding>, ImageId> images_;           // by index in the document
+  std::map<std::pair<std::string, TextureEncoding>, ImageId> decoded_;  // by GltfImage::key
+  std::map<uint32_t, bool> is_white_;                                   // by the image's index
 };
 
 }  // namespace nacre

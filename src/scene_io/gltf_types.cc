@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "scene_io/scene_budget.h"
+
 namespace nacre {
 namespace {
 
@@ -49,7 +51,7 @@ constexpr std::array kMembers = {
     Member{"", "bufferViews", Kind::kObjects},
     Member{"", "cameras", Kind::kObjects},
     Member{"", "images", Kind::kObjects},
-    Member{"", "materials", Kind::kObjects, 1 << 16},
+    Member{"", "materials", Kind::kObjects, kMaxModelMaterials},
     Member{"", "meshes", Kind::kObjects},
     Member{"", "nodes", Kind::kObjects},
     Member{"", "samplers", Kind::kObjects},
@@ -107,7 +109,6 @@ constexpr std::array kMembers = {
     Member{"materials/normalTexture", "scale", Kind::kNumber},
     Required("materials/occlusionTexture", "index", Kind::kIndex),
     Member{"materials/occlusionTexture", "texCoord", Kind::kIndex},
-    Member{"materials/occlusionTexture", "strength", Kind::kNumber},
     Member{"materials/pbrMetallicRoughness", "baseColorFactor", Kind::kNumbers, 4},
     Member{"materials/pbrMetallicRoughness", "metallicFactor", Kind::kNumber},
     Member{"materials/pbrMetallicRoughness", "roughnessFactor", Kind::kNumber},
@@ -172,7 +173,8 @@ bool AllOf(Json* json, bool (*is_right)(Json*)) {
          std::all_of(json->begin(), json->end(), [&](Json& element) { return is_right(&element); });
 }
 
-// An object of three bytes of text takes up to a kilobyte here.
+// Upper bound on the objects of an array: "{}," takes three bytes of text, and the struct that it
+// becomes up to a kilobyte.
 size_t MostOf(const Member& member) {
   constexpr size_t kMostObjects = size_t{1} << 20;
   return member.length > 0 ? member.length : kMostObjects;

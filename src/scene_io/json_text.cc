@@ -26,7 +26,7 @@ std::string LineAndColumn(std::string_view text, size_t bytes_read) {
   return fmt::format("{}:{}", line, before.size() - line_start + 1);
 }
 
-// Walks through the text and tells how far it has come.
+// Walks through the text and keeps track of how far it has come.
 struct CountingIterator {
   using iterator_category = std::forward_iterator_tag;
   using value_type = char;
@@ -45,7 +45,7 @@ struct CountingIterator {
   bool operator==(const CountingIterator& other) const { return at == other.at; }
 };
 
-// Builds the tree from the parser's events: its own builder tells neither repeated names nor
+// Builds the tree from the parser's events: its own builder reports neither repeated names nor
 // where a number is that overflows.
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
@@ -215,6 +215,13 @@ std::string JsonText(const Json& json, int indent) {
 std::string PlaceInFile(const std::string& file, const std::string& pointer) {
   constexpr size_t kLongest = 400;  // names in it are a file's
   return pointer.empty() ? file : file + ": " + Excerpt(pointer, kLongest);
+}
+
+void ThrowFaults(const FaultList& faults, const std::string& file, ExitCode code) {
+  if (faults.count() == 0) return;
+  std::vector<Fault> all = faults.All();
+  for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
+  throw Error(code, std::move(all));
 }
 
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "scene/fault_list.h"
 
 namespace nacre {
@@ -23,7 +24,7 @@ inline constexpr size_t kMaxJsonDepth = 100;
 // What `text` says. Names that an object has twice are added to `faults` by JSON pointer. Throws
 // Error (kBadInput) with `file` in its place for text that is not JSON (line and column), UTF-16,
 // numbers too large for a double (pointer) and nesting deeper than 100.
-// `on_progress`, if any, is told now and then which share of the text has been read.
+// `on_progress`, if any, is passed the share of the text that has been read now and then.
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress = {});
 
@@ -37,5 +38,9 @@ std::string JsonText(const Json& json, int indent = -1);
 // "scenes/grid.json: /materials/gold", of a long pointer its beginning; the file alone for the
 // pointer to all of it.
 std::string PlaceInFile(const std::string& file, const std::string& pointer);
+
+// Throws Error with all of the faults, each placed in the file, if there are any.
+void ThrowFaults(const FaultList& faults, const std::string& file,
+                 ExitCode code = ExitCode::kBadInput);
 
 }  // namespace nacre

@@ -118,13 +118,11 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   context.on_warning = options.on_warning;
   SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
   context.budget = &budget;
+  TexelBudget texels(text.size());
+  context.texels = &texels;
   ReadRoot(root, &faults, &context);
   AddValidation(scene, &faults);
-  if (faults.count() > 0) {
-    std::vector<Fault> all = faults.All();
-    for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
-    throw Error(ExitCode::kBadInput, std::move(all));
-  }
+  ThrowFaults(faults, file);
   return scene;
 }
 

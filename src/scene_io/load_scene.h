@@ -37,8 +37,8 @@ struct LoadOptions {
   // Files that the caller chose himself, and that may lie anywhere, as `environment` may.
   std::vector<std::filesystem::path> trusted_files = {};
 
-  // Told of each file that the scene refers to, by its path without links, before it is read. May
-  // be told of one several times.
+  // Called with each file that the scene refers to, by its path without links, before it is read;
+  // for one file perhaps several times.
   std::function<void(const std::filesystem::path&)> on_file = {};
 
   // To make large shapes on; 0: as many as the machine has.
@@ -49,10 +49,11 @@ struct LoadOptions {
   // kDefaultMaxPrimitives, and of a model no more than its size explains (scene_budget.h).
   std::optional<uint64_t> max_primitives = {};
 
-  // Told now and then which share of the file has been read. Throwing from it stops the reading.
+  // Called now and then with the share of the file that has been read. Throwing from it stops the
+  // reading.
   std::function<void(double)> on_progress = {};
 
-  // Told, once each, what a model file holds that is not shown.
+  // Called once with each kind of thing that a model file holds and that is not shown as it says.
   std::function<void(const std::string&)> on_warning = {};
 };
 

@@ -269,6 +269,8 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   context.on_warning = options.on_warning;
   SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
   context.budget = &budget;
+  TexelBudget texels(0, TexelValuesOf(*scene));
+  context.texels = &texels;
   for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may name them
     context.materials.try_emplace(scene->materials[i].name, MaterialId{i});
   }
@@ -278,10 +280,7 @@ void CompleteModelScene(const LoadOptions& options, const std::string& file, boo
   CompleteCoordinates(scene);  // new maps may need them
   overrides.root().Color("background", limits::kRadiance, &scene->background);
   overrides.root().RefuseOthers();
-  if (faults.count() == 0) return;
-  std::vector<Fault> all = faults.All();
-  for (Fault& fault : all) fault.where = PlaceInFile(file, fault.where);
-  throw Error(ExitCode::kBadInput, std::move(all));
+  ThrowFaults(faults, file);
 }
 
 }  // namespace nacre

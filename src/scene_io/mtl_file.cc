@@ -11,6 +11,8 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "scene/limits.h"
+#include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
 
@@ -22,10 +24,12 @@ constexpr uint64_t kMaxMtlBytes = uint64_t{64} << 20;
 struct ColorKey {
   std::string_view name;
   Rgb MtlMaterial::*member;
+  Range range;
 };
-constexpr std::array kColorKeys = {
-    ColorKey{"ka", &MtlMaterial::ka}, ColorKey{"kd", &MtlMaterial::kd},
-    ColorKey{"ks", &MtlMaterial::ks}, ColorKey{"ke", &MtlMaterial::ke}};
+constexpr std::array kColorKeys = {ColorKey{"ka", &MtlMaterial::ka, limits::kUnit},
+                                   ColorKey{"kd", &MtlMaterial::kd, limits::kUnit},
+                                   ColorKey{"ks", &MtlMaterial::ks, limits::kUnit},
+                                   ColorKey{"ke", &MtlMaterial::ke, limits::kRadiance}};
 
 struct ImageKey {
   std::string_view name;
@@ -41,7 +45,7 @@ constexpr std::array kImageKeys = {
     ImageKey{"bump", &MtlMaterial::bump},     ImageKey{"map_bump", &MtlMaterial::bump},
     ImageKey{"disp", &MtlMaterial::disp},     ImageKey{"map_disp", &MtlMaterial::disp}};
 
-// What is left out and told, if it is not 0.
+// What is left out, with a warning; numbers only if they are not 0.
 struct NotShown {
   std::string_view name;
   std::string_view warning;
@@ -60,8 +64,8 @@ constexpr std::array kImagesNotShown = {
     NotShown{"map_rma", "images of several channels (map_RMA, map_ORM) are not shown"},
     NotShown{"map_orm", "images of several channels (map_RMA, map_ORM) are not shown"}};
 
-// Of transmission, which illum and d tell of; filters and sampling; and the roughness and the angle
-// of what is not shown.
+// Left out without a warning: transmission, about which illum and d warn already; filters and
+// sampling; the roughness of clear coats and the angle of anisotropy, which are not shown either.
 constexpr std::array<std::string_view, 8> kSilent = {"kt",  "tf",     "km",      "sharpness",
                                                      "pcr", "anisor", "map_aat", "interpolatemode"};
 
@@ -73,9 +77,9 @@ std::string LowerCase(std::string_view text) {
 
 class MtlFileReader {
  public:
-  MtlFileReader(const std::filesystem::path& path,
+  MtlFileReader(const std::filesystem::path& path, size_t max_materials,
                 const std::function<void(const std::string&)>& warn)
-      : file_(path.string()), warn_(warn) {}
+      : file_(path.string()), max_materials_(max_materials), warn_(warn) {}
 
   std::vector<MtlMaterial> Read(std::string_view text) {
     TextLines lines(WithoutByteOrderMark(text, file_));
@@ -96,6 +100,10 @@ class MtlFileReader {
 
   void ReadStatement(std::string_view written, const std::string& keyword, std::string_view line) {
     if (keyword == "newmtl") {
+      if (materials_.size() == max_materials_) {
+        Refuse(fmt::format("a model has more than {} materials", kMaxModelMaterials),
+               "leave out those that no face uses");
+      }
       materials_.emplace_back().name = Trimmed(line);
       return;
     }
@@ -110,8 +118,7 @@ class MtlFileReader {
       warn_("what a material library says before its first material (newmtl) is left out");
     } else if (!ReadMember(keyword, line, &materials_.back()) &&
                std::find(kSilent.begin(), kSilent.end(), keyword) == kSilent.end()) {
-      if (told_unknown_) return;
-      told_unknown_ = true;
+      if (std::exchange(warned_of_unknown_, true)) return;
       warn_(fmt::format("statements that are not known are left out, the first is \"{}\"",
                         Excerpt(written)));
     }
@@ -121,7 +128,7 @@ class MtlFileReader {
   bool ReadMember(const std::string& keyword, std::string_view line, MtlMaterial* material) {
     for (const ColorKey& color : kColorKeys) {
       if (color.name != keyword) continue;
-      material->*color.member = Color(keyword, line);
+      ReadColor(color, line, &(material->*color.member));
       return true;
     }
     for (const ImageKey& image : kImageKeys) {
@@ -130,7 +137,7 @@ class MtlFileReader {
       return true;
     }
     if (keyword == "ns") {
-      material->ns = Number(keyword, line);
+      material->ns = Clamped(keyword, Number(keyword, line), limits::kExponent);
     } else if (keyword == "ni") {
       material->ni = Number(keyword, line);
     } else if (keyword == "d") {
@@ -142,9 +149,9 @@ class MtlFileReader {
     } else if (keyword == "illum") {
       material->illum = static_cast<int>(std::clamp(Number(keyword, line), 0.0, 10.0));
     } else if (keyword == "pr") {
-      material->pr = Number(keyword, line);
+      material->pr = Clamped(keyword, Number(keyword, line), limits::kUnit);
     } else if (keyword == "pm") {
-      material->pm = Number(keyword, line);
+      material->pm = Clamped(keyword, Number(keyword, line), limits::kUnit);
     } else {
       return false;
     }
@@ -162,19 +169,33 @@ class MtlFileReader {
     return NumberOf(NextWord(&line), keyword, "one");
   }
 
+  // The number in its range. Exporters write a little more than white, and -1 for none.
+  double Clamped(std::string_view keyword, double number, const Range& range) {
+    if (range.Contains(number)) return number;
+    if (!std::exchange(warned_of_range_, true)) {
+      warn_(fmt::format("numbers out of range are clamped, the first is {} {} in {}:{} ({})",
+                        keyword, number, file_, number_, Describe(range)));
+    }
+    return std::clamp(number, range.min, range.max);
+  }
+
   // Three numbers, or one for grey.
-  Rgb Color(std::string_view keyword, std::string_view line) const {
+  void ReadColor(const ColorKey& key, std::string_view line, Rgb* out) {
     const std::string_view first = NextWord(&line);
     if (first == "spectral" || first == "xyz") {
-      Refuse(fmt::format("a color by \"{}\"", first),
-             "three numbers, red, green and blue, are read");
+      if (!std::exchange(warned_of_form_, true)) {
+        warn_(fmt::format("colours as spectra or XYZ are left out, the first is {} {} in {}:{}",
+                          key.name, first, file_, number_));
+      }
+      return;
     }
-    Rgb color(NumberOf(first, keyword, "three"));
+    Rgb color(NumberOf(first, key.name, "three"));
     const std::string_view second = NextWord(&line);
-    if (second.empty() || second.starts_with('#')) return color;
-    color.y = NumberOf(second, keyword, "three");
-    color.z = NumberOf(NextWord(&line), keyword, "three");
-    return color;
+    if (!second.empty() && !second.starts_with('#')) {
+      color.y = NumberOf(second, key.name, "three");
+      color.z = NumberOf(NextWord(&line), key.name, "three");
+    }
+    for (int c = 0; c < 3; ++c) (*out)[c] = Clamped(key.name, color[c], key.range);
   }
 
   // Takes the numbers off the front of `line`, up to three. Others stay as they were.
@@ -198,7 +219,7 @@ class MtlFileReader {
 
   // Options, and then the name of the file, which may hold blanks. Options after the name, where
   // the format has none, are seen in many files.
-  MtlImage Image(std::string_view line) const {
+  MtlImage Image(std::string_view line) {
     MtlImage image;
     ReadOptions(&line, &image);
     const size_t later = std::min({line.find(" -bm "), line.find(" -s "), line.find(" -o "),
@@ -209,7 +230,7 @@ class MtlFileReader {
     return image;
   }
 
-  void ReadOptions(std::string_view* line, MtlImage* image) const {
+  void ReadOptions(std::string_view* line, MtlImage* image) {
     while (true) {
       std::string_view rest = *line;
       const std::string_view option = NextWord(&rest);
@@ -217,8 +238,10 @@ class MtlFileReader {
       if (option == "-s" || option == "-o" || option == "-t") {
         std::array<double, 3> numbers = {option == "-s" ? 1.0 : 0.0, option == "-s" ? 1.0 : 0.0, 0};
         Numbers(&rest, &numbers);
-        if (option == "-s") image->scale = {numbers[0], numbers[1]};
-        if (option == "-o") image->offset = {numbers[0], numbers[1]};
+        if (option != "-t") {
+          for (double& number : numbers) number = Clamped(option, number, limits::kTextureScale);
+          (option == "-s" ? image->scale : image->offset) = {numbers[0], numbers[1]};
+        }
         const bool turbulent = numbers[0] != 0 || numbers[1] != 0 || numbers[2] != 0;
         if (option == "-t" && turbulent) warn_("the turbulence of images (-t) is not shown");
       } else if (option == "-mm") {
@@ -249,17 +272,18 @@ class MtlFileReader {
   }
 
   const std::string file_;
+  const size_t max_materials_;
   const std::function<void(const std::string&)>& warn_;
-  size_t number_ = 0;
-  bool told_unknown_ = false;
+  size_t number_ = 0;  // of the line that is read
+  bool warned_of_unknown_ = false, warned_of_range_ = false, warned_of_form_ = false;
   std::vector<MtlMaterial> materials_;
 };
 
 }  // namespace
 
-std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path,
+std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path, size_t max_materials,
                                      const std::function<void(const std::string&)>& warn) {
-  return MtlFileReader(path, warn).Read(ReadTextFile(path, kMaxMtlBytes));
+  return MtlFileReader(path, max_materials, warn).Read(ReadTextFile(path, kMaxMtlBytes));
 }
 
 }  // namespace nacre

@@ -2,6 +2,7 @@
 // scene_io/mtl_file.h: the statements of a Wavefront material library (MTL).
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -32,9 +33,11 @@ struct MtlMaterial {
   MtlImage map_ka, map_kd, map_ks, map_ns, map_ke, map_d, map_pr, map_pm, norm, bump, disp;
 };
 
-// Calls warn for what is not read, and whatever is left out, several times perhaps. Throws Error
-// (kBadInput) with the file and the line for numbers that are none or not finite.
-std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path,
+// Numbers are in the ranges of nacre's materials (scene/limits.h): those of the file that are not
+// are clamped. Calls warn, several times perhaps, for that, for what is not read and for what is
+// left out. Throws Error (kBadInput) with the file and the line for numbers that are none or not
+// finite, and for more than `max_materials`.
+std::vector<MtlMaterial> ReadMtlFile(const std::filesystem::path& path, size_t max_materials,
                                      const std::function<void(const std::string&)>& warn);
 
 }  // namespace nacre

@@ -97,7 +97,7 @@ class ObjReader {
       WarnOnce("other files and commands are not called");
     } else if (IsOneOf(kFreeForm, keyword_)) {
       WarnOnce("free-form curves and surfaces are not shown");
-    } else if (!IsOneOf(kIgnored, keyword_) && !std::exchange(told_unknown_, true)) {
+    } else if (!IsOneOf(kIgnored, keyword_) && !std::exchange(warned_of_unknown_, true)) {
       WarnOnce(fmt::format("statements that are not known are left out, the first is \"{}\"",
                            Excerpt(written)));
     }
@@ -154,8 +154,9 @@ class ObjReader {
     return index;
   }
 
-  // The place that an index means: from 1 on it counts from the first, below 0 from the last one
-  // so far; 0 is none. Places after the last one so far are looked at in the end.
+  // The zero-based element that an index refers to: positive indices count from the first element,
+  // negative ones backwards from the latest; 0 gives -1, none. Elements may be defined after the
+  // face, so CheckIndices tests the upper bound at the end of the file.
   int64_t PlaceOf(int64_t index, size_t so_far, std::string_view what) const {
     if (index > 0) return std::min<int64_t>(index - 1, 0x7fffffff);
     const auto count = static_cast<int64_t>(so_far);
@@ -237,7 +238,7 @@ class ObjReader {
   std::string keyword_;  // and its first word, in lower case
   float largest_color_ = 0;
   SceneBudget budget_{0};
-  bool told_unknown_ = false;
+  bool warned_of_unknown_ = false;
   std::vector<uint32_t> face_lines_;
   std::unordered_map<std::string, uint32_t> materials_;
   std::unordered_set<std::string> warned_, libraries_;

@@ -41,7 +41,7 @@ struct ObjFile {
 // Numbers in colours (v x y z r g b) are decoded as sRGB, as the programs that write them do;
 // colours with a number above 1 are in [0, 255]. An index 0 of a uv or a normal, which some
 // exporters write, stands for none. What is not read (lines, points, free-form curves and surfaces)
-// is told by `warn`, each kind once, unless that is empty.
+// is reported to `warn`, each kind once, unless that is empty.
 // Throws Error (kBadInput) with the file and the line for numbers that are none or not finite,
 // indices out of range, faces of fewer than 3 or more than 255 corners, and files without faces.
 ObjFile ReadObjFile(const std::filesystem::path& path,

@@ -17,9 +17,11 @@
 #include "base/error.h"
 #include "base/excerpt.h"
 #include "scene_io/mtl_file.h"
+#include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
 #include "scene_io/texture_image.h"
+#include "scene_io/unique_names.h"
 
 namespace nacre {
 namespace {
@@ -55,13 +57,17 @@ MetallicRoughnessMaterial MakeMetallicRoughness(const MtlMaterial& source) {
 class ObjMaterials {
  public:
   ObjMaterials(const std::filesystem::path& obj, const LoadOptions& options, Scene* scene)
-      : folder_(obj.parent_path()), file_(obj.string()), options_(options), scene_(*scene) {}
+      : folder_(obj.parent_path()), file_(obj.string()), options_(options), scene_(*scene) {
+    texels_.AddFile(obj);
+  }
 
   std::vector<MaterialId> Add(const ObjFile& obj) {
     for (const std::string& line : obj.libraries) ReadLibraries(line);
     for (size_t i = 0; i < sources_.size(); ++i) AddMaterial(i);
     const MaterialId none{static_cast<uint32_t>(scene_.materials.size())};
     scene_.materials.push_back(MakeClay());
+    std::string& name_of_none = scene_.materials.back().name;
+    name_of_none = names_.Take(name_of_none, "#", sources_.size());
     // In the reading of the others, so that the same light suits it.
     if (IsClassic()) {
       scene_.materials.back().model = PhongMaterial{.model = PhongModel::kBlinnPhong,
@@ -84,13 +90,16 @@ class ObjMaterials {
 
  private:
   static constexpr size_t kMaxNames = 8;
+  // The files of map_Pr and map_Pm; empty: none.
+  using ImagePair = std::pair<std::filesystem::path, std::filesystem::path>;
 
   void Warn(const std::string& text) {
-    if (told_.insert(text).second && options_.on_warning) options_.on_warning(file_ + ": " + text);
+    if (warned_.insert(text).second && options_.on_warning)
+      options_.on_warning(file_ + ": " + text);
   }
 
   void WarnOfName(const std::string& name) {
-    if (library_is_missing_ || ++unknown_names_ > kMaxNames) return;  // that has been told
+    if (library_is_missing_ || ++unknown_names_ > kMaxNames) return;  // that has been reported
     Warn(fmt::format("no material library has \"{}\": its faces are grey", Excerpt(name)));
   }
 
@@ -150,8 +159,9 @@ class ObjMaterials {
     }
     for (const std::filesystem::path& path : paths) {
       if (!libraries_.insert(path.string()).second) continue;
-      for (MtlMaterial& material :
-           ReadMtlFile(path, [&](const std::string& text) { Warn(text); })) {
+      texels_.AddFile(path);
+      for (MtlMaterial& material : ReadMtlFile(path, kMaxModelMaterials - sources_.size(),
+                                               [&](const std::string& text) { Warn(text); })) {
         sources_.push_back(std::move(material));
       }
     }
@@ -159,13 +169,10 @@ class ObjMaterials {
 
   void AddMaterial(size_t index) {
     const MtlMaterial& source = sources_[index];
-    std::string name = source.name;
     const MaterialId id{static_cast<uint32_t>(scene_.materials.size())};
-    by_name_.try_emplace(name, id);  // the first of several
-    if (name.empty() || !names_.insert(name).second) name += fmt::format("#{}", index);
-    names_.insert(name);
+    by_name_.try_emplace(source.name, id);  // the first of several
     Material material = MakeMaterial(source);
-    material.name = std::move(name);
+    material.name = names_.Take(source.name, "#", index);
     scene_.materials.push_back(std::move(material));
   }
 
@@ -176,12 +183,12 @@ class ObjMaterials {
     if (source.illum > 2) Warn("reflections and refraction (illum above 2) are not shown");
     AddCommonMaps(source, &result);
     const TextureId diffuse = AddTexture(source.map_kd, TextureEncoding::kSrgb);
-    if (source.illum == 0) {
-      SetConstantColor(source, diffuse, &result);
-      return result;
-    }
     // Exporters that write a map often leave its factor at 0.
     const Rgb kd = diffuse.valid() && source.kd == Rgb(0) ? Rgb(1) : source.kd;
+    if (source.illum == 0) {
+      AddConstantColor(source, kd, diffuse, &result);
+      return result;
+    }
     if (source.pr || source.pm || !source.map_pr.file.empty() || !source.map_pm.file.empty()) {
       MetallicRoughnessMaterial model = MakeMetallicRoughness(source);
       model.base_color = kd;
@@ -202,20 +209,24 @@ class ObjMaterials {
     return result;
   }
 
-  // illum 0: the colour Kd, whatever the light.
-  void SetConstantColor(const MtlMaterial& source, TextureId diffuse, Material* material) {
+  // illum 0: the diffuse colour and its image, lit by nothing. Whether highlights and normals have
+  // images makes no difference then.
+  void AddConstantColor(const MtlMaterial& source, const Rgb& kd, TextureId diffuse,
+                        Material* material) {
     PhongMaterial black = MakePhong(source);
     black.ka = black.kd = black.ks = Rgb(0);
     material->model = black;
+    material->normal_map = {};
+    if (kd == Rgb(0)) return;
     if (!diffuse.valid() && !material->emission_map.valid()) {
-      material->emission += source.kd;
-    } else if (material->emission != Rgb(0)) {
-      // One image multiplies one colour: the sum of two that have images is neither's.
-      Warn("the colour of a material that glows as well (illum 0 with Ke) is not shown");
-    } else {
-      material->emission_map = diffuse;
-      material->emission = source.kd == Rgb(0) ? Rgb(1) : source.kd;
+      material->emission += kd;
+      return;
     }
+    if (material->emission != Rgb(0)) {  // a material has one image of what it emits
+      Warn("constant colours (illum 0) are shown without their emission (Ke, map_Ke)");
+    }
+    material->emission = kd;
+    material->emission_map = diffuse;
   }
 
   void AddCommonMaps(const MtlMaterial& source, Material* material) {
@@ -230,25 +241,34 @@ class ObjMaterials {
     if (!source.map_d.file.empty()) Warn("transparency is not shown: all materials are opaque");
   }
 
+  // By its file, however that is spelled.
   std::optional<ImageId> AddImage(const std::string& name, TextureEncoding encoding) {
-    const auto known = images_.find({name, encoding});
+    const std::filesystem::path path = FindImage(name);
+    if (path.empty()) return std::nullopt;
+    const auto key = std::make_pair(path, encoding);
+    const auto known = images_.find(key);
     if (known != images_.end()) return known->second;
-    const auto path = FindImage(name);
-    if (!path) return std::nullopt;
     const ImageId id = WithImage(name, [&] {
-      return AddTextureImage(*path, name, {.encoding = encoding, .part = {}}, &scene_);
+      return AddTextureImage(path, name, {.encoding = encoding, .part = {}}, &texels_, &scene_);
     });
-    images_.emplace(std::make_pair(name, encoding), id);
+    images_.emplace(key, id);
     return id;
   }
 
-  // Models often come without their images.
-  std::optional<std::filesystem::path> FindImage(const std::string& name) {
-    std::optional<std::filesystem::path> path = Find(name);
+  // The image's file; empty if there is no name or no such file: models often come without their
+  // images.
+  std::filesystem::path FindImage(const std::string& name) {
+    if (name.empty()) return {};
+    const auto [known, is_new] = image_paths_.try_emplace(name);
+    if (!is_new) return known->second;
+    const std::optional<std::filesystem::path> path = Find(name);
     if (!path) {
       Warn(fmt::format("an image is left out: there is no file \"{}\"", Excerpt(name)));
+      return {};
     }
-    return path;
+    texels_.AddFile(*path);
+    known->second = *path;
+    return *path;
   }
 
   // Calls read(), whose errors get the image's name.
@@ -282,45 +302,42 @@ class ObjMaterials {
   // map_Pr and map_Pm as the green and blue of one image. A file that is both has them there
   // already, if it has colours.
   TextureId AddMetallicRoughness(const MtlMaterial& source) {
-    const MtlImage& first = source.map_pr.file.empty() ? source.map_pm : source.map_pr;
-    if (first.file.empty()) return {};
-    const auto key = std::make_pair(source.map_pr.file, source.map_pm.file);
-    auto known = metallic_roughness_.find(key);
-    if (known == metallic_roughness_.end()) {
-      const std::optional<ImageId> image = MakeMetallicRoughnessImage(source);
-      if (!image) return {};
-      known = metallic_roughness_.emplace(key, *image).first;
-    }
-    return AddTextureOf(first, known->second);
+    const ImagePair paths(FindImage(source.map_pr.file), FindImage(source.map_pm.file));
+    const auto& [roughness, metallic] = paths;
+    if (roughness.empty() && metallic.empty()) return {};
+    const auto [known, is_new] = metallic_roughness_.try_emplace(paths);
+    if (is_new) known->second = MakeMetallicRoughnessImage(source, paths);
+    if (!known->second) return {};
+    return AddTextureOf(roughness.empty() ? source.map_pm : source.map_pr, *known->second);
   }
 
-  std::optional<ImageId> MakeMetallicRoughnessImage(const MtlMaterial& source) {
-    const size_t left = TexelValuesLeft(scene_);
-    const auto read = [&](const std::string& name) -> std::shared_ptr<const MipChain> {
-      if (name.empty()) return nullptr;
-      const auto path = FindImage(name);
-      if (!path) return nullptr;
+  std::optional<ImageId> MakeMetallicRoughnessImage(const MtlMaterial& source,
+                                                    const ImagePair& paths) {
+    const auto read = [&](const std::filesystem::path& path, const std::string& name) {
+      if (path.empty()) return std::shared_ptr<const MipChain>();
       return WithImage(name, [&] {
-        return ReadTextureImage(*path, name, {.encoding = TextureEncoding::kLinear, .part = {}},
-                                left / 3)
+        return ReadTextureImage(path, name, {.encoding = TextureEncoding::kLinear, .part = {}},
+                                &texels_)
             .texels;
       });
     };
-    const auto roughness = read(source.map_pr.file), metallic = read(source.map_pm.file);
-    if (roughness == nullptr && metallic == nullptr) return std::nullopt;
+    const auto roughness = read(paths.first, source.map_pr.file);
+    const auto metallic = read(paths.second, source.map_pm.file);
     const MipLevel& size = (roughness != nullptr ? roughness : metallic)->levels[0];
     if (roughness != nullptr && metallic != nullptr &&
         (metallic->levels[0].width != size.width || metallic->levels[0].height != size.height)) {
       Warn("images of roughness and metallic (map_Pr, map_Pm) that differ in size are not shown");
       return std::nullopt;
     }
-    const bool is_packed = source.map_pr.file == source.map_pm.file && roughness->channels >= 3;
+    const bool is_packed = paths.first == paths.second && roughness->channels >= 3;
     const auto value = [&](const std::shared_ptr<const MipChain>& image, size_t texel,
                            size_t packed_channel) {
       if (image == nullptr) return 1.0f;
       return image
           ->values[texel * static_cast<size_t>(image->channels) + (is_packed ? packed_channel : 0)];
     };
+    const std::string& name = roughness != nullptr ? source.map_pr.file : source.map_pm.file;
+    WithImage(name, [&] { texels_.Spend({}, size.width, size.height, 3); });
     const size_t texels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
     std::vector<float> values;
     values.reserve(3 * texels);
@@ -328,7 +345,7 @@ class ObjMaterials {
       values.insert(values.end(), {1.0f, value(roughness, i, 1), value(metallic, i, 2)});
     }
     SceneImage& image = scene_.images.emplace_back();
-    image.file = source.map_pr.file.empty() ? source.map_pm.file : source.map_pr.file;
+    image.file = name;
     image.texels = std::make_shared<const MipChain>(
         MakeMipChain(size.width, size.height, 3, std::move(values)));
     return ImageId{static_cast<uint32_t>(scene_.images.size() - 1)};
@@ -342,9 +359,12 @@ class ObjMaterials {
   bool library_is_missing_ = false;
   size_t unknown_names_ = 0;
   std::unordered_map<std::string, MaterialId> by_name_;
-  std::unordered_set<std::string> names_, told_, libraries_;
-  std::map<std::pair<std::string, TextureEncoding>, ImageId> images_;          // by name
-  std::map<std::pair<std::string, std::string>, ImageId> metallic_roughness_;  // by both names
+  UniqueNames names_;
+  std::unordered_set<std::string> warned_, libraries_;
+  TexelBudget texels_{0};
+  std::unordered_map<std::string, std::filesystem::path> image_paths_;  // by name; empty: no file
+  std::map<std::pair<std::filesystem::path, TextureEncoding>, ImageId> images_;
+  std::map<ImagePair, std::optional<ImageId>> metallic_roughness_;  // none: they do not fit
 };
 
 }  // namespace

@@ -69,8 +69,17 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
 
 void ApplyOptions(const LoadOptions& options, Json* root) {
   if (!options.environment.empty() && root->is_object()) {
-    const std::string image = std::filesystem::absolute(options.environment).string();
-    (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image}}}};
+    // Its faults are the command line's. What is wrong with its contents is found by its reader.
+    const std::filesystem::path image = std::filesystem::absolute(options.environment);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(image, ignored)) {
+      const std::string name = Excerpt(options.environment.string());
+      throw Error(ExitCode::kBadInput, "--environment",
+                  std::filesystem::exists(image, ignored)
+                      ? fmt::format("\"{}\" is not a regular file", name)
+                      : fmt::format("there is no file \"{}\"", name));
+    }
+    (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image.string()}}}};
   }
   for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, root);
 }
@@ -78,10 +87,11 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
 ReferenceRules RulesOf(const LoadOptions& options) {
   ReferenceRules rules{options.allow_paths, options.on_file, {}};
   const auto trust = [&](const std::filesystem::path& file) {
+    if (file.empty()) return;
     std::error_code error;
-    std::filesystem::path path = std::filesystem::weakly_canonical(file, error);
-    // A path that means nothing leads nowhere.
-    if (!error && !file.empty()) rules.trusted.push_back(std::move(path));
+    std::filesystem::path path =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+    if (!error) rules.trusted.push_back(std::move(path));  // else it leads nowhere
   };
   trust(options.environment);
   for (const std::filesystem::path& file : options.trusted_files) trust(file);

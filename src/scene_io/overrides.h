@@ -16,6 +16,7 @@ namespace nacre {
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root);
 
 // Puts the options' environment into the tree in the place of all lights, then their overrides.
+// Throws Error: kBadInput for an environment that is no file, kUsage as ApplyOverride does.
 void ApplyOptions(const LoadOptions& options, Json* root);
 
 // Which files the scene may refer to: those that the options allow, and those that they name.

@@ -80,19 +80,21 @@ ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneCo
                           (reading.trust_encoding ? "!" : "?") + source.part;
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
-  const ImageId id = AddTextureImage(path, source.file, reading, context->scene);
+  context->texels->AddFile(path);
+  const ImageId id = AddTextureImage(path, source.file, reading, context->texels, context->scene);
   context->images.emplace(key, id);
   return id;
 }
 
-// Adds the texture to the scene. What is wrong with its file is told where the scene names it.
+// Adds the texture to the scene. What is wrong with its file is reported where the scene
+// names it.
 TextureId AddTexture(TextureSource* source, TextureEncoding encoding, SceneContext* context,
                      FaultList* faults) {
   Texture texture = source->texture;
   try {
     texture.image = FindImage(*source, encoding, context);
   } catch (const Error& error) {
-    source->is_readable = false;  // told once
+    source->is_readable = false;  // reported once
     for (const Fault& fault : error.faults()) {
       faults->Add(
           "/textures/" + PointerToken(texture.name) + "/file",
@@ -179,7 +181,7 @@ void ReadTextureId(const JsonValue& value, MapUse use, SceneContext* context, Te
     return;
   }
   TextureSource& source = found->second;
-  if (!source.is_readable) return;  // told before
+  if (!source.is_readable) return;  // reported before
   const auto by_use = use == MapUse::kColor     ? TextureEncoding::kSrgb
                       : use == MapUse::kOpacity ? TextureEncoding::kAlpha
                                                 : TextureEncoding::kLinear;

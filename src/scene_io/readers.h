@@ -34,6 +34,7 @@ struct SceneContext {
   int threads = 0;
   Scene* scene = nullptr;
   SceneBudget* budget = nullptr;
+  TexelBudget* texels = nullptr;
   std::unordered_map<std::string, MaterialId> materials;  // by name
   // So that one fault does not make others of all that refer to it:
   bool has_materials = true;                          // false: their names could not be read
@@ -44,7 +45,7 @@ struct SceneContext {
   struct TextureSource {
     Texture texture;  // all but the image
     std::string file, part;
-    bool is_readable = false;  // false: its faults have been told
+    bool is_readable = false;  // false: its faults have been reported
     std::optional<TextureEncoding> encoding;
     std::array<TextureId, 3> decoded{};
   };
@@ -100,7 +101,7 @@ bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* i
 void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id);
 
 // A copy of a material by name, or an inline one that is not added to the scene. False if it has
-// faults, even if they were told before.
+// faults, even if they were reported before.
 bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material);
 
 // The array "shapes".

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// scene_io/scene_budget.h: how much more may be made of a file. A few bytes can ask for a hundred
-// million spheres, and for them again and again.
+// scene_io/scene_budget.h: upper bounds on the primitives and materials that a file expands to. A
+// few bytes can ask for a hundred million spheres, and for them again and again.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,11 +15,14 @@ namespace nacre {
 
 inline constexpr const char* kPrimitivesHint = "ask for fewer, or allow them with --max-primitives";
 
-// How many triangles a model file of this many bytes, with its buffers, may be made into. Files
-// name vertices of which they have few again and again (strips and polygons take a byte a
-// triangle), and glTF shows a mesh as often as nodes ask for it; what is written out takes 8 bytes
-// a triangle at least.
+// Upper bound on the triangles that a model file of this many bytes, with its buffers, expands to.
+// Strips and polygons need a byte or two a triangle and glTF instances meshes freely, so the bound
+// goes by file size. A mesh without either takes at least 8 bytes a triangle.
 inline uint64_t TrianglesOfBytes(uint64_t bytes) { return 1'000'000 + bytes / 4; }
+
+// Upper bound on the materials of a model file. A name of a few bytes makes one, which takes a
+// kilobyte or two.
+inline constexpr size_t kMaxModelMaterials = size_t{1} << 16;
 
 class SceneBudget {
  public:
@@ -49,7 +53,7 @@ class SceneBudget {
   bool has_sky_picture_ = false;
 };
 
-// The same for a model file: the error is told in its place.
+// The same for a model file, which is the error's place.
 inline void SpendTriangles(uint64_t triangles, const std::string& file, SceneBudget* budget,
                            const char* hint = kPrimitivesHint) {
   try {

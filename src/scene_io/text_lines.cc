@@ -22,6 +22,16 @@ bool IsTooSmall(std::string_view word) {
   return first != std::string_view::npos && word[first] == '.';
 }
 
+// Whether it has a comment, which ends with its line, a backslash at its end or not.
+bool HasComment(std::string_view line) {
+  for (size_t i = line.find('#'); i < line.size(); i = line.find('#', i + 1)) {
+    if (i == 0 || kLineBlanks.find(line[i - 1]) != std::string_view::npos) return true;
+  }
+  return false;
+}
+
+bool GoesOn(std::string_view line) { return line.ends_with('\\') && !HasComment(line); }
+
 }  // namespace
 
 std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file) {
@@ -46,12 +56,14 @@ bool TextLines::Next(std::string_view* line) {
   if (position_ >= text_.size()) return false;
   *line = NextInFile();
   number_ = lines_;
-  if (!line->ends_with('\\') || Trimmed(*line).starts_with('#')) return true;
-  joined_ = *line;
-  while (joined_.ends_with('\\')) {
-    joined_.back() = ' ';
-    if (position_ < text_.size()) joined_ += NextInFile();
+  if (!GoesOn(*line)) return true;
+  joined_.clear();
+  std::string_view part = *line;
+  for (; GoesOn(part); part = position_ < text_.size() ? NextInFile() : std::string_view()) {
+    joined_ += part.substr(0, part.size() - 1);
+    joined_ += ' ';
   }
+  joined_ += part;
   *line = joined_;
   return true;
 }

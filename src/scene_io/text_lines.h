@@ -15,7 +15,8 @@ namespace nacre {
 std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file);
 
 // Goes through the statements of an OBJ or MTL file. A line ends with LF, CR LF or CR, and goes on
-// in the next one if its last character is a backslash. Comments end with their line.
+// in the next one if its last character is a backslash, unless that is in a comment: words that
+// begin with # are one up to the end of their line.
 class TextLines {
  public:
   explicit TextLines(std::string_view text) : text_(text) {}

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -45,21 +46,6 @@ struct CodeTable {
   }
 };
 
-void CheckSize(const std::filesystem::path& path, const Window& window, size_t channels,
-               size_t max_values) {
-  const auto width = int64_t{window.x1} - window.x0, height = int64_t{window.y1} - window.y0;
-  const double side = limits::kImageSide.max;
-  const auto values = static_cast<double>(width) * static_cast<double>(height) *
-                      static_cast<double>(std::min<size_t>(channels, 3));
-  if (width >= 1 && height >= 1 && static_cast<double>(width) <= side &&
-      static_cast<double>(height) <= side && values <= static_cast<double>(max_values)) {
-    return;
-  }
-  throw Error(ExitCode::kBadInput, path.string(),
-              fmt::format("{} x {} texels are too many for a texture", width, height),
-              "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
-}
-
 // The channels that a texture keeps: one or three, or none for the alpha of an opaque image.
 std::vector<size_t> ChannelsOf(const ImageFile& image, TextureEncoding encoding) {
   const std::vector<Channel>& channels = image.header.channels;
@@ -98,8 +84,38 @@ float DecodeIntegers(TextureEncoding encoding, std::span<float> values) {
 
 }  // namespace
 
+void TexelBudget::AddFile(const std::filesystem::path& path) {
+  std::error_code error;
+  const uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (!error && files_.insert(path).second) file_bytes_ += bytes;
+}
+
+void TexelBudget::Spend(const std::string& where, int64_t width, int64_t height, size_t channels) {
+  // Sides fit 32 bits; the product may need more than 64.
+  const double values =
+      static_cast<double>(width) * static_cast<double>(height) * static_cast<double>(channels);
+  const auto total = [&](uint64_t before) { return static_cast<double>(before) + values; };
+  constexpr Range kSide = limits::kImageSide;
+  if (!kSide.Contains(static_cast<double>(width)) || !kSide.Contains(static_cast<double>(height)) ||
+      total(values_before_ + spent_) > static_cast<double>(kMaxTexelValues)) {
+    throw Error(ExitCode::kBadInput, where,
+                fmt::format("{} x {} texels are too many for a texture", width, height),
+                "make it smaller: 65536 a side, 2^30 values in all textures of a scene");
+  }
+  const double by_size = static_cast<double>(kFreeSamples) +
+                         static_cast<double>(kSamplesPerByte) * static_cast<double>(file_bytes_);
+  if (total(spent_) > by_size) {
+    throw Error(ExitCode::kBadInput, where,
+                fmt::format("{} x {} texels are too many for textures of files of {} bytes", width,
+                            height, file_bytes_),
+                "over 2^27 values in all textures the files need a byte for 64 of them: make the "
+                "image smaller, or save it with less compression");
+  }
+  spent_ += static_cast<uint64_t>(values);
+}
+
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            const TextureReading& reading, size_t max_values) {
+                            const TextureReading& reading, TexelBudget* budget) {
   const ImageFile image = OpenImage(path.string(), reading.part);
   const Window window = WholeWindow(image, "a texture");
   const std::vector<size_t> channels = ChannelsOf(image, reading.encoding);
@@ -112,8 +128,9 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
                 R"(convert it to sRGB, or say "encoding": "srgb" to take it as that)");
   }
   const size_t kept = std::max<size_t>(channels.size(), 1);
-  CheckSize(path, window, kept, max_values);
   image.CheckSize(window, kept);
+  budget->Spend(path.string(), int64_t{window.x1} - window.x0, int64_t{window.y1} - window.y0,
+                kept);
   MipChain chain = MakeEmptyMipChain(window.width(), window.height(), static_cast<int>(kept));
   const size_t count = window.pixel_count() * kept;
   const std::span<float> values(chain.values.data(), count);
@@ -144,20 +161,20 @@ SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string
   return texture;
 }
 
-size_t TexelValuesLeft(const Scene& scene) {
-  size_t left = kMaxTexelValues;
-  for (const SceneImage& image : scene.images) {
-    const MipLevel& level = image.texels->levels[0];
-    left -= static_cast<size_t>(level.width) * static_cast<size_t>(level.height) *
-            static_cast<size_t>(image.texels->channels);
-  }
-  return left;
+ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
+                        const TextureReading& reading, TexelBudget* budget, Scene* scene) {
+  scene->images.push_back(ReadTextureImage(path, file, reading, budget));
+  return {static_cast<uint32_t>(scene->images.size() - 1)};
 }
 
-ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
-                        const TextureReading& reading, Scene* scene) {
-  scene->images.push_back(ReadTextureImage(path, file, reading, TexelValuesLeft(*scene)));
-  return {static_cast<uint32_t>(scene->images.size() - 1)};
+uint64_t TexelValuesOf(const Scene& scene) {
+  uint64_t values = 0;
+  for (const SceneImage& image : scene.images) {
+    const MipLevel& level = image.texels->levels[0];
+    values += static_cast<uint64_t>(level.width) * static_cast<uint64_t>(level.height) *
+              static_cast<uint64_t>(image.texels->channels);
+  }
+  return values;
 }
 
 }  // namespace nacre

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "scene/scene.h"
@@ -23,24 +24,46 @@ struct TextureReading {
   std::string part;  // of an EXR file that has several
 };
 
+// How many values the images of one scene or model may have together: 2^27 whatever the size of its
+// files, beyond that 64 for each of their bytes, 2^30 at most. It is image_file.h's bound of one
+// image, held for all of them: many images may share a few bytes. Values that are decoded count
+// even if the scene does not keep them.
+class TexelBudget {
+ public:
+  // `file_bytes`: of the scene or model file with its buffers, as far as AddFile does not count
+  // them. `values_before`: of images that the scene has already, which leave fewer of the 2^30.
+  explicit TexelBudget(uint64_t file_bytes, uint64_t values_before = 0)
+      : file_bytes_(file_bytes), values_before_(values_before) {}
+
+  // Counts the bytes of a file that belongs to the scene, once however often it is named.
+  void AddFile(const std::filesystem::path& path);
+  // To be called before they are decoded. Throws Error (kBadInput) in the place `where` if there
+  // are too many, or if a side is over 65536 texels.
+  void Spend(const std::string& where, int64_t width, int64_t height, size_t channels);
+
+ private:
+  uint64_t file_bytes_, values_before_, spent_ = 0;
+  std::set<std::filesystem::path> files_;
+};
+
 // Reads any image file (image_io/image_file.h), decodes it to linear floats, exactly, and makes its
 // mip levels. Red, green and blue are kept, or the one channel of a grey image; or else alpha.
 // Colours are not divided by alpha: those of EXR files are multiplied by it, by convention.
 //
 // The texture is the display window; what a file has beyond it is left out. Throws Error
-// (kBadInput) for files that are missing, broken or crops, over 65536 texels a side or over 2^30
-// values, that have several parts and none is named, whose primaries are not Rec. 709's, or that
-// hold NaN or infinities. `file` is what SceneImage calls it.
+// (kBadInput) for files that are missing, broken or crops, that the budget does not allow, that
+// have several parts and none is named, whose primaries are not Rec. 709's, or that hold NaN or
+// infinities. `file` is what SceneImage calls it.
 //
 // Memory: 16/3 bytes a value, which is what the texture keeps, and what the reader takes.
 SceneImage ReadTextureImage(const std::filesystem::path& path, const std::string& file,
-                            const TextureReading& reading, size_t max_values = kMaxTexelValues);
+                            const TextureReading& reading, TexelBudget* budget);
 
-// How many values more the scene's images may have: 2^30 together.
-size_t TexelValuesLeft(const Scene& scene);
-
-// The same as ReadTextureImage, added to the scene, whose images have 2^30 values at most together.
+// The same, added to the scene.
 ImageId AddTextureImage(const std::filesystem::path& path, const std::string& file,
-                        const TextureReading& reading, Scene* scene);
+                        const TextureReading& reading, TexelBudget* budget, Scene* scene);
+
+// How many values the images of the scene have, mip levels left out.
+uint64_t TexelValuesOf(const Scene& scene);
 
 }  // namespace nacre

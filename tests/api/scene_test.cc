@@ -121,6 +121,9 @@ TEST_CASE("errors say where, what and how to mend it") {
   nacre::Scene bad_radius = BuildFirstScene();
   bad_radius.AddSphere({0, 0, 0}, -1, "red");
   REQUIRE(ErrorOf([&] { bad_radius.Check(); }).faults()[0].where == "/spheres/2/radius");
+  nacre::Scene twice = BuildFirstScene();
+  twice.AddShape({{"type", "sphere"}, {"type", "mesh"}});
+  REQUIRE(ErrorOf([&] { twice.Check(); }).faults()[0].where == "AddShape");
   REQUIRE(ErrorOf([&] { nacre::Scene::FromFile("no such file.json"); }).exit_code() == 65);
   REQUIRE(ErrorOf([&] { nacre::Scene::FromJson("{"); }).exit_code() == 65);
   REQUIRE(ErrorOf([&] { other.Set("/image/spp", std::nan("")); }).exit_code() == 64);

@@ -574,6 +574,14 @@ class CliTest(unittest.TestCase):
         for message, arguments in cases:
             with self.subTest(arguments=arguments):
                 self.check_fails(64, message, *arguments)
+        # The nearest of the command's options and of other programs' names for them.
+        for word, meant in (('--smaples', '--spp'), ('--sampels', '--spp'), ('--samples', '--spp'),
+                            ('--nthread', '--threads'), ('--envmpa', '--environment'), ('--smal', '--small'),
+                            ('--spp-', '--spp'), ('--wdith', '--size')):
+            with self.subTest(word=word):
+                self.check_fails(64, f'did you mean {meant}?', 'render', scene, *out, word, '4')
+        # A command without that option: plot has no samples.
+        self.check_fails(64, 'tells every option', 'plot', 'fresnel', '-o', self.out / 'a.png', '--smaples', '4')
 
     def test_bad_input(self):
         out = ['-o', self.out / 'a.exr']
@@ -589,6 +597,15 @@ class CliTest(unittest.TestCase):
         self.check_fails(65, 'fong', 'grid', *out, '--columns', 'material=fong,lambert')
         self.check_fails(65, 'missing.json', 'grid', *out, '--lights', 'missing.json')
         self.check_fails(65, 'missing.exr', 'grid', *out, '--environment', 'missing.exr')
+        for scene in FIRST_SCENE, SOURCE / 'scenes/models/pawns.glb':
+            for missing in 'missing.hdr', self.out / 'missing.hdr':
+                self.check_fails(65, f'error: --environment: there is no file "{missing}"\n', 'render',
+                                 scene, *out, '--environment', missing)
+            self.check_fails(65, 'error: --environment: ', 'render', scene, *out, '--environment', self.out)
+        for text, place in ('{"k": 1, "k": 2}', ''), ('{"a": {"k": 1, "k": 2}}', ': /a'):
+            (self.out / 'twice.json').write_text(text)
+            self.check_fails(65, f'error: {self.out / "twice.json"}{place}: "k" is there twice', 'grid', *out,
+                             '--lights', self.out / 'twice.json')
         self.check_fails(65, '--b', 'pair', *out, '--b', 'fong')
         self.check_fails(65, 'MATERIAL', 'convert', 'fong')
         (self.out / 'bad.json').write_text('{"nacre": 1,')

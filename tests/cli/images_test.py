@@ -192,11 +192,26 @@ def tiff(rows, orientation=1, strip_bytes=None, declared_height=None):
     return b'II*\0' + struct.pack('<I', 8) + body + struct.pack('<I', 0) + data
 
 
-def jpeg_with_orientation(orientation):
-    """The corpus's JPEG with an EXIF block."""
-    data = (SOURCE / 'tests/fuzz/corpus/texture_image/a.jpg').read_bytes()
+def jpeg(blocks, orientation):
+    """A baseline grey JPEG with an EXIF block, whose blocks of 8 x 8 pixels are of one value each:
+    `blocks` are rows of them as they are stored. Quantized by 8 they have that value exactly."""
+    def segment(marker, data):
+        return b'\xff' + bytes([marker]) + struct.pack('>H', len(data) + 2) + data
     exif = b'Exif\0\0II*\0' + struct.pack('<IHHHII', 8, 1, 274, 3, 1, orientation) + b'\0' * 4
-    return data[:2] + b'\xff\xe1' + struct.pack('>H', len(exif) + 2) + exif + data[2:]
+    bits, last = '', 128
+    for value in (value for row in blocks for value in row):
+        difference, last = value - last, value
+        size = abs(difference).bit_length()
+        low = difference if difference >= 0 else difference + (1 << size) - 1
+        # The code of the size, the difference, and that all other coefficients are 0.
+        bits += f'{size:04b}' + (f'{low:0{size}b}' if size else '') + '0'
+    bits += '1' * (-len(bits) % 8)
+    scan = bytes(int(bits[i:i + 8], 2) for i in range(0, len(bits), 8)).replace(b'\xff', b'\xff\0')
+    return (b'\xff\xd8' + segment(0xe1, exif) + segment(0xdb, b'\0' + bytes([8]) * 64) +
+            segment(0xc0, struct.pack('>BHHBBBB', 8, 8 * len(blocks), 8 * len(blocks[0]), 1, 1, 0x11, 0)) +
+            segment(0xc4, bytes([0, 0, 0, 0, 9] + [0] * 12) + bytes(range(9))) +
+            segment(0xc4, bytes([0x10, 1] + [0] * 15) + b'\0') +
+            segment(0xda, bytes([1, 1, 0, 0, 63, 0])) + scan + b'\xff\xd9')
 
 
 class ImagesTest(unittest.TestCase):
@@ -214,8 +229,7 @@ class ImagesTest(unittest.TestCase):
         self.assertEqual(result.returncode, code, (arguments, result.stdout, result.stderr))
         self.assertIn(message, result.stdout + result.stderr)
         if code not in (0, 1):  # one line, and maybe a hint
-            errors = re.sub(r'(?m)^libpng .*\n', '', result.stderr)
-            self.assertRegex(errors, r'\Aerror: [^\n]*\n(  hint: [^\n]*\n)?\Z')
+            self.assertRegex(result.stderr, r'\Aerror: [^\n]*\n(  hint: [^\n]*\n)?\Z')
         return result
 
     def same(self, a, b):
@@ -333,11 +347,9 @@ class ImagesTest(unittest.TestCase):
         deep = Part({'Z': 1.0}, (0, 0, 3, 3), name='d', extra=attribute(
             'version', 'int', struct.pack('<i', 1)) + attribute(
                 'maxSamplesPerPixel', 'int', struct.pack('<i', 1)))
-        data = exr(deep)
         # A single deep part: version flag 0x800, its type, its name and the count of its chunks.
         header = deep.header(True).replace(b'scanlineimage', b'deepscanline').replace(
             b'type\0string\0' + struct.pack('<i', 13), b'type\0string\0' + struct.pack('<i', 12))
-        del data
         body = b'\x76\x2f\x31\x01' + struct.pack('<I', 2 | 0x800) + header
         start = len(body) + 8 * 4
         chunk = struct.pack('<4i', 1, 2, 3, 4) + struct.pack('<4f', *[1.0] * 4)
@@ -472,11 +484,9 @@ class ImagesTest(unittest.TestCase):
         image = [[10, 20, 30], [40, 50, 60]]
         columns = [list(column) for column in zip(*image)]
         stored = {1: image, 2: [r[::-1] for r in image], 3: [r[::-1] for r in image[::-1]],
+                  # Stored so that what is seen is `image`: row 0 of 6 is its right side, of 8 its left.
                   4: image[::-1], 5: columns, 6: columns[::-1],
                   7: [c[::-1] for c in columns[::-1]], 8: [c[::-1] for c in columns]}
-        # Stored so that what is seen is `image`: row 0 of 6 is its right side, of 8 its left.
-        stored[6] = [list(c) for c in zip(*image)][::-1]
-        stored[8] = [c[::-1] for c in [list(c) for c in zip(*image)]]
         plain = self.write('plain.tif', tiff(image))
         for tag, rows in stored.items():
             with self.subTest(tag):
@@ -484,8 +494,11 @@ class ImagesTest(unittest.TestCase):
                 exif = b'MM\0*' + struct.pack('>IHHHIHH', 8, 1, 274, 3, 1, tag, 0) + b'\0' * 4
                 upright = self.write('plain.png', png(image, 0))
                 self.same(self.write('t.png', png(rows, 0, png_chunk(b'eXIf', exif))), upright)
-        a, b = (self.write(f'{i}.jpg', jpeg_with_orientation(i)) for i in (1, 3))
-        self.check(1, 'differ', 'compare', a, b)
+                pixels = [[value for value in row for _ in range(8)] for row in image for _ in range(8)]
+                blocks = self.write('blocks.png', png(pixels, 0))
+                # A reader may have another last bit for a code of 255: half an ulp of at most 1.
+                self.check(0, 'match', 'compare', self.write('t.jpg', jpeg(rows, tag)), blocks,
+                           '--max-abs', 2 ** -24)
 
     def test_exr_attributes(self):
         plain = self.write('plain.exr', exr(grey(8, 4)))
@@ -554,10 +567,8 @@ class ImagesTest(unittest.TestCase):
 
     def test_missing_chunks(self):
         data = bytearray(exr(grey(8, 4)))
-        at = data.index(b'\0' * 0 + struct.pack('<i', 0), 8)
         header = len(grey(8, 4).header(False)) + 8
         data[header + 8:header + 16] = bytes(8)  # the second chunk's place
-        self.assertGreater(at, 0)
         self.refused_everywhere(self.write('hole.exr', bytes(data)), 'cannot be read as EXR')
         whole = exr(grey(8, 4))
         self.refused_everywhere(self.write('cut.exr', whole[:-10]), 'cannot be read as EXR')

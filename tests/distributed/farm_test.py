@@ -4,6 +4,8 @@
 
 Usage: farm_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
 """
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import signal
@@ -56,6 +58,23 @@ class FarmTest(unittest.TestCase):
         self.assertEqual(sorted(path.name for path in self.failed.iterdir()), ['0', '3', '7'])
         self.assertIn('tile 3/8: exit code -9', result.stderr)
         self.assertIn('tiles 8/8', result.stderr)
+
+    def test_names_are_printed_as_nacre_prints_them(self):
+        """scripts/farm.py has a printable() of its own: a script is no place for the library."""
+        loader = importlib.machinery.SourceFileLoader('farm', SOURCE + '/scripts/farm.py')
+        farm = importlib.util.module_from_spec(importlib.util.spec_from_loader('farm', loader))
+        loader.exec_module(farm)
+        # Every character from 1 to U+3000, some further ones, and bytes that are no UTF-8.
+        codes = [*range(1, 0x3001), 0xd7ff, 0xe000, 0xfeff, 0xfffd, 0xffff, 0x10000, 0x1f469, 0x10ffff]
+        texts = [''.join(map(chr, codes[i:i + 500])).encode() for i in range(0, len(codes), 500)]
+        texts += [bytes(range(0x80, 0x100)), b'\xed\xa0\x80 \xc0\x9b \xf4\x90\x80\x80 \xe2\x80', b'\xe2\x1b[m']
+        for text in texts:
+            name = text + b'.json'
+            result = subprocess.run([os.fsencode(PROGRAM), b'info', name], capture_output=True, timeout=120,
+                                    check=False)
+            self.assertEqual(result.returncode, 65)
+            shown = farm.printable(os.fsdecode(name)).encode()
+            self.assertTrue(result.stderr.startswith(b'error: ' + shown + b': '), (result.stderr, shown))
 
     def test_all_tiles_may_fail_once(self):
         self.check_picture(self.farm('--tiles', '5', *OPTIONS, failing='all'))

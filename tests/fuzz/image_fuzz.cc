@@ -42,7 +42,9 @@ void FuzzTextureImage(std::string_view bytes) {
   const std::filesystem::path path = WriteImage(bytes);
   if (!IsSmall(path, bytes)) return;
   for (const TextureEncoding encoding : {TextureEncoding::kSrgb, TextureEncoding::kLinear}) {
-    ReadOrRefuse([&] { ReadTextureImage(path, "fuzz", {.encoding = encoding, .part = {}}); });
+    TexelBudget budget(bytes.size());
+    ReadOrRefuse(
+        [&] { ReadTextureImage(path, "fuzz", {.encoding = encoding, .part = {}}, &budget); });
   }
 }
 

@@ -243,6 +243,40 @@ TEST_CASE("few bytes cannot ask for much memory") {
   primitive["indices"] = indices;
   for (int i = 0; i < 60; ++i) file.json["meshes"][0]["primitives"].push_back(primitive);
   CHECK(Contains(MessageOf("a.glb", file.Binary()), bound));
+  // Primitives that make nothing: each visit of a node takes time.
+  for (const char* nothing : {R"({"attributes": {}})", R"({"attributes": {}, "mode": 0})"}) {
+    GltfFile empty = MakeSquare();
+    Json& primitives = empty.json["meshes"][0]["primitives"];
+    for (int i = 0; i < 1200; ++i) primitives.push_back(Json::parse(nothing));
+    for (int i = 1; i <= 1200; ++i) empty.json["nodes"].push_back({{"mesh", 0}});
+    empty.json.erase("scenes");
+    empty.json.erase("scene");
+    CHECK(Contains(MessageOf("a.glb", empty.Binary()), bound));
+  }
+  // One triangle of sparse positions, all of which are read whenever it is shown.
+  constexpr uint16_t kSparse = 40'000;
+  GltfFile sparse = MakeSquare();
+  std::vector<uint16_t> elements;
+  std::vector<float> values;
+  for (uint16_t i = 0; i < kSparse; ++i) {
+    elements.push_back(i);
+    for (const int modulus : {4, 2, 3}) values.push_back(static_cast<float>(i % modulus));
+  }
+  sparse.Accessor(elements, 5123, "SCALAR", 1);
+  sparse.Accessor(values, 5126, "VEC3", 3);
+  sparse.json["accessors"][1]["count"] = 3;
+  sparse.json["accessors"][0] = {{"componentType", 5126},
+                                 {"type", "VEC3"},
+                                 {"count", kSparse},
+                                 {"sparse",
+                                  {{"count", kSparse},
+                                   {"indices", {{"bufferView", 2}, {"componentType", 5123}}},
+                                   {"values", {{"bufferView", 3}}}}}};
+  CHECK(MessageOf("a.glb", sparse.Binary()) == "fine");
+  for (int i = 1; i <= 40; ++i) sparse.json["nodes"].push_back({{"mesh", 0}});
+  sparse.json.erase("scenes");
+  sparse.json.erase("scene");
+  CHECK(Contains(MessageOf("a.glb", sparse.Binary()), "would have more than 11"));
   // Who asks for it gets it.
   const ModelFolder folder;
   LoadOptions options;
@@ -274,10 +308,53 @@ TEST_CASE("few bytes of OBJ and PLY cannot ask for much memory, and lists of obj
                                         "vertex_indices\nend_header\n" +
                                         points + faces),
                  "a.ply: the scene would have more than"));
+  // Materials of OBJ: in one library, and in two.
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::string library;
+  for (int i = 0; i < 1 << 15; ++i) library += "newmtl a\n";
+  const ModelFolder folder;
+  folder.Write("half.mtl", library);
+  folder.Write("more.mtl", library + "newmtl a\n");
+  folder.Write("whole.mtl", library + library + "newmtl a\n");
+  const auto load = [&](const std::string& libraries) -> std::string {
+    try {
+      LoadScene(folder.Write("a.obj", "mtllib " + libraries + "\n" + triangle));
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "fine";
+  };
+  CHECK(load("half.mtl") == "fine");
+  CHECK(Contains(load("whole.mtl"), "whole.mtl:65537: a model has more than 65536 materials"));
+  CHECK(Contains(load("half.mtl more.mtl"), "more.mtl:32769: a model has more than 65536"));
   std::string materials = R"({"asset": {"version": "2.0"}, "materials": [{})";
   for (int i = 0; i < 1 << 16; ++i) materials += ",{}";
   CHECK(Contains(MessageOf("a.gltf", materials + "]}"),
                  "/materials: is not an array of objects, 65536 at most"));
+}
+
+TEST_CASE("files whose names hold a % are refused in their place") {
+  const ModelFolder folder;
+  std::filesystem::create_directory(folder.path / "a%41x");
+  GltfFile file = MakeSquare();
+  for (const char* kind : {"buffers", "images"}) {
+    file.json[kind] = Json::array({{{"uri", "a%41x"}, {"byteLength", 48}}});
+    if (std::string(kind) == "images") {
+      file = MakeSquare();
+      file.json["images"] = {{{"uri", "a%41x"}}};
+      file.json["textures"] = {{{"source", 0}}};
+      file.json["materials"] = {{{"emissiveTexture", {{"index", 0}}}}};
+    }
+    std::string message = "fine";
+    try {
+      LoadScene(folder.Write("a.gltf", file.json.dump()));
+    } catch (const Error& error) {
+      message = error.what();
+    }
+    INFO(message);
+    CHECK(Contains(message, std::string("a.gltf: /") + kind + "/0"));
+    CHECK(Contains(message, "\"a%41x\" is not a regular file"));
+  }
 }
 
 TEST_CASE("a chain of a hundred thousand nodes is no deep recursion") {

@@ -281,6 +281,33 @@ TEST_CASE("images that are not there, or are none, are refused") {
   CHECK(message(file).find("/images/0") != std::string::npos);
 }
 
+TEST_CASE("images that are the same bytes or file are decoded once for each encoding") {
+  GltfFile file = MakeTexturedSquare();
+  Json& views = file.json["bufferViews"];
+  const Json view = views[file.json["images"][0]["bufferView"].get<size_t>()];
+  file.json["images"] = Json::array();
+  file.json["textures"] = Json::array();
+  file.json["materials"] = Json::array();
+  const auto add = [&](const Json& image) {
+    const size_t i = file.json["images"].size();
+    file.json["images"].push_back(image);
+    file.json["textures"].push_back({{"source", i}});
+    file.json["materials"].push_back(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", i}}}}},
+         {"normalTexture", {{"index", i}}}});
+  };
+  for (int i = 0; i < 4; ++i) {
+    add({{"bufferView", views.size()}, {"mimeType", "image/png"}});
+    views.push_back(view);
+  }
+  CHECK(LoadFile(file).images.size() == 2);
+  CHECK(LoadFile(file).textures.size() == 8);
+  const ModelFolder folder;
+  folder.Write("a b.png", std::string(kPng.begin(), kPng.end()));
+  for (const char* uri : {"a%20b.png", "a b.png", "./a%20b.png"}) add({{"uri", uri}});
+  CHECK(LoadScene(folder.Write("model.glb", file.Binary())).images.size() == 4);
+}
+
 TEST_CASE("normal textures are decoded as glTF has it, occlusion textures are told") {
   GltfFile file = MakeTexturedSquare();
   std::vector<std::string> warnings;

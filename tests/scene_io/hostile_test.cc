@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "scene_io/flat_png.h"
+#include "scene_io/gltf_builder.h"
 #include "scene_io/load_scene.h"
 #include "scene_io/text_file.h"
 #include "scene_io/texture_image.h"
@@ -114,9 +116,63 @@ TEST_CASE("a second environment's picture is not even read") {
 TEST_CASE("all textures of a scene share one bound") {
   const HostileFolder folder;
   const auto path = folder.Write("a.ppm", "P6\n4 2\n255\n" + std::string(24, 'x'));
-  CHECK_NOTHROW(ReadTextureImage(path, "a", {}, 24));
-  CHECK(Contains(MessageOf([&] { ReadTextureImage(path, "a", {}, 23); }),
-                 "4 x 2 texels are too many"));
+  const auto read_after = [&](uint64_t file_bytes, uint64_t before, int64_t width, int64_t height) {
+    return MessageOf([&] {
+      TexelBudget budget(file_bytes, before);
+      if (width > 0) budget.Spend("first", width, height, 1);
+      ReadTextureImage(path, "a", {}, &budget);
+    });
+  };
+  // 2^30 values in all, those of images that were there before included.
+  const uint64_t gibi = uint64_t{1} << 30;
+  CHECK(read_after(gibi, gibi - 24, 0, 0) == "no error");
+  CHECK(Contains(read_after(gibi, gibi - 23, 0, 0), "4 x 2 texels are too many for a texture"));
+  // 2^27, and 64 for each byte of the files.
+  CHECK(read_after(0, 0, (1 << 13) - 24, 1 << 14) == "no error");
+  CHECK(Contains(read_after(0, 0, 1 << 13, 1 << 14), "too many for textures of files of 0 bytes"));
+  CHECK(Contains(read_after(0, 0, 1 << 13, 1 << 14), "less compression"));
+  CHECK(read_after(1, 0, 1 << 13, 1 << 14) == "no error");
+  // Each file counts once.
+  TexelBudget budget(0);
+  budget.Spend("first", 1 << 13, 1 << 14, 1);
+  for (int i = 0; i < 3; ++i) budget.AddFile(path);
+  const int64_t allowed = 64 * static_cast<int64_t>(std::filesystem::file_size(path));
+  CHECK_THROWS_AS(budget.Spend("second", allowed + 1, 1, 1), Error);
+  CHECK_NOTHROW(budget.Spend("second", allowed, 1, 1));
+  CHECK_THROWS_AS(TexelBudget(gibi).Spend("a", 65537, 1, 1), Error);
+}
+
+TEST_CASE("the images of a scene or a model share the bound of its bytes") {
+  const HostileFolder folder;
+  folder.Write("flat.png", FlatPng());
+  folder.Write("large.png", LargePng());
+  folder.Write("m.mtl", "newmtl m\nmap_Ke flat.png\nmap_Kd large.png\n");
+  const auto obj = folder.Write(
+      "m.obj", "mtllib m.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
+  const std::string too_many = "16384 x 2730 texels are too many for textures of files of ";
+  CHECK(Contains(MessageOf([&] { LoadScene(obj); }), too_many));
+  // Images of roughness and metallic that differ in size make no texture, and are not decoded
+  // again: 700 times would be over 2^27 values.
+  std::string mtl;
+  for (int i = 0; i < 700; ++i) mtl += "newmtl m\nmap_Pr flat.png\nmap_Pm a.ppm\n";
+  folder.Write("a.ppm", "P6\n1 1\n255\nabc");
+  folder.Write("m.mtl", mtl);
+  CHECK(MessageOf([&] { LoadScene(obj); }) == "no error");
+  const auto scene = folder.Write("s.json", R"({"nacre": 1,
+      "textures": {"flat": {"file": "flat.png"}, "large": {"file": "large.png"}},
+      "materials": {"a": {"model": "lambert", "albedo_map": "flat", "emission_map": "large"}}})");
+  CHECK(Contains(MessageOf([&] { LoadScene(scene); }), too_many));
+  GltfFile gltf = MakeSquare();
+  gltf.json["images"] = {{{"uri", "flat.png"}}, {{"uri", "large.png"}}};
+  gltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  gltf.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}},
+                             {"emissiveTexture", {{"index", 0}}}}};
+  const auto glb = folder.Write("m.glb", gltf.Binary());
+  const std::string message = MessageOf([&] { LoadScene(glb); });
+  CHECK(Contains(message, "/images/1: " + too_many));
+  // The way out is not another format.
+  CHECK(Contains(message, "less compression"));
+  CHECK_FALSE(Contains(message, "PNG or JPEG"));
 }
 
 // Edit distances of these would take hours; a test that never ends would be seen.

@@ -57,9 +57,11 @@ TEST_CASE("an 8-bit image decodes exactly, row 0 at the bottom") {
   const Folder folder;
   // 2x2: the upper row first.
   folder.WritePnm("a.ppm", 6, 2, 2, {0, 1, 2, 10, 11, 12, 100, 128, 255, 253, 254, 255});
-  const SceneImage srgb = ReadTextureImage(folder.path() / "a.ppm", "a.ppm", {});
-  const SceneImage linear = ReadTextureImage(folder.path() / "a.ppm", "a.ppm",
-                                             {.encoding = TextureEncoding::kLinear, .part = {}});
+  TexelBudget budget(0);
+  const SceneImage srgb = ReadTextureImage(folder.path() / "a.ppm", "a.ppm", {}, &budget);
+  const SceneImage linear =
+      ReadTextureImage(folder.path() / "a.ppm", "a.ppm",
+                       {.encoding = TextureEncoding::kLinear, .part = {}}, &budget);
   REQUIRE(srgb.texels->channels == 3);
   REQUIRE(srgb.texels->levels.size() == 2);
   CHECK(srgb.texels->Value(0, 0, 0, 1) == static_cast<float>(SrgbEotf(128 / 255.0)));
