@@ -269,7 +269,7 @@ TEST_CASE("a viewer in the surface's plane sees narrow lobes where a mirror look
   std::vector<LobeQuery> queries;
   for (const float alpha : {1e-10f, 1e-15f, 1e-18f, 1e-19f, 1e-20f, 1e-24f, 1e-36f, 0.0f}) {
     for (int i = 0; i < 50; ++i) {
-      queries.push_back({Vec3f(kNormal), Vec3f(1, 0, 0), alpha, unit(random), unit(random)});
+      queries.push_back({Vec3f(0, 0, 1), Vec3f(1, 0, 0), alpha, unit(random), unit(random)});
     }
   }
   ForEachTarget([&](Target) {
