@@ -36,7 +36,11 @@ ProgressForm EarlyProgressForm(const RenderOptions& options) {
 }
 
 // What the user must know of samples that are not as computed.
-void WarnAboutSamples(const OutputCounts& counts) {
+void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
+  if (stats.directions_not_finite > 0) {
+    PrintError("warning: {} sampled directions to light are not numbers and brought none\n",
+               stats.directions_not_finite);
+  }
   if (counts.exr.clamped > 0) {
     PrintError("warning: {} samples beyond +-65504 were clamped; --depth float keeps them\n",
                counts.exr.clamped);
@@ -145,7 +149,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
         "--max-error\n",
         stats.unsettled_pixels, plan.window.pixel_count(), settings.max_samples);
   }
-  WarnAboutSamples(counts);
+  WarnAboutSamples(counts, stats);
   if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);
   if (options.explain) PrintOut(ExplainPlan(plan, &stats));
   if (!options.stats.empty()) WriteText(options.stats, StatsJson(plan, stats, times, counts));

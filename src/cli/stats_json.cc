@@ -71,7 +71,8 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
        {{"clamped", counts.exr.clamped},
         {"infinite", counts.exr.infinite},
         {"nan", counts.exr.nan},
-        {"png_nan_pixels", counts.nan_pixels}}},
+        {"png_nan_pixels", counts.nan_pixels},
+        {"directions_not_finite", stats.directions_not_finite}}},
   };
   return JsonText(json, 2) + "\n";
 }

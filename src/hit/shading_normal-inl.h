@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit/shading_normal-inl.h: viewers and shading normals kept where reflection models can use them,
-// on SIMD vectors. Scalar twin: hit/shading_normal.h.
+// hit/shading_normal-inl.h: clamps view directions and bends normal-mapped normals, on SIMD
+// vectors. Scalar twin: hit/shading_normal.h.
 #if defined(NACRE_HIT_SHADING_NORMAL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_HIT_SHADING_NORMAL_INL_H_
 #undef NACRE_HIT_SHADING_NORMAL_INL_H_

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit/shading_normal.h: viewers and shading normals kept where a reflection model can use them.
-// SIMD twin: shading_normal-inl.h.
+// hit/shading_normal.h: clamps view directions and bends normal-mapped normals so that n.v >= 0 and
+// mirror directions stay above the surface. SIMD twin: shading_normal-inl.h.
 //
 // Interpolated and mapped normals can lean so far from a viewer who grazes the surface that the
 // viewer is behind them, or mirrors into the surface. No reflection model is defined behind its
@@ -13,7 +13,9 @@
 
 namespace nacre {
 
-// The least n.v that unit vectors rounded to float keep above 0.
+// The least n.v that unit vectors rounded to float keep above 0. The limit, n.v = 0, would not do:
+// it may be rounded to below 0, and the mirror direction, whose n.l is n.v, lies behind the normal
+// then, where mirrors and narrow lobes are black.
 inline constexpr double kLeastViewCosine = 0x1p-22;
 
 // An interpolated normal is that of the smooth surface that a mesh stands for, of which a viewer
@@ -39,20 +41,18 @@ Imath::Vec3<Real> GrazingView(const Imath::Vec3<Real>& normal, const Imath::Vec3
 // on the viewer's side, and the shading normal lies on that side, too. Of the result n.v >= 0, but
 // for rounding, whatever they are. It is continuous in all of them, but for a viewer who mirrors
 // straight down into the surface.
-template <typename Real>
-Imath::Vec3<Real> BendNormal(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& surface,
-                             const Imath::Vec3<Real>& to_view) {
-  using Vec = Imath::Vec3<Real>;
-  const Real n_dot_v = normal ^ to_view;
-  const Vec mirrored = normal * (2 * n_dot_v) - to_view;
-  const Real height = mirrored ^ surface;
+inline Vec3d BendNormal(const Vec3d& normal, const Vec3d& surface, const Vec3d& to_view) {
+  const double n_dot_v = normal ^ to_view;
+  const Vec3d mirrored = normal * (2 * n_dot_v) - to_view;
+  const double height = mirrored ^ surface;
   if (height >= 0 && n_dot_v >= 0) return normal;
-  Vec along = mirrored - surface * height;
+  Vec3d along = mirrored - surface * height;
   // Straight down, nothing but rounding is left of it, and every direction along the surface is as
-  // near: the one that the normal leans to.
-  if ((along ^ along) < Real(0x1p-60)) along = normal - surface * (normal ^ surface);
-  const Vec half = to_view + along * (1 / std::sqrt(along ^ along));
-  const Vec bent = half * (1 / std::sqrt(half ^ half));
+  // near: the one that the normal leans to. 2^-60: the square of 2^-30, where the direction of what
+  // is left still has 22 of its 52 digits.
+  if ((along ^ along) < 0x1p-60) along = normal - surface * (normal ^ surface);
+  const Vec3d half = to_view + along * (1 / std::sqrt(along ^ along));
+  const Vec3d bent = half * (1 / std::sqrt(half ^ half));
   // A viewer in the surface's own plane, to the last digit, may leave no half vector.
   return (bent ^ to_view) >= 0 ? bent : surface;
 }

@@ -75,12 +75,33 @@ void NoteGain(const Scene& scene, RenderPlan* plan) {
                   names, most));
 }
 
+bool IsBlackSky(const EnvironmentLight& light) {
+  return std::visit(
+      Overloaded{[](const ConstantSky& sky) { return IsBlack(sky.radiance); },
+                 [](const GradientSky& sky) {
+                   return IsBlack(sky.zenith) && IsBlack(sky.horizon) && IsBlack(sky.ground);
+                 },
+                 [](const QuadraticSky& sky) {
+                   return IsBlack(sky.radiance) ||
+                          (sky.constant == 0 && sky.linear == 0 && sky.quadratic == 0);
+                 },
+                 [](const PictureSky& sky) {
+                   // A channel that the scale takes away does not light anything.
+                   const std::vector<float>& rgb = sky.picture->rgb;
+                   for (size_t i = 0; i < rgb.size(); ++i) {
+                     if (rgb[i] * sky.scale[static_cast<int>(i % 3)] > 0) return false;
+                   }
+                   return true;
+                 }},
+      light.sky);
+}
+
 bool Shines(const Light& light) {
   return std::visit(Overloaded{[](const AmbientLight& l) { return !IsBlack(l.radiance); },
                                [](const DirectionalLight& l) { return !IsBlack(l.irradiance); },
                                [](const PointLight& l) { return !IsBlack(l.intensity); },
                                [](const SpotLight& l) { return !IsBlack(l.intensity); },
-                               [](const EnvironmentLight&) { return true; },
+                               [](const EnvironmentLight& l) { return !IsBlackSky(l); },
                                [](const auto& l) { return !IsBlack(l.radiance); }},
                     light.kind);
 }

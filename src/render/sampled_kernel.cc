@@ -21,21 +21,26 @@ HWY_INLINE Vec3V<V> LoadAt(const Soa3<float>& soa, size_t i) {
   return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
 }
 
-void ShineAlongT(const LightDirections& directions, const Surface& surface, size_t count,
-                 LightBatch* light) {
+size_t ShineAlongT(const LightDirections& directions, const Surface& surface, size_t count,
+                   LightBatch* light) {
   const D d;
   const V zero = hn::Zero(d);
+  size_t not_finite = 0;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> l = LoadAt(directions.to_light, i);
     const V n_dot_l = Dot(LoadAt(surface.normal, i), l);
-    // Of a direction that is not finite n.l is neither: it brings no light, and no ray follows it.
-    const auto faces = hn::And(hn::Gt(n_dot_l, zero), hn::IsFinite(n_dot_l));
+    const auto finite = hn::IsFinite(n_dot_l);  // it is not where the direction is not
+    if (!hn::AllTrue(d, finite)) {
+      not_finite += hn::CountTrue(d, hn::AndNot(finite, hn::FirstN(d, count - i)));
+    }
+    const auto faces = hn::And(hn::Gt(n_dot_l, zero), finite);
     const auto shines = hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), faces);
     hn::StoreU(l.x, d, light->to_light.x.data() + i);
     hn::StoreU(l.y, d, light->to_light.y.data() + i);
     hn::StoreU(l.z, d, light->to_light.z.data() + i);
     hn::StoreU(hn::IfThenElseZero(shines, hn::Set(d, 1.0f)), d, light->irradiance.data() + i);
   }
+  return not_finite;
 }
 
 void FindDiffuseDensityT(const DiffuseWays& ways, const LightDirections& directions,
@@ -67,7 +72,7 @@ void AimShadowRaysT(const LightDirections& directions, const float* irradiance, 
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto lit = hn::Gt(hn::LoadU(d, irradiance + i), zero);
-    // Rays that nobody asks about go anywhere: their directions need not be finite.
+    // Inactive rays get a dummy direction; theirs may not be finite.
     const auto aim = [&](const AlignedArray<float>& from, auto unasked, AlignedArray<double>* to)
                          HWY_ATTR {
                            const auto toward = hn::LoadU(d, from.data() + i);
@@ -127,9 +132,9 @@ HWY_EXPORT(AimShadowRaysT);
 HWY_EXPORT(FindWeightsT);
 HWY_EXPORT(AddWeightedT);
 
-void ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
-                LightBatch* light) {
-  HWY_DYNAMIC_DISPATCH(ShineAlongT)(directions, surface, count, light);
+size_t ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
+                  LightBatch* light) {
+  return HWY_DYNAMIC_DISPATCH(ShineAlongT)(directions, surface, count, light);
 }
 
 void FindDiffuseDensity(const DiffuseWays& ways, const LightDirections& directions,

@@ -10,9 +10,10 @@
 
 namespace nacre {
 
-// Lets a unit light shine on the hits that face it along the directions and do not miss it.
-void ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
-                LightBatch* light);
+// Lets a unit light shine on the hits that face it along the directions and do not miss it. Returns
+// how many directions are not finite: they bring no light, and no ray follows them.
+size_t ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
+                  LightBatch* light);
 
 // The density of the directions in the ways that the diffuse part is sampled by: SampleLight's,
 // SampleCosine's or the sum. 0 where `flat` (may be null) is not.

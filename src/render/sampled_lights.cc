@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "render/mapped_horizon.h"
 #include "render/sampled_kernel.h"
 #include "render/sampled_shadows.h"
 #include "render/tile_layers.h"
@@ -29,21 +30,25 @@ struct Lit {
   }
 };
 
-// Which of the reflected parts directions are chosen for.
-struct Parts {
+// Which components of the reflected light directions are sampled for.
+struct Components {
   bool diffuse, specular;
 };
 
-// The ways of choosing directions that are combined: what each part's density is the sum of.
-struct Ways {
+// The strategies that are combined by multiple importance sampling (the balance heuristic): the pdf
+// of a component's directions is the sum of theirs.
+struct SamplingStrategies {
   bool light;   // SampleLight
   bool cosine;  // SampleCosine, for the diffuse part; SampleLobe always is, for the specular part
 };
 
-// Lets a unit light shine on the hits that face it along the directions and do not miss it.
-void FaceLight(const Lit& lit) {
-  ShineAlong(lit.c.directions, lit.s.surface, lit.count(), &lit.s.light);
-  HideTurned(lit.plan, &lit.s);
+// Lets a unit light shine on the hits that face it along the directions and do not miss it. What
+// lobes and mirrors look along is above the horizon already, but for rounding, which must not hide
+// a lobe that is narrower.
+void FaceLight(const Lit& lit, bool may_be_below_horizon) {
+  lit.stats->directions_not_finite +=
+      ShineAlong(lit.c.directions, lit.s.surface, lit.count(), &lit.s.light);
+  if (may_be_below_horizon) HideBelowHorizon(lit.plan, &lit.s);
 }
 
 void Shadow(const Lit& lit) {
@@ -66,6 +71,7 @@ void ShadeUnit(const Lit& lit) {
     const LitHits hits{
         lit.s.hits, lit.s.surface, {&light, 1}, lit.s.textures.get(), Leaves::kParts};
     ShadeRun(lit.MaterialOf(run), hits, run.begin, run.end, &lit.s.narrow, &lit.c.unit);
+    AddMirroredLobe(lit.plan, run, kUnit, Leaves::kParts, &lit.s, &lit.c.unit);
   }
 }
 
@@ -81,20 +87,21 @@ void WeighByDensity(const Lit& lit) {
               lit.c.weight.data());
 }
 
-void WeighDiffuse(const Lit& lit, const Ways& ways) {
+void WeighDiffuse(const Lit& lit, const SamplingStrategies& strategies) {
   const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
-  FindDiffuseDensity({ways.light, ways.cosine}, lit.c.directions, lit.s.surface, flat, lit.count(),
-                     lit.c.density.data());
+  FindDiffuseDensity({strategies.light, strategies.cosine}, lit.c.directions, lit.s.surface, flat,
+                     lit.count(), lit.c.density.data());
   WeighByDensity(lit);
 }
 
-void WeighSpecular(const Lit& lit, const Ways& ways) {
+void WeighSpecular(const Lit& lit, const SamplingStrategies& strategies) {
   const LightDirections& directions = lit.c.directions;
   for (const MaterialRun& run : lit.s.runs) {
     LobeDensity(lit.MaterialOf(run), lit.RangeOf(run), lit.s.light, &lit.s.narrow,
                 lit.c.density.data());
+    AddMirroredLobePdf(lit.plan, run, &lit.s, lit.c.density.data());
   }
-  if (ways.light) {
+  if (strategies.light) {
     for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
   }
   // A batch is sampled if any of its hits has a lobe. Those without must not get a share then, or
@@ -106,17 +113,18 @@ void WeighSpecular(const Lit& lit, const Ways& ways) {
   WeighByDensity(lit);
 }
 
-// Adds what is reflected along the directions, which were chosen in one of the ways.
-void AddDirections(const Lit& lit, const Ways& ways, const Parts& parts) {
-  FaceLight(lit);
+// Adds what is reflected along the directions, which were chosen in one of the strategies and which
+// FaceLight has seen.
+void AddDirections(const Lit& lit, const SamplingStrategies& strategies,
+                   const Components& components) {
   Shadow(lit);
   ShadeUnit(lit);
-  if (parts.diffuse) {
-    WeighDiffuse(lit, ways);
+  if (components.diffuse) {
+    WeighDiffuse(lit, strategies);
     AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
   }
-  if (parts.specular) {
-    WeighSpecular(lit, ways);
+  if (components.specular) {
+    WeighSpecular(lit, strategies);
     AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
   }
   lit.stats->shades += lit.count();
@@ -163,10 +171,11 @@ void ChoosePoints(const Lit& lit, size_t pair) {
              lit.count(), &lit.c.points);
 }
 
-void AddByLight(const Lit& lit, const Parts& parts) {
+void AddByLight(const Lit& lit, const Components& components) {
   ChoosePoints(lit, 0);
   SampleLight(lit.planned.light, lit.s.hits, lit.c.points, &lit.c.directions);
-  AddDirections(lit, {true, IsSky(lit.planned.light)}, parts);
+  FaceLight(lit, true);
+  AddDirections(lit, {true, IsSky(lit.planned.light)}, components);
 }
 
 void AddByCosine(const Lit& lit) {
@@ -174,6 +183,7 @@ void AddByCosine(const Lit& lit) {
   SampleCosine(lit.s.surface, lit.count(), lit.c.points.u.data(), lit.c.points.v.data(),
                &lit.c.directions.to_light);
   FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
+  FaceLight(lit, true);
   AddDirections(lit, {HasSampler(lit.planned.light), true}, {true, false});
 }
 
@@ -188,8 +198,10 @@ void AddByLobe(const Lit& lit) {
   for (const MaterialRun& run : lit.s.runs) {
     SampleLobe(lit.MaterialOf(run), lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
                &to_light);
+    RaiseLobeSamples(lit.plan, run, &lit.s, &to_light);
   }
   FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
+  FaceLight(lit, false);
   AddDirections(lit, {HasSampler(lit.planned.light), false}, {false, true});
 }
 
@@ -199,7 +211,7 @@ void AddByMirror(const Lit& lit) {
   MirrorDirections({s.hits, s.surface, 0, lit.count()}, &lit.c.directions.to_light);
   FindLight(lit.planned.light, s.hits, &lit.c.directions);
   ClearRadiance(lit.count(), &lit.c.unit);
-  FaceLight(lit);
+  FaceLight(lit, false);
   for (const MaterialRun& run : s.runs) {
     const ShadingMaterial& material = lit.MaterialOf(run);
     const LobeRange range = lit.RangeOf(run);

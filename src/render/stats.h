@@ -34,6 +34,8 @@ struct RenderStats {
   uint64_t light_batches = 0;     // lights times batches of hits
   uint64_t culled_lights = 0;     // of these, those that could not reach any hit
   uint64_t unsettled_pixels = 0;  // of adaptive sampling: their error is not known to be small
+  // Sampled directions to light that are no numbers: they bring nothing, and none is expected.
+  uint64_t directions_not_finite = 0;
   uint64_t shades = 0;            // hits times lights that were evaluated
   // Thread seconds; but for output 0 unless RenderSettings::time_stages.
   std::array<double, kStageCount> stage_seconds{};
@@ -52,6 +54,7 @@ struct RenderStats {
     light_batches += part.light_batches;
     culled_lights += part.culled_lights;
     shades += part.shades;
+    directions_not_finite += part.directions_not_finite;
     unsettled_pixels += part.unsettled_pixels;
     for (size_t i = 0; i < kStageCount; ++i) stage_seconds[i] += part.stage_seconds[i];
   }

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "render/mapped_horizon.h"
 #include "render/mesh_points.h"
 #include "render/shadow_rays_kernel.h"
 #include "render/sort_hits.h"
@@ -107,17 +108,6 @@ void TextureRuns(const RenderPlan& plan, TileScratch* s) {
   }
 }
 
-}  // namespace
-
-void HideTurned(const RenderPlan& plan, TileScratch* scratch) {
-  for (const MaterialRun& run : scratch->runs) {
-    if (!plan.materials[run.material.index].turned) continue;
-    HideBelowHorizon(scratch->surface, run.begin, run.end, &scratch->light);
-  }
-}
-
-namespace {
-
 // Whether shadow rays to the light need be cast from the batch.
 bool CastsShadowRays(const RenderPlan& plan, const PlannedLight& planned, const HitBatch& hits) {
   if (!hits.one_primitive) return planned.shadow_rays;
@@ -151,11 +141,13 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   }
 }
 
+// `lights` is one alone, evaluated, where maps have turned normals.
 void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, Leaves leaves,
                TileScratch* s, ReflectedRadiance* radiance) {
   for (const MaterialRun& run : s->runs) {
     const LitHits lit{s->hits, s->surface, lights, s->textures.get(), leaves};
     ShadeRun(plan.materials[run.material.index], lit, run.begin, run.end, &s->narrow, radiance);
+    if (s->surface.turned) AddMirroredLobe(plan, run, *lights[0].light, leaves, s, radiance);
   }
 }
 
@@ -164,14 +156,16 @@ void ShadeRuns(const RenderPlan& plan, std::span<const LightOnBatch> lights, Lea
 void ShadeByOne(const RenderPlan& plan, const PlannedLight& planned, bool shadow_rays,
                 Leaves leaves, TileScratch* s, StageClock* clock, RenderStats* stats) {
   EvaluateLight(planned.light, s->hits, s->surface, &s->light);
-  if (s->surface.turned) HideTurned(plan, s);
+  if (s->surface.turned) HideBelowHorizon(plan, s);
   clock->Charge(Stage::kLight);
   if (shadow_rays) {
     CastShadows(plan, planned, s, stats);
     clock->Charge(Stage::kShadow);
   }
   const LightOnBatch light{&planned.light, &s->light};
-  if (planned.layer < 0 || plan.one_light) {
+  // One light's parts are added up before they are added to others', in a layer or not.
+  const bool apart = planned.layer >= 0 || s->surface.turned;
+  if (!apart || plan.one_light) {
     ShadeRuns(plan, {&light, 1}, leaves, s, &s->total);
     if (planned.layer >= 0) ShowLight(s->total, planned.layer, s);
   } else {
@@ -217,7 +211,8 @@ void ShadeByLights(const RenderPlan& plan, TileScratch* s, StageClock* clock, Re
       s->together.push_back({&planned.light, nullptr});
     } else {
       shade_together();
-      if (planned.layer >= 0 && !plan.one_light) clear_if_dark();
+      const bool apart = planned.layer >= 0 || s->surface.turned;
+      if (apart && !plan.one_light) clear_if_dark();
       ShadeByOne(plan, planned, shadow_rays, leaves(), s, clock, stats);
       dark = false;
     }

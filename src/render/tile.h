@@ -6,6 +6,7 @@
 
 #include "render/film.h"
 #include "render/film_kernel.h"
+#include "render/mapped_horizon.h"
 #include "render/plan.h"
 #include "render/sampled_lights.h"
 #include "render/stage_clock.h"
@@ -49,6 +50,7 @@ struct TileScratch {
   std::unique_ptr<HitTextures> textures;  // made for the first hit on a material with maps
   LightBatch light;
   NarrowLobes narrow;
+  std::unique_ptr<MirroredLobe> mirrored;   // made for the first lobe about a turned normal
   std::vector<LightOnBatch> together;       // lights shaded by in one go
   std::unique_ptr<SampledScratch> sampled;  // where the plan has sampled lights
   Soa3<double> shadow_origin;               // of the hits, where the plan lifts some
@@ -66,9 +68,6 @@ struct TileScratch {
 // Sets scratch->in_sight for a tile or cell, and readies the scratch for it. False if there is
 // nothing to be seen but a background of one colour.
 bool EnterTile(const RenderPlan& plan, const Window& tile, TileScratch* scratch);
-
-// Takes scratch->light from the hits whose surface faces away, though their turned normals do not.
-void HideTurned(const RenderPlan& plan, TileScratch* scratch);
 
 // Adds up what the batch's hits, sorted into runs, reflect of every light; none is interpolated.
 void ShadeHits(const RenderPlan& plan, TileScratch* scratch, StageClock* clock, RenderStats* stats);

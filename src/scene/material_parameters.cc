@@ -145,8 +145,11 @@ constexpr std::array kPhongParameters = {
     Color<&PhongMaterial::ka>("ka", limits::kUnit, "Ambient coefficient."),
     Color<&PhongMaterial::kd>("kd", limits::kUnit, "Diffuse coefficient."),
     Color<&PhongMaterial::ks>("ks", limits::kUnit, "Specular coefficient."),
-    Number<&PhongMaterial::shininess>("shininess", limits::kExponent,
-                                      "Exponent of the highlight's cosine."),
+    Number<&PhongMaterial::shininess>(
+        "shininess", limits::kExponent,
+        "Exponent of the highlight's cosine. At 0 the lobe is 1 in all "
+        "directions, those behind its axis too, as 0^0 is 1; any "
+        "exponent above 0 leaves nothing there."),
     kEmission,
     kOpacity,
     kOpacityCutoff,

@@ -11,6 +11,7 @@
 
 #include "base/parallel.h"
 #include "scene/mesh.h"
+#include "scene/pair_edges.h"
 
 namespace nacre {
 namespace {
@@ -25,14 +26,14 @@ void ForEachInParallel(size_t count, int threads, const std::function<void(size_
   });
 }
 
-// Where u' and v' grow, for directions of growing u and v of equal meaning: the columns of the
-// inverse of `rows`, up to a positive factor. `hand` is -1 where `rows` mirrors, 0 if it is flat.
-struct UvTurn {
+// dP/du' and dP/dv' as combinations of dP/du and dP/dv: the columns of the inverse of `rows`, up to
+// a positive factor. `hand` is -1 where `rows` mirrors, 0 if it is singular.
+struct UvRotation {
   double hand;
   Vec2d along_u, along_v;  // parts along u and v
 };
 
-UvTurn UvTurnOf(const UvRows& rows) {
+UvRotation UvRotationOf(const UvRows& rows) {
   const auto& [a, b] = rows;
   const double determinant = a.x * b.y - a.y * b.x;
   const double hand = determinant > 0 ? 1 : determinant < 0 ? -1 : 0;
@@ -44,7 +45,7 @@ class TangentMaker {
   TangentMaker(const Mesh& mesh, const std::vector<Vec2d>& uvs, const UvRows& rows, int threads)
       : mesh_(mesh),
         uvs_(uvs),
-        turn_(UvTurnOf(rows)),
+        rotation_(UvRotationOf(rows)),
         threads_(threads),
         smooth_(HasSmoothNormals(mesh)),
         triangle_count_(mesh.triangles.size() / 3) {}
@@ -59,7 +60,7 @@ class TangentMaker {
   }
 
  private:
-  // What the triangle says of its texture.
+  // Texture-space data of a triangle.
   struct Face {
     Vec3d along_u{0, 0, 0};     // unit, or 0
     bool is_degenerate = true;  // two positions are the same: nothing hits it
@@ -131,10 +132,10 @@ class TangentMaker {
       const double side = area > 0 ? 1 : -1;
       const Vec3d by_u = ((b - a) * c_uv.y - (c - a) * b_uv.y) * side;
       const Vec3d by_v = ((c - a) * b_uv.x - (b - a) * c_uv.x) * side;
-      const Vec3d along_u = by_u * turn_.along_u.x + by_v * turn_.along_u.y;
-      const Vec3d along_v = by_u * turn_.along_v.x + by_v * turn_.along_v.y;
-      face.is_upright = area * turn_.hand > 0;
-      face.has_no_area = area * turn_.hand == 0 || along_u == Vec3d(0) || along_v == Vec3d(0);
+      const Vec3d along_u = by_u * rotation_.along_u.x + by_v * rotation_.along_u.y;
+      const Vec3d along_v = by_u * rotation_.along_v.x + by_v * rotation_.along_v.y;
+      face.is_upright = area * rotation_.hand > 0;
+      face.has_no_area = area * rotation_.hand == 0 || along_u == Vec3d(0) || along_v == Vec3d(0);
       if (!face.has_no_area) face.along_u = along_u.normalized();
     });
   }
@@ -166,24 +167,23 @@ class TangentMaker {
       edges[next[low]++] = {high, corner};
     });
     neighbours_.assign(vertices_.size(), kNone);
-    const auto pair = [&](const Edge* edge, const Edge* end) {
-      const bool rises = ends_of(edge->corner).first < edge->high;
-      for (const Edge* other = edge + 1; other < end && other->high == edge->high; ++other) {
-        if (neighbours_[other->corner] != kNone) continue;
-        if ((ends_of(other->corner).first < edge->high) == rises) continue;
-        neighbours_[edge->corner] = other->corner / 3;
-        neighbours_[other->corner] = edge->corner / 3;
-        return;
-      }
-    };
     for (size_t vertex = 0; vertex < vertex_count_; ++vertex) {
       Edge* const first = edges.data() + begin[vertex];
       Edge* const last = edges.data() + begin[vertex + 1];
       std::sort(first, last, [](const Edge& a, const Edge& b) {
         return std::make_pair(a.high, a.corner) < std::make_pair(b.high, b.corner);
       });
-      for (const Edge* edge = first; edge < last; ++edge) {
-        if (neighbours_[edge->corner] == kNone) pair(edge, last);
+      for (const Edge* edge = first; edge < last;) {
+        const Edge* end = edge;
+        while (end < last && end->high == edge->high) ++end;
+        PairEdges(
+            static_cast<size_t>(end - edge),
+            [&](size_t i) { return ends_of(edge[i].corner).first < edge->high; },
+            [&](size_t up, size_t down) {
+              neighbours_[edge[up].corner] = edge[down].corner / 3;
+              neighbours_[edge[down].corner] = edge[up].corner / 3;
+            });
+        edge = end;
       }
     }
   }
@@ -268,7 +268,7 @@ class TangentMaker {
 
   const Mesh& mesh_;
   const std::vector<Vec2d>& uvs_;
-  const UvTurn turn_;
+  const UvRotation rotation_;
   const int threads_;
   const bool smooth_;
   const size_t triangle_count_;
@@ -283,22 +283,30 @@ class TangentMaker {
 
 }  // namespace
 
+UvRows RowsOfSameTangents(const UvRows& rows) {
+  const double hand = UvRotationOf(rows).hand;
+  const double length = rows.v_row.length();
+  if (hand == 0 || length == 0) return {Vec2d(0, 0), Vec2d(0, 0)};
+  const Vec2d v_row = rows.v_row / length;
+  return {Vec2d(v_row.y, -v_row.x) * hand, v_row};
+}
+
 CornerTangents MakeTangents(const Mesh& mesh, const std::vector<Vec2d>& uvs, const UvRows& rows,
                             int threads) {
   return TangentMaker(mesh, uvs, rows, threads).Make();
 }
 
-CornerTangents TurnTangents(const Mesh& mesh, const UvRows& rows) {
-  CornerTangents turned{mesh.triangles, mesh.tangents};
-  const UvTurn turn = UvTurnOf(rows);
-  if (turn.hand > 0 && turn.along_u.y == 0) return turned;
-  for (size_t i = 0; i < turned.tangents.size(); ++i) {
-    auto& [direction, sign] = turned.tangents[i];
+CornerTangents RotateTangents(const Mesh& mesh, const UvRows& rows) {
+  CornerTangents rotated{mesh.triangles, mesh.tangents};
+  const UvRotation rotation = UvRotationOf(rows);
+  if (rotation.hand > 0 && rotation.along_u.y == 0) return rotated;
+  for (size_t i = 0; i < rotated.tangents.size(); ++i) {
+    auto& [direction, sign] = rotated.tangents[i];
     const Vec3d bitangent = mesh.normals[i].cross(direction) * sign;
-    direction = (direction * turn.along_u.x + bitangent * turn.along_u.y).normalized();
-    if (turn.hand < 0) sign = -sign;
+    direction = (direction * rotation.along_u.x + bitangent * rotation.along_u.y).normalized();
+    if (rotation.hand < 0) sign = -sign;
   }
-  return turned;
+  return rotated;
 }
 
 }  // namespace nacre

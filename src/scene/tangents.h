@@ -25,6 +25,10 @@ struct UvRows {
   bool operator==(const UvRows&) const = default;
 };
 
+// The rows of a rotation, or one and a reflection, that makes the same tangents: they depend on the
+// direction in which u' grows, across that of v_row, and on which side v' grows, not on how fast.
+UvRows RowsOfSameTangents(const UvRows& rows);
+
 // MikkTSpace's tangents of the mesh, in world space, for the coordinates `uvs` (one per position)
 // transformed by `rows`:
 //   - Corners whose position, normal and coordinates are equal are one vertex. The normals are
@@ -43,7 +47,7 @@ CornerTangents MakeTangents(const Mesh& mesh, const std::vector<Vec2d>& uvs, con
                             int threads);
 
 // Mesh::tangents, which belong to the untransformed coordinates, for those that `rows` makes:
-// turned and mirrored with them, as if u and v grew equally fast on the surface.
-CornerTangents TurnTangents(const Mesh& mesh, const UvRows& rows);
+// rotated and mirrored with them, as if u and v grew equally fast on the surface.
+CornerTangents RotateTangents(const Mesh& mesh, const UvRows& rows);
 
 }  // namespace nacre

@@ -66,6 +66,9 @@ std::string MaterialPlace(const Scene& scene, size_t index) {
   return "/materials/" + (name.empty() ? std::to_string(index) : PointerToken(name));
 }
 
+// Each may have tangents of its own on every mesh of the split, as large as the mesh itself.
+constexpr size_t kMostSplitMaterials = 64;
+
 void ValidateSplit(const Scene& scene, const Material& material, const std::string& where,
                    FaultList* faults) {
   const auto& split = std::get<SplitMaterial>(material.model);
@@ -74,6 +77,11 @@ void ValidateSplit(const Scene& scene, const Material& material, const std::stri
                 fmt::format("{} materials for {} places to split at", split.materials.size(),
                             split.at.size()),
                 "one more than \"at\" has numbers");
+  }
+  if (split.materials.size() > kMostSplitMaterials) {
+    faults->Add(where + "/materials", fmt::format("{} materials", split.materials.size()),
+                fmt::format("a split has {} at most", kMostSplitMaterials));
+    return;
   }
   for (size_t i = 0; i < split.at.size(); ++i) {
     const std::string place = fmt::format("{}/at/{}", where, i);

@@ -43,6 +43,33 @@ void ValidateNormals(const Mesh& mesh, const std::string& where, FaultList* faul
   }
 }
 
+// Only the first bad colour is told, and the first bad opacity.
+void ValidateColors(const Mesh& mesh, const std::string& where, FaultList* faults) {
+  const Range& unit = limits::kUnit;
+  for (size_t i = 0; i < mesh.colors.size(); ++i) {
+    const Vec3f& color = mesh.colors[i];
+    if (unit.Contains(color.x) && unit.Contains(color.y) && unit.Contains(color.z)) continue;
+    CheckColor(Rgb(color), unit, fmt::format("{}/colors/{}", where, i), faults);
+    break;
+  }
+  for (size_t i = 0; i < mesh.opacities.size(); ++i) {
+    if (unit.Contains(mesh.opacities[i])) continue;
+    CheckNumber(mesh.opacities[i], unit, fmt::format("{}/opacities/{}", where, i), faults);
+    return;
+  }
+}
+
+// Only the first bad one is told.
+void ValidateRange(const std::vector<Vec2d>& uvs, const std::string& where, FaultList* faults) {
+  for (size_t i = 0; i < uvs.size(); ++i) {
+    const auto& [u, v] = uvs[i];
+    if (limits::kCoordinate.Contains(u) && limits::kCoordinate.Contains(v)) continue;
+    faults->Add(fmt::format("{}/{}", where, i), fmt::format("[{}, {}] is out of range", u, v),
+                "each coordinate " + Describe(limits::kCoordinate));
+    return;
+  }
+}
+
 void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) {
   for (const size_t count : {mesh.second_uvs.size(), mesh.colors.size(), mesh.opacities.size()}) {
     if (count == 0 || count == mesh.positions.size()) continue;
@@ -51,19 +78,14 @@ void ValidateUvs(const Mesh& mesh, const std::string& where, FaultList* faults) 
                             mesh.positions.size()),
                 "one per position, or none");
   }
+  ValidateRange(mesh.second_uvs, where + "/second_uvs", faults);
   if (mesh.uvs.empty()) return;
   if (mesh.uvs.size() != mesh.positions.size()) {
     faults->Add(where + "/uvs",
                 fmt::format("{} uvs for {} positions", mesh.uvs.size(), mesh.positions.size()),
                 "one per position, or none");
   }
-  for (size_t i = 0; i < mesh.uvs.size(); ++i) {
-    const auto& [u, v] = mesh.uvs[i];
-    if (limits::kCoordinate.Contains(u) && limits::kCoordinate.Contains(v)) continue;
-    faults->Add(fmt::format("{}/uvs/{}", where, i), fmt::format("[{}, {}] is out of range", u, v),
-                "each coordinate " + Describe(limits::kCoordinate));
-    return;
-  }
+  ValidateRange(mesh.uvs, where + "/uvs", faults);
 }
 
 void ValidateTangents(const Mesh& mesh, const std::string& where, FaultList* faults) {
@@ -141,6 +163,7 @@ void ValidateMesh(const Mesh& mesh, size_t material_count, const std::string& wh
   ValidatePositions(mesh, where, faults);
   ValidateNormals(mesh, where, faults);
   ValidateUvs(mesh, where, faults);
+  ValidateColors(mesh, where, faults);
   ValidateTangents(mesh, where, faults);
   if (mesh.interpolation == Interpolation::kGouraud && mesh.normals.empty()) {
     faults->Add(where + "/interpolation", "Gouraud's needs a normal at each vertex",

@@ -70,7 +70,7 @@ ShadingLight PrepareLight(const Light& light, const Vec3d& camera_position) {
 bool OffsetFromSpheres(std::span<const Sphere> spheres, const Vec3d& camera_position,
                        ShadingLight* light) {
   light->from_spheres.clear();
-  // A spot's edge is sharper than what normals of floats tell.
+  // Spots need exact positions: float normals are too coarse for the penumbra.
   if (light->form != LightForm::kInverseSquare && light->form != LightForm::kPoint) return false;
   for (const Sphere& sphere : spheres) {
     const Vec3d offset = light->position - (sphere.center - camera_position);

@@ -180,7 +180,7 @@ HWY_INLINE LightV PositionalAt(FloatTag d, const ShadingLight& light, const Vec3
 }
 
 // A spot's factor at hits i... Their angles are formed in double, from double positions: the factor
-// falls to 0 at the cutoff, where floats would leave nothing right of it, and cones may be narrow.
+// falls to 0 at the cutoff, where it cancels in float, and cones may be narrow.
 HWY_INLINE FloatV SpotFactorAt(FloatTag d, const ShadingLight& light, const HitBatch& hits,
                                size_t i) {
   const hn::ScalableTag<double> dd;

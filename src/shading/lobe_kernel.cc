@@ -66,8 +66,8 @@ HWY_INLINE Width WidthOf(double uniform, const float* by_hit) {
   return {static_cast<float>(uniform), by_hit};
 }
 
-// How hits share their samples out to the lobe of single scattering and to Kulla and Conty's, by
-// about what each reflects; and the spread of the latter.
+// Probability of sampling the multiple-scattering lobe (Kulla and Conty's) in the place of the
+// single-scattering one, proportional to the estimated albedo of each lobe; and its spread.
 class KullaContyShares {
  public:
   KullaContyShares(const MicrofacetModel& model, const Surface& surface, const HitTextures* maps,
@@ -163,7 +163,7 @@ void SampleGgxT(const MicrofacetModel& model, const float* by_hit, bool own_fits
     const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
     const V share = shares.Share(i), rest = hn::Sub(one, share);
     const auto multiple = hn::Lt(u0, share);
-    // What is left of the number is as evenly distributed.
+    // Rescales u0 to [0, 1) for the chosen lobe.
     const V divisor = hn::IfThenElse(multiple, share, rest);
     const V offset = hn::IfThenElse(multiple, zero, share);
     const V again =
@@ -322,9 +322,9 @@ const NarrowLobes* Narrow(const PhongFamilyModel& phong, bool mapped, const Lobe
   return scratch;
 }
 
-// Sets what maps give the hit, of all that a mirror's reflectance depends on beside the angle of
-// incidence: the same to the bit as the model's own numbers where maps are constant.
-void TakeMapped(const HitTextures& t, size_t i, MicrofacetModel* model) {
+// Overwrites the model's Fresnel parameters by the hit's, which are the same to the bit where maps
+// are constant.
+void ApplyMappedFresnel(const HitTextures& t, size_t i, MicrofacetModel* model) {
   const auto at = [i](const Soa3<double>& soa) { return Rgb(soa.x[i], soa.y[i], soa.z[i]); };
   model->metallic = t.metallic[i];
   model->dielectric_f0 = at(t.exact_dielectric_f0);
@@ -432,7 +432,7 @@ void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
   for (size_t i = range.begin; i < range.end; ++i) {
     const double n_dot_v =
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
-    if (mapped) TakeMapped(*range.textures, i, &at_hit);
+    if (mapped) ApplyMappedFresnel(*range.textures, i, &at_hit);
     const Rgb mirrored = MirrorAt(at_hit, std::clamp(n_dot_v, 0.0, 1.0));
     reflectance->x[i] = static_cast<float>(mirrored.x);
     reflectance->y[i] = static_cast<float>(mirrored.y);

@@ -10,8 +10,8 @@
 
 namespace nacre {
 
-// Whether SampleLobe is for the material: it has a specular lobe that is no perfect mirror's, or,
-// by maps, may have one.
+// Whether SampleLobe is for the material: it has a specular lobe that is no perfect mirror's, or a
+// mirror with Kulla and Conty's lobe, or, by maps, may have one.
 bool HasSampledLobe(const ShadingMaterial& material);
 
 // Whether its diffuse reflection of a light is a function of the viewer's direction times the

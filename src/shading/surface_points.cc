@@ -114,7 +114,8 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
 
 bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const HitBatch& hits,
                   HitTextures* textures) {
-  if (texture.tangents.empty()) return false;
+  if (run.scene.mesh_tangents.empty()) return false;
+  const auto number = static_cast<uint32_t>(&texture - run.scene.textures.data());
   HitTextures& t = *textures;
   const Scene& scene = *run.scene.scene;
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
@@ -123,9 +124,11 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
     t.normal_length[i] = 0;
     if (hits.primitive[i] < sphere_count) continue;
     const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
-    const uint32_t number = texture.tangents[corners.mesh_number];
-    if (number == kNoTangents) continue;
-    const CornerTangents& made = run.scene.tangents[number];
+    const std::vector<MapTangents>& of_mesh = run.scene.mesh_tangents[corners.mesh_number];
+    const auto own = std::find_if(of_mesh.begin(), of_mesh.end(),
+                                  [&](const MapTangents& t) { return t.texture == number; });
+    if (own == of_mesh.end()) continue;
+    const CornerTangents& made = run.scene.tangents[own->tangents];
     const auto [g1, g2] = GradientsOf(corners);
     const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
     const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);

@@ -20,8 +20,8 @@ bool SameCoordinates(const Texture& a, const Texture& b) {
   return key(a) == key(b);
 }
 
-// The tangents of each normal map on each mesh. Textures that transform coordinates alike share
-// them.
+// The tangents of each normal map on each mesh. Textures that rotate coordinates alike share them,
+// however they scale them.
 void PrepareTangents(int threads, TextureScene* prepared) {
   const Scene& scene = *prepared->scene;
   struct Made {
@@ -34,23 +34,24 @@ void PrepareTangents(int threads, TextureScene* prepared) {
     const TextureId map = scene.materials[id.index].normal_map.texture;
     if (!map.valid() || scene.textures[map.index].mapping != MappingKind::kUv) return;
     const Mesh& mesh = scene.meshes[number];
-    PreparedTexture& texture = prepared->textures[map.index];
-    texture.tangents.resize(scene.meshes.size(), kNoTangents);
+    const PreparedTexture& texture = prepared->textures[map.index];
+    prepared->mesh_tangents.resize(scene.meshes.size());
+    std::vector<MapTangents>& of_mesh = prepared->mesh_tangents[number];
     const bool second = texture.second_uvs && !mesh.second_uvs.empty();
-    const UvRows rows{texture.u_row, texture.v_row};
+    const UvRows rows = RowsOfSameTangents({texture.u_row, texture.v_row});
     const auto known = std::find_if(made.begin(), made.end(), [&](const Made& other) {
       return other.second_uvs == second && other.rows == rows;
     });
     if (known != made.end()) {
-      texture.tangents[number] = known->index;
+      of_mesh.push_back({map.index, known->index});
       return;
     }
     const auto index = static_cast<uint32_t>(prepared->tangents.size());
-    texture.tangents[number] = index;
+    of_mesh.push_back({map.index, index});
     made.push_back({second, rows, index});
     prepared->tangents.push_back(
         !mesh.tangents.empty() && HasSmoothNormals(mesh)
-            ? TurnTangents(mesh, rows)
+            ? RotateTangents(mesh, rows)
             : MakeTangents(mesh, second ? mesh.second_uvs : mesh.uvs, rows, threads));
   };
   for (size_t number = 0; number < scene.meshes.size(); ++number) {

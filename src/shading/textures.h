@@ -29,11 +29,13 @@ struct PreparedTexture {
   Vec2d u_row, v_row;
   Vec2d offset;
   size_t coordinates;  // textures with the same mapping have the same number
-  // Of a normal map on coordinates of meshes: for each mesh of the scene that it is on, the index
-  // of its tangents in TextureScene::tangents, else kNoTangents. Of other textures empty.
-  std::vector<uint32_t> tangents;
 };
-inline constexpr uint32_t kNoTangents = 0xffffffffu;
+
+// The tangents of a normal map on the coordinates of one mesh.
+struct MapTangents {
+  uint32_t texture;
+  uint32_t tangents;  // index into TextureScene::tangents
+};
 
 // What looking textures up takes, for all hits of a plan.
 struct TextureScene {
@@ -44,6 +46,7 @@ struct TextureScene {
   std::vector<PreparedTexture> textures;      // one per texture of the scene
   std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
   std::vector<CornerTangents> tangents;
+  std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
 };
 
 // `threads` as in ParallelFor.
@@ -121,5 +124,15 @@ void TextureHits(const TexturedRun& run, HitBatch* hits, Surface* surface, HitTe
 // Takes the light from hits [begin, end) where it is below the horizon of the surface, whose normal
 // is that before maps turned it, though the normal that a map turned faces the light.
 void HideBelowHorizon(const Surface& surface, size_t begin, size_t end, LightBatch* light);
+
+// Mirrors those of the hits' directions in that surface that are below it, so that none is, but
+// for rounding. Directions behind the normal that a map turned stay.
+void RaiseAboveHorizon(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light);
+
+// Light of the hits mirrored in that surface, along unit vectors. Its irradiance is that of `light`
+// where the normal that a map turned faces it; else it is 0, and the direction the normal itself.
+// Whether any light is left.
+bool MirrorAtHorizon(const Surface& surface, size_t begin, size_t end, const LightBatch& light,
+                     LightBatch* mirrored);
 
 }  // namespace nacre

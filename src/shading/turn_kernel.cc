@@ -140,6 +140,53 @@ void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitText
   }
 }
 
+using FF = hn::ScalableTag<float>;
+
+HWY_INLINE Vec3V<hn::Vec<FF>> Load(const Soa3<float>& soa, size_t i) {
+  return LoadU3(FF(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
+}
+
+HWY_INLINE void Store(const Vec3V<hn::Vec<FF>>& v, hn::Mask<FF> mask, size_t i, Soa3<float>* soa) {
+  hn::BlendedStore(v.x, mask, FF(), soa->x.data() + i);
+  hn::BlendedStore(v.y, mask, FF(), soa->y.data() + i);
+  hn::BlendedStore(v.z, mask, FF(), soa->z.data() + i);
+}
+
+void RaiseAboveHorizonT(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light) {
+  const FF d;
+  const auto zero = hn::Zero(d);
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const auto n = Load(surface.unturned, i), l = Load(*to_light, i);
+    const auto height = FusedDot(n, l);
+    const auto faces = hn::Gt(FusedDot(Load(surface.normal, i), l), zero);
+    const auto mask = hn::And(hn::And(faces, hn::Lt(height, zero)), hn::FirstN(d, end - i));
+    Store(Sub(l, Scale(n, hn::Add(height, height))), mask, i, to_light);
+  }
+}
+
+bool MirrorAtHorizonT(const Surface& surface, size_t begin, size_t end, const LightBatch& light,
+                      LightBatch* mirrored) {
+  const FF d;
+  const auto zero = hn::Zero(d);
+  bool any = false;
+  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
+    const auto n = Load(surface.unturned, i), l = Load(light.to_light, i);
+    const auto height = FusedDot(n, l);
+    const auto below = Sub(l, Scale(n, hn::Add(height, height)));
+    const auto unit = Scale(below, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(below, below))));
+    const auto normal = Load(surface.normal, i);
+    const auto irradiance = hn::LoadU(d, light.irradiance.data() + i);
+    const auto in_range = hn::FirstN(d, end - i);
+    const auto lit =
+        hn::And(hn::And(hn::Gt(FusedDot(normal, unit), zero), hn::Gt(irradiance, zero)), in_range);
+    any = any || !hn::AllFalse(d, lit);
+    Store(Select(lit, unit, normal), in_range, i, &mirrored->to_light);
+    hn::BlendedStore(hn::IfThenElseZero(lit, irradiance), in_range, d,
+                     mirrored->irradiance.data() + i);
+  }
+  return any;
+}
+
 void HideBelowHorizonT(const Surface& surface, size_t begin, size_t end, LightBatch* light) {
   const hn::ScalableTag<float> d;
   const Soa3<float>& n = surface.unturned;
@@ -164,6 +211,8 @@ namespace nacre {
 HWY_EXPORT(TurnNormalsT);
 HWY_EXPORT(TurnNormalsBySlopesT);
 HWY_EXPORT(HideBelowHorizonT);
+HWY_EXPORT(RaiseAboveHorizonT);
+HWY_EXPORT(MirrorAtHorizonT);
 
 void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
                  const HitTextures& textures, HitBatch* hits, Surface* surface) {
@@ -177,6 +226,15 @@ void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextu
 
 void HideBelowHorizon(const Surface& surface, size_t begin, size_t end, LightBatch* light) {
   HWY_DYNAMIC_DISPATCH(HideBelowHorizonT)(surface, begin, end, light);
+}
+
+void RaiseAboveHorizon(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light) {
+  HWY_DYNAMIC_DISPATCH(RaiseAboveHorizonT)(surface, begin, end, to_light);
+}
+
+bool MirrorAtHorizon(const Surface& surface, size_t begin, size_t end, const LightBatch& light,
+                     LightBatch* mirrored) {
+  return HWY_DYNAMIC_DISPATCH(MirrorAtHorizonT)(surface, begin, end, light, mirrored);
 }
 }  // namespace nacre
 #endif

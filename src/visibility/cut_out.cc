@@ -24,7 +24,7 @@ double MapOpacity(const CutOut& cut_out, const Vec2d& uv) {
 
 std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh,
                                  const Vec3d& camera_position) {
-  if (mesh.material.index >= scene.materials.size()) return std::nullopt;  // nobody shades it
+  if (mesh.material.index >= scene.materials.size()) return std::nullopt;  // traced, never shaded
   const Material& material = scene.materials[mesh.material.index];
   if (!CutsHoles(material) && mesh.opacities.empty()) return std::nullopt;
   CutOut made;
@@ -52,11 +52,12 @@ bool IsThere(const CutOut& cut_out, const std::vector<Vec3d>& positions,
              const std::array<uint32_t, 3>& corners, const std::array<double, 3>& weights) {
   double opacity = cut_out.opacity;
   if (!cut_out.opacities.empty()) {
-    double interpolated = 0;
-    for (size_t k = 0; k < 3; ++k) {
-      interpolated += weights[k] * double{cut_out.opacities[corners[k] - cut_out.first_vertex]};
-    }
-    opacity *= interpolated;
+    // As the first corner's and differences to it, because the weights' sum is rounded: between
+    // corners of one opacity this is that opacity to the bit, and so on one side of the cutoff.
+    const auto at = [&](size_t k) {
+      return double{cut_out.opacities[corners[k] - cut_out.first_vertex]};
+    };
+    opacity *= at(0) + (weights[1] * (at(1) - at(0)) + weights[2] * (at(2) - at(0)));
   }
   if (cut_out.image != nullptr) {
     Vec2d uv(0, 0);

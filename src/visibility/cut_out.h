@@ -31,8 +31,7 @@ struct CutOut {
   Vec3d center{0, 0, 0};   // of such mappings, relative to the camera
 };
 
-// Nothing for a mesh without holes, or whose holes' cutoff nothing is below. The triangles' numbers
-// are not filled in.
+// Null if no opacity can be below the cutoff. The triangles' numbers are not filled in.
 std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh,
                                  const Vec3d& camera_position);
 

@@ -261,6 +261,26 @@ void CheckTwins(Lobe lobe, double width, double lobe_width, double n_dot_v) {
   CHECK(pdf <= 64 * 0x1p-24 / lobe_width + 2e-4);
 }
 
+TEST_CASE("a viewer in the surface's plane sees narrow lobes where a mirror looks") {
+  // Of hits whose roughness comes from a map alpha may be any, that of mirrors too: its square may
+  // be below float's range. The half vector is off the normal by alpha / (1 - u1).
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> unit(0, 0.99f);
+  std::vector<LobeQuery> queries;
+  for (const float alpha : {1e-10f, 1e-15f, 1e-18f, 1e-19f, 1e-20f, 1e-24f, 1e-36f, 0.0f}) {
+    for (int i = 0; i < 50; ++i) {
+      queries.push_back({Vec3f(0, 0, 1), Vec3f(1, 0, 0), alpha, unit(random), unit(random)});
+    }
+  }
+  ForEachTarget([&](Target) {
+    double worst = 0;
+    for (const LobeAnswer& answer : AskLobe(Lobe::kGgx, queries)) {
+      worst = std::max(worst, (Vec3d(answer.sample) - Vec3d(-1, 0, 0)).length());
+    }
+    CHECK(worst <= 1e-6);
+  });
+}
+
 TEST_CASE("SIMD lobe samplers agree with their double twins on every target") {
   ForEachTarget([](Target) {
     // n.l of a spread s is as small as sqrt(s) and known to 1e-7.

@@ -51,13 +51,15 @@ class Configuration:
         self.picture += ['--target', r.choice(targets)]
 
     def choose_scene(self, source):
-        """One in five is a scene that ships."""
+        """One in five is a scene that ships, and one in fifteen a model."""
         if self.seed % 5 == 0:
             shipped = sorted(path for path in (source / 'scenes').rglob('*.json')
                              if path.name != 'nacre.schema.json')
             path = self.random.choice(shipped)
             self.picture += SMALLER.get(path.name, [])
             return path
+        if self.random.random() < 1 / 15:
+            return self.folder / 'assets' / 'model.gltf'
         path = self.folder / f'scene_{self.seed}.json'
         path.write_text(json.dumps(random_scene.SceneMaker(self.random).make()))
         return path

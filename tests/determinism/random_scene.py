@@ -2,11 +2,13 @@
 """Random scenes for determinism_test.py: every material model, light, shape and map, in mixtures
 that no scene made by hand has. They look like nothing; all that counts is that they are valid and
 that hits of many kinds meet in one tile."""
+import base64
+import json
 import math
 import struct
 import zlib
 
-TEXTURES = ('colors', 'grey', 'normals')
+TEXTURES = ('colors', 'grey', 'normals', 'steep')
 MAPPINGS = ('spherical', 'cylindrical', 'planar', 'cube')
 
 
@@ -18,9 +20,13 @@ def write_assets(folder, random):
     write_png(folder / 'grey.png', 8, 8, lambda: [random.choice((0, 1, 9, 80, 255))] * 3)
     write_png(folder / 'normals.png', 8, 8,
               lambda: [128 + random.randrange(-40, 41), 128 + random.randrange(-40, 41), 240])
+    # Steeper than that: normals that point below the surface, and away from most viewers.
+    write_png(folder / 'steep.png', 8, 8,
+              lambda: [random.randrange(256), random.randrange(256), random.randrange(100, 256)])
     write_sky(folder / 'sky.hdr', 16, 8, random)
     write_torus(folder / 'torus.obj', 16, 8)
     write_soup(folder / 'soup.ply', 12, random)
+    write_model(folder / 'model.gltf', 40, random)
 
 
 def write_png(path, width, height, pixel):
@@ -72,6 +78,54 @@ def write_soup(path, triangles, random):
                     (3 * triangles, triangles, corners, faces))
 
 
+def write_model(path, triangles, random):
+    """Triangles with tangents of their own, and some of whose vertices are not there."""
+    def unit():
+        v = [random.gauss(0, 1) for _ in range(3)]
+        length = math.sqrt(sum(x * x for x in v))
+        return [x / length for x in v]
+
+    buffer, views, accessors = b'', [], []
+
+    def add(kind, rows):
+        nonlocal buffer
+        data = b''.join(struct.pack('<%df' % len(row), *row) for row in rows)
+        views.append({'buffer': 0, 'byteOffset': len(buffer), 'byteLength': len(data)})
+        accessor = {'bufferView': len(accessors), 'componentType': 5126, 'count': len(rows),
+                    'type': kind}
+        if not accessors:  # the first ones are positions
+            accessor['min'] = [min(column) for column in zip(*rows)]
+            accessor['max'] = [max(column) for column in zip(*rows)]
+        accessors.append(accessor)
+        buffer += data
+        return len(accessors) - 1
+
+    corners = range(3 * triangles)
+    attributes = {
+        'POSITION': add('VEC3', [[random.uniform(-1, 1) for _ in range(3)] for _ in corners]),
+        'NORMAL': add('VEC3', [unit() for _ in corners]),
+        'TANGENT': add('VEC4', [unit() + [random.choice((-1, 1))] for _ in corners]),
+        'TEXCOORD_0': add('VEC2', [[random.uniform(-2, 2) for _ in range(2)] for _ in corners]),
+        'TEXCOORD_1': add('VEC2', [[random.uniform(-2, 2) for _ in range(2)] for _ in corners]),
+        'COLOR_0': add('VEC4', [[random.random() for _ in range(3)] +
+                                [random.choice((0, 0.5, 1, 1))] for _ in corners])}
+    uri = 'data:application/octet-stream;base64,' + base64.b64encode(buffer).decode()
+    materials = [
+        {'pbrMetallicRoughness': {'metallicFactor': metallic, 'roughnessFactor': roughness,
+                                  'baseColorTexture': {'index': 0}},
+         'normalTexture': {'index': 1, 'texCoord': texcoord}, **more}
+        for metallic, roughness, texcoord, more in (
+            (1, 0, 0, {}), (1, 0.3, 1, {'alphaMode': 'MASK'}),
+            (0, 0.5, 0, {'alphaMode': 'MASK', 'alphaCutoff': 1}))]
+    path.write_text(json.dumps({
+        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [0, 1, 2]}],
+        'nodes': [{'mesh': i, 'translation': [i - 1, 0, 0]} for i in range(3)],
+        'meshes': [{'primitives': [{'attributes': attributes, 'material': i}]} for i in range(3)],
+        'materials': materials, 'images': [{'uri': 'colors.png'}, {'uri': 'steep.png'}],
+        'textures': [{'source': 0}, {'source': 1}], 'accessors': accessors,
+        'bufferViews': views, 'buffers': [{'uri': uri, 'byteLength': len(buffer)}]}))
+
+
 class SceneMaker:
     """One scene, from one random.Random."""
 
@@ -89,12 +143,19 @@ class SceneMaker:
             scene['image']['shadows'] = False
         if self.mapped:
             scene['textures'] = {name: self.texture(name) for name in TEXTURES}
+            # The first channel of the image is the opacity: it has no alpha.
+            scene['textures']['mask'] = {**self.texture('colors'), 'encoding': 'linear'}
         scene['materials'] = {f'm{i}': self.material() for i in range(r.randint(1, 6))}
         self.names = list(scene['materials'])
         if r.random() < 0.15:
             scene['materials']['split'] = {'model': 'split', 'at': [r.uniform(0.2, 0.8)],
                                            'materials': [r.choice(self.names) for _ in range(2)]}
             self.names.append('split')
+        # Holes are for meshes of triangles.
+        self.mesh_names = [name for name in self.names if name != 'split']
+        if r.random() < 0.3:
+            scene['materials']['leaf'] = self.leaf()
+            self.mesh_names += ['leaf'] * 2
         scene['lights'] = self.lights()
         scene['shapes'] = [self.shape() for _ in range(r.choice((1, 1, 2, 3, 5, 9, 20)))]
         if r.random() < 0.3:
@@ -161,10 +222,21 @@ class SceneMaker:
         if r.random() < 0.15:
             material['emission'] = self.color(0.3)
             self.maybe_map(material, emission_map='colors')
-        self.maybe_map(material, normal_map='normals')
+        steep = {'texture': 'steep', 'scale': r.choice((0.3, 1, 4))}
+        self.maybe_map(material, normal_map=r.choice(('normals', steep)))
         if 'normal_map' not in material:
             self.maybe_map(material, bump_map={'texture': 'grey', 'distance': 0.02})
         return material
+
+    def leaf(self):
+        """A material that cuts holes."""
+        r = self.random
+        leaf = self.material()
+        leaf['opacity'] = r.choice((1, 1, 0.8))
+        leaf['opacity_cutoff'] = r.choice((0.1, 0.5, 0.8, 1))
+        if self.mapped and r.random() < 0.8:
+            leaf['opacity_map'] = 'mask'
+        return leaf
 
     def microfacet(self, material):
         r = self.random
@@ -296,7 +368,7 @@ class SceneMaker:
         return {'interpolation': self.random.choice(('phong', 'phong', 'gouraud', 'flat',
                                                      'faceted')),
                 'smooth_terminator': self.random.random() < 0.5,
-                'material': self.random.choice([n for n in self.names if n != 'split'])}
+                'material': self.random.choice(self.mesh_names)}
 
     def icosphere_shape(self):
         return {'center': self.point(2), 'radius': self.random.uniform(0.2, 1.5),

@@ -2,6 +2,9 @@
 // tests/render/rough_diffuse_test.cc: pictures of rough matte spheres, against the scalar twins of
 // their models and against what is known of light from everywhere.
 #include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "brdf/burley.h"
 #include "brdf/eon.h"
@@ -87,6 +90,44 @@ TEST_CASE(
   CHECK(MakePlan(scene, {}).notes[0].starts_with("the scene has no lights: every shape is black"));
   scene.materials.at(0).emission = Rgb(1);
   CHECK(MakePlan(scene, {}).notes.at(0).find("only what its materials emit") != std::string::npos);
+}
+
+TEST_CASE("a sky that is black all over lights nothing, and the plan says so") {
+  const auto picture = [](float red, float green) {
+    auto made = std::make_shared<SkyPicture>();
+    made->width = 2;
+    made->height = 1;
+    made->rgb = {0, 0, 0, red, green, 0};
+    return std::shared_ptr<const SkyPicture>(made);
+  };
+  const auto notes = [](const EnvironmentLight& sky) {
+    Scene scene = OneSphere(LambertMaterial{});
+    scene.lights.push_back({.name = "sky", .kind = sky});
+    return MakePlan(scene, {}).notes;
+  };
+  const Rgb black(0), dim(0, 0, 1e-6);
+  const EnvironmentLight dark[] = {{.sky = ConstantSky{black}},
+                                   {.sky = GradientSky{black, black, black}},
+                                   {.sky = QuadraticSky{.radiance = black}},
+                                   {.sky = QuadraticSky{.constant = 0}},
+                                   {.sky = PictureSky{picture(0, 0), Rgb(1)}},
+                                   {.sky = PictureSky{picture(1, 0), Rgb(0, 1, 1)}}};
+  for (const EnvironmentLight& sky : dark) {
+    const std::vector<std::string> said = notes(sky);
+    CAPTURE(&sky - dark);
+    REQUIRE(said.size() == 1);
+    CHECK(said[0].starts_with("all lights are black: every shape is black"));
+  }
+  const EnvironmentLight bright[] = {{.sky = ConstantSky{dim}},
+                                     {.sky = GradientSky{dim, black, black}},
+                                     {.sky = GradientSky{black, dim, black}},
+                                     {.sky = GradientSky{black, black, dim}},
+                                     {.sky = QuadraticSky{.constant = 0, .quadratic = 1}},
+                                     {.sky = PictureSky{picture(0, 1e-6f), Rgb(1)}}};
+  for (const EnvironmentLight& sky : bright) {
+    CAPTURE(&sky - bright);
+    CHECK(notes(sky).empty());
+  }
 }
 
 TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "catch.h"
 #include "scene/mesh.h"
+#include "scene/pair_edges.h"
 #include "scene/sphere_mesh.h"
 
 namespace nacre {
@@ -243,6 +247,91 @@ TEST_CASE("edges of three triangles, and triangles without an area, have tangent
   }
 }
 
+TEST_CASE("transforms that rotate alike share tangents, however they scale") {
+  const UvRows plain, mirrored{{-1, 0}, {0, 1}}, turned{{0, 1}, {-1, 0}};
+  for (const double scale : {0.25, 1.0, 3.0, 1e-3, 1e4}) {
+    CHECK(RowsOfSameTangents({{scale, 0}, {0, 7 * scale}}) == plain);
+    CHECK(RowsOfSameTangents({{scale, 0.5}, {0, scale}}) == plain);  // v' grows slantwise
+    CHECK(RowsOfSameTangents({{-scale, 0}, {0, scale}}) == mirrored);
+    CHECK(RowsOfSameTangents({{0, scale}, {-scale, 0}}) == turned);
+  }
+  CHECK(!(RowsOfSameTangents({{1, 0}, {0.5, 1}}) == plain));
+  // Theirs are those of the transform itself.
+  const Mesh mesh = Hills(6, 5);
+  for (const UvRows& rows : {UvRows{{2, 0}, {0, 3}}, UvRows{{0.6, -0.8}, {1.6, 1.2}},
+                             UvRows{{1, 0.5}, {0.25, -2}}, UvRows{{1, 2}, {2, 4}}}) {
+    const UvRows same = RowsOfSameTangents(rows);
+    const CornerTangents made = MakeTangents(mesh, mesh.uvs, same, 1);
+    const CornerTangents expected = MakeTangents(mesh, mesh.uvs, rows, 1);
+    for (size_t corner = 0; corner < mesh.triangles.size(); ++corner) {
+      // Two roundings of unit directions over the least area in the texture, 0.1.
+      CHECK((At(made, corner).direction - At(expected, corner).direction).length() < 1e-13);
+      CHECK(At(made, corner).sign == At(expected, corner).sign);
+    }
+  }
+}
+
+TEST_CASE("pairing the triangles on one edge takes steps in proportion to them") {
+  constexpr size_t kEdges = 1'000'000;
+  std::mt19937 random(1);
+  std::vector<bool> mixed(kEdges);
+  for (size_t i = 0; i < kEdges; ++i) mixed[i] = random() % 2 == 0;
+  const std::function<bool(size_t)> directions[] = {[](size_t) { return true; },
+                                                    [](size_t) { return false; },
+                                                    [](size_t i) { return i < kEdges / 2; },
+                                                    [](size_t i) { return i % 2 == 0; },
+                                                    [](size_t i) { return i == kEdges - 1; },
+                                                    [&](size_t i) { return mixed[i]; }};
+  for (const auto& rises : directions) {
+    size_t steps = 0, pairs = 0, ups = 0;
+    std::vector<bool> paired(kEdges);
+    for (size_t i = 0; i < kEdges; ++i) ups += rises(i) ? 1 : 0;
+    PairEdges(
+        kEdges,
+        [&](size_t i) {
+          ++steps;
+          return rises(i);
+        },
+        [&](size_t up, size_t down) {
+          ++pairs;
+          if (!rises(up) || rises(down) || paired[up] || paired[down]) FAIL("not a pair");
+          paired[up] = paired[down] = true;
+        });
+    CHECK(pairs == std::min(ups, kEdges - ups));
+    CHECK(steps <= 2 * kEdges);
+  }
+}
+
+TEST_CASE("triangles on one edge are neighbours two by two, in their order") {
+  // Three that go up the edge from 0 to 1, and two that go down.
+  std::vector<std::pair<size_t, size_t>> pairs;
+  const bool rises[] = {true, true, false, true, false};
+  PairEdges(
+      5, [&](size_t i) { return rises[i]; },
+      [&](size_t up, size_t down) { pairs.emplace_back(up, down); });
+  CHECK(pairs == std::vector<std::pair<size_t, size_t>>{{0, 2}, {1, 4}});
+}
+
+TEST_CASE("a fan of many triangles on one edge has a tangent for each of them") {
+  // All go the same way along the edge, so none is a neighbour of another.
+  constexpr uint32_t kTriangles = 200'000;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {0, 0, 1}};
+  mesh.uvs = {{0, 0}, {0, 1}};
+  for (uint32_t i = 0; i < kTriangles; ++i) {
+    const double turn = 2 * M_PI * i / kTriangles;
+    mesh.positions.emplace_back(std::cos(turn), std::sin(turn), 0);
+    mesh.uvs.emplace_back(1, 0);
+    for (const uint32_t corner : {0u, 1u, 2 + i}) mesh.triangles.push_back(corner);
+  }
+  mesh.normals.assign(mesh.positions.size(), Vec3d(0, 0, 1));
+  const CornerTangents made = Make(mesh);
+  for (uint32_t i = 0; i < kTriangles; i += 997) {
+    const Vec3d out = mesh.positions[2 + i];
+    CHECK((At(made, size_t{3} * i).direction - out).length() < 1e-15);
+  }
+}
+
 TEST_CASE("tangents follow the texture's transform") {
   const Mesh mesh = Hills(6, 5);
   for (const UvRows& rows : {UvRows{{2, 0}, {0, 2}}, UvRows{{-1, 0}, {0, 3}},
@@ -267,14 +356,14 @@ TEST_CASE("tangents that a file has turn with the texture as those that are made
   mesh.tangents.assign(4, {Vec3d(1, 0, 0), 1});
   for (const UvRows& rows : {UvRows{{3, 0}, {0, 2}}, UvRows{{-1, 0}, {0, 1}},
                              UvRows{{1, 0}, {0, -1}}, UvRows{{0.6, -0.8}, {0.8, 0.6}}}) {
-    const CornerTangents turned = TurnTangents(mesh, rows);
+    const CornerTangents turned = RotateTangents(mesh, rows);
     const CornerTangents made = MakeTangents(mesh, mesh.uvs, rows, 1);
     for (size_t corner = 0; corner < 6; ++corner) {
       CHECK((At(turned, corner).direction - At(made, corner).direction).length() < 1e-15);
       CHECK(At(turned, corner).sign == At(made, corner).sign);
     }
   }
-  CHECK(At(TurnTangents(mesh, {}), 0).direction == Vec3d(1, 0, 0));
+  CHECK(At(RotateTangents(mesh, {}), 0).direction == Vec3d(1, 0, 0));
 }
 
 TEST_CASE("tangents are transformed with their mesh, and mirrored with it") {

@@ -130,6 +130,13 @@ TEST_CASE("material faults") {
          ModelOf<SplitMaterial>(s, 3) = {{0.5, 0.25},
                                          {MaterialId{0}, MaterialId{1}, MaterialId{2}}};
        }},
+      {"/materials/half/materials", "65 materials",
+       [](Scene& s) {
+         SplitMaterial& split = ModelOf<SplitMaterial>(s, 3);
+         split.materials.assign(65, MaterialId{0});
+         split.at.clear();
+         for (int i = 1; i <= 64; ++i) split.at.push_back(i / 65.0);
+       }},
       {"/materials/half/materials/1", "is a split itself",
        [](Scene& s) { ModelOf<SplitMaterial>(s, 3).materials[1] = MaterialId{3}; }},
       {"/materials/half/materials/0", "there is no material 9",
@@ -199,6 +206,30 @@ TEST_CASE("shape faults") {
       {"/meshes/0/uvs/1", "nan",
        [](Scene& s) {
          s.meshes[0].uvs = {{0, 0}, {0, kNan}, {1, 1}};
+       }},
+      {"/meshes/0/second_uvs/2", "inf",
+       [](Scene& s) {
+         s.meshes[0].second_uvs = {{0, 0}, {1, 1}, {kInfinity, 0}};
+       }},
+      {"/meshes/0", "2 coordinates, colours or opacities for 3",
+       [](Scene& s) {
+         s.meshes[0].opacities = {1, 1};
+       }},
+      {"/meshes/0/opacities/1", "nan",
+       [](Scene& s) {
+         s.meshes[0].opacities = {1, static_cast<float>(kNan), 1};
+       }},
+      {"/meshes/0/opacities/0", "-0.5",
+       [](Scene& s) {
+         s.meshes[0].opacities = {-0.5f, 0, 1};
+       }},
+      {"/meshes/0/opacities/2", "1.5",
+       [](Scene& s) {
+         s.meshes[0].opacities = {1, 0, 1.5f};
+       }},
+      {"/meshes/0/colors/1", "2",
+       [](Scene& s) {
+         s.meshes[0].colors = {{0, 0, 0}, {1, 2, 1}, {1, 1, 1}};
        }},
       {"/meshes/0/interpolation", "needs a normal",
        [](Scene& s) { s.meshes[0].interpolation = Interpolation::kGouraud; }},

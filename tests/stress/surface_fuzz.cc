@@ -58,6 +58,7 @@ class BrokenModelMaker {
     texture.image = {static_cast<uint32_t>(scene_.images.size() - 1)};
     texture.mapping = random_.OneIn(2) ? MappingKind::kUv : MappingKind::kSpherical;
     if (random_.OneIn(4)) texture.scale = Vec2d(-1, 3);
+    texture.second_uvs = texture.mapping == MappingKind::kUv && random_.OneIn(3);
     scene_.textures.push_back(texture);
     return {static_cast<uint32_t>(scene_.textures.size() - 1)};
   }
@@ -91,6 +92,24 @@ class BrokenModelMaker {
     }
   }
 
+  // What only some files have: tangents, along the normal as well as across it; second coordinates,
+  // all the same in some; opacities at and about the cutoff; colours.
+  void AddVertexData(Mesh* mesh) {
+    const bool tangents = random_.OneIn(3), uvs = random_.OneIn(2), opacities = random_.OneIn(4);
+    const bool colors = random_.OneIn(3);
+    constexpr float kOpacities[] = {0, 0.5f, 0.5f, 1, 1, 1};
+    for (size_t i = 0; i < mesh->positions.size(); ++i) {
+      const Vec3d along = random_.OneIn(4) ? mesh->normals[i] : Direction();
+      if (tangents) mesh->tangents.push_back({along, random_.OneIn(2) ? 1.0 : -1.0});
+      const bool same = i > 0 && random_.OneIn(3);
+      const Vec2d uv(random_.Uniform(-2, 2), random_.Uniform(-2, 2));
+      if (uvs) mesh->second_uvs.push_back(same ? mesh->second_uvs.back() : uv);
+      if (opacities) mesh->opacities.push_back(random_.Pick(kOpacities));
+      const auto unit = [&] { return static_cast<float>(random_.Uniform(0, 1)); };
+      if (colors) mesh->colors.emplace_back(unit(), unit(), unit());
+    }
+  }
+
   void AddMesh(uint32_t material) {
     Mesh mesh;
     mesh.name = fmt::format("mesh {}", scene_.meshes.size());
@@ -113,6 +132,7 @@ class BrokenModelMaker {
                               : Vec2d(random_.Uniform(-2, 2), random_.Uniform(-2, 2)));
       mesh.triangles.push_back(static_cast<uint32_t>(i));
     }
+    AddVertexData(&mesh);
     scene_.meshes.push_back(std::move(mesh));
   }
 
@@ -219,7 +239,13 @@ SurfaceFuzzResult FuzzSurfaces(uint64_t scenes, const std::function<void(double)
     const Scene scene = MakeBrokenModel(seed);
     RenderSettings settings;
     settings.threads = 1;
-    JudgePicture(seed, RenderImage(scene, settings), &result);
+    RenderStats stats;
+    JudgePicture(seed, RenderImage(scene, settings, &stats), &result);
+    result.directions_not_finite += stats.directions_not_finite;
+    if (stats.directions_not_finite > 0 && result.first_fault.empty()) {
+      result.first_fault = fmt::format("seed {}: {} directions to light are not finite", seed,
+                                       stats.directions_not_finite);
+    }
     ++result.scenes;
     if (on_progress && seed % 64 == 0) {
       on_progress(static_cast<double>(seed) / static_cast<double>(scenes));
@@ -229,9 +255,10 @@ SurfaceFuzzResult FuzzSurfaces(uint64_t scenes, const std::function<void(double)
 }
 
 std::string Describe(const SurfaceFuzzResult& result) {
-  return fmt::format("{} of {} pixels lit, {} samples not finite, {} negative{}{}", result.lit,
-                     result.pixels, result.not_finite, result.negative,
-                     result.first_fault.empty() ? "" : "; ", result.first_fault);
+  return fmt::format(
+      "{} of {} pixels lit, {} samples not finite, {} negative, {} directions lost{}{}", result.lit,
+      result.pixels, result.not_finite, result.negative, result.directions_not_finite,
+      result.first_fault.empty() ? "" : "; ", result.first_fault);
 }
 
 }  // namespace nacre

@@ -2,8 +2,11 @@
 // Rays through meshes with holes against the scalar test of every triangle and a checker's formula.
 #include "visibility/cut_out.h"
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "catch.h"
 #include "rays.h"
@@ -134,6 +137,74 @@ TEST_CASE("what cuts nothing away costs nothing") {
   CHECK(FindCutOut(geometry.cut_outs, 20) == &geometry.cut_outs[0]);
   CHECK(FindCutOut(geometry.cut_outs, 39) == &geometry.cut_outs[0]);
   CHECK(FindCutOut(geometry.cut_outs, 40) == nullptr);
+}
+
+// Weights as triangle tests give them: in [0, 1], with a sum of 1 but for rounding.
+std::vector<std::array<double, 3>> RoundedWeights(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> in(0, 1);
+  std::vector<std::array<double, 3>> weights = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d w = Vec3d(in(random), in(random), in(random));
+    const double scale = 1 / (w.x + w.y + w.z);
+    weights.push_back({w.x * scale, w.y * scale, w.z * scale});
+  }
+  return weights;
+}
+
+// Two triangles, (0, 1, 2) with the opacities that are given and (3, 4, 5) with none.
+std::optional<CutOut> CutByVertices(const std::array<float, 3>& opacities, double cutoff) {
+  Scene scene = RandomScene(4);
+  scene.materials[1].opacity_map = {};
+  scene.materials[1].opacity_cutoff = cutoff;
+  Mesh& mesh = scene.meshes[0];
+  mesh.positions.resize(6);
+  mesh.uvs.resize(6);
+  mesh.triangles.resize(6);
+  mesh.opacities = {opacities[0], opacities[1], opacities[2], 0, 0, 0};
+  return MakeCutOut(scene, mesh, Vec3d(0));
+}
+
+TEST_CASE("a triangle whose corners have the cutoff's opacity has no holes") {
+  for (const float opacity : {1.0f, 0.8f, 0.7f, 0.3f, 1.0f / 255, 254.0f / 255}) {
+    const auto made = CutByVertices({opacity, opacity, opacity}, double{opacity});
+    REQUIRE(made.has_value());
+    size_t holes = 0;
+    for (const auto& weights : RoundedWeights(1)) {
+      holes += IsThere(*made, {}, {0, 1, 2}, weights) ? 0 : 1;
+    }
+    CAPTURE(opacity);
+    CHECK(holes == 0);
+  }
+}
+
+TEST_CASE("a triangle whose corners are below the cutoff, by the least, is not there") {
+  for (const float opacity : {1.0f, 0.8f, 0.7f, 0.3f, 1.0f / 255, 254.0f / 255}) {
+    const double cutoff = std::nextafter(double{opacity}, 2.0);
+    const auto made = CutByVertices({opacity, opacity, opacity}, cutoff);
+    REQUIRE(made.has_value());
+    size_t there = 0;
+    for (const auto& weights : RoundedWeights(2)) {
+      there += IsThere(*made, {}, {0, 1, 2}, weights) ? 1 : 0;
+    }
+    CAPTURE(opacity);
+    CHECK(there == 0);
+  }
+}
+
+TEST_CASE("between corners above and below the cutoff holes begin where the opacity falls to it") {
+  // Each corner in turn is opaque, so that every weight counts.
+  for (size_t k = 0; k < 3; ++k) {
+    std::array<float, 3> opacities = {0.25f, 0.25f, 0.25f};
+    opacities[k] = 1;
+    const auto made = CutByVertices(opacities, 0.5);
+    REQUIRE(made.has_value());
+    for (const auto& weights : RoundedWeights(3)) {
+      const double opacity = 0.25 + 0.75 * weights[k];
+      if (std::abs(opacity - 0.5) < 1e-15) continue;  // roundings of products and sums
+      CHECK(IsThere(*made, {}, {0, 1, 2}, weights) == (opacity > 0.5));
+    }
+  }
 }
 
 }  // namespace

@@ -47,9 +47,11 @@ TEST_CASE("a shading normal faces its viewer, and its mirror direction leaves th
   for (const BendQuery& q : Queries()) {
     const Vec3d n = BendNormal(q.normal, q.surface, q.to_view);
     CHECK(std::abs(n.length() - 1) <= 1e-15);
-    // 1e-15: roundings of unit vectors, over the sine of the least angle of a viewer, 1e-7.
+    // Roundings of unit vectors.
     CHECK(n.dot(q.to_view) >= -1e-15);
     CHECK(n.dot(q.surface) >= -1e-15);
+    // The half vector of directions along the surface, one of them 1e-7 above it, may be as short:
+    // the same roundings over 1e-7.
     CHECK(Mirrored(q.to_view, n).dot(q.surface) >= -1e-8);
     const bool was_usable =
         q.normal.dot(q.to_view) >= 0 && Mirrored(q.to_view, q.normal).dot(q.surface) >= 0;

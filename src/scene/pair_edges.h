@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene/pair_edges.h: which triangles on one edge are neighbours.
+#pragma once
+
+#include <cstddef>
+
+namespace nacre {
+
+// Of `count` directed edges between the same two vertices, pairs the k-th of one direction with the
+// k-th of the other: pair(i, j) with rises(i) and not rises(j). What is left over of the more
+// frequent direction has no neighbour. Asks for each edge's direction at most twice, however many
+// triangles meet there.
+template <class Rises, class Pair>
+void PairEdges(size_t count, const Rises& rises, const Pair& pair) {
+  for (size_t up = 0, down = 0;; ++up, ++down) {
+    while (up < count && !rises(up)) ++up;
+    if (up == count) return;
+    while (down < count && rises(down)) ++down;
+    if (down == count) return;
+    pair(up, down);
+  }
+}
+
+}  // namespace nacre
