@@ -213,12 +213,13 @@ class ObjMaterials {
     if (!source.map_d.file.empty()) Warn("transparency is not shown: all materials are opaque");
   }
 
-  std::optional<ImageId> AddImage(const std::string& name, TextureEncoding encoding) {
+  std::optional<ImageId> AddImage(const MtlImage& source, TextureEncoding encoding) {
+    const std::string& name = source.file;
     const auto known = images_.find({name, encoding});
     if (known != images_.end()) return known->second;
     const auto path = FindImage(name);
     if (!path) return std::nullopt;
-    const ImageId id = WithImage(name, [&] {
+    const std::optional<ImageId> id = WithImage(source, [&] {
       return AddTextureImage(*path, name, {.encoding = encoding, .part = {}}, &scene_);
     });
     images_.emplace(std::make_pair(name, encoding), id);
@@ -234,15 +235,17 @@ class ObjMaterials {
     return path;
   }
 
-  // Calls read(), whose errors get the image's name.
+  // What read() makes of the image; nothing, and a warning, if it cannot be read: one broken image
+  // is no reason to show nothing of the model.
   template <class Read>
-  auto WithImage(const std::string& name, const Read& read) -> decltype(read()) {
+  auto WithImage(const MtlImage& source, const Read& read) -> std::optional<decltype(read())> {
     try {
       return read();
     } catch (const Error& error) {
-      const Fault& fault = error.faults().front();
-      throw Error(error.code(), file_,
-                  fmt::format("its image \"{}\": {}", Excerpt(name), fault.what), fault.hint);
+      if (error.code() != ExitCode::kBadInput) throw;
+      Warn(fmt::format("an image is left out: {}: \"{}\": {}", source.place, Excerpt(source.file),
+                       error.faults().front().what));
+      return std::nullopt;
     }
   }
 
@@ -258,7 +261,7 @@ class ObjMaterials {
 
   TextureId AddTexture(const MtlImage& source, TextureEncoding encoding) {
     if (source.file.empty()) return {};
-    const std::optional<ImageId> image = AddImage(source.file, encoding);
+    const std::optional<ImageId> image = AddImage(source, encoding);
     return image ? AddTextureOf(source, *image) : TextureId{};
   }
 
@@ -268,28 +271,24 @@ class ObjMaterials {
     const MtlImage& first = source.map_pr.file.empty() ? source.map_pm : source.map_pr;
     if (first.file.empty()) return {};
     const auto key = std::make_pair(source.map_pr.file, source.map_pm.file);
-    auto known = metallic_roughness_.find(key);
-    if (known == metallic_roughness_.end()) {
-      const std::optional<ImageId> image = MakeMetallicRoughnessImage(source);
-      if (!image) return {};
-      known = metallic_roughness_.emplace(key, *image).first;
-    }
-    return AddTextureOf(first, known->second);
+    const auto [known, is_new] = metallic_roughness_.try_emplace(key);
+    if (is_new) known->second = MakeMetallicRoughnessImage(source);
+    return known->second ? AddTextureOf(first, *known->second) : TextureId{};
   }
 
   std::optional<ImageId> MakeMetallicRoughnessImage(const MtlMaterial& source) {
     const size_t left = TexelValuesLeft(scene_);
-    const auto read = [&](const std::string& name) -> std::shared_ptr<const MipChain> {
-      if (name.empty()) return nullptr;
-      const auto path = FindImage(name);
+    const auto read = [&](const MtlImage& image) -> std::shared_ptr<const MipChain> {
+      if (image.file.empty()) return nullptr;
+      const auto path = FindImage(image.file);
       if (!path) return nullptr;
-      return WithImage(name, [&] {
-        return ReadTextureImage(*path, name, {.encoding = TextureEncoding::kLinear, .part = {}},
-                                left / 3)
-            .texels;
+      const auto texture = WithImage(image, [&] {
+        return ReadTextureImage(*path, image.file,
+                                {.encoding = TextureEncoding::kLinear, .part = {}}, left / 3);
       });
+      return texture ? texture->texels : nullptr;
     };
-    const auto roughness = read(source.map_pr.file), metallic = read(source.map_pm.file);
+    const auto roughness = read(source.map_pr), metallic = read(source.map_pm);
     if (roughness == nullptr && metallic == nullptr) return std::nullopt;
     const MipLevel& size = (roughness != nullptr ? roughness : metallic)->levels[0];
     if (roughness != nullptr && metallic != nullptr &&
@@ -326,8 +325,10 @@ class ObjMaterials {
   size_t unknown_names_ = 0;
   std::unordered_map<std::string, MaterialId> by_name_;
   std::unordered_set<std::string> names_, told_, libraries_;
-  std::map<std::pair<std::string, TextureEncoding>, ImageId> images_;          // by name
-  std::map<std::pair<std::string, std::string>, ImageId> metallic_roughness_;  // by both names
+  // By name; nothing for those that cannot be read.
+  std::map<std::pair<std::string, TextureEncoding>, std::optional<ImageId>> images_;
+  std::map<std::pair<std::string, std::string>, std::optional<ImageId>>
+      metallic_roughness_;  // by both
 };
 
 }  // namespace

@@ -19,9 +19,9 @@ namespace nacre {
 // bisector of L and V), or metallic-roughness where the library gives them a roughness or a
 // metallic (Pr, Pm and their images).
 //
-// Told by options.on_warning: libraries and images that are missing, names that no library has,
-// and what is not shown. Throws Error (kBadInput) for libraries and images outside the folder,
-// broken images, and numbers that are none or not finite.
+// Told by options.on_warning: libraries and images that are missing, images that cannot be read,
+// names that no library has, and what is not shown. Throws Error (kBadInput) for libraries and
+// images outside the folder, and numbers that are none or not finite.
 std::vector<MaterialId> AddObjMaterials(const std::filesystem::path& path, const ObjFile& obj,
                                         const LoadOptions& options, Scene* scene);
 

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -416,7 +418,26 @@ TEST_CASE("scenes that cannot be read") {
                  "/no/such/scene.json: cannot be opened: No such file or directory"));
   CHECK(Contains(MessageOf([] { LoadScene(kScenes); }), "is a folder"));
   CHECK(Contains(MessageOf([] { ReadTextFile("/dev/zero", 3 << 20); }),
-                 "/dev/zero: is longer than 0.00292969 GiB"));
+                 "/dev/zero: is not a regular file"));
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path / "pipe.json", large = folder.path / "large.json";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(Contains(MessageOf([&] { LoadScene(pipe); }), "pipe.json: is not a regular file"));
+  std::ofstream(large) << "{}";
+  for (const auto& [bytes, limit] :
+       {std::pair<uint64_t, const char*>(1 << 20, "1 MiB"), {uint64_t{4} << 30, "4 GiB"}}) {
+    std::filesystem::resize_file(large, bytes + 1);  // of which the disk holds two
+    CHECK(Contains(MessageOf([&] { ReadTextFile(large, bytes); }),
+                   std::string("longer than ") + limit));
+    CHECK(
+        Contains(MessageOf([&] { ReadBytes(large, bytes); }), std::string("longer than ") + limit));
+  }
+  std::ofstream(large) << "12345";
+  CHECK(ReadTextFile(large, 5) == "12345");
+  CHECK(ReadBytes(large, 5) == "12345");
+  CHECK(ReadBytes(large, 3, [](std::string_view, uint64_t) { return uint64_t{3}; }) == "123");
+  CHECK(Contains(MessageOf([&] { ReadTextFile(large, 4); }), "longer than"));
+  CHECK(!ReadTextFile("/proc/self/status", 1 << 20).empty());  // says that it has no bytes
 }
 
 TEST_CASE("the scenes that ship load") {
