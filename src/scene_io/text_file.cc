@@ -121,7 +121,6 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
   const InputFile file(path);
   if (file.size() > max_bytes) file.RefuseLength(max_bytes);
   std::string text;
-  text.reserve(file.size() + 1);
   while (true) {  // to its end: files of the kernel (/proc) say that they have no bytes
     const size_t before = text.size();
     if (file.Append(before == 0 ? kFirstPiece : kPiece, &text) == 0) return text;
@@ -129,6 +128,8 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
     const size_t zero = text.find('\0', before);
     if (zero != std::string::npos) RefuseZero(text, zero, path.string());
     if (text.size() > max_bytes) file.RefuseLength(max_bytes);
+    // Not before it looks like text: it may be long.
+    if (before == 0) text.reserve(std::max<uint64_t>(file.size(), text.size()) + kPiece);
   }
 }
 

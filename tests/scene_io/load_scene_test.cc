@@ -440,6 +440,70 @@ TEST_CASE("scenes that cannot be read") {
   CHECK(!ReadTextFile("/proc/self/status", 1 << 20).empty());  // says that it has no bytes
 }
 
+TEST_CASE("text ends with its file, not at a character 0") {
+  using namespace std::string_literals;
+  const TemporaryFolder folder;
+  const auto message_of = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path / name, std::ios::binary) << text;
+    return MessageOf([&] { LoadScene(folder.path / name); });
+  };
+  const std::string scene = R"({"nacre": 1})";
+  CHECK(message_of("a.json", scene) == "no error");
+  CHECK(Contains(message_of("a.json", scene + "\n\0"s),
+                 "a.json:2: is not text: there is a character 0"));
+  CHECK(Contains(MessageOf([&] { LoadSceneText(scene + "\0}"s, "a.json", {}, {}); }),
+                 "a.json:1: is not text"));
+  CHECK(Contains(message_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\0"s),
+                 "a.obj:5: is not text"));
+  // Far from the beginning, where a .gltf file is no longer judged by its first bytes.
+  const std::string blanks(1 << 17, ' ');
+  CHECK(Contains(message_of("a.gltf", R"({"asset": {"version": "2.0"}})" + blanks + "\0{}"s),
+                 "a.gltf:1: is not text"));
+  CHECK(Contains(message_of("a.obj", "v 0 0 0\n" + blanks + "\n\0"s), "a.obj:3: is not text"));
+}
+
+TEST_CASE("UTF-16 and UTF-32 with a byte-order mark and without") {
+  const auto message_of = [](const std::string& text) {
+    return MessageOf([&] { LoadSceneText(text, "a.json", {}, {}); });
+  };
+  for (const size_t width : {2, 4}) {
+    for (const size_t place : {size_t{0}, width - 1}) {
+      std::string text;
+      for (const char c : std::string(R"({"nacre": 1})")) {
+        std::string wide(width, '\0');
+        wide[place] = c;
+        text += wide;
+      }
+      CHECK(Contains(message_of(text), "a.json: is text in UTF-16 or UTF-32"));
+    }
+  }
+}
+
+TEST_CASE("a file is blamed for what no override can mend") {
+  const auto message_of = [](const std::string& text, const std::string& pointer) {
+    return MessageOf([&] { LoadSceneText(text, "a.json", {}, {.overrides = {{pointer, "1"}}}); });
+  };
+  CHECK(Contains(message_of("[]", "/image/width"), "a.json: not a scene: no object"));
+  CHECK(Contains(message_of(R"({"nacre": 1, "image": []})", "/image/width"),
+                 "a.json: /image: expected an object, got an array"));
+  CHECK(Contains(message_of(R"({"nacre": 1, "image": {"width": 8}})", "/image/width/a"),
+                 "--set /image/width/a: there is no \"a\" in a value"));
+}
+
+TEST_CASE("a pointer to a fault is whole whatever names are in it") {
+  const auto message_of = [](const std::string& name) {
+    const std::string text =
+        R"({"nacre": 1, "materials": {")" + name + R"(": {"model": "lambert", "albedo": "red"}}})";
+    return MessageOf([&] { LoadSceneText(text, "a.json", {}, {}); });
+  };
+  CHECK(Contains(message_of("a\\nb"), "/materials/a\\nb/albedo: expected"));
+  CHECK(Contains(message_of(std::string(1000, 'x')), "xxx.../albedo: expected"));
+  CHECK(Contains(message_of(""), "/materials//albedo: expected"));
+  const std::string light = R"({"nacre": 1, "lights": {"": {"type": "ambient", "radiance": 1}}})";
+  CHECK(Contains(MessageOf([&] { LoadSceneText(light, "a.json", {}, {}); }),
+                 "a.json: /lights/: the name"));
+}
+
 TEST_CASE("the scenes that ship load") {
   size_t count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kScenes)) {
