@@ -8,12 +8,9 @@
 
 namespace nacre {
 
-// The beginning of `text`, up to its first line end and `longest` bytes, with "..." for what is
-// left out. No UTF-8 character is cut. A file's names, numbers and URIs may have megabytes, so
-// whatever is quoted from a file goes through this.
-inline std::string Excerpt(std::string_view text, size_t longest = 80) {
-  size_t length = text.find_first_of("\r\n");
-  if (length > text.size()) length = text.size();
+// The first `longest` bytes of `text`, with "..." for what is left out. No UTF-8 character is cut.
+inline std::string Shortened(std::string_view text, size_t longest) {
+  size_t length = text.size();
   if (length > longest) {
     length = longest;
     while (length > 0 && (static_cast<unsigned char>(text[length]) & 0xc0) == 0x80) --length;
@@ -21,6 +18,14 @@ inline std::string Excerpt(std::string_view text, size_t longest = 80) {
   std::string excerpt(text.substr(0, length));
   if (length < text.size()) excerpt += "...";
   return excerpt;
+}
+
+// The same of the text's first line. A file's names, numbers and URIs may have megabytes, so
+// whatever is quoted from a file goes through one of the two.
+inline std::string Excerpt(std::string_view text, size_t longest = 80) {
+  const size_t line_end = text.find_first_of("\r\n");
+  if (line_end >= longest) return Shortened(text, longest);  // npos, too
+  return std::string(text.substr(0, line_end)) + "...";
 }
 
 }  // namespace nacre

@@ -46,7 +46,7 @@ std::vector<Column> ColumnsOf(const Figure& figure) {
 }
 
 [[noreturn]] void FailMissing() {
-  throw Error(ExitCode::kInternal, "", "gnuplot is missing, and it draws the plots",
+  throw Error(ExitCode::kCannotWrite, "", "gnuplot is missing, and it draws the plots",
               "install the package gnuplot-nox (scripts/setup does), or write .csv");
 }
 

@@ -147,10 +147,8 @@ struct LightChecker {
 void ValidateLights(const Scene& scene, FaultList* faults) {
   std::unordered_set<std::string> names;
   bool has_environment = false;
-  for (size_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    const std::string where =
-        "/lights/" + (light.name.empty() ? std::to_string(i) : PointerToken(light.name));
+  for (const Light& light : scene.lights) {
+    const std::string where = "/lights/" + PointerToken(light.name);
     if (!IsLayerName(light.name)) {
       faults->Add(where, "the name cannot name an image layer",
                   "1 to 64 letters, digits, spaces, '_' or '-'");

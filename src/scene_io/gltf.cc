@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "scene_io/gltf_lights.h"
 #include "scene_io/gltf_materials.h"
 #include "scene_io/gltf_meshes.h"
+#include "scene_io/gltf_skins.h"
 #include "scene_io/model_scene.h"
 
 namespace nacre {
@@ -19,14 +21,17 @@ namespace {
 
 // Row vectors: the order of the numbers in the file, whose vectors are columns and whose matrices
 // are stored by columns.
-Imath::M44d MatrixOf(const GltfDocument& document, const gltf::Node& node,
-                     const std::string& place) {
+Imath::M44d MatrixOf(GltfDocument* document, const gltf::Node& node, const std::string& place) {
   Imath::M44d matrix;
   if (!node.matrix.empty()) {
+    if (!node.translation.empty() || !node.rotation.empty() || !node.scale.empty()) {
+      document->Warn(
+          "a node has a matrix, and a translation, rotation or scale: the matrix counts");
+    }
     for (size_t i = 0; i < 16; ++i) matrix[static_cast<int>(i / 4)][i % 4] = node.matrix[i];
     if (matrix[0][3] != 0 || matrix[1][3] != 0 || matrix[2][3] != 0 || matrix[3][3] != 1) {
-      document.Refuse(place + "/matrix", "is no matrix of translation, rotation and scale",
-                      "its last row is 0, 0, 0, 1");
+      document->Refuse(place + "/matrix", "is no matrix of translation, rotation and scale",
+                       "its last row is 0, 0, 0, 1");
     }
     return matrix;
   }
@@ -35,7 +40,7 @@ Imath::M44d MatrixOf(const GltfDocument& document, const gltf::Node& node,
     const auto& q = node.rotation;
     const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0) || !std::isfinite(length)) {
-      document.Refuse(place + "/rotation", "is no rotation", "a quaternion of length 1");
+      document->Refuse(place + "/rotation", "is no rotation", "a quaternion of length 1");
     }
     const double x = q[0] / length, y = q[1] / length, z = q[2] / length, w = q[3] / length;
     matrix = matrix * Imath::M44d(1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w),
@@ -85,24 +90,8 @@ class NodeWalk {
   bool has_camera() const { return has_camera_; }
 
   void Run() {
-    Push(RootsOf(document_), Imath::M44d());
-    std::vector<bool> seen(document_.model.nodes.size());
-    while (!stack_.empty()) {
-      const Visit visit = stack_.back();
-      stack_.pop_back();
-      const std::string place = fmt::format("/nodes/{}", visit.node);
-      if (visit.node < 0 || static_cast<size_t>(visit.node) >= seen.size()) {
-        document_.Refuse(place, "there is no such node",
-                         fmt::format("the file has {}", seen.size()));
-      }
-      const auto index = static_cast<size_t>(visit.node);
-      if (seen[index]) document_.Refuse(place, "is in the scene twice, or below itself");
-      seen[index] = true;
-      const gltf::Node& node = document_.model.nodes[index];
-      const Imath::M44d world = MatrixOf(document_, node, place) * visit.world_from_parent;
-      Add(node, place, world);
-      Push(node.children, world);
-    }
+    Place();
+    for (const size_t node : order_) Add(node);
   }
 
  private:
@@ -111,16 +100,49 @@ class NodeWalk {
     Imath::M44d world_from_parent;
   };
 
+  // Finds the world matrices of all nodes before anything is added: joints may come after the
+  // meshes that they move.
+  void Place() {
+    const size_t count = document_.model.nodes.size();
+    world_from_node_.resize(count);
+    is_placed_.resize(count);
+    Push(RootsOf(document_), Imath::M44d());
+    while (!stack_.empty()) {
+      const Visit visit = stack_.back();
+      stack_.pop_back();
+      const std::string place = fmt::format("/nodes/{}", visit.node);
+      if (visit.node < 0 || static_cast<size_t>(visit.node) >= count) {
+        document_.Refuse(place, "there is no such node", fmt::format("the file has {}", count));
+      }
+      const auto index = static_cast<size_t>(visit.node);
+      if (is_placed_[index]) document_.Refuse(place, "is in the scene twice, or below itself");
+      is_placed_[index] = true;
+      const gltf::Node& node = document_.model.nodes[index];
+      world_from_node_[index] = MatrixOf(&document_, node, place) * visit.world_from_parent;
+      order_.push_back(index);
+      Push(node.children, world_from_node_[index]);
+    }
+  }
+
   void Push(const std::vector<int>& nodes, const Imath::M44d& world) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) stack_.push_back({*node, world});
   }
 
-  void Add(const gltf::Node& node, const std::string& place, const Imath::M44d& world) {
-    if (node.skin >= 0) {
-      document_.Warn("skins are left out: meshes are shown as they are before posing");
+  // The joints of the node's skin, or null if it has none.
+  const std::vector<Imath::M44d>* JointsOf(const gltf::Node& node) {
+    if (node.skin < 0) return nullptr;
+    const auto [known, is_new] = joints_.try_emplace(node.skin);
+    if (is_new) {
+      known->second = JointMatrices(document_, node.skin, world_from_node_, is_placed_);
     }
+    return &known->second;
+  }
+
+  void Add(size_t index) {
+    const gltf::Node& node = document_.model.nodes[index];
+    const Imath::M44d& world = world_from_node_[index];
     if (node.mesh >= 0) {
-      AddGltfMesh(node.mesh, node.name, world, &document_, &budget_, &scene_);
+      AddGltfMesh(node.mesh, node.name, world, JointsOf(node), &document_, &budget_, &scene_);
     }
     if (node.camera >= 0 && !has_camera_) {
       scene_.camera = MakeGltfCamera(document_, node.camera, world);
@@ -129,7 +151,8 @@ class NodeWalk {
     const Json* const light = gltf::FindExtension(node.extensions, "KHR_lights_punctual");
     if (light == nullptr) return;
     if (!light->contains("light")) {
-      document_.Refuse(place + "/extensions/KHR_lights_punctual", "has no \"light\"");
+      document_.Refuse(fmt::format("/nodes/{}/extensions/KHR_lights_punctual", index),
+                       "has no \"light\"");
     }
     AddGltfLight((*light)["light"].get<int>(), world, &document_, &light_names_, &scene_);
   }
@@ -138,6 +161,10 @@ class NodeWalk {
   Scene& scene_;
   SceneBudget budget_;
   UniqueNames light_names_;
+  std::vector<Imath::M44d> world_from_node_;        // by node
+  std::vector<bool> is_placed_;                     // whether a node is in the scene
+  std::vector<size_t> order_;                       // the nodes that are
+  std::map<int, std::vector<Imath::M44d>> joints_;  // by skin
   std::vector<Visit> stack_;  // not recursion: nodes may be nested a million deep
   bool has_camera_ = false;
 };

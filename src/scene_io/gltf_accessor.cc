@@ -36,8 +36,9 @@ size_t ComponentSize(int type) {
   }
 }
 
-// Of the types that are read here, all vectors or scalars.
+// Of the types that are read here.
 size_t ComponentCount(std::string_view type) {
+  if (type == "MAT4") return 16;
   return type == "SCALAR" ? 1 : static_cast<size_t>(type.back() - '0');
 }
 
@@ -73,8 +74,10 @@ GltfAccessor::GltfAccessor(const GltfDocument& document, int index, std::string_
                     "one of 5120 to 5123, 5125 and 5126");
   }
   if (accessor.type != type) {
-    document.Refuse(place_ + "/type", "is not the type that its use asks for",
-                    "positions and normals are VEC3, texture coordinates VEC2, indices SCALAR");
+    document.Refuse(
+        place_ + "/type", "is not the type that its use asks for",
+        "positions and normals are VEC3, texture coordinates VEC2, indices SCALAR, joints and "
+        "weights VEC4, inverse bind matrices MAT4");
   }
   element_size_ = component_size_ * ComponentCount(type);
   normalized_ = accessor.normalized;
@@ -191,9 +194,9 @@ double GltfAccessor::Number(size_t element, size_t c) const {
   }
 }
 
-uint32_t GltfAccessor::Index(size_t element) const {
+uint32_t GltfAccessor::Index(size_t element, size_t c) const {
   const unsigned char* const bytes = Bytes(element);
-  return bytes == nullptr ? 0 : LoadIndex(bytes, component_type_);
+  return bytes == nullptr ? 0 : LoadIndex(bytes + c * component_size_, component_type_);
 }
 
 }  // namespace nacre

@@ -22,11 +22,12 @@ class GltfAccessor {
 
   size_t count() const { return count_; }
   bool is_unsigned() const;  // of unsigned integers, which can be indices
+  bool is_float() const { return component_type_ == gltf::kFloat; }
 
   // Component c of an element, normalised if the accessor says so.
   double Number(size_t element, size_t c) const;
-  // The component of an element of unsigned integers.
-  uint32_t Index(size_t element) const;
+  // The same of an element of unsigned integers, as it is written.
+  uint32_t Index(size_t element, size_t c = 0) const;
 
   const std::string& place() const { return place_; }
 

@@ -19,6 +19,7 @@
 #include "base/excerpt.h"
 #include "scene_io/gltf_types.h"
 #include "scene_io/text_file.h"
+#include "scene_io/text_lines.h"
 #include "scene_io/uri.h"
 
 namespace nacre {
@@ -45,46 +46,78 @@ uint32_t Word(std::string_view bytes, size_t offset) {
   return b[0] | uint32_t{b[1]} << 8 | uint32_t{b[2]} << 16 | uint32_t{b[3]} << 24;
 }
 
+bool IsBinary(std::string_view bytes) { return bytes.starts_with("glTF"); }
+
+constexpr size_t kHeader = 12, kChunkHeader = 8;  // bytes of a binary file
+constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
+
+[[noreturn]] void RefuseDamaged(const std::string& file, std::string what) {
+  throw Error(ExitCode::kBadInput, file, std::move(what), "the file is damaged or incomplete");
+}
+
+// The bytes that a file of `size` says that it has, by its first ones: of a text all. Throws Error
+// (kBadInput) for what cannot be glTF.
+uint64_t JudgeHead(std::string_view head, uint64_t size, const std::string& file) {
+  if (!IsBinary(head)) {
+    const size_t zero = WithoutByteOrderMark(head, file).find('\0');
+    if (zero != std::string_view::npos) RefuseZero(head, zero, file);
+    return size;
+  }
+  if (size < kHeader + kChunkHeader) RefuseDamaged(file, "is too short for a binary glTF file");
+  if (Word(head, 4) != 2) {
+    throw Error(ExitCode::kBadInput, file, fmt::format("is glTF {}", Word(head, 4)),
+                "this program reads glTF 2.0");
+  }
+  const uint64_t length = Word(head, 8);
+  if (length > size) {
+    RefuseDamaged(file, fmt::format("has {} bytes, and says that it has {}", size, length));
+  }
+  if (length < kHeader + kChunkHeader || Word(head, kHeader + 4) != kJson) {
+    RefuseDamaged(file, "its first chunk is not JSON");
+  }
+  if (Word(head, kHeader) > length - kHeader - kChunkHeader) {
+    RefuseDamaged(file, fmt::format("the chunk at byte {} is longer than the file", kHeader));
+  }
+  return length;
+}
+
 struct BinaryFile {
   std::string_view json;
   std::optional<std::string_view> data;  // of the chunk that may follow
 };
 
-// The chunks of a binary file.
+// The chunks of a binary file whose head JudgeHead has found right, and which ends where that says.
 BinaryFile ChunksOf(std::string_view bytes, const std::string& file) {
-  constexpr uint32_t kJson = 0x4e4f534a, kBinary = 0x004e4942;
-  constexpr size_t kHeader = 12, kChunkHeader = 8;
-  const auto refuse = [&](std::string what) {
-    throw Error(ExitCode::kBadInput, file, std::move(what), "the file is damaged or incomplete");
-  };
-  if (bytes.size() < kHeader + kChunkHeader) refuse("is too short for a binary glTF file");
-  if (Word(bytes, 4) != 2) {
-    throw Error(ExitCode::kBadInput, file, fmt::format("is glTF {}", Word(bytes, 4)),
-                "this program reads glTF 2.0");
-  }
-  const uint64_t length = Word(bytes, 8);
-  if (length > bytes.size()) {
-    refuse(fmt::format("has {} bytes, and says that it has {}", bytes.size(), length));
-  }
+  const uint64_t length = bytes.size();
   BinaryFile result;
   size_t chunk = 0;
   for (uint64_t offset = kHeader; offset < length; ++chunk) {
     if (length - offset < kChunkHeader || length - offset - kChunkHeader < Word(bytes, offset)) {
-      refuse(fmt::format("the chunk at byte {} is longer than the file", offset));
+      RefuseDamaged(file, fmt::format("the chunk at byte {} is longer than the file", offset));
     }
     const uint32_t type = Word(bytes, offset + 4);
     const std::string_view content = bytes.substr(offset + kChunkHeader, Word(bytes, offset));
-    if (chunk == 0 && type != kJson) break;
     if (chunk == 0) result.json = content;
     if (chunk == 1 && type == kBinary) result.data = content;  // others are for extensions
     offset += kChunkHeader + content.size();
   }
-  if (result.json.empty()) refuse("its first chunk is not JSON");
+  // Some exporters fill it up with characters 0 instead of blanks.
+  result.json = result.json.substr(0, result.json.find_last_not_of('\0') + 1);
+  if (result.json.empty()) RefuseDamaged(file, "its first chunk is not JSON");
   return result;
 }
 
-// The buffers' bytes. Each file is read once, however many buffers are in it.
-void ReadBuffers(const std::optional<std::string_view>& binary_chunk, GltfDocument* document) {
+// `part`, which is within `bytes`, as a string of its own, in the memory of all.
+std::string Keep(std::string_view part, std::string bytes) {
+  const auto offset = static_cast<size_t>(part.data() - bytes.data());
+  bytes.resize(offset + part.size());
+  bytes.erase(0, offset);
+  return bytes;
+}
+
+// The buffers' bytes. Each file is read once, however many buffers are in it. `binary_chunk`: of
+// the file itself; null: it has none.
+void ReadBuffers(const std::shared_ptr<const std::string>& binary_chunk, GltfDocument* document) {
   std::map<std::filesystem::path, std::shared_ptr<const std::string>> files;
   const auto read = [&](const std::string& uri, const std::string& place) {
     if (IsDataUri(uri)) {
@@ -95,7 +128,7 @@ void ReadBuffers(const std::optional<std::string_view>& binary_chunk, GltfDocume
     const std::filesystem::path path = document->Resolve(uri, place + "/uri");
     std::shared_ptr<const std::string>& bytes = files[path];
     if (bytes == nullptr) {
-      bytes = std::make_shared<const std::string>(ReadTextFile(path, kMaxBytes));
+      bytes = std::make_shared<const std::string>(ReadBytes(path, kMaxBytes));
       document->bytes += bytes->size();
     }
     return bytes;
@@ -109,7 +142,7 @@ void ReadBuffers(const std::optional<std::string_view>& binary_chunk, GltfDocume
       buffers[i].data = read(uri->get_ref<const std::string&>(), place);
       uri->get_ref<std::string&>().clear();  // data are kept once
     } else if (i == 0 && binary_chunk) {
-      buffers[i].data = std::make_shared<const std::string>(*binary_chunk);
+      buffers[i].data = binary_chunk;
     } else {
       continue;  // missing data is reported where it is used
     }
@@ -212,10 +245,12 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   document.folder = path.parent_path();
   document.references = {options.allow_paths, options.on_file};
   document.on_warning = options.on_warning;
-  const std::string bytes = ReadTextFile(path, kMaxBytes);
+  std::string bytes = ReadBytes(path, kMaxBytes, [&](std::string_view head, uint64_t size) {
+    return JudgeHead(head, size, document.file);
+  });
   document.bytes = bytes.size();
   const BinaryFile chunks =
-      bytes.starts_with("glTF") ? ChunksOf(bytes, document.file) : BinaryFile{bytes, {}};
+      IsBinary(bytes) ? ChunksOf(bytes, document.file) : BinaryFile{bytes, {}};
   FaultList faults;
   document.root = ParseJson(chunks.json, document.file, &faults, options.on_progress);
   RefuseOldVersion(document);
@@ -223,7 +258,11 @@ GltfDocument ReadGltfDocument(const std::filesystem::path& path, const LoadOptio
   ThrowFaults(faults, document.file);
   document.model = gltf::ReadModel(document.root);
   CheckVersionAndExtensions(&document);
-  ReadBuffers(chunks.data, &document);
+  std::shared_ptr<const std::string> binary_chunk;
+  if (chunks.data) {
+    binary_chunk = std::make_shared<const std::string>(Keep(*chunks.data, std::move(bytes)));
+  }
+  ReadBuffers(binary_chunk, &document);
   return document;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/excerpt.h"
 #include "scene/limits.h"
 #include "scene_io/gltf_extension.h"
 #include "scene_io/gltf_textures.h"
@@ -160,7 +161,12 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
   result.name = std::move(name);
   const std::string place = fmt::format("/materials/{}", index);
   const bool masked = material.alphaMode == "MASK";
-  if (!masked && !material.alphaMode.empty() && material.alphaMode != "OPAQUE") {
+  if (!masked && material.alphaMode != "OPAQUE") {
+    if (material.alphaMode != "BLEND") {
+      document->Refuse(place + "/alphaMode",
+                       fmt::format("\"{}\" is none", Excerpt(material.alphaMode)),
+                       "OPAQUE, MASK or BLEND");
+    }
     document->Warn("transparency is not shown: materials whose alphaMode is BLEND are opaque");
   }
   const Rgb base_color = ColorOf(pbr.baseColorFactor, Rgb(1));

@@ -12,6 +12,7 @@
 #include "scene/material_parameters.h"
 #include "scene/mesh.h"
 #include "scene_io/gltf_accessor.h"
+#include "scene_io/gltf_skins.h"
 
 namespace nacre {
 namespace {
@@ -104,11 +105,11 @@ void CheckCount(const GltfDocument& document, const GltfAccessor& accessor, size
 }
 
 void ReadPositions(const GltfDocument& document, const Primitive& primitive,
-                   const GltfAccessor& accessor, const Imath::M44d& world_from_node, Mesh* mesh) {
+                   const GltfAccessor& accessor, const GltfPlacement& placement, Mesh* mesh) {
   mesh->positions.reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
     Vec3d position;
-    world_from_node.multVecMatrix(Triple(accessor, element), position);
+    placement.WorldFromVertex(element).multVecMatrix(Triple(accessor, element), position);
     for (int c = 0; c < 3; ++c) {
       if (limits::kCoordinate.Contains(position[c])) continue;
       document.Refuse(accessor.place(), fmt::format("position {} is out of range", element),
@@ -118,29 +119,33 @@ void ReadPositions(const GltfDocument& document, const Primitive& primitive,
   }
 }
 
+// Normals go by the inverse transpose: the cofactors, which do not mind a determinant of 0.
+Vec3d TransformNormal(const Vec3d& normal, const Imath::M44d& world_from_vertex) {
+  const auto row = [&](int i) {
+    return Vec3d(world_from_vertex[i][0], world_from_vertex[i][1], world_from_vertex[i][2]);
+  };
+  const Vec3d x = row(1).cross(row(2)), y = row(2).cross(row(0)), z = row(0).cross(row(1));
+  const double side = row(0).dot(x) < 0 ? -1 : 1;
+  return ((x * normal.x + y * normal.y + z * normal.z) * side).normalized();
+}
+
 void ReadNormals(const GltfDocument& document, const Primitive& primitive, size_t positions,
-                 const Imath::M44d& world_from_node, Mesh* mesh) {
+                 const GltfPlacement& placement, Mesh* mesh) {
   const int index = AttributeOf(primitive, "NORMAL");
   if (index < 0) return;  // "flat normals", says the specification: those of the faces
   const GltfAccessor accessor(document, index, "VEC3");
   CheckCount(document, accessor, positions);
-  // Normals go by the inverse transpose: the cofactors, which do not mind a determinant of 0.
-  const auto row = [&](int i) {
-    return Vec3d(world_from_node[i][0], world_from_node[i][1], world_from_node[i][2]);
-  };
-  const Vec3d x = row(1).cross(row(2)), y = row(2).cross(row(0)), z = row(0).cross(row(1));
-  const double side = row(0).dot(x) < 0 ? -1 : 1;
   mesh->normals.reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
-    const Vec3d normal = Triple(accessor, element);
-    mesh->normals.push_back(((x * normal.x + y * normal.y + z * normal.z) * side).normalized());
+    mesh->normals.push_back(
+        TransformNormal(Triple(accessor, element), placement.WorldFromVertex(element)));
   }
   MendNormals(mesh);  // some exporters write normals without a direction
 }
 
 // Tangents go by the matrix itself, and a mirrored node turns the sense of their bitangents round.
 // Without normals they are to be ignored, says the specification.
-void ReadTangents(const Primitive& primitive, size_t positions, const Imath::M44d& world_from_node,
+void ReadTangents(const Primitive& primitive, size_t positions, const GltfPlacement& placement,
                   GltfDocument* document, Mesh* mesh) {
   const int index = AttributeOf(primitive, "TANGENT");
   if (index < 0 || mesh->normals.empty()) return;
@@ -148,13 +153,14 @@ void ReadTangents(const Primitive& primitive, size_t positions, const Imath::M44
   CheckCount(*document, accessor, positions);
   // How far signed bytes, the coarsest form, can be off: the tolerance of Khronos' validator.
   constexpr double kTolerance = 0.00674;
-  const double hand = world_from_node.determinant() < 0 ? -1 : 1;
   mesh->tangents.reserve(primitive.vertices.size());
   for (const uint32_t element : primitive.vertices) {
+    const Imath::M44d world_from_vertex = placement.WorldFromVertex(element);
+    const double hand = world_from_vertex.determinant() < 0 ? -1 : 1;
     const Vec3d given = Triple(accessor, element);
     const double sign = accessor.Number(element, 3);
     Vec3d direction;
-    world_from_node.multDirMatrix(given, direction);
+    world_from_vertex.multDirMatrix(given, direction);
     direction.normalize();
     if (!(std::abs(given.length() - 1) <= kTolerance) || std::abs(sign) != 1 ||
         direction == Vec3d(0)) {
@@ -166,6 +172,32 @@ void ReadTangents(const Primitive& primitive, size_t positions, const Imath::M44
     }
     mesh->tangents.push_back({direction, sign * hand});
   }
+}
+
+// Mirrored triangles turn their corners round, so that their fronts stay in front. A triangle
+// between joints of which some mirror goes by most of its corners.
+void TurnMirrored(const Primitive& primitive, const GltfPlacement& placement, Mesh* mesh) {
+  std::vector<bool> mirrored;
+  mirrored.reserve(primitive.vertices.size());
+  for (const uint32_t element : primitive.vertices) {
+    mirrored.push_back(placement.WorldFromVertex(element).determinant() < 0);
+  }
+  for (size_t i = 0; i < mesh->triangles.size(); i += 3) {
+    const auto corner = [&](size_t c) -> int { return mirrored[mesh->triangles[i + c]]; };
+    if (corner(0) + corner(1) + corner(2) < 2) continue;
+    std::swap(mesh->triangles[i + 1], mesh->triangles[i + 2]);
+  }
+}
+
+GltfPlacement PlacementOf(const Primitive& primitive, size_t positions,
+                          const Imath::M44d& world_from_node,
+                          const std::vector<Imath::M44d>* joints, GltfDocument* document) {
+  if (joints == nullptr) return GltfPlacement(world_from_node);
+  if (HasJoints(primitive.source)) {
+    return GltfPlacement(*document, primitive.source, positions, *joints);
+  }
+  document->Warn("a mesh with a skin has no JOINTS_0 and WEIGHTS_0: its node moves it");
+  return GltfPlacement(world_from_node);
 }
 
 void ReadUvs(const GltfDocument& document, const Primitive& primitive, const char* name,
@@ -262,7 +294,8 @@ uint64_t SparseElements(const gltf::Model& model, const gltf::Primitive& primiti
 }
 
 void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44d& world_from_node,
-                  GltfDocument* document, SceneBudget* budget, Scene* scene) {
+                  const std::vector<Imath::M44d>* joints, GltfDocument* document,
+                  SceneBudget* budget, Scene* scene) {
   const int mode = primitive.source.mode;
   const auto leave_out = [&](const char* warning) {
     SpendTriangles(1, document->file, budget);  // nodes may visit it without end
@@ -284,9 +317,11 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
   mesh.name = name;
   mesh.material = MaterialOf(*document, primitive);
   mesh.triangles = std::move(primitive.triangles);
-  ReadPositions(*document, primitive, positions, world_from_node, &mesh);
-  ReadNormals(*document, primitive, positions.count(), world_from_node, &mesh);
-  ReadTangents(primitive, positions.count(), world_from_node, document, &mesh);
+  const GltfPlacement placement =
+      PlacementOf(primitive, positions.count(), world_from_node, joints, document);
+  ReadPositions(*document, primitive, positions, placement, &mesh);
+  ReadNormals(*document, primitive, positions.count(), placement, &mesh);
+  ReadTangents(primitive, positions.count(), placement, document, &mesh);
   ReadUvs(*document, primitive, "TEXCOORD_0", positions.count(), &mesh.uvs);
   if (UsesSecondUvs(*scene, mesh.material)) {
     ReadUvs(*document, primitive, "TEXCOORD_1", positions.count(), &mesh.second_uvs);
@@ -295,11 +330,7 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
     }
   }
   ReadColors(*document, primitive, positions.count(), &mesh);
-  if (world_from_node.determinant() < 0) {
-    for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-      std::swap(mesh.triangles[i + 1], mesh.triangles[i + 2]);
-    }
-  }
+  TurnMirrored(primitive, placement, &mesh);
   if (!HasArea(mesh)) {
     document->Warn("meshes without any area are left out");
     return;
@@ -310,7 +341,8 @@ void AddPrimitive(Primitive primitive, const std::string& name, const Imath::M44
 }  // namespace
 
 void AddGltfMesh(int mesh, const std::string& name, const Imath::M44d& world_from_node,
-                 GltfDocument* document, SceneBudget* budget, Scene* scene) {
+                 const std::vector<Imath::M44d>* joints, GltfDocument* document,
+                 SceneBudget* budget, Scene* scene) {
   const auto& meshes = document->model.meshes;
   if (mesh < 0 || static_cast<size_t>(mesh) >= meshes.size()) {
     document->Refuse(fmt::format("/meshes/{}", mesh), "there is no such mesh",
@@ -319,7 +351,7 @@ void AddGltfMesh(int mesh, const std::string& name, const Imath::M44d& world_fro
   const auto& primitives = meshes[static_cast<size_t>(mesh)].primitives;
   for (size_t i = 0; i < primitives.size(); ++i) {
     AddPrimitive({primitives[i], fmt::format("/meshes/{}/primitives/{}", mesh, i), {}, {}}, name,
-                 world_from_node, document, budget, scene);
+                 world_from_node, joints, document, budget, scene);
   }
 }
 

@@ -164,6 +164,10 @@ Model ReadModel(const Json& root) {
   GetAll(root, "samplers", &model.samplers, &ReadSampler);
   GetAll(root, "materials", &model.materials, &ReadMaterial);
   GetAll(root, "cameras", &model.cameras, &ReadCamera);
+  GetAll(root, "skins", &model.skins, [](const Json& json, Skin* skin) {
+    Get(json, "joints", &skin->joints);
+    Get(json, "inverseBindMatrices", &skin->inverseBindMatrices);
+  });
   if (const Json* lights = FindExtension(Find(root, "extensions"), "KHR_lights_punctual")) {
     GetAll(*lights, "lights", &model.lights, &ReadLight);
   }

@@ -140,6 +140,11 @@ struct Light {
   double innerConeAngle = 0, outerConeAngle = 0.78539816339744830962;  // of a spot, radians
 };
 
+struct Skin {
+  std::vector<int> joints;  // nodes
+  int inverseBindMatrices = -1;
+};
+
 struct Scene {
   std::vector<int> nodes;
 };
@@ -161,6 +166,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Camera> cameras;
   std::vector<Light> lights;
+  std::vector<Skin> skins;
 };
 
 // `root`, which CheckGltfTypes (gltf_types.h) has found no fault with, as structs. They refer to

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "scene_io/text_file.h"
 #include "scene_io/text_lines.h"
 
 namespace nacre {
@@ -213,8 +214,16 @@ std::string JsonText(const Json& json, int indent) {
 }
 
 std::string PlaceInFile(const std::string& file, const std::string& pointer) {
-  constexpr size_t kLongest = 400;  // names in it are a file's
-  return pointer.empty() ? file : file + ": " + Excerpt(pointer, kLongest);
+  if (pointer.empty()) return file;
+  // Names in it are a file's: of any length, and line ends may be in them.
+  constexpr size_t kLongestToken = 80, kLongest = 400;
+  std::string shown;
+  for (size_t begin = 0; begin < pointer.size();) {
+    const size_t end = std::min(pointer.find('/', begin + 1), pointer.size());
+    shown += Shortened(std::string_view(pointer).substr(begin, end - begin), kLongestToken);
+    begin = end;
+  }
+  return file + ": " + Shortened(shown, kLongest);
 }
 
 void ThrowFaults(const FaultList& faults, const std::string& file, ExitCode code) {
@@ -226,7 +235,11 @@ void ThrowFaults(const FaultList& faults, const std::string& file, ExitCode code
 
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
                const std::function<void(double)>& on_progress) {
-  TreeBuilder builder(WithoutByteOrderMark(text, file), file, faults, on_progress);
+  const std::string_view json = WithoutByteOrderMark(text, file);
+  // The parser takes it for the end.
+  const size_t zero = json.find('\0');
+  if (zero != std::string_view::npos) RefuseZero(json, zero, file);
+  TreeBuilder builder(json, file, faults, on_progress);
   Json::sax_parse(builder.begin(), builder.end(), &builder);
   return builder.TakeRoot();
 }

@@ -35,8 +35,8 @@ std::optional<Json> TryParseJson(std::string_view text);
 // an OBJ file's materials may hold, become U+FFFD.
 std::string JsonText(const Json& json, int indent = -1);
 
-// "scenes/grid.json: /materials/gold", of a long pointer its beginning; the file alone for the
-// pointer to all of it.
+// "scenes/grid.json: /materials/gold", of long names in the pointer and of a long pointer the
+// beginning; the file alone for the pointer to all of it.
 std::string PlaceInFile(const std::string& file, const std::string& pointer);
 
 // Throws Error with all of the faults, each placed in the file, if there are any.

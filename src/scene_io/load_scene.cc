@@ -41,15 +41,24 @@ Fault JudgeVersion(const Json& version, const std::string& where) {
                       kFormat)};
 }
 
+std::string VersionHint() {
+  return fmt::format("\"nacre\": {}, the version of the format", kFormat);
+}
+
+// Before overrides, which would blame the command line.
+void CheckIsObject(const Json& root, const std::string& file) {
+  if (root.is_object()) return;
+  throw Error(ExitCode::kBadInput, file, "not a scene: no object",
+              "a scene begins {" + VersionHint());
+}
+
 // Throws if the rest of the file cannot mean anything to this program.
 void CheckVersion(const Json& root, const std::string& file) {
-  const std::string hint = fmt::format("\"nacre\": {}, the version of the format", kFormat);
-  if (!root.is_object()) {
-    throw Error(ExitCode::kBadInput, file, "not a scene: no object", "a scene begins {" + hint);
-  }
+  CheckIsObject(root, file);  // an override may have replaced all of it
   const auto version = root.find("nacre");
   if (version == root.end()) {
-    throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"", "add " + hint);
+    throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"",
+                "add " + VersionHint());
   }
   if (version->is_number() && *version == kFormat) return;
   throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
@@ -106,7 +115,17 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
   FaultList faults;
   Json root = ParseJson(text, file, &faults, options.on_progress);
-  ApplyOptions(options, &root);
+  CheckIsObject(root, file);
+  try {
+    ApplyOptions(options, &root);
+  } catch (const Error&) {
+    // The fault may be the file's: "image": [] has no place for --size. Then that is told.
+    LoadOptions file_alone = options;
+    file_alone.overrides.clear();
+    file_alone.on_warning = nullptr;
+    if (!options.overrides.empty()) LoadSceneText(text, file, folder, file_alone);
+    throw;
+  }
   CheckVersion(root, file);
 
   Scene scene;

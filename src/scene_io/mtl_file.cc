@@ -227,6 +227,7 @@ class MtlFileReader {
     std::string_view options = line.substr(later);
     ReadOptions(&options, &image);
     image.file = Trimmed(line.substr(0, later));
+    image.place = fmt::format("{}:{}", file_, number_);
     return image;
   }
 

@@ -16,6 +16,7 @@ namespace nacre {
 // An image on a material.
 struct MtlImage {
   std::string file;                 // as it is written; empty: none
+  std::string place;                // where that is: "models/car.mtl:12"
   Vec2d scale{1, 1}, offset{0, 0};  // texture coordinates times the one plus the other
   bool clamp = false;
   double multiplier = 1;  // of a relief

@@ -177,13 +177,14 @@ class ObjReader {
       }
       const int64_t position = PlaceOf(NextIndex(&word), obj_.positions.size(), "position");
       if (position < 0) Refuse(number_, "a face has position 0", "indices are counted from 1");
-      const bool has_uv = !word.empty();
+      const bool has_uv = !word.empty() && word.front() != '/';  // 1//3 has none, nor has 1//
       const int64_t uv = NextIndex(&word);
       const bool has_normal = !word.empty();
       const int64_t normal = NextIndex(&word);
       if (has_normal && normal == 0) {
         WarnOnce("normals of index 0 are taken for none: indices are counted from 1");
-      } else if (has_uv && uv == 0 && !has_normal) {
+      }
+      if (has_uv && uv == 0) {
         WarnOnce("texture coordinates of index 0 are taken for none: indices are counted from 1");
       }
       obj_.corners.push_back(

@@ -242,14 +242,15 @@ class ObjMaterials {
   }
 
   // By its file, however that is spelled.
-  std::optional<ImageId> AddImage(const std::string& name, TextureEncoding encoding) {
-    const std::filesystem::path path = FindImage(name);
+  std::optional<ImageId> AddImage(const MtlImage& source, TextureEncoding encoding) {
+    const std::filesystem::path path = FindImage(source.file);
     if (path.empty()) return std::nullopt;
     const auto key = std::make_pair(path, encoding);
     const auto known = images_.find(key);
     if (known != images_.end()) return known->second;
-    const ImageId id = WithImage(name, [&] {
-      return AddTextureImage(path, name, {.encoding = encoding, .part = {}}, &texels_, &scene_);
+    const std::optional<ImageId> id = WithImage(source, [&] {
+      return AddTextureImage(path, source.file, {.encoding = encoding, .part = {}}, &texels_,
+                             &scene_);
     });
     images_.emplace(key, id);
     return id;
@@ -271,15 +272,17 @@ class ObjMaterials {
     return *path;
   }
 
-  // Calls read(), whose errors get the image's name.
+  // What read() makes of the image; nothing, and a warning, if it cannot be read: one broken image
+  // is no reason to show nothing of the model.
   template <class Read>
-  auto WithImage(const std::string& name, const Read& read) -> decltype(read()) {
+  auto WithImage(const MtlImage& source, const Read& read) -> std::optional<decltype(read())> {
     try {
       return read();
     } catch (const Error& error) {
-      const Fault& fault = error.faults().front();
-      throw Error(error.code(), file_,
-                  fmt::format("its image \"{}\": {}", Excerpt(name), fault.what), fault.hint);
+      if (error.code() != ExitCode::kBadInput) throw;
+      Warn(fmt::format("an image is left out: {}: \"{}\": {}", source.place, Excerpt(source.file),
+                       error.faults().front().what));
+      return std::nullopt;
     }
   }
 
@@ -295,7 +298,7 @@ class ObjMaterials {
 
   TextureId AddTexture(const MtlImage& source, TextureEncoding encoding) {
     if (source.file.empty()) return {};
-    const std::optional<ImageId> image = AddImage(source.file, encoding);
+    const std::optional<ImageId> image = AddImage(source, encoding);
     return image ? AddTextureOf(source, *image) : TextureId{};
   }
 
@@ -313,16 +316,18 @@ class ObjMaterials {
 
   std::optional<ImageId> MakeMetallicRoughnessImage(const MtlMaterial& source,
                                                     const ImagePair& paths) {
-    const auto read = [&](const std::filesystem::path& path, const std::string& name) {
-      if (path.empty()) return std::shared_ptr<const MipChain>();
-      return WithImage(name, [&] {
-        return ReadTextureImage(path, name, {.encoding = TextureEncoding::kLinear, .part = {}},
-                                &texels_)
-            .texels;
+    const auto read = [&](const std::filesystem::path& path,
+                          const MtlImage& image) -> std::shared_ptr<const MipChain> {
+      if (path.empty()) return nullptr;
+      const auto texture = WithImage(image, [&] {
+        return ReadTextureImage(path, image.file,
+                                {.encoding = TextureEncoding::kLinear, .part = {}}, &texels_);
       });
+      return texture ? texture->texels : nullptr;
     };
-    const auto roughness = read(paths.first, source.map_pr.file);
-    const auto metallic = read(paths.second, source.map_pm.file);
+    const auto roughness = read(paths.first, source.map_pr);
+    const auto metallic = read(paths.second, source.map_pm);
+    if (roughness == nullptr && metallic == nullptr) return std::nullopt;
     const MipLevel& size = (roughness != nullptr ? roughness : metallic)->levels[0];
     if (roughness != nullptr && metallic != nullptr &&
         (metallic->levels[0].width != size.width || metallic->levels[0].height != size.height)) {
@@ -336,8 +341,12 @@ class ObjMaterials {
       return image
           ->values[texel * static_cast<size_t>(image->channels) + (is_packed ? packed_channel : 0)];
     };
-    const std::string& name = roughness != nullptr ? source.map_pr.file : source.map_pm.file;
-    WithImage(name, [&] { texels_.Spend({}, size.width, size.height, 3); });
+    const MtlImage& first = roughness != nullptr ? source.map_pr : source.map_pm;
+    const auto has_room = WithImage(first, [&] {
+      texels_.Spend({}, size.width, size.height, 3);
+      return true;
+    });
+    if (!has_room) return std::nullopt;
     const size_t texels = static_cast<size_t>(size.width) * static_cast<size_t>(size.height);
     std::vector<float> values;
     values.reserve(3 * texels);
@@ -363,8 +372,9 @@ class ObjMaterials {
   std::unordered_set<std::string> warned_, libraries_;
   TexelBudget texels_{0};
   std::unordered_map<std::string, std::filesystem::path> image_paths_;  // by name; empty: no file
-  std::map<std::pair<std::filesystem::path, TextureEncoding>, ImageId> images_;
-  std::map<ImagePair, std::optional<ImageId>> metallic_roughness_;  // none: they do not fit
+  // Nothing for those that cannot be read, or do not fit each other.
+  std::map<std::pair<std::filesystem::path, TextureEncoding>, std::optional<ImageId>> images_;
+  std::map<ImagePair, std::optional<ImageId>> metallic_roughness_;
 };
 
 }  // namespace

@@ -19,10 +19,10 @@ namespace nacre {
 // bisector of L and V), or metallic-roughness where the library gives them a roughness or a
 // metallic (Pr, Pm and their images).
 //
-// Warns (options.on_warning) of libraries and images that are missing, names that no library has,
-// numbers out of range and what is not shown. Throws Error (kBadInput) for libraries and images
-// outside the folder, broken images, more than kMaxModelMaterials materials or the texels of
-// TexelBudget, and numbers that are none or not finite.
+// Warns (options.on_warning) of libraries and images that are missing, images that cannot be read,
+// names that no library has, numbers out of range and what is not shown. Throws Error (kBadInput)
+// for libraries and images outside the folder, more than kMaxModelMaterials materials or the texels
+// of TexelBudget, and numbers that are none or not finite.
 std::vector<MaterialId> AddObjMaterials(const std::filesystem::path& path, const ObjFile& obj,
                                         const LoadOptions& options, Scene* scene);
 

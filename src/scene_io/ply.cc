@@ -42,7 +42,11 @@ class PlyReader {
  public:
   explicit PlyReader(const std::filesystem::path& path)
       : file_(path.string()),
-        bytes_(ReadTextFile(path, kMaxPlyBytes)),
+        bytes_(ReadBytes(path, kMaxPlyBytes,
+                         [&](std::string_view head, uint64_t size) {
+                           CheckPlyMagic(head, file_);
+                           return size;
+                         })),
         header_(ReadPlyHeader(bytes_, file_)),
         numbers_(bytes_, header_, file_),
         budget_(TrianglesOfBytes(bytes_.size())) {}
@@ -75,6 +79,11 @@ class PlyReader {
  private:
   [[noreturn]] void Refuse(std::string what, std::string hint = {}) const {
     throw Error(ExitCode::kBadInput, file_, std::move(what), std::move(hint));
+  }
+
+  // For the number that was read last.
+  [[noreturn]] void RefuseNumber(std::string what, std::string hint) const {
+    throw Error(ExitCode::kBadInput, numbers_.place(), std::move(what), std::move(hint));
   }
 
   // The places of several numbers; all kNone unless all are there, and no list.
@@ -145,7 +154,7 @@ class PlyReader {
   void AddPosition(const Vec3d& position, uint64_t number) {
     for (int c = 0; c < 3; ++c) {
       if (limits::kCoordinate.Contains(position[c])) continue;
-      Refuse(
+      RefuseNumber(
           fmt::format("vertex {} is at [{}, {}, {}]", number, position.x, position.y, position.z),
           "each coordinate " + Describe(limits::kCoordinate));
     }
@@ -168,8 +177,8 @@ class PlyReader {
     const double index = numbers_.Next(list.type);
     if (!(index >= 0) || index >= static_cast<double>(vertex_count_) ||
         index != std::floor(index)) {
-      Refuse(fmt::format("face {} has vertex {}", faces_, index),
-             fmt::format("there are {}, counted from 0", vertex_count_));
+      RefuseNumber(fmt::format("face {} has vertex {}", faces_, index),
+                   fmt::format("there are {}, counted from 0", vertex_count_));
     }
     return static_cast<uint32_t>(index);
   }
@@ -198,8 +207,8 @@ class PlyReader {
         }
         const size_t count = numbers_.NextLength(property);
         if (count < 3 || count > kMaxCorners) {
-          Refuse(fmt::format("face {} has {} corners", faces_, count),
-                 fmt::format("from 3 to {}", kMaxCorners));
+          RefuseNumber(fmt::format("face {} has {} corners", faces_, count),
+                       fmt::format("from 3 to {}", kMaxCorners));
         }
         SpendTriangles(count - 2, file_, &budget_, kTooManyForItsSize);
         corner_counts_.push_back(static_cast<unsigned char>(count));
@@ -233,8 +242,8 @@ class PlyReader {
     }
     if (!(index >= 0) || index >= static_cast<double>(vertex_count_) ||
         index != std::floor(index)) {
-      Refuse(fmt::format("a strip has vertex {}", index),
-             fmt::format("there are {}, counted from 0", vertex_count_));
+      RefuseNumber(fmt::format("a strip has vertex {}", index),
+                   fmt::format("there are {}, counted from 0", vertex_count_));
     }
     strip->push_back(static_cast<uint32_t>(index));
     const size_t n = strip->size();

@@ -67,9 +67,8 @@ class HeaderReader {
   }
 
   PlyHeader Read() {
-    if (NextLine() != std::vector<std::string_view>{"ply"}) {
-      throw Error(ExitCode::kBadInput, file_, "is not a PLY file", "its first line is \"ply\"");
-    }
+    CheckPlyMagic(bytes_, file_);
+    NextLine();
     while (true) {
       const std::vector<std::string_view> words = NextLine();
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
@@ -247,6 +246,13 @@ size_t PlyElement::Find(std::string_view property) const {
   return kNone;
 }
 
+void CheckPlyMagic(std::string_view head, const std::string& file) {
+  std::string_view line = WithoutByteOrderMark(head, file);
+  line = line.substr(0, line.find_first_of("\r\n"));
+  if (NextWord(&line) == "ply" && NextWord(&line).empty()) return;
+  throw Error(ExitCode::kBadInput, file, "is not a PLY file", "its first line is \"ply\"");
+}
+
 PlyHeader ReadPlyHeader(const std::string& bytes, const std::string& file) {
   return HeaderReader(bytes, file).Read();
 }
@@ -255,7 +261,15 @@ PlyNumbers::PlyNumbers(const std::string& bytes, const PlyHeader& header, const 
     : bytes_(bytes), file_(file), format_(header.format), position_(header.length) {}
 
 void PlyNumbers::Refuse(std::string what) const {
-  throw Error(ExitCode::kBadInput, file_, std::move(what), "the file is damaged or incomplete");
+  throw Error(ExitCode::kBadInput, place(), std::move(what), "the file is damaged or incomplete");
+}
+
+std::string PlyNumbers::place() const {
+  if (format_ != PlyFormat::kText) return file_;
+  const auto begin = bytes_.begin(), end = begin + static_cast<ptrdiff_t>(position_);
+  // Lines end with LF, CR LF or CR.
+  const bool has_lf = bytes_.find('\n') < position_;
+  return fmt::format("{}:{}", file_, std::count(begin, end, has_lf ? '\n' : '\r') + 1);
 }
 
 std::string_view PlyNumbers::NextWord() {

@@ -38,6 +38,9 @@ struct PlyHeader {
   size_t length = 0;  // bytes of the header
 };
 
+// Throws Error (kBadInput) unless a file that begins like this says that it is a PLY file.
+void CheckPlyMagic(std::string_view head, const std::string& file);
+
 // Throws Error (kBadInput) with `file` and the line for what is no header, for more elements than
 // the rest of the file can hold, and for names that an element has twice.
 PlyHeader ReadPlyHeader(const std::string& bytes, const std::string& file);
@@ -51,6 +54,8 @@ class PlyNumbers {
   // The next number. Throws Error (kBadInput) at the end of the file, and in text for what is not a
   // number of the type.
   double Next(PlyType type);
+  // Where the last number was, for errors: in text the file and the line.
+  std::string place() const;
   // The length of the next list, which the rest of the file can hold.
   size_t NextLength(const PlyProperty& list);
   // Leaves out the next value of the property.

@@ -4,18 +4,94 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/excerpt.h"
+#include "scene_io/text_lines.h"
 
 namespace nacre {
 namespace {
 
-constexpr double kGibibyte = 1024.0 * 1024 * 1024;
+constexpr double kMebibyte = 1024.0 * 1024, kGibibyte = 1024 * kMebibyte;
+
+constexpr size_t kFirstPiece = size_t{1} << 16, kPiece = size_t{1} << 20;
+
+std::string SizeText(uint64_t bytes) {
+  const auto size = static_cast<double>(bytes);
+  return size < kGibibyte ? fmt::format("{:g} MiB", size / kMebibyte)
+                          : fmt::format("{:g} GiB", size / kGibibyte);
+}
+
+struct Descriptor {
+  int number = -1;
+  Descriptor() = default;
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (number >= 0) close(number);
+  }
+};
+
+// A regular file that is open. Devices and pipes are refused before they are opened, which might
+// wait forever.
+class InputFile {
+ public:
+  explicit InputFile(const std::filesystem::path& path) : path_(path.string()) {
+    struct stat status = {};
+    // The second look is at what has been opened, whatever has the name by then.
+    if (stat(path_.c_str(), &status) != 0) Refuse("cannot be opened");
+    CheckKind(status);
+    descriptor_.number = open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor_.number < 0) Refuse("cannot be opened");
+    if (fstat(descriptor_.number, &status) != 0) Refuse("cannot be read");
+    CheckKind(status);
+    size_ = static_cast<uint64_t>(status.st_size);
+  }
+  uint64_t size() const { return size_; }
+
+  // Appends up to `count` bytes; returns how many, 0 at the file's end.
+  size_t Append(size_t count, std::string* bytes) const {
+    const size_t before = bytes->size();
+    bytes->resize(before + count);
+    ssize_t got = 0;
+    do {
+      got = read(descriptor_.number, bytes->data() + before, count);
+    } while (got < 0 && errno == EINTR);
+    if (got < 0) Refuse("cannot be read");
+    bytes->resize(before + static_cast<size_t>(got));
+    return static_cast<size_t>(got);
+  }
+
+  [[noreturn]] void RefuseLength(uint64_t max_bytes) const {
+    throw Error(ExitCode::kBadInput, path_, "is longer than " + SizeText(max_bytes),
+                "is it the right file?");
+  }
+
+ private:
+  [[noreturn]] void Refuse(const char* what) const {
+    throw Error(ExitCode::kBadInput, path_, fmt::format("{}: {}", what, std::strerror(errno)));
+  }
+
+  void CheckKind(const struct stat& status) const {
+    if (S_ISDIR(status.st_mode)) {
+      throw Error(ExitCode::kBadInput, path_, "is a folder", "name a file");
+    }
+    if (!S_ISREG(status.st_mode)) {
+      throw Error(ExitCode::kBadInput, path_, "is not a regular file",
+                  "devices and pipes are not read");
+    }
+  }
+
+  std::string path_;
+  Descriptor descriptor_;
+  uint64_t size_ = 0;
+};
 
 bool IsBelow(const std::filesystem::path& path, const std::filesystem::path& folder) {
   const auto [folder_end, path_end] =
@@ -25,38 +101,42 @@ bool IsBelow(const std::filesystem::path& path, const std::filesystem::path& fol
 
 }  // namespace
 
+std::string ReadBytes(const std::filesystem::path& path, uint64_t max_bytes,
+                      const std::function<uint64_t(std::string_view, uint64_t)>& judge) {
+  const InputFile file(path);
+  std::string bytes;
+  file.Append(kFirstPiece, &bytes);
+  const uint64_t length = std::max<uint64_t>(file.size(), bytes.size());
+  const uint64_t wanted = judge ? std::min(judge(bytes, length), length) : length;
+  if (wanted > max_bytes) file.RefuseLength(max_bytes);
+  bytes.reserve(wanted);
+  while (bytes.size() < wanted) {
+    if (file.Append(std::min(kPiece, wanted - bytes.size()), &bytes) == 0) break;
+  }
+  bytes.resize(std::min<uint64_t>(bytes.size(), wanted));
+  return bytes;
+}
+
 std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw Error(ExitCode::kBadInput, path.string(), "is a folder", "name a file");
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw Error(ExitCode::kBadInput, path.string(),
-                std::string("cannot be opened: ") + std::strerror(errno));
-  }
-  // In pieces, because a pipe does not tell its size: each as long as all before it, so that a
-  // short file is not paid for as a long one.
+  const InputFile file(path);
+  if (file.size() > max_bytes) file.RefuseLength(max_bytes);
   std::string text;
-  constexpr size_t kFirstPiece = 1 << 16;
-  while (file) {
-    const size_t before = text.size(), piece = std::max(before, kFirstPiece);
-    text.resize(before + piece);
-    file.read(text.data() + before, static_cast<std::streamsize>(piece));
-    text.resize(before + static_cast<size_t>(file.gcount()));
-    if (text.size() > max_bytes) {
-      throw Error(
-          ExitCode::kBadInput, path.string(),
-          fmt::format("is longer than {:g} GiB", static_cast<double>(max_bytes) / kGibibyte),
-          "is it the right file?");
-    }
+  while (true) {  // to its end: files of the kernel (/proc) say that they have no bytes
+    const size_t before = text.size();
+    if (file.Append(before == 0 ? kFirstPiece : kPiece, &text) == 0) return text;
+    if (before == 0) WithoutByteOrderMark(text, path.string());  // refuses UTF-16
+    const size_t zero = text.find('\0', before);
+    if (zero != std::string::npos) RefuseZero(text, zero, path.string());
+    if (text.size() > max_bytes) file.RefuseLength(max_bytes);
+    // Not before it looks like text: it may be long.
+    if (before == 0) text.reserve(std::max<uint64_t>(file.size(), text.size()) + kPiece);
   }
-  if (file.bad()) {
-    throw Error(ExitCode::kBadInput, path.string(),
-                std::string("cannot be read: ") + std::strerror(errno));
-  }
-  return text;
+}
+
+void RefuseZero(std::string_view text, size_t zero, const std::string& file) {
+  const auto line = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(zero), '\n') + 1;
+  throw Error(ExitCode::kBadInput, fmt::format("{}:{}", file, line),
+              "is not text: there is a character 0", "is it the right file?");
 }
 
 std::filesystem::path ResolveReference(const std::filesystem::path& folder, const std::string& name,

@@ -2,17 +2,29 @@
 // scene_io/text_file.h: whole text files, and the files that a scene may refer to.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nacre {
 
-// The bytes of a file. Throws Error (kBadInput) if it is missing, a folder, unreadable or longer
-// than max_bytes.
+// The text of a file. Throws Error (kBadInput) if it is missing, not a regular file, unreadable or
+// longer than max_bytes, which its size tells before it is read; if it is in UTF-16 or UTF-32; and
+// with the line if it has a character 0 in it, after which nothing more is read.
 std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes);
+
+// The bytes of a file. `judge`, if any, sees the first 64 KiB, or all of a shorter file, and the
+// file's size, before the rest is read; it returns how many bytes to read, or throws. Throws Error
+// (kBadInput) if it is missing, not a regular file, unreadable or longer than max_bytes.
+std::string ReadBytes(const std::filesystem::path& path, uint64_t max_bytes,
+                      const std::function<uint64_t(std::string_view, uint64_t)>& judge = {});
+
+// Throws Error (kBadInput) for text with a character 0 at this place.
+[[noreturn]] void RefuseZero(std::string_view text, size_t zero, const std::string& file);
 
 // What a scene's references to other files may be, and who is told of them.
 struct ReferenceRules {

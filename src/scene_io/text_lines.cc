@@ -32,6 +32,10 @@ bool HasComment(std::string_view line) {
 
 bool GoesOn(std::string_view line) { return line.ends_with('\\') && !HasComment(line); }
 
+[[noreturn]] void RefuseWideText(const std::string& file) {
+  throw Error(ExitCode::kBadInput, file, "is text in UTF-16 or UTF-32", "save it as UTF-8");
+}
+
 }  // namespace
 
 std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file) {
@@ -39,8 +43,11 @@ std::string_view WithoutByteOrderMark(std::string_view text, const std::string& 
   if (text.starts_with("\xef\xbb\xbf"sv)) return text.substr(3);
   for (const std::string_view mark : {"\xff\xfe"sv, "\xfe\xff"sv, "\0\0\xfe\xff"sv}) {
     if (!text.starts_with(mark)) continue;
-    throw Error(ExitCode::kBadInput, file, "is text in UTF-16 or UTF-32", "save it as UTF-8");
+    RefuseWideText(file);
   }
+  // Without a mark: the first character is an ASCII one, and its other bytes are 0.
+  if (text.size() >= 2 && (text[0] == 0) != (text[1] == 0)) RefuseWideText(file);
+  if (text.size() >= 4 && text.starts_with("\0\0\0"sv) && text[3] != 0) RefuseWideText(file);
   return text;
 }
 

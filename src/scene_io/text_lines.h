@@ -11,7 +11,7 @@
 namespace nacre {
 
 // The text without the byte-order mark of UTF-8 that editors put before it. Throws Error
-// (kBadInput) with `file` for those of UTF-16 and UTF-32.
+// (kBadInput) with `file` for text in UTF-16 or UTF-32, with such a mark or without.
 std::string_view WithoutByteOrderMark(std::string_view text, const std::string& file);
 
 // Goes through the statements of an OBJ or MTL file. A line ends with LF, CR LF or CR, and goes on

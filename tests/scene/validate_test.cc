@@ -171,7 +171,7 @@ TEST_CASE("light faults") {
        [](Scene& s) { LightOf<SpotLight>(s, 3).inner_deg = 31; }},
       {"/lights/lamp/exponent", "-1", [](Scene& s) { LightOf<SpotLight>(s, 3).exponent = -1; }},
       {"/lights/sky", "second light", [](Scene& s) { s.lights[1].name = "sky"; }},
-      {"/lights/1", "layer", [](Scene& s) { s.lights[1].name = ""; }},
+      {"/lights/", "layer", [](Scene& s) { s.lights[1].name = ""; }},
       {"/lights/a.b", "layer", [](Scene& s) { s.lights[1].name = "a.b"; }},
   });
 }

@@ -512,12 +512,28 @@ TEST_CASE("buffers come as files and data URIs of every form") {
   }
 }
 
+TEST_CASE("a node with a matrix and a translation goes by the matrix, and a warning says so") {
+  GltfFile file = MakeSquare();
+  file.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
+  std::vector<std::string> warnings;
+  LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  for (const char* member : {"translation", "scale", "rotation"}) {
+    GltfFile both = file;
+    both.json["nodes"][0][member] = {2, 2, 2};
+    if (member == std::string("rotation")) both.json["nodes"][0][member].push_back(1);
+    warnings.clear();
+    CHECK(LoadFile(both, &warnings).meshes.at(0).positions.at(0) == Vec3d(5, 6, 7));
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0].find("the matrix counts") != std::string::npos);
+  }
+}
+
 TEST_CASE("what is left out may be anything, and is told once") {
   GltfFile file = MakeSquare();
-  file.json["nodes"][0]["skin"] = 0;
-  file.json["nodes"].push_back({{"mesh", 0}, {"skin", 0}});
+  file.json["nodes"].push_back({{"mesh", 0}});
   file.json["scenes"][0]["nodes"] = {0, 1};
-  file.json["skins"] = Json::parse(R"([{"joints": [0]}, {"joints": 7, "skeleton": "x"}])");
+  file.json["skins"] = Json::parse(R"([{"joints": [70], "skeleton": "x"}])");  // of no mesh
   file.json["animations"] = Json::parse(R"([{"channels": [{"sampler": 0, "target":
       {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/0"}}}}],
       "samplers": [{"input": 1.0, "output": null}]}])");
@@ -527,7 +543,7 @@ TEST_CASE("what is left out may be anything, and is told once") {
   file.json["cameras"] = Json::array();
   std::vector<std::string> warnings;
   CHECK(LoadFile(file, &warnings).meshes.size() == 2);
-  CHECK(warnings.size() == 4);  // skins, animations, two extensions
+  CHECK(warnings.size() == 3);  // animations, two extensions
   // An accessor without a buffer view is zeros, indices too.
   file = MakeSquare();
   Json& primitives = file.json["meshes"][0]["primitives"];

@@ -323,6 +323,21 @@ TEST_CASE("normal textures are decoded as glTF has it, occlusion textures are to
   CHECK(scene.images.size() == 2);  // the base colour's and the normals'
 }
 
+TEST_CASE("an alphaMode that there is not") {
+  for (const char* mode : {"blend", "ADD", ""}) {
+    GltfFile file = MakeSquare();
+    file.json["materials"] = {{{"alphaMode", mode}}};
+    std::string message;
+    try {
+      LoadFile(file);
+    } catch (const Error& error) {
+      message = error.what();
+    }
+    CHECK(message.find(std::string("/materials/0/alphaMode: \"") + mode + "\" is none") !=
+          std::string::npos);
+  }
+}
+
 TEST_CASE("alphaMode MASK cuts holes by the base colour's alpha") {
   GltfFile file = MakeTexturedSquare(kPngWithAlpha);
   Json& material = file.json["materials"][0];

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <utility>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -522,7 +524,90 @@ TEST_CASE("scenes that cannot be read") {
                  "/no/such/scene.json: cannot be opened: No such file or directory"));
   CHECK(Contains(MessageOf([] { LoadScene(kScenes); }), "is a folder"));
   CHECK(Contains(MessageOf([] { ReadTextFile("/dev/zero", 3 << 20); }),
-                 "/dev/zero: is longer than 0.00292969 GiB"));
+                 "/dev/zero: is not a regular file"));
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path / "pipe.json", large = folder.path / "large.json";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(Contains(MessageOf([&] { LoadScene(pipe); }), "pipe.json: is not a regular file"));
+  std::ofstream(large) << "{}";
+  for (const auto& [bytes, limit] :
+       {std::pair<uint64_t, const char*>(1 << 20, "1 MiB"), {uint64_t{4} << 30, "4 GiB"}}) {
+    std::filesystem::resize_file(large, bytes + 1);  // of which the disk holds two
+    CHECK(Contains(MessageOf([&] { ReadTextFile(large, bytes); }),
+                   std::string("longer than ") + limit));
+    CHECK(
+        Contains(MessageOf([&] { ReadBytes(large, bytes); }), std::string("longer than ") + limit));
+  }
+  std::ofstream(large) << "12345";
+  CHECK(ReadTextFile(large, 5) == "12345");
+  CHECK(ReadBytes(large, 5) == "12345");
+  CHECK(ReadBytes(large, 3, [](std::string_view, uint64_t) { return uint64_t{3}; }) == "123");
+  CHECK(Contains(MessageOf([&] { ReadTextFile(large, 4); }), "longer than"));
+  CHECK(!ReadTextFile("/proc/self/status", 1 << 20).empty());  // says that it has no bytes
+}
+
+TEST_CASE("text ends with its file, not at a character 0") {
+  using namespace std::string_literals;
+  const TemporaryFolder folder;
+  const auto message_of = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.path / name, std::ios::binary) << text;
+    return MessageOf([&] { LoadScene(folder.path / name); });
+  };
+  const std::string scene = R"({"nacre": 1})";
+  CHECK(message_of("a.json", scene) == "no error");
+  CHECK(Contains(message_of("a.json", scene + "\n\0"s),
+                 "a.json:2: is not text: there is a character 0"));
+  CHECK(Contains(MessageOf([&] { LoadSceneText(scene + "\0}"s, "a.json", {}, {}); }),
+                 "a.json:1: is not text"));
+  CHECK(Contains(message_of("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\0"s),
+                 "a.obj:5: is not text"));
+  // Far from the beginning, where a .gltf file is no longer judged by its first bytes.
+  const std::string blanks(1 << 17, ' ');
+  CHECK(Contains(message_of("a.gltf", R"({"asset": {"version": "2.0"}})" + blanks + "\0{}"s),
+                 "a.gltf:1: is not text"));
+  CHECK(Contains(message_of("a.obj", "v 0 0 0\n" + blanks + "\n\0"s), "a.obj:3: is not text"));
+}
+
+TEST_CASE("UTF-16 and UTF-32 with a byte-order mark and without") {
+  const auto message_of = [](const std::string& text) {
+    return MessageOf([&] { LoadSceneText(text, "a.json", {}, {}); });
+  };
+  for (const size_t width : {2, 4}) {
+    for (const size_t place : {size_t{0}, width - 1}) {
+      std::string text;
+      for (const char c : std::string(R"({"nacre": 1})")) {
+        std::string wide(width, '\0');
+        wide[place] = c;
+        text += wide;
+      }
+      CHECK(Contains(message_of(text), "a.json: is text in UTF-16 or UTF-32"));
+    }
+  }
+}
+
+TEST_CASE("a file is blamed for what no override can mend") {
+  const auto message_of = [](const std::string& text, const std::string& pointer) {
+    return MessageOf([&] { LoadSceneText(text, "a.json", {}, {.overrides = {{pointer, "1"}}}); });
+  };
+  CHECK(Contains(message_of("[]", "/image/width"), "a.json: not a scene: no object"));
+  CHECK(Contains(message_of(R"({"nacre": 1, "image": []})", "/image/width"),
+                 "a.json: /image: expected an object, got an array"));
+  CHECK(Contains(message_of(R"({"nacre": 1, "image": {"width": 8}})", "/image/width/a"),
+                 "--set /image/width/a: there is no \"a\" in a value"));
+}
+
+TEST_CASE("a pointer to a fault is whole whatever names are in it") {
+  const auto message_of = [](const std::string& name) {
+    const std::string text =
+        R"({"nacre": 1, "materials": {")" + name + R"(": {"model": "lambert", "albedo": "red"}}})";
+    return MessageOf([&] { LoadSceneText(text, "a.json", {}, {}); });
+  };
+  CHECK(Contains(message_of("a\\nb"), "/materials/a\\nb/albedo: expected"));
+  CHECK(Contains(message_of(std::string(1000, 'x')), "xxx.../albedo: expected"));
+  CHECK(Contains(message_of(""), "/materials//albedo: expected"));
+  const std::string light = R"({"nacre": 1, "lights": {"": {"type": "ambient", "radiance": 1}}})";
+  CHECK(Contains(MessageOf([&] { LoadSceneText(light, "a.json", {}, {}); }),
+                 "a.json: /lights/: the name"));
 }
 
 TEST_CASE("the scenes that ship load") {

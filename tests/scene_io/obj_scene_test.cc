@@ -276,6 +276,50 @@ TEST_CASE("colours of vertices are shown") {
   CHECK(codes.meshes.at(0).colors.at(1).y == Approx(0.03310477).epsilon(1e-6));  // sRGB 0.2
 }
 
+TEST_CASE("an image that cannot be read is left out, and told once") {
+  const ModelFolder folder;
+  folder.Write("t.bmp", "BM" + std::string(60, '\0'));
+  folder.Write("good.ppm", "P6\n1 1\n255\nabc");
+  for (const char* map : {"map_Kd", "map_Ks", "map_Ns", "map_Ke", "map_Pr", "map_Pm", "norm"}) {
+    INFO(map);
+    const std::string broken = std::string(map) + " t.bmp\n";
+    folder.Write("a.mtl", "newmtl a\n" + broken + "newmtl b\n" + broken + "newmtl c\n" + map +
+                              " good.ppm\n");
+    std::vector<std::string> warnings;
+    LoadOptions options;
+    options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+    const Scene scene =
+        LoadScene(folder.Write("m.obj",
+                               "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n"
+                               "usemtl b\nf 1 2 3\nusemtl c\nf 1 2 3\n"),
+                  options);
+    CHECK(scene.meshes.size() == 3);
+    CHECK(scene.textures.size() == 1);
+    const auto broken_ones = std::count_if(warnings.begin(), warnings.end(), [](const auto& text) {
+      return Contains(text, "an image is left out: ") && Contains(text, "a.mtl:2: \"t.bmp\": ");
+    });
+    CHECK(broken_ones == 1);
+  }
+}
+
+TEST_CASE("only an index 0 that is written is told") {
+  const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
+  for (const char* face : {"f 1 2 3", "f 1/ 2/ 3/", "f 1// 2// 3//", "f 1//1 2//1 3//1",
+                           "f 1/1 2/1 3/1", "f 1/1/ 2/1/ 3/1/"}) {
+    INFO(face);
+    CHECK(Load(head + face + "\n", "").warnings.empty());
+  }
+  for (const char* face : {"f 1/0 2/0 3/0", "f 1/0/1 2/0/1 3/0/1", "f 1/0/ 2/0/ 3/0/"}) {
+    INFO(face);
+    const std::vector<std::string> warnings = Load(head + face + "\n", "").warnings;
+    REQUIRE(warnings.size() == 1);
+    CHECK(Contains(warnings[0], "texture coordinates of index 0"));
+  }
+  const std::vector<std::string> warnings = Load(head + "f 1//0 2//0 3//0\n", "").warnings;
+  REQUIRE(warnings.size() == 1);
+  CHECK(Contains(warnings[0], "normals of index 0"));
+}
+
 TEST_CASE("what is left out of an OBJ file is told once") {
   std::string obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n";
   for (int i = 0; i < 3; ++i) obj += "l 1 2\np 1\ncurv 0 1 1 2\nsurf 0 1 0 1 1\nhello 1\nworld\n";

@@ -263,6 +263,15 @@ TEST_CASE("what is wrong with a PLY file is said") {
   CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2 4\n",
                 "face 0 has vertex 4\n  hint: there are 4"));
   CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2 -1\n", "face 0 has vertex -1"));
+  // In text with the line, however lines end.
+  CHECK(
+      Refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+              "property float z\nend_header\n0 0\nx\n",
+              "ply:9: \"x\" is not a number"));
+  CHECK(
+      Refused("ply\rformat ascii 1.0\relement vertex 1\rproperty float x\rproperty float y\r"
+              "property float z\rend_header\r0 0\r1e99\r",
+              "ply:9: vertex 0 is at"));
   CHECK(Refused(kVertices + kFaces + kPoints + "2 0 1\n", "face 0 has 2 corners"));
   CHECK(Refused(kVertices + kFaces + kPoints + "200 0 1\n", "a list of 200 is more than"));
   CHECK(Refused(kVertices + kFaces + kPoints + "4 0 1 2\n", "ends too early"));
