@@ -14,9 +14,10 @@ namespace {
 using Profile = std::unique_ptr<void, decltype(&cmsCloseProfile)>;
 using Transform = std::unique_ptr<void, decltype(&cmsDeleteTransform)>;
 
-// Three codes of 255: profiles of sRGB differ by the digits of their primaries and by the samples
-// of their curves, by a code or two.
-constexpr double kNear = 3.0 / 255;
+// A curve of gamma 2.2, which many profiles have in the place of sRGB's own (libpng takes it for
+// that, too), is .024 off at 1/8. Of other primaries (P3, Adobe's) and other curves (1, 1.8) it is
+// .07 and more.
+constexpr double kNear = 0.03;
 
 std::string DescriptionOf(cmsHPROFILE profile) {
   std::array<char, 256> text{};

@@ -354,7 +354,7 @@ class ObjMaterials {
       values.insert(values.end(), {1.0f, value(roughness, i, 1), value(metallic, i, 2)});
     }
     SceneImage& image = scene_.images.emplace_back();
-    image.file = name;
+    image.file = first.file;
     image.texels = std::make_shared<const MipChain>(
         MakeMipChain(size.width, size.height, 3, std::move(values)));
     return ImageId{static_cast<uint32_t>(scene_.images.size() - 1)};

@@ -785,7 +785,7 @@ class CliTest(unittest.TestCase):
     def test_without_gnuplot_there_is_csv_still(self):
         bare = dict(os.environ, PATH=str(self.out))
         result = run('plot', 'tone', '-o', self.out / 'a.svg', env=bare)
-        self.assertEqual(result.returncode, 70)
+        self.assertEqual(result.returncode, 74)
         self.assertIn('gnuplot-nox', result.stderr)
         self.assertEqual(run('plot', 'tone', '-o', self.out / 'a.csv', env=bare).returncode, 0)
         self.assertEqual([file.name for file in self.out.iterdir()], ['a.csv'])

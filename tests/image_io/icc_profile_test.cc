@@ -48,6 +48,7 @@ cmsToneCurve* SrgbCurve() {
 TEST_CASE("sRGB is what does as sRGB does") {
   CHECK(ReadIccProfile(BytesOf(cmsCreate_sRGBProfile())).is_srgb);
   CHECK(ReadIccProfile(MakeProfile(kRec709, SrgbCurve())).is_srgb);
+  CHECK(ReadIccProfile(MakeProfile(kRec709, cmsBuildGamma(nullptr, 2.2))).is_srgb);
   cmsToneCurve* const grey = SrgbCurve();
   const cmsCIExyY white = {0.3127, 0.3290, 1};
   CHECK(ReadIccProfile(BytesOf(cmsCreateGrayProfile(&white, grey))).is_srgb);

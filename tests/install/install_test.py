@@ -100,15 +100,16 @@ class InstallTest(unittest.TestCase):
     def test_the_program_finds_its_module_and_scenes(self):
         scene = self.prefix / 'share/nacre/scenes/material_grid.json'
         self.assertTrue((scene.parent / 'nacre.schema.json').is_file())
-        render = [self.prefix / 'bin/nacre', 'render', scene, '-o', self.top / 'a.png', '--labels',
-                  '--size', '200x200', '--spp', '1']
-        run(*render)
+        run(self.prefix / 'bin/nacre', 'render', scene, '-o', self.top / 'a.png', '--labels', '--size',
+            '200x200', '--spp', '1')
+        tiff = [self.prefix / 'bin/nacre', 'info', SOURCE / 'tests/fuzz/corpus/texture_image/a.tif']
+        run(*tiff)
         module = next(self.prefix.glob('lib/**/nacre_oiio.so'))
         away = self.top / 'away.so'
         shutil.move(module, away)
         try:
             with self.assertRaisesRegex(AssertionError, 'nacre_oiio.so'):
-                run(*render)
+                run(*tiff)
         finally:
             shutil.move(away, module)
 

@@ -205,7 +205,7 @@ TEST_CASE("An unknown form or a missing gnuplot is told, and nothing is written"
     WriteFigure(folder / "a.png", figure);
     FAIL_CHECK("drawn without gnuplot");
   } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::kInternal);
+    CHECK(error.code() == ExitCode::kCannotWrite);
     CHECK(std::string(error.what()).find("gnuplot-nox") != std::string::npos);
   }
   WriteFigure(folder / "a.csv", figure);  // needs none

@@ -137,35 +137,6 @@ TEST_CASE("every image of a material library is shown, or told once") {
   CHECK(raised.materials.at(0).normal_map.scale == 0.25);
 }
 
-TEST_CASE("a constant colour has its image, too") {
-  const ModelFolder folder;
-  folder.Write("t.ppm", "P6\n1 1\n255\nabc");
-  const std::string obj =
-      "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl m\nf 1/1 2/1 3/1\n";
-  std::vector<std::string> warnings;
-  const auto material = [&](const std::string& mtl) {
-    LoadOptions options;
-    warnings.clear();
-    options.on_warning = [&](const std::string& text) { warnings.push_back(text); };
-    folder.Write("a.mtl", "newmtl m\nillum 0\n" + mtl);
-    return LoadScene(folder.Write("m.obj", obj), options).materials.at(0);
-  };
-  const Material plain = material("Kd .5 .25 0\n");
-  CHECK(plain.emission == Rgb(0.5, 0.25, 0));
-  CHECK(!plain.emission_map.valid());
-  const Material pictured = material("Kd .5 .25 0\nmap_Kd t.ppm\n");
-  CHECK(pictured.emission == Rgb(0.5, 0.25, 0));
-  CHECK(pictured.emission_map.valid());
-  CHECK(std::get<PhongMaterial>(pictured.model).kd == Rgb(0));
-  CHECK(material("Kd 0 0 0\nmap_Kd t.ppm\n").emission == Rgb(1));
-  CHECK(warnings.empty());
-  CHECK(material("Kd .5 .25 0\nKe 1 1 1\n").emission == Rgb(1.5, 1.25, 1));
-  CHECK(warnings.empty());
-  const Material both = material("Kd .5 .25 0\nmap_Kd t.ppm\nKe 0 1 0\n");
-  CHECK(both.emission == Rgb(0, 1, 0));
-  CHECK(warnings.size() == 1);
-}
-
 TEST_CASE("material libraries are read however they are written") {
   const auto kd = [](const std::string& obj, const std::string& mtl) {
     const auto [scene, warnings] = Load(obj, mtl);

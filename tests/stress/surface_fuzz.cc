@@ -99,7 +99,7 @@ class BrokenModelMaker {
     const bool colors = random_.OneIn(3);
     constexpr float kOpacities[] = {0, 0.5f, 0.5f, 1, 1, 1};
     for (size_t i = 0; i < mesh->positions.size(); ++i) {
-      const Vec3d along = random_.OneIn(4) ? mesh->normals[i] : Direction();
+      const Vec3d along = random_.OneIn(4) ? mesh->normals[i] : random_.Direction();
       if (tangents) mesh->tangents.push_back({along, random_.OneIn(2) ? 1.0 : -1.0});
       const bool same = i > 0 && random_.OneIn(3);
       const Vec2d uv(random_.Uniform(-2, 2), random_.Uniform(-2, 2));
