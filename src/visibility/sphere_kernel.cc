@@ -7,6 +7,7 @@
 #define HWY_TARGET_INCLUDE "visibility/sphere_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "base/geometry-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/sphere_packet-inl.h"
 
@@ -49,9 +50,12 @@ void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
   for (int lane = 0; lane < packet.width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    const auto hit = TestLanes(d, packet, lane, sphere);
-    const auto in_the_way = InTheWay(d, hit, StartsOn(d, packet, lane, sphere), packet.outward,
-                                     hn::Load(d, packet.t_max + lane));
+    const auto rays = ShadowRaysOf(d, packet, lane);
+    const auto to_center = Sub(SetVec3(d, sphere.center), rays.origin);
+    const auto radius = hn::Set(d, sphere.radius);
+    const auto hit = TestSphere(d, to_center, rays.direction, rays.inverse_dd, radius);
+    const auto in_the_way = InTheWay(d, rays, to_center, radius, hit,
+                                     StartsOn(d, packet, lane, sphere), packet.outward);
     occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
   }
   RecordOccluded(&packet, occluded);
