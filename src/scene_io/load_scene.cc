@@ -106,7 +106,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
   FaultList faults;
   Json root = ParseJson(text, file, &faults, options.on_progress);
-  ApplyOptions(options, &root);
+  ApplyOptionsToFile(options, &root);
   CheckVersion(root, file);
 
   Scene scene;
