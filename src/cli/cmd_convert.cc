@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_convert.cc: nacre convert: a material of one model as the nearest one of another.
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -42,21 +43,25 @@ Json ResidualJson(const MaterialResidual& residual) {
   return {{"rms", residual.rms}, {"views", views}};
 }
 
+// "-" where there is no lobe to be compared with.
+std::string RmsText(double rms) { return std::isinf(rms) ? "-" : fmt::format("{:.3f}", rms); }
+
 std::string Table(const MaterialFit& fit) {
   std::string text =
       "                closed form               fit\n"
       "view  lobe rms    peak  albedo  lobe rms    peak  albedo\n";
   const auto row = [](const LobeResidual& r) {
-    return fmt::format("{:>9.3f} {:>+7.3f} {:>7.4f}", r.rms, r.peak, r.albedo);
+    return fmt::format("{:>9} {:>+7.3f} {:>7.4f}", RmsText(r.rms), r.peak, r.albedo);
   };
   for (size_t i = 0; i < fit.residual.views.size(); ++i) {
     text += fmt::format("{:>3.0f}  {} {}\n", fit.residual.views[i].view_deg,
                         row(fit.guess_residual.views[i]), row(fit.residual.views[i]));
   }
-  text += fmt::format("all  {:>9.3f}                 {:>9.3f}\n", fit.guess_residual.rms,
-                      fit.residual.rms);
+  text += fmt::format("all  {:>9}                 {:>9}\n", RmsText(fit.guess_residual.rms),
+                      RmsText(fit.residual.rms));
   text +=
-      "lobe rms: of the difference of BRDF n.l over all directions of light, over the original's;\n"
+      "lobe rms: of the difference of BRDF n.l over all directions of light, over the original's,\n"
+      "  - where that has no lobe;\n"
       "peak: the highlight's largest value, relative; albedo: of lobe and base, the worst "
       "channel\n";
   for (const std::string& note : fit.notes) text += "not kept: " + note + "\n";
@@ -108,10 +113,10 @@ Json DrawPage(const ConvertArguments& arguments, const Json& given, const Materi
                       {}};
   if (page.title.empty()) page.title = fmt::format("{} as {}", page.a_label, arguments.to);
   if (page.title == "-") page.title.clear();
-  page.footer = {
-      "A  " + DescribeMaterial(MaterialJson(original)), "B  " + DescribeMaterial(fitted),
-      fmt::format("lobe rms {:.3f} (closed form {:.3f}); light: {}", fit.residual.rms,
-                  fit.guess_residual.rms, MakeLighting(arguments.sheet.lighting, 0.5).label)};
+  page.footer = {"A  " + DescribeMaterial(MaterialJson(original)), "B  " + DescribeMaterial(fitted),
+                 fmt::format("lobe rms {} (closed form {}); light: {}", RmsText(fit.residual.rms),
+                             RmsText(fit.guess_residual.rms),
+                             MakeLighting(arguments.sheet.lighting, 0.5).label)};
   return DrawDifference(page, arguments.sheet, arguments.options, "nacre convert", outputs)
       .ToJson();
 }

@@ -103,13 +103,27 @@ Plots DrawAlbedo(const PlotArguments& a) {
 Plots DrawTone(const PlotArguments& a) { return {TonePlot(a.exposure)}; }
 
 Plots DrawFalloff(const PlotArguments& a) {
-  const std::vector<Light> lights = ReadPlotLights(a.inputs, DefaultLights());
-  for (const Light& light : lights) {
-    if (!HasFalloff(light)) {
-      throw Error(ExitCode::kBadInput, light.name,
-                  "is all around, or has no centre to measure a distance from",
-                  "name a light with a position, a centre or a direction");
+  std::vector<Light> lights;
+  std::vector<std::string> without;
+  for (Light& light : ReadPlotLights(a.inputs, DefaultLights())) {
+    if (HasFalloff(light)) {
+      lights.push_back(std::move(light));
+    } else {
+      without.push_back(light.name);
     }
+  }
+  // Of the lights of a scene those without are left out; one that was asked for is an error.
+  const bool asked = !a.inputs.lights.empty();
+  if (!without.empty() && (asked || lights.empty())) {
+    throw Error(ExitCode::kBadInput, without[0],
+                "is all around, or has no centre to measure a distance from",
+                "name a light with a position, a centre or a direction");
+  }
+  for (const std::string& name : without) {
+    PrintError(
+        "note: \"{}\" is left out: it is all around, or has no centre to measure a distance "
+        "from\n",
+        name);
   }
   return {FalloffPlot(lights)};
 }

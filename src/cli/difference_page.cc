@@ -13,12 +13,18 @@
 #include "cli/progress.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
+#include "image_io/text_width.h"
 #include "render/render.h"
 
 namespace nacre {
 namespace {
 
-constexpr double kStrip = 4.6;  // below the cells, in sizes of the text: scale and measures
+// Below the cells, in sizes of the text: the measures and the scale, side by side, or the scale
+// below the measures where the cells are too narrow for both.
+constexpr double kStrip = 4.6, kTallStrip = 8.2;
+constexpr double kMeasureLine = 1.35;  // from line to line, in sizes of the text
+constexpr double kScaleText = 0.8;     // of the text's size
+constexpr const char* kScaleCaption = "largest of the channels, linear";
 
 struct Panel {
   Image image;
@@ -120,40 +126,71 @@ std::vector<uint8_t> HeatCodes(const Panel& a, const Panel& b, const HeatScale& 
   return codes;
 }
 
-// The scale below the third cell: a bar with a tick at each power of ten.
-void DrawScale(const SheetPage& page, const HeatScale& scale, bool light_ground, Canvas* canvas) {
+// How far measures and scale are from the sides of the cells.
+double StripInset(const SheetPage& page) { return (0.5 - kSheetSphereRadius) * page.cell; }
+
+// Whether the caption below the third cell would reach into the measures, or off the page.
+bool IsTooNarrow(const SheetPage& page) {
   const double em = page.text_px;
-  const double inset = (0.5 - kSheetSphereRadius) * page.cell;
-  const int left = static_cast<int>(page.left + 2 * page.cell + inset);
-  const int width = static_cast<int>(page.cell - 2 * inset);
+  const double measures = page.left + StripInset(page) + TextWidth("mean of A - B -8.888e-88", em);
+  const double caption = TextWidth(kScaleCaption, kScaleText * em);
+  const double center = page.left + 2.5 * page.cell;
+  return center - caption / 2 < measures + em / 2 || center + caption / 2 > page.width;
+}
+
+// How many powers of ten lie between labels of a bar, 1, 2 or 4, so that these do not touch.
+int LabelStep(int low, double width, double size) {
+  for (const int step : {1, 2}) {
+    bool apart = true;
+    double end = -size;  // of the label before
+    for (int power = low; power <= low + 4; power += step) {
+      const double label = TextWidth(fmt::format("1e{}", power), size);
+      const double x = (power - low) / 4.0 * width;
+      const double begin = power == low ? x : power == low + 4 ? x - label : x - label / 2;
+      apart = apart && begin >= end + size / 2;
+      end = begin + label;
+    }
+    if (apart) return step;
+  }
+  return 4;
+}
+
+// The scale below the third cell, or `below` the measures: a bar with a tick at each power of ten.
+void DrawScale(const SheetPage& page, const HeatScale& scale, bool below, bool light_ground,
+               Canvas* canvas) {
+  const double em = page.text_px;
+  const double inset = StripInset(page);
+  const int left = static_cast<int>(page.left + (below ? 0 : 2) * page.cell + inset);
+  const int width = static_cast<int>((below ? 3 : 1) * page.cell - 2 * inset);
   const int height = std::max(static_cast<int>(0.6 * em), 2);
-  const int top = static_cast<int>(page.strip_top);
+  const int top = static_cast<int>(page.strip_top + (below ? 3 * kMeasureLine + 0.5 : 0) * em);
   canvas->Paste(HeatLegend(width, height).rgb8, width, left, top);
   const int low = static_cast<int>(std::lround(std::log10(scale.low)));
-  const int step = width > 4 * 4.4 * 0.8 * em ? 1 : 2;  // where labels would touch
+  const int step = LabelStep(low, width, kScaleText * em);
   for (int power = low; power <= low + 4; power += step) {
     const double x = left + (power - low) / 4.0 * width;
     const AlignX align = power == low       ? AlignX::kLeft
                          : power == low + 4 ? AlignX::kRight
                                             : AlignX::kCenter;
-    canvas->Write(fmt::format("1e{}", power), x, top + height + 0.35 * em, 0.8 * em, align,
+    canvas->Write(fmt::format("1e{}", power), x, top + height + 0.35 * em, kScaleText * em, align,
                   InkColor(light_ground));
   }
-  canvas->Write("largest of the channels, linear", left + width / 2.0, top + height + 1.6 * em,
-                0.8 * em, AlignX::kCenter, FaintInkColor(light_ground));
+  canvas->Write(kScaleCaption, below ? left : left + width / 2.0, top + height + 1.6 * em,
+                kScaleText * em, below ? AlignX::kLeft : AlignX::kCenter,
+                FaintInkColor(light_ground));
 }
 
 void WriteMeasures(const SheetPage& page, const DifferenceMeasures& m, bool light_ground,
                    Canvas* canvas) {
   const double em = page.text_px;
-  const double x = page.left + (0.5 - kSheetSphereRadius) * page.cell;
+  const double x = page.left + StripInset(page);
   const std::string lines[] = {fmt::format("RMSE {:.4g}", m.rmse),
                                fmt::format("largest {:.4g}", m.max),
                                fmt::format("mean of A - B {:+.4g}", m.mean)};
   double y = page.strip_top;
   for (const std::string& line : lines) {
     canvas->Write(line, x, y, em, AlignX::kLeft, InkColor(light_ground));
-    y += 1.35 * em;
+    y += kMeasureLine * em;
   }
 }
 
@@ -188,7 +225,12 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
     text.column_labels = {"A: " + difference.a_label, "B: " + difference.b_label, "|A - B|"};
     text.footer = difference.footer;
   }
-  const SheetPage page = LayOutSheet(text, request);
+  SheetPage page = LayOutSheet(text, request);
+  const bool scale_below = IsTooNarrow(page);
+  if (scale_below) {
+    request.strip = kTallStrip;
+    page = LayOutSheet(text, request);
+  }
   const int side = static_cast<int>(std::max(page.cell, 1.0));
   const Panel a = RenderPanel(difference.a, side, sheet, options, lighting, command, outputs);
   const Panel b = RenderPanel(difference.b, side, sheet, options, lighting, command, outputs);
@@ -204,7 +246,7 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
   const HeatScale scale = ScaleFor(measures.max);
   canvas.Paste(HeatCodes(a, b, scale, a_codes), side, left(2), top);
   if (page.text_px > 0) {
-    DrawScale(page, scale, request.light_ground, &canvas);
+    DrawScale(page, scale, scale_below, request.light_ground, &canvas);
     WriteMeasures(page, measures, request.light_ground, &canvas);
   }
   canvas.AddText(page.text);

@@ -91,11 +91,6 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   CheckOutputsAreNoInputs(paths, inputs);
 
   std::vector<std::string> warnings;
-  for (const IdleOption& idle : options.idle_options) {
-    if (options.quiet) break;
-    warnings.push_back(fmt::format("{} changes nothing: it is for {} files, and none is written",
-                                   idle.name, idle.extension));
-  }
   std::vector<std::string> read;  // files that the scene refers to
   const Scene scene = [&] {
     Progress progress(EarlyProgressForm(options), "reading", 0, "");
@@ -120,6 +115,12 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
     return MakePlan(scene, settings);
   }();
   const double plan_seconds = SecondsSince(plan_start);
+  // Only now: an option that is wrong in itself has been refused, once.
+  for (const IdleOption& idle : options.idle_options) {
+    if (options.quiet) break;
+    PrintError("warning: {} changes nothing: it is for {} files, and none is written\n", idle.name,
+               idle.extension);
+  }
   if (options.dry_run) {
     PrintOut(DryRunJson(MakeOutputHeader(options, plan), options,
                         MostBands(plan.frame, settings.band_rows)));

@@ -83,7 +83,8 @@ void WriteColumns(const SheetText& text, const Margins& m, bool light, SheetPage
   }
   for (const FittedLabels::Label& label : m.columns.labels) {
     const double x = page->left + (static_cast<double>(label.place) + 0.5) * page->cell;
-    double y = bottom - static_cast<double>(label.lines.size()) * LineHeight(size);
+    const double height = label.below + static_cast<double>(label.lines.size());
+    double y = bottom - height * LineHeight(size);
     for (const std::string& line : label.lines) {
       Write(line, x, y, size, AlignX::kCenter, InkColor(light), page);
       y += LineHeight(size);

@@ -2,6 +2,7 @@
 #include "cli/wrap_text.h"
 
 #include <algorithm>
+#include <charconv>
 
 #include "image_io/draw_text.h"
 
@@ -39,6 +40,13 @@ bool Fits(const FittedLabels& fitted, double room) {
   return true;
 }
 
+bool IsNumber(const std::string& text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  return result.ec == std::errc() && result.ptr == end;
+}
+
 FittedLabels Fit(const std::vector<std::string>& labels, const std::vector<size_t>& places,
                  double size_px, double room) {
   FittedLabels fitted;
@@ -46,6 +54,22 @@ FittedLabels Fit(const std::vector<std::string>& labels, const std::vector<size_
   for (const size_t i : places) {
     fitted.labels.push_back({i, WrapText(labels[i], size_px, room - kBetween * size_px)});
     fitted.lines = std::max(fitted.lines, static_cast<double>(fitted.labels.back().lines.size()));
+  }
+  return fitted;
+}
+
+// Every label, label i in tier i modulo `tiers`: neighbours in a tier are that many places apart.
+FittedLabels FitTiers(const std::vector<std::string>& labels, const std::vector<size_t>& places,
+                      size_t tiers, double size_px, double width) {
+  FittedLabels fitted = Fit(labels, places, size_px, static_cast<double>(tiers) * width);
+  fitted.lines = 0;
+  for (size_t tier = 0; tier < tiers; ++tier) {
+    double most = 0;
+    for (size_t i = tier; i < fitted.labels.size(); i += tiers) {
+      fitted.labels[i].below = fitted.lines;
+      most = std::max(most, static_cast<double>(fitted.labels[i].lines.size()));
+    }
+    fitted.lines += most;
   }
   return fitted;
 }
@@ -82,6 +106,11 @@ FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, d
   for (const double scale : {1.0, 0.85, 0.7}) {
     fitted = Fit(labels, places, scale * size_px, width);
     if (Fits(fitted, width)) return fitted;
+  }
+  const bool are_numbers = std::all_of(labels.begin(), labels.end(), IsNumber);
+  for (size_t tiers = 2; tiers <= 4 && !are_numbers; ++tiers) {
+    fitted = FitTiers(labels, places, tiers, 0.7 * size_px, width);
+    if (Fits(fitted, static_cast<double>(tiers) * width)) return fitted;
   }
   for (size_t count = labels.size() - 1; labels.size() > 2 && count >= 2; --count) {
     const size_t last = labels.size() - 1;

@@ -20,14 +20,16 @@ struct FittedLabels {
   struct Label {
     size_t place = 0;
     std::vector<std::string> lines;
+    double below = 0;  // lines of other labels between it and what it belongs to
   };
   double size = 0;            // of the text, px
-  double lines = 0;           // of the label that has most
+  double lines = 0;           // that all of them take
   std::vector<Label> labels;  // of every place, or of some, first and last among them
 };
 
 // At `size_px`, or at down to two thirds of it where they are too wide, on up to three lines.
-// Where even that is too wide, labels are left out.
+// Where even that is too wide, names are put one above the other, in up to four tiers, and numbers,
+// which tell those between them, are left out, as are names that need more.
 FittedLabels FitLabels(const std::vector<std::string>& labels, double size_px, double width);
 
 }  // namespace nacre

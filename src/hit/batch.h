@@ -137,6 +137,10 @@ struct ShadowRayBatch {
   bool outward = false;
   // Primitives of the light itself, which are never in the way of rays to it.
   PrimitiveRange target;
+  // Bounds the camera's coordinates: what the light and the surfaces lost to rounding when they
+  // were made relative to the camera. A surface that the rays end on within rounding, as a ceiling
+  // that a lamp is flush with, is not in their way.
+  double end_reach = 0;
   Soa3<double> origin;     // HitBatch::position
   Soa3<double> direction;  // towards the light, not normalised
   // 1: a light at origin + direction; or infinity. 0: nobody asks, and nothing is in the way.

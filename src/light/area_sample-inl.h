@@ -8,6 +8,7 @@
 #define NACRE_LIGHT_AREA_SAMPLE_INL_H_
 #endif
 
+#include "base/power_of_two-inl.h"
 #include "base/trig-inl.h"
 #include "base/vec3-inl.h"
 #include "light/area_sample.h"
@@ -57,6 +58,21 @@ template <class V>
 HWY_INLINE V Hypot(V x, V y) {
   return hn::Sqrt(hn::MulAdd(x, x, hn::Mul(y, y)));
 }
+
+template <class V>
+HWY_INLINE V LargestComponent(const Vec3V<V>& v) {
+  return hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
+}
+
+// A light's lengths divided by the power of two in the largest of them, `unit`, of which the offset
+// from the point is one. What follows multiplies up to five of them, and lengths of 1e-10 or of
+// 1e10 would leave float's range; solid angles and irradiances do not change, and distances are
+// multiples of `unit`. No digit changes where nothing would have left it.
+template <class Light, class V>
+struct InUnitsV {
+  Light light;
+  V unit;
+};
 
 // a + b s.
 template <class V>

@@ -4,8 +4,8 @@
 //
 // A light's geometry is relative to the shaded point: its centre, or corner, is the offset from
 // there, which the caller forms in double before it rounds. Edges and radii are the light's own,
-// so that they keep their digits at any distance. Float forms want sizes and distances between
-// 1e-12 and 1e12: their cubes stay in range.
+// so that they keep their digits at any distance. Float forms divide them by a power of two first,
+// so that products of them stay in range for all that a scene may hold (scene/limits.h).
 //
 // Every light has
 //   AreaSample SampleLight(light, u0, u1)    for u0 and u1 in [0, 1)

@@ -79,8 +79,9 @@ HWY_NOINLINE void FillRisingDisks(D d, const DiskAboveV<V>& disk, V* irradiance)
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Irradiance(D d, const DiskLightV<V>& light, const Vec3V<V>& normal) {
+HWY_INLINE V Irradiance(D d, const DiskLightV<V>& given, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
+  const DiskLightV<V> light = InUnits(d, given).light;
   const DiskAboveV<V> disk = DiskAboveHorizon(d, light, normal);
   const auto above = hn::Ge(disk.centre_height, disk.rim_height);
   V irradiance = hn::IfThenElseZero(above, IrradianceOfWholeDisk(d, disk));

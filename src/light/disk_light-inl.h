@@ -22,6 +22,13 @@ struct DiskLightV {
   V radius;
 };
 
+template <class D, class V>
+HWY_INLINE InUnitsV<DiskLightV<V>, V> InUnits(D d, const DiskLightV<V>& light) {
+  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.centre), light.radius));
+  return {{Scale(light.centre, unit.inverse), light.normal, hn::Mul(light.radius, unit.inverse)},
+          unit.power};
+}
+
 template <class V>
 struct DiskViewV {
   Vec3V<V> x_axis, y_axis;
@@ -71,21 +78,25 @@ HWY_INLINE AreaSampleV<V> SampleDiskByArea(D d, const DiskLightV<V>& light,
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE AreaSampleV<V> SampleLight(D d, const DiskLightV<V>& light, V u0, V u1) {
+HWY_INLINE AreaSampleV<V> SampleLight(D d, const DiskLightV<V>& given, V u0, V u1) {
   const V zero = hn::Zero(d);
+  const auto in_units = InUnits(d, given);
+  const DiskLightV<V>& light = in_units.light;
   const DiskViewV<V> view = ViewOf(d, light);
-  AreaSampleV<V> square = SampleLight(d, SquareAround(light, view), u0, u1);
+  AreaSampleV<V> square = SampleInUnits(d, SquareAround(light, view), u0, u1);
   const Vec3V<V> from_centre = Sub(Scale(square.to_light, square.distance), light.centre);
   const auto hit = hn::Ge(hn::Mul(light.radius, light.radius), FusedDot(from_centre, from_centre));
   square.inverse_pdf = hn::IfThenElseZero(hit, square.inverse_pdf);
-  const AreaSampleV<V> sample =
+  AreaSampleV<V> sample =
       Select(IsNearby(d, view, light.radius), square, SampleDiskByArea(d, light, view, u0, u1));
+  sample.distance = hn::Mul(sample.distance, in_units.unit);
   return SampleIf(d, hn::And(hn::Gt(hn::Abs(view.z), zero), hn::Gt(light.radius, zero)), sample);
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V LightPdf(D d, const DiskLightV<V>& light, const Vec3V<V>& direction) {
+HWY_INLINE V LightPdf(D d, const DiskLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
+  const DiskLightV<V> light = InUnits(d, given).light;
   const V one = hn::Set(d, 1.0f);
   const DiskViewV<V> view = ViewOf(d, light);
   const V towards = FusedDot(direction, light.normal);
@@ -96,7 +107,7 @@ HWY_INLINE V LightPdf(D d, const DiskLightV<V>& light, const Vec3V<V>& direction
   const auto hit = hn::And(ahead, hn::Ge(radius2, FusedDot(from_centre, from_centre)));
   const V area = hn::Mul(hn::Mul(hn::Set(d, kTwoPi / 2), radius2), hn::Abs(towards));
   const V by_area = hn::Mul(hn::Mul(t, t), InverseIfPositive(d, area));
-  const V by_square = LightPdf(d, SquareAround(light, view), direction);
+  const V by_square = PdfInUnits(d, SquareAround(light, view), direction);
   return hn::IfThenElseZero(hit,
                             hn::IfThenElse(IsNearby(d, view, light.radius), by_square, by_area));
 }

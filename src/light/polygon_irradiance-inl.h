@@ -142,7 +142,9 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
   const V half = hn::Set(d, 0.5f);
   const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point is all rounding
   const Vec3V<V> pivot = Scale(corner, InverseIfPositive(d, Length(corner)));
-  const V orientation = TripleProduct(corner, from_corner[1], from_corner[2]);
+  // Of the sign alone: polygons of 1e-10 of their distance would leave float's range below.
+  const V triple = TripleProduct(corner, from_corner[1], from_corner[2]);
+  const V orientation = hn::Mul(triple, PowerOfTwo(d, hn::Abs(triple)).inverse);
   std::array<Vec3V<V>, kCount> ways;
   V size2 = zero, highest = zero, lowest = zero, around = hn::Set(d, 1.0f);
   for (size_t i = 0; i < kCount; ++i) {
@@ -180,16 +182,18 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Irradiance(D d, const RectangleLightV<V>& light, const Vec3V<V>& normal) {
+HWY_INLINE V Irradiance(D d, const RectangleLightV<V>& given, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
+  const RectangleLightV<V> light = InUnits(d, given).light;
   const std::array<Vec3V<V>, 4> from_corner{Vec3V<V>{zero, zero, zero}, light.edge_x,
                                             Add(light.edge_x, light.edge_y), light.edge_y};
   return PolygonIrradiance(d, light.corner, from_corner, normal);
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Irradiance(D d, const TriangleLightV<V>& light, const Vec3V<V>& normal) {
+HWY_INLINE V Irradiance(D d, const TriangleLightV<V>& given, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
+  const TriangleLightV<V> light = InUnits(d, given).light;
   const std::array<Vec3V<V>, 3> from_corner{Vec3V<V>{zero, zero, zero}, light.edge_x, light.edge_y};
   return PolygonIrradiance(d, light.corner, from_corner, normal);
 }

@@ -20,6 +20,15 @@ struct RectangleLightV {
   Vec3V<V> corner, edge_x, edge_y;
 };
 
+template <class D, class V>
+HWY_INLINE InUnitsV<RectangleLightV<V>, V> InUnits(D d, const RectangleLightV<V>& light) {
+  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
+  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.corner), edges));
+  return {{Scale(light.corner, unit.inverse), Scale(light.edge_x, unit.inverse),
+           Scale(light.edge_y, unit.inverse)},
+          unit.power};
+}
+
 template <class V>
 struct RectangleViewV {
   Vec3V<V> x_axis, y_axis, normal;
@@ -60,7 +69,7 @@ HWY_INLINE V SolidAngle(D d, const RectangleViewV<V>& view) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SolidAngle(D d, const RectangleLightV<V>& light) {
-  return SolidAngle(d, ViewOf(d, light));
+  return SolidAngle(d, ViewOf(d, InUnits(d, light).light));
 }
 
 // The scalar twin explains the names. Where the view's z is 0 the result means nothing.
@@ -111,8 +120,9 @@ HWY_INLINE V SampleRectangleY(D d, const RectangleViewV<V>& view, V x, V part) {
   return hn::Min(hn::Max(y, view.y0), view.y1);
 }
 
+// Of lengths in units, as InUnits gives them.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE AreaSampleV<V> SampleLight(D d, const RectangleLightV<V>& light, V u0, V u1) {
+HWY_INLINE AreaSampleV<V> SampleInUnits(D d, const RectangleLightV<V>& light, V u0, V u1) {
   const RectangleViewV<V> view = ViewOf(d, light);
   const V solid_angle = SolidAngle(d, view);
   const auto by_area = hn::Lt(solid_angle, hn::Set(d, kSmallSolidAngle<float>));
@@ -136,7 +146,15 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const RectangleLightV<V>& light, V u0
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V LightPdf(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
+HWY_INLINE AreaSampleV<V> SampleLight(D d, const RectangleLightV<V>& light, V u0, V u1) {
+  const auto in_units = InUnits(d, light);
+  AreaSampleV<V> sample = SampleInUnits(d, in_units.light, u0, u1);
+  sample.distance = hn::Mul(sample.distance, in_units.unit);
+  return sample;
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V PdfInUnits(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
   const RectangleViewV<V> view = ViewOf(d, light);
   const V solid_angle = SolidAngle(d, view);
@@ -152,6 +170,11 @@ HWY_INLINE V LightPdf(D d, const RectangleLightV<V>& light, const Vec3V<V>& dire
   const V by_area = hn::Mul(hn::Mul(t, t), InverseIfPositive(d, area));
   const auto small = hn::Lt(solid_angle, hn::Set(d, kSmallSolidAngle<float>));
   return hn::IfThenElseZero(hit, hn::IfThenElse(small, by_area, InverseIfPositive(d, solid_angle)));
+}
+
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V LightPdf(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
+  return PdfInUnits(d, InUnits(d, light).light, direction);
 }
 
 }  // namespace HWY_NAMESPACE

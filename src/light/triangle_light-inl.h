@@ -20,6 +20,15 @@ struct TriangleLightV {
   Vec3V<V> corner, edge_x, edge_y;
 };
 
+template <class D, class V>
+HWY_INLINE InUnitsV<TriangleLightV<V>, V> InUnits(D d, const TriangleLightV<V>& light) {
+  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
+  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.corner), edges));
+  return {{Scale(light.corner, unit.inverse), Scale(light.edge_x, unit.inverse),
+           Scale(light.edge_y, unit.inverse)},
+          unit.power};
+}
+
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> UnitDifference(D d, const Vec3V<V>& p, const Vec3V<V>& e) {
   const Vec3V<V> q = Add(p, e);
@@ -55,7 +64,7 @@ HWY_INLINE SphericalTriangleV<V> SphericalTriangleOf(D d, const TriangleLightV<V
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SolidAngle(D d, const TriangleLightV<V>& light) {
-  return SphericalTriangleOf(d, light).solid_angle;
+  return SphericalTriangleOf(d, InUnits(d, light).light).solid_angle;
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -102,8 +111,10 @@ HWY_INLINE AreaSampleV<V> SampleTriangleByArea(D d, const TriangleLightV<V>& lig
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& light, V u0, V u1) {
+HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& given, V u0, V u1) {
   const V zero = hn::Zero(d);
+  const auto in_units = InUnits(d, given);
+  const TriangleLightV<V>& light = in_units.light;
   const SphericalTriangleV<V> t = SphericalTriangleOf(d, light);
   const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);
   const V twice_area = Length(cross);
@@ -115,14 +126,16 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& light, V u0,
                                 hn::Neg(hn::Mul(towards, InverseIfPositive(d, twice_area)))};
   const AreaSampleV<V> by_area = SampleTriangleByArea(d, light, cross, twice_area, u0, u1);
   const auto small = hn::Lt(t.solid_angle, hn::Set(d, kSmallSolidAngle<float>));
-  const AreaSampleV<V> sample = Select(small, by_area, by_angle);
+  AreaSampleV<V> sample = Select(small, by_area, by_angle);
+  sample.distance = hn::Mul(sample.distance, in_units.unit);
   return SampleIf(d, hn::Gt(hn::Min(t.solid_angle, sample.inverse_pdf), zero), sample);
 }
 
 // LightPdf of a direction that is known to meet the triangle.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V DensityInside(D d, const TriangleLightV<V>& light, const Vec3V<V>& direction) {
+HWY_INLINE V DensityInside(D d, const TriangleLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
+  const TriangleLightV<V> light = InUnits(d, given).light;
   const V solid_angle = SolidAngle(d, light);
   const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);
   const V towards = FusedDot(direction, cross);
@@ -135,8 +148,9 @@ HWY_INLINE V DensityInside(D d, const TriangleLightV<V>& light, const Vec3V<V>& 
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V LightPdf(D d, const TriangleLightV<V>& light, const Vec3V<V>& direction) {
+HWY_INLINE V LightPdf(D d, const TriangleLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
+  const TriangleLightV<V> light = InUnits(d, given).light;
   const V one = hn::Set(d, 1.0f);
   const V solid_angle = SolidAngle(d, light);
   const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);

@@ -206,6 +206,8 @@ RenderPlan MakePlan(const Scene& given, const RenderSettings& settings) {
   plan.frame = {0, 0, scene.image.width, scene.image.height};
   plan.window = FrameWindow(plan.frame, settings);
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  const Vec3d& eye = scene.camera.position;
+  plan.camera_reach = std::abs(eye.x) + std::abs(eye.y) + std::abs(eye.z);
   plan.background = scene.background;
   PlanLayers(scene, settings, &plan);
   PlanSampling(scene, settings, &plan);

@@ -71,6 +71,7 @@ struct RenderPlan {
   Window frame;                                        // all pixels: 0, 0, width, height
   Window window;                                       // those to render
   CameraFrame camera;
+  double camera_reach = 0;  // sum of its position's coordinates: ShadowRayBatch::end_reach
   PixelSampler sampler;
   AdaptivePlan adaptive;
   std::vector<Layer> layers;          // beauty, alpha, then those asked for

@@ -37,6 +37,7 @@ size_t MakeSampledShadowRays(const RenderPlan& plan, const PlannedSampledLight& 
   std::copy_n(hits.primitive.data(), hits.count, rays.primitive.data());
   CopySoa(hits.position, hits.count, &rays.origin);
   AimShadowRays(s.sampled->directions, s.light.irradiance.data(), hits.count, &rays);
+  FindEnds(planned.light, hits, s.sampled->directions, &rays.t_max);
   const bool all = planned.trace_all || planned.shadowed.empty();
   size_t asked = 0;
   for (size_t i = 0; i < hits.count; ++i) {
@@ -60,6 +61,7 @@ void CastSampledShadows(const RenderPlan& plan, const PlannedSampledLight& plann
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
   rays.target = planned.primitives;
+  rays.end_reach = plan.camera_reach;
   plan.intersector->Occluded(&rays);
   rays.target = {};
   float* const irradiance = s.light.irradiance.data();

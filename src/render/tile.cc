@@ -123,6 +123,7 @@ void CastShadows(const RenderPlan& plan, const PlannedLight& planned, TileScratc
   ShadowRayBatch& rays = s->shadow_rays;
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
+  rays.end_reach = plan.camera_reach;
   // Without a branch on what is lit, which would go either way from hit to hit.
   const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
   size_t count = 0;

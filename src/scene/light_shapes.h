@@ -38,7 +38,8 @@ struct PrimitiveRange {
 
 // The scene with visible lights as further spheres and meshes, after those it has, of emissive
 // black materials: those of `shown`, by light. And for each light its primitives, or none. A disk
-// is a polygon of so many corners that its edge is 5e-6 of the radius off.
+// is a polygon of so many corners that its edge is 5e-6 of the radius off. Flat lights lie in front
+// of surfaces of the same plane, by 2^-44 of the coordinates.
 struct SceneWithLights {
   Scene scene;
   std::vector<PrimitiveRange> primitives;

@@ -202,7 +202,9 @@ void CheckVersionAndExtensions(GltfDocument* document) {
     document->Refuse(
         "/extensionsRequired",
         fmt::format("the extension {} is required and not known here", Excerpt(extension)),
-        "export the model without it");
+        extension.find("_texture_") != std::string::npos
+            ? "export the model with PNG or JPEG textures"
+            : "export the model without it");
   }
   for (const std::string& extension : model.extensionsUsed) {
     if (IsKnown(extension)) continue;

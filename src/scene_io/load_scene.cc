@@ -117,7 +117,7 @@ Scene LoadSceneText(std::string_view text, const std::string& file,
   Json root = ParseJson(text, file, &faults, options.on_progress);
   CheckIsObject(root, file);
   try {
-    ApplyOptions(options, &root);
+    ApplyOptionsToFile(options, &root);
   } catch (const Error&) {
     // The fault may be the file's: "image": [] has no place for --size. Then that is told.
     LoadOptions file_alone = options;

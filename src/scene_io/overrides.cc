@@ -2,12 +2,17 @@
 #include "scene_io/overrides.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/error.h"
 #include "base/excerpt.h"
@@ -35,10 +40,59 @@ std::vector<std::string> Split(const std::string& pointer) {
                  fmt::format("is deeper than {} levels", kMaxJsonDepth), {});
 }
 
+// The number that a text means though JSON has another form for it: .5, 1. or +2.
+std::optional<Json> LooseNumber(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || !std::isfinite(number)) return std::nullopt;
+  return Json(number);
+}
+
 Json ParseValue(const std::string& pointer, const std::string& text) {
   if (std::optional<Json> value = TryParseJson(text)) return *std::move(value);
+  const std::optional<Json> number = LooseNumber(text);
   RefuseOverride(pointer, fmt::format("{} is not JSON", Excerpt(text)),
-                 fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, Excerpt(text)));
+                 number
+                     ? fmt::format("write {}", JsonText(*number))
+                     : fmt::format("a string needs quotes: '{}=\"{}\"'", pointer, Excerpt(text)));
+}
+
+// The parts of a scene whose entries have names, and the key that an entry cannot do without.
+struct NamedPart {
+  const char* part;
+  const char* entry;
+  const char* required;
+};
+constexpr std::array<NamedPart, 3> kNamedParts = {{{"materials", "material", "model"},
+                                                   {"lights", "light", "type"},
+                                                   {"textures", "texture", "file"}}};
+
+std::vector<std::string> NamesIn(const Json& root, const char* part) {
+  std::vector<std::string> names;
+  const auto found = root.find(part);
+  if (found == root.end() || !found->is_object()) return names;
+  for (const auto& [name, value] : found->items()) names.push_back(name);
+  return names;
+}
+
+// An entry that overrides have made, and without what makes it one, is a name that was mistyped.
+// `names`: those that there were.
+void CheckEntryExists(const std::string& pointer, const NamedPart& named,
+                      const std::vector<std::string>& names, const Json& root) {
+  const std::vector<std::string> tokens = Split(pointer);
+  if (tokens.size() < 3 || tokens[0] != named.part) return;
+  if (std::find(names.begin(), names.end(), tokens[1]) != names.end()) return;
+  const auto part = root.find(named.part);
+  const bool is_whole = part == root.end() || !part->contains(tokens[1]) ||
+                        part->at(tokens[1]).contains(named.required);
+  if (is_whole) return;
+  std::vector<std::string> shown;
+  for (const std::string& name : names) shown.push_back(Excerpt(name));
+  RefuseOverride(pointer, fmt::format("there is no {} \"{}\"", named.entry, Excerpt(tokens[1])),
+                 names.empty() ? fmt::format("the scene has no {}", named.part)
+                               : fmt::format("the scene has {}", fmt::join(shown, ", ")));
 }
 
 Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
@@ -82,6 +136,19 @@ void ApplyOptions(const LoadOptions& options, Json* root) {
     (*root)["lights"] = {{"environment", {{"type", "environment"}, {"image", image.string()}}}};
   }
   for (const auto& [pointer, value] : options.overrides) ApplyOverride(pointer, value, root);
+}
+
+void ApplyOptionsToFile(const LoadOptions& options, Json* root) {
+  std::array<std::vector<std::string>, kNamedParts.size()> names;
+  for (size_t i = 0; i < names.size() && root->is_object(); ++i) {
+    names[i] = NamesIn(*root, kNamedParts[i].part);
+  }
+  ApplyOptions(options, root);
+  for (const auto& [pointer, value] : options.overrides) {
+    for (size_t i = 0; i < names.size() && root->is_object(); ++i) {
+      CheckEntryExists(pointer, kNamedParts[i], names[i], *root);
+    }
+  }
 }
 
 ReferenceRules RulesOf(const LoadOptions& options) {

@@ -19,6 +19,11 @@ void ApplyOverride(const std::string& pointer, const std::string& text, Json* ro
 // Throws Error: kBadInput for an environment that is no file, kUsage as ApplyOverride does.
 void ApplyOptions(const LoadOptions& options, Json* root);
 
+// The same for the tree of a whole scene file, which has all the materials, lights and textures
+// that there are. Throws Error (kUsage) also for an override of one that is not there, as a
+// mistyped name makes it; a whole new one may be made.
+void ApplyOptionsToFile(const LoadOptions& options, Json* root);
+
 // Which files the scene may refer to: those that the options allow, and those that they name.
 ReferenceRules RulesOf(const LoadOptions& options);
 

@@ -14,12 +14,16 @@ void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* 
 void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                     float* irradiance);
 
+void AreaEnds(const SampledLight& light, const HitBatch& hits, const LightDirections& directions,
+              AlignedArray<double>* t_max);
+
 // The same of meshes.
 void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                 LightDirections* directions);
 void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
 void MeshIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                     float* irradiance);
+void MeshEnds(size_t count, const LightDirections& directions, AlignedArray<double>* t_max);
 
 // The same of pictures: fills in to_light, radiance and density.
 void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,

@@ -169,6 +169,51 @@ void AreaIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
        [&](const DiskLightV<V>& disk) HWY_ATTR { return before(disk.centre); });
 }
 
+using DD = hn::ScalableTag<double>;
+using VD = hn::Vec<DD>;
+
+HWY_INLINE Vec3V<VD> Promote3(const Soa3<float>& soa, size_t i) {
+  const DD d;
+  const hn::Rebind<float, DD> half;
+  return {hn::PromoteTo(d, hn::LoadU(half, soa.x.data() + i)),
+          hn::PromoteTo(d, hn::LoadU(half, soa.y.data() + i)),
+          hn::PromoteTo(d, hn::LoadU(half, soa.z.data() + i))};
+}
+
+// Meet and MeetPlane in double, the directions of nearly unit length.
+HWY_INLINE VD EndOnSphere(const Vec3V<VD>& centre, double radius, const Vec3V<VD>& direction) {
+  const DD d;
+  const VD dd = Dot(direction, direction);
+  const VD along = Dot(direction, centre);
+  const Vec3V<VD> across = Cross(direction, centre);
+  const VD square = hn::Mul(hn::Set(d, radius * radius), dd);
+  const VD root = hn::Sqrt(hn::Max(hn::Sub(square, Dot(across, across)), hn::Zero(d)));
+  const VD product = hn::Sub(Dot(centre, centre), hn::Set(d, radius * radius));
+  return hn::Div(product, hn::Add(along, root));
+}
+
+void AreaEndsT(const SampledLight& light, const HitBatch& hits, const Soa3<float>& to_light,
+               double* t_max) {
+  const DD d;
+  const VD zero = hn::Zero(d);
+  const Vec3V<VD> place = SetVec3(d, light.place), normal = SetVec3(d, light.normal);
+  for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
+    const VD given = hn::LoadU(d, t_max + i);
+    const auto asked = hn::Gt(given, zero);
+    if (hn::AllFalse(d, asked)) continue;
+    const Vec3V<VD> offset =
+        Sub(place, LoadU3(d, hits.position.x.data() + i, hits.position.y.data() + i,
+                          hits.position.z.data() + i));
+    const Vec3V<VD> direction = Promote3(to_light, i);
+    const VD end = light.form == SampledForm::kSphere
+                       ? EndOnSphere(offset, light.radius, direction)
+                       : hn::Div(Dot(offset, normal), Dot(direction, normal));
+    // False also of what is not a number, as from directions that nobody asks about.
+    const auto exists = hn::And(hn::Gt(end, zero), hn::Lt(end, hn::Inf(d)));
+    hn::StoreU(hn::IfThenElse(hn::And(exists, asked), end, given), d, t_max + i);
+  }
+}
+
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre
@@ -179,6 +224,7 @@ namespace nacre {
 HWY_EXPORT(SampleAreaT);
 HWY_EXPORT(FindAreaT);
 HWY_EXPORT(AreaIrradianceT);
+HWY_EXPORT(AreaEndsT);
 
 void SampleArea(const SampledLight& light, const HitBatch& hits, const UnitPoints& points,
                 LightDirections* directions) {
@@ -192,6 +238,11 @@ void FindArea(const SampledLight& light, const HitBatch& hits, LightDirections* 
 void AreaIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                     float* irradiance) {
   HWY_DYNAMIC_DISPATCH(AreaIrradianceT)(light, hits, surface, irradiance);
+}
+
+void AreaEnds(const SampledLight& light, const HitBatch& hits, const LightDirections& directions,
+              AlignedArray<double>* t_max) {
+  HWY_DYNAMIC_DISPATCH(AreaEndsT)(light, hits, directions.to_light, t_max->data());
 }
 }  // namespace nacre
 #endif

@@ -38,7 +38,9 @@ double ExponentFromAlpha(PhongModel model, double alpha);
 // Of a lobe in place of another; all channels together.
 struct LobeResidual {
   double view_deg = 0;
-  double rms = 0;     // of the difference of BRDF n.l, over the rms of the first lobe's
+  // Of the difference of BRDF n.l, over the rms of the first lobe's: infinite where that has none
+  // and the second has.
+  double rms = 0;
   double peak = 0;    // the second lobe's largest value over the first's, minus 1
   double albedo = 0;  // largest difference of a channel's directional albedo, diffuse and specular
 };

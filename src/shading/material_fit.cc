@@ -24,6 +24,8 @@ constexpr std::array<std::string_view, 5> kTargets = {"phong", "modified_phong",
 // Perfect mirrors have no lobe to fit: this is the roughness that the largest exponent stands for.
 constexpr double kLeastRoughness = 0.007;
 
+constexpr const char* kColoredLobe = "the lobe is coloured; a dielectric's is grey";
+
 template <class Function>
 Rgb EachChannel(const Function& of_channel) {
   return {of_channel(0), of_channel(1), of_channel(2)};
@@ -123,6 +125,36 @@ MetallicRoughnessMaterial GuessMetallic(const Summary& summary, double alpha) {
   return guess;
 }
 
+// The base colour under which `white`, this material with a white base, reflects `base` diffusely.
+Rgb BaseUnder(const Material& white, const Rgb& base) {
+  const Rgb share = DiffuseAlbedo(white);
+  return ClampUnit(EachChannel([&](int c) { return share[c] > 0 ? base[c] / share[c] : 0.0; }));
+}
+
+bool IsTinted(const Rgb& f0) {
+  return std::max({f0.x, f0.y, f0.z}) - std::min({f0.x, f0.y, f0.z}) > 0.005;
+}
+
+// A dielectric with as much of its lobe as comes nearest to the original's, which is weaker than a
+// whole one, over a base that reflects what the original's does.
+void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* fit) {
+  MetallicRoughnessMaterial material = std::get<MetallicRoughnessMaterial>(fit->fitted.model);
+  material.metallic = 0;
+  material.base_color = Rgb(1);
+  const auto with = [&](double specular) {
+    Material candidate = fit->fitted;
+    material.specular = specular;
+    candidate.model = material;
+    return candidate;
+  };
+  const auto error = [&](double specular) { return MeasureResidual(original, with(specular)).rms; };
+  // Without a lobe that is the only one at a finite distance.
+  const Material white = with(error(0) == 0 ? 0 : GoldenMinimum(error, 0, 1));
+  material = std::get<MetallicRoughnessMaterial>(white.model);
+  material.base_color = BaseUnder(white, summary.base);
+  fit->fitted.model = material;
+}
+
 void FitMetallic(const Material& original, MaterialFit* fit) {
   if (const auto* same = std::get_if<MetallicRoughnessMaterial>(&original.model)) {
     MetallicRoughnessMaterial material = *same;
@@ -135,6 +167,13 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   MetallicRoughnessMaterial material = GuessMetallic(summary, LobeAlpha(original));
   fit->guess.model = material;
   const FittedLobe free = FitGgxLobe(original);
+  if (std::max({free.strength.x, free.strength.y, free.strength.z}) < kDielectricF0) {
+    material.roughness = std::sqrt(free.width);
+    fit->fitted.model = material;
+    FitWeakLobe(original, summary, fit);
+    if (IsTinted(free.strength)) fit->notes.emplace_back(kColoredLobe);
+    return;
+  }
   const MetallicBase base = SolveMetallic(free.strength, summary.base, std::sqrt(free.width));
   material.base_color = base.base_color;
   material.metallic = base.metallic;
@@ -171,14 +210,9 @@ void FitDielectric(const Material& original, MaterialFit* fit) {
   Material white = fit->guess;
   material.base_color = Rgb(1);
   white.model = material;
-  const Rgb share = DiffuseAlbedo(white);
-  material.base_color = ClampUnit(
-      EachChannel([&](int c) { return share[c] > 0 ? summary.base[c] / share[c] : 0.0; }));
+  material.base_color = BaseUnder(white, summary.base);
   fit->fitted.model = material;
-  const Rgb& f0 = lobe.strength;
-  if (std::max({f0.x, f0.y, f0.z}) - std::min({f0.x, f0.y, f0.z}) > 0.005) {
-    fit->notes.emplace_back("the lobe is coloured; a dielectric's is grey");
-  }
+  if (IsTinted(lobe.strength)) fit->notes.emplace_back(kColoredLobe);
 }
 
 // What no fit of these models keeps.

@@ -54,10 +54,11 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
   const D d;
   const V zero = hn::Zero(d);
   const MeshLight& mesh = *light.mesh;
+  const double by_area = ByArea(light);
   V sum = zero;
   for (size_t k = 0; k < mesh.triangles.size(); ++k) {
     const TriangleLightV<V> seen = SeenTriangle(light, hits, k, i);
-    const auto front = hn::Lt(FusedDot(seen.corner, Set3(mesh.crosses[k])), zero);
+    const auto front = hn::Lt(FusedDot(seen.corner, Set3(mesh.crosses[k] * by_area)), zero);
     if (!light.two_sided && hn::AllFalse(d, front)) continue;
     const V value = hn::Max(Irradiance(d, seen, normal), zero);
     sum = hn::Add(sum, light.two_sided ? value : hn::IfThenElseZero(front, value));
@@ -117,7 +118,7 @@ HWY_INLINE uint32_t BitsOf(M mask) {
 }
 
 void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float>& to_light,
-               float* distance, SeenMeetings* meetings) {
+               float* distance, double* end, SeenMeetings* meetings) {
   const DD d;
   const VD zero = hn::Zero(d), infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   meetings->count = 0;
@@ -137,6 +138,7 @@ void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float
     });
     const auto met = hn::Lt(nearest.t, infinity);
     const auto seen = light.two_sided ? met : hn::And(met, hn::Lt(nearest.towards, zero));
+    hn::StoreU(nearest.t, d, end + i);
     const VD length = hn::Sqrt(Dot(rays.direction, rays.direction));
     const VD away = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElseZero(met, nearest.t), length));
     hn::StoreU(hn::DemoteTo(hn::Rebind<float, DD>(), away), hn::Rebind<float, DD>(), distance + i);
@@ -234,7 +236,8 @@ void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* 
   SeenMeetings& meetings = directions->mesh->meetings;
   meetings.count = 0;
   HWY_DYNAMIC_DISPATCH(MeetMeshT)
-  (light, hits, directions->to_light, directions->distance.data(), &meetings);
+  (light, hits, directions->to_light, directions->distance.data(), directions->mesh->end.data(),
+   &meetings);
   std::fill_n(directions->density.data(), hits.count, 0.0f);
   DensitySum sum(light, hits, directions);
   for (size_t i = 0; i < meetings.count; ++i) {
@@ -243,6 +246,11 @@ void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* 
     if (seen) sum.Add(meeting.hit, meeting.triangle);
   }
   sum.Flush();
+}
+
+void MeshEnds(size_t count, const LightDirections& directions, AlignedArray<double>* t_max) {
+  const AlignedArray<double>& end = directions.mesh->end;
+  for (size_t i = 0; i < count; ++i) (*t_max)[i] = (*t_max)[i] > 0 ? end[i] : 0;
 }
 
 void MeshIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,

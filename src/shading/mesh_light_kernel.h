@@ -35,6 +35,7 @@ struct MeshLightScratch {
   SeenTriangles seen;
   AlignedArray<float> rest{kBatchCapacity};  // what is left of the numbers that chose triangles
   SeenMeetings meetings;
+  AlignedArray<double> end{kBatchCapacity};  // the nearest, in units of the direction
   // Of triangles in `seen`, on their way into the density of directions.
   Soa3<float> to_light;
   AlignedArray<float> density{kBatchCapacity}, probability{kBatchCapacity};

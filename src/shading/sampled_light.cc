@@ -122,6 +122,12 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
   }
 }
 
+void FindEnds(const SampledLight& light, const HitBatch& hits, const LightDirections& directions,
+              AlignedArray<double>* t_max) {
+  if (light.form == SampledForm::kMesh) return MeshEnds(hits.count, directions, t_max);
+  if (!IsSky(light)) AreaEnds(light, hits, directions, t_max);
+}
+
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,
                      Soa3<float>* irradiance) {
   if (light.form == SampledForm::kMesh) {

@@ -95,6 +95,15 @@ void SampleLight(const SampledLight& light, const HitBatch& hits, const UnitPoin
 // Fills in all but to_light, which is given.
 void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections* directions);
 
+// Where shadow rays along the directions meet the light, in double, as multiples of them. `t_max`
+// is changed only where it is positive and finite: the distance of LightDirections then, which is
+// off by some 2^-24. `directions` are those of the last SampleLight or FindLight from these hits.
+//
+// A flat light's is offset.n / direction.n: the products and sums put the end no further from the
+// light's plane than 10 2^-53 of the coordinates, at any angle.
+void FindEnds(const SampledLight& light, const HitBatch& hits, const LightDirections& directions,
+              AlignedArray<double>* t_max);
+
 // The light's irradiance per unit of its colour on each hit that sees all of it, exactly. Of
 // coloured lights `irradiance` gives three values, of others one, in x.
 void LightIrradiance(const SampledLight& light, const HitBatch& hits, const Surface& surface,

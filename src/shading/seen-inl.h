@@ -8,6 +8,8 @@
 #define NACRE_SHADING_SEEN_INL_H_
 #endif
 
+#include <cmath>
+
 #include "base/geometry-inl.h"
 #include "base/target_ops-inl.h"
 #include "light/irradiance-inl.h"
@@ -45,6 +47,12 @@ HWY_INLINE TriangleLightV<SeenV> SeenTriangle(const SampledLight& light, const H
   return {Offset(light, hits, t.corner, i), Set3(t.edge_x), Set3(t.edge_y)};
 }
 
+// What products of a mesh's edges are multiplied by, a power of two, so that floats hold them: the
+// square of the mesh's size is 1e-30 for some, and the height of a face over the point its cube.
+inline double ByArea(const SampledLight& light) {
+  return std::ldexp(1.0, -2 * std::ilogb(light.radius));
+}
+
 // The faces of a mesh with an outline, as Irradiance of mesh_outline-inl.h asks for them.
 struct SeenFaces {
   SeenV shines[kMostClosedTriangles];
@@ -56,11 +64,12 @@ HWY_INLINE void FindFaces(const SampledLight& light, const HitBatch& hits, size_
   const SeenTag d;
   const SeenV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const MeshOutline& outline = light.mesh->outline;
+  const double by_area = ByArea(light);
   faces->orientation = hn::Set(d, -1.0f);
   for (size_t k = 0; k < outline.faces.size(); ++k) {
     const OutlineFace& face = outline.faces[k];
     const Vec3V<SeenV> offset = Offset(light, hits, outline.corners[face.corner], i);
-    const SeenV height = FusedDot(offset, Set3(face.cross));
+    const SeenV height = FusedDot(offset, Set3(face.cross * by_area));
     faces->shines[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
     if (light.two_sided) faces->orientation = height;
   }
@@ -75,9 +84,13 @@ HWY_INLINE SeenV OutlineIrradiance(const SampledLight& light, const HitBatch& hi
   const SeenTag d;
   const MeshOutline& outline = light.mesh->outline;
   SeenCornersV<SeenV> seen;
-  seen.first = map(Offset(light, hits, outline.corners[0], i));
+  // In units, as InUnits of other lights.
+  const Vec3V<SeenV> first = map(Offset(light, hits, outline.corners[0], i));
+  const SeenV size = hn::Set(d, static_cast<float>(light.radius));
+  const SeenV unit = PowerOfTwo(d, hn::Max(LargestComponent(first), size)).inverse;
+  seen.first = Scale(first, unit);
   for (size_t k = 0; k < outline.corners.size(); ++k) {
-    seen.offset[k] = map(Set3(outline.corners[k] - outline.corners[0]));
+    seen.offset[k] = Scale(map(Set3(outline.corners[k] - outline.corners[0])), unit);
     seen.way[k] = UnitDifference(d, seen.first, seen.offset[k]);
   }
   return Irradiance(d, outline, seen, faces.shines, faces.orientation, normal);

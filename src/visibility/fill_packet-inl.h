@@ -8,6 +8,7 @@
 #define NACRE_VISIBILITY_FILL_PACKET_INL_H_
 #endif
 
+#include "base/power_of_two-inl.h"
 #include "visibility/packet-inl.h"
 #include "visibility/triangle_test-inl.h"
 
@@ -15,20 +16,6 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-template <class V>
-struct PowerOfTwoV {
-  V power, inverse;
-};
-
-// The power of two 2^e in v > 0, for which v / 2^e is in [1, 2), and 2^-e.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
-  const hn::Rebind<uint64_t, D> du;
-  const auto exponent = hn::And(hn::BitCast(du, v), hn::Set(du, 0x7ff0000000000000u));
-  const auto negated = hn::Sub(hn::Set(du, 0x7fe0000000000000u), exponent);
-  return {hn::BitCast(d, exponent), hn::BitCast(d, negated)};
-}
 
 // Components that Embree replaces by 1e-18 before it takes their reciprocals, and a few more, are
 // 0: it does so whatever their sign, and a packet's frustum of those that are negative is then

@@ -27,6 +27,7 @@ struct OneRay {
   double t_max;
   uint32_t start;
   bool outward;
+  double end_reach;
 };
 
 HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
@@ -34,7 +35,8 @@ HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
           {rays.direction.x[i], rays.direction.y[i], rays.direction.z[i]},
           rays.t_max[i],
           rays.primitive[i],
-          rays.outward};
+          rays.outward,
+          rays.end_reach};
 }
 
 // OccludedLanes of one ray, which the float test has proposed.
@@ -43,14 +45,17 @@ HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const
       number == ray.start || Coincide(geometry.spheres[number], geometry.spheres[ray.start]);
   if (ray.outward && own) return false;
   const TraceSphere& sphere = geometry.spheres[number];
-  const hn::CappedTag<double, 1> d;
+  using Tag = hn::CappedTag<double, 1>;
+  const Tag d;
   const auto direction = SetVec3(d, ray.direction);
   const auto inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
-  const auto hit = TestSphere(d, SetVec3(d, sphere.center - ray.origin), direction, inverse_dd,
-                              hn::Set(d, sphere.radius));
-  const auto in_the_way =
-      InTheWay(d, hit, MaskOfBits(d, own ? 1 : 0, 0), false, hn::Set(d, ray.t_max));
-  return !hn::AllFalse(d, in_the_way);
+  const ShadowRaysV<Tag> rays{SetVec3(d, ray.origin), direction, inverse_dd, hn::Set(d, ray.t_max),
+                              ray.end_reach};
+  const auto to_center = SetVec3(d, sphere.center - ray.origin);
+  const auto radius = hn::Set(d, sphere.radius);
+  const auto hit = TestSphere(d, to_center, direction, inverse_dd, radius);
+  const auto own_lane = MaskOfBits(d, own ? 1 : 0, 0);
+  return !hn::AllFalse(d, InTheWay(d, rays, to_center, radius, hit, own_lane, false));
 }
 
 // The rays of a batch as cells and the float tests have them, in the coordinates of BinnedSphere.

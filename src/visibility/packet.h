@@ -50,6 +50,7 @@ struct Packet {
   // Occlusion queries.
   bool outward = false;                         // ShadowRayBatch's
   PrimitiveRange target;                        // likewise
+  double end_reach = 0;                         // likewise
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
   // If that is a sphere, its centre and radius, by which the ray also leaves the spheres that
   // coincide with it; else NaN.

@@ -8,6 +8,7 @@
 #define NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
 #endif
 
+#include "base/geometry-inl.h"
 #include "visibility/film_test-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
@@ -114,9 +115,12 @@ HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* 
   for (int lane = 0; lane < packet->width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    const auto hit = TestLanes(d, *packet, lane, sphere);
-    const auto in_the_way = InTheWay(d, hit, StartsOn(d, *packet, lane, sphere), packet->outward,
-                                     hn::Load(d, packet->t_max + lane));
+    const auto rays = ShadowRaysOf(d, *packet, lane);
+    const auto to_center = Sub(SetVec3(d, sphere.center), rays.origin);
+    const auto radius = hn::Set(d, sphere.radius);
+    const auto hit = TestSphere(d, to_center, rays.direction, rays.inverse_dd, radius);
+    const auto in_the_way = InTheWay(d, rays, to_center, radius, hit,
+                                     StartsOn(d, *packet, lane, sphere), packet->outward);
     occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
   }
   RecordOccluded(packet, occluded);

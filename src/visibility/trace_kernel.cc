@@ -95,6 +95,7 @@ void Occluded(const TraceScene& scene, ShadowRayBatch* rays) {
     packet.t_max = rays->t_max.data() + first;
     packet.outward = rays->outward;
     packet.target = rays->target;
+    packet.end_reach = rays->end_reach;
     packet.occluded = 0;
     FillPacket(*rays, first, &packet);
     FillStarts(*rays, first, &packet);

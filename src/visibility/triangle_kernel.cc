@@ -9,7 +9,7 @@
 #define HWY_TARGET_INCLUDE "visibility/triangle_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "visibility/packet-inl.h"
+#include "visibility/occlusion-inl.h"
 #include "visibility/triangle_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -90,6 +90,28 @@ void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
   ReturnDepths(packet, args->valid, args->rayhit, args->N);
 }
 
+constexpr double kUnit = 0x1p-53;
+
+// What tells how far points are from a triangle's plane.
+struct Plane {
+  Vec3d normal;         // e1 x e2, of any length
+  double size1, size2;  // |e1|_1 and |e2|_1: `normal` is off by 4 u times their product
+};
+
+Plane PlaneOf(const Corners& corners) {
+  const Vec3d e1 = corners.b - corners.a, e2 = corners.c - corners.a;
+  return {e1.cross(e2), std::abs(e1.x) + std::abs(e1.y) + std::abs(e1.z),
+          std::abs(e2.x) + std::abs(e2.y) + std::abs(e2.z)};
+}
+
+// Whether points, given by their ways to the corner a, are no further from the plane than `error`
+// times |e1|_1 |e2|_1 / |normal|.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> WithinOfPlane(D d, const Plane& plane, const Vec3V<V>& to_a, V error) {
+  const V scaled_distance = hn::Abs(Dot(to_a, Set3(d, plane.normal)));
+  return hn::Le(scaled_distance, hn::Mul(hn::Set(d, plane.size1 * plane.size2), error));
+}
+
 // The lanes whose origin cannot be told from a point of the triangle's plane: their ray starts on
 // this surface (on a neighbour, or on the same triangle given twice), and is not occluded by it.
 //
@@ -98,15 +120,36 @@ void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
 // corner by another u |to_a|, the normal by 4 u E and the dot product by 3 u |to_a| E: altogether
 // at most 12 u E (R + |to_a|_1).
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> OnPlane(D d, const Packet& packet, int lane, const Corners& corners) {
-  constexpr double kUnit = 0x1p-53;
-  const Vec3d e1 = corners.b - corners.a, e2 = corners.c - corners.a;
-  const double edges = (std::abs(e1.x) + std::abs(e1.y) + std::abs(e1.z)) *
-                       (std::abs(e2.x) + std::abs(e2.y) + std::abs(e2.z));
-  const Vec3V<V> to_a = Sub(Set3(d, corners.a), Origin(d, packet, lane));
-  const V scaled_distance = hn::Abs(Dot(to_a, Set3(d, e1.cross(e2))));
+HWY_INLINE hn::Mask<D> StartsOnPlane(D d, const Packet& packet, int lane, const Vec3V<V>& to_a,
+                                     const Plane& plane) {
   const V reach = hn::Add(hn::Load(d, packet.start_reach + lane), SumOfAbs(to_a));
-  return hn::Le(scaled_distance, hn::Mul(hn::Set(d, 16 * kUnit * edges), reach));
+  return WithinOfPlane(d, plane, to_a, hn::Mul(hn::Set(d, 16 * kUnit), reach));
+}
+
+// The lanes whose end cannot be told from a point of the plane: the light lies on this surface.
+//
+// The end is off by 22 u R at most, as of a sphere (EndsOnSphere), where R is the sum of the
+// origin's, the end's and the camera's coordinates, of the way to the corner and of the edges.
+// The corners are off by 25 u R: a transform's sines and cosines, and the nine products that it is
+// made of, by 6 u each, on three coordinates, and 7 u for the sums and the camera. With the
+// evaluation's 12 u R altogether at most 59 u E R.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> EndsOnPlane(D d, const ShadowRaysV<D>& rays, const Vec3V<V>& to_a,
+                                   const Plane& plane) {
+  const Vec3V<V> from_end = Sub(to_a, ToEnd(rays));
+  const V reach = hn::Add(hn::Add(EndReach(d, rays), SumOfAbs(from_end)),
+                          hn::Set(d, plane.size1 + plane.size2));
+  const auto on = WithinOfPlane(d, plane, from_end, hn::Mul(hn::Set(d, 64 * kUnit), reach));
+  return hn::And(hn::Lt(rays.t_max, hn::Inf(d)), on);
+}
+
+// The lanes whose ray starts or ends on the triangle's plane, within rounding.
+template <class D>
+HWY_INLINE hn::Mask<D> TouchesPlane(D d, const Packet& packet, int lane, const Corners& corners) {
+  const Plane plane = PlaneOf(corners);
+  const ShadowRaysV<D> rays = ShadowRaysOf(d, packet, lane);
+  const auto to_a = Sub(Set3(d, corners.a), rays.origin);
+  return hn::Or(StartsOnPlane(d, packet, lane, to_a, plane), EndsOnPlane(d, rays, to_a, plane));
 }
 
 void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
@@ -130,7 +173,7 @@ void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
     if (holes != nullptr) {
       met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
     }
-    occluded |= BitsOfMask(d, hn::AndNot(OnPlane(d, packet, lane, corners), met)) << lane;
+    occluded |= BitsOfMask(d, hn::AndNot(TouchesPlane(d, packet, lane, corners), met)) << lane;
   }
   RecordOccluded(&packet, occluded);
   ReturnDepths(packet, args->valid, args->ray, args->N);

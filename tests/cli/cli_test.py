@@ -297,6 +297,10 @@ class CliTest(unittest.TestCase):
         self.assertEqual(len(told['residual']['views']), 4)
         self.assertGreater(told['picture']['rmse'], 0)
         self.assertTrue((self.out / 'fit.png').exists())
+        table = run('convert', 'lambert', '--to', 'metallic_roughness').stdout
+        self.assertEqual(json.loads(table.splitlines()[0])['specular'], 0)
+        self.assertNotIn('inf', table)
+        self.assertIn('      -  ', table)
 
     def test_tonemap_makes_what_render_makes(self):
         self.render('-o', self.out / 'a.exr', '-o', self.out / 'a.png', '--depth', 'float',
@@ -764,6 +768,39 @@ class CliTest(unittest.TestCase):
         _, rows = self.rows('a.csv')
         distance, irradiance = map(float, rows[-1])
         self.assertAlmostEqual(irradiance * distance**2, 140, places=9)
+        # Of all lights of the scene those without a distance are left out, with a note.
+        result = run('plot', 'falloff', '--scene', FIRST_SCENE, '-o', self.out / 'b.csv')
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr.count('note: "sky" is left out'), 1)
+        self.assertEqual((self.out / 'b.csv').read_bytes(), (self.out / 'a.csv').read_bytes())
+
+    def test_a_wrong_option_is_told_once(self):
+        for layer in 'normal', 'light.kye':
+            result = self.check_fails(64, 'unknown layer', 'render', FIRST_SCENE, '--layers', layer,
+                                      '-o', self.out / 'a.png')
+            self.assertNotIn('warning', result.stderr)
+
+    def test_names_of_small_spheres_are_all_written(self):
+        """Names lie in tiers where they do not fit side by side: the page is higher for them."""
+        heights = []
+        for names in 'gold,silver,copper,iron,aluminium', 'gold,iron':
+            result = run('grid', '--material', 'conductor', '--columns', 'preset=' + names, '-o',
+                         self.out / 'a.exr', '--sphere-size', '40', '--spp', '1')
+            self.assertEqual(result.returncode, 0, result.stderr)
+            heights.append(int(re.search(r'x(\d+)', run('info', self.out / 'a.exr').stdout)[1]))
+        self.assertGreater(heights[0], heights[1] + 10)
+
+    def test_small_difference_pages_keep_their_words_apart(self):
+        """Below narrow cells the scale is not beside the measures but below them: 3.6 sizes of the
+        text, which is 18 pixels high on either page, and nothing else differs."""
+        strips = []
+        for size in 120, 200:
+            result = run('pair', '--layout', 'difference', '--a', 'lambert', '--b', 'burley', '-o',
+                         self.out / 'a.png', '--sphere-size', str(size), '--spp', '1')
+            self.assertEqual(result.returncode, 0, result.stderr)
+            height = int(re.search(r'\dx(\d+)', run('info', self.out / 'a.png').stdout)[1])
+            strips.append(height - size / 0.88)
+        self.assertAlmostEqual(strips[0] - strips[1], 3.6 * 18, delta=2)
 
     def test_bad_plots_are_refused_with_a_hint(self):
         out = ['-o', self.out / 'a.png']

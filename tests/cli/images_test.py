@@ -192,6 +192,24 @@ def tiff(rows, orientation=1, strip_bytes=None, declared_height=None):
     return b'II*\0' + struct.pack('<I', 8) + body + struct.pack('<I', 0) + data
 
 
+def icc_profile(gamma):
+    """The primaries of sRGB (ICC.1, adapted to D50) with a power for a curve."""
+    def xyz(*values):
+        return b'XYZ \0\0\0\0' + struct.pack('>3i', *(round(65536 * value) for value in values))
+    curve = b'curv\0\0\0\0' + struct.pack('>IH', 1, round(256 * gamma)) + b'\0\0'
+    tags = {b'wtpt': xyz(.9642, 1, .8249), b'rXYZ': xyz(.4360, .2225, .0139),
+            b'gXYZ': xyz(.3851, .7169, .0971), b'bXYZ': xyz(.1431, .0606, .7141),
+            b'rTRC': curve, b'gTRC': curve, b'bTRC': curve}
+    table, data = struct.pack('>I', len(tags)), b''
+    for name, tag in tags.items():
+        table += name + struct.pack('>2I', 128 + 4 + 12 * len(tags) + len(data), len(tag))
+        data += tag
+    header = struct.pack('>I4sI4s4s4s12s4s28s', 128 + len(table) + len(data), b'', 0x02400000, b'mntr',
+                         b'RGB ', b'XYZ ', b'', b'acsp', b'')
+    header += struct.pack('>3i', *(round(65536 * value) for value in (.9642, 1, .8249)))
+    return header.ljust(128, b'\0') + table + data
+
+
 def jpeg(blocks, orientation):
     """A baseline grey JPEG with an EXIF block, whose blocks of 8 x 8 pixels are of one value each:
     `blocks` are rows of them as they are stored. Quantized by 8 they have that value exactly."""
@@ -530,8 +548,10 @@ class ImagesTest(unittest.TestCase):
                 ('wide', png_chunk(b'cHRM', struct.pack('>8I', 31270, 32900, 68000, 32000, 26500,
                                                         69000, 15000, 6000)), True),
                 ('icc', png_chunk(b'iCCP', b'Display P3\0\0' + zlib.compress(b'x' * 200)), True),
-                ('icc_srgb', png_chunk(b'iCCP', b'ICC\0\0' + zlib.compress(
-                    b'desc' + 'sRGB built-in'.encode('utf-16-be'))), False)):
+                ('icc_srgb', png_chunk(b'iCCP', b'ICC\0\0' + zlib.compress(icc_profile(2.2))), False),
+                ('icc_linear', png_chunk(b'iCCP', b'sRGB\0\0' + zlib.compress(icc_profile(1))), True),
+                ('cicp', gamma + png_chunk(b'cICP', bytes([1, 13, 0, 1])), False),
+                ('pq', png_chunk(b'sRGB', b'\0') + png_chunk(b'cICP', bytes([9, 16, 0, 1])), True)):
             with self.subTest(name):
                 path = self.write(name + '.png', png(rows, 2, extra))
                 scene = self.textured(path)

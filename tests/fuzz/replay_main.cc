@@ -37,7 +37,7 @@ void Replay(const Target& target, const fs::path& file) {
   std::printf("%s\n", file.c_str());
   std::fflush(stdout);
   constexpr uint64_t kMaxBytes = 1 << 24;
-  target.run(ReadTextFile(file, kMaxBytes));
+  target.run(ReadBytes(file, kMaxBytes));
 }
 
 // How many files there were.

@@ -102,7 +102,7 @@ class InstallTest(unittest.TestCase):
         self.assertTrue((scene.parent / 'nacre.schema.json').is_file())
         run(self.prefix / 'bin/nacre', 'render', scene, '-o', self.top / 'a.png', '--labels', '--size',
             '200x200', '--spp', '1')
-        tiff = [self.prefix / 'bin/nacre', 'info', SOURCE / 'tests/fuzz/corpus/texture_image/a.tif']
+        tiff = [self.prefix / 'bin/nacre', 'info', pathlib.Path(__file__).resolve().parents[2] / 'tests/fuzz/corpus/texture_image/a.tif']
         run(*tiff)
         module = next(self.prefix.glob('lib/**/nacre_oiio.so'))
         away = self.top / 'away.so'

@@ -144,6 +144,68 @@ TEST_CASE("disks seen from their axis have consistent samples in SIMD") {
   });
 }
 
+RectangleLight<float> Scaled(const RectangleLight<float>& light, float by) {
+  return {light.corner * by, light.edge_x * by, light.edge_y * by};
+}
+TriangleLight<float> Scaled(const TriangleLight<float>& light, float by) {
+  return {light.corner * by, light.edge_x * by, light.edge_y * by};
+}
+DiskLight<float> Scaled(const DiskLight<float>& light, float by) {
+  return {light.centre * by, light.normal, light.radius * by};
+}
+SphereLight<float> Scaled(const SphereLight<float>& light, float by) {
+  return {light.centre * by, light.radius * by};
+}
+
+// What light a light gives depends on the proportions alone. Lengths of a scene are between 1e-15
+// and 1e15, the cubes of either of which no float holds. By powers of two nothing is rounded: all
+// bits are the same.
+template <class Light>
+void CheckScales(const std::vector<Light>& lights) {
+  for (size_t i = 0; i < lights.size(); ++i) {
+    const auto light = ToFloat(lights[i]);
+    using Query = LightQuery<std::decay_t<decltype(light)>>;
+    const Vec3f normal(Turn({0.3, -0.1, 1}).normalized());
+    const auto ask = [&](float by) {
+      std::vector<Query> queries;
+      constexpr float strata[8] = {0.06f, 0.19f, 0.31f, 0.44f, 0.56f, 0.69f, 0.81f, 0.94f};
+      for (size_t k = 0; k < 64; ++k) {
+        Query query{Scaled(light, by), strata[k % 8], strata[k / 8], {0, 0, 1}};
+        query.normal = normal;
+        queries.push_back(query);
+      }
+      std::vector<LightAnswer> answers = AskLights(queries);
+      for (size_t k = 0; k < queries.size(); ++k) queries[k].direction = answers[k].sample.to_light;
+      return AskLights(queries);
+    };
+    const std::vector<LightAnswer> want = ask(1);
+    for (const int exponent : {-50, -35, 35, 50}) {
+      const float by = std::ldexp(1.0f, exponent);
+      if (OffsetLength(lights[i]) * double{by} > 4e15) continue;  // beyond the limits
+      CAPTURE(i, exponent);
+      const std::vector<LightAnswer> got = ask(by);
+      size_t other = 0;
+      for (size_t k = 0; k < want.size(); ++k) {
+        const AreaSample<float>&a = got[k].sample, &b = want[k].sample;
+        other += a.to_light != b.to_light || a.distance != b.distance * by ||
+                 a.inverse_pdf != b.inverse_pdf || a.cos_light != b.cos_light ||
+                 got[k].pdf != want[k].pdf || got[k].solid_angle != want[k].solid_angle ||
+                 got[k].irradiance != want[k].irradiance;
+      }
+      CHECK(other == 0);
+    }
+  }
+}
+
+TEST_CASE("SIMD samples of area lights of any size are those of their proportions") {
+  ForEachTarget([](Target) {
+    CheckScales(SphereLights());
+    CheckScales(RectangleLights());
+    CheckScales(TriangleLights());
+    CheckScales(DiskLights());
+  });
+}
+
 TEST_CASE("SIMD finds no sample where there is none, and nothing is ever not finite") {
   ForEachTarget([&](Target) {
     const auto inverse_pdf = [](const auto& light) {

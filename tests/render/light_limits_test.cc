@@ -97,5 +97,103 @@ TEST_CASE("what is inside a lamp, behind one or in its plane sees no light") {
   });
 }
 
+// A floor under a ceiling, which the camera does not see, somewhere in the world.
+struct Room {
+  Vec3d x, y, z, origin;
+  Vec3d operator()(double a, double b, double c) const { return origin + x * a + y * b + z * c; }
+};
+
+Room StraightRoom() { return {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}}; }
+Room TurnedRoom() {
+  const Vec3d y = Vec3d(0.3, 0.9, -0.2).normalized(), x = y.cross(Vec3d(0.1, 0.2, 1)).normalized();
+  return {x, y, x.cross(y), {123400.3, -56700.7, 1234500.1}};
+}
+
+Mesh Square(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+  Mesh mesh;
+  mesh.positions = {a, b, c, d};
+  mesh.triangles = {0, 1, 2, 0, 2, 3};
+  mesh.material = {0};
+  return mesh;
+}
+
+Scene FloorUnder(const Room& at, decltype(Light::kind) kind) {
+  Scene scene;
+  scene.materials.emplace_back().model = LambertMaterial{Rgb(0.8)};
+  scene.meshes.push_back(Square(at(-2, -1, -2), at(-2, -1, 2), at(2, -1, 2), at(2, -1, -2)));
+  scene.lights.push_back(Named("lamp", std::move(kind)));
+  scene.camera.position = at(0, 0.5, 3);
+  scene.camera.look_at = at(0, -1, 0);
+  scene.camera.up = at.y;
+  scene.camera.fov_y_deg = 25;
+  scene.image.width = scene.image.height = kSide;
+  scene.image.spp = 4;
+  return scene;
+}
+
+std::vector<decltype(Light::kind)> CeilingLights(const Room& at) {
+  RectangleAreaLight rectangle;
+  rectangle.center = at(0.1, 1, 0.2);
+  rectangle.facing = -at.y;
+  rectangle.width = 1.1;
+  rectangle.height = 0.7;
+  rectangle.radiance = Rgb(3);
+  DiskAreaLight disk;
+  disk.center = rectangle.center;
+  disk.facing = -at.y;
+  disk.radius = 0.4;
+  disk.radiance = Rgb(3);
+  MeshAreaLight mesh;
+  const Mesh square =
+      Square(at(-0.3, 1, -0.3), at(0.4, 1, -0.3), at(0.4, 1, 0.5), at(-0.3, 1, 0.5));
+  mesh.mesh = std::make_shared<Mesh>(square);
+  mesh.radiance = Rgb(3);
+  PointLight point;
+  point.position = rectangle.center;
+  point.intensity = Rgb(3);
+  SpotLight spot;
+  spot.position = rectangle.center;
+  spot.direction_of_travel = -at.y;
+  spot.intensity = Rgb(3);
+  spot.cutoff_deg = 60;
+  return {rectangle, disk, mesh, point, spot};
+}
+
+TEST_CASE("a lamp flush with its ceiling lights as if there were no ceiling") {
+  ForEachTarget([](Target) {
+    for (const Room& at : {StraightRoom(), TurnedRoom()}) {
+      for (const decltype(Light::kind)& kind : CeilingLights(at)) {
+        CAPTURE(kind.index());
+        const Scene open = FloorUnder(at, kind);
+        const Image want = RenderImage(open, {});
+        CHECK(LargestRed(open) > 0.01f);
+        Scene closed = open;
+        // Wide and lopsided, so that no corner's rounding is the lamp's.
+        closed.meshes.push_back(Square(at(-7, 1, -6), at(5, 1, -6), at(5, 1, 9), at(-7, 1, 9)));
+        CHECK(SameBits(RenderImage(closed, {}), want));
+      }
+    }
+  });
+}
+
+TEST_CASE("a light on a sphere over a floor is seen from below, and hidden from above") {
+  ForEachTarget([](Target) {
+    for (const Room& at : {StraightRoom(), TurnedRoom()}) {
+      PointLight point;
+      point.position = at(0, 1, 0);
+      point.intensity = Rgb(3);
+      const Scene open = FloorUnder(at, point);
+      Scene closed = open;
+      closed.spheres.push_back({at(0, 11, 0), 10, {0}});
+      CHECK(SameBits(RenderImage(closed, {}), RenderImage(open, {})));
+      Scene below = open;
+      below.spheres.push_back({at(0, 0.5, 0), 0.5, {0}});
+      below.camera.look_at = at(0, -1, 1.5);
+      below.camera.fov_y_deg = 8;  // of the floor alone
+      CHECK(LargestRed(below) == 0);
+    }
+  });
+}
+
 }  // namespace
 }  // namespace nacre

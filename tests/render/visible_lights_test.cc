@@ -7,6 +7,7 @@
 #include "render/plan.h"
 #include "render/render.h"
 #include "render/sampled_plan.h"
+#include "targets.h"
 #include "visibility/sphere_test.h"
 
 namespace nacre {
@@ -101,6 +102,53 @@ TEST_CASE("a light in view is shown, and one well out of view is not") {
     CHECK(met > 50);
     CHECK(shown < met * 1.3);
     CHECK(shown < 400);
+  }
+}
+
+// Of a lamp that lies exactly in a floor the camera sees all, and of one in its back nothing.
+TEST_CASE("a lamp let into a floor is seen whole") {
+  for (const double far : {0.0, 1e4}) {
+    const Vec3d up = Vec3d(0.3, 0.9, -0.2).normalized(),
+                x = up.cross(Vec3d(0.1, 0.2, 1)).normalized();
+    const Vec3d z = x.cross(up), at = Vec3d(0.123, -0.456, 0.789) * (1 + far);
+    const auto square = [&](double low, double high) {
+      Mesh mesh;
+      mesh.positions = {at + x * low + z * low, at + x * low + z * high, at + x * high + z * high,
+                        at + x * high + z * low};
+      mesh.triangles = {0, 1, 2, 0, 2, 3};
+      return mesh;
+    };
+    RectangleAreaLight rectangle;
+    rectangle.center = at;
+    rectangle.facing = up;
+    rectangle.width = rectangle.height = 2;
+    DiskAreaLight disk;
+    disk.center = at;
+    disk.facing = up;
+    disk.radius = 1;
+    MeshAreaLight mesh;
+    mesh.mesh = std::make_shared<Mesh>(square(-1.1, 0.9));
+    for (const decltype(Light::kind)& kind :
+         {decltype(Light::kind)(rectangle), decltype(Light::kind)(disk),
+          decltype(Light::kind)(mesh)}) {
+      CAPTURE(far, kind.index());
+      Scene scene;
+      scene.materials.emplace_back().model = LambertMaterial{Rgb(0.5)};
+      Mesh floor = square(-4, 7);
+      floor.material = {0};
+      scene.meshes.push_back(floor);
+      scene.lights.push_back(Named("lamp", kind));
+      scene.camera.position = at + up * 3 + x * 0.1;
+      scene.camera.look_at = at;
+      scene.camera.up = z;
+      scene.camera.fov_y_deg = 14;  // of the lamp alone
+      scene.image.width = scene.image.height = 32;
+      scene.image.spp = 1;
+      ForEachTarget([&](Target) {
+        const Image image = RenderImage(scene, {});
+        for (const float red : image.Find("R")->samples) REQUIRE(red == 1);
+      });
+    }
   }
 }
 

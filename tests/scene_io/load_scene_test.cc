@@ -387,6 +387,38 @@ TEST_CASE("--set that cannot be done is a usage error") {
   CHECK(Contains(set("/background/red", "1"), "no \"red\" in a value"));
 }
 
+TEST_CASE(
+    "--set tells a name that the scene does not have, and a number that JSON writes otherwise") {
+  const auto set = [](const std::string& pointer, const std::string& value) {
+    return MessageOf([&] {
+      Load(R"(, "materials": {"red": {"model": "lambert"}, "floor": {"model": "lambert"}},
+              "lights": {"key": {"type": "point"}}, "shapes": [])",
+           {.overrides = {{pointer, value}}, .allow_paths = false});
+    });
+  };
+  std::string message = set("/materials/blue/roughness", "0.1");
+  CHECK(Contains(message, "--set /materials/blue/roughness: there is no material \"blue\""));
+  CHECK(Contains(message, "the scene has red, floor"));
+  message = set("/lights/kye/intensity", "2");
+  CHECK(Contains(message, "there is no light \"kye\""));
+  CHECK(Contains(message, "the scene has key"));
+  message = set("/textures/earth/wrap", "\"repeat\"");
+  CHECK(Contains(message, "there is no texture \"earth\""));
+  CHECK(Contains(message, "the scene has no textures"));
+  for (const auto& [text, number] :
+       {std::pair(".1", "0.1"), {"-.5", "-0.5"}, {"2.", "2.0"}, {"+3", "3.0"}}) {
+    CHECK(Contains(set("/camera/fov_y_deg", text), std::string("write ") + number));
+  }
+  CHECK(Contains(set("/camera/fov_y_deg", ".1.2"), "a string needs quotes"));
+  // A whole new one can be made, at once or key by key.
+  const Scene scene =
+      Load(R"(, "shapes": [])", {.overrides = {{"/materials/a", R"({"model": "lambert"})"},
+                                               {"/materials/b/albedo", "0.25"},
+                                               {"/materials/b/model", R"("lambert")"}},
+                                 .allow_paths = false});
+  CHECK(scene.materials.size() == 2);
+}
+
 TEST_CASE("what --set puts in is checked like the file") {
   const std::string message = MessageOf([] { Load("", {.overrides = {{"/image/sppp", "64"}}}); });
   CHECK(Contains(message, "test.json: /image: unknown key \"sppp\""));

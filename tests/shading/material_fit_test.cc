@@ -172,6 +172,40 @@ TEST_CASE("the base keeps its albedo") {
   CHECK(LargestDifference(DiffuseAlbedo(dielectric.fitted), DiffuseAlbedo(plastic)) < 1e-9);
 }
 
+Material Matte(decltype(Material::model) model) {
+  Material material;
+  material.model = std::move(model);
+  return material;
+}
+
+// A dielectric's whole lobe would add a tenth to them.
+TEST_CASE("surfaces without a lobe, or with a weak one, stay as dark as they are") {
+  const Material without[] = {
+      Matte(LambertMaterial{Rgb(0.5)}), Matte(LambertMaterial{Rgb(0.9, 0.5, 0)}),
+      Matte(OrenNayarMaterial{Rgb(0.6), 0.8}), Matte(BurleyMaterial{Rgb(0.3), 0.4}),
+      Phong(PhongModel::kPhong, Rgb(0.4), Rgb(0), 20)};
+  for (const Material& original : without) {
+    CAPTURE(original.model.index());
+    const MaterialFit fit = FitMaterial(original, "metallic_roughness");
+    CHECK(MetalOf(fit.fitted).specular == 0);
+    CHECK(MetalOf(fit.fitted).metallic == 0);
+    CHECK(fit.residual.rms == 0);
+    CHECK(LargestDifference(DiffuseAlbedo(fit.fitted), DiffuseAlbedo(original)) < 1e-9);
+  }
+  const MaterialFit exact = FitMaterial(without[1], "metallic_roughness");
+  CHECK(LargestDifference(MetalOf(exact.fitted).base_color, Rgb(0.9, 0.5, 0)) < 1e-9);
+  for (const double ks : {0.005, 0.02}) {
+    CAPTURE(ks);
+    const Material original = Phong(PhongModel::kBlinnPhong, Rgb(0.5), Rgb(ks), 40);
+    const MaterialFit fit = FitMaterial(original, "metallic_roughness");
+    CHECK(fit.residual.rms < fit.guess_residual.rms);
+    CHECK(fit.residual.rms < 1);  // as far off as no lobe at all is
+    CHECK(MetalOf(fit.fitted).specular > 0);
+    CHECK(MetalOf(fit.fitted).specular < 1);
+    CHECK(LargestDifference(DiffuseAlbedo(fit.fitted), DiffuseAlbedo(original)) < 1e-9);
+  }
+}
+
 TEST_CASE("what cannot be said is told") {
   // Grey gloss of 30 % over red: neither a metal nor a dielectric of index 1.5.
   const Material strong = Phong(PhongModel::kPhong, Rgb(0.6, 0.1, 0.1), Rgb(0.3), 40);

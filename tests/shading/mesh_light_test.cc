@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "light/irradiance.h"
 #include "scene/sphere_mesh.h"
@@ -233,6 +234,76 @@ TEST_CASE("the irradiance of a convex mesh is the sum of its fronts'") {
       }
     });
   }
+}
+
+SampledLight Prepared(decltype(Light::kind) kind) {
+  Light light;
+  light.kind = std::move(kind);
+  return PrepareSampledLight(light, Vec3d(0, 0, 0));
+}
+
+// Of shadow rays, whose directions are rounded to float: they end on the light nevertheless, and
+// where there is no end to be refined none is made.
+TEST_CASE("shadow rays end on their lights to the roundings of double") {
+  const Vec3d at(1.1, 2.3, -3.7), facing = Vec3d(-0.3, -0.8, 1).normalized();
+  RectangleAreaLight rectangle;
+  rectangle.center = at;
+  rectangle.facing = facing;
+  rectangle.width = 3;
+  DiskAreaLight disk;
+  disk.center = at;
+  disk.facing = facing;
+  SphereAreaLight sphere;
+  sphere.center = at;
+  sphere.radius = 0.7;
+  Mesh triangle;
+  triangle.positions = {at, at + facing.cross(Vec3d(1, 0, 0)), at + facing.cross(Vec3d(0, 1, 0))};
+  triangle.triangles = {0, 1, 2};
+  MeshAreaLight mesh;
+  mesh.mesh = std::make_shared<const Mesh>(triangle);
+  mesh.two_sided = true;
+  const UnitPoints points = Points();
+  ForEachTarget([&](Target) {
+    for (const decltype(Light::kind)& kind :
+         {decltype(Light::kind)(rectangle), decltype(Light::kind)(disk),
+          decltype(Light::kind)(sphere), decltype(Light::kind)(mesh)}) {
+      const SampledLight light = Prepared(kind);
+      // In front, far away, and edge-on.
+      for (const Vec3d& point : {Vec3d(0.2, 0.1, 0.3), at + facing * 1e5 + Vec3d(3, 1, 2),
+                                 at + facing * 0.01 + facing.cross(Vec3d(1, 0, 0)) * 5}) {
+        CAPTURE(kind.index(), (point - at).length());
+        const HitBatch hits = Hits(point);
+        LightDirections directions;
+        SampleLight(light, hits, points, &directions);
+        AlignedArray<double> ends(kBatchCapacity);
+        for (size_t i = 0; i < hits.count; ++i) ends[i] = i % 7 == 0 ? 0 : directions.distance[i];
+        FindEnds(light, hits, directions, &ends);
+        const Soa3<float>& l = directions.to_light;
+        // A few roundings of the coordinates, of the point and of the offset.
+        const double bound = 16 * 0x1p-53 * (point.length() + at.length() + (point - at).length());
+        size_t found = 0;
+        for (size_t i = 0; i < hits.count; ++i) {
+          if (i % 7 == 0 || !(directions.distance[i] > 0)) {
+            REQUIRE(ends[i] == 0);
+            continue;
+          }
+          ++found;
+          const Vec3d end = point + Vec3d(l.x[i], l.y[i], l.z[i]) * ends[i];
+          const bool is_sphere = light.form == SampledForm::kSphere;
+          // Where a float direction passes by the sphere the nearest point of its line counts.
+          const double off = is_sphere ? (end - at).length() - 0.7 : (end - at).dot(facing);
+          const double beside = is_sphere ? 1e-6 * (point - at).length() : 0;
+          REQUIRE(off >= -bound - beside);
+          REQUIRE(off <= bound + beside);
+          // The same end, but for the rounding of the distance.
+          const double towards = std::abs(Vec3d(l.x[i], l.y[i], l.z[i]).dot(facing));
+          const double scale = is_sphere ? 1e-2 : 1e-5 / std::min(towards, 1.0);
+          REQUIRE(std::abs(ends[i] / double{directions.distance[i]} - 1) <= scale);
+        }
+        CHECK(found > 300);
+      }
+    }
+  });
 }
 
 }  // namespace

@@ -99,14 +99,16 @@ inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
   return surfaces;
 }
 
-// `light`, `outward`: ShadowRayBatch's.
+// `light`, `outward`, `end_reach`: ShadowRayBatch's.
 inline std::vector<bool> TraceShadows(const Intersector& intersector,
                                       const std::vector<ShadowRay>& rays,
-                                      uint32_t light = kAnyLight, bool outward = false) {
+                                      uint32_t light = kAnyLight, bool outward = false,
+                                      double end_reach = 0) {
   std::vector<bool> occluded;
   ShadowRayBatch batch;
   batch.light = light;
   batch.outward = outward;
+  batch.end_reach = end_reach;
   for (size_t first = 0; first < rays.size(); first += kBatchCapacity) {
     batch.count = std::min(kBatchCapacity, rays.size() - first);
     for (size_t i = 0; i < batch.count; ++i) {
@@ -146,7 +148,33 @@ inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
   return best;
 }
 
-// Occlusion by spheres, and by triangles further off than `gap` (in t).
+inline double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// Whether the ray ends on the surface within rounding: EndsOnSphere of visibility/occlusion-inl.h
+// and EndsOnPlane of visibility/triangle_kernel.cc, which derive the bounds.
+inline bool EndsOnSphere(const TraceSphere& sphere, const ShadowRay& shadow) {
+  if (std::isinf(shadow.t_max)) return false;
+  const Vec3d to_end = shadow.ray.direction * shadow.t_max;
+  const Vec3d to_center = sphere.center - shadow.ray.origin, from_end = to_center - to_end;
+  const double reach =
+      SumOfAbs(shadow.ray.origin) + SumOfAbs(to_end) + sphere.radius + SumOfAbs(to_center);
+  return std::abs(from_end.dot(from_end) - sphere.radius * sphere.radius) <=
+         32 * 0x1p-53 * reach * (SumOfAbs(from_end) + sphere.radius);
+}
+inline bool EndsOnPlane(const TraceGeometry& geometry, size_t triangle, const ShadowRay& shadow) {
+  if (std::isinf(shadow.t_max)) return false;
+  const auto& v = geometry.triangles[triangle];
+  const Vec3d a = geometry.positions[v[0]];
+  const Vec3d e1 = geometry.positions[v[1]] - a, e2 = geometry.positions[v[2]] - a;
+  const Vec3d to_end = shadow.ray.direction * shadow.t_max;
+  const Vec3d from_end = a - shadow.ray.origin - to_end;
+  const double reach = SumOfAbs(shadow.ray.origin) + SumOfAbs(to_end) + SumOfAbs(from_end) +
+                       SumOfAbs(e1) + SumOfAbs(e2);
+  return std::abs(from_end.dot(e1.cross(e2))) <= 64 * 0x1p-53 * SumOfAbs(e1) * SumOfAbs(e2) * reach;
+}
+
+// Occlusion by spheres, and by triangles further off than `gap` (in t), that the ray does not end
+// on. One that it ends on has one root there, and may have another before.
 inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& shadow,
                                double gap = 0, bool outward = false) {
   const auto& [ray, t_max, start] = shadow;
@@ -158,12 +186,15 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
                      geometry.spheres[start].center == sphere.center &&
                      geometry.spheres[start].radius == sphere.radius;
     const double t = own ? 2 * hit.closest : hit.t;
+    const double other = 2 * hit.closest - t_max;
+    if ((own || other <= 0 || other >= t_max) && EndsOnSphere(sphere, shadow)) continue;
     if ((own ? t > 0 && !outward : hit.hit) && t < t_max) return true;
   }
   for (size_t i = 0; i < geometry.triangles.size(); ++i) {
     if (geometry.SphereCount() + i == start) continue;
     const auto hit = TestTriangle(geometry, i, ray);
-    if (hit.hit && hit.t > gap && hit.t < t_max) return true;
+    const bool met = hit.hit && hit.t > gap && hit.t < t_max;
+    if (met && !EndsOnPlane(geometry, i, shadow)) return true;
   }
   return false;
 }

@@ -147,6 +147,96 @@ TEST_CASE("shadows at the ends of the range of lengths") {
   }
 }
 
+// Adds the triangles of a square about a point of a plane, as a reader makes them: somewhere within
+// it, turned and moved.
+void AddSquare(const Vec3d& within, const Vec3d& normal, double half, Random* random,
+               Scene* scene) {
+  const Vec3d x = normal.cross(random->Direction()).normalized(), y = normal.cross(x);
+  const Vec3d center =
+      within + x * random->Uniform(-0.9, 0.9) * half + y * random->Uniform(-0.9, 0.9) * half;
+  Mesh mesh;
+  mesh.positions = {center - x * half - y * half, center + x * half - y * half,
+                    center + x * half + y * half, center - x * half + y * half};
+  mesh.triangles = {0, 1, 2, 0, 2, 3};
+  scene->meshes.push_back(mesh);
+}
+
+// A light that lies exactly on a surface is seen from the side that the surface faces, whatever the
+// rounding, and a sphere hides it from all that lies behind the sphere.
+TEST_CASE("a surface that a light lies on is not in its way") {
+  Random random(37);
+  for (const double far : {0.0, 1e3, 1e7}) {
+    for (int round = 0; round < 30; ++round) {
+      CAPTURE(far, round);
+      const Vec3d eye = random.Direction() * far;
+      const Vec3d light = eye + random.InBox(Vec3d(-3), Vec3d(3)), normal = random.Direction();
+      const double radius = random.Magnitude(0.1, 1e3);
+      Scene on_sphere, on_square;
+      const Sphere lamp_holder = MakeSphere(light + normal * radius, radius);
+      on_sphere.spheres = {lamp_holder};
+      AddSquare(light, normal, random.Magnitude(0.1, 1e3), &random, &on_square);
+      std::vector<ShadowRay> before, behind;
+      for (int i = 0; i < 200; ++i) {
+        Vec3d out = random.Direction();
+        if (out.dot(normal) > 0) out = -out;
+        // Not next to the tangent plane: what is hidden there is the digits' to say.
+        out = (out - normal * 0.05).normalized();
+        const Vec3d way = out * random.Magnitude(0.1, 100);
+        const Vec3d from = light - eye + way;
+        before.push_back({{from, light - eye - from}, 1, kNoPrimitive});
+        const Vec3d through = light - eye - way * (1 + 40 * radius);
+        behind.push_back({{through, light - eye - through}, 1, kNoPrimitive});
+      }
+      ForEachTarget([&](Target) {
+        const auto shadows = [&](const Scene& scene, const std::vector<ShadowRay>& rays) {
+          return TraceShadows(Intersector(scene, eye), rays, kAnyLight, false, SumOfAbs(eye));
+        };
+        for (const bool occluded : shadows(on_sphere, before)) REQUIRE_FALSE(occluded);
+        for (const bool occluded : shadows(on_square, before)) REQUIRE_FALSE(occluded);
+        for (const bool occluded : shadows(on_sphere, behind)) REQUIRE(occluded);
+      });
+    }
+  }
+}
+
+TEST_CASE("a light on the wall of a hollow sphere lights all of it") {
+  Random random(38);
+  Scene scene;
+  scene.spheres = {MakeSphere(Vec3d(0.1, -0.3, 0.2), 2.3)};
+  std::vector<ShadowRay> rays;
+  const auto on_wall = [&] { return scene.spheres[0].center + random.Direction() * 2.3; };
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3d from = on_wall();
+    rays.push_back({{from, on_wall() - from}, 1, 0});
+  }
+  ForEachTarget([&](Target) {
+    for (const bool occluded : TraceShadows(Intersector(scene, Vec3d(0)), rays)) {
+      REQUIRE_FALSE(occluded);
+    }
+  });
+}
+
+// What is near the surface, but not on it, is told from it.
+TEST_CASE("a light 1e-9 behind a surface is hidden by it") {
+  Random random(39);
+  Scene scene;
+  scene.spheres = {MakeSphere({0, -50, 0}, 0.01), MakeSphere({3, 1, 0}, 1)};
+  AddSquare({0, 0, 0}, {0, 1, 0}, 5, &random, &scene);
+  std::vector<ShadowRay> to_square, to_sphere;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3d from(random.Uniform(-1, 1), random.Uniform(-3, -1), random.Uniform(-1, 1));
+    to_square.push_back({{from, Vec3d(0, 1e-9, 0) - from}, 1, 0});
+    const Vec3d out = random.Direction();
+    const Vec3d inside = Vec3d(3, 1, 0) + out * (1 - 1e-9);
+    to_sphere.push_back({{inside + out, -out}, 1, 0});
+  }
+  ForEachTarget([&](Target) {
+    const Intersector intersector(scene, Vec3d(0));
+    for (const bool occluded : TraceShadows(intersector, to_square)) REQUIRE(occluded);
+    for (const bool occluded : TraceShadows(intersector, to_sphere)) REQUIRE(occluded);
+  });
+}
+
 TEST_CASE("between shells 4e-5 apart the outer one shadows the inner one") {
   Random random(34);
   Scene scene;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// base/power_of_two-inl.h: the powers of two that numbers are divided by, without rounding, to keep
+// products of them within a format's range.
+#if defined(NACRE_BASE_POWER_OF_TWO_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_BASE_POWER_OF_TWO_INL_H_
+#undef NACRE_BASE_POWER_OF_TWO_INL_H_
+#else
+#define NACRE_BASE_POWER_OF_TWO_INL_H_
+#endif
+
+#include <cstdint>
+#include <type_traits>
+
+#include "base/wide-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+template <class V>
+struct PowerOfTwoV {
+  V power, inverse;
+};
+
+// The power of two 2^e in v > 0, a normal number, for which v / 2^e is in [1, 2), and 2^-e, which
+// is 0 for the largest e. Of v = 0 both are finite.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE PowerOfTwoV<V> PowerOfTwo(D d, V v) {
+  using Bits = std::conditional_t<sizeof(hn::TFromD<D>) == 4, uint32_t, uint64_t>;
+  constexpr Bits kExponent = static_cast<Bits>(sizeof(Bits) == 4 ? 0x7f800000 : 0x7ff0000000000000);
+  constexpr Bits kTwiceOne = static_cast<Bits>(sizeof(Bits) == 4 ? 0x7f000000 : 0x7fe0000000000000);
+  const hn::Rebind<Bits, D> bits;
+  const auto exponent = hn::And(hn::BitCast(bits, v), hn::Set(bits, kExponent));
+  return {hn::BitCast(d, exponent), hn::BitCast(d, hn::Sub(hn::Set(bits, kTwiceOne), exponent))};
+}
+
+template <class D, class V>
+HWY_INLINE PowerOfTwoV<hn::Wide<V>> PowerOfTwo(hn::WideTag<D>, const hn::Wide<V>& v) {
+  const auto low = PowerOfTwo(D(), v.low), high = PowerOfTwo(D(), v.high);
+  return {{low.power, high.power}, {low.inverse, high.inverse}};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
