@@ -250,14 +250,8 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
     s.samples.y[i] = pixel.y + 0.5;
   }
   s.samples.count = pixels.size();
-  if (s.sampled) {
-    // Only where they lie is of interest: no footprint is plain under sampled lights.
-    SampleNumbers& numbers = s.sampled->numbers;
-    std::fill_n(numbers.number.data(), pixels.size(), 0u);
-    std::fill_n(numbers.pixel.data(), pixels.size(), 0u);
-    numbers.pixel_count = 1;
-    numbers.seeds[0] = 0;
-  }
+  // Only where they lie is of interest: no footprint is plain under sampled lights.
+  if (s.sampled) NumberAlike(pixels.size(), &s.sampled->numbers);
   TraceAndShade(plan, &s, clock, stats);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
@@ -372,7 +366,7 @@ void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
   ListPixels(sampled, &c.active);
   FindOutlines(plan, cell, &c);
   ClearEvidence(&c);
-  FindRareSpheres(plan, cell, s.candidates, &c);
+  FindRareFeatures(plan, cell, &s, &c, clock, stats);
   SeekHits(plan, cell, &s, &c, clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, clock, stats);

@@ -16,6 +16,7 @@
 // is known (outline_coverage.h), and samples need only tell what the covered part looks like.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -87,6 +88,14 @@ inline FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
   const Window block = BlockWindow(cell, pixel / kBlockPixels);
   const auto in_block = static_cast<int>(pixel % kBlockPixels);
   return {pixel, block.x0 + in_block % kBlockSide, block.y0 + in_block / kBlockSide};
+}
+
+// Numbers for samples that stand alone, not in a pattern.
+inline void NumberAlike(size_t count, SampleNumbers* numbers) {
+  std::fill_n(numbers->number.data(), count, 0u);
+  std::fill_n(numbers->pixel.data(), count, 0u);
+  numbers->pixel_count = 1;
+  numbers->seeds[0] = 0;
 }
 
 // Renders the pixels of `part` of a cell of the frame into the strip.

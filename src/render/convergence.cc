@@ -143,8 +143,12 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
   double widest = 0;
   for (int row = std::max(y - 1, 0); row <= std::min(y + 1, kBlockSide - 1); ++row) {
     for (int column = std::max(x - 1, 0); column <= std::min(x + 1, kBlockSide - 1); ++column) {
-      const int i = row * kBlockSide + column;
-      if ((intervals.narrow >> i & 1) == 0) widest = std::max(widest, intervals.half_width[i]);
+      const auto i = static_cast<uint32_t>(row * kBlockSide + column);
+      if ((intervals.narrow >> i & 1) != 0) continue;
+      // What is known to be rare there is known here, too.
+      const uint32_t other = pixel - pixel % uint32_t{kBlockPixels} + i;
+      if (2 * c.rare_radiance[other] > intervals.wanted[i]) continue;
+      widest = std::max(widest, intervals.half_width[i]);
     }
   }
   return widest;
@@ -179,7 +183,7 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
   const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
   MeasureActive({plan.adaptive.max_error, plan.adaptive.white}, background, c);
-  if (level + 1 >= kCommonLevels) RequireEvidence(plan, c);
+  RequireEvidence(plan, c);
   uint32_t open = 0;  // blocks, as bits
   for (const uint32_t pixel : c->active) {
     if (!IsNarrow(*c, pixel)) open |= 1u << pixel / kBlockPixels;

@@ -8,7 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "render/glints.h"
 #include "render/interval.h"
+#include "render/tile_layers.h"
+#include "render/white_level.h"
 #include "sampling/pixel_filter.h"
 
 namespace nacre {
@@ -17,16 +20,27 @@ namespace {
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 // Hits on rare things that a pixel must expect before the spread of its replicates tells of them:
-// two in each, so that all agree by chance in one of 190 cases (Poisson).
+// two in each, so that all agree by chance in one of 82 cases (the sum of the fourth powers of
+// Poisson's probabilities).
 constexpr double kExpectedHits = 2 * kReplicates;
 
-// Spheres whose pictures are wider, in pixels, are found: 16 samples expect more hits than that.
+// Spheres and highlights whose pictures are wider, in pixels, are found: 16 samples expect more
+// hits than that.
 constexpr double kWidestRare = 2;
+
+// Pictures that look alike: each of them that a sample hits tells of the others.
+struct Likeness {
+  uint32_t material;
+  size_t light;  // of highlights
+  auto operator<=>(const Likeness&) const = default;
+};
+constexpr size_t kWhole = std::numeric_limits<size_t>::max();  // no highlight: a sphere
 
 // A picture as the square of the same area around the same place, in pixels.
 struct SmallPicture {
-  uint32_t material;
+  Likeness likeness;
   double x, y, half_side;
+  double radiance;  // at most, beyond what is beside it
 };
 
 double MeanRadiance(const EnvironmentMap& map) {
@@ -42,6 +56,21 @@ double MeanRadiance(const EnvironmentMap& map) {
     sum += row * TexelSolidAngle(map.width, map.height, y);
   }
   return sum / (4 * M_PI);
+}
+
+// What an object reflects of surroundings of radiance 1, at most. Classic Phong materials lack the
+// 1/pi, and their lobe, without n.l, gathers a solid angle of 2 pi / (n + 1).
+double MostReflected(const Scene& scene) {
+  double most = 1;
+  for (const Material& material : scene.materials) {
+    if (!IsClassic(material)) continue;
+    const auto& phong = std::get<PhongMaterial>(material.model);
+    const double exponent = phong.shininess_map.valid() ? 0 : phong.shininess;
+    const Rgb matte = phong.color * phong.kd * M_PI, lobe = phong.ks * (2 * M_PI / (exponent + 1));
+    const Rgb all = matte + lobe;
+    most = std::max({most, all.x, all.y, all.z});
+  }
+  return most;
 }
 
 // A mirror ball's picture shows all directions alike, a matte one at most 4 times their mean.
@@ -67,29 +96,82 @@ double ShareBetween(const PixelFilter& filter, double from, double to) {
   return std::abs(below(to) - below(from));
 }
 
-std::vector<SmallPicture> SmallPicturesOf(const RenderPlan& plan,
-                                          const TileCandidates& candidates) {
-  std::vector<SmallPicture> small;
-  const Projector projector = MakeProjector(plan.camera);
+void AddSpheres(const RenderPlan& plan, const Projector& projector,
+                const TileCandidates& candidates, std::vector<SmallPicture>* small) {
   for (const auto& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
       const FilmBounds b = Project(projector, candidate.sphere);
       const double width = b.x1 - b.x0, height = b.y1 - b.y0;
       if (!b.visible || !(width < kWidestRare && height < kWidestRare)) continue;
-      small.push_back({MaterialAt(plan, candidate.primitive, (b.x0 + b.x1) / 2).index,
-                       (b.x0 + b.x1) / 2, (b.y0 + b.y1) / 2,
-                       std::sqrt(M_PI / 4 * width * height) / 2});
+      small->push_back({{MaterialAt(plan, candidate.primitive, (b.x0 + b.x1) / 2).index, kWhole},
+                        (b.x0 + b.x1) / 2,
+                        (b.y0 + b.y1) / 2,
+                        std::sqrt(M_PI / 4 * width * height) / 2,
+                        plan.adaptive.brightest});
     }
   }
-  std::stable_sort(small.begin(), small.end(), [](const SmallPicture& a, const SmallPicture& b) {
-    return a.material < b.material;
-  });
-  return small;
 }
+
+// The highlights that lie where samples of the cell's pixels may.
+std::vector<Glint> GlintsIn(const RenderPlan& plan, const Projector& projector, const Window& cell,
+                            const TileCandidates& candidates) {
+  std::vector<Glint> glints;
+  for (const auto& in_cell : candidates.cells) {
+    for (const TileCandidate& candidate : in_cell) {
+      AddGlints(plan, projector, candidate, kWidestRare * kWidestRare, &glints);
+    }
+  }
+  const double reach = plan.adaptive.reach + kWidestRare;
+  std::erase_if(glints, [&](const Glint& g) {
+    return !(g.x > cell.x0 - reach && g.x < cell.x1 + reach && g.y > cell.y0 - reach &&
+             g.y < cell.y1 + reach);
+  });
+  return glints;
+}
+
+// Looks at the peak of each highlight and beside it: what its lobe, its light, shadows and things
+// in front make of it.
+void AddHighlights(const RenderPlan& plan, const std::vector<Glint>& glints, TileScratch* scratch,
+                   StageClock* clock, RenderStats* stats, std::vector<SmallPicture>* small) {
+  constexpr size_t kAtOnce = kBatchCapacity / 2;
+  TileScratch& s = *scratch;
+  for (size_t first = 0; first < glints.size(); first += kAtOnce) {
+    const size_t count = std::min(kAtOnce, glints.size() - first);
+    for (size_t i = 0; i < count; ++i) {
+      const Glint& g = glints[first + i];
+      s.samples.x[2 * i] = g.x;
+      s.samples.y[2 * i] = g.y;
+      s.samples.x[2 * i + 1] = g.x + g.beside_x;
+      s.samples.y[2 * i + 1] = g.y + g.beside_y;
+    }
+    s.samples.count = 2 * count;
+    if (s.sampled) NumberAlike(s.samples.count, &s.sampled->numbers);
+    TraceAndShade(plan, &s, clock, stats);
+    SeeSky(plan, &s);
+    const Layer& beauty = plan.layers[0];
+    Soa3<double>& values = GatherLayer(plan, beauty, 0, BackgroundOf(beauty, plan), &s);
+    for (size_t i = 0; i < count; ++i) {
+      const Glint& g = glints[first + i];
+      double radiance = 0;
+      for (int channel = 0; channel < 3; ++channel) {
+        const double* const value = ChannelOf(values, channel).data() + 2 * i;
+        radiance = std::max(radiance, value[0] - value[1]);
+      }
+      if (!(radiance > 0)) continue;
+      small->push_back({{g.material, g.light}, g.x, g.y, std::sqrt(g.area) / 2, radiance});
+    }
+  }
+}
+
+// What like pictures have of a cell's pixels, by rows: of the samples, and of the radiance.
+struct Shares {
+  double samples[kCellSide][kCellSide] = {};
+  double radiance[kCellSide][kCellSide] = {};
+};
 
 // Adds the picture's share of the samples of each of the cell's pixels that it is in the reach of.
 void AddShares(const PixelFilter& filter, const Window& cell, const SmallPicture& picture,
-               double (&shares)[kCellSide][kCellSide]) {
+               Shares* shares) {
   const double reach = filter.width / 2 + picture.half_side;
   const auto first = [&](double at, int from) {
     return std::max(static_cast<int>(std::floor(at - 0.5 - reach)), from);
@@ -102,8 +184,10 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallPicture
     const double of_rows = ShareBetween(filter, down - picture.half_side, down + picture.half_side);
     for (int x = first(picture.x, cell.x0); x <= last(picture.x, cell.x1); ++x) {
       const double across = picture.x - (x + 0.5);
-      shares[y - cell.y0][x - cell.x0] +=
+      const double share =
           of_rows * ShareBetween(filter, across - picture.half_side, across + picture.half_side);
+      shares->samples[y - cell.y0][x - cell.x0] += share;
+      shares->radiance[y - cell.y0][x - cell.x0] += share * picture.radiance;
     }
   }
 }
@@ -112,39 +196,44 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallPicture
 
 double BrightestObject(const RenderPlan& plan) {
   if (plan.adaptive.white < kNoBound) return plan.adaptive.white;
-  double brightest = 0;
-  for (const Material& material : plan.scene->materials) {
-    const Rgb& e = material.emission;
-    brightest = std::max({brightest, e.x, e.y, e.z});
-  }
+  double brightest = LargestEmission(*plan.scene);
   for (const Light& light : plan.scene->lights) {
     if (IsPunctual(light)) return kNoBound;
     if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
       brightest += std::max({ambient->radiance.x, ambient->radiance.y, ambient->radiance.z});
     }
   }
+  const double reflected = MostReflected(*plan.scene);
   for (const PlannedSampledLight& light : plan.sampled_lights) {
-    brightest += BrightestUnder(light.light);
+    brightest += reflected * BrightestUnder(light.light);
   }
   return brightest;
 }
 
-void FindRareSpheres(const RenderPlan& plan, const Window& cell, const TileCandidates& candidates,
-                     CellScratch* c) {
+void FindRareFeatures(const RenderPlan& plan, const Window& cell, TileScratch* scratch,
+                      CellScratch* c, StageClock* clock, RenderStats* stats) {
   std::fill_n(c->rare_samples, kCellPixels, 0.0);
   std::fill_n(c->rare_radiance, kCellPixels, 0.0);
-  const std::vector<SmallPicture> small = SmallPicturesOf(plan, candidates);
+  const TileCandidates& candidates = scratch->candidates;
+  const Projector projector = MakeProjector(plan.camera);
+  std::vector<SmallPicture> small;
+  AddSpheres(plan, projector, candidates, &small);
+  const std::vector<Glint> glints = GlintsIn(plan, projector, cell, candidates);
+  AddHighlights(plan, glints, scratch, clock, stats, &small);
+  std::stable_sort(small.begin(), small.end(), [](const SmallPicture& a, const SmallPicture& b) {
+    return a.likeness < b.likeness;
+  });
   const double least_wanted = plan.adaptive.max_error * kDarkest;
   for (size_t i = 0; i < small.size();) {
-    double shares[kCellSide][kCellSide] = {};
-    const uint32_t material = small[i].material;
-    for (; i < small.size() && small[i].material == material; ++i) {
-      AddShares(plan.scene->image.filter, cell, small[i], shares);
+    Shares shares;
+    const Likeness likeness = small[i].likeness;
+    for (; i < small.size() && small[i].likeness == likeness; ++i) {
+      AddShares(plan.scene->image.filter, cell, small[i], &shares);
     }
     for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
       const FilmPixel at = PixelOf(cell, pixel);
-      const double share = shares[at.y - cell.y0][at.x - cell.x0];
-      const double radiance = share * plan.adaptive.brightest;
+      const double share = shares.samples[at.y - cell.y0][at.x - cell.x0];
+      const double radiance = shares.radiance[at.y - cell.y0][at.x - cell.x0];
       if (share == 0 || radiance * 2 <= least_wanted) continue;
       c->rare_samples[pixel] = std::max(c->rare_samples[pixel], kExpectedHits / share);
       c->rare_radiance[pixel] += radiance;

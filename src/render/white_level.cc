@@ -35,13 +35,35 @@ double LeastDistance(const Scene& scene, const std::vector<Imath::Box3d>& meshes
   return least;
 }
 
-// Whether 1/pi is left out, as lessons do.
+// The largest value of an image: its mip levels are means.
+double LargestTexel(const MipChain& image) {
+  const MipLevel& level = image.levels[0];
+  const auto count = static_cast<std::ptrdiff_t>(level.width) * level.height * image.channels;
+  const auto first = image.values.begin() + level.first;
+  return *std::max_element(first, first + count);
+}
+
+}  // namespace
+
 bool IsClassic(const Material& material) {
   const auto* phong = std::get_if<PhongMaterial>(&material.model);
   return phong != nullptr && phong->convention == PhongConvention::kClassic;
 }
 
-}  // namespace
+double LargestEmission(const Scene& scene) {
+  std::vector<double> texels(scene.images.size(), -1);  // the largest of each image; -1: not asked
+  double largest = 0;
+  for (const Material& material : scene.materials) {
+    double emission = Largest(material.emission);
+    if (emission > 0 && material.emission_map.valid()) {
+      const size_t image = scene.textures[material.emission_map.index].image.index;
+      if (texels[image] < 0) texels[image] = LargestTexel(*scene.images[image].texels);
+      emission *= texels[image];
+    }
+    largest = std::max(largest, emission);
+  }
+  return largest;
+}
 
 double WhiteLevel(const Scene& scene) {
   std::vector<Imath::Box3d> meshes(scene.meshes.size());
@@ -68,11 +90,8 @@ double WhiteLevel(const Scene& scene) {
                    [](const auto&) { return kNoLimit; }},
         light.kind);
   }
-  white = std::max(white, Largest(scene.background));
-  for (const Material& material : scene.materials) {
-    white = std::max(white, Largest(material.emission));
-  }
-  return white;
+  if (white == kNoLimit) return white;
+  return std::max({white, Largest(scene.background), LargestEmission(scene)});
 }
 
 }  // namespace nacre

@@ -12,4 +12,10 @@ namespace nacre {
 // are no brighter than they are. Of very many spheres some stand for all.
 double WhiteLevel(const Scene& scene);
 
+// The largest radiance that a material emits, its map included.
+double LargestEmission(const Scene& scene);
+
+// Whether a material leaves 1/pi out, as lessons do.
+bool IsClassic(const Material& material);
+
 }  // namespace nacre
