@@ -13,7 +13,7 @@
 #include "cli/progress.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
-#include "image_io/text_width.h"
+#include "image_io/draw_text.h"
 #include "render/render.h"
 
 namespace nacre {
