@@ -44,6 +44,15 @@ std::string VerifyExr(const std::string& path) {
   return "every sample decodes; it has no checksum of nacre's";
 }
 
+// Whether the last chunk, which readers go no further than, is the end of the file.
+bool EndsAsPng(const std::string& path) {
+  std::array<char, 8> end{};
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  file.read(end.data(), end.size());
+  return std::string_view(end.data(), end.size()) == "IEND\xae\x42\x60\x82";
+}
+
 }  // namespace
 
 std::string VerifyImage(const std::string& path) {
@@ -57,7 +66,10 @@ std::string VerifyImage(const std::string& path) {
   if (is_exr || HasExtension(path, ".exr")) return VerifyExr(path);
   const ImageFile image = OpenImage(path);
   image.read(image.header.data, {});  // decodes all, and keeps nothing
-  if (HasExtension(path, ".png")) return "whole: its checksums are right, and every pixel is there";
+  if (std::string_view(magic.data(), magic.size()) == "\x89PNG") {
+    if (!EndsAsPng(path)) RefuseDamaged(path, "there is more behind its end");
+    return "whole: its checksums are right, and every pixel is there";
+  }
   return "every sample decodes; files of its kind have no checksum";
 }
 

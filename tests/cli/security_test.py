@@ -118,7 +118,7 @@ class PlantedCodeTest(SecurityTest):
             with self.subTest(verb=verb):
                 result = subprocess.run(['nacre', *verb], executable=PROGRAM, cwd=self.folder, env=env,
                                         capture_output=True, check=False)
-                self.check_not_sprung(result, 65 if verb[0] == 'tonemap' else 0)
+                self.check_not_sprung(result)  # the file has floats: tonemap takes it
 
     def test_a_program_without_its_module_takes_no_other(self):
         """A copy of the program alone: neither its parent folder's nor the caller's will do. (lib/ beside

@@ -392,7 +392,8 @@ TEST_CASE(
   const auto set = [](const std::string& pointer, const std::string& value) {
     return MessageOf([&] {
       Load(R"(, "materials": {"red": {"model": "lambert"}, "floor": {"model": "lambert"}},
-              "lights": {"key": {"type": "point"}}, "shapes": [])",
+              "lights": {"key": {"type": "point", "position": [0, 1, 0], "intensity": 1}},
+              "shapes": [])",
            {.overrides = {{pointer, value}}, .allow_paths = false});
     });
   };
