@@ -8,14 +8,12 @@
 #include <exception>
 #include <fstream>
 #include <limits>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
-#include <tiffio.h>
 
 // Only these names are seen from outside.
 #pragma GCC visibility push(default)
@@ -85,43 +83,10 @@ bool IsTiff(const std::string& path) {
   return head.starts_with("II*") || head.starts_with("II+") || head.starts_with("MM");
 }
 
-// What is missing of a file for which OpenImageIO makes something up: "" if nothing is.
-std::string WhatIsMissing(const std::string& path) {
-  TIFFSetErrorHandler(nullptr);
-  TIFFSetWarningHandler(nullptr);
-  const std::unique_ptr<TIFF, decltype(&TIFFClose)> tiff(TIFFOpen(path.c_str(), "rm"), &TIFFClose);
-  if (!tiff) return {};  // OpenImageIO says why
-  uint16_t photometric = 0, compression = COMPRESSION_NONE;
-  TIFFGetField(tiff.get(), TIFFTAG_PHOTOMETRIC, &photometric);
-  TIFFGetField(tiff.get(), TIFFTAG_COMPRESSION, &compression);
-  uint16_t *red = nullptr, *green = nullptr, *blue = nullptr;
-  if (photometric == PHOTOMETRIC_PALETTE &&
-      TIFFGetField(tiff.get(), TIFFTAG_COLORMAP, &red, &green, &blue) == 0) {
-    return "it has no palette";
-  }
-  if (compression != COMPRESSION_NONE || TIFFIsTiled(tiff.get()) != 0) return {};
-  uint32_t height = 0, rows = 0;
-  TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
-  TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_ROWSPERSTRIP, &rows);
-  if (height == 0 || rows == 0) return {};
-  rows = std::min(rows, height);
-  const uint32_t strips = TIFFNumberOfStrips(tiff.get()), per_plane = (height + rows - 1) / rows;
-  for (uint32_t i = 0; i < strips; ++i) {
-    const uint32_t first = i % per_plane * rows;
-    if (TIFFRawStripSize(tiff.get(), i) <
-        TIFFVStripSize(tiff.get(), std::min(rows, height - first))) {
-      return "its strips are too short for their rows";
-    }
-  }
-  return {};
-}
-
 std::string Open(const char* path, uint64_t max_samples, NacreOiioFile* file) {
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;  // the file's values, not multiplied by alpha
   if (!IsTiff(path)) return "not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA";
-  const std::string missing = WhatIsMissing(path);
-  if (!missing.empty()) return missing;
   auto input = OIIO::ImageInput::create("tiff");
   if (!input) return OIIO::geterror();
   OIIO::ImageSpec spec;
