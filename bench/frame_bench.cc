@@ -77,7 +77,7 @@ void BenchFrame(benchmark::State& state, const FrameCase& which) {
   if (which.variant == "no_shadows") scene.image.shadows = false;
   RenderSettings settings = which.Settings();
   const auto render = [&] {
-    const RenderPlan plan = MakePlan(scene, settings);
+    const FramePlan plan = MakePlan(scene, settings);
     return Render(plan, settings, [](const Strip& strip) {
       benchmark::DoNotOptimize(strip.colors.front().data());
     });

@@ -55,7 +55,7 @@ void BenchNested(benchmark::State& state, NestedKind kind, int count) {
   RenderSettings settings;
   settings.threads = 1;
   for (auto _ : state) {
-    const RenderPlan plan = MakePlan(scene, settings);
+    const FramePlan plan = MakePlan(scene, settings);
     Render(plan, settings,
            [](const Strip& strip) { benchmark::DoNotOptimize(strip.colors.front().data()); });
   }

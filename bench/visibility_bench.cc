@@ -9,7 +9,7 @@
 #include "base/parallel.h"
 #include "float_visibility.h"
 #include "render/camera.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "visibility/intersector.h"
 #include "visibility/sphere_bins.h"
 #include "visibility_scenes.h"

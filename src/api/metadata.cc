@@ -7,6 +7,7 @@
 
 #include "base/target.h"
 #include "base/version.h"
+#include "render/camera.h"
 #include "scene/hash.h"
 #include "scene/material_parameters.h"
 
@@ -41,7 +42,7 @@ std::string ShadowingForms(const Scene& scene) {
   return forms.empty() ? "none" : fmt::format("{}", fmt::join(forms, ", "));
 }
 
-ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible, const std::string& tile) {
+ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile) {
   const Scene& scene = *plan.scene;
   const ImageSettings& image = scene.image;
   ExrHeader header;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "image_io/exr_header.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/stats.h"
 
 namespace nacre {
@@ -14,7 +14,7 @@ inline constexpr char kTileAttribute[] = "nacre:tile";
 
 // Everything but the channels. `tile`: as --tile has it, or empty. `reproducible`: without the
 // render time, which is 0 until ExrWriter::UpdateAttribute.
-ExrHeader MakeExrHeader(const RenderPlan& plan, bool reproducible, const std::string& tile = {});
+ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile = {});
 
 // The masking-shadowing forms of the scene's materials by name, "height_correlated" or
 // "height_correlated, separable"; "none" if no material has one.

@@ -90,12 +90,12 @@ Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* st
     const nacre::RenderSettings own = ToOwn(settings);
     const std::shared_ptr<const nacre::Scene> made = Adjusted(scene.impl().Made(), settings);
     const auto start = std::chrono::steady_clock::now();
-    const RenderPlan plan = MakePlan(*made, own);
+    const FramePlan plan = MakePlan(*made, own);
     const std::chrono::duration<double> plan_time = std::chrono::steady_clock::now() - start;
     nacre::RenderStats counted;
     nacre::Image rendered = RenderImage(plan, own, &counted);
     // In files, colours and normals are of half floats.
-    const std::vector<ChannelSpec> in_files = StripChannels(plan.layers, PixelType::kHalf);
+    const std::vector<ChannelSpec> in_files = StripChannels(plan.film.layers, PixelType::kHalf);
     for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
     Image image = ToPublic(std::move(rendered));
     nacre::ExrHeader header = MakeExrHeader(plan, false);
@@ -103,7 +103,7 @@ Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* st
     AddMetadata(header, &image);
     if (stats != nullptr) {
       *stats = {counted.camera_rays,    counted.shadow_rays, plan_time.count(),
-                counted.render_seconds, counted.threads,     plan.notes};
+                counted.render_seconds, counted.threads,     plan.why.notes};
     }
     return image;
   });

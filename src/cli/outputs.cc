@@ -72,16 +72,16 @@ void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
   }
 }
 
-ExrHeader MakeOutputHeader(const RenderOptions& options, const RenderPlan& plan) {
+ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan) {
   ExrHeader header = MakeExrHeader(plan, options.reproducible, options.tile);
   const PixelType color_type = options.depth == "float" ? PixelType::kFloat : PixelType::kHalf;
-  for (const ChannelSpec& channel : StripChannels(plan.layers, color_type)) {
+  for (const ChannelSpec& channel : StripChannels(plan.film.layers, color_type)) {
     header.channels.push_back({channel.name, channel.type});
   }
   return header;
 }
 
-Outputs::Outputs(const RenderOptions& options, const RenderPlan& plan,
+Outputs::Outputs(const RenderOptions& options, const FramePlan& plan,
                  const std::vector<TextItem>& captions)
     : options_(options), plan_(plan), captions_(captions) {
   display_.tone = ParseToneOperator(options.tonemap);

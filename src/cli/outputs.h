@@ -13,7 +13,7 @@
 #include "image_io/exr_writer.h"
 #include "image_io/png_writer.h"
 #include "render/film.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/stats.h"
 
 namespace nacre {
@@ -35,7 +35,7 @@ void CheckOutputsAreNoInputs(const std::vector<std::string>& outputs,
                              const std::vector<std::string>& inputs);
 
 // The header of the EXR files of a render.
-ExrHeader MakeOutputHeader(const RenderOptions& options, const RenderPlan& plan);
+ExrHeader MakeOutputHeader(const RenderOptions& options, const FramePlan& plan);
 
 // Samples that the files do not hold as they were computed.
 struct OutputCounts {
@@ -46,7 +46,7 @@ struct OutputCounts {
 class Outputs {
  public:
   // Opens all files. What it is given must outlive this. `captions`: as RunRenderJob's.
-  Outputs(const RenderOptions& options, const RenderPlan& plan,
+  Outputs(const RenderOptions& options, const FramePlan& plan,
           const std::vector<TextItem>& captions);
 
   // From any thread, in any order.
@@ -60,7 +60,7 @@ class Outputs {
   void DrawTexts();
 
   const RenderOptions& options_;
-  const RenderPlan& plan_;
+  const FramePlan& plan_;
   const std::vector<TextItem>& captions_;
   DisplaySettings display_;
   std::vector<std::unique_ptr<ExrWriter>> exr_;

@@ -54,7 +54,7 @@ void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
   }
 }
 
-void Summarize(const RenderOptions& options, const RenderPlan& plan, const RenderStats& stats,
+void Summarize(const RenderOptions& options, const FramePlan& plan, const RenderStats& stats,
                const JobTimes& times) {
   std::string files;
   for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
@@ -109,7 +109,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   ThrowIfStopped();
 
   const Clock::time_point plan_start = Clock::now();
-  const RenderPlan plan = [&] {
+  const FramePlan plan = [&] {
     Progress progress(EarlyProgressForm(options), "planning", 0, "");
     settings.on_plan_progress = [&](double done) { progress.Update(done); };
     return MakePlan(scene, settings);
@@ -142,7 +142,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   times.total_seconds = SecondsSince(start);
 
   if (!options.quiet) {
-    for (const std::string& note : plan.notes) PrintError("note: {}\n", note);
+    for (const std::string& note : plan.why.notes) PrintError("note: {}\n", note);
   }
   if (!options.quiet && stats.unsettled_pixels > 0) {
     PrintError(

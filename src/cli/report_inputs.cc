@@ -34,15 +34,15 @@ double SecondsSince(Clock::time_point start) {
 std::string NameOf(const std::string& path) { return fs::path(path).filename().string(); }
 
 // Halves, as files of renders hold colours unless they are told otherwise.
-void TakeFileTypes(const RenderPlan& plan, Image* image) {
-  for (const ChannelSpec& spec : StripChannels(plan.layers, PixelType::kHalf)) {
+void TakeFileTypes(const FramePlan& plan, Image* image) {
+  for (const ChannelSpec& spec : StripChannels(plan.film.layers, PixelType::kHalf)) {
     for (Channel& channel : image->channels) {
       if (channel.name == spec.name) channel.type = spec.type;
     }
   }
 }
 
-void AddMetadata(const RenderPlan& plan, Image* image) {
+void AddMetadata(const FramePlan& plan, Image* image) {
   for (const auto& [name, value] : MakeExrHeader(plan, /*reproducible=*/true).attributes) {
     image->metadata[name] = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
   }
@@ -91,7 +91,7 @@ ReportPicture RenderPicture(const std::string& path, const RenderOptions& option
   settings.time_stages = true;
   settings.on_progress = [](double) { ThrowIfStopped(); };
   const Clock::time_point plan_start = Clock::now();
-  const RenderPlan plan = MakePlan(scene, settings);
+  const FramePlan plan = MakePlan(scene, settings);
   const double plan_seconds = SecondsSince(plan_start);
   ReportPicture picture;
   picture.name = NameOf(path);

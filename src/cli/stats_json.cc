@@ -8,7 +8,7 @@
 
 namespace nacre {
 
-std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const JobTimes& times,
+std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const JobTimes& times,
                       const OutputCounts& counts) {
   using Json = nlohmann::ordered_json;
   const Scene& scene = *plan.scene;
@@ -23,11 +23,11 @@ std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const Jo
     stages[std::string(StageName(static_cast<Stage>(i)))] = ms(stats.stage_seconds[i]);
   }
   Json items = Json::array();
-  for (const PlanItem& item : plan.items) {
+  for (const PlanItem& item : plan.why.items) {
     items.push_back({{"what", item.what}, {"used", item.used}, {"reason", item.reason}});
   }
   Json substitutions = Json::array();
-  for (const PlanItem& item : plan.substitutions) {
+  for (const PlanItem& item : plan.why.substitutions) {
     substitutions.push_back({{"what", item.what}, {"reason", item.reason}});
   }
   const Json json = {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cli/outputs.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/stats.h"
 
 namespace nacre {
@@ -17,7 +17,7 @@ struct JobTimes {
   double total_seconds = 0;
 };
 
-std::string StatsJson(const RenderPlan& plan, const RenderStats& stats, const JobTimes& times,
+std::string StatsJson(const FramePlan& plan, const RenderStats& stats, const JobTimes& times,
                       const OutputCounts& counts);
 
 // What --dry-run prints: all that decides the picture's bits, as its header has it.

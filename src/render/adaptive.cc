@@ -10,7 +10,6 @@
 #include "render/evidence.h"
 #include "render/footprint.h"
 #include "render/rare_features.h"
-#include "render/tile_layers.h"
 #include "sampling/hash.h"
 
 namespace nacre {
@@ -25,14 +24,15 @@ using Unit = CellScratch::Unit;
 // The units' samples [first, first + count), one unit after the other. `samplers`: of each
 // replicate.
 void MakeUnitSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
-                     int first, int count, TileScratch* s, CellScratch* c) {
+                     int first, int count, TileWork* s, CellScratch* c) {
   c->pixels.clear();
   for (const Unit& unit : units) {
     const FilmPixel pixel = PixelOf(cell, unit.pixel);
     c->pixels.push_back({pixel.x, pixel.y, unit.replicate});
   }
-  SamplePixelList(samplers, c->pixels, first, count, s->samples.x.data(), s->samples.y.data());
-  s->samples.count = units.size() * static_cast<size_t>(count);
+  SamplePixelList(samplers, c->pixels, first, count, s->samples.film.x.data(),
+                  s->samples.film.y.data());
+  s->samples.film.count = units.size() * static_cast<size_t>(count);
 }
 
 std::array<PixelRun, kBlockSide> RowsOf(const Window& block) {
@@ -45,14 +45,15 @@ std::array<PixelRun, kBlockSide> RowsOf(const Window& block) {
 
 // The same where units take one sample and come by whole blocks.
 void MakeBlockSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
-                      int index, TileScratch* s, CellScratch* c) {
+                      int index, TileWork* s, CellScratch* c) {
   for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[units[ray].replicate];
     PutPixels(sampler, RowsOf(block), &c->block);
-    SamplePixels(sampler, c->block, index, 1, s->samples.x.data() + ray, s->samples.y.data() + ray);
+    SamplePixels(sampler, c->block, index, 1, s->samples.film.x.data() + ray,
+                 s->samples.film.y.data() + ray);
   }
-  s->samples.count = units.size();
+  s->samples.film.count = units.size();
 }
 
 // Which samples those are, for lights that are sampled.
@@ -126,9 +127,9 @@ void WidenByPiece(const double* values, size_t count, int channel, uint32_t pixe
   c->high1[channel][pixel] = high1;
 }
 
-void MarkHits(const TileScratch& s, std::vector<double>* hits) {
-  std::fill_n(hits->begin(), s.samples.count, 0.0);
-  for (size_t i = 0; i < s.hits.count; ++i) (*hits)[s.hits.ray[i]] = 1;
+void MarkHits(const TileWork& s, std::vector<double>* hits) {
+  std::fill_n(hits->begin(), s.samples.film.count, 0.0);
+  for (size_t i = 0; i < s.surfaces.hits.count; ++i) (*hits)[s.surfaces.hits.ray[i]] = 1;
 }
 
 // Where an averaged layer's channel is summed up, by replicates: coverage and the beauty have sums
@@ -142,17 +143,19 @@ void FindSums(LayerKind layer, int channel, double* film_sum, CellScratch* c,
   }
 }
 
-void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> units,
-              TileScratch* scratch, CellScratch* c) {
-  TileScratch& s = *scratch;
-  const size_t count = s.weights.size();
+void AddUnits(const FramePlan& plan, const Window& cell, std::span<const Unit> units,
+              TileWork* work, CellScratch* c) {
+  TileWork& s = *work;
+  const size_t count = s.samples.weights.size();
   if (count == 1 && c->outlined != 0) MarkHits(s, &c->hits);
   size_t sum = 0;
   size_t light_layer = 0;
-  for (const Layer& layer : plan.layers) {
+  for (const Layer& layer : plan.film.layers) {
     if (!IsAveraged(layer.kind)) continue;
     const bool beauty = layer.kind == LayerKind::kBeauty;
-    Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
+    Soa3<double>& values =
+        GatherLayer(plan.film, layer, light_layer, BackgroundOf(layer, plan.film), BatchOf(plan, s),
+                    &s.layer_room);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
@@ -161,7 +164,7 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
         // Units are of whole blocks, which stand in a row in the sums as well.
         for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
           const uint32_t pixel = units[i].pixel;
-          AddBlock(value, s.weights[0], sums[units[i].replicate] + pixel);
+          AddBlock(value, s.samples.weights[0], sums[units[i].replicate] + pixel);
           if (beauty) WidenByBlock(value, channel, pixel, c);
           if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
           WidenRanges(value, c->hits.data() + i, c->low[channel] + pixel, c->high[channel] + pixel);
@@ -169,22 +172,22 @@ void AddUnits(const RenderPlan& plan, const Window& cell, std::span<const Unit> 
         continue;
       }
       for (const Unit& unit : units) {
-        sums[unit.replicate][unit.pixel] += SumOfPiece(value, s.weights.data(), count);
+        sums[unit.replicate][unit.pixel] += SumOfPiece(value, s.samples.weights.data(), count);
         if (beauty) WidenByPiece(value, count, channel, unit.pixel, c);
         value += count;
       }
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
-  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
-    AddNearest(
-        plan, [&](uint32_t ray) { return PixelOf(cell, units[ray / count].pixel); }, &s);
-  }
+  AddNearest(
+      plan.film, BatchOf(plan, s),
+      [&](uint32_t ray) { return PixelOf(cell, units[ray / count].pixel); }, &s.layer_room,
+      &s.film);
 }
 
 // The active pixels' samples of a level, in batches.
-void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScratch* s,
-              CellScratch* c, StageClock* clock, RenderStats* stats) {
+void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellScratch* c,
+              StageClock* clock, RenderStats* stats) {
   const AdaptivePlan::Level& piece = plan.adaptive.levels[level];
   const auto& samplers = plan.adaptive.patterns[piece.pattern];
   const int end = piece.first + piece.count;
@@ -192,9 +195,9 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
   const bool by_blocks = level < kCommonLevels && piece.count == 1;
   const size_t most = kBatchCapacity / static_cast<size_t>(count);
   for (int first = piece.first; first < end; first += count) {
-    s->weights.resize(static_cast<size_t>(count));
+    s->samples.weights.resize(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i) {
-      s->weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
+      s->samples.weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
     }
     size_t listed = 0;
     const auto flush = [&] {
@@ -205,11 +208,10 @@ void AddLevel(const RenderPlan& plan, const Window& cell, size_t level, TileScra
       } else {
         MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
       }
-      if (s->sampled) {
-        NumberUnits(samplers.data(), cell, units, first, count, &s->sampled->numbers);
+      if (plan.sampling.numbered) {
+        NumberUnits(samplers.data(), cell, units, first, count, &NumbersOf(&s->samples));
       }
-      TraceAndShade(plan, s, clock, stats);
-      SeeSky(plan, s);
+      ShadeSamples(plan, s, clock, stats);
       AddUnits(plan, cell, units, s, c);
       clock->Charge(Stage::kFilm);
       listed = 0;
@@ -238,30 +240,33 @@ void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
 
 // The centres of the pixels of the blocks in `blocks` (bits), and which of these blocks that
 // settles.
-uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks, uint32_t plain,
-                    TileScratch* scratch, CellScratch* c, StageClock* clock, RenderStats* stats) {
+uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t plain,
+                    TileWork* work, CellScratch* c, StageClock* clock, RenderStats* stats) {
   if (blocks == 0) return 0;
-  TileScratch& s = *scratch;
+  TileWork& s = *work;
   ListPixels(blocks, &c->active);
   const std::vector<uint32_t>& pixels = c->active;
   for (size_t i = 0; i < pixels.size(); ++i) {
     const FilmPixel pixel = PixelOf(cell, pixels[i]);
-    s.samples.x[i] = pixel.x + 0.5;
-    s.samples.y[i] = pixel.y + 0.5;
+    s.samples.film.x[i] = pixel.x + 0.5;
+    s.samples.film.y[i] = pixel.y + 0.5;
   }
-  s.samples.count = pixels.size();
+  s.samples.film.count = pixels.size();
   // Only where they lie is of interest: no footprint is plain under sampled lights.
-  if (s.sampled) NumberAlike(pixels.size(), &s.sampled->numbers);
-  TraceAndShade(plan, &s, clock, stats);
+  if (plan.sampling.numbered) NumberAlike(pixels.size(), &NumbersOf(&s.samples));
+  ShadeSamples(plan, &s, clock, stats);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
-  for (size_t i = 0; i < s.hits.count; ++i) hit_of_ray[s.hits.ray[i]] = static_cast<uint32_t>(i);
+  for (size_t i = 0; i < s.surfaces.hits.count; ++i)
+    hit_of_ray[s.surfaces.hits.ray[i]] = static_cast<uint32_t>(i);
   uint32_t smooth = 0;
   size_t sum = 0;
   size_t light_layer = 0;
-  for (const Layer& layer : plan.layers) {
+  for (const Layer& layer : plan.film.layers) {
     if (!IsAveraged(layer.kind)) continue;
-    Soa3<double>& values = GatherLayer(plan, layer, light_layer, BackgroundOf(layer, plan), &s);
+    Soa3<double>& values =
+        GatherLayer(plan.film, layer, light_layer, BackgroundOf(layer, plan.film), BatchOf(plan, s),
+                    &s.layer_room);
     if (layer.kind == LayerKind::kBeauty) {
       for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
         const uint32_t bit = 1u << pixels[i] / kBlockPixels;
@@ -277,10 +282,9 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
-  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
-    AddNearest(
-        plan, [&](uint32_t ray) { return PixelOf(cell, pixels[ray]); }, &s);
-  }
+  AddNearest(
+      plan.film, BatchOf(plan, s), [&](uint32_t ray) { return PixelOf(cell, pixels[ray]); },
+      &s.layer_room, &s.film);
   clock->Charge(Stage::kFilm);
   return smooth;
 }
@@ -288,24 +292,25 @@ uint32_t AddCenters(const RenderPlan& plan, const Window& cell, uint32_t blocks,
 // One hit for every pixel whose covered share is known, before its first sample: all of these may
 // miss. Of its hits only the mean counts, so one that is sought out in the middle of what is
 // covered does no harm.
-void SeekHits(const RenderPlan& plan, const Window& cell, TileScratch* scratch, CellScratch* c,
+void SeekHits(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
               StageClock* clock, RenderStats* stats) {
   if (c->sought.empty()) return;
-  TileScratch& s = *scratch;
+  TileWork& s = *work;
   for (size_t i = 0; i < c->sought.size(); ++i) {
-    s.samples.x[i] = c->sought[i].x;
-    s.samples.y[i] = c->sought[i].y;
+    s.samples.film.x[i] = c->sought[i].x;
+    s.samples.film.y[i] = c->sought[i].y;
   }
-  s.samples.count = c->sought.size();
-  TraceAndShade(plan, &s, clock, stats);
+  s.samples.film.count = c->sought.size();
+  ShadeSamples(plan, &s, clock, stats);
   MarkHits(s, &c->hits);
   size_t sum = 0;
   size_t light_layer = 0;
-  for (const Layer& layer : plan.layers) {
+  for (const Layer& layer : plan.film.layers) {
     if (!IsAveraged(layer.kind)) continue;
     const bool beauty = layer.kind == LayerKind::kBeauty;
-    const Rgb background = BackgroundOf(layer, plan);
-    Soa3<double>& values = GatherLayer(plan, layer, light_layer, background, &s);
+    const Rgb background = BackgroundOf(layer, plan.film);
+    Soa3<double>& values =
+        GatherLayer(plan.film, layer, light_layer, background, BatchOf(plan, s), &s.layer_room);
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
       const double* const value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
@@ -320,10 +325,9 @@ void SeekHits(const RenderPlan& plan, const Window& cell, TileScratch* scratch, 
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
-  if (s.hits.count > 0 && s.film.nearest_distance.size() > 0) {
-    AddNearest(
-        plan, [&](uint32_t ray) { return PixelOf(cell, c->sought[ray].pixel); }, &s);
-  }
+  AddNearest(
+      plan.film, BatchOf(plan, s),
+      [&](uint32_t ray) { return PixelOf(cell, c->sought[ray].pixel); }, &s.layer_room, &s.film);
   clock->Charge(Stage::kFilm);
 }
 
@@ -338,24 +342,23 @@ uint32_t BlocksOf(const Window& cell, const Window& part) {
 
 }  // namespace
 
-void RenderCell(const RenderPlan& plan, const Window& cell, const Window& part,
-                TileScratch* scratch, CellScratch* cell_scratch, Strip* strip, StageClock* clock,
-                RenderStats* stats) {
-  TileScratch& s = *scratch;
+void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
+                CellScratch* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats) {
+  TileWork& s = *work;
   CellScratch& c = *cell_scratch;
-  const bool anything = EnterTile(plan, cell, &s);
+  FindSight(plan.hits, cell, &s.sight);
   clock->Charge(Stage::kIntersect);
-  if (!anything) {
-    FillBackground(plan, part, strip);
+  if (!ShowsAnything(plan, s.sight)) {
+    FillBackground(plan.film, part, strip);
     clock->Charge(Stage::kFilm);
     return;
   }
-  StartTile(plan, cell, &s.film);
+  StartTile(plan.film, cell, &s.film);
   std::fill_n(c.samples, kCellPixels, 0u);
   clock->Charge(Stage::kFilm);
   // All that the frame has: pixels tell of one another, whatever part is rendered.
   const uint32_t blocks = BlocksOf(cell, plan.frame);
-  c.pictures = PicturesOf(plan.camera, s.candidates);
+  c.pictures = PicturesOf(plan.camera, s.sight.spheres);
   const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
   clock->Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance.size() > 0;

@@ -57,7 +57,7 @@ void AddReplicates(uint32_t blocks, const CellScratch& c, TileFilm* film) {
 // Where n samples, h of which hit, fall on a share s of a pixel that is covered, its value is s
 // times the mean of the hits and 1 - s times the background, which all others see: of their sum,
 // s / h, and of the background 1 - s n / h. Elsewhere it is the mean of all.
-void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
+void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& c, Strip* strip) {
   double of_sum[kCellPixels], of_background[kCellPixels];
   const double* const hits = film.sums[kAlphaSum].data();
@@ -70,13 +70,13 @@ void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
     of_background[i] = 1 - of_sum[i] * samples;
   }
   std::vector<double> backgrounds;  // of the averaged channels
-  for (const Layer& layer : plan.layers) {
-    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
+  for (const Layer& layer : plan.film.layers) {
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan.film) : Rgb(0, 0, 0);
     const int channels = IsAveraged(layer.kind) ? FloatChannels(layer.kind) : 0;
     for (int channel = 0; channel < channels; ++channel) backgrounds.push_back(background[channel]);
   }
   size_t sum = 0, nearest = 0, id = 0, color = 0;
-  for (const ChannelKind kind : plan.channels) {
+  for (const ChannelKind kind : plan.film.channels) {
     if (kind == ChannelKind::kAveraged) {
       const double* const sums = film.sums[sum].data();
       const double background = backgrounds[sum++];

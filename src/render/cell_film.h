@@ -3,7 +3,7 @@
 // many samples as it took.
 #pragma once
 
-#include "render/adaptive.h"
+#include "render/cell_scratch.h"
 
 namespace nacre {
 
@@ -16,7 +16,7 @@ void AddReplicates(uint32_t blocks, const CellScratch& cell_scratch, TileFilm* f
 // Divides by the numbers of samples, or weighs what hits and the background by the shares of the
 // pixels that are known to be covered, and puts the cell's pixels that lie in `part` into the
 // strip.
-void ResolveCell(const RenderPlan& plan, const Window& cell, const Window& part,
+void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& cell_scratch, Strip* strip);
 
 }  // namespace nacre

@@ -116,7 +116,7 @@ bool IsNarrow(const CellScratch& c, uint32_t pixel) {
 }
 
 // A pixel that an outline may cross.
-void FindCovered(const RenderPlan& plan, const SeenOutlines& seen, uint32_t pixel, double x,
+void FindCovered(const FramePlan& plan, const SeenOutlines& seen, uint32_t pixel, double x,
                  double y, CellScratch* c) {
   const double square = plan.adaptive.square;
   double covered = -1;
@@ -161,7 +161,7 @@ bool HasSettled(const CellScratch& c, uint32_t pixel) {
 
 }  // namespace
 
-void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
+void FindOutlines(const FramePlan& plan, const Window& cell, CellScratch* c) {
   c->outlined = 0;
   c->sought.clear();
   std::fill_n(c->on_outline, kCellPixels, false);
@@ -178,10 +178,10 @@ void FindOutlines(const RenderPlan& plan, const Window& cell, CellScratch* c) {
   }
 }
 
-void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
+void DropConverged(const FramePlan& plan, size_t level, CellScratch* c) {
   if (level + 2 < kCommonLevels) return;
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
-  const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
+  const Rgb background = BackgroundOf(plan.film.layers[0], plan.film);  // the beauty's
   MeasureActive({plan.adaptive.max_error, plan.adaptive.white}, background, c);
   RequireEvidence(plan, c);
   uint32_t open = 0;  // blocks, as bits
@@ -196,10 +196,11 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
   });
 }
 
-size_t CountUnsettled(const RenderPlan& plan, const Window& cell, const Window& part,
+size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part,
                       CellScratch* c) {
   if (c->active.empty()) return 0;
-  MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.layers[0], plan), c);
+  MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.film.layers[0], plan.film),
+                c);
   RequireEvidence(plan, c);
   return static_cast<size_t>(std::count_if(c->active.begin(), c->active.end(), [&](uint32_t pixel) {
     const FilmPixel at = PixelOf(cell, pixel);

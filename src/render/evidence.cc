@@ -158,7 +158,7 @@ void ClearEvidence(CellScratch* c) {
   for (auto* high : {c->high1, c->high2}) std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
-void RequireEvidence(const RenderPlan& plan, CellScratch* c) {
+void RequireEvidence(const FramePlan& plan, CellScratch* c) {
   std::vector<PixelEvidence> all;
   for (const uint32_t pixel : c->active) {
     if (IsOpen(*c, pixel)) all.push_back(EvidenceOf(*c, pixel, plan.adaptive.white));

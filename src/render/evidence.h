@@ -21,7 +21,7 @@
 // Cells lie on a grid of the frame and are evaluated whole, so that none of this depends on crops.
 #pragma once
 
-#include "render/adaptive.h"
+#include "render/cell_scratch.h"
 
 namespace nacre {
 
@@ -34,6 +34,6 @@ void ClearEvidence(CellScratch* cell_scratch);
 
 // After a level: takes from the intervals of the active pixels those bits that say that they are
 // narrow enough where there is too little evidence for it.
-void RequireEvidence(const RenderPlan& plan, CellScratch* cell_scratch);
+void RequireEvidence(const FramePlan& plan, CellScratch* cell_scratch);
 
 }  // namespace nacre

@@ -35,7 +35,47 @@ std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelTy
   return channels;
 }
 
-void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip) {
+void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* plan,
+                Explanation* why) {
+  plan->layers = ParseLayers(settings.layers, scene);
+  for (const Layer& layer : plan->layers) {
+    for (const ChannelSpec& channel : LayerChannels(layer, PixelType::kFloat)) {
+      plan->channels.push_back(IsAveraged(layer.kind)             ? ChannelKind::kAveraged
+                               : channel.type == PixelType::kUint ? ChannelKind::kId
+                                                                  : ChannelKind::kNearest);
+    }
+  }
+  std::string names;
+  for (size_t i = 2; i < plan->layers.size(); ++i) {
+    names += (names.empty() ? "" : ", ") + plan->layers[i].name;
+  }
+  why->items.push_back(
+      {"layers", !names.empty(), names.empty() ? "only colour and coverage are asked for" : names});
+}
+
+bool ShowsNearest(const FilmPlan& plan) {
+  return std::any_of(plan.channels.begin(), plan.channels.end(),
+                     [](ChannelKind kind) { return kind != ChannelKind::kAveraged; });
+}
+
+void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSampler& sampler,
+              FilmPlan* plan, Explanation* why) {
+  plan->spp = scene.image.spp;
+  plan->weight = 0;
+  for (int i = 0; i < plan->spp; ++i) plan->weight += SampleWeight(sampler, i);
+  const char* const reason = settings.max_error > 0     ? "pixels take as many samples as they need"
+                             : plan->spp > 1            ? "a pixel takes several samples"
+                             : settings.general_path    ? "the general path is asked for"
+                             : ShowsNearest(*plan)      ? "some layers are not averages"
+                             : plan->sky                ? "every pixel shows the sky or a hit"
+                             : !HasUnitWeights(sampler) ? "samples have weights"
+                                                        : nullptr;
+  plan->one_sample = reason == nullptr;
+  why->items.push_back({"sums of samples", !plan->one_sample,
+                        plan->one_sample ? "a pixel's only sample is its value" : reason});
+}
+
+void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip) {
   size_t ids = 0;
   for (const ChannelKind kind : plan.channels) ids += kind == ChannelKind::kId ? 1 : 0;
   strip->window = window;
@@ -45,7 +85,7 @@ void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip) {
   GiveRoom(window.pixel_count(), &strip->ids);
 }
 
-void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film) {
+void StartTile(const FilmPlan& plan, const Window& tile, TileFilm* film) {
   film->window = tile;
   const auto count = [&](ChannelKind kind) {
     return static_cast<size_t>(std::count(plan.channels.begin(), plan.channels.end(), kind));
@@ -80,15 +120,12 @@ bool ShowsBackground(const Layer& layer) {
   return layer.kind == LayerKind::kBeauty || layer.kind == LayerKind::kEmission;
 }
 
-Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan) {
-  const bool shows = ShowsBackground(layer) && plan.sky == nullptr;
+Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan) {
+  const bool shows = ShowsBackground(layer) && !plan.sky;
   return shows ? RoundToFloat(plan.background) : Rgb(0, 0, 0);
 }
 
-void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
-  const int spp = plan.scene->image.spp;
-  double weight = 0;
-  for (int i = 0; i < spp; ++i) weight += SampleWeight(plan.sampler, i);
+void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip) {
   const double* const coverage = film.sums[kAlphaSum].data();
   size_t sum = 0, nearest = 0, color = 0;
   for (const Layer& layer : plan.layers) {
@@ -96,7 +133,8 @@ void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip) {
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
       const PixelRows<float> rows = RowsIn(strip->window, film.window, &strip->colors[color++]);
       if (IsAveraged(layer.kind)) {
-        RoundSums(film.sums[sum++].data(), coverage, {background[c], weight, 1.0 / spp}, rows);
+        RoundSums(film.sums[sum++].data(), coverage, {background[c], plan.weight, 1.0 / plan.spp},
+                  rows);
       } else {
         CopyTile(film.nearest[nearest++], rows);
       }

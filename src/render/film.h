@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/film.h: a tile of the picture while its samples come in, and the strip it ends in.
+// render/film.h: the last stage: a tile of the picture while its samples come in, and the strip it
+// ends in.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +8,36 @@
 
 #include "base/aligned.h"
 #include "base/image.h"
+#include "hit/camera_frame.h"
+#include "render/explanation.h"
 #include "render/film_kernel.h"
-#include "render/plan.h"
+#include "render/layers.h"
+#include "render/settings.h"
+#include "sampling/pixel_sampler.h"
 
 namespace nacre {
+
+struct FilmPlan {
+  std::vector<Layer> layers;          // beauty, alpha, then those asked for
+  std::vector<ChannelKind> channels;  // of the layers, in their order
+  CameraFrame camera{};
+  int spp = 1;
+  double weight = 1;        // of all samples of a pixel
+  Rgb background{0, 0, 0};  // seen where nothing is hit, unless
+  bool sky = false;         // rays see BatchRadiance::sky there
+  // The beauty is what the only light's kernel makes of the parts: BatchRadiance::total.sum.
+  bool beauty_is_sum = false;
+  bool one_sample = false;  // a pixel's only sample is its value: no sums
+};
+
+// The layers, which other stages' plans depend on. Throws Error (usage) for one that the scene does
+// not have.
+void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* plan,
+                Explanation* why);
+
+// Then whether samples are added up; all else of the plan is there.
+void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSampler& sampler,
+              FilmPlan* plan, Explanation* why);
 
 // The tile's pixels, one plane per channel, row by row. Averaged channels are summed in double:
 // every layer rounds once, however many samples there are and however their weights cancel, and
@@ -48,13 +75,16 @@ PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* ch
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type);
 
 // Gives the strip the plan's channels with room for the window, whatever it held before.
-void StartStrip(const RenderPlan& plan, const Window& window, Strip* strip);
+void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip);
+
+// Whether some layers show one sample of a pixel, not an average.
+bool ShowsNearest(const FilmPlan& plan);
 
 // Empties the tile's channels. `tile` has at most kBatchCapacity pixels.
-void StartTile(const RenderPlan& plan, const Window& tile, TileFilm* film);
+void StartTile(const FilmPlan& plan, const Window& tile, TileFilm* film);
 
 // What a layer shows where nothing is hit: a colour of floats.
-Rgb BackgroundOf(const Layer& layer, const RenderPlan& plan);
+Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan);
 
 // Whether what lies behind the shapes shows in the layer.
 bool ShowsBackground(const Layer& layer);
@@ -64,6 +94,6 @@ Rgb RoundToFloat(const Rgb& value);
 
 // Adds the background, divides by the number of samples, rounds to float and puts the tile into its
 // strip.
-void ResolveTile(const RenderPlan& plan, const TileFilm& film, Strip* strip);
+void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip);
 
 }  // namespace nacre

@@ -39,7 +39,7 @@ FootprintCone ConeOf(const CameraFrame& frame, const Footprint& f) {
   return cone;
 }
 
-bool IsBeside(const RenderPlan& plan, const Footprint& f, const FootprintCone& cone,
+bool IsBeside(const FramePlan& plan, const Footprint& f, const FootprintCone& cone,
               const SpherePicture& picture) {
   const FilmBounds& b = picture.bounds;
   if (!b.visible || f.x1 < b.x0 || b.x1 < f.x0 || f.y1 < b.y0 || b.y1 < f.y0) return true;
@@ -50,7 +50,7 @@ bool IsBeside(const RenderPlan& plan, const Footprint& f, const FootprintCone& c
 
 // How many of the footprints' corners hit, block by block: a sphere's picture is convex, so where
 // it has all four it covers the block.
-void CountCorners(const RenderPlan& plan, const Window& cell, TileScratch* scratch,
+void CountCorners(const FramePlan& plan, const Window& cell, const TileWork& work,
                   CellScratch* cell_scratch, int (&counts)[kCellBlocks]) {
   FilmBatch& corners = cell_scratch->corners;
   for (size_t block = 0; block < kCellBlocks; ++block) {
@@ -61,15 +61,15 @@ void CountCorners(const RenderPlan& plan, const Window& cell, TileScratch* scrat
     std::copy_n(y, 4, corners.y.data() + 4 * block);
   }
   corners.count = 4 * kCellBlocks;
-  HitBatch& hits = scratch->unsorted_hits;
-  plan.intersector->HitsInTile(scratch->candidates, corners,
-                               {&hits, &scratch->unsorted_directions, false, false});
+  HitBatch& hits = cell_scratch->corner_hits.batch;
+  plan.hits.intersector->HitsInTile(work.sight.spheres, corners,
+                                    {&hits, &cell_scratch->corner_hits.directions, false, false});
   for (size_t i = 0; i < hits.count; ++i) ++counts[hits.ray[i] / 4];
 }
 
 // Whether no light's shadow can fall on the sphere.
-bool IsNeverShadowed(const RenderPlan& plan, uint32_t sphere) {
-  return std::all_of(plan.lights.begin(), plan.lights.end(),
+bool IsNeverShadowed(const FramePlan& plan, uint32_t sphere) {
+  return std::all_of(plan.direct.lights.begin(), plan.direct.lights.end(),
                      [&](const PlannedLight& light) { return NeverShadowed(light, sphere); });
 }
 
@@ -85,7 +85,7 @@ bool IsCut(const CameraFrame& frame, const TraceSphere& sphere) {
 }
 
 // Whether only outlines can cross a part of the film where no more than these spheres are seen.
-bool HasNoEdgeBetweenOutlines(const RenderPlan& plan,
+bool HasNoEdgeBetweenOutlines(const FramePlan& plan,
                               const std::vector<const TileCandidate*>& spheres) {
   for (size_t i = 0; i < spheres.size(); ++i) {
     if (!IsNeverShadowed(plan, spheres[i]->primitive)) return false;
@@ -137,12 +137,12 @@ bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width
 
 }  // namespace
 
-uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t blocks,
-                         TileScratch* scratch, CellScratch* cell_scratch) {
+uint32_t FindPlainBlocks(const FramePlan& plan, const Window& cell, uint32_t blocks, TileWork* work,
+                         CellScratch* cell_scratch) {
   cell_scratch->outlines_only = 0;
   if (!plan.adaptive.footprints || !cell_scratch->pictures) return 0;
   int corners[kCellBlocks] = {};
-  CountCorners(plan, cell, scratch, cell_scratch, corners);
+  CountCorners(plan, cell, *work, cell_scratch, corners);
   uint32_t plain = 0;
   std::vector<const TileCandidate*> met;
   for (uint32_t left = blocks; left != 0; left &= left - 1) {
@@ -162,15 +162,15 @@ uint32_t FindPlainBlocks(const RenderPlan& plan, const Window& cell, uint32_t bl
   return plain;
 }
 
-bool IsSmooth(const RenderPlan& plan, size_t first_ray, const Soa3<double>& values,
-              const uint32_t* hit_of_ray, const TileScratch& s) {
+bool IsSmooth(const FramePlan& plan, size_t first_ray, const Soa3<double>& values,
+              const uint32_t* hit_of_ray, const TileWork& s) {
   const uint32_t* const hits = hit_of_ray + first_ray;
   if (hits[0] == kNoHit) return true;  // beside all spheres
-  const MaterialId material = MaterialAt(plan, s.hits.primitive[hits[0]], 0);
+  const MaterialId material = MaterialAt(plan.surfaces, s.surfaces.hits.primitive[hits[0]], 0);
   return IsFlat(plan.adaptive, values.x.data() + first_ray) &&
          IsFlat(plan.adaptive, values.y.data() + first_ray) &&
          IsFlat(plan.adaptive, values.z.data() + first_ray) &&
-         ResolvesLobe(s.surface.normal, hits, plan.adaptive.widths[material.index]);
+         ResolvesLobe(s.surfaces.surface.normal, hits, plan.adaptive.widths[material.index]);
 }
 
 }  // namespace nacre

@@ -64,8 +64,8 @@ MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, doubl
 
 // Half-width, in radians, of a lobe around the half vector; infinite of none. That of Phong's,
 // which is around the mirrored direction, turns twice as far as the normal.
-double HalfVectorWidth(const RenderPlan& plan, uint32_t material) {
-  const auto& model = plan.materials[material].model;
+double HalfVectorWidth(const FramePlan& plan, uint32_t material) {
+  const auto& model = plan.surfaces.materials[material].model;
   if (const auto* microfacet = std::get_if<MicrofacetModel>(&model);
       microfacet != nullptr && microfacet->delta) {
     return 0;
@@ -91,7 +91,7 @@ FilmPlace ProjectPoint(const Projector& projector, const Vec3d& place) {
 }
 
 // A light to look for in a sphere: `radius` of what it extends over.
-void AddGlint(const RenderPlan& plan, const Projector& projector, const TileCandidate& candidate,
+void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
               const SeenPoint& light, double light_radius, size_t number, double largest,
               std::vector<Glint>* glints) {
   const TraceSphere& sphere = candidate.sphere;
@@ -111,7 +111,7 @@ void AddGlint(const RenderPlan& plan, const Projector& projector, const TileCand
   const double depth = place.dot(projector.forward);
   if (!(depth > 0)) return;
   const FilmPlace peak = ProjectPoint(projector, place);
-  const uint32_t material = MaterialAt(plan, candidate.primitive, peak.x).index;
+  const uint32_t material = MaterialAt(plan.surfaces, candidate.primitive, peak.x).index;
   const double lobe = HalfVectorWidth(plan, material);
   if (lobe == kFarAway) return;
   // By how much the normal turns away from the half vector along a step on the sphere: the normal
@@ -160,23 +160,24 @@ bool ShowsWide(const Projector& projector, const TraceSphere& sphere, double wid
 
 }  // namespace
 
-void AddGlints(const RenderPlan& plan, const Projector& projector, const TileCandidate& candidate,
+void AddGlints(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
                double largest, std::vector<Glint>* glints) {
   if (candidate.around_camera) return;
   const TraceSphere& sphere = candidate.sphere;
-  if (!plan.splits) {
-    const double width = HalfVectorWidth(plan, MaterialAt(plan, candidate.primitive, 0).index);
-    if (width == kFarAway || (width == 0 && plan.sampled_lights.empty())) return;
+  if (!plan.surfaces.splits) {
+    const double width =
+        HalfVectorWidth(plan, MaterialAt(plan.surfaces, candidate.primitive, 0).index);
+    if (width == kFarAway || (width == 0 && plan.direct.sampled_lights.empty())) return;
     if (ShowsWide(projector, sphere, width, std::sqrt(largest))) return;
   }
   size_t number = 0;
-  for (const PlannedLight& planned : plan.lights) {
+  for (const PlannedLight& planned : plan.direct.lights) {
     AddGlint(
         plan, projector, candidate,
         SeenLight(plan.scene->lights[planned.index], plan.scene->camera.position, sphere.center), 0,
         number++, largest, glints);
   }
-  for (const PlannedSampledLight& planned : plan.sampled_lights) {
+  for (const PlannedSampledLight& planned : plan.direct.sampled_lights) {
     const SampledLight& light = planned.light;
     if (IsSky(light)) continue;
     const Vec3d diagonal = light.edge_x + light.edge_y;  // of rectangles

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "render/plan.h"
+#include "render/frame_plan.h"
 
 namespace nacre {
 
@@ -25,7 +25,7 @@ struct Glint {
 // `largest` pixels. Shadows and what may hide them are not looked for. Lights with an extent count
 // as spheres around them. None on materials without a lobe, nor where the camera or the light is
 // inside the sphere.
-void AddGlints(const RenderPlan& plan, const Projector& projector, const TileCandidate& candidate,
+void AddGlints(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
                double largest, std::vector<Glint>* glints);
 
 }  // namespace nacre

@@ -12,36 +12,22 @@
 // in the same way, by a second reflection, at facets of their own.
 #pragma once
 
-#include "render/plan.h"
-#include "shading/light.h"
-#include "shading/shade.h"
+#include "render/direct_batch.h"
 
 namespace nacre {
 
-struct MaterialRun;
-struct TileScratch;
-
-// Buffers for it.
-struct MirroredLobe {
-  LightBatch light;  // the light along l'; at hits that reflect nothing of it of irradiance 0
-  ReflectedRadiance radiance;
-  AlignedArray<float> pdf{kBatchCapacity};
-};
-
-// Takes scratch->light from the hits that it reaches from below the horizon.
-void HideBelowHorizon(const RenderPlan& plan, TileScratch* scratch);
+// Takes room.light from the hits that it reaches from below the horizon.
+void HideBelowHorizon(const DirectBatch& batch);
 
 // Brings directions that were sampled by the run's lobe above the horizon: l' in the place of l.
-void RaiseLobeSamples(const RenderPlan& plan, const MaterialRun& run, TileScratch* scratch,
-                      Soa3<float>* to_light);
+void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<float>* to_light);
 
-// Adds f(l') of scratch->light, which is `light`, to the specular part of `radiance`, or to its
-// sum, or both, as `leaves` says. Hidden light is not above the horizon: it counts as none.
-void AddMirroredLobe(const RenderPlan& plan, const MaterialRun& run, const ShadingLight& light,
-                     Leaves leaves, TileScratch* scratch, ReflectedRadiance* radiance);
+// Adds f(l') of room.light, which is `light`, to the specular part of `radiance`, or to its sum, or
+// both, as `leaves` says. Hidden light is not above the horizon: it counts as none.
+void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const ShadingLight& light,
+                     Leaves leaves, ReflectedRadiance* radiance);
 
 // Adds the pdf of l', which RaiseLobeSamples brings to l, to that of l.
-void AddMirroredLobePdf(const RenderPlan& plan, const MaterialRun& run, TileScratch* scratch,
-                        float* pdf);
+void AddMirroredLobePdf(const DirectBatch& batch, const MaterialRun& run, float* pdf);
 
 }  // namespace nacre

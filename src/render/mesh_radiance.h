@@ -1,40 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mesh_radiance.h: what the vertices or triangles of meshes reflect, where that is what is
-// interpolated (Gouraud 1971) or left as it is (flat). Worked out once in the plan.
+// render/mesh_radiance.h: hits on meshes that interpolate what their vertices reflect (Gouraud
+// 1971), or show what their triangles do (flat shading): DirectPlan::mesh_radiance.
 #pragma once
 
-#include <array>
-#include <vector>
-
-#include "base/vec.h"
-#include "render/settings.h"
-#include "scene/handle.h"
+#include "render/direct_batch.h"
+#include "render/shadow_origins.h"
 
 namespace nacre {
 
-struct RenderPlan;
-struct TileScratch;
+// Which of a corner's two sides the camera sees, given the normal of the triangle on its side.
+uint32_t SideOf(const TriangleRef& triangle, size_t corner, const Vec3d& seen_normal);
 
-// Of each vertex of a mesh under Gouraud's interpolation, or of each triangle of a flat one.
-struct SideRadiance {
-  std::vector<Vec3f> diffuse, specular;
-  std::vector<std::vector<Vec3f>> lights;  // of each light that a layer shows alone
-};
+// The unit normal of the triangle on the side that the camera sees.
+Vec3d SeenNormal(const CameraFrame& camera, const TriangleRef& triangle, const Corners& corners);
 
-struct MeshRadiance {
-  MaterialId material;  // a split mesh has one of these for each of its materials
-  // As the vertices' normals point, and as they do not: triangles may be seen from either side. Of
-  // flat meshes the first only: a triangle shows the camera one side.
-  std::array<SideRadiance, 2> sides;
-};
-
-// Fills plan->mesh_radiance; all else of the plan is there.
-void ShadeMeshes(const RenderSettings& settings, RenderPlan* plan);
-
-// Whether a hit on the primitive reflects what its mesh's vertices or triangles do.
-bool IsInterpolated(const RenderPlan& plan, uint32_t primitive);
-
-// Fills scratch->total and per_light of its runs of such hits.
-void Interpolate(const RenderPlan& plan, TileScratch* scratch);
+// Fills batch.radiance of its interpolated runs.
+void InterpolateRadiance(const DirectBatch& batch);
 
 }  // namespace nacre

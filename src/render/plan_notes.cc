@@ -30,12 +30,11 @@ std::string NameThose(const Scene& scene, const Test& test) {
 }
 
 // A perfect mirror shows only what has an extent; says so where no light has one.
-void NoteMirrors(const Scene& scene, RenderPlan* plan) {
-  if (!plan->sampled_lights.empty()) return;
-  const std::string names =
-      NameThose(scene, [&](size_t i) { return HasDeltaLobe(plan->materials[i]); });
+void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                 std::vector<std::string>* notes) {
+  const std::string names = NameThose(scene, [&](size_t i) { return HasDeltaLobe(materials[i]); });
   if (names.empty()) return;
-  plan->notes.push_back(
+  notes->push_back(
       names +
       ": roughness 0 is a perfect mirror, in which point, spot and directional lights have no "
       "highlight; a roughness above 0 gives them one");
@@ -61,15 +60,16 @@ double BurleyGain(const ShadingMaterial& material) {
                     material.model);
 }
 
-void NoteGain(const Scene& scene, RenderPlan* plan) {
+void NoteGain(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+              std::vector<std::string>* notes) {
   double most = 1;
   const std::string names = NameThose(scene, [&](size_t i) {
-    const double gain = BurleyGain(plan->materials[i]);
+    const double gain = BurleyGain(materials[i]);
     most = std::max(most, gain);
     return gain > 1;
   });
   if (names.empty()) return;
-  plan->notes.push_back(
+  notes->push_back(
       fmt::format("{}: burley reflects up to {:.2f} times the light that grazes it; oren_nayar "
                   "keeps energy",
                   names, most));
@@ -107,7 +107,7 @@ bool Shines(const Light& light) {
 }
 
 // A scene that nothing lights is a slip, unless its materials shine themselves.
-void NoteDarkness(const Scene& scene, RenderPlan* plan) {
+void NoteDarkness(const Scene& scene, std::vector<std::string>* notes) {
   if (scene.spheres.empty() && scene.meshes.empty()) return;
   if (std::any_of(scene.lights.begin(), scene.lights.end(), Shines)) return;
   const std::vector<bool> used = FindUsedMaterials(scene);
@@ -115,7 +115,7 @@ void NoteDarkness(const Scene& scene, RenderPlan* plan) {
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     emits = emits || (used[i] && !IsBlack(scene.materials[i].emission));
   }
-  plan->notes.push_back(
+  notes->push_back(
       fmt::format("{}: {}; \"lights\" of the scene, or --environment IMAGE, light it",
                   scene.lights.empty() ? "the scene has no lights" : "all lights are black",
                   emits ? "only what its materials emit is seen" : "every shape is black"));
@@ -136,7 +136,7 @@ double PhongGain(const Material& material, PhongModel model) {
   return std::max({most.x, most.y, most.z});
 }
 
-void NotePhongGain(const Scene& scene, RenderPlan* plan) {
+void NotePhongGain(const Scene& scene, std::vector<std::string>* notes) {
   for (const auto& [model, name] : {std::pair{PhongModel::kPhong, "phong"},
                                     std::pair{PhongModel::kModifiedPhong, "modified_phong"},
                                     std::pair{PhongModel::kBlinnPhong, "blinn_phong"}}) {
@@ -148,7 +148,7 @@ void NotePhongGain(const Scene& scene, RenderPlan* plan) {
     });
     if (names.empty()) continue;
     const bool modified = model == PhongModel::kModifiedPhong;
-    plan->notes.push_back(fmt::format(
+    notes->push_back(fmt::format(
         "{}: {} reflects up to {:.2f} times the light from all around{}; {}kd + ks of 1 at most "
         "keeps energy",
         names, name, most, modified ? "" : ", and of light that grazes it any multiple",
@@ -170,11 +170,12 @@ std::vector<bool> FindUsedMaterials(const Scene& scene) {
   return used;
 }
 
-void NoteMaterials(const Scene& scene, RenderPlan* plan) {
-  NoteDarkness(scene, plan);
-  NoteMirrors(scene, plan);
-  NoteGain(scene, plan);
-  NotePhongGain(scene, plan);
+void NoteMaterials(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                   bool sampled_lights, std::vector<std::string>* notes) {
+  NoteDarkness(scene, notes);
+  if (!sampled_lights) NoteMirrors(scene, materials, notes);
+  NoteGain(scene, materials, notes);
+  NotePhongGain(scene, notes);
 }
 
 }  // namespace nacre

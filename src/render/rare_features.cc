@@ -5,19 +5,14 @@
 #include <cmath>
 #include <limits>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "render/glints.h"
 #include "render/interval.h"
-#include "render/tile_layers.h"
-#include "render/white_level.h"
 #include "sampling/pixel_filter.h"
 
 namespace nacre {
 namespace {
-
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 // Hits on rare things that a pixel must expect before the spread of its replicates tells of them:
 // two in each, so that all agree by chance in one of 82 cases (the sum of the fourth powers of
@@ -43,50 +38,6 @@ struct SmallPicture {
   double radiance;  // at most, beyond what is beside it
 };
 
-double MeanRadiance(const EnvironmentMap& map) {
-  double sum = 0;
-  for (int y = 0; y < map.height; ++y) {
-    double row = 0;
-    for (int x = 0; x < map.width; ++x) {
-      const EnvironmentTexel& t =
-          map.texels[static_cast<size_t>(y) * static_cast<size_t>(map.width) +
-                     static_cast<size_t>(x)];
-      row += std::max({t.red, t.green, t.blue});
-    }
-    sum += row * TexelSolidAngle(map.width, map.height, y);
-  }
-  return sum / (4 * M_PI);
-}
-
-// What an object reflects of surroundings of radiance 1, at most. Classic Phong materials lack the
-// 1/pi, and their lobe, without n.l, gathers a solid angle of 2 pi / (n + 1).
-double MostReflected(const Scene& scene) {
-  double most = 1;
-  for (const Material& material : scene.materials) {
-    if (!IsClassic(material)) continue;
-    const auto& phong = std::get<PhongMaterial>(material.model);
-    const double exponent = phong.shininess_map.valid() ? 0 : phong.shininess;
-    const Rgb matte = phong.color * phong.kd * M_PI, lobe = phong.ks * (2 * M_PI / (exponent + 1));
-    const Rgb all = matte + lobe;
-    most = std::max({most, all.x, all.y, all.z});
-  }
-  return most;
-}
-
-// A mirror ball's picture shows all directions alike, a matte one at most 4 times their mean.
-double BrightestUnder(const SampledLight& light) {
-  const double color = std::max({light.color.x, light.color.y, light.color.z});
-  switch (light.form) {
-    case SampledForm::kGradientSky:
-    case SampledForm::kQuadraticSky:
-      return kNoBound;
-    case SampledForm::kPictureSky:
-      return 4 * color * MeanRadiance(*light.sky.picture);
-    default:
-      return color;
-  }
-}
-
 // The share of a pixel's samples, along one axis, that lie between two distances from its centre.
 double ShareBetween(const PixelFilter& filter, double from, double to) {
   const auto below = [&](double x) {
@@ -96,24 +47,25 @@ double ShareBetween(const PixelFilter& filter, double from, double to) {
   return std::abs(below(to) - below(from));
 }
 
-void AddSpheres(const RenderPlan& plan, const Projector& projector,
-                const TileCandidates& candidates, std::vector<SmallPicture>* small) {
+void AddSpheres(const FramePlan& plan, const Projector& projector, const TileCandidates& candidates,
+                std::vector<SmallPicture>* small) {
   for (const auto& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
       const FilmBounds b = Project(projector, candidate.sphere);
       const double width = b.x1 - b.x0, height = b.y1 - b.y0;
       if (!b.visible || !(width < kWidestRare && height < kWidestRare)) continue;
-      small->push_back({{MaterialAt(plan, candidate.primitive, (b.x0 + b.x1) / 2).index, kWhole},
-                        (b.x0 + b.x1) / 2,
-                        (b.y0 + b.y1) / 2,
-                        std::sqrt(M_PI / 4 * width * height) / 2,
-                        plan.adaptive.brightest});
+      small->push_back(
+          {{MaterialAt(plan.surfaces, candidate.primitive, (b.x0 + b.x1) / 2).index, kWhole},
+           (b.x0 + b.x1) / 2,
+           (b.y0 + b.y1) / 2,
+           std::sqrt(M_PI / 4 * width * height) / 2,
+           plan.adaptive.brightest});
     }
   }
 }
 
 // The highlights that lie where samples of the cell's pixels may.
-std::vector<Glint> GlintsIn(const RenderPlan& plan, const Projector& projector, const Window& cell,
+std::vector<Glint> GlintsIn(const FramePlan& plan, const Projector& projector, const Window& cell,
                             const TileCandidates& candidates) {
   std::vector<Glint> glints;
   for (const auto& in_cell : candidates.cells) {
@@ -131,25 +83,25 @@ std::vector<Glint> GlintsIn(const RenderPlan& plan, const Projector& projector, 
 
 // Looks at the peak of each highlight and beside it: what its lobe, its light, shadows and things
 // in front make of it.
-void AddHighlights(const RenderPlan& plan, const std::vector<Glint>& glints, TileScratch* scratch,
+void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, TileWork* work,
                    StageClock* clock, RenderStats* stats, std::vector<SmallPicture>* small) {
   constexpr size_t kAtOnce = kBatchCapacity / 2;
-  TileScratch& s = *scratch;
+  TileWork& s = *work;
   for (size_t first = 0; first < glints.size(); first += kAtOnce) {
     const size_t count = std::min(kAtOnce, glints.size() - first);
     for (size_t i = 0; i < count; ++i) {
       const Glint& g = glints[first + i];
-      s.samples.x[2 * i] = g.x;
-      s.samples.y[2 * i] = g.y;
-      s.samples.x[2 * i + 1] = g.x + g.beside_x;
-      s.samples.y[2 * i + 1] = g.y + g.beside_y;
+      s.samples.film.x[2 * i] = g.x;
+      s.samples.film.y[2 * i] = g.y;
+      s.samples.film.x[2 * i + 1] = g.x + g.beside_x;
+      s.samples.film.y[2 * i + 1] = g.y + g.beside_y;
     }
-    s.samples.count = 2 * count;
-    if (s.sampled) NumberAlike(s.samples.count, &s.sampled->numbers);
-    TraceAndShade(plan, &s, clock, stats);
-    SeeSky(plan, &s);
-    const Layer& beauty = plan.layers[0];
-    Soa3<double>& values = GatherLayer(plan, beauty, 0, BackgroundOf(beauty, plan), &s);
+    s.samples.film.count = 2 * count;
+    if (plan.sampling.numbered) NumberAlike(s.samples.film.count, &NumbersOf(&s.samples));
+    ShadeSamples(plan, &s, clock, stats);
+    const Layer& beauty = plan.film.layers[0];
+    Soa3<double>& values = GatherLayer(plan.film, beauty, 0, BackgroundOf(beauty, plan.film),
+                                       BatchOf(plan, s), &s.layer_room);
     for (size_t i = 0; i < count; ++i) {
       const Glint& g = glints[first + i];
       double radiance = 0;
@@ -194,32 +146,16 @@ void AddShares(const PixelFilter& filter, const Window& cell, const SmallPicture
 
 }  // namespace
 
-double BrightestObject(const RenderPlan& plan) {
-  if (plan.adaptive.white < kNoBound) return plan.adaptive.white;
-  double brightest = LargestEmission(*plan.scene);
-  for (const Light& light : plan.scene->lights) {
-    if (IsPunctual(light)) return kNoBound;
-    if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
-      brightest += std::max({ambient->radiance.x, ambient->radiance.y, ambient->radiance.z});
-    }
-  }
-  const double reflected = MostReflected(*plan.scene);
-  for (const PlannedSampledLight& light : plan.sampled_lights) {
-    brightest += reflected * BrightestUnder(light.light);
-  }
-  return brightest;
-}
-
-void FindRareFeatures(const RenderPlan& plan, const Window& cell, TileScratch* scratch,
-                      CellScratch* c, StageClock* clock, RenderStats* stats) {
+void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
+                      StageClock* clock, RenderStats* stats) {
   std::fill_n(c->rare_samples, kCellPixels, 0.0);
   std::fill_n(c->rare_radiance, kCellPixels, 0.0);
-  const TileCandidates& candidates = scratch->candidates;
+  const TileCandidates& candidates = work->sight.spheres;
   const Projector projector = MakeProjector(plan.camera);
   std::vector<SmallPicture> small;
   AddSpheres(plan, projector, candidates, &small);
   const std::vector<Glint> glints = GlintsIn(plan, projector, cell, candidates);
-  AddHighlights(plan, glints, scratch, clock, stats, &small);
+  AddHighlights(plan, glints, work, clock, stats, &small);
   std::stable_sort(small.begin(), small.end(), [](const SmallPicture& a, const SmallPicture& b) {
     return a.likeness < b.likeness;
   });

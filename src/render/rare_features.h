@@ -3,17 +3,13 @@
 // its samples find: spheres that are smaller than a pixel, and highlights that are (glints.h).
 #pragma once
 
-#include "render/adaptive.h"
+#include "render/cell_scratch.h"
 
 namespace nacre {
 
-// The largest mean radiance that the picture of a whole small object can have: WhiteLevel, or
-// without one what area lights and skies make of it; infinite where that is not known.
-double BrightestObject(const RenderPlan& plan);
-
 // Sets rare_samples and rare_radiance of the cell's pixels from its spheres, which are
-// scratch->candidates. Highlights are looked at by a sample each.
-void FindRareFeatures(const RenderPlan& plan, const Window& cell, TileScratch* scratch,
+// work->sight.spheres. Highlights are looked at by a sample each.
+void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
                       CellScratch* cell_scratch, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -19,7 +19,7 @@ double SecondsSince(std::chrono::steady_clock::time_point start) {
 
 // What a worker needs, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
 struct Worker {
-  TileScratch scratch;
+  TileWork work;
   std::unique_ptr<CellScratch> cell;  // of adaptive sampling
   Strip strip;
   std::vector<uint8_t> blank;  // of each of its tiles, as RenderTile says
@@ -46,39 +46,39 @@ class WorkerPool {
 };
 
 // The cells of adaptive sampling lie on a grid of the frame.
-void RenderCells(const RenderPlan& plan, const Window& window, Worker* worker, StageClock* clock,
+void RenderCells(const FramePlan& plan, const Window& window, Worker* worker, StageClock* clock,
                  RenderStats* stats) {
   if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
   const auto first = [](int pixel) { return pixel / kCellSide * kCellSide; };
   for (int y = first(window.y0); y < window.y1; y += kCellSide) {
     for (int x = first(window.x0); x < window.x1; x += kCellSide) {
       const Window cell{x, y, x + kCellSide, y + kCellSide};
-      RenderCell(plan, cell, Intersect(cell, window), &worker->scratch, worker->cell.get(),
+      RenderCell(plan, cell, Intersect(cell, window), &worker->work, worker->cell.get(),
                  &worker->strip, clock, stats);
     }
   }
 }
 
-void RenderStrip(const RenderPlan& plan, const Window& window, bool time_stages, Worker* worker,
+void RenderStrip(const FramePlan& plan, const Window& window, bool time_stages, Worker* worker,
                  RenderStats* stats) {
   StageClock clock(time_stages ? stats : nullptr);
   const int rows_before = worker->strip.window.height();
-  StartStrip(plan, window, &worker->strip);
+  StartStrip(plan.film, window, &worker->strip);
   if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, &clock, stats);
   // What the strip before this one showed still stands, where it had these rows: most tiles of the
   // background lie below others.
-  const auto tiles = static_cast<size_t>((window.width() - 1) / plan.tile_width + 1);
+  const auto tiles = static_cast<size_t>((window.width() - 1) / plan.sampling.tile_width + 1);
   if (rows_before < window.height()) worker->blank.assign(tiles, 0);
   for (size_t i = 0; i < tiles; ++i) {
-    const int x = window.x0 + static_cast<int>(i) * plan.tile_width;
-    const Window tile{x, window.y0, std::min(x + plan.tile_width, window.x1), window.y1};
-    RenderTile(plan, tile, &worker->scratch, &worker->strip, &worker->blank[i], &clock, stats);
+    const int x = window.x0 + static_cast<int>(i) * plan.sampling.tile_width;
+    const Window tile{x, window.y0, std::min(x + plan.sampling.tile_width, window.x1), window.y1};
+    RenderTile(plan, tile, &worker->work, &worker->strip, &worker->blank[i], &clock, stats);
   }
 }
 
 }  // namespace
 
-RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const StripSink& sink) {
+RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink) {
   const auto start = std::chrono::steady_clock::now();
   const Window& window = plan.window;
   const int strip_count = (window.height() + kStripRows - 1) / kStripRows;
@@ -106,11 +106,11 @@ RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const
   return total;
 }
 
-Image RenderImage(const RenderPlan& plan, const RenderSettings& settings, RenderStats* stats) {
+Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats) {
   Image image;
   image.display = plan.frame;
   image.data = plan.window;
-  for (const ChannelSpec& spec : StripChannels(plan.layers, PixelType::kFloat)) {
+  for (const ChannelSpec& spec : StripChannels(plan.film.layers, PixelType::kFloat)) {
     image.channels.push_back({spec.name, spec.type, std::vector<float>(plan.window.pixel_count())});
   }
   const RenderStats rendered = Render(plan, settings, [&](const Strip& strip) {
@@ -132,7 +132,7 @@ Image RenderImage(const RenderPlan& plan, const RenderSettings& settings, Render
 
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
   const auto start = std::chrono::steady_clock::now();
-  const RenderPlan plan = MakePlan(scene, settings);
+  const FramePlan plan = MakePlan(scene, settings);
   const double plan_seconds = SecondsSince(start);
   Image image = RenderImage(plan, settings, stats);
   if (stats != nullptr) stats->plan_seconds = plan_seconds;

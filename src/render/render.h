@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "render/film.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/stats.h"
 
 namespace nacre {
@@ -16,11 +16,11 @@ using StripSink = std::function<void(const Strip&)>;
 // Renders what the plan says and hands strips of kStripRows rows, counted from the window's top,
 // to the sink. A pixel's bits depend on (scene, pixel, sample, target) only: not on threads,
 // tiles, crop or the layers asked for. Exceptions of the sink and of settings.on_progress end it.
-RenderStats Render(const RenderPlan& plan, const RenderSettings& settings, const StripSink& sink);
+RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink);
 
 // The whole picture in memory, channels as StripChannels has them, all in float. For tests,
 // comparisons and labels; `stats` may be null.
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
-Image RenderImage(const RenderPlan& plan, const RenderSettings& settings, RenderStats* stats);
+Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats);
 
 }  // namespace nacre

@@ -6,7 +6,6 @@
 #include "render/mapped_horizon.h"
 #include "render/sampled_kernel.h"
 #include "render/sampled_shadows.h"
-#include "render/tile_layers.h"
 #include "shading/lobe_sample.h"
 
 namespace nacre {
@@ -14,19 +13,19 @@ namespace {
 
 // A batch of hits under one light.
 struct Lit {
-  const RenderPlan& plan;
+  const DirectBatch& batch;
   const PlannedSampledLight& planned;
-  TileScratch& s;
-  SampledScratch& c;
-  StageClock* clock;
-  RenderStats* stats;
+  const SampleNumbers& numbers;
+  SampledRoom& c;
 
-  size_t count() const { return s.hits.count; }
-  const ShadingMaterial& MaterialOf(const MaterialRun& run) const {
-    return plan.materials[run.material.index];
-  }
+  size_t count() const { return batch.lit(); }
+  const HitBatch& hits() const { return batch.hits(); }
+  const Surface& surface() const { return batch.surface(); }
+  LightBatch& light() const { return batch.room.light; }
+  ReflectedRadiance& single() const { return batch.room.single; }
+  std::span<const MaterialRun> runs() const { return LitRuns(batch.surfaces); }
   LobeRange RangeOf(const MaterialRun& run) const {
-    return {s.hits, s.surface, run.begin, run.end, s.textures.get()};
+    return {hits(), surface(), run.begin, run.end, batch.surfaces.textures.get()};
   }
 };
 
@@ -46,16 +45,16 @@ struct SamplingStrategies {
 // lobes and mirrors look along is above the horizon already, but for rounding, which must not hide
 // a lobe that is narrower.
 void FaceLight(const Lit& lit, bool may_be_below_horizon) {
-  lit.stats->directions_not_finite +=
-      ShineAlong(lit.c.directions, lit.s.surface, lit.count(), &lit.s.light);
-  if (may_be_below_horizon) HideBelowHorizon(lit.plan, &lit.s);
+  lit.batch.stats.directions_not_finite +=
+      ShineAlong(lit.c.directions, lit.surface(), lit.count(), &lit.light());
+  if (may_be_below_horizon) HideBelowHorizon(lit.batch);
 }
 
 void Shadow(const Lit& lit) {
-  lit.clock->Charge(Stage::kLight);
+  lit.batch.clock.Charge(Stage::kLight);
   if (!lit.planned.shadow_rays) return;
-  CastSampledShadows(lit.plan, lit.planned, &lit.s, lit.stats);
-  lit.clock->Charge(Stage::kShadow);
+  CastSampledShadows(lit.batch, lit.planned, lit.c.directions);
+  lit.batch.clock.Charge(Stage::kShadow);
 }
 
 // What a light of colour 1 reflects along TileScratch::light, into c.unit.
@@ -66,12 +65,12 @@ void ShadeUnit(const Lit& lit) {
     light.color = Rgb(1, 1, 1);
     return light;
   }();
-  const LightOnBatch light{&kUnit, &lit.s.light};
-  for (const MaterialRun& run : lit.s.runs) {
+  const LightOnBatch light{&kUnit, &lit.light()};
+  for (const MaterialRun& run : lit.runs()) {
     const LitHits hits{
-        lit.s.hits, lit.s.surface, {&light, 1}, lit.s.textures.get(), Leaves::kParts};
-    ShadeRun(lit.MaterialOf(run), hits, run.begin, run.end, &lit.s.narrow, &lit.c.unit);
-    AddMirroredLobe(lit.plan, run, kUnit, Leaves::kParts, &lit.s, &lit.c.unit);
+        lit.hits(), lit.surface(), {&light, 1}, lit.batch.surfaces.textures.get(), Leaves::kParts};
+    ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.narrow, &lit.c.unit);
+    AddMirroredLobe(lit.batch, run, kUnit, Leaves::kParts, &lit.c.unit);
   }
 }
 
@@ -83,31 +82,31 @@ void AddSeen(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
 }
 
 void WeighByDensity(const Lit& lit) {
-  FindWeights(lit.s.light.irradiance.data(), lit.c.density.data(), lit.count(),
+  FindWeights(lit.light().irradiance.data(), lit.c.density.data(), lit.count(),
               lit.c.weight.data());
 }
 
 void WeighDiffuse(const Lit& lit, const SamplingStrategies& strategies) {
   const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
-  FindDiffuseDensity({strategies.light, strategies.cosine}, lit.c.directions, lit.s.surface, flat,
+  FindDiffuseDensity({strategies.light, strategies.cosine}, lit.c.directions, lit.surface(), flat,
                      lit.count(), lit.c.density.data());
   WeighByDensity(lit);
 }
 
 void WeighSpecular(const Lit& lit, const SamplingStrategies& strategies) {
   const LightDirections& directions = lit.c.directions;
-  for (const MaterialRun& run : lit.s.runs) {
-    LobeDensity(lit.MaterialOf(run), lit.RangeOf(run), lit.s.light, &lit.s.narrow,
+  for (const MaterialRun& run : lit.runs()) {
+    LobeDensity(*run.shading, lit.RangeOf(run), lit.light(), &lit.batch.room.narrow,
                 lit.c.density.data());
-    AddMirroredLobePdf(lit.plan, run, &lit.s, lit.c.density.data());
+    AddMirroredLobePdf(lit.batch, run, lit.c.density.data());
   }
   if (strategies.light) {
     for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
   }
   // A batch is sampled if any of its hits has a lobe. Those without must not get a share then, or
   // a pixel would depend on what else is in its tile.
-  for (const MaterialRun& run : lit.s.runs) {
-    if (HasSampledLobe(lit.MaterialOf(run))) continue;
+  for (const MaterialRun& run : lit.runs()) {
+    if (HasSampledLobe(*run.shading)) continue;
     std::fill(lit.c.density.data() + run.begin, lit.c.density.data() + run.end, 0.0f);
   }
   WeighByDensity(lit);
@@ -121,14 +120,14 @@ void AddDirections(const Lit& lit, const SamplingStrategies& strategies,
   ShadeUnit(lit);
   if (components.diffuse) {
     WeighDiffuse(lit, strategies);
-    AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
+    AddSeen(lit, lit.c.unit.diffuse, &lit.single().diffuse);
   }
   if (components.specular) {
     WeighSpecular(lit, strategies);
-    AddSeen(lit, lit.c.unit.specular, &lit.s.single.specular);
+    AddSeen(lit, lit.c.unit.specular, &lit.single().specular);
   }
-  lit.stats->shades += lit.count();
-  lit.clock->Charge(Stage::kShade);
+  lit.batch.stats.shades += lit.count();
+  lit.batch.clock.Charge(Stage::kShade);
 }
 
 // Which hits reflect the light in closed form: those that see all of it, and whose diffuse
@@ -136,11 +135,10 @@ void AddDirections(const Lit& lit, const SamplingStrategies& strategies,
 size_t FindFlat(const Lit& lit) {
   const bool some_see_all = !lit.planned.shadow_rays || !lit.planned.shadowed.empty();
   size_t count = 0;
-  for (const MaterialRun& run : lit.s.runs) {
-    const bool may_be =
-        lit.planned.closed_form && some_see_all && DiffuseIsFlat(lit.MaterialOf(run));
+  for (const MaterialRun& run : lit.runs()) {
+    const bool may_be = lit.planned.closed_form && some_see_all && DiffuseIsFlat(*run.shading);
     for (size_t i = run.begin; i < run.end; ++i) {
-      lit.c.flat[i] = may_be && NeverShadowed(lit.planned, lit.s.hits.primitive[i]) ? 1 : 0;
+      lit.c.flat[i] = may_be && NeverShadowed(lit.planned, lit.hits().primitive[i]) ? 1 : 0;
       count += lit.c.flat[i];
     }
   }
@@ -151,9 +149,9 @@ size_t FindFlat(const Lit& lit) {
 void AddClosedForm(const Lit& lit) {
   const SampledLight& light = lit.planned.light;
   Soa3<float>& irradiance = lit.c.directions.radiance;
-  LightIrradiance(light, lit.s.hits, lit.s.surface, &irradiance);
-  const Soa3<float>& n = lit.s.surface.normal;
-  LightBatch& batch = lit.s.light;
+  LightIrradiance(light, lit.hits(), lit.surface(), &irradiance);
+  const Soa3<float>& n = lit.surface().normal;
+  LightBatch& batch = lit.light();
   for (size_t i = 0; i < lit.count(); ++i) {
     batch.to_light.x[i] = n.x[i];
     batch.to_light.y[i] = n.y[i];
@@ -162,27 +160,27 @@ void AddClosedForm(const Lit& lit) {
     lit.c.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
   ShadeUnit(lit);
-  AddSeen(lit, lit.c.unit.diffuse, &lit.s.single.diffuse);
-  lit.clock->Charge(Stage::kLight);
+  AddSeen(lit, lit.c.unit.diffuse, &lit.single().diffuse);
+  lit.batch.clock.Charge(Stage::kLight);
 }
 
 void ChoosePoints(const Lit& lit, size_t pair) {
-  SamplePair(lit.plan.pairs, lit.planned.first_pair + pair, lit.c.numbers, lit.s.hits.ray.data(),
-             lit.count(), &lit.c.points);
+  SamplePair(lit.batch.plan.pairs, lit.planned.first_pair + pair, lit.numbers,
+             lit.hits().ray.data(), lit.count(), &lit.c.points);
 }
 
 void AddByLight(const Lit& lit, const Components& components) {
   ChoosePoints(lit, 0);
-  SampleLight(lit.planned.light, lit.s.hits, lit.c.points, &lit.c.directions);
+  SampleLight(lit.planned.light, lit.hits(), lit.c.points, &lit.c.directions);
   FaceLight(lit, true);
   AddDirections(lit, {true, IsSky(lit.planned.light)}, components);
 }
 
 void AddByCosine(const Lit& lit) {
   ChoosePoints(lit, 1);
-  SampleCosine(lit.s.surface, lit.count(), lit.c.points.u.data(), lit.c.points.v.data(),
+  SampleCosine(lit.surface(), lit.count(), lit.c.points.u.data(), lit.c.points.v.data(),
                &lit.c.directions.to_light);
-  FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
+  FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
   FaceLight(lit, true);
   AddDirections(lit, {HasSampler(lit.planned.light), true}, {true, false});
 }
@@ -191,46 +189,47 @@ void AddByLobe(const Lit& lit) {
   ChoosePoints(lit, 2);
   // Hits without a lobe look along their normals, and reflect nothing of it.
   Soa3<float>& to_light = lit.c.directions.to_light;
-  const Soa3<float>& n = lit.s.surface.normal;
+  const Soa3<float>& n = lit.surface().normal;
   std::copy_n(n.x.data(), lit.count(), to_light.x.data());
   std::copy_n(n.y.data(), lit.count(), to_light.y.data());
   std::copy_n(n.z.data(), lit.count(), to_light.z.data());
-  for (const MaterialRun& run : lit.s.runs) {
-    SampleLobe(lit.MaterialOf(run), lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
+  for (const MaterialRun& run : lit.runs()) {
+    SampleLobe(*run.shading, lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
                &to_light);
-    RaiseLobeSamples(lit.plan, run, &lit.s, &to_light);
+    RaiseLobeSamples(lit.batch, run, &to_light);
   }
-  FindLight(lit.planned.light, lit.s.hits, &lit.c.directions);
+  FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
   FaceLight(lit, false);
   AddDirections(lit, {HasSampler(lit.planned.light), false}, {false, true});
 }
 
 // Perfect mirrors see the light in one direction.
 void AddByMirror(const Lit& lit) {
-  TileScratch& s = lit.s;
-  MirrorDirections({s.hits, s.surface, 0, lit.count()}, &lit.c.directions.to_light);
-  FindLight(lit.planned.light, s.hits, &lit.c.directions);
+  MirrorDirections({lit.hits(), lit.surface(), 0, lit.count()}, &lit.c.directions.to_light);
+  FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
   ClearRadiance(lit.count(), &lit.c.unit);
   FaceLight(lit, false);
-  for (const MaterialRun& run : s.runs) {
-    const ShadingMaterial& material = lit.MaterialOf(run);
+  AlignedArray<float>& irradiance = lit.light().irradiance;
+  for (const MaterialRun& run : lit.runs()) {
     const LobeRange range = lit.RangeOf(run);
     for (size_t i = run.begin; i < run.end; ++i) {
-      if (!IsMirror(material, range, i)) s.light.irradiance[i] = 0;
+      if (!IsMirror(*run.shading, range, i)) irradiance[i] = 0;
     }
-    if (AnyMirror(material, range)) MirrorReflectance(material, range, &lit.c.unit.specular);
+    if (AnyMirror(*run.shading, range)) {
+      MirrorReflectance(*run.shading, range, &lit.c.unit.specular);
+    }
   }
   Shadow(lit);
-  std::copy_n(s.light.irradiance.data(), lit.count(), lit.c.weight.data());
-  AddSeen(lit, lit.c.unit.specular, &s.single.specular);
-  lit.clock->Charge(Stage::kShade);
+  std::copy_n(irradiance.data(), lit.count(), lit.c.weight.data());
+  AddSeen(lit, lit.c.unit.specular, &lit.single().specular);
+  lit.batch.clock.Charge(Stage::kShade);
 }
 
 void ShadeByOne(const Lit& lit) {
   bool mirrors = false, lobes = false;
-  for (const MaterialRun& run : lit.s.runs) {
-    mirrors = mirrors || AnyMirror(lit.MaterialOf(run), lit.RangeOf(run));
-    lobes = lobes || HasSampledLobe(lit.MaterialOf(run));
+  for (const MaterialRun& run : lit.runs()) {
+    mirrors = mirrors || AnyMirror(*run.shading, lit.RangeOf(run));
+    lobes = lobes || HasSampledLobe(*run.shading);
   }
   const size_t flat = FindFlat(lit);
   const bool sampled_diffuse = flat < lit.count();
@@ -245,14 +244,14 @@ void ShadeByOne(const Lit& lit) {
 
 }  // namespace
 
-void ShadeBySampledLights(const RenderPlan& plan, TileScratch* scratch, StageClock* clock,
-                          RenderStats* stats) {
-  TileScratch& s = *scratch;
-  for (const PlannedSampledLight& planned : plan.sampled_lights) {
-    ++stats->light_batches;
-    ClearRadiance(s.hits.count, &s.single);
-    ShadeByOne({plan, planned, s, *s.sampled, clock, stats});
-    KeepLight(planned.layer, &s);
+void ShadeBySampledLights(const DirectBatch& batch, const SampleNumbers& numbers) {
+  std::unique_ptr<SampledRoom>& room = batch.room.sampled;
+  if (!room) room = std::make_unique<SampledRoom>();
+  for (const PlannedSampledLight& planned : batch.plan.sampled_lights) {
+    ++batch.stats.light_batches;
+    ClearRadiance(batch.lit(), &batch.room.single);
+    ShadeByOne({batch, planned, numbers, *room});
+    AddLight(batch, batch.room.single, planned.layer);
   }
 }
 

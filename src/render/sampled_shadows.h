@@ -3,16 +3,12 @@
 // extent.
 #pragma once
 
-#include "render/plan.h"
-#include "render/stats.h"
+#include "render/direct_batch.h"
 
 namespace nacre {
 
-struct TileScratch;
-
-// Takes scratch->light from the hits that something lies before the light for, along
-// scratch->sampled->directions.
-void CastSampledShadows(const RenderPlan& plan, const PlannedSampledLight& planned,
-                        TileScratch* scratch, RenderStats* stats);
+// Takes room.light from the hits that something lies before the light for, along `directions`.
+void CastSampledShadows(const DirectBatch& batch, const PlannedSampledLight& planned,
+                        const LightDirections& directions);
 
 }  // namespace nacre

@@ -26,17 +26,13 @@ struct Corners {
   Vec3d a, e1, e2;  // a: in the world
 };
 
-Corners CornersOf(const TextureScene& scene, uint32_t triangle) {
-  const auto& first = scene.mesh_first_triangle;
-  const auto after = std::upper_bound(first.begin(), first.end(), triangle);
-  const auto mesh_index = static_cast<size_t>(after - first.begin()) - 1;
+Corners CornersOf(const TextureScene& scene, uint32_t primitive) {
+  const TriangleRef triangle = TriangleOf(scene.primitives, primitive);
   Corners corners;
-  corners.mesh = &scene.scene->meshes[mesh_index];
-  corners.mesh_number = mesh_index;
-  corners.first = 3 * size_t{triangle - first[mesh_index]};
-  for (size_t k = 0; k < 3; ++k) {
-    corners.index[k] = corners.mesh->triangles[corners.first + k];
-  }
+  corners.mesh = triangle.mesh;
+  corners.mesh_number = triangle.number;
+  corners.first = 3 * size_t{triangle.triangle};
+  for (size_t k = 0; k < 3; ++k) corners.index[k] = triangle.Vertex(k);
   corners.a = corners.mesh->positions[corners.index[0]];
   corners.e1 = corners.mesh->positions[corners.index[1]] - corners.a;
   corners.e2 = corners.mesh->positions[corners.index[2]] - corners.a;
@@ -81,7 +77,7 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
       t.inverse_size[i] = inverse_radius;
       Put(normal, i, &t.geometric);
     } else {
-      const Corners corners = CornersOf(run.scene, primitive - sphere_count);
+      const Corners corners = CornersOf(run.scene, primitive);
       const Vec3d face = corners.e1.cross(corners.e2).normalized();
       t.side[i] = face.dot(Get(hits.to_view, i)) < 0 ? -1 : 1;
       Put(face * t.side[i], i, &t.geometric);
@@ -97,7 +93,7 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
   const auto sphere_count = static_cast<uint32_t>(scene.spheres.size());
   for (size_t i = run.begin; i < run.end; ++i) {
     if (hits.primitive[i] < sphere_count) continue;
-    const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
+    const Corners corners = CornersOf(run.scene, hits.primitive[i]);
     const bool second = texture.second_uvs && !corners.mesh->second_uvs.empty();
     const auto& uvs = second ? corners.mesh->second_uvs : corners.mesh->uvs;
     const Vec2d uv = uvs[corners.index[0]];
@@ -123,7 +119,7 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
   for (size_t i = run.begin; i < run.end; ++i) {
     t.normal_length[i] = 0;
     if (hits.primitive[i] < sphere_count) continue;
-    const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
+    const Corners corners = CornersOf(run.scene, hits.primitive[i]);
     const std::vector<MapTangents>& of_mesh = run.scene.mesh_tangents[corners.mesh_number];
     const auto own = std::find_if(of_mesh.begin(), of_mesh.end(),
                                   [&](const MapTangents& t) { return t.texture == number; });
@@ -160,7 +156,7 @@ void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures*
   for (size_t i = run.begin; i < run.end; ++i) {
     Vec3d color(1);
     if (hits.primitive[i] >= sphere_count) {
-      const Corners corners = CornersOf(run.scene, hits.primitive[i] - sphere_count);
+      const Corners corners = CornersOf(run.scene, hits.primitive[i]);
       const std::vector<Vec3f>& colors = corners.mesh->colors;
       if (!colors.empty()) {
         const auto [g1, g2] = GradientsOf(corners);

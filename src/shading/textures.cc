@@ -211,11 +211,7 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
     to.coordinates = 0;
     while (!SameCoordinates(scene.textures[to.coordinates], texture)) ++to.coordinates;
   }
-  uint32_t triangles = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    prepared.mesh_first_triangle.push_back(triangles);
-    triangles += static_cast<uint32_t>(mesh.triangles.size() / 3);
-  }
+  prepared.primitives = NumberPrimitives(scene);
   PrepareTangents(threads, &prepared);
   return prepared;
 }

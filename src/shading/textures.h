@@ -8,6 +8,7 @@
 
 #include "hit/batch.h"
 #include "hit/camera_frame.h"
+#include "scene/primitives.h"
 #include "scene/scene.h"
 #include "scene/tangents.h"
 #include "shading/material.h"
@@ -43,8 +44,8 @@ struct TextureScene {
   CameraFrame camera;
   // What a sample stands for, in pixels: a sample of many is a small part of its pixel.
   double footprint = 1;
-  std::vector<PreparedTexture> textures;      // one per texture of the scene
-  std::vector<uint32_t> mesh_first_triangle;  // running triangle number at which each mesh begins
+  std::vector<PreparedTexture> textures;  // one per texture of the scene
+  PrimitiveNumbers primitives;
   std::vector<CornerTangents> tangents;
   std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
 };

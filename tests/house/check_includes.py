@@ -44,6 +44,21 @@ TOP = "cli"
 
 FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 
+# The files of render/ in the order in which a pixel's samples go through them: each includes only
+# headers of those before it.
+RENDER_ORDER = """
+    settings stats stage_clock explanation layers camera camera_kernel frame_window white_level plan_notes
+    film_kernel adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel light_cull mesh_windows
+    outline_coverage sphere_pictures
+    hits_plan tile_sight samples hits surfaces
+    direct_plan shadow_plan brightest_object direct_batch
+    shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
+    film hit_positions film_layers
+    frame_plan tile_work tile
+    cell_scratch cell_film footprint evidence convergence glints rare_features adaptive
+    render
+""".split()
+
 # SIMD code: these files are compiled once for every target.
 SIMD_FILE = r"\w+/(\w+-inl\.h|\w+_kernel\.cc)"
 # Headers with a rule of their own: their names, the files of src/ that may include them, the rule.
@@ -136,6 +151,18 @@ def check_quoted(file, path, depends):
         return f'"{path}": src/ has no folder {included}'
     if included not in closure(folder, depends):
         return f'"{path}": {folder} does not depend on {included} (DEPENDS in src/CMakeLists.txt)'
+    if folder == included == "render":
+        return check_render_order(pathlib.PurePath(file).stem, pathlib.PurePath(path).stem, path)
+    return None
+
+
+def check_render_order(user, used, path):
+    """Fault of an include within render/, or None."""
+    for name in (user, used):
+        if name not in RENDER_ORDER:
+            return f"render/{name} is not in RENDER_ORDER of tests/house/check_includes.py"
+    if RENDER_ORDER.index(used) > RENDER_ORDER.index(user):
+        return f'"{path}" runs back up: render/{used} comes after render/{user} (RENDER_ORDER)'
     return None
 
 

@@ -72,8 +72,8 @@ TEST_CASE("a filter's negative lobes ring at edges") {
 TEST_CASE("all samples of a pixel differ, also where they take several batches") {
   Scene scene = MakeScene(24, 64);
   scene.spheres = {{{0, 0, -5}, 1, AddLambert({1, 1, 1}, &scene)}};
-  const RenderPlan plan = MakePlan(scene, OneThread());
-  REQUIRE(plan.samples_per_round < 16);
+  const FramePlan plan = MakePlan(scene, OneThread());
+  REQUIRE(plan.sampling.samples_per_round < 16);
   const Image image = RenderImage(scene, OneThread());
   // A round's samples alone would give no more than 16 shares of coverage beside 0.
   const std::vector<float>& alpha = image.Find("A")->samples;
@@ -91,21 +91,21 @@ TEST_CASE("a pixel's only sample has the bits of its sum") {
     settings.region = {5, 3, 90, 51};  // tiles that the picture's edges cut
     RenderSettings general = settings;
     general.general_path = true;
-    CHECK_FALSE(MakePlan(scene, general).one_sample);
+    CHECK_FALSE(MakePlan(scene, general).film.one_sample);
     CHECK(SameBits(RenderImage(scene, settings), RenderImage(scene, general)));
   });
 }
 
 TEST_CASE("sums are left out where one sample is all there is") {
   Scene scene = MakeScene(8, 1);
-  CHECK(MakePlan(scene, {}).one_sample);
-  CHECK_FALSE(MakePlan(scene, OneThread({"Z"})).one_sample);
-  CHECK_FALSE(MakePlan(scene, OneThread({"id.object"})).one_sample);
+  CHECK(MakePlan(scene, {}).film.one_sample);
+  CHECK_FALSE(MakePlan(scene, OneThread({"Z"})).film.one_sample);
+  CHECK_FALSE(MakePlan(scene, OneThread({"id.object"})).film.one_sample);
   RenderSettings adaptive;
   adaptive.max_error = 0.1;
-  CHECK_FALSE(MakePlan(scene, adaptive).one_sample);
+  CHECK_FALSE(MakePlan(scene, adaptive).film.one_sample);
   scene.image.spp = 2;
-  CHECK_FALSE(MakePlan(scene, {}).one_sample);
+  CHECK_FALSE(MakePlan(scene, {}).film.one_sample);
 }
 
 TEST_CASE("depth is measured along the view") {

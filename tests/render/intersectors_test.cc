@@ -188,7 +188,7 @@ TEST_CASE("bins for shadow rays give the same bits as Embree") {
       RenderSettings settings;
       settings.threads = static_cast<int>(seed % 3);
       CheckSame(scene, settings);
-      for (const PlannedLight& light : MakePlan(scene, {}).lights) {
+      for (const PlannedLight& light : MakePlan(scene, {}).direct.lights) {
         CHECK(light.occluders != kAnyLight);
       }
     }
@@ -230,7 +230,7 @@ TEST_CASE("spheres that nothing can shadow need no shadow rays") {
     RenderSettings general;
     general.general_path = true;
     CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, general)));
-    for (const PlannedLight& light : MakePlan(scene, {}).lights) {
+    for (const PlannedLight& light : MakePlan(scene, {}).direct.lights) {
       some += light.shadow_rays && !light.shadowed.empty();
       none += !light.shadow_rays;
     }
@@ -261,12 +261,12 @@ TEST_CASE("every scene that ships has the same bits with Embree alone") {
 
 TEST_CASE("Embree is there where it is needed, and only there") {
   const auto uses = [](const Scene& scene, const RenderSettings& settings) {
-    const RenderPlan plan = MakePlan(scene, settings);
+    const FramePlan plan = MakePlan(scene, settings);
     bool embree = false;
-    for (const PlanItem& item : plan.items) {
+    for (const PlanItem& item : plan.why.items) {
       if (item.what == "intersector embree") embree = item.used;
     }
-    return std::pair(plan.tiles, embree);
+    return std::pair(plan.hits.tiles, embree);
   };
   Scene scene = RandomScene(0);
   CHECK(uses(scene, {}) == std::pair(true, false));

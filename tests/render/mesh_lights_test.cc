@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "pictures.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/render.h"
 #include "scene/sphere_mesh.h"
 

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "pictures.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/render.h"
 #include "targets.h"
 
@@ -28,7 +28,7 @@ class NestedRandom {
 };
 
 // Two large spheres and small ones around them, under all kinds of lights. More than so few that
-// light is computed by their normals alone (render/hit_places.h).
+// light is computed by their normals alone (render/hit_positions.h).
 Scene TwoAmongSmall(NestedRandom* random) {
   Scene scene;
   scene.materials.emplace_back().model = LambertMaterial{};
@@ -76,7 +76,7 @@ void FillTheTwo(NestedRandom* random, Scene* scene) {
 }
 
 bool ShellsFind(const Scene& scene, const RenderSettings& settings) {
-  return MakePlan(scene, settings).intersector->SpheresAreNested();
+  return MakePlan(scene, settings).hits.intersector->SpheresAreNested();
 }
 
 void CheckSamePicture(const Scene& plain, const Scene& filled) {

@@ -384,18 +384,18 @@ bool IsBeyond(const Image& image, const Image& truth, size_t pixel, double max_e
 }
 
 // Which pixels are told, row by row: a cell's scratch knows after it is rendered.
-std::vector<bool> ToldIn(const RenderPlan& plan) {
+std::vector<bool> ToldIn(const FramePlan& plan) {
   std::vector<bool> told(plan.frame.pixel_count());
-  TileScratch scratch;
+  TileWork work;
   const auto cell_scratch = std::make_unique<CellScratch>();
   Strip strip;
   StageClock clock(nullptr);
   for (int y0 = 0; y0 < kSide; y0 += kCellSide) {
-    StartStrip(plan, {0, y0, kSide, y0 + kCellSide}, &strip);
+    StartStrip(plan.film, {0, y0, kSide, y0 + kCellSide}, &strip);
     for (int x0 = 0; x0 < kSide; x0 += kCellSide) {
       const Window cell{x0, y0, x0 + kCellSide, y0 + kCellSide};
       RenderStats stats;
-      RenderCell(plan, cell, cell, &scratch, cell_scratch.get(), &strip, &clock, &stats);
+      RenderCell(plan, cell, cell, &work, cell_scratch.get(), &strip, &clock, &stats);
       for (const uint32_t pixel : cell_scratch->active) {
         const FilmPixel at = PixelOf(cell, pixel);
         const Window alone{at.x, at.y, at.x + 1, at.y + 1};
@@ -410,7 +410,7 @@ std::vector<bool> ToldIn(const RenderPlan& plan) {
 Shares SharesOf(const Scene& scene, const Image& truth, double max_error) {
   RenderSettings settings;
   settings.max_error = max_error;
-  const RenderPlan plan = MakePlan(scene, settings);
+  const FramePlan plan = MakePlan(scene, settings);
   RenderStats stats;
   const Image image = RenderImage(plan, settings, &stats);
   const std::vector<bool> told = ToldIn(plan);
@@ -492,7 +492,7 @@ TEST_CASE("a highlight of a needle's width on one sphere is not missed") {
     for (const double max_error : {0.1, 0.02}) {
       RenderSettings settings;
       settings.max_error = max_error;
-      const RenderPlan plan = MakePlan(scene, settings);
+      const FramePlan plan = MakePlan(scene, settings);
       const Image image = RenderImage(plan, settings, nullptr);
       const std::vector<bool> told = ToldIn(plan);
       CAPTURE(shininess, max_error, image.channels[0].samples[peak], red[peak], told[peak]);

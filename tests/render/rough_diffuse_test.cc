@@ -10,7 +10,7 @@
 #include "brdf/eon.h"
 #include "catch.h"
 #include "pictures.h"
-#include "render/plan.h"
+#include "render/frame_plan.h"
 #include "render/render.h"
 
 namespace nacre {
@@ -85,11 +85,13 @@ Scene Lit(Scene scene) {
 TEST_CASE(
     "a scene that nothing lights says so, and one that shines does not say that it is black") {
   Scene scene = ClaySphere(LambertMaterial{});
-  CHECK(MakePlan(Lit(scene), {}).notes.empty());
-  REQUIRE(MakePlan(scene, {}).notes.size() == 1);
-  CHECK(MakePlan(scene, {}).notes[0].starts_with("the scene has no lights: every shape is black"));
+  CHECK(MakePlan(Lit(scene), {}).why.notes.empty());
+  REQUIRE(MakePlan(scene, {}).why.notes.size() == 1);
+  CHECK(MakePlan(scene, {}).why.notes[0].starts_with(
+      "the scene has no lights: every shape is black"));
   scene.materials.at(0).emission = Rgb(1);
-  CHECK(MakePlan(scene, {}).notes.at(0).find("only what its materials emit") != std::string::npos);
+  CHECK(MakePlan(scene, {}).why.notes.at(0).find("only what its materials emit") !=
+        std::string::npos);
 }
 
 TEST_CASE("a sky that is black all over lights nothing, and the plan says so") {
@@ -103,7 +105,7 @@ TEST_CASE("a sky that is black all over lights nothing, and the plan says so") {
   const auto notes = [](const EnvironmentLight& sky) {
     Scene scene = OneSphere(LambertMaterial{});
     scene.lights.push_back({.name = "sky", .kind = sky});
-    return MakePlan(scene, {}).notes;
+    return MakePlan(scene, {}).why.notes;
   };
   const Rgb black(0), dim(0, 0, 1e-6);
   const EnvironmentLight dark[] = {{.sky = ConstantSky{black}},
@@ -133,7 +135,7 @@ TEST_CASE("a sky that is black all over lights nothing, and the plan says so") {
 TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
   const auto notes = [](const decltype(Material::model)& model) {
     const Scene scene = Lit(ClaySphere(model));
-    return MakePlan(scene, {}).notes;
+    return MakePlan(scene, {}).why.notes;
   };
   CHECK(notes(BurleyMaterial{Rgb(0.5), 1}).empty());
   CHECK(notes(BurleyMaterial{Rgb(1), 0.4}).empty());
@@ -155,7 +157,7 @@ TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
 TEST_CASE("a plan notes the light that the Phong family makes") {
   const auto notes = [](const PhongMaterial& phong) {
     const Scene scene = Lit(ClaySphere(phong));
-    return MakePlan(scene, {}).notes;
+    return MakePlan(scene, {}).why.notes;
   };
   const PhongMaterial lobe{.kd = Rgb(0), .ks = Rgb(0.2, 1, 0.2), .shininess = 1};
   PhongMaterial phong = lobe;

@@ -4,9 +4,9 @@
 #include <random>
 
 #include "pictures.h"
-#include "render/plan.h"
+#include "render/direct_plan.h"
+#include "render/frame_plan.h"
 #include "render/render.h"
-#include "render/sampled_plan.h"
 #include "targets.h"
 #include "visibility/sphere_test.h"
 

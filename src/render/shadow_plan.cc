@@ -1,41 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/shadow_cull.h"
+#include "render/shadow_plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "base/parallel.h"
-
 namespace nacre {
 namespace {
 
-// True if every camera ray surely starts outside the sphere. The margins are far more than what
-// the roundings of the tests can amount to.
-bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
-  const Vec3d offset = sphere.center - scene.camera.position;
-  const double clear = sphere.radius * (1 + 1e-9);
-  if (scene.camera.projection == Projection::kPerspective) return offset.length2() > clear * clear;
-  // Wholly before or behind the image plane.
-  const double pixel = scene.camera.height / scene.image.height;
-  const double plane = pixel * (scene.image.height + scene.image.width);
-  return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
-}
-
 // Adds the items of the lights; of many that are alike the first speaks for all.
-void AddItems(std::vector<PlanItem> items, RenderPlan* plan) {
+void AddItems(std::vector<PlanItem> items, Explanation* why) {
   constexpr size_t kMost = 8;
   std::map<std::pair<bool, std::string>, std::vector<PlanItem*>> alike;
   for (PlanItem& item : items) alike[{item.used, item.reason}].push_back(&item);
   for (PlanItem& item : items) {
     const std::vector<PlanItem*>& same = alike[{item.used, item.reason}];
     if (same.size() > kMost && same.front() != &item) continue;
-    plan->items.push_back(item);
+    why->items.push_back(item);
     if (same.size() > kMost) {
-      plan->items.back().what += fmt::format(" and those of {} more", same.size() - 1);
+      why->items.back().what += fmt::format(" and those of {} more", same.size() - 1);
     }
   }
 }
@@ -81,11 +66,12 @@ std::string WhyNotBins(const LightBins& bins) {
 constexpr char kEmbreeAskedFor[] = "--intersector embree";
 
 // Why shadow rays need a tree whatever the lights, or nothing.
-std::string WhyTree(const Scene& scene, const RenderSettings& settings, const RenderPlan& plan) {
+std::string WhyTree(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
+                    const DirectPlan& plan) {
   if (settings.general_path) return "the general path is asked for";
   if (!scene.meshes.empty()) return "there are triangles";
   if (settings.intersector == IntersectorChoice::kEmbree) return kEmbreeAskedFor;
-  if (scene.spheres.size() > kMaxListedSpheres && plan.intersector->SpheresAreNested()) {
+  if (scene.spheres.size() > kMaxListedSpheres && hits.intersector->SpheresAreNested()) {
     return kNestedSpheres;
   }
   if (settings.intersector == IntersectorChoice::kTiles) return {};
@@ -105,26 +91,10 @@ std::string DescribeBins(const LightBins& bins) {
                      bins.end.size(), bins.entries(), bins.meeting, bins.large.size());
 }
 
-}  // namespace
-
-bool EyeIsOutside(const Scene& scene, int threads) {
-  const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
-  constexpr size_t kBlock = size_t{1} << 14;
-  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
-  std::vector<uint8_t> outside(blocks);
-  ParallelFor(blocks, threads, [&](size_t block) {
-    const Sphere* const spheres = scene.spheres.data();
-    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
-    outside[block] =
-        std::all_of(spheres + block * kBlock, spheres + end,
-                    [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
-  });
-  return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
-}
-
-bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan* plan) {
+bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
+                         DirectPlan* plan, Explanation* why) {
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
-  const std::string why_tree = WhyTree(scene, settings, *plan);
+  const std::string why_tree = WhyTree(scene, settings, hits, *plan);
   // Embree is asked about the same rays as the others, when it is asked for.
   if (why_tree.empty() || (few && why_tree == kEmbreeAskedFor)) {
     std::vector<const Light*> lights;
@@ -133,7 +103,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
       light.occluders = static_cast<uint32_t>(lights.size());
       lights.push_back(&scene.lights[light.index]);
     }
-    plan->intersector->FindOccluders(lights, plan->eye_outside);
+    hits.intersector->FindOccluders(lights, hits.eye_outside);
   }
   size_t listed = 0, binned = 0, left = 0;
   std::vector<PlanItem> items;
@@ -145,7 +115,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
                                         : "something may lie between a surface and the light"};
     bool bins = false;
     if (light.occluders != kAnyLight) {
-      const LightOccluders& found = plan->intersector->Occluders(light.occluders);
+      const LightOccluders& found = hits.intersector->Occluders(light.occluders);
       if (few) SkipUnshadowed(found.lists, &light, &item);
       bins = light.shadow_rays && found.bins.has_value();
       if (bins && (settings.intersector == IntersectorChoice::kAuto || found.bins->overfull)) {
@@ -157,21 +127,94 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, RenderPlan*
     if (light.shadow_rays) ++(light.occluders == kAnyLight ? left : bins ? binned : listed);
     items.push_back(std::move(item));
   }
-  AddItems(std::move(items), plan);
+  AddItems(std::move(items), why);
   const std::string why_not = listed + binned + left == 0 ? "nothing is left for them"
                               : !why_tree.empty()         ? why_tree
                               : !crowded.empty()          ? crowded
                                                           : "others are faster here";
-  plan->items.push_back(
+  why->items.push_back(
       {"intersector lists, for shadow rays", listed > 0,
        listed > 0
            ? "each sphere's few possible occluders need no tree, and tiles with none of them "
              "on the way to the light cast no rays"
            : why_not});
-  plan->items.push_back(
+  why->items.push_back(
       {"intersector bins, for shadow rays", binned > 0,
        binned > 0 ? "spheres binned as the light sees them need no tree: " + crowd : why_not});
   return left > 0;
+}
+
+LightBall BallAround(const SampledLight& light) {
+  switch (light.form) {
+    case SampledForm::kRectangle:
+      return {light.place + (light.edge_x + light.edge_y) / 2,
+              (light.edge_x + light.edge_y).length() / 2};
+    default:  // of a mesh, the ball around it
+      return {light.place, light.radius};
+  }
+}
+
+// Finds who asks for the light's shadow rays, and why, among few spheres. Which of them can be
+// shadowed decides what is reflected in closed form, so all intersectors are told the same.
+PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits,
+                    PlannedSampledLight* light) {
+  const std::optional<LightBall> ball =
+      IsSky(light->light) ? std::nullopt : std::optional(BallAround(light->light));
+  light->occluders =
+      hits.intersector->FindOccludersOfBall(ball, light->primitives, hits.eye_outside);
+  const OccluderLists& lists = hits.intersector->Occluders(light->occluders).lists;
+  light->shadowed = FindShadowed(lists);
+  light->trace_all = settings.general_path;
+  const size_t spheres = light->shadowed.size();
+  const auto count = std::count(light->shadowed.begin(), light->shadowed.end(), uint8_t{1});
+  PlanItem item{"", true,
+                fmt::format("{} of {} spheres can lie in another's shadow", count, spheres)};
+  if (count == 0 && !light->trace_all) {
+    light->shadow_rays = item.used = false;
+    item.reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
+                               : "no sphere is between another and the light";
+  }
+  if (settings.general_path || settings.intersector == IntersectorChoice::kEmbree ||
+      lists.longest > kMaxSampledList) {
+    light->occluders = kAnyLight;
+  } else if (light->shadow_rays) {
+    item.reason += fmt::format(", each by {} others at most: no tree", lists.longest);
+  }
+  if (static_cast<size_t>(count) == spheres) light->shadowed.clear();
+  return item;
+}
+
+bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
+                        DirectPlan* plan, Explanation* why) {
+  const bool few = scene.spheres.size() <= kMaxListedSpheres && scene.meshes.empty();
+  bool tree = false;
+  for (PlannedSampledLight& light : plan->sampled_lights) {
+    PlanItem item{"", true, "something may lie between a surface and the light"};
+    if (!light.shadow_rays) {
+      item.used = false;
+      item.reason = scene.image.shadows ? "the light casts none" : "the scene turns shadows off";
+    } else if (few) {
+      item = PlanListed(settings, hits, &light);
+    }
+    item.what = fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name);
+    why->items.push_back(std::move(item));
+    tree = tree || (light.shadow_rays && light.occluders == kAnyLight);
+  }
+  return tree;
+}
+
+}  // namespace
+
+bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
+                 DirectPlan* plan, Explanation* why) {
+  plan->primitives = hits.primitives;
+  plan->camera = hits.camera;
+  plan->intersector = hits.intersector;
+  if (hits.intersector == nullptr) return false;
+  plan->eye_outside = hits.eye_outside;
+  const bool tree_for_punctual = PlanPunctualShadows(scene, settings, hits, plan, why);
+  const bool tree_for_sampled = PlanSampledShadows(scene, settings, hits, plan, why);
+  return tree_for_punctual || tree_for_sampled;
 }
 
 }  // namespace nacre

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/render/hit_places_test.cc: pictures without the positions of their hits.
-#include "render/hit_places.h"
+// tests/render/hit_positions_test.cc: pictures without the positions of their hits.
+#include "render/frame_plan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,11 +42,11 @@ Scene LitSpheres() {
   return scene;
 }
 
-const PlanItem& PositionsOf(const RenderPlan& plan) {
-  const auto found = std::find_if(plan.items.begin(), plan.items.end(), [](const PlanItem& item) {
+const PlanItem& PositionsOf(const FramePlan& plan) {
+  const auto found = std::find_if(plan.why.items.begin(), plan.why.items.end(), [](const PlanItem& item) {
     return item.what == "positions of hits";
   });
-  REQUIRE(found != plan.items.end());
+  REQUIRE(found != plan.why.items.end());
   return *found;
 }
 
@@ -55,20 +55,20 @@ TEST_CASE("pictures without positions have the bits of those with them") {
     Scene scene = LitSpheres();
     for (const bool shadows : {true, false}) {
       scene.image.shadows = shadows;
-      const RenderPlan plan = MakePlan(scene, {});
-      CHECK_FALSE(plan.all_positions);
+      const FramePlan plan = MakePlan(scene, {});
+      CHECK_FALSE(plan.hits.all_positions);
       CHECK(PositionsOf(plan).used == shadows);
       if (shadows) {
         // Some are asked, not all.
-        CHECK(std::count(plan.may_be_shadowed.begin(), plan.may_be_shadowed.end(), 1) > 0);
-        CHECK(std::count(plan.may_be_shadowed.begin(), plan.may_be_shadowed.end(), 0) > 0);
+        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 1) > 0);
+        CHECK(std::count(plan.hits.may_be_shadowed.begin(), plan.hits.may_be_shadowed.end(), 0) > 0);
       }
       RenderSettings settings;
       settings.threads = 1;
       settings.layers = {"light.lamp", "light.far", "N"};
       const Image got = RenderImage(scene, settings);
       settings.general_path = true;
-      CHECK(MakePlan(scene, settings).all_positions);
+      CHECK(MakePlan(scene, settings).hits.all_positions);
       CHECK(SameBits(got, RenderImage(scene, settings)));
       // Embree's batches are never known to be of one sphere.
       settings.intersector = IntersectorChoice::kEmbree;
@@ -106,7 +106,7 @@ TEST_CASE("lights found from normals change no more than the last digits") {
 TEST_CASE("whatever reads positions gets them") {
   const Scene scene = LitSpheres();
   const auto all = [](const Scene& changed, const RenderSettings& settings = {}) {
-    return MakePlan(changed, settings).all_positions;
+    return MakePlan(changed, settings).hits.all_positions;
   };
   CHECK_FALSE(all(scene));
   RenderSettings settings;

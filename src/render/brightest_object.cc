@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/brightest_object.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "render/white_level.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
+
+double MeanRadiance(const EnvironmentMap& map) {
+  double sum = 0;
+  for (int y = 0; y < map.height; ++y) {
+    double row = 0;
+    for (int x = 0; x < map.width; ++x) {
+      const EnvironmentTexel& t =
+          map.texels[static_cast<size_t>(y) * static_cast<size_t>(map.width) +
+                     static_cast<size_t>(x)];
+      row += std::max({t.red, t.green, t.blue});
+    }
+    sum += row * TexelSolidAngle(map.width, map.height, y);
+  }
+  return sum / (4 * M_PI);
+}
+
+// What an object reflects of surroundings of radiance 1, at most. Classic Phong materials lack the
+// 1/pi, and their lobe, without n.l, gathers a solid angle of 2 pi / (n + 1).
+double MostReflected(const Scene& scene) {
+  double most = 1;
+  for (const Material& material : scene.materials) {
+    if (!IsClassic(material)) continue;
+    const auto& phong = std::get<PhongMaterial>(material.model);
+    const double exponent = phong.shininess_map.valid() ? 0 : phong.shininess;
+    const Rgb matte = phong.color * phong.kd * M_PI, lobe = phong.ks * (2 * M_PI / (exponent + 1));
+    const Rgb all = matte + lobe;
+    most = std::max({most, all.x, all.y, all.z});
+  }
+  return most;
+}
+
+// A mirror ball's picture shows all directions alike, a matte one at most 4 times their mean.
+double BrightestUnder(const SampledLight& light) {
+  const double color = std::max({light.color.x, light.color.y, light.color.z});
+  switch (light.form) {
+    case SampledForm::kGradientSky:
+    case SampledForm::kQuadraticSky:
+      return kNoBound;
+    case SampledForm::kPictureSky:
+      return 4 * color * MeanRadiance(*light.sky.picture);
+    default:
+      return color;
+  }
+}
+
+}  // namespace
+
+double BrightestObject(const Scene& scene, const DirectPlan& direct, double white) {
+  if (white < kNoBound) return white;
+  double brightest = LargestEmission(scene);
+  for (const Light& light : scene.lights) {
+    if (IsPunctual(light)) return kNoBound;
+    if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
+      brightest += std::max({ambient->radiance.x, ambient->radiance.y, ambient->radiance.z});
+    }
+  }
+  const double reflected = MostReflected(scene);
+  for (const PlannedSampledLight& light : direct.sampled_lights) {
+    brightest += reflected * BrightestUnder(light.light);
+  }
+  return brightest;
+}
+
+}  // namespace nacre

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/direct.h"
+
+#include "render/camera.h"
+#include "render/mapped_horizon.h"
+#include "render/mesh_radiance.h"
+#include "render/sampled_lights.h"
+#include "render/shadow_origins.h"
+#include "render/shadow_rays_kernel.h"
+
+namespace nacre {
+namespace {
+
+// Whether shadow rays to the light need be cast from the batch.
+bool CastsShadowRays(const DirectPlan& plan, const PlannedLight& planned, const HitBatch& hits) {
+  if (!hits.one_primitive) return planned.shadow_rays;
+  return !NeverShadowed(planned, hits.primitive[0]) &&
+         plan.intersector->MayOcclude(planned.occluders, hits);
+}
+
+// Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
+void CastShadows(const DirectBatch& batch, const PlannedLight& planned) {
+  const DirectPlan& plan = batch.plan;
+  const HitBatch& hits = batch.hits();
+  DirectRoom& room = batch.room;
+  const Soa3<double>& origin = plan.offset_shadow_origins ? room.shadow_origin : hits.position;
+  ShadowRayBatch& rays = room.shadow_rays;
+  rays.light = planned.occluders;
+  rays.outward = plan.eye_outside;
+  rays.end_reach = plan.camera_reach;
+  // Without a branch on what is lit, which would go either way from hit to hit.
+  const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
+  size_t count = 0;
+  for (size_t i = 0; i < batch.lit(); ++i) {
+    room.shadow_hits[count] = static_cast<uint32_t>(i);
+    const bool asked = all || !NeverShadowed(planned, hits.primitive[i]);
+    count += static_cast<size_t>(asked & (room.light.irradiance[i] > 0));
+  }
+  rays.count = count;
+  batch.stats.shadow_rays += count;
+  if (count == 0) return;
+  FillShadowRays(planned.light, hits, origin, room.shadow_hits, &rays);
+  plan.intersector->Occluded(&rays);
+  for (size_t ray = 0; ray < rays.count; ++ray) {
+    if (rays.occluded[ray] != 0) room.light.irradiance[room.shadow_hits[ray]] = 0;
+  }
+}
+
+// `lights` is one alone, evaluated, where maps have turned normals.
+void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, Leaves leaves,
+               ReflectedRadiance* radiance) {
+  const LitHits lit{batch.hits(), batch.surface(), lights, batch.surfaces.textures.get(), leaves};
+  for (const MaterialRun& run : LitRuns(batch.surfaces)) {
+    ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.narrow, radiance);
+    if (batch.surface().turned) AddMirroredLobe(batch, run, *lights[0].light, leaves, radiance);
+  }
+}
+
+// A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
+// of its own.
+void ShadeByOne(const DirectBatch& batch, const PlannedLight& planned, bool shadow_rays,
+                Leaves leaves) {
+  DirectRoom& room = batch.room;
+  EvaluateLight(planned.light, batch.hits(), batch.surface(), &room.light);
+  if (batch.surface().turned) HideBelowHorizon(batch);
+  batch.clock.Charge(Stage::kLight);
+  if (shadow_rays) {
+    CastShadows(batch, planned);
+    batch.clock.Charge(Stage::kShadow);
+  }
+  const LightOnBatch light{&planned.light, &room.light};
+  // One light's parts are added up before they are added to others', in a layer or not.
+  const bool apart = planned.layer >= 0 || batch.surface().turned;
+  if (!apart || batch.plan.one_light) {
+    ShadeRuns(batch, {&light, 1}, leaves, &batch.radiance.total);
+    if (planned.layer >= 0) ShowLight(batch, batch.radiance.total, planned.layer);
+  } else {
+    ShadeRuns(batch, {&light, 1}, Leaves::kParts, &room.single);
+    AddLight(batch, room.single, planned.layer);
+  }
+}
+
+// In the order of the lights. Those that need nothing but their sum are taken together while they
+// follow one another.
+void ShadeByPunctualLights(const DirectBatch& batch) {
+  const DirectPlan& plan = batch.plan;
+  const HitBatch& hits = batch.hits();
+  const BatchBounds bounds = plan.cull_lights ? BoundHits(hits, batch.surface()) : BatchBounds{};
+  batch.clock.Charge(Stage::kRefine);
+  std::vector<LightOnBatch>& together = batch.room.together;
+  together.clear();
+  bool dark = true;  // nothing is in the total yet
+  const auto leaves = [&] { return dark ? plan.leaves : Leaves::kAddedParts; };
+  const auto shade_together = [&] {
+    if (together.empty()) return;
+    ShadeRuns(batch, together, leaves(), &batch.radiance.total);
+    together.clear();
+    dark = false;
+  };
+  const auto clear_if_dark = [&] {
+    if (dark) ClearRadiance(batch.lit(), &batch.radiance.total);
+    dark = false;
+  };
+  for (const PlannedLight& planned : plan.lights) {
+    ++batch.stats.light_batches;
+    if (plan.cull_lights && !MayReach(planned.reach, bounds)) {
+      ++batch.stats.culled_lights;
+      continue;
+    }
+    const bool shadow_rays = CastsShadowRays(plan, planned, hits);
+    if (!shadow_rays && planned.layer < 0 && !batch.surface().turned &&
+        EvaluatedInPlace(planned.light)) {
+      together.push_back({&planned.light, nullptr});
+    } else {
+      shade_together();
+      const bool apart = planned.layer >= 0 || batch.surface().turned;
+      if (apart && !plan.one_light) clear_if_dark();
+      ShadeByOne(batch, planned, shadow_rays, leaves());
+      dark = false;
+    }
+    batch.stats.shades += batch.lit();
+  }
+  shade_together();
+  clear_if_dark();
+  batch.clock.Charge(Stage::kShade);
+}
+
+}  // namespace
+
+void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
+  batch.radiance.per_light.resize(batch.plan.light_layer_count);
+  if (batch.lit() > 0) {
+    for (Soa3<float>& layer : batch.radiance.per_light) ClearSoa(batch.lit(), &layer);
+    if (batch.plan.offset_shadow_origins) OffsetShadowOrigins(batch);
+    ShadeByPunctualLights(batch);
+    if (!batch.plan.sampled_lights.empty()) ShadeBySampledLights(batch, *numbers);
+  }
+  if (batch.lit() == batch.hits().count) return;
+  InterpolateRadiance(batch);
+  batch.clock.Charge(Stage::kShade);
+}
+
+void SeeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,
+            BatchRadiance* radiance) {
+  if (!plan.sky || hits == film.count) return;
+  MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &room->sky_rays);
+  SkyRadiance(plan.sampled_lights[*plan.sky].light, room->sky_rays.direction, film.count,
+              &radiance->sky);
+}
+
+}  // namespace nacre

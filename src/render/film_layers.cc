@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/film_layers.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "render/film_kernel.h"
+
+namespace nacre {
+namespace {
+
+// Where a layer's values come from: the sum of two arrays of floats and two constants, in double.
+// The beauty is the exact sum of the other layers' floats, so after the film's average each is
+// rounded once, whatever the filter's weights cancel; but where FilmPlan::beauty_is_sum rounds a
+// sample's once more. It never depends on which layers are asked for.
+struct LayerTerms {
+  const Soa3<float>* first = nullptr;  // null: zeros
+  const Soa3<float>* second = nullptr;
+  Rgb constant{0, 0, 0}, further{0, 0, 0};
+  // Of materials with maps, in place of the constants.
+  const Soa3<float>* ambient = nullptr;
+  const Soa3<float>* emission = nullptr;
+};
+
+// What hits reflect of all lights.
+LayerTerms BeautyOf(const FilmPlan& plan, const ShadedBatch& s) {
+  if (plan.beauty_is_sum) return {.first = &s.radiance.total.sum};
+  return {.first = &s.radiance.total.diffuse, .second = &s.radiance.total.specular};
+}
+
+// The same where maps give each hit its own constants.
+LayerTerms MappedTermsOf(const FilmPlan& plan, const Layer& layer, const ShadedBatch& s) {
+  switch (layer.kind) {
+    case LayerKind::kBeauty: {
+      LayerTerms terms = BeautyOf(plan, s);
+      terms.ambient = &s.surfaces.textures->ambient;
+      terms.emission = &s.surfaces.textures->emission;
+      return terms;
+    }
+    case LayerKind::kAmbient:
+      return {.first = &s.surfaces.textures->ambient};
+    case LayerKind::kEmission:
+      return {.first = &s.surfaces.textures->emission};
+    case LayerKind::kAlbedo:
+      return {.first = &s.surfaces.textures->albedo};
+    default:
+      return {};
+  }
+}
+
+bool IsMapped(LayerKind kind) {
+  return kind == LayerKind::kBeauty || kind == LayerKind::kAmbient ||
+         kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
+}
+
+LayerTerms TermsOf(const FilmPlan& plan, const Layer& layer, size_t light_layer,
+                   const ShadingMaterial& constants, const ShadedBatch& s) {
+  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(plan, layer, s);
+  const Rgb ambient = RoundToFloat(constants.ambient);
+  const Rgb emission = RoundToFloat(constants.emission);
+  switch (layer.kind) {
+    case LayerKind::kBeauty: {
+      LayerTerms terms = BeautyOf(plan, s);
+      terms.constant = ambient;
+      terms.further = emission;
+      return terms;
+    }
+    case LayerKind::kAlpha:
+      return {.constant = {1, 0, 0}};
+    case LayerKind::kDiffuse:
+      return {.first = &s.radiance.total.diffuse};
+    case LayerKind::kSpecular:
+      return {.first = &s.radiance.total.specular};
+    case LayerKind::kAmbient:
+      return {.constant = ambient};
+    case LayerKind::kEmission:
+      return {.constant = emission};
+    case LayerKind::kAlbedo:
+      return {.constant = RoundToFloat(constants.albedo)};
+    case LayerKind::kLight:
+      return {.first = &s.radiance.per_light[light_layer]};
+    default:
+      return {.first = &s.surfaces.surface.normal};
+  }
+}
+
+const float* ChannelOrNull(const Soa3<float>* soa, int c) {
+  if (soa == nullptr) return nullptr;
+  return (c == 0 ? soa->x : c == 1 ? soa->y : soa->z).data();
+}
+
+// Channel c of a layer at the hits of a run.
+void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* values) {
+  const float* const first = ChannelOrNull(terms.first, c);
+  if (terms.ambient != nullptr) {
+    AddFloats({first, ChannelOrNull(terms.second, c), ChannelOrNull(terms.ambient, c),
+               ChannelOrNull(terms.emission, c)},
+              run.begin, run.end, values);
+  } else if (first == nullptr) {
+    std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
+  } else {
+    AddFloats(first, ChannelOrNull(terms.second, c), terms.constant[c], terms.further[c], run.begin,
+              run.end, values);
+  }
+}
+
+// Whether each of a run's layers is a sum of what its hits reflect and constants.
+bool IsPlain(const MaterialRun& run) { return !run.shading->mapped; }
+
+// Finds the spans of a run in a tile of `pixels`; none goes beyond a row of `row` pixels.
+void FindSpans(const MaterialRun& run, size_t pixels, size_t row, const ShadedBatch& batch,
+               LayerRoom* room) {
+  FindSpans({batch.hits().ray.data(), run.begin, run.end}, pixels, row,
+            batch.samples.weights.data(), &room->spans);
+}
+
+HitValues ValuesOf(const LayerTerms& terms, int channels) {
+  HitValues values{.channels = channels, .a = {}, .b = {}, .constant = {}, .further = {}};
+  for (int c = 0; c < std::min(channels, 3); ++c) {
+    values.a[c] = ChannelOrNull(terms.first, c);
+    values.b[c] = ChannelOrNull(terms.second, c);
+    values.constant[c] = terms.constant[c];
+    values.further[c] = terms.further[c];
+  }
+  return values;
+}
+
+// Coverage is the layer behind the beauty, of all layers the first two: it is brought along.
+int ChannelsWithCoverage(LayerKind kind) {
+  return kind == LayerKind::kBeauty ? 4 : FloatChannels(kind);
+}
+
+// Adds a layer of a batch that FindSpans was asked about.
+void AddRun(const FilmPlan& plan, const Layer& layer, size_t light_layer, const ShadedBatch& batch,
+            const LayerRoom& room, double* const* sums) {
+  const ShadingMaterial& constants = *batch.surfaces.runs[0].shading;
+  const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, batch);
+  AddHits(ValuesOf(terms, ChannelsWithCoverage(layer.kind)), room.spans, sums);
+}
+
+// Adds a layer of any batch of a tile of `pixels`.
+void AddRays(const FilmPlan& plan, const Layer& layer, size_t light_layer, size_t pixels,
+             const ShadedBatch& batch, LayerRoom* room, double* const* sums) {
+  Soa3<double>& values = GatherLayer(plan, layer, light_layer, Rgb(0, 0, 0), batch, room);
+  const std::vector<double>& weights = batch.samples.weights;
+  for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+    AddSamples(ChannelOf(values, c).data(), weights.data(), static_cast<int>(weights.size()),
+               pixels, sums[c]);
+  }
+}
+
+// Makes values by ray of those by hit. `sky`: what the rays see that hit nothing, or null.
+void SpreadHits(const Rgb& background, const Soa3<float>* sky, int channels,
+                const ShadedBatch& batch, LayerRoom* room) {
+  const size_t hits = batch.hits().count, samples = batch.samples.film.count;
+  const uint32_t* const ray = batch.hits().ray.data();
+  for (int c = 0; c < channels; ++c) {
+    const double* const from = ChannelOf(room->hit_values, c).data();
+    double* const to = ChannelOf(room->ray_values, c).data();
+    if (sky != nullptr) {
+      const AlignedArray<float>& seen = c == 0 ? sky->x : c == 1 ? sky->y : sky->z;
+      std::copy_n(seen.data(), samples, to);
+    } else {
+      std::fill_n(to, samples, background[c]);
+    }
+    for (size_t i = 0; i < hits; ++i) to[ray[i]] = from[i];
+  }
+}
+
+// The pixel that a ray of a tile's round belongs to.
+FilmPixel RowPixel(const Window& tile, uint32_t ray) {
+  const auto pixel = ray % static_cast<uint32_t>(tile.pixel_count());
+  const auto width = static_cast<uint32_t>(tile.width());
+  return {pixel, tile.x0 + static_cast<int>(pixel % width),
+          tile.y0 + static_cast<int>(pixel / width)};
+}
+
+}  // namespace
+
+void PutNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, size_t pixel,
+                TileFilm* film) {
+  const PrimitiveNumbers& primitives = batch.plan.primitives;
+  const Soa3<double>& position = batch.hits().position;
+  const Vec3d relative(position.x[hit], position.y[hit], position.z[hit]);
+  const Vec3d world = relative + primitives.scene->camera.position;
+  const uint32_t primitive = batch.hits().primitive[hit];
+  const double film_x = batch.samples.film.x[batch.hits().ray[hit]];
+  const MaterialId material = MaterialAt(batch.plan, primitive, film_x);
+  size_t plane = 0;
+  size_t id = 0;
+  for (const Layer& layer : plan.layers) {
+    if (layer.kind == LayerKind::kPosition) {
+      for (int c = 0; c < 3; ++c) film->nearest[plane++][pixel] = static_cast<float>(world[c]);
+    } else if (layer.kind == LayerKind::kDepth) {
+      film->nearest[plane++][pixel] = static_cast<float>(relative ^ plan.camera.forward);
+    } else if (layer.kind == LayerKind::kObjectId) {
+      film->ids[id++][pixel] = ObjectOf(primitives, primitive) + 1;
+    } else if (layer.kind == LayerKind::kMaterialId) {
+      film->ids[id++][pixel] = material.index + 1;
+    }
+  }
+}
+
+Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light_layer,
+                          const Rgb& background, const ShadedBatch& batch, LayerRoom* room) {
+  const std::vector<MaterialRun>& runs = batch.surfaces.runs;
+  const int channels = FloatChannels(layer.kind);
+  const size_t hits = batch.hits().count;
+  if (hits > 0) {
+    for (const MaterialRun& run : runs) {
+      const LayerTerms terms = TermsOf(plan, layer, light_layer, *run.shading, batch);
+      for (int c = 0; c < channels; ++c) {
+        FillRun(terms, c, run, ChannelOf(room->hit_values, c).data());
+      }
+    }
+  }
+  // Where every ray hits the same material, hits are in the order of rays.
+  if (hits == batch.samples.film.count && runs.size() == 1) return room->hit_values;
+  const bool sees_sky = plan.sky && ShowsBackground(layer);
+  SpreadHits(background, sees_sky ? &batch.radiance.sky : nullptr, channels, batch, room);
+  return room->ray_values;
+}
+
+void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, TileFilm* film) {
+  const size_t hits = batch.hits().count, pixels = film->window.pixel_count();
+  if (hits == 0 && !plan.sky) return;
+  const std::vector<MaterialRun>& runs = batch.surfaces.runs;
+  // A pixel's samples are added in their order, whatever materials they hit.
+  const bool in_order = hits > 0 && runs.size() == 1 && IsPlain(runs[0]);
+  if (in_order) FindSpans(runs[0], pixels, pixels, batch, room);
+  size_t sum = 0;
+  size_t light_layer = 0;
+  for (const Layer& layer : plan.layers) {
+    if (!IsAveraged(layer.kind)) continue;
+    double* sums[4] = {};
+    for (int c = 0; c < ChannelsWithCoverage(layer.kind); ++c) {
+      sums[c] = film->sums[sum + static_cast<size_t>(c)].data();
+    }
+    sum += static_cast<size_t>(FloatChannels(layer.kind));
+    const bool sees_sky = plan.sky && ShowsBackground(layer);
+    if (in_order && !sees_sky) {
+      const bool brought_along = layer.kind == LayerKind::kAlpha && !plan.sky;
+      if (!brought_along) AddRun(plan, layer, light_layer, batch, *room, sums);
+    } else if (hits > 0 || sees_sky) {
+      AddRays(plan, layer, light_layer, pixels, batch, room, sums);
+    }
+    if (layer.kind == LayerKind::kLight) ++light_layer;
+  }
+  AddNearest(
+      plan, batch, [&](uint32_t ray) { return RowPixel(film->window, ray); }, room, film);
+}
+
+bool PutOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
+                    LayerRoom* room, Strip* strip) {
+  const std::vector<MaterialRun>& runs = batch.surfaces.runs;
+  if (!std::all_of(runs.begin(), runs.end(), IsPlain)) return false;
+  if (batch.hits().count < batch.samples.film.count) FillBackground(plan, tile, strip);
+  for (const MaterialRun& run : runs) {
+    FindSpans(run, tile.pixel_count(), static_cast<size_t>(tile.width()), batch, room);
+    size_t color = 0, light_layer = 0;
+    for (const Layer& layer : plan.layers) {
+      if (layer.kind == LayerKind::kAlpha) continue;  // brought along
+      const LayerTerms terms = TermsOf(plan, layer, light_layer, *run.shading, batch);
+      const int channels = ChannelsWithCoverage(layer.kind);
+      PixelRows<float> rows[4] = {};
+      for (int c = 0; c < channels; ++c) {
+        rows[c] = RowsIn(strip->window, tile, &strip->colors[color++]);
+      }
+      PutHits(ValuesOf(terms, channels), room->spans, rows);
+      if (layer.kind == LayerKind::kLight) ++light_layer;
+    }
+  }
+  return true;
+}
+
+void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
+  const double spp = plan.spp;
+  size_t color = 0;
+  for (const Layer& layer : plan.layers) {
+    const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
+    // As the film averages it: the sum of spp floats, at most 2^16, is exact.
+    const Rgb mean = background * spp * (1.0 / spp);
+    for (int c = 0; c < FloatChannels(layer.kind); ++c) {
+      FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));
+    }
+  }
+  for (AlignedArray<uint32_t>& channel : strip->ids) {
+    const PixelRows<uint32_t> rows = RowsIn(strip->window, tile, &channel);
+    for (size_t y = 0; y < rows.height; ++y) {
+      std::fill_n(rows.first + y * rows.stride, rows.width, 0u);
+    }
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/frame_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/printable.h"
+#include "render/brightest_object.h"
+#include "render/camera.h"
+#include "render/frame_window.h"
+#include "render/hit_positions.h"
+#include "render/mesh_shading.h"
+#include "render/plan_notes.h"
+#include "render/shadow_origins.h"
+#include "render/shadow_plan.h"
+
+namespace nacre {
+namespace {
+
+Rgb SumAmbient(const Scene& scene) {
+  Rgb sum(0, 0, 0);
+  for (const Light& light : scene.lights) {
+    if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) sum += ambient->radiance;
+  }
+  return sum;
+}
+
+// Samples beside all outlines hit nothing: that they are there is all that need be known, unless
+// someone asks where. Tiles that triangles are in sight of place all of theirs.
+const char* WhyAllPlaces(const FramePlan& plan, const RenderSettings& settings) {
+  return plan.scene->spheres.empty() ? "there are no spheres"
+         : settings.max_error > 0    ? "each block of pixels places its own"
+         : !plan.hits.tiles          ? "Embree looks for every ray's hit"
+         : settings.general_path     ? "the general path is asked for"
+         : plan.direct.sky           ? "they see the sky"
+         : plan.surfaces.splits      ? "some material depends on where samples lie"
+         : ShowsNearest(plan.film)   ? "some layers show the hit nearest to the pixel's centre"
+                                     : nullptr;
+}
+
+void PlanShadowOrigins(const Scene& scene, DirectPlan* plan, Explanation* why) {
+  const auto casts = [](const auto& light) { return light.shadow_rays; };
+  const bool shadows = std::any_of(plan->lights.begin(), plan->lights.end(), casts) ||
+                       std::any_of(plan->sampled_lights.begin(), plan->sampled_lights.end(), casts);
+  plan->offset_shadow_origins = shadows && OffsetsShadowOrigins(scene);
+  why->items.push_back({"smooth terminator", plan->offset_shadow_origins,
+                        plan->offset_shadow_origins
+                            ? "shadow rays of smooth normals start on the curved surface"
+                        : shadows ? "no mesh has smooth normals and asks for it"
+                                  : "there are no shadow rays"});
+}
+
+AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& settings,
+                                  Explanation* why) {
+  const Scene& scene = *plan.scene;
+  AdaptivePlan adaptive =
+      PlanAdaptive(scene, plan.surfaces.materials, settings.max_error, settings.max_samples);
+  adaptive.brightest = BrightestObject(scene, plan.direct, adaptive.white);
+  // A texture may hold anything between pixel centres, and triangles are not binned.
+  adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
+                        !plan.surfaces.splits && !plan.surfaces.textured;
+  const PixelFilter& filter = scene.image.filter;
+  const bool square = filter.kind == FilterKind::kBox && filter.width <= 1;
+  if (square && adaptive.footprints) adaptive.square = filter.width / 2;
+  why->substitutions.push_back(
+      {"adaptive sampling", true,
+       fmt::format(
+           "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
+           "of max(|L|, 0.05){}, and there are enough samples to have met what is rare there; "
+           "{}{}",
+           settings.max_error,
+           std::isinf(adaptive.white)
+               ? ""
+               : fmt::format(", and those of highlights of white, {:.3g}", adaptive.white),
+           adaptive.footprints ? "those on one smooth hit stop at their pixels' centres"
+                               : "none is known to be smooth",
+           adaptive.square > 0 ? "; pixels that one outline crosses weigh their hits by the "
+                                 "share that is covered"
+                               : "")});
+  return adaptive;
+}
+
+}  // namespace
+
+FramePlan MakePlan(const Scene& given, const RenderSettings& settings) {
+  FramePlan plan;
+  plan.with_lights = ShowLights(given);
+  const Scene& scene = plan.with_lights ? plan.with_lights->scene : given;
+  plan.scene = &scene;
+  plan.frame = {0, 0, scene.image.width, scene.image.height};
+  plan.window = FrameWindow(plan.frame, settings);
+  plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
+  Explanation* const why = &plan.why;
+  PixelSampler sampler = MakePixelSampler(scene.image.filter, scene.image.spp, scene.image.seed);
+  const bool unit_weights = HasUnitWeights(sampler);
+
+  PlanLayers(scene, settings, &plan.film, why);
+  plan.direct =
+      PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), unit_weights, why);
+  plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, why);
+  const bool tree_for_shadows = PlanShadows(scene, settings, plan.hits, &plan.direct, why);
+  if (settings.on_plan_progress) settings.on_plan_progress(0.8);
+  BuildTrees(tree_for_shadows, &plan.hits, why);
+  plan.surfaces = PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), why);
+  plan.sampling = PlanSampling(
+      scene, settings, std::move(sampler),
+      {!plan.direct.sampled_lights.empty(), plan.surfaces.textured, WhyAllPlaces(plan, settings)},
+      why);
+  PlanLightOffsets(scene, settings, &plan.direct, why);
+  if (settings.max_error > 0) plan.adaptive = PlanAdaptiveSampling(plan, settings, why);
+  if (!scene.meshes.empty() && plan.hits.intersector != nullptr) {
+    PlanShadowOrigins(scene, &plan.direct, why);
+    ShadeMeshes(scene, settings, plan.surfaces, &plan.direct, why);
+  }
+  plan.film.camera = plan.camera;
+  plan.film.background = plan.direct.background;
+  plan.film.sky = plan.direct.sky.has_value();
+  plan.film.beauty_is_sum = plan.direct.one_light;
+  PlanSums(scene, settings, plan.sampling.sampler, &plan.film, why);
+  PlanPositions(scene, settings, {plan.surfaces, plan.direct, plan.film}, &plan.hits, why);
+  NoteMaterials(scene, plan.surfaces.materials, !plan.direct.sampled_lights.empty(), &why->notes);
+  return plan;
+}
+
+std::string ExplainPlan(const FramePlan& plan, const RenderStats* stats) {
+  std::string text = "plan:\n";
+  for (const PlanItem& item : plan.why.items) {
+    text += fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", Printable(item.what),
+                        Printable(item.reason));
+  }
+  // What is skipped above changes no bit; what is not exact stands here.
+  text += "substitutions (which agree within a stated error):\n";
+  for (const PlanItem& item : plan.why.substitutions) {
+    text += fmt::format("  {}: {}\n", Printable(item.what), Printable(item.reason));
+  }
+  if (plan.why.substitutions.empty())
+    text += "  none: every skip above leaves all bits as they are\n";
+  if (stats == nullptr) return text;
+  if (plan.direct.cull_lights && stats->light_batches > 0) {
+    text += fmt::format(
+        "lights culled: {:.1f} % of {} lights times batches of hits\n",
+        100 * static_cast<double>(stats->culled_lights) / static_cast<double>(stats->light_batches),
+        stats->light_batches);
+  }
+  double total = 0;
+  for (const double seconds : stats->stage_seconds) total += seconds;
+  text += "share of the time (all threads):\n";
+  for (size_t i = 0; i < kStageCount; ++i) {
+    const Stage stage = static_cast<Stage>(i);
+    text += fmt::format("  {:<10} {:5.1f} %  {:8.2f} ms\n", StageName(stage),
+                        total > 0 ? 100 * stats->seconds(stage) / total : 0.0,
+                        1e3 * stats->seconds(stage));
+  }
+  return text;
+}
+
+}  // namespace nacre

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/hits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "render/camera.h"
+
+namespace nacre {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Vec3d At(const Soa3<double>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
+
+double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
+
+// Where on its ray a hit lies, but for rounding, and a bound of that.
+struct Place {
+  double t, slack;
+};
+
+Place PlaceOf(const RayBatch& rays, size_t ray, const Vec3d& position) {
+  const Vec3d origin = At(rays.origin, ray), direction = At(rays.direction, ray);
+  const double inverse_dd = 1 / direction.dot(direction);
+  const double t = (position - origin).dot(direction) * inverse_dd;
+  const double reach = SumOfAbs(position) + SumOfAbs(origin);
+  return {t, 1e-12 * (t + reach * std::sqrt(inverse_dd))};
+}
+
+void TraceByEmbree(const HitsPlan& plan, const FilmBatch& film, bool positions, TraceRoom* room,
+                   CameraHits* hits) {
+  RayBatch& rays = room->rays;
+  MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &rays);
+  plan.intersector->Closest(rays, &room->closest);
+  size_t count = 0;
+  for (size_t ray = 0; ray < rays.count; ++ray) {
+    if (room->closest.primitive[ray] == kNoPrimitive) continue;
+    room->hit_rays[count++] = static_cast<uint32_t>(ray);
+  }
+  hits->batch.count = 0;
+  if (count == 0) return;
+  plan.intersector->Refine(rays, room->closest, room->hit_rays.data(), count,
+                           {&hits->batch, &hits->directions, positions, plan.exact_directions});
+}
+
+// Finds the triangles that lie before the hits on spheres, which may be wrong by what only the
+// exact test tells.
+void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitBatch& on_spheres,
+                         TraceRoom* room) {
+  MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &room->rays);
+  std::fill(room->closest.t.begin(), room->closest.t.end(), kInfinity);
+  for (size_t i = 0; i < on_spheres.count; ++i) {
+    const size_t ray = on_spheres.ray[i];
+    const Place place = PlaceOf(room->rays, ray, At(on_spheres.position, i));
+    room->closest.t[ray] = place.t + place.slack;
+  }
+  plan.intersector->NearerTriangles(room->rays, &room->closest);
+}
+
+// Whether hit i on a sphere is before the triangle that its ray meets at t, or at the same depth:
+// spheres have the lower ids.
+bool SphereIsFirst(const HitsPlan& plan, const RayBatch& rays, const HitBatch& on_spheres, size_t i,
+                   double t) {
+  const size_t ray = on_spheres.ray[i];
+  const Place place = PlaceOf(rays, ray, At(on_spheres.position, i));
+  if (t < place.t - place.slack) return false;
+  return plan.intersector->SphereIsFirst(on_spheres.primitive[i], rays, ray, t);
+}
+
+template <class T>
+void Copy(const Soa3<T>& from, size_t i, Soa3<T>* to, size_t k) {
+  to->x[k] = from.x[i];
+  to->y[k] = from.y[i];
+  to->z[k] = from.z[i];
+}
+
+void CopyHit(const CameraHits& from, size_t i, bool exact, size_t k, CameraHits* to) {
+  to->batch.ray[k] = from.batch.ray[i];
+  to->batch.primitive[k] = from.batch.primitive[i];
+  Copy(from.batch.position, i, &to->batch.position, k);
+  Copy(from.directions.normal, i, &to->directions.normal, k);
+  Copy(from.directions.to_view, i, &to->directions.to_view, k);
+  if (!exact) return;
+  Copy(from.batch.normal, i, &to->batch.normal, k);
+  Copy(from.batch.to_view, i, &to->batch.to_view, k);
+}
+
+// Puts the hits on triangles among those on spheres that they do not hide, by their rays.
+void JoinHits(const HitsPlan& plan, TraceRoom::Triangles* triangles, CameraHits* hits) {
+  const HitBatch& spheres = hits->batch;
+  const CameraHits& on_triangles = triangles->hits;
+  CameraHits& to = triangles->joined;
+  size_t i = 0, j = 0, count = 0;
+  const auto put = [&](const CameraHits& from, size_t k) {
+    CopyHit(from, k, plan.exact_directions, count++, &to);
+  };
+  while (i < spheres.count || j < on_triangles.batch.count) {
+    if (i < spheres.count && triangles->hides_sphere[i] != 0) {
+      ++i;
+    } else if (j == on_triangles.batch.count ||
+               (i < spheres.count && spheres.ray[i] < on_triangles.batch.ray[j])) {
+      put(*hits, i++);
+    } else {
+      put(on_triangles, j++);
+    }
+  }
+  to.batch.count = count;
+  to.batch.one_primitive = false;
+  for (size_t k = count; k < RoundUp(count, kBatchPadding); ++k) {
+    CopyHit(to, count - 1, plan.exact_directions, k, &to);
+  }
+  std::swap(hits->batch, to.batch);
+  std::swap(hits->directions, to.directions);
+}
+
+// Takes hits on triangles into the batch of hits on spheres.
+void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, CameraHits* hits) {
+  const HitBatch& spheres = hits->batch;
+  FindNearerTriangles(plan, film, spheres, room);
+  if (!room->triangles) room->triangles = std::make_unique<TraceRoom::Triangles>();
+  TraceRoom::Triangles& triangles = *room->triangles;
+  size_t count = 0, i = 0;
+  for (size_t ray = 0; ray < room->rays.count; ++ray) {
+    const bool on_sphere = i < spheres.count && spheres.ray[i] == ray;
+    const bool on_triangle =
+        room->closest.primitive[ray] != kNoPrimitive &&
+        !(on_sphere && SphereIsFirst(plan, room->rays, spheres, i, room->closest.t[ray]));
+    if (on_triangle) room->hit_rays[count++] = static_cast<uint32_t>(ray);
+    if (on_sphere) triangles.hides_sphere[i++] = on_triangle ? 1 : 0;
+  }
+  if (count == 0) return;
+  plan.intersector->Refine(
+      room->rays, room->closest, room->hit_rays.data(), count,
+      {&triangles.hits.batch, &triangles.hits.directions, true, plan.exact_directions});
+  JoinHits(plan, &triangles, hits);
+}
+
+}  // namespace
+
+void TraceCamera(const HitsPlan& plan, const TileSight& sight, const FilmBatch& film,
+                 TraceRoom* room, CameraHits* hits) {
+  hits->batch.count = 0;
+  hits->positions = sight.positions;
+  hits->exact = plan.exact_directions;
+  if (!sight.shapes) return;
+  if (!plan.tiles) return TraceByEmbree(plan, film, sight.positions, room, hits);
+  plan.intersector->HitsInTile(
+      sight.spheres, film,
+      {&hits->batch, &hits->directions, sight.positions, plan.exact_directions});
+  if (sight.triangles) AddTriangles(plan, film, room, hits);
+}
+
+}  // namespace nacre

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/hits_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "base/target.h"
+#include "render/mesh_windows.h"
+#include "visibility/sphere_bins.h"
+
+namespace nacre {
+namespace {
+
+// The cells of adaptive sampling lie on a grid of the frame and are evaluated whole.
+Window WholeCells(const Window& window) {
+  const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
+  const auto up = [&](int pixel) { return down(pixel + kCellSize - 1); };
+  return {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
+}
+
+// True if every camera ray surely starts outside the sphere. The margins are far more than what
+// the roundings of the tests can amount to.
+bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
+  const Vec3d offset = sphere.center - scene.camera.position;
+  const double clear = sphere.radius * (1 + 1e-9);
+  if (scene.camera.projection == Projection::kPerspective) return offset.length2() > clear * clear;
+  // Wholly before or behind the image plane.
+  const double pixel = scene.camera.height / scene.image.height;
+  const double plane = pixel * (scene.image.height + scene.image.width);
+  return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
+}
+
+// True if every camera ray surely starts outside every sphere: what is seen of one is then its
+// outside, and light that it faces cannot be behind itself.
+bool EyeIsOutside(const Scene& scene, int threads) {
+  const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
+  constexpr size_t kBlock = size_t{1} << 14;
+  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
+  std::vector<uint8_t> outside(blocks);
+  ParallelFor(blocks, threads, [&](size_t block) {
+    const Sphere* const spheres = scene.spheres.data();
+    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
+    outside[block] =
+        std::all_of(spheres + block * kBlock, spheres + end,
+                    [&](const Sphere& sphere) { return IsOutside(scene, forward, sphere); });
+  });
+  return std::all_of(outside.begin(), outside.end(), [](uint8_t all) { return all != 0; });
+}
+
+size_t CountTriangles(const Scene& scene) {
+  size_t triangles = 0;
+  for (const Mesh& mesh : scene.meshes) triangles += mesh.triangles.size() / 3;
+  return triangles;
+}
+
+std::string DescribeShapes(const Scene& scene) {
+  return fmt::format("{} spheres, {} triangles; exact hits in double on {}", scene.spheres.size(),
+                     CountTriangles(scene), TargetName(ActiveTarget()));
+}
+
+}  // namespace
+
+HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
+                  const CameraFrame& camera, const PixelSampler& sampler, Explanation* why) {
+  HitsPlan plan;
+  plan.primitives = NumberPrimitives(scene);
+  plan.camera = camera;
+  if (scene.spheres.empty() && CountTriangles(scene) == 0) {
+    why->items.push_back(
+        {"intersector", false, "the scene has no shapes: every pixel is background"});
+    return plan;
+  }
+  const auto tell = [&](double done) {
+    if (settings.on_plan_progress) settings.on_plan_progress(done);
+  };
+  plan.eye_outside = EyeIsOutside(scene, settings.threads);
+  plan.intersector = std::make_shared<Intersector>(
+      scene, scene.camera.position,
+      IntersectorSettings{.threads = settings.threads, .embree = false});
+  const bool nested = plan.intersector->SpheresAreNested();
+  const bool want_tiles =
+      settings.intersector != IntersectorChoice::kEmbree && !scene.spheres.empty() && !nested;
+  tell(0.15);
+  const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
+  const bool adaptive = settings.max_error > 0;
+  plan.mesh_windows = FindMeshWindows(scene, camera, reach);
+  plan.tile_rays = adaptive ? TileRays::kAny : TileRays::kSamples;
+  // Footprints and outlines are looked for in the bins, whoever traces: the bits must not depend on
+  // that, nor on the crop, whose bins may fit where the frame's do not.
+  if (want_tiles || adaptive) {
+    const Window binned =
+        adaptive ? WholeCells({0, 0, scene.image.width, scene.image.height}) : window;
+    const bool centers = sampler.centered && !adaptive;
+    plan.binned = plan.intersector->BinForCamera(camera, binned, centers ? kReachOfCenters : reach);
+    plan.tiles = want_tiles && plan.binned;
+  }
+  why->items.push_back(
+      {"intersector tiles, for camera rays", plan.tiles,
+       plan.tiles   ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
+       : want_tiles ? "the bins would not fit 256 MiB"
+       : scene.spheres.empty() ? "there are no spheres"
+       : nested                ? kNestedSpheres
+                               : "--intersector embree"});
+  tell(0.4);
+  return plan;
+}
+
+void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why) {
+  if (plan->intersector == nullptr) return;
+  const Scene& scene = *plan->primitives.scene;
+  const bool triangles_apart = plan->tiles && CountTriangles(scene) > 0;
+  if (!plan->tiles || for_shadows) plan->intersector->BuildTree();
+  if (triangles_apart) plan->intersector->BuildTriangleTree();
+  why->items.push_back({"intersector embree", !plan->tiles || triangles_apart || for_shadows,
+                        !plan->tiles ? "for all rays: " + DescribeShapes(scene)
+                        : triangles_apart && for_shadows
+                            ? "for camera rays to triangles, and for shadow rays"
+                        : triangles_apart ? "for camera rays to triangles"
+                        : for_shadows     ? "for shadow rays"
+                                          : "nothing is left for it: no tree is built"});
+}
+
+}  // namespace nacre

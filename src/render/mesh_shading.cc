@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/mesh_shading.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "base/parallel.h"
+#include "hit/shading_normal.h"
+#include "render/direct.h"
+#include "render/mesh_radiance.h"
+#include "sampling/hash.h"
+
+namespace nacre {
+namespace {
+
+// Where a mesh is shaded: relative to the camera.
+struct Point {
+  Vec3d position, normal;
+  uint32_t primitive;  // that it is on
+  uint32_t index;      // of its vertex or triangle,
+  uint32_t side;       // and the side of MeshRadiance
+};
+
+// Triangles on whose one side a vertex is, by its number; kNoTriangle: on none's.
+constexpr uint32_t kNoTriangle = 0xffffffffu;
+using SideTriangles = std::array<std::vector<uint32_t>, 2>;
+
+std::vector<Point> FlatPoints(const Scene& scene, const CameraFrame& camera, size_t number,
+                              uint32_t first) {
+  const Mesh& mesh = scene.meshes[number];
+  std::vector<Point> points;
+  points.reserve(mesh.triangles.size() / 3);
+  for (uint32_t i = 0; i < mesh.triangles.size() / 3; ++i) {
+    const TriangleRef triangle{&mesh, number, i};
+    const Corners corners = CornersOf(scene, triangle);
+    const Vec3d normal = SeenNormal(camera, triangle, corners);
+    if (normal == Vec3d(0, 0, 0)) continue;  // nothing hits it
+    points.push_back({(corners[0] + corners[1] + corners[2]) / 3, normal, first + i, i, 0});
+  }
+  return points;
+}
+
+std::vector<Point> VertexPoints(const Scene& scene, const CameraFrame& camera, size_t number,
+                                uint32_t first) {
+  const Mesh& mesh = scene.meshes[number];
+  SideTriangles seen;
+  for (std::vector<uint32_t>& side : seen) side.assign(mesh.positions.size(), kNoTriangle);
+  for (uint32_t i = 0; i < mesh.triangles.size() / 3; ++i) {
+    const TriangleRef triangle{&mesh, number, i};
+    const Vec3d normal = SeenNormal(camera, triangle, CornersOf(scene, triangle));
+    if (normal == Vec3d(0, 0, 0)) continue;
+    for (size_t c = 0; c < 3; ++c) {
+      uint32_t& entry = seen[SideOf(triangle, c, normal)][triangle.Vertex(c)];
+      entry = std::min(entry, i);
+    }
+  }
+  std::vector<Point> points;
+  points.reserve(mesh.positions.size());
+  for (uint32_t side = 0; side < 2; ++side) {
+    for (uint32_t i = 0; i < mesh.positions.size(); ++i) {
+      if (seen[side][i] == kNoTriangle) continue;
+      points.push_back({mesh.positions[i] - scene.camera.position,
+                        mesh.normals[i] * (side == 0 ? 1.0 : -1.0), first + seen[side][i], i,
+                        side});
+    }
+  }
+  return points;
+}
+
+// Makes hits of up to kBatchCapacity points, which the camera looks at.
+void MakeHits(const CameraFrame& camera, const Point* points, size_t count, Surfaces* to) {
+  const bool parallel = camera.projection == Projection::kOrthographic;
+  HitBatch& hits = to->hits;
+  hits.count = count;
+  hits.one_primitive = false;
+  for (size_t i = 0; i < RoundUp(count, kBatchPadding); ++i) {
+    const Point& point = points[std::min(i, count - 1)];
+    Vec3d to_view = parallel ? -camera.forward : -point.position.normalized();
+    if (to_view == Vec3d(0, 0, 0)) to_view = point.normal;  // the camera is at the vertex
+    const auto put = [i](const Vec3d& v, Soa3<double>* soa) {
+      soa->x[i] = v.x;
+      soa->y[i] = v.y;
+      soa->z[i] = v.z;
+    };
+    put(point.position, &hits.position);
+    put(point.normal, &hits.normal);
+    put(GrazingView(point.normal, to_view), &hits.to_view);
+    hits.primitive[i] = point.primitive;
+    hits.ray[i] = static_cast<uint32_t>(i);
+  }
+  PrepareSurface(hits, &to->surface);
+}
+
+// Sums, in double, of the samples of a batch of points.
+struct Sums {
+  std::vector<Vec3d> diffuse, specular;
+  std::vector<std::vector<Vec3d>> lights;
+
+  Sums(size_t count, size_t light_count)
+      : diffuse(count, Vec3d(0)),
+        specular(count, Vec3d(0)),
+        lights(light_count, std::vector<Vec3d>(count, Vec3d(0))) {}
+};
+
+void AddTo(const Soa3<float>& from, std::vector<Vec3d>* sums) {
+  for (size_t i = 0; i < sums->size(); ++i) (*sums)[i] += Vec3d(from.x[i], from.y[i], from.z[i]);
+}
+
+// How often each point is shaded: lights that are sampled take as many samples as a pixel.
+int SamplesOf(const DirectPlan& plan) {
+  return plan.sampled_lights.empty() ? 1 : static_cast<int>(plan.pairs.samples);
+}
+
+void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* numbers) {
+  numbers->pixel_count = count;
+  for (uint32_t i = 0; i < count; ++i) {
+    numbers->number[i] = static_cast<uint32_t>(sample);
+    numbers->pixel[i] = i;
+    numbers->seeds[i] = Combine(points[i].primitive, points[i].index);
+  }
+}
+
+// What all points of a mesh are shaded by.
+struct MeshShading {
+  const SurfacePlan& surfaces;
+  const DirectPlan& direct;
+};
+
+// Buffers for batches of points.
+struct PointRoom {
+  Surfaces surfaces;
+  SampleNumbers numbers{kBatchCapacity};
+  DirectRoom direct;
+  BatchRadiance radiance;
+};
+
+void ShadePoints(const MeshShading& by, const Point* points, size_t count, MeshRadiance* to,
+                 PointRoom* room) {
+  RenderStats stats;
+  StageClock clock(nullptr);
+  Surfaces& surfaces = room->surfaces;
+  const BatchRadiance& radiance = room->radiance;
+  MakeHits(by.direct.camera, points, count, &surfaces);
+  surfaces.runs = {{to->material, &by.surfaces.materials[to->material.index], 0, count, false}};
+  PrepareSurfaces(by.surfaces, &surfaces);
+  Sums sums(count, by.direct.light_layer_count);
+  const int samples = SamplesOf(by.direct);
+  for (int k = 0; k < samples; ++k) {
+    NumberPoints(points, count, k, &room->numbers);
+    ShadeDirect({by.direct, surfaces, room->direct, room->radiance, clock, stats}, &room->numbers);
+    AddTo(radiance.total.diffuse, &sums.diffuse);
+    AddTo(radiance.total.specular, &sums.specular);
+    for (size_t l = 0; l < sums.lights.size(); ++l) AddTo(radiance.per_light[l], &sums.lights[l]);
+  }
+  for (size_t i = 0; i < count; ++i) {
+    SideRadiance& side = to->sides[points[i].side];
+    const auto mean = [&](const std::vector<Vec3d>& sum) { return Vec3f(sum[i] / samples); };
+    side.diffuse[points[i].index] = mean(sums.diffuse);
+    side.specular[points[i].index] = mean(sums.specular);
+    for (size_t l = 0; l < sums.lights.size(); ++l) {
+      side.lights[l][points[i].index] = mean(sums.lights[l]);
+    }
+  }
+}
+
+MeshRadiance ShadeMesh(const MeshShading& by, const RenderSettings& settings,
+                       const std::vector<Point>& points, size_t size, MaterialId material) {
+  MeshRadiance radiance;
+  radiance.material = material;
+  for (uint32_t side = 0; side < 2; ++side) {
+    const bool is_seen = std::any_of(points.begin(), points.end(),
+                                     [&](const Point& point) { return point.side == side; });
+    if (!is_seen) continue;
+    SideRadiance& of = radiance.sides[side];
+    of.diffuse.resize(size);
+    of.specular.resize(size);
+    of.lights.assign(by.direct.light_layer_count, std::vector<Vec3f>(size));
+  }
+  // Several batches a task: its buffers take longer to make than one batch.
+  constexpr size_t kTask = 16 * kBatchCapacity;
+  ParallelFor((points.size() + kTask - 1) / kTask, settings.threads, [&](size_t task) {
+    const auto room = std::make_unique<PointRoom>();
+    const size_t end = std::min((task + 1) * kTask, points.size());
+    for (size_t i = task * kTask; i < end; i += kBatchCapacity) {
+      ShadePoints(by, points.data() + i, std::min(kBatchCapacity, end - i), &radiance, room.get());
+    }
+  });
+  return radiance;
+}
+
+std::vector<MaterialId> MaterialsOf(const Scene& scene, const Mesh& mesh) {
+  const auto* split = std::get_if<SplitMaterial>(&scene.materials[mesh.material.index].model);
+  return split == nullptr ? std::vector{mesh.material} : split->materials;
+}
+
+}  // namespace
+
+void ShadeMeshes(const Scene& scene, const RenderSettings& settings, const SurfacePlan& surfaces,
+                 DirectPlan* plan, Explanation* why) {
+  std::vector<std::vector<MeshRadiance>> all(scene.meshes.size());
+  size_t vertices = 0, triangles = 0;
+  for (size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    const bool flat = mesh.interpolation == Interpolation::kFlat;
+    if (!flat && mesh.interpolation != Interpolation::kGouraud) continue;
+    const auto first =
+        static_cast<uint32_t>(scene.spheres.size()) + plan->primitives.mesh_first_triangle[i];
+    const std::vector<Point> points = flat ? FlatPoints(scene, plan->camera, i, first)
+                                           : VertexPoints(scene, plan->camera, i, first);
+    const size_t size = flat ? mesh.triangles.size() / 3 : mesh.positions.size();
+    (flat ? triangles : vertices) += points.size();
+    for (const MaterialId material : MaterialsOf(scene, mesh)) {
+      all[i].push_back(ShadeMesh({surfaces, *plan}, settings, points, size, material));
+    }
+  }
+  const bool any = vertices + triangles > 0;
+  why->items.push_back(
+      {"shading of vertices and triangles", any,
+       any ? fmt::format("{} vertices and {} triangles were shaded once", vertices, triangles)
+           : "no mesh is interpolated by Gouraud's method, or flat"});
+  if (any) plan->mesh_radiance = std::move(all);
+}
+
+}  // namespace nacre

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/samples.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "render/adaptive_plan.h"
+#include "sampling/hash.h"
+
+namespace nacre {
+namespace {
+
+// The pixels of a tile's spans; returns how many.
+size_t ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
+  const Window& tile = candidates.tile;
+  const auto width = static_cast<uint32_t>(tile.width());
+  size_t pixels = 0;
+  uint32_t row = 0;  // its first pixel
+  int y = tile.y0;
+  for (const PixelSpan& span : candidates.spans) {
+    for (; span.first >= row + width; row += width) ++y;
+    runs->push_back(
+        {tile.x0 + static_cast<int>(span.first - row), y, static_cast<int>(span.count)});
+    pixels += span.count;
+  }
+  return pixels;
+}
+
+// Chooses the tile's pixels whose samples are placed.
+void ChoosePixels(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
+                  CameraSamples* s) {
+  if (plan.sampler.centered) return;  // all are
+  const bool were_only_spans = s->film.only_spans;
+  std::vector<PixelRun>& runs = s->runs;
+  runs.clear();
+  s->film.only_spans = plan.skip_empty_pixels && sight.shapes && !sight.triangles &&
+                       ListSpans(sight.spheres, &runs) < tile.pixel_count();
+  if (!s->film.only_spans) {
+    runs.clear();
+    for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
+  }
+  PutPixels(plan.sampler, runs, &s->pixels);
+  if (s->film.only_spans) {
+    NumberRays(tile, runs, plan.samples_per_round, s->film.ray.data());
+  } else if (were_only_spans) {
+    s->film.NumberInOrder();  // all of them: a later tile may have more than this one
+  }
+}
+
+// The tile's pixels, for lights that are sampled.
+void NumberPixels(const SamplingPlan& plan, const Window& tile, SampleNumbers* numbers) {
+  numbers->pixel_count = 0;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    for (int x = tile.x0; x < tile.x1; ++x) {
+      numbers->seeds[numbers->pixel_count++] = PixelSeed(x, y, plan.sampler.seed);
+    }
+  }
+  for (int k = 0; k < plan.samples_per_round; ++k) {
+    uint32_t* const from = numbers->pixel.data() + static_cast<size_t>(k) * numbers->pixel_count;
+    std::iota(from, from + numbers->pixel_count, 0u);
+  }
+}
+
+// The round that begins with sample `first`.
+void NumberSamples(int first, int count, SampleNumbers* numbers) {
+  for (int k = 0; k < count; ++k) {
+    std::fill_n(numbers->number.data() + static_cast<size_t>(k) * numbers->pixel_count,
+                numbers->pixel_count, static_cast<uint32_t>(first + k));
+  }
+}
+
+}  // namespace
+
+SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, PixelSampler sampler,
+                          const SamplingNeeds& needs, Explanation* why) {
+  SamplingPlan plan;
+  plan.sampler = std::move(sampler);
+  plan.numbered = needs.sampled_lights;
+  const int spp = scene.image.spp;
+  // One sample a pixel makes small batches; wider tiles fill them.
+  plan.tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kWidestTile)
+                                           : (spp == 1 ? kWidestTile : kStripRows);
+  plan.samples_per_round =
+      std::clamp(static_cast<int>(kBatchCapacity) / (plan.tile_width * kStripRows), 1, spp);
+  // Hits take several times as much room with what is looked up for them: half as many stay as
+  // near.
+  if (needs.textured) plan.samples_per_round = std::max(plan.samples_per_round / 2, 1);
+  if (settings.max_error > 0) {
+    why->items.push_back(
+        {"sample pattern", true,
+         fmt::format("{} independent Owen-scrambled Sobol patterns a pixel", kReplicates)});
+  } else {
+    why->items.push_back({"sample pattern", spp > 1,
+                          spp > 1 ? fmt::format("{} Owen-scrambled Sobol samples a pixel", spp)
+                                  : "one sample a pixel goes through its centre"});
+  }
+  plan.skip_empty_pixels = needs.places == nullptr;
+  const bool centered = plan.sampler.centered;
+  why->items.push_back(
+      {centered ? "places of samples in memory" : "places of samples beside the spheres",
+       needs.places != nullptr,
+       needs.places != nullptr ? needs.places
+       : centered              ? "they are the pixels' centres"
+                               : "outside the outlines they hit nothing"});
+  return plan;
+}
+
+void EnterTile(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
+               CameraSamples* samples) {
+  ChoosePixels(plan, tile, sight, samples);
+  if (plan.numbered) NumberPixels(plan, tile, &NumbersOf(samples));
+}
+
+void PlaceSamples(const SamplingPlan& plan, const Window& tile, const TileSight& sight, int first,
+                  int count, CameraSamples* samples) {
+  FilmBatch& film = samples->film;
+  film.centers = plan.sampler.centered && plan.skip_empty_pixels && !sight.triangles;
+  if (!plan.sampler.centered) {
+    SamplePixels(plan.sampler, samples->pixels, first, count, film.x.data(), film.y.data());
+  } else if (!film.centers) {
+    PlaceCenters(tile, film.x.data(), film.y.data());
+  }
+  film.count = tile.pixel_count() * static_cast<size_t>(count);
+  samples->weights.resize(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    samples->weights[static_cast<size_t>(i)] = SampleWeight(plan.sampler, first + i);
+  }
+  if (plan.numbered) NumberSamples(first, count, &NumbersOf(samples));
+}
+
+}  // namespace nacre

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/shadow_origins.h"
+
+#include <algorithm>
+
+namespace nacre {
+namespace {
+
+bool OffsetsOrigins(const Mesh& mesh) {
+  return mesh.smooth_terminator && HasSmoothNormals(mesh) &&
+         mesh.interpolation == Interpolation::kPhong;
+}
+
+}  // namespace
+
+Corners CornersOf(const Scene& scene, const TriangleRef& triangle) {
+  const Vec3d& eye = scene.camera.position;
+  const std::vector<Vec3d>& positions = triangle.mesh->positions;
+  return {positions[triangle.Vertex(0)] - eye, positions[triangle.Vertex(1)] - eye,
+          positions[triangle.Vertex(2)] - eye};
+}
+
+Vec3d WeightsAt(const Corners& corners, const Vec3d& point) {
+  const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
+  const Vec3d ap = point - corners[0];
+  const Vec3d normal = ab.cross(ac);
+  const double square = normal.dot(normal);
+  if (!(square > 0)) return {1, 0, 0};
+  const double b = std::clamp(ap.cross(ac).dot(normal) / square, 0.0, 1.0);
+  const double c = std::clamp(ab.cross(ap).dot(normal) / square, 0.0, 1.0 - b);
+  return {1 - b - c, b, c};
+}
+
+Vec3d OffsetOrigin(const Corners& corners, const Corners& normals, const Vec3d& weights,
+                   const Vec3d& point) {
+  Vec3d lifted = point;
+  for (int i = 0; i < 3; ++i) {
+    const auto corner = static_cast<size_t>(i);
+    const double above = (point - corners[corner]).dot(normals[corner]);
+    lifted -= normals[corner] * (weights[i] * std::min(above, 0.0));
+  }
+  return lifted;
+}
+
+bool OffsetsShadowOrigins(const Scene& scene) {
+  return std::any_of(scene.meshes.begin(), scene.meshes.end(), OffsetsOrigins);
+}
+
+void OffsetShadowOrigins(const DirectBatch& batch) {
+  const PrimitiveNumbers& primitives = batch.plan.primitives;
+  const HitBatch& hits = batch.hits();
+  const Soa3<double>& position = hits.position;
+  const Soa3<float>& normal = batch.surface().normal;
+  Soa3<double>& to = batch.room.shadow_origin;
+  for (size_t i = 0; i < batch.lit(); ++i) {
+    Vec3d origin(position.x[i], position.y[i], position.z[i]);
+    if (!IsSphere(primitives, hits.primitive[i])) {
+      const TriangleRef triangle = TriangleOf(primitives, hits.primitive[i]);
+      if (OffsetsOrigins(*triangle.mesh)) {
+        const Corners corners = CornersOf(*primitives.scene, triangle);
+        Corners normals;
+        Vec3d sum(0, 0, 0);
+        for (size_t c = 0; c < 3; ++c) {
+          normals[c] = triangle.mesh->normals[triangle.Vertex(c)];
+          sum += normals[c];
+        }
+        // The hit's normal is on the side that is seen; those of the vertices may not be.
+        if (sum.dot(Vec3d(normal.x[i], normal.y[i], normal.z[i])) < 0) {
+          for (Vec3d& n : normals) n = -n;
+        }
+        origin = OffsetOrigin(corners, normals, WeightsAt(corners, origin), origin);
+      }
+    }
+    to.x[i] = origin.x;
+    to.y[i] = origin.y;
+    to.z[i] = origin.z;
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+#include "render/plan_notes.h"
+
+namespace nacre {
+namespace {
+
+// Whether a hit shows the inside of its sphere or the back of its triangle.
+bool IsFromBehind(const PrimitiveNumbers& primitives, const CameraHits& hits, size_t hit) {
+  const uint32_t primitive = hits.batch.primitive[hit];
+  const Scene& scene = *primitives.scene;
+  const auto normal = [&] {
+    const Soa3<float>& n = hits.directions.normal;
+    return Vec3d(n.x[hit], n.y[hit], n.z[hit]);
+  };
+  if (IsSphere(primitives, primitive)) {
+    const Vec3d center = scene.spheres[primitive].center - scene.camera.position;
+    const Soa3<double>& p = hits.batch.position;
+    return (Vec3d(p.x[hit], p.y[hit], p.z[hit]) - center).dot(normal()) < 0;
+  }
+  const Soa3<float>& v = hits.directions.to_view;
+  return FaceNormalOf(primitives, primitive).dot(Vec3d(v.x[hit], v.y[hit], v.z[hit])) < 0;
+}
+
+MaterialId MaterialOfHit(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
+                         size_t hit) {
+  const double x = plan.splits ? film_x[hits.batch.ray[hit]] : 0;
+  const MaterialId id = MaterialAt(plan, hits.batch.primitive[hit], x);
+  const Scene& scene = *plan.primitives.scene;
+  if (!plan.one_sided || !scene.materials[id.index].emits_in_front_only) return id;
+  return IsFromBehind(plan.primitives, hits, hit) ? plan.black : id;
+}
+
+bool InterpolatesRadiance(const Mesh& mesh) {
+  return mesh.interpolation == Interpolation::kFlat ||
+         mesh.interpolation == Interpolation::kGouraud;
+}
+
+bool IsInterpolated(const SurfacePlan& plan, uint32_t primitive) {
+  return plan.interpolates && !IsSphere(plan.primitives, primitive) &&
+         InterpolatesRadiance(*TriangleOf(plan.primitives, primitive).mesh);
+}
+
+template <typename T>
+void Permute(const AlignedArray<uint32_t>& order, size_t count, const AlignedArray<T>& from,
+             AlignedArray<T>* to) {
+  for (size_t i = 0; i < count; ++i) (*to)[i] = from[order[i]];
+}
+
+template <typename T>
+void Permute(const AlignedArray<uint32_t>& order, size_t count, const Soa3<T>& from, Soa3<T>* to) {
+  Permute(order, count, from.x, &to->x);
+  Permute(order, count, from.y, &to->y);
+  Permute(order, count, from.z, &to->z);
+}
+
+// What arrays the hits have.
+struct HitFields {
+  bool positions, exact;
+};
+
+// Makes hit i the one that was order[i]; the padding repeats the last one.
+void PermuteHits(const CameraHits& from, const HitFields& fields, AlignedArray<uint32_t>* order,
+                 Surfaces* to) {
+  const size_t hits = from.batch.count, count = RoundUp(hits, kBatchPadding);
+  to->hits.count = hits;
+  to->hits.one_primitive = from.batch.one_primitive;
+  for (size_t i = hits; i < count; ++i) (*order)[i] = (*order)[hits - 1];
+  Permute(*order, count, from.batch.ray, &to->hits.ray);
+  Permute(*order, count, from.batch.primitive, &to->hits.primitive);
+  if (fields.positions) Permute(*order, count, from.batch.position, &to->hits.position);
+  Permute(*order, count, from.directions.normal, &to->surface.normal);
+  Permute(*order, count, from.directions.to_view, &to->surface.to_view);
+  if (!fields.exact) return;
+  Permute(*order, count, from.batch.normal, &to->hits.normal);
+  Permute(*order, count, from.batch.to_view, &to->hits.to_view);
+}
+
+void TakeHits(CameraHits* from, Surfaces* to) {
+  std::swap(from->batch, to->hits);
+  std::swap(from->directions, static_cast<HitDirections&>(to->surface));
+}
+
+constexpr uint32_t kNoRun = std::numeric_limits<uint32_t>::max();
+
+uint32_t& RunOf(MaterialId material, bool interpolated, SortRoom* room) {
+  const size_t half = room->run_of_material.size() / 2;
+  return room->run_of_material[interpolated ? half + material.index : material.index];
+}
+
+// Finds each hit's run, and with it how many hits a run has.
+void CountRuns(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
+               SortRoom* room, std::vector<MaterialRun>* runs) {
+  for (size_t i = 0; i < hits.batch.count; ++i) {
+    const MaterialId material = MaterialOfHit(plan, film_x, hits, i);
+    const bool interpolated = IsInterpolated(plan, hits.batch.primitive[i]);
+    uint32_t& run = RunOf(material, interpolated, room);
+    if (run == kNoRun) {
+      run = static_cast<uint32_t>(runs->size());
+      runs->push_back({material, &plan.materials[material.index], 0, 0, interpolated});
+    }
+    room->run_of_hit[i] = run;
+    ++(*runs)[run].end;
+  }
+}
+
+void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, SortRoom* room,
+              Surfaces* to) {
+  std::vector<MaterialRun>& runs = to->runs;
+  room->run_of_material.resize(2 * plan.materials.size(), kNoRun);
+  for (const MaterialRun& run : runs) RunOf(run.material, run.interpolated, room) = kNoRun;
+  runs.clear();
+  if (hits->batch.one_primitive && !plan.splits && !plan.one_sided) {
+    const MaterialId material = MaterialOfHit(plan, film_x, *hits, 0);
+    runs.push_back({material, &plan.materials[material.index], 0, hits->batch.count, false});
+    return TakeHits(hits, to);
+  }
+  CountRuns(plan, film_x, *hits, room, &runs);
+  size_t begin = 0;
+  for (const bool interpolated : {false, true}) {
+    for (MaterialRun& run : runs) {
+      if (run.interpolated != interpolated) continue;
+      const size_t count = run.end;
+      run.begin = run.end = begin;
+      begin += count;
+    }
+  }
+  if (runs.size() == 1) {
+    runs[0].end = hits->batch.count;
+    return TakeHits(hits, to);
+  }
+  for (size_t i = 0; i < hits->batch.count; ++i) {
+    room->order[runs[room->run_of_hit[i]].end++] = static_cast<uint32_t>(i);
+  }
+  PermuteHits(*hits, {hits->positions, hits->exact}, &room->order, to);
+}
+
+// Looks up the maps of the materials that have any.
+void LookUpMaps(const SurfacePlan& plan, Surfaces* s) {
+  s->surface.turned = false;
+  if (!plan.textured) return;
+  for (const MaterialRun& run : s->runs) {
+    s->surface.turned = s->surface.turned || run.shading->turned;
+  }
+  if (s->surface.turned) CopySoa(s->surface.normal, s->hits.count, &s->surface.unturned);
+  for (const MaterialRun& run : s->runs) {
+    if (run.shading->textured == nullptr) continue;
+    if (!s->textures) s->textures = std::make_unique<HitTextures>();
+    TextureHits({plan.textures, *run.shading, run.begin, run.end}, &s->hits, &s->surface,
+                s->textures.get());
+  }
+}
+
+void PlanTextures(const Scene& scene, const RenderSettings& settings, const CameraFrame& camera,
+                  SurfacePlan* plan, Explanation* why) {
+  const std::vector<bool> used = FindUsedMaterials(scene);
+  size_t count = 0;
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    if (used[i] && plan->materials[i].textured != nullptr) ++count;
+  }
+  plan->textured = count > 0;
+  if (!plan->textured) {
+    why->items.push_back({"textures", false, "no shape's material has a map"});
+    return;
+  }
+  // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
+  const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
+  const double footprint = std::max(1 / std::sqrt(samples), 0.125);
+  plan->textures = PrepareTextures(scene, camera, footprint, settings.threads);
+  size_t bytes = 0;
+  for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
+  why->items.push_back(
+      {"textures", true,
+       fmt::format("maps on {} materials: {} images, {:.1f} MiB with their mip levels; a sample's "
+                   "footprint is {:g} pixels wide",
+                   count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
+}
+
+}  // namespace
+
+SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
+                         const CameraFrame& camera, const Rgb& ambient, Explanation* why) {
+  SurfacePlan plan;
+  plan.primitives = NumberPrimitives(scene);
+  plan.frame_width = scene.image.width;
+  why->items.push_back({"ambient light", !IsBlack(ambient),
+                        IsBlack(ambient) ? "the scene has none" : "a constant per material"});
+  plan.materials.reserve(scene.materials.size() + 1);
+  for (const Material& material : scene.materials) {
+    plan.materials.push_back(PrepareMaterial(material, ambient));
+    plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
+    plan.one_sided = plan.one_sided || material.emits_in_front_only;
+  }
+  plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
+  PlanTextures(scene, settings, camera, &plan, why);
+  plan.black = {static_cast<uint32_t>(plan.materials.size())};
+  plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
+  return plan;
+}
+
+bool HasNarrowLobes(const SurfacePlan& plan) {
+  return std::any_of(plan.materials.begin(), plan.materials.end(), HasDoubleTerms);
+}
+
+MaterialId MaterialAt(const SurfacePlan& plan, uint32_t primitive, double film_x) {
+  const MaterialId id = ShapeMaterial(plan.primitives, primitive);
+  if (!plan.splits) return id;
+  const auto* split = std::get_if<SplitMaterial>(&plan.primitives.scene->materials[id.index].model);
+  if (split == nullptr) return id;
+  const double fraction = film_x / plan.frame_width;
+  const auto band = std::upper_bound(split->at.begin(), split->at.end(), fraction);
+  return split->materials[static_cast<size_t>(band - split->at.begin())];
+}
+
+void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* hits,
+                     SortRoom* room, Surfaces* surfaces) {
+  if (hits->batch.count == 0) {
+    surfaces->hits.count = 0;
+    return;
+  }
+  SortHits(plan, film_x, hits, room, surfaces);
+  PrepareSurfaces(plan, surfaces);
+}
+
+void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
+  Surfaces& s = *surfaces;
+  const auto interpolated = std::stable_partition(
+      s.runs.begin(), s.runs.end(), [](const MaterialRun& run) { return !run.interpolated; });
+  s.lit_runs = static_cast<size_t>(interpolated - s.runs.begin());
+  s.lit = s.lit_runs == 0 ? 0 : s.runs[s.lit_runs - 1].end;
+  LookUpMaps(plan, &s);
+  for (const MaterialRun& run : LitRuns(s)) {
+    PrepareRun(*run.shading, run.begin, run.end, &s.surface, s.textures.get());
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/tile_work.h"
+
+namespace nacre {
+
+void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, RenderStats* stats) {
+  TileWork& w = *work;
+  const FilmBatch& film = w.samples.film;
+  stats->camera_rays += film.count;
+  clock->Charge(Stage::kSample);
+  TraceCamera(plan.hits, w.sight, film, &w.trace_room, &w.hits);
+  if (w.sight.shapes) clock->Charge(Stage::kIntersect);
+  const size_t hits = w.hits.batch.count;
+  stats->hits += hits;
+  ResolveSurfaces(plan.surfaces, film.x.data(), &w.hits, &w.sort_room, &w.surfaces);
+  if (hits > 0) {
+    ShadeDirect({plan.direct, w.surfaces, w.direct_room, w.radiance, *clock, *stats},
+                w.samples.numbers ? &*w.samples.numbers : nullptr);
+  }
+  SeeSky(plan.direct, film, hits, &w.direct_room, &w.radiance);
+}
+
+}  // namespace nacre
