@@ -57,7 +57,7 @@ void Shadow(const Lit& lit) {
   lit.batch.clock.Charge(Stage::kShadow);
 }
 
-// What a light of colour 1 reflects along TileScratch::light, into c.unit.
+// What a light of colour 1 reflects along room.light, into c.unit.
 void ShadeUnit(const Lit& lit) {
   static const ShadingLight kUnit = [] {
     ShadingLight light;
