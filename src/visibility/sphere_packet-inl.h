@@ -116,9 +116,9 @@ HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* 
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
     const auto load = [&]() HWY_ATTR { return ShadowRaysOf(d, *packet, lane); };
-    const auto in_the_way =
-        InTheWay(d, sphere, TestLanes(d, *packet, lane, sphere), StartsOn(d, *packet, lane, sphere),
-                 packet->outward, hn::Load(d, packet->t_max + lane), load);
+    const auto own = StartsOn(d, *packet, lane, sphere);
+    const auto in_the_way = InTheWay(d, sphere, TestLanes(d, *packet, lane, sphere), own,
+                                     packet->outward, hn::Load(d, packet->t_max + lane), load);
     occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
   }
   RecordOccluded(packet, occluded);
