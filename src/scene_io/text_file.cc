@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kMebibyte = 1024.0 * 1024, kGibibyte = 1024 * kMebibyte;
 
-constexpr size_t kFirstPiece = size_t{1} << 16, kPiece = size_t{1} << 20;
+constexpr size_t kLeastPiece = size_t{1} << 12, kFirstPiece = size_t{1} << 16,
+                 kPiece = size_t{1} << 20;
 
 std::string SizeText(uint64_t bytes) {
   const auto size = static_cast<double>(bytes);
@@ -123,13 +124,15 @@ std::string ReadTextFile(const std::filesystem::path& path, uint64_t max_bytes) 
   std::string text;
   while (true) {  // to its end: files of the kernel (/proc) say that they have no bytes
     const size_t before = text.size();
-    if (file.Append(before == 0 ? kFirstPiece : kPiece, &text) == 0) return text;
+    const uint64_t left = file.size() - std::min<uint64_t>(file.size(), before);
+    const size_t most = before == 0 ? kFirstPiece : kPiece;
+    if (file.Append(std::clamp<uint64_t>(left, kLeastPiece, most), &text) == 0) return text;
     if (before == 0) WithoutByteOrderMark(text, path.string());  // refuses UTF-16
     const size_t zero = text.find('\0', before);
     if (zero != std::string::npos) RefuseZero(text, zero, path.string());
     if (text.size() > max_bytes) file.RefuseLength(max_bytes);
     // Not before it looks like text: it may be long.
-    if (before == 0) text.reserve(std::max<uint64_t>(file.size(), text.size()) + kPiece);
+    if (before == 0) text.reserve(std::max<uint64_t>(file.size(), text.size()) + kLeastPiece);
   }
 }
 

@@ -154,47 +154,56 @@ void FinishMaterialT(const TexturedRun& run, HitTextures* t) {
 
 // MixCurves of material.cc, times the light.
 void MakeTurquinProducts(const MappedProducts& products, int c, HitTextures* t) {
-  const Hits hits{products.begin, products.end};
   const double color = products.color[c];
   const double* const dielectric = Channel(t->exact_dielectric_f0, c);
   const double* const metal = Channel(t->exact_metal_f0, c);
   const double *const f90 = t->exact_dielectric_f90.data(), *const metallic = t->metallic.data();
   const float* const not_delta = t->not_delta.data();
-  const auto at_normal = [=](size_t i) {
-    return (1 - metallic[i]) * dielectric[i] * dielectric[i] + metallic[i] * metal[i] * metal[i];
-  };
-  const auto at_grazing = [=](size_t i) {
-    return (1 - metallic[i]) * dielectric[i] * f90[i] + metallic[i] * metal[i];
-  };
-  hits.Fill(Channel(t->by_turquin_f0, c),
-            [&](size_t i) { return at_normal(i) * (double{not_delta[i]} * color); });
-  hits.Fill(Channel(t->by_turquin_rise, c), [&](size_t i) {
-    return (at_grazing(i) - at_normal(i)) * (double{not_delta[i]} * color);
-  });
+  float* HWY_RESTRICT const at_normal = Channel(t->by_turquin_f0, c);
+  float* HWY_RESTRICT const rise = Channel(t->by_turquin_rise, c);
+  for (size_t i = products.begin; i < products.end; ++i) {
+    const double normal =
+        (1 - metallic[i]) * dielectric[i] * dielectric[i] + metallic[i] * metal[i] * metal[i];
+    const double grazing = (1 - metallic[i]) * dielectric[i] * f90[i] + metallic[i] * metal[i];
+    const double light = double{not_delta[i]} * color;
+    at_normal[i] = static_cast<float>(normal * light);
+    rise[i] = static_cast<float>((grazing - normal) * light);
+  }
+}
+
+void MakeSchlickProducts(const MappedProducts& products, int c, HitTextures* t) {
+  const Hits hits{products.begin, products.end};
+  const auto& model = std::get<MicrofacetModel>(products.material.model);
+  const double color = products.color[c];
+  const float* const not_delta = t->not_delta.data();
+  const double* const diffuse = Channel(t->diffuse, c);
+  const double *const f0 = Channel(t->specular, c), *const f90 = t->exact_f90.data();
+  hits.Fill(Channel(t->by_specular_f0, c),
+            [&](size_t i) { return f0[i] * (double{not_delta[i]} * color); });
+  hits.Fill(Channel(t->by_specular_rise, c),
+            [&](size_t i) { return (f90[i] - f0[i]) * (double{not_delta[i]} * color); });
+  if (model.coupling == DiffuseCoupling::kOneMinusFresnel) {
+    hits.Fill(Channel(t->by_diffuse_normal, c),
+              [&](size_t i) { return (1 - f0[i]) * diffuse[i] * color; });
+    hits.Fill(Channel(t->by_diffuse_grazing, c),
+              [&](size_t i) { return (1 - f90[i]) * diffuse[i] * color; });
+  } else {  // where nobody reads the grazing one
+    hits.Fill(Channel(t->by_diffuse_normal, c), [&](size_t i) { return diffuse[i] * color; });
+  }
+  if (model.compensation == Compensation::kTurquin) MakeTurquinProducts(products, c, t);
 }
 
 void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
   const Hits hits{products.begin, products.end};
   const auto& model = std::get<MicrofacetModel>(products.material.model);
   const float* const not_delta = t->not_delta.data();
-  const double coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel ? 1 : 0;
   for (int c = 0; c < 3; ++c) {
     const double color = products.color[c];
-    const double* const diffuse = Channel(t->diffuse, c);
-    const double* const f0 = Channel(t->specular, c);
-    const double* const f90 = t->exact_f90.data();
-    hits.Fill(Channel(t->by_diffuse, c), [&](size_t i) { return diffuse[i] * color; });
     if (model.fresnel == FresnelForm::kSchlick) {
-      hits.Fill(Channel(t->by_specular_f0, c),
-                [&](size_t i) { return f0[i] * (double{not_delta[i]} * color); });
-      hits.Fill(Channel(t->by_specular_rise, c),
-                [&](size_t i) { return (f90[i] - f0[i]) * (double{not_delta[i]} * color); });
-      hits.Fill(Channel(t->by_diffuse_normal, c),
-                [&](size_t i) { return (1 - coupled * f0[i]) * diffuse[i] * color; });
-      hits.Fill(Channel(t->by_diffuse_grazing, c),
-                [&](size_t i) { return coupled * (1 - f90[i]) * diffuse[i] * color; });
-      if (model.compensation == Compensation::kTurquin) MakeTurquinProducts(products, c, t);
+      MakeSchlickProducts(products, c, t);
     } else {
+      const double* const diffuse = Channel(t->diffuse, c);
+      hits.Fill(Channel(t->by_diffuse, c), [&](size_t i) { return diffuse[i] * color; });
       hits.Fill(Channel(t->by_specular, c), [&](size_t i) { return double{not_delta[i]} * color; });
     }
     if (model.compensation == Compensation::kKullaConty) {
@@ -242,6 +251,7 @@ void ApplyMap(const TexturedRun& run, MapRole role, HitTextures* textures) {
 
 void FinishMaterial(const TexturedRun& run, HitTextures* textures) {
   if (!HasMappedModel(run.material)) return;
+  textures->products_end = 0;  // are of other numbers
   if (std::holds_alternative<MicrofacetModel>(run.material.model)) {
     return FinishMicrofacet(run, textures);
   }
@@ -249,6 +259,13 @@ void FinishMaterial(const TexturedRun& run, HitTextures* textures) {
 }
 
 void MakeProducts(const MappedProducts& products, HitTextures* textures) {
+  HitTextures& t = *textures;
+  const bool are_there = t.products_begin == products.begin && t.products_end == products.end &&
+                         t.products_color == products.color;
+  if (are_there) return;
+  t.products_begin = products.begin;
+  t.products_end = products.end;
+  t.products_color = products.color;
   HWY_DYNAMIC_DISPATCH(MakeProductsT)(products, textures);
 }
 }  // namespace nacre

@@ -238,7 +238,9 @@ void FinishMicrofacetT(const TexturedRun& run, HitTextures* t) {
   }
   Round(hits, t->exact_f90.data(), t->f90.data());
   Round(hits, t->exact_dielectric_f90.data(), t->dielectric_f90.data());
-  Round(hits, t->metallic.data(), t->rounded_metallic.data());
+  if (model.fresnel == FresnelForm::kF82) {
+    Round(hits, t->metallic.data(), t->rounded_metallic.data());
+  }
   FinishLobe(run, t);
   if (model.prepared) FinishAlbedo(run, model, t);
 }

@@ -63,7 +63,7 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   for (size_t i = run.begin; i < run.end; ++i) {
     const uint32_t primitive = hits.primitive[i];
     const Vec3d normal = Get(hits.normal, i);
-    Put(normal, i, &t.unturned);
+    if (run.material.turned) Put(normal, i, &t.unturned);
     if (primitive < sphere_count) {
       if (primitive != last) {
         last = primitive;

@@ -20,7 +20,8 @@ enum class MapRole : uint8_t {
 };
 TextureId MapOf(const Material& material, MapRole role);
 
-// Fills point, inverse_size, geometric, unturned and side (surface_points.cc).
+// Fills point, inverse_size, geometric, side and, where maps turn normals, unturned
+// (surface_points.cc).
 void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
 
 // For meshes with coordinates of their own: u, v and gradients at hits on triangles, before the

@@ -110,6 +110,10 @@ struct HitTextures {
   // Products with one light; see MicrofacetLightOf.
   Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rise, by_diffuse_normal,
       by_diffuse_grazing, by_turquin_f0, by_turquin_rise, by_multiple;
+  // The hits that the products were last made for, none if the end is 0, and the light's colour:
+  // lobes are shaded anew along mirrored directions, and by the unit light of several strategies.
+  size_t products_begin = 0, products_end = 0;
+  Rgb products_color{0, 0, 0};
 };
 
 // What a material with maps has at hits [begin, end) of the batch, all of it: looks the maps up,

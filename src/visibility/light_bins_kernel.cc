@@ -49,13 +49,15 @@ HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const
   const Tag d;
   const auto direction = SetVec3(d, ray.direction);
   const auto inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
-  const ShadowRaysV<Tag> rays{SetVec3(d, ray.origin), direction, inverse_dd, hn::Set(d, ray.t_max),
-                              ray.end_reach};
+  const auto load = [&]() HWY_ATTR {
+    return ShadowRaysV<Tag>{SetVec3(d, ray.origin), SetVec3(d, ray.direction), hn::Zero(d),
+                            hn::Set(d, ray.t_max), ray.end_reach};
+  };
   const auto to_center = SetVec3(d, sphere.center - ray.origin);
   const auto radius = hn::Set(d, sphere.radius);
   const auto hit = TestSphere(d, to_center, direction, inverse_dd, radius);
   const auto own_lane = MaskOfBits(d, own ? 1 : 0, 0);
-  return !hn::AllFalse(d, InTheWay(d, rays, to_center, radius, hit, own_lane, false));
+  return !hn::AllFalse(d, InTheWay(d, sphere, hit, own_lane, false, hn::Set(d, ray.t_max), load));
 }
 
 // The rays of a batch as cells and the float tests have them, in the coordinates of BinnedSphere.
@@ -127,9 +129,11 @@ HWY_INLINE uint32_t OccludedBySphere(const TraceGeometry& geometry, uint32_t num
   for (int lane = 0; lanes >> lane != 0; lane += step) {
     const auto asked = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, asked)) continue;
-    const auto loaded = LoadShadowRays(d, rays, first + static_cast<size_t>(lane));
+    const auto load = [&]() HWY_ATTR {
+      return LoadShadowRays(d, rays, first + static_cast<size_t>(lane));
+    };
     const auto blocked =
-        OccludedLanes(d, sphere, loaded, asked, MaskOfBits(d, own, lane), rays.outward);
+        OccludedLanes(d, sphere, load(), asked, MaskOfBits(d, own, lane), rays.outward, load);
     occluded |= BitsOfMask(d, blocked) << lane;
   }
   return occluded;
@@ -287,7 +291,8 @@ HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
     uint32_t twins[kMaxPacketWidth];
     for (size_t lane = 0; lane < count; ++lane)
       twins[lane] = twin_of(rays->primitive[first + lane]);
-    const auto loaded = LoadShadowRays(d, *rays, first);
+    const auto load = [&]() HWY_ATTR { return LoadShadowRays(d, *rays, first); };
+    const auto loaded = load();
     uint32_t left = (1u << count) - 1;
     for (size_t i = 0; i < large.size() && left != 0; ++i) {
       uint32_t own = 0;
@@ -296,7 +301,7 @@ HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
       }
       left &= ~BitsOfMask(
           d, OccludedLanes(d, geometry.spheres[large[i]], loaded, MaskOfBits(d, left, 0),
-                           MaskOfBits(d, own, 0), rays->outward));
+                           MaskOfBits(d, own, 0), rays->outward, load));
     }
     for (size_t lane = 0; lane < count; ++lane) {
       rays->occluded[first + lane] = static_cast<uint8_t>(~(left >> lane) & 1);

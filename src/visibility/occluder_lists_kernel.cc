@@ -108,8 +108,8 @@ HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere
   for (size_t lane = 0; lane < hn::Lanes(F()); lane += hn::Lanes(d)) {
     const auto lanes = MaskOfBits(d, pending, static_cast<int>(lane));
     if (hn::AllFalse(d, lanes)) continue;
-    const ShadowRaysV<D> loaded = LoadShadowRays(d, rays, first + lane);
-    const auto blocked = OccludedLanes(d, sphere, loaded, lanes, starting, rays.outward);
+    const auto load = [&]() HWY_ATTR { return LoadShadowRays(d, rays, first + lane); };
+    const auto blocked = OccludedLanes(d, sphere, load(), lanes, starting, rays.outward, load);
     occluded |= BitsOfMask(d, blocked) << lane;
   }
   return occluded;

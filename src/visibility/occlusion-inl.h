@@ -8,6 +8,7 @@
 #define NACRE_VISIBILITY_OCCLUSION_INL_H_
 #endif
 
+#include "base/geometry-inl.h"
 #include "hit/batch.h"
 #include "visibility/geometry.h"
 #include "visibility/packet-inl.h"
@@ -48,10 +49,15 @@ HWY_INLINE hn::Vec<D> EndReach(D d, const ShadowRaysV<D>& rays) {
 // shading/sampled_light.h); direction, to_center and their difference by 4 u R: altogether at most
 // 22 u R. What that makes of |from_end|^2 - r^2 is as much times |from_end| + r, and its own
 // rounding 5 u of that times R.
-template <class D, class V = hn::Vec<D>>
-HWY_NOINLINE hn::Mask<D> EndsOnSphere(D d, const ShadowRaysV<D>& rays, const Vec3V<V>& to_center,
-                                      V radius) {
+//
+// `load` loads the rays once more: few are asked, and rays kept for them would take the registers
+// of all.
+template <class D, class LoadRays, class V = hn::Vec<D>>
+HWY_NOINLINE hn::Mask<D> EndsOnSphere(D d, const LoadRays& load, const TraceSphere& sphere) {
   constexpr double kUnit = 0x1p-53;
+  const ShadowRaysV<D> rays = load();
+  const V radius = hn::Set(d, sphere.radius);
+  const Vec3V<V> to_center = Sub(SetVec3(d, sphere.center), rays.origin);
   const Vec3V<V> from_end = Sub(to_center, ToEnd(rays));
   const V reach = hn::Add(hn::Add(EndReach(d, rays), radius), SumOfAbs(to_center));
   const V off = hn::Abs(hn::Sub(Dot(from_end, from_end), hn::Mul(radius, radius)));
@@ -65,21 +71,22 @@ HWY_NOINLINE hn::Mask<D> EndsOnSphere(D d, const ShadowRaysV<D>& rays, const Vec
 // its origin. `own`: the lanes that start there; with `outward` it is never in their way. To a
 // light on the sphere one root is t_max, whatever the rounding, and the other as far before the
 // closest approach as that is behind it: only this one, if any, is in the way.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE hn::Mask<D> InTheWay(D d, const ShadowRaysV<D>& rays, const Vec3V<V>& to_center,
-                                V radius, const SphereHitV<D>& hit, hn::Mask<D> own, bool outward) {
+template <class D, class LoadRays, class V = hn::Vec<D>>
+HWY_INLINE hn::Mask<D> InTheWay(D d, const TraceSphere& sphere, const SphereHitV<D>& hit,
+                                hn::Mask<D> own, bool outward, V t_max, const LoadRays& load) {
   const auto zero = hn::Zero(d);
-  const V t_max = rays.t_max;
   const auto t = hn::IfThenElse(own, hn::Add(hit.closest, hit.closest), hit.t);
   const auto met_own = outward ? hn::Lt(zero, zero) : hn::And(own, hn::Gt(t, zero));
   const auto met = hn::And(hn::Or(met_own, hn::AndNot(own, hit.hit)), hn::Lt(t, t_max));
   // Few are asked: those that meet the sphere in the ray's second half, and nowhere else before its
   // end.
+  const auto late = hn::And(met, hn::Gt(hn::Add(t, t), t_max));
+  if (hn::AllFalse(d, late)) return met;
   const V other = hn::Sub(hn::Add(hit.closest, hit.closest), t_max);
   const auto before_end = hn::AndNot(own, hn::And(hn::Gt(other, zero), hn::Lt(other, t_max)));
-  const auto unsure = hn::AndNot(before_end, hn::And(met, hn::Gt(hn::Add(t, t), t_max)));
+  const auto unsure = hn::AndNot(before_end, late);
   if (hn::AllFalse(d, unsure)) return met;
-  return hn::AndNot(hn::And(unsure, EndsOnSphere(d, rays, to_center, radius)), met);
+  return hn::AndNot(hn::And(unsure, EndsOnSphere(d, load, sphere)), met);
 }
 
 // The rays from any number on.
@@ -122,10 +129,12 @@ HWY_INLINE bool SurelyMissed(D d, const Vec3V<V>& to_center, const ShadowRaysV<D
   return hn::AllFalse(d, hn::And(lanes, hn::AndNot(gone, near_line)));
 }
 
-// Those of `lanes` that the sphere is in the way of. `own`: the lanes that start on it.
-template <class D>
+// Those of `lanes` that the sphere is in the way of. `own`: the lanes that start on it. `load`
+// loads `rays`.
+template <class D, class LoadRays>
 HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const ShadowRaysV<D>& rays,
-                                     hn::Mask<D> lanes, hn::Mask<D> own, bool outward) {
+                                     hn::Mask<D> lanes, hn::Mask<D> own, bool outward,
+                                     const LoadRays& load) {
   using V = hn::Vec<D>;
   const Vec3V<V> center{hn::Set(d, sphere.center.x), hn::Set(d, sphere.center.y),
                         hn::Set(d, sphere.center.z)};
@@ -136,7 +145,7 @@ HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const Shado
   const bool leaves_it = !outward && !hn::AllFalse(d, own);
   if (!leaves_it && SurelyMissed(d, to_center, rays, lanes, radius)) return hn::Lt(radius, radius);
   const auto hit = TestSphere(d, to_center, rays.direction, rays.inverse_dd, radius);
-  return hn::And(lanes, InTheWay(d, rays, to_center, radius, hit, own, outward));
+  return hn::And(lanes, InTheWay(d, sphere, hit, own, outward, rays.t_max, load));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -115,12 +115,10 @@ HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* 
   for (int lane = 0; lane < packet->width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    const auto rays = ShadowRaysOf(d, *packet, lane);
-    const auto to_center = Sub(SetVec3(d, sphere.center), rays.origin);
-    const auto radius = hn::Set(d, sphere.radius);
-    const auto hit = TestSphere(d, to_center, rays.direction, rays.inverse_dd, radius);
-    const auto in_the_way = InTheWay(d, rays, to_center, radius, hit,
-                                     StartsOn(d, *packet, lane, sphere), packet->outward);
+    const auto load = [&]() HWY_ATTR { return ShadowRaysOf(d, *packet, lane); };
+    const auto own = StartsOn(d, *packet, lane, sphere);
+    const auto in_the_way = InTheWay(d, sphere, TestLanes(d, *packet, lane, sphere), own,
+                                     packet->outward, hn::Load(d, packet->t_max + lane), load);
     occluded |= BitsOfMask(d, hn::And(proposed, in_the_way)) << lane;
   }
   RecordOccluded(packet, occluded);

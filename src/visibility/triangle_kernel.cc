@@ -152,10 +152,8 @@ HWY_INLINE hn::Mask<D> TouchesPlane(D d, const Packet& packet, int lane, const C
   return hn::Or(StartsOnPlane(d, packet, lane, to_a, plane), EndsOnPlane(d, rays, to_a, plane));
 }
 
-void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  if (packet.target.Contains(geometry.SphereCount() + args->primID)) return;
+HWY_NOINLINE void OccludeByTriangle(const RTCOccludedFunctionNArguments* args,
+                                    const TraceGeometry& geometry, Packet& packet) {
   const Corners corners = CornersOf(geometry, args->primID);
   const uint32_t starting = StartingLanes(packet, geometry.SphereCount() + args->primID);
   const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N) & ~starting;
@@ -177,6 +175,14 @@ void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
   }
   RecordOccluded(&packet, occluded);
   ReturnDepths(packet, args->valid, args->ray, args->N);
+}
+
+// Most asked about are the light's own where a light is a mesh: nothing is set up for them.
+void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
+  Packet& packet = PacketOf(args->context);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  if (packet.target.Contains(geometry.SphereCount() + args->primID)) return;
+  OccludeByTriangle(args, geometry, packet);
 }
 
 PrimitiveCallbacks Callbacks() { return {&IntersectTriangle, &OccludedByTriangle}; }
