@@ -183,7 +183,7 @@ void DropConverged(const RenderPlan& plan, size_t level, CellScratch* c) {
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
   const Rgb background = BackgroundOf(plan.layers[0], plan);  // the beauty's
   MeasureActive({plan.adaptive.max_error, plan.adaptive.white}, background, c);
-  RequireEvidence(plan, c);
+  RequireEvidence(c);
   uint32_t open = 0;  // blocks, as bits
   for (const uint32_t pixel : c->active) {
     if (!IsNarrow(*c, pixel)) open |= 1u << pixel / kBlockPixels;
@@ -200,7 +200,7 @@ size_t CountUnsettled(const RenderPlan& plan, const Window& cell, const Window& 
                       CellScratch* c) {
   if (c->active.empty()) return 0;
   MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.layers[0], plan), c);
-  RequireEvidence(plan, c);
+  RequireEvidence(c);
   return static_cast<size_t>(std::count_if(c->active.begin(), c->active.end(), [&](uint32_t pixel) {
     const FilmPixel at = PixelOf(cell, pixel);
     const bool shown = at.x >= part.x0 && at.x < part.x1 && at.y >= part.y0 && at.y < part.y1;
