@@ -183,7 +183,7 @@ void DropConverged(const FramePlan& plan, size_t level, CellScratch* c) {
   if (level + 2 == kCommonLevels) FindOutlineRanges(c);
   const Rgb background = BackgroundOf(plan.film.layers[0], plan.film);  // the beauty's
   MeasureActive({plan.adaptive.max_error, plan.adaptive.white}, background, c);
-  RequireEvidence(plan, c);
+  RequireEvidence(c);
   uint32_t open = 0;  // blocks, as bits
   for (const uint32_t pixel : c->active) {
     if (!IsNarrow(*c, pixel)) open |= 1u << pixel / kBlockPixels;
@@ -201,7 +201,7 @@ size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& p
   if (c->active.empty()) return 0;
   MeasureActive({plan.adaptive.max_error, kUnbounded}, BackgroundOf(plan.film.layers[0], plan.film),
                 c);
-  RequireEvidence(plan, c);
+  RequireEvidence(c);
   return static_cast<size_t>(std::count_if(c->active.begin(), c->active.end(), [&](uint32_t pixel) {
     const FilmPixel at = PixelOf(cell, pixel);
     const bool shown = at.x >= part.x0 && at.x < part.x1 && at.y >= part.y0 && at.y < part.y1;

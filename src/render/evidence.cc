@@ -35,7 +35,8 @@ struct CellPlace {
 
 CellPlace PlaceInCell(uint32_t pixel) {
   constexpr uint32_t kAcross = kCellSide / kBlockSide;
-  const uint32_t block = pixel / kBlockPixels, in_block = pixel % kBlockPixels;
+  constexpr auto kPixels = static_cast<uint32_t>(kBlockPixels);
+  const uint32_t block = pixel / kPixels, in_block = pixel % kPixels;
   return {static_cast<int>(block % kAcross * kBlockSide + in_block % kBlockSide),
           static_cast<int>(block / kAcross * kBlockSide + in_block / kBlockSide)};
 }
@@ -88,15 +89,12 @@ bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double con
   return 2 * (high - low) < contrast;
 }
 
-// What is brighter than `white` counts as that.
-PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel, double white) {
+PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel) {
   PixelEvidence evidence{pixel, KindOf(c, pixel), 0, 0, false};
   size_t widest = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const double low1 = std::min(c.low1[channel][pixel], white);
-    const double low2 = std::min(c.low2[channel][pixel], white);
-    const double high2 = std::min(c.high2[channel][pixel], white);
-    const double high1 = std::min(c.high1[channel][pixel], white);
+    const double low1 = c.low1[channel][pixel], low2 = c.low2[channel][pixel];
+    const double high2 = c.high2[channel][pixel], high1 = c.high1[channel][pixel];
     evidence.single = std::max({evidence.single, low2 - low1, high1 - high2});
     if (!(high1 - low1 > evidence.contrast)) continue;
     evidence.contrast = high1 - low1;
@@ -118,12 +116,18 @@ bool IsInner(uint32_t pixel) {
   return at.column > 0 && at.row > 0 && at.column + 1 < kCellSide && at.row + 1 < kCellSide;
 }
 
-// Pixels of the kind `left_out` tell nothing.
+// Whether what is known beforehand of the pixel matters for it.
+bool HasKnownRare(const CellScratch& c, uint32_t pixel) {
+  return 2 * c.rare_radiance[pixel] > WantedOf(c, pixel);
+}
+
+// Pixels of the kind `left_out` tell nothing, nor do those in which what is rare is known
+// beforehand: that is known of all pixels that have it.
 Pool PoolOf(const CellScratch& c, const std::vector<PixelEvidence>& all, Kind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
-    if (e.kind == left_out || !IsInner(e.pixel)) continue;
+    if (e.kind == left_out || !IsInner(e.pixel) || HasKnownRare(c, e.pixel)) continue;
     ++inner;
     if (!e.isolated || e.single <= WantedOf(c, e.pixel)) continue;
     pool.contrast += e.single;
@@ -158,10 +162,10 @@ void ClearEvidence(CellScratch* c) {
   for (auto* high : {c->high1, c->high2}) std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
-void RequireEvidence(const FramePlan& plan, CellScratch* c) {
+void RequireEvidence(CellScratch* c) {
   std::vector<PixelEvidence> all;
   for (const uint32_t pixel : c->active) {
-    if (IsOpen(*c, pixel)) all.push_back(EvidenceOf(*c, pixel, plan.adaptive.white));
+    if (IsOpen(*c, pixel)) all.push_back(EvidenceOf(*c, pixel));
   }
   // Pixels with hits and those without tell of those with both, and these of either.
   std::array<Pool, 3> pools;
@@ -171,14 +175,13 @@ void RequireEvidence(const FramePlan& plan, CellScratch* c) {
   for (const PixelEvidence& e : all) {
     const Pool& pool = pools[e.kind];
     const double wanted = WantedOf(*c, e.pixel), samples = SamplesTaken(*c, e.pixel);
-    const bool by_own = !e.isolated || samples * wanted >= kUnseen * e.contrast;
+    const bool by_own = c->covered[e.pixel] >= 0 || samples * wanted >= kByChance * e.contrast;
     const bool by_cell = samples >= SamplesFor(pool, wanted, samples);
     if (!by_own || !by_cell) Doubt(e.pixel, c);
   }
   for (const uint32_t pixel : c->active) {
-    const bool by_plan = SamplesTaken(*c, pixel) >= c->rare_samples[pixel] ||
-                         2 * c->rare_radiance[pixel] <= WantedOf(*c, pixel);
-    if (!by_plan) Doubt(pixel, c);
+    const bool by_plan = SamplesTaken(*c, pixel) >= c->rare_samples[pixel];
+    if (!by_plan && HasKnownRare(*c, pixel)) Doubt(pixel, c);
   }
 }
 

@@ -252,13 +252,10 @@ Scene Glints() {
   return scene;
 }
 
-// Balls `width` pixels wide, close together. Black metal before black: only highlights show.
-//
-// Open: before a background of .2, 53 of the 1024 pixels of "glints of metal" and of "mirrored
-// lamps" are beyond the error and not told, where 51 may be. Their outlines are then as hard to
-// settle as the highlights are, so these cases do not show what a picture with both does.
+// Balls `width` pixels wide, close together, too many in a cell for their outlines to be known.
 Scene Balls(decltype(Material::model) model, double width) {
   Scene scene = Parallel();
+  scene.background = Rgb(0.2);
   const MaterialId shiny = Add(&scene, std::move(model));
   const auto count = static_cast<int>(kSide / 2 / width);
   for (int y = -count; y <= count; ++y) {
@@ -325,6 +322,53 @@ Scene NearGlints() {
   scene.camera.fov_y_deg = 90;
   scene.lights = {
       Named("lamp", PointLight{.position = {-4, 6, 6}, .intensity = Rgb(200), .attenuation = {}})};
+  return scene;
+}
+
+// Waves a few pixels wide, with highlights that no plan knows.
+Scene MeshGlints() {
+  Scene scene = Parallel();
+  Mesh mesh;
+  mesh.material = Add(&scene, Phong(PhongModel::kBlinnPhong, 3000));
+  constexpr int kAcross = 60;
+  constexpr double kHeight = 0.6, kAlong = 1.1, kDown = 1.21;  // and waves' numbers
+  for (int j = 0; j <= kAcross; ++j) {
+    for (int i = 0; i <= kAcross; ++i) {
+      const double x = (i - kAcross / 2.0) * 40 / kAcross, y = (j - kAcross / 2.0) * 40 / kAcross;
+      const double of_x = kAlong * x, of_y = kDown * y + 0.3;
+      mesh.positions.emplace_back(x, y, kHeight * std::sin(of_x) * std::sin(of_y));
+      mesh.normals.push_back(Vec3d(-kHeight * kAlong * std::cos(of_x) * std::sin(of_y),
+                                   -kHeight * kDown * std::sin(of_x) * std::cos(of_y), 1)
+                                 .normalized());
+    }
+  }
+  for (uint32_t j = 0; j < kAcross; ++j) {
+    for (uint32_t i = 0; i < kAcross; ++i) {
+      const uint32_t first = j * (kAcross + 1) + i, below = first + kAcross + 1;
+      for (const uint32_t corner : {first, first + 1, below + 1, first, below + 1, below}) {
+        mesh.triangles.push_back(corner);
+      }
+    }
+  }
+  scene.meshes.push_back(mesh);
+  scene.lights = {Along({-0.2, -0.3, -1}, 2)};
+  return scene;
+}
+
+// Edges of a mesh in most pixels, before what is far brighter.
+Scene Confetti() {
+  Scene scene = Parallel();
+  scene.background = Rgb(1);
+  Mesh mesh;
+  mesh.material = AddMatte(&scene, 0.1);
+  std::mt19937 random(8);
+  for (const Vec3d& place : Places(260, 8, 0)) {
+    const double turn = 2 * M_PI * static_cast<double>(random()) / 4294967296.0;
+    const Vec3d along(std::cos(turn), std::sin(turn), 0), across(-std::sin(turn), along.x, 0);
+    AddStrip(place, along * 1.4, across * 0.9, &mesh);
+  }
+  scene.meshes.push_back(mesh);
+  scene.lights = {Along({0, 0, -1}, 1)};
   return scene;
 }
 
@@ -447,6 +491,8 @@ const Case kCases[] = {
     {"glints of metal", MetalGlints, 0.05, 0.06},
     {"mirrored lamps", MirroredLamps, 0.05, 0.07},
     {"glints near by", NearGlints, 0.05, 0.03},
+    {"glints of a mesh", MeshGlints, 0.05, 0.13},
+    {"confetti", Confetti, 0.02, 0.06},
     {"an emission map of high range", [] { return BrightEmission(0.02, 3000); }, 0.05, 0.03},
     {"classic dust", ClassicDust, 0.05, 0.18},
     {"bright texels",
