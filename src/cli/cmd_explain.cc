@@ -114,7 +114,7 @@ void ExplainTextbook(const std::string& folder) {
     const Sheet& sheet = sheets[i];
     const AccuratePicture accurate = RenderAccurate(sheet.scene());
     PrintOut("     {}: {}\n", fs::path(sheet.file).stem().string(),
-             ChangeText(MeasureChange(sheet.lesson.codes, accurate.codes,
+             ChangeText(MeasureChange(sheet.lesson.codes, accurate.shown.rgb8,
                                       sheet.lesson.picture.sphere, accurate.sphere)));
     if (paths.empty()) continue;
     WriteTextbookSheet(paths[i], sheet.layout, sheet.lesson, accurate);

@@ -12,10 +12,9 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "base/strip.h"
 #include "base/target.h"
 #include "color/tone.h"
-#include "image_io/exr_compress.h"
-#include "image_io/exr_writer.h"
 #include "scene/limits.h"
 
 namespace nacre {
@@ -124,7 +123,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
       ->capture_default_str()
       ->group(exr);
   command->add_option("--compression", o->compression, "none, zip, zips, piz or dwaa")
-      ->check(CLI::IsMember({"none", "zip", "zips", "piz", "dwaa"}))
+      ->check(CLI::IsMember(CompressionNames()))
       ->capture_default_str()
       ->group(exr);
   command->add_flag("--small", o->small, "Smaller files (EXR and PNG), several times slower")
@@ -281,14 +280,6 @@ FrameBand ParseTile(const std::string& text) {
   return {numbers[0], numbers[1]};
 }
 
-Compression ParseCompression(const std::string& name) {
-  if (name == "none") return Compression::kNone;
-  if (name == "zips") return Compression::kZips;
-  if (name == "piz") return Compression::kPiz;
-  if (name == "dwaa") return Compression::kDwaa;
-  return Compression::kZip;
-}
-
 RenderSettings MakeRenderSettings(const RenderOptions& options) {
   RenderSettings settings;
   settings.threads = options.threads;
@@ -299,8 +290,7 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
                 "a tile spans the frame's width; leave one of them out");
   }
   // So that a tile's chunks are those of the whole picture's file.
-  settings.band_rows =
-      std::max(ExrWriter::kStripRows, RowsPerChunk(ParseCompression(options.compression)));
+  settings.band_rows = std::max(kStripRows, RowsPerChunk(ParseCompression(options.compression)));
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
   settings.time_stages = options.explain || !options.stats.empty();

@@ -114,23 +114,7 @@ void WriteExr(const TextbookPicture& picture, ExrWriter* exr) {
     plane.reserve(picture.pixel_count());
     for (const Rgb& color : picture.film) plane.push_back(static_cast<float>(color[c]));
   }
-  for (int y = 0; y < picture.height; y += ExrWriter::kStripRows) {
-    const size_t offset = static_cast<size_t>(y) * static_cast<size_t>(picture.width);
-    StripView strip;
-    strip.y = y;
-    strip.rows = std::min(ExrWriter::kStripRows, picture.height - y);
-    for (const std::vector<float>& plane : planes) {
-      strip.channels.emplace_back(plane.data() + offset);
-    }
-    exr->WriteStrip(strip);
-  }
-}
-
-void WritePng(const TextbookPicture& picture, const std::vector<uint8_t>& codes, PngWriter* png) {
-  for (int y = 0; y < picture.height; y += PngWriter::kStripRows) {
-    const size_t offset = 3 * static_cast<size_t>(y) * static_cast<size_t>(picture.width);
-    png->WriteStrip(y, std::min(PngWriter::kStripRows, picture.height - y), codes.data() + offset);
-  }
+  exr->WriteAll({planes[0].data(), planes[1].data(), planes[2].data()});
 }
 
 // All files are open before any is written, and complete before any gets its name.
@@ -156,7 +140,7 @@ void WriteOutputs(const TextbookPicture& picture, const RenderOptions& options, 
   }
   for (const auto& file : exr) WriteExr(picture, file.get());
   const std::vector<uint8_t> codes = TextbookCodes(picture, TextbookFaults());
-  for (const auto& file : png) WritePng(picture, codes, file.get());
+  for (const auto& file : png) file->WriteAll(codes);
   ThrowIfStopped();
   for (const auto& file : exr) file->Finish();
   for (const auto& file : png) file->Finish();

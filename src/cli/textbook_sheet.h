@@ -7,16 +7,17 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/picture.h"
 #include "cli/textbook_measure.h"
 #include "scene/scene.h"
 
 namespace nacre {
 
-// A scene by nacre's own renderer: its codes (Reinhard, which is the lesson's tone operator, and
+// A scene by nacre's own renderer: as shown (Reinhard, which is the lesson's tone operator, and
 // exact sRGB) and where spheres are.
 struct AccuratePicture {
   int spp = 0;
-  std::vector<uint8_t> codes;
+  Rgb8Picture shown;
   std::vector<uint8_t> sphere;  // 1 where a sphere covers part of the pixel
 };
 AccuratePicture RenderAccurate(const Scene& scene);

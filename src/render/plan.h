@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/strip.h"
 #include "render/adaptive_plan.h"
 #include "render/camera.h"
 #include "render/layers.h"
@@ -111,10 +112,6 @@ struct RenderPlan {
   std::vector<PlanItem> substitutions;  // choices that agree within a stated error, not to the bit
   std::vector<std::string> notes;       // what the picture cannot show, and why
 };
-
-// Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a
-// time, and 16 rows of all that is needed stay in L2.
-inline constexpr int kStripRows = 16;
 
 // Columns of a tile: where it spans more cells, less of what it gathers stays in L1.
 inline constexpr int kWidestTile = 64;
