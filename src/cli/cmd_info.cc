@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "api/metadata.h"
+#include "output/metadata.h"
 #include "base/parallel.h"
 #include "base/path.h"
 #include "base/target.h"

@@ -7,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "api/metadata.h"
+#include "output/metadata.h"
 #include "base/path.h"
 #include "base/strip.h"
 #include "cli/commands.h"

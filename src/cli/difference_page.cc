@@ -32,13 +32,7 @@ struct Panel {
 };
 
 RenderSettings MakeSettings(const RenderOptions& options) {
-  RenderSettings settings;
-  settings.threads = options.threads;
-  settings.tile_size = options.tile_size;
-  settings.max_error = options.max_error;
-  if (options.spp) settings.max_samples = *options.spp;
-  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
-  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  RenderSettings settings = MakeRenderSettings(options);
   settings.on_progress = [](double) { ThrowIfStopped(); };
   return settings;
 }

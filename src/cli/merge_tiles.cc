@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "api/metadata.h"
+#include "output/metadata.h"
 #include "base/error.h"
 #include "cli/progress.h"
 #include "image_io/exr_checksum.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "api/metadata.h"
+#include "output/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/labels.h"

@@ -151,7 +151,7 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option("--intersector", o->intersector,
                    "How camera rays find spheres: auto, embree or tiles; changes no bits")
-      ->check(CLI::IsMember({"auto", "embree", "tiles"}))
+      ->check(CLI::IsMember(IntersectorNames()))
       ->capture_default_str()
       ->group(machine);
   command->add_option("--tile-size", o->tile_size, "Width of the tiles in pixels; changes no bits")
@@ -296,8 +296,7 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
   settings.time_stages = options.explain || !options.stats.empty();
   settings.max_error = options.max_error;
   if (options.spp) settings.max_samples = *options.spp;
-  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
-  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  settings.intersector = ParseIntersector(options.intersector);
   return settings;
 }
 

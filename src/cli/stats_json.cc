@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stats_json.h"
 
-#include "api/metadata.h"
+#include "output/metadata.h"
 #include "base/target.h"
 #include "base/version.h"
 #include "scene_io/json_text.h"

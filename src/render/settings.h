@@ -15,6 +15,11 @@ namespace nacre {
 // How rays find spheres. All find the same hits, to the bit.
 enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles };
 
+// "auto", "embree", "tiles".
+std::vector<std::string> IntersectorNames();
+// Throws Error (usage) for a name that is none of these.
+IntersectorChoice ParseIntersector(const std::string& name);
+
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
 struct FrameBand {
   int index = 0;

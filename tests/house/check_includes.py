@@ -31,10 +31,12 @@ BRANCHES = {
     "scene_io": {"base", "scene", "image_io"},
     "compare": {"base", "color"},
     "report": {"base", "color", "compare", "image_io"},
+    # What the files of a render say about it: for the program and the API alike.
+    "output": TRUNK_FOLDERS | {"image_io"},
     # What the lesson's exercises ask: the renderer's terms and pictures as curves and numbers.
     "study": TRUNK_FOLDERS | {"image_io", "report"},
     # The public API, nacre.h.
-    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare"},
+    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
     "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
 }
 # In src/ itself, and the folder whose header it is.
