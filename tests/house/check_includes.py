@@ -37,7 +37,8 @@ BRANCHES = {
     "study": TRUNK_FOLDERS | {"image_io", "report"},
     # The public API, nacre.h.
     "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
-    "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
+    "textbook": {"base"},  # shares nothing with the renderer; only lesson/ and cli/ may use it
+    "lesson": TRUNK_FOLDERS | {"textbook", "scene_io", "image_io", "compare"},
 }
 # In src/ itself, and the folder whose header it is.
 PUBLIC_HEADER, PUBLIC_FOLDER = "nacre.h", "api"

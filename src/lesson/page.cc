@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/textbook_sheet.h"
+#include "lesson/page.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/progress.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
 #include "image_io/canvas.h"
@@ -57,9 +56,9 @@ void AddLegend(int left, int top, int width, Canvas* page) {
 
 }  // namespace
 
-AccuratePicture RenderAccurate(const Scene& scene) {
+AccuratePicture RenderAccurate(const Scene& scene, const std::function<void(double)>& on_progress) {
   RenderSettings settings;
-  settings.on_progress = [](double) { ThrowIfStopped(); };
+  settings.on_progress = on_progress;
   const Image image = RenderImage(scene, settings);
   AccuratePicture picture;
   picture.spp = scene.image.spp;
