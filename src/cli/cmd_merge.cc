@@ -7,7 +7,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "output/metadata.h"
 #include "base/path.h"
 #include "base/strip.h"
 #include "cli/commands.h"
@@ -16,6 +15,7 @@
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "image_io/png_writer.h"
+#include "output/metadata.h"
 
 namespace nacre {
 namespace {

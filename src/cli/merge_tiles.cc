@@ -11,10 +11,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "output/metadata.h"
 #include "base/error.h"
 #include "cli/progress.h"
 #include "image_io/exr_checksum.h"
+#include "output/metadata.h"
 
 namespace nacre {
 namespace {

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "output/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/labels.h"
 #include "image_io/output_file.h"
+#include "output/metadata.h"
 
 namespace nacre {
 namespace {

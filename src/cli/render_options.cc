@@ -14,6 +14,7 @@
 #include "base/path.h"
 #include "base/strip.h"
 #include "base/target.h"
+#include "cli/help_text.h"
 #include "color/tone.h"
 #include "scene/limits.h"
 
@@ -58,8 +59,8 @@ std::function<std::string(const std::string&)> InRange(double low, double high) 
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure) {
   command
       ->add_option("--tonemap", *tonemap,
-                   "Tone operator of PNG files: neutral (Khronos PBR Neutral), reinhard, "
-                   "reinhard_extended, aces, agx, or none to clip at 1")
+                   "Tone operator of PNG files: neutral, reinhard, reinhard_extended, aces, agx "
+                   "or none; neutral is Khronos PBR Neutral, none clips at 1")
       ->check(CLI::IsMember(ToneOperatorNames()))
       ->capture_default_str();
   command->add_option("--exposure", *exposure, "Exposure of PNG files in stops: values times 2^EV")
@@ -78,8 +79,8 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option(
           "--max-error", o->max_error,
-          "Sample until each pixel's error is below this part of its value (0.05 for "
-          "darker ones, a white surface's for highlights) with 95 % confidence, e.g. 0.01; "
+          "Sample until each pixel's error is below this part of its value, e.g. 0.01; with 95 % "
+          "confidence, and of 0.05 for darker pixels, of a white surface's value for highlights. "
           "--spp is then the most samples a pixel takes (4096 if not given), and how many pixels "
           "are still unsure after these is told")
       ->check(InRange(1e-6, 1))
@@ -106,6 +107,7 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false)
       ->group(picture);
+  MoveBehindHelpAll(command, {"--region", "--tile", "--seed"});
 }
 
 namespace {
@@ -133,6 +135,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
                  "Leave times out of the files and deflate them by zlib, some times slower: equal "
                  "pictures make equal files")
       ->group(exr);
+  MoveBehindHelpAll(command, {"--depth", "--compression", "--small", "--reproducible"});
 }
 
 }  // namespace
@@ -162,6 +165,8 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
                  "Let the scene refer to files outside its own folder")
       ->group(machine);
   AddMaxPrimitivesOption(command, &o->max_primitives)->group(machine);
+  MoveBehindHelpAll(command, {"--threads", "--target", "--intersector", "--tile-size",
+                              "--allow-paths", "--max-primitives"});
 }
 
 namespace {
@@ -185,6 +190,7 @@ void AddTellingOptions(CLI::App* command, RenderOptions* o) {
       ->capture_default_str()
       ->group(telling);
   command->add_flag("--quiet", o->quiet, "Print nothing but errors")->group(telling);
+  MoveBehindHelpAll(command, {"--dry-run", "--stats", "--progress"});
 }
 
 void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
@@ -206,7 +212,7 @@ void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
 void AddRenderOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option("-o,--output", o->outputs,
-                   "File to write, .exr (linear, HDR) or .png (tone-mapped sRGB); repeatable")
+                   "File to write, repeatable: .exr (linear, HDR) or .png (tone-mapped sRGB)")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
