@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "api/metadata.h"
+#include "output/metadata.h"
 #include "api/scene_impl.h"
 #include "scene/limits.h"
 
@@ -40,11 +40,7 @@ nacre::RenderSettings ToOwn(const RenderSettings& settings) {
   own.layers = settings.layers;
   own.max_error = settings.max_error;
   if (settings.samples > 0) own.max_samples = settings.samples;
-  const std::string& intersector = settings.intersector;
-  Require(intersector == "auto" || intersector == "embree" || intersector == "tiles", "intersector",
-          "auto, embree or tiles");
-  if (intersector == "embree") own.intersector = IntersectorChoice::kEmbree;
-  if (intersector == "tiles") own.intersector = IntersectorChoice::kTiles;
+  own.intersector = ParseIntersector(settings.intersector);
   own.on_progress = settings.on_progress;
   return own;
 }

@@ -10,7 +10,6 @@
 #include <system_error>
 
 #include "api/border.h"
-#include "base/parallel.h"
 #include "base/path.h"
 #include "base/version.h"
 #include "color/display.h"
@@ -20,16 +19,6 @@
 
 namespace nacre::v0 {
 namespace {
-
-nacre::Compression ParseCompression(const std::string& name) {
-  constexpr std::array<const char*, 5> kNames = {"none", "zip", "zips", "piz", "dwaa"};
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) {
-    throw nacre::Error(ExitCode::kUsage, "compression", "unknown compression \"" + name + "\"",
-                       "one of: none, zip, zips, piz, dwaa");
-  }
-  return static_cast<nacre::Compression>(found - kNames.begin());
-}
 
 nacre::PixelType ToFile(SampleType type, bool half_floats) {
   switch (type) {
@@ -99,32 +88,13 @@ nacre::ExrHeader MakeHeader(const Image& image, const WriteSettings& settings) {
   return header;
 }
 
-// Calls body(first row, rows) for strips of as many rows as both writers take at a time.
-template <class Body>
-void ForEachStrip(const Image& image, const Body& body) {
-  constexpr int kRows = ExrWriter::kStripRows;
-  static_assert(kRows == PngWriter::kStripRows);
-  const int strips = (image.height() + kRows - 1) / kRows;
-  ParallelFor(static_cast<size_t>(strips), 0, [&](size_t strip) {
-    const int row = static_cast<int>(strip) * kRows;
-    body(row, std::min(kRows, image.height() - row));
-  });
-}
-
 void WriteExr(const Image& image, const std::string& path, const WriteSettings& settings) {
   const ExrOptions options{.compression = ParseCompression(settings.compression),
                            .small = settings.small};
   ExrWriter writer(path, MakeHeader(image, settings), options);
-  ForEachStrip(image, [&](int row, int rows) {
-    StripView strip;
-    strip.y = image.data.y0 + row;
-    strip.rows = rows;
-    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(image.width());
-    for (const Channel& channel : image.channels) {
-      strip.channels.emplace_back(channel.samples.data() + first);
-    }
-    writer.WriteStrip(strip);
-  });
+  std::vector<const float*> planes;
+  for (const Channel& channel : image.channels) planes.push_back(channel.samples.data());
+  writer.WriteAll(planes);
   writer.Finish();
 }
 
@@ -156,17 +126,13 @@ void WritePng(const Image& image, const std::string& path, const WriteSettings& 
   header.text = {{"Software", std::string("nacre ") + kVersion},
                  {"nacre:tonemap", displayed ? "none" : settings.tonemap}};
   PngWriter writer(path, header, {.small = settings.small});
-  ForEachStrip(image, [&](int row, int rows) {
-    const size_t first = static_cast<size_t>(row) * static_cast<size_t>(image.width());
-    const size_t count = static_cast<size_t>(rows) * static_cast<size_t>(image.width());
-    std::vector<uint8_t> rgb8(3 * count);
-    const std::array<const float*, 3> strip = {rgb[0] + first, rgb[1] + first, rgb[2] + first};
+  writer.WriteAll([&](size_t first, size_t count, uint8_t* rgb8) {
+    const std::array<const float*, 3> from = {rgb[0] + first, rgb[1] + first, rgb[2] + first};
     if (displayed) {
-      RoundToCodes(strip, count, rgb8.data());
+      RoundToCodes(from, count, rgb8);
     } else {
-      EncodeDisplay(display, strip[0], strip[1], strip[2], count, rgb8.data());
+      EncodeDisplay(display, from[0], from[1], from[2], count, rgb8);
     }
-    writer.WriteStrip(row, rows, rgb8.data());
   });
   writer.Finish();
 }

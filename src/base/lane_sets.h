@@ -33,15 +33,4 @@ inline constexpr LaneSets kLanesOfSets = [] {
   return sets;
 }();
 
-// By a set's bits: for each lane, how many of the set are before it.
-inline constexpr LaneSets kPlacesInSets = [] {
-  LaneSets sets{};
-  for (uint32_t bits = 0; bits < sets.size(); ++bits) {
-    for (uint32_t lane = 0; lane < kSetLanes; ++lane) {
-      sets[bits].lanes[lane] = static_cast<uint8_t>(std::popcount(bits & ((1u << lane) - 1)));
-    }
-  }
-  return sets;
-}();
-
 }  // namespace nacre

@@ -124,11 +124,6 @@ HWY_INLINE FloatsV LookUp16(const float* numbers, FloatsV bits) {
   return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, place, _mm512_load_ps(numbers))};
 }
 
-// The lanes from the first on, moved to those of `mask`, with 0 in the others.
-HWY_INLINE FloatsV UnpackLanes(FloatsV x, hn::Mask<hn::ScalableTag<float>> mask) {
-  return FloatsV{_mm512_maskz_expand_ps(mask.raw, x.raw)};
-}
-
 HWY_INLINE hn::Wide<FloatsV> Exponent(const hn::Wide<FloatsV>& x) {
   return {Exponent(x.low), Exponent(x.high)};
 }

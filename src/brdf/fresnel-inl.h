@@ -98,11 +98,11 @@ HWY_INLINE V FresnelConductor(D d, V v_dot_h, V one_minus_vh, V eta, V k) {
 
 // Schlick's curve less slope c (1 - c)^6, within [0, 1]; the slope is F82Slope's.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V f90, V slope) {
+HWY_INLINE V FresnelF82(D d, V v_dot_h, V one_minus_vh, V f0, V slope) {
   const V one = hn::Set(d, hn::TFromD<D>(1));
   const V weight = Power5(one_minus_vh);
   const V dip = hn::Mul(hn::Mul(slope, v_dot_h), hn::Mul(one_minus_vh, weight));
-  const V value = hn::Sub(FresnelSchlick(d, f0, f90, weight), dip);
+  const V value = hn::Sub(FresnelSchlick(d, f0, one, weight), dip);
   return hn::Min(hn::Max(value, hn::Zero(d)), one);
 }
 

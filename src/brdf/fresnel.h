@@ -103,22 +103,22 @@ Real FresnelConductor(Real v_dot_h, Real one_minus_vh, Real eta, Real k) {
 // Edmondson 2021, eq. 6; the "F82-tint" of OpenPBR): less b c (1 - c)^6.
 // b from the reflectance there:
 template <typename Real>
-Real F82Slope(Real f0, Real f90, Real f82) {
+Real F82Slope(Real f0, Real f82) {
   const Real weight = Power5(Real(6) / 7);
-  return (FresnelSchlick(f0, f90, weight) - f82) / (weight * 6 / 49);
+  return (FresnelSchlick(f0, Real(1), weight) - f82) / (weight * 6 / 49);
 }
 
 // b from a tint, which multiplies Schlick's value there.
 template <typename Real>
-Real F82SlopeFromTint(Real f0, Real f90, Real tint) {
-  return F82Slope(f0, f90, tint * FresnelSchlick(f0, f90, Power5(Real(6) / 7)));
+Real F82SlopeFromTint(Real f0, Real tint) {
+  return F82Slope(f0, tint * FresnelSchlick(f0, Real(1), Power5(Real(6) / 7)));
 }
 
 // Kept within [0, 1], which a very dark or very bright tint leaves.
 template <typename Real>
-Real FresnelF82(Real v_dot_h, Real one_minus_vh, Real f0, Real f90, Real slope) {
+Real FresnelF82(Real v_dot_h, Real one_minus_vh, Real f0, Real slope) {
   const Real weight = Power5(one_minus_vh);
-  const Real value = FresnelSchlick(f0, f90, weight) - slope * v_dot_h * one_minus_vh * weight;
+  const Real value = FresnelSchlick(f0, Real(1), weight) - slope * v_dot_h * one_minus_vh * weight;
   return std::min(std::max(value, Real(0)), Real(1));
 }
 

@@ -13,8 +13,8 @@ Real AverageSchlick(Real f0, Real f90 = 1) {
 
 // F82: 2 int c^2 (1 - c)^6 dc = 1/126. Exact where the curve stays within [0, 1] by itself.
 template <typename Real>
-Real AverageF82(Real f0, Real f90, Real slope) {
-  return AverageSchlick(f0, f90) - slope / 126;
+Real AverageF82(Real f0, Real slope) {
+  return AverageSchlick(f0) - slope / 126;
 }
 
 // By quadrature, to 1e-12.

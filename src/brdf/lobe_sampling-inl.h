@@ -74,18 +74,6 @@ HWY_INLINE V GgxVisiblePdf(D d, const AnglesV<V>& a, V alpha) {
   return GgxVisiblePdf(d, GgxDistribution(d, a, alpha), a.n_dot_v, alpha);
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V GgxVisibleWeight(D d, V n_dot_l, V n_dot_v, V alpha) {
-  const V zero = hn::Zero(d);
-  const auto above = hn::Gt(n_dot_l, zero);
-  const V cosine = hn::Max(n_dot_v, zero);
-  const V v_root = SmithRoot(d, cosine, alpha);
-  const V sum = hn::MulAdd(n_dot_l, v_root, hn::Mul(cosine, SmithRoot(d, n_dot_l, alpha)));
-  const V weight = hn::Div(hn::Mul(n_dot_l, hn::Add(cosine, v_root)),
-                           hn::IfThenElse(above, sum, hn::Set(d, 1.0f)));
-  return hn::IfThenElseZero(above, weight);
-}
-
 // 1 - 2^y for y <= 0, without cancellation next to 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V OneMinusExp2(D d, V y) {

@@ -78,16 +78,6 @@ Real GgxVisiblePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_
   return GgxVisiblePdf(ComputeAngles(normal, to_light, to_view), alpha);
 }
 
-// BRDF n.l / density for height-correlated shadowing and a Fresnel term of 1: G2 / G1, at most 1.
-// Neither needs D, which carries the roundings of the sample's direction.
-template <typename Real>
-Real GgxVisibleWeight(Real n_dot_l, Real n_dot_v, Real alpha) {
-  if (!(n_dot_l > 0)) return 0;
-  const Real cosine = std::max(n_dot_v, Real(0));
-  const Real v_root = SmithRoot(cosine, alpha);
-  return n_dot_l * (cosine + v_root) / (n_dot_l * v_root + cosine * SmithRoot(n_dot_l, alpha));
-}
-
 // The lobe of Kulla and Conty 2017 in the direction of the light, (1 - E(n.l)) n.l. The loss 1 - E
 // is flat up to an n.l of about sqrt(spread), twice the width of the lobe or of Schlick's masking,
 // and then falls as 1 / (n.l)^2: a density of n.l / ((n.l)^2 + spread) per solid angle. With this

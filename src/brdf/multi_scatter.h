@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/multi_scatter.h: what brings back the light that a single bounce on microfacets loses. SIMD
-// twin: multi_scatter-inl.h.
+// brdf/multi_scatter.h: what brings back the light that a single bounce on microfacets loses, as a
+// second lobe: constants of a material. Turquin's factor 1 + F0 (1 / E - 1) on the lobe itself is
+// in the models' Fresnel terms (shading/scalar_material.h).
 //
 // E, the albedo for F = 1, comes from brdf/albedo.h, F_avg from brdf/fresnel_average.h.
 #pragma once
@@ -10,13 +11,6 @@
 #include "brdf/albedo.h"
 
 namespace nacre {
-
-// Turquin 2019, "Practical multiple scattering compensation for microfacet models", eq. 16: the
-// factor 1 + F0 (1 / E(n.v) - 1) on the whole lobe. One look-up, but not reciprocal.
-template <typename Real>
-Real TurquinFactor(Real f0, Real albedo_one) {
-  return 1 + f0 * (1 / albedo_one - 1);
-}
 
 // Kulla and Conty 2017, "Revisiting physically based shading at Imageworks": a second, reciprocal
 // lobe (1 - E(n.v)) (1 - E(n.l)) / (pi (1 - E_avg)), from AlbedoLoss. This is 1 / (pi (1 - E_avg));

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/heat_picture.h"
+#include "cli/help_text.h"
 #include "cli/metrics_json.h"
 #include "cli/outputs.h"
 #include "cli/perceptual_options.h"
@@ -197,6 +198,8 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
                  "Absolute errors in place of those relative to sqrt(reference^2 + 0.01^2)")
       ->group(map);
   command->add_flag("--json", a->json, "Print JSON");
+  MoveBehindHelpAll(command, {"--part", "--crop", "--fraction", "--heat-layer", "--heat-low",
+                              "--heat-high", "--absolute"});
   command->footer(
       "Exit code: 0 they match, 1 they differ, 2 they cannot be compared.\n"
       "Examples:\n"

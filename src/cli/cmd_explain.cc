@@ -12,9 +12,9 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "cli/textbook_faults.h"
-#include "cli/textbook_scenes.h"
-#include "cli/textbook_sheet.h"
+#include "lesson/fault_entries.h"
+#include "lesson/page.h"
+#include "lesson/scenes.h"
 
 namespace nacre {
 namespace {
@@ -112,9 +112,10 @@ void ExplainTextbook(const std::string& folder) {
   PrintOut("\nAgainst nacre's own renderer, with real spheres and light that falls off\n");
   for (size_t i = 0; i < sheets.size(); ++i) {
     const Sheet& sheet = sheets[i];
-    const AccuratePicture accurate = RenderAccurate(sheet.scene());
+    const AccuratePicture accurate =
+        RenderAccurate(sheet.scene(), [](double) { ThrowIfStopped(); });
     PrintOut("     {}: {}\n", fs::path(sheet.file).stem().string(),
-             ChangeText(MeasureChange(sheet.lesson.codes, accurate.codes,
+             ChangeText(MeasureChange(sheet.lesson.codes, accurate.shown.rgb8,
                                       sheet.lesson.picture.sphere, accurate.sphere)));
     if (paths.empty()) continue;
     WriteTextbookSheet(paths[i], sheet.layout, sheet.lesson, accurate);

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "api/metadata.h"
 #include "base/parallel.h"
 #include "base/path.h"
 #include "base/target.h"
@@ -16,6 +15,7 @@
 #include "cli/render_options.h"
 #include "image_io/image_file.h"
 #include "image_io/verify_image.h"
+#include "output/metadata.h"
 #include "scene/hash.h"
 #include "scene_io/load_scene.h"
 

@@ -7,15 +7,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "api/metadata.h"
 #include "base/path.h"
+#include "base/strip.h"
 #include "cli/commands.h"
 #include "cli/merge_tiles.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
-#include "image_io/exr_compress.h"
 #include "image_io/png_writer.h"
+#include "output/metadata.h"
 
 namespace nacre {
 namespace {
@@ -83,14 +83,14 @@ class MergedFiles {
     const auto row_bytes = 3 * static_cast<size_t>(rows.width());
     for (int y = rows.y0; y < rows.y1;) {
       const int row = y - whole_.header.display.y0;
-      const int count = std::min(PngWriter::kStripRows - row % PngWriter::kStripRows, rows.y1 - y);
+      const int count = std::min(kStripRows - row % kStripRows, rows.y1 - y);
       reader->ReadRows(y, count, {"R", "G", "B"}, &planes_);
       const size_t filled = rgb8_.size();
       rgb8_.resize(filled + row_bytes * static_cast<size_t>(count));
       nan_pixels_ += EncodeDisplay(display_, planes_[0].data(), planes_[1].data(),
                                    planes_[2].data(), planes_[0].size(), rgb8_.data() + filled);
       y += count;
-      if ((row + count) % PngWriter::kStripRows == 0) FlushPng();
+      if ((row + count) % kStripRows == 0) FlushPng();
     }
   }
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "cli/commands.h"
 #include "cli/given_options.h"
+#include "cli/help_text.h"
 #include "cli/outputs.h"
 #include "cli/plot_defaults.h"
 #include "cli/plot_inputs.h"
@@ -237,7 +238,7 @@ void AddPlotOptions(CLI::App* command, PlotArguments* a) {
   command->add_option("KIND", a->kind, KindHelp())->required();
   command
       ->add_option("-o,--output", a->inputs.outputs,
-                   "File to write, .svg, .png or .csv; repeatable")
+                   "File to write, repeatable: .svg, .png or .csv")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -282,6 +283,8 @@ void AddCurveOptions(CLI::App* command, PlotArguments* a) {
       ->type_name("WxH");
   command->add_flag("--allow-paths", a->inputs.allow_paths,
                     "Let the scene refer to files outside its own folder");
+  MoveBehindHelpAll(command,
+                    {"--channel", "--kernel", "--one-light", "--exposure", "--allow-paths"});
 }
 
 }  // namespace

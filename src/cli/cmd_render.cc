@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/render_job.h"
 #include "cli/textbook_job.h"
 
@@ -39,6 +40,7 @@ void AddRenderCommand(CLI::App* app, int*) {
       ->type_name("FILE")
       ->group("Picture");
   AddRenderOptions(command, &arguments->options);
+  MoveBehindHelpAll(command, {"--preset"});
   command->footer(
       "Examples:\n"
       "  nacre render scenes/material_grid.json -o grid.exr -o grid.png --labels\n"
@@ -54,11 +56,10 @@ void AddRenderCommand(CLI::App* app, int*) {
       RunTextbookJob(arguments->options, arguments->scene, *command);
       return;
     }
-    RunRenderJob(arguments->options, {arguments->scene},
-                 [&](LoadOptions load) {
-                   load.environment = arguments->environment;
-                   return LoadScene(arguments->scene, load);
-                 });
+    RunRenderJob(arguments->options, {arguments->scene}, [&](LoadOptions load) {
+      load.environment = arguments->environment;
+      return LoadScene(arguments->scene, load);
+    });
   });
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/outputs.h"
 #include "cli/perceptual_options.h"
 #include "cli/render_options.h"
@@ -149,6 +150,7 @@ void AddReportCommand(CLI::App* app, int*) {
       ->delimiter(',')
       ->group("Picture");
   AddMachineOptions(command, &a->render);
+  MoveBehindHelpAll(command, {"--limit"});
   command->footer(
       "Pictures keep their samples, so that the page has an exposure slider, nacre's tone "
       "operators\n"

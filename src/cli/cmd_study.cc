@@ -32,21 +32,6 @@ struct StudyArguments {
   bool quiet = false;
 };
 
-void WritePicture(const std::string& path, const StudyPicture& picture) {
-  PngHeader header;
-  header.width = picture.width;
-  header.height = picture.height;
-  header.text = {{"Software", fmt::format("nacre {}", kVersion)}};
-  PngWriter png(path, header);
-  for (int y = 0; y < picture.height; y += PngWriter::kStripRows) {
-    const size_t begin = 3 * static_cast<size_t>(y) * static_cast<size_t>(picture.width);
-    png.WriteStrip(y, std::min(PngWriter::kStripRows, picture.height - y),
-                   picture.rgb8.data() + begin);
-  }
-  png.Finish();
-  NoteWritten(path);
-}
-
 std::string NumbersCsv(const StudyResult& result) {
   std::string text = "quantity,value,unit\n";
   for (const StudyNumber& number : result.numbers) {
@@ -95,7 +80,9 @@ void RunStudy(const StudyEntry& study, const fs::path& folder, bool quiet) {
     return study.run([&](double done) { progress.Update(done); });
   }();
   for (const StudyPicture& picture : result.pictures) {
-    WritePicture((folder / (picture.name + ".png")).string(), picture);
+    const std::string path = (folder / (picture.name + ".png")).string();
+    WritePng(path, picture.picture);
+    NoteWritten(path);
   }
   for (const StudyFigure& figure : result.figures) {
     for (const char* extension : {".svg", ".png", ".csv"}) {

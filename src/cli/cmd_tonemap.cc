@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/cmd_tonemap.cc: nacre tonemap: a linear image to a PNG for a display.
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -10,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
@@ -66,7 +64,7 @@ struct ShownPixels {
   Window window;
   std::array<std::vector<float>, 3> rgb;  // of a grey image the first one alone
 
-  const float* Row(size_t c, size_t first) const {
+  const float* From(size_t c, size_t first) const {
     return rgb[rgb[c].empty() ? 0 : c].data() + first;
   }
 };
@@ -120,23 +118,15 @@ void RunTonemap(const TonemapArguments& arguments) {
   }
   const DisplaySettings display{.tone = ParseToneOperator(arguments.tonemap),
                                 .exposure_ev = arguments.exposure};
-  const size_t width = static_cast<size_t>(shown.window.width());
   PngHeader header;
   header.width = shown.window.width();
   header.height = shown.window.height();
   header.text = {{"Software", "nacre"}, {"nacre:tonemap", arguments.tonemap}};
   PngWriter png(arguments.output, header, {.small = arguments.small});
-  const int strips = (header.height + PngWriter::kStripRows - 1) / PngWriter::kStripRows;
   std::atomic<size_t> nan_pixels{0};
-  ParallelFor(static_cast<size_t>(strips), 0, [&](size_t strip) {
-    const int y = static_cast<int>(strip) * PngWriter::kStripRows;
-    const int rows = std::min(PngWriter::kStripRows, header.height - y);
-    const size_t first = static_cast<size_t>(y) * width;
-    const size_t count = static_cast<size_t>(rows) * width;
-    std::vector<uint8_t> rgb8(3 * count);
-    nan_pixels += EncodeDisplay(display, shown.Row(0, first), shown.Row(1, first),
-                                shown.Row(2, first), count, rgb8.data());
-    png.WriteStrip(y, rows, rgb8.data());
+  png.WriteAll([&](size_t first, size_t count, uint8_t* rgb8) {
+    nan_pixels += EncodeDisplay(display, shown.From(0, first), shown.From(1, first),
+                                shown.From(2, first), count, rgb8);
   });
   png.Finish();
   if (nan_pixels > 0) {

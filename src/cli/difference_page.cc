@@ -7,13 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/canvas.h"
 #include "cli/given_options.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
-#include "image_io/draw_text.h"
+#include "image_io/canvas.h"
+#include "image_io/png_writer.h"
 #include "render/render.h"
 
 namespace nacre {
@@ -32,13 +32,7 @@ struct Panel {
 };
 
 RenderSettings MakeSettings(const RenderOptions& options) {
-  RenderSettings settings;
-  settings.threads = options.threads;
-  settings.tile_size = options.tile_size;
-  settings.max_error = options.max_error;
-  if (options.spp) settings.max_samples = *options.spp;
-  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
-  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  RenderSettings settings = MakeRenderSettings(options);
   settings.on_progress = [](double) { ThrowIfStopped(); };
   return settings;
 }
@@ -98,22 +92,16 @@ HeatScale ScaleFor(double max) {
   return scale;
 }
 
-std::vector<uint8_t> Encode(const Panel& panel, const RenderOptions& options) {
-  DisplaySettings display;
-  display.tone = ParseToneOperator(options.tonemap);
-  display.exposure_ev = options.exposure;
-  const size_t count = panel.Channel("R").size();
-  std::vector<uint8_t> codes(3 * count);
-  EncodeDisplay(display, panel.Channel("R").data(), panel.Channel("G").data(),
-                panel.Channel("B").data(), count, codes.data());
-  return codes;
+Rgb8Picture Show(const Panel& panel, const RenderOptions& options) {
+  return ShowImage(panel.image,
+                   {.tone = ParseToneOperator(options.tonemap), .exposure_ev = options.exposure});
 }
 
 // The largest difference of each pixel's channels; the ground where there is no sphere.
-std::vector<uint8_t> HeatCodes(const Panel& a, const Panel& b, const HeatScale& scale,
-                               const std::vector<uint8_t>& ground) {
-  std::vector<uint8_t> codes = ground;
-  for (size_t i = 0; 3 * i < codes.size(); ++i) {
+Rgb8Picture ShowDifference(const Panel& a, const Panel& b, const HeatScale& scale,
+                           const Rgb8Picture& ground) {
+  Rgb8Picture picture = ground;
+  for (size_t i = 0; 3 * i < picture.rgb8.size(); ++i) {
     if (!(a.Channel("A")[i] > 0.5f)) continue;
     double worst = 0;
     for (const char* name : {"R", "G", "B"}) {
@@ -121,9 +109,10 @@ std::vector<uint8_t> HeatCodes(const Panel& a, const Panel& b, const HeatScale& 
                                        static_cast<double>(b.Channel(name)[i])));
     }
     const Rgb8 color = worst > 0 ? HeatColor(scale.Position(worst)) : kHeatEqual;
-    std::copy(color.begin(), color.end(), codes.begin() + 3 * static_cast<std::ptrdiff_t>(i));
+    std::copy(color.begin(), color.end(),
+              picture.rgb8.begin() + 3 * static_cast<std::ptrdiff_t>(i));
   }
-  return codes;
+  return picture;
 }
 
 // How far measures and scale are from the sides of the cells.
@@ -164,7 +153,7 @@ void DrawScale(const SheetPage& page, const HeatScale& scale, bool below, bool l
   const int width = static_cast<int>((below ? 3 : 1) * page.cell - 2 * inset);
   const int height = std::max(static_cast<int>(0.6 * em), 2);
   const int top = static_cast<int>(page.strip_top + (below ? 3 * kMeasureLine + 0.5 : 0) * em);
-  canvas->Paste(HeatLegend(width, height).rgb8, width, left, top);
+  canvas->Paste(HeatLegend(width, height), left, top);
   const int low = static_cast<int>(std::lround(std::log10(scale.low)));
   const int step = LabelStep(low, width, kScaleText * em);
   for (int power = low; power <= low + 4; power += step) {
@@ -172,12 +161,12 @@ void DrawScale(const SheetPage& page, const HeatScale& scale, bool below, bool l
     const AlignX align = power == low       ? AlignX::kLeft
                          : power == low + 4 ? AlignX::kRight
                                             : AlignX::kCenter;
-    canvas->Write(fmt::format("1e{}", power), x, top + height + 0.35 * em, kScaleText * em, align,
-                  InkColor(light_ground));
+    canvas->AddText(PlainText(fmt::format("1e{}", power), x, top + height + 0.35 * em,
+                              kScaleText * em, align, InkColor(light_ground)));
   }
-  canvas->Write(kScaleCaption, below ? left : left + width / 2.0, top + height + 1.6 * em,
-                kScaleText * em, below ? AlignX::kLeft : AlignX::kCenter,
-                FaintInkColor(light_ground));
+  canvas->AddText(PlainText(kScaleCaption, below ? left : left + width / 2.0,
+                            top + height + 1.6 * em, kScaleText * em,
+                            below ? AlignX::kLeft : AlignX::kCenter, FaintInkColor(light_ground)));
 }
 
 void WriteMeasures(const SheetPage& page, const DifferenceMeasures& m, bool light_ground,
@@ -189,7 +178,7 @@ void WriteMeasures(const SheetPage& page, const DifferenceMeasures& m, bool ligh
                                fmt::format("mean of A - B {:+.4g}", m.mean)};
   double y = page.strip_top;
   for (const std::string& line : lines) {
-    canvas->Write(line, x, y, em, AlignX::kLeft, InkColor(light_ground));
+    canvas->AddText(PlainText(line, x, y, em, AlignX::kLeft, InkColor(light_ground)));
     y += kMeasureLine * em;
   }
 }
@@ -237,21 +226,21 @@ DifferenceMeasures DrawDifference(const DifferencePage& difference, const SheetO
   const DifferenceMeasures measures = Measure(a, b);
   if (options.outputs.empty()) return measures;
 
-  const std::vector<uint8_t> a_codes = Encode(a, options);
-  Canvas canvas(page.width, page.height, {a_codes[0], a_codes[1], a_codes[2]});
+  const Rgb8Picture shown_a = Show(a, options);
+  Canvas canvas(page.width, page.height, {shown_a.rgb8[0], shown_a.rgb8[1], shown_a.rgb8[2]});
   const int top = static_cast<int>(page.top);
   const auto left = [&](int i) { return static_cast<int>(page.left) + i * side; };
-  canvas.Paste(a_codes, side, left(0), top);
-  canvas.Paste(Encode(b, options), side, left(1), top);
+  canvas.Paste(shown_a, left(0), top);
+  canvas.Paste(Show(b, options), left(1), top);
   const HeatScale scale = ScaleFor(measures.max);
-  canvas.Paste(HeatCodes(a, b, scale, a_codes), side, left(2), top);
+  canvas.Paste(ShowDifference(a, b, scale, shown_a), left(2), top);
   if (page.text_px > 0) {
     DrawScale(page, scale, scale_below, request.light_ground, &canvas);
     WriteMeasures(page, measures, request.light_ground, &canvas);
   }
   canvas.AddText(page.text);
-  canvas.DrawText();
-  for (const std::string& path : options.outputs) canvas.WritePng(path, options.small);
+  const Rgb8Picture& picture = canvas.Draw();
+  for (const std::string& path : options.outputs) WritePng(path, picture, {.small = options.small});
   return measures;
 }
 

@@ -9,7 +9,7 @@
 namespace nacre {
 
 // Writes the map above a bar of its colours with ticks at powers of ten.
-void WriteHeatPicture(const std::string& path, const HeatPicture& map, HeatQuantity quantity,
+void WriteHeatPicture(const std::string& path, const Rgb8Picture& map, HeatQuantity quantity,
                       const HeatScale& scale);
 
 }  // namespace nacre

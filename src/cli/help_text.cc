@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/help_text.h"
 
+#include <algorithm>
 #include <sstream>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -47,19 +50,114 @@ std::string HelpEntry(const std::string& head, const std::string& text, size_t i
   return out + WrapHelp(text, indent, indent) + "\n";
 }
 
-}  // namespace
+// Options are in groups; of those behind --help-all the name ends in this.
+constexpr std::string_view kBehind = " (--help-all)";
 
-std::string HelpFormatter::make_option(const CLI::Option* option, bool /*is_positional*/) const {
-  std::string head = fmt::format("{}", fmt::join(NamesOf(*option), ","));
-  std::string text = OptionText(*option);
+bool IsBehindHelpAll(const CLI::Option& option) { return option.get_group().ends_with(kBehind); }
+
+std::string TitleOf(std::string group) {
+  if (group.ends_with(kBehind)) group.resize(group.size() - kBehind.size());
+  return group;
+}
+
+// Up to the first semicolon, or full stop before a capital or an option, that is in no brackets.
+std::string FirstSentence(const std::string& text) {
+  int depth = 0;
+  for (size_t i = 0; i + 2 < text.size(); ++i) {
+    depth += text[i] == '(' || text[i] == '[';
+    depth -= text[i] == ')' || text[i] == ']';
+    const char next = text[i + 2];
+    const bool ends =
+        text[i] == ';' || (text[i] == '.' && (next == '-' || (next >= 'A' && next <= 'Z')));
+    if (depth == 0 && ends && text[i + 1] == ' ') return text.substr(0, i);
+  }
+  return text;
+}
+
+std::string OptionEntry(const CLI::Option& option, bool whole) {
+  std::string head = fmt::format("{}", fmt::join(NamesOf(option), ","));
+  const std::string& about = option.get_description();
+  std::string text = OptionText(option);  // begins with what the option does
+  if (!whole) text.replace(0, about.size(), FirstSentence(about));
   if (head.empty()) {
-    head = option->get_name(true);
-  } else if (TakesValue(*option)) {
-    const std::string value = ValueName(*option);
+    head = option.get_name(true);
+  } else if (TakesValue(option)) {
+    const std::string value = ValueName(option);
     head += " " + (head.size() + value.size() < kLongestHead ? value : "NAME");
   }
-  if (option->get_required()) text += " (required)";
+  if (option.get_required()) text += " (required)";
   return HelpEntry(head, text, 24);
+}
+
+// The options that are in groups, by the title of their group.
+using Groups = std::vector<std::pair<std::string, std::vector<const CLI::Option*>>>;
+Groups GroupsOf(const CLI::App& app) {
+  Groups groups = {{"Positionals", {}}};
+  for (const std::string& group : app.get_groups()) {
+    if (group.empty()) continue;
+    const auto options =
+        app.get_options([&](const CLI::Option* option) { return option->get_group() == group; });
+    const std::string title = TitleOf(group);
+    auto found = std::find_if(groups.begin(), groups.end(),
+                              [&](const auto& known) { return known.first == title; });
+    if (found == groups.end()) {
+      groups.push_back({title, {}});
+      found = groups.end() - 1;
+    }
+    for (const CLI::Option* option : options) {
+      (option->nonpositional() ? *found : groups.front()).second.push_back(option);
+    }
+  }
+  return groups;
+}
+
+std::string GroupsText(const CLI::App& app, bool whole) {
+  std::string text;
+  for (const auto& [title, options] : GroupsOf(app)) {
+    std::string entries;
+    for (const CLI::Option* option : options) {
+      if (whole || !IsBehindHelpAll(*option)) entries += OptionEntry(*option, whole);
+    }
+    if (!entries.empty()) text += fmt::format("\n{}:\n{}", title, entries);
+  }
+  return text;
+}
+
+// Of the command `name`: how to learn more than --help says, if there is more.
+std::string MoreText(const CLI::App& app, const std::string& name) {
+  std::vector<std::string> names;
+  bool is_cut = false;
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string about = option->get_description();
+    is_cut = is_cut || FirstSentence(about) != about;
+    if (IsBehindHelpAll(*option)) names.push_back(NamesOf(*option).back());
+  }
+  if (names.empty() && !is_cut) return {};
+  std::string text = fmt::format("More: {} --help-all", name);
+  if (!names.empty()) text += fmt::format(", which also has {}", fmt::join(names, ", "));
+  return "\n" + WrapHelp(text, 0, 0) + "\n";
+}
+
+}  // namespace
+
+void MoveBehindHelpAll(CLI::App* command, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    CLI::Option* const option = command->get_option(name);
+    option->group(option->get_group() + std::string(kBehind));
+  }
+}
+
+std::string HelpFormatter::make_help(const CLI::App* app, std::string name,
+                                     CLI::AppFormatMode mode) const {
+  if (mode == CLI::AppFormatMode::Sub) {  // of all commands one below the other
+    return fmt::format("\nnacre {}: ", app->get_name()) + make_description(app) +
+           GroupsText(*app, true);
+  }
+  const bool whole = mode == CLI::AppFormatMode::All;
+  std::string text = make_description(app) + make_usage(app, name) + GroupsText(*app, whole);
+  text += make_subcommands(app, mode);
+  if (!whole) text += MoreText(*app, name);
+  return text + "\n" + make_footer(app);
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {

@@ -131,11 +131,12 @@ Json LightsOf(const std::string& set_up, double reach, bool centred) {
 void AddLightingOptions(CLI::App* command, LightingOptions* options) {
   const std::string group = "Light";
   command
-      ->add_option("--light", options->light,
-                   "point (one from the upper right; in split pairs from above), studio (key, fill "
-                   "and rim), sky (a gradient "
-                   "from ground to zenith), rectangle (a soft box) or furnace (radiance 1 from "
-                   "everywhere: what a white surface reflects whole is as bright as its ground)")
+      ->add_option(
+          "--light", options->light,
+          "point, studio, sky, rectangle or furnace. The point is at the upper right, in "
+          "split pairs above; a studio has key, fill and rim light; the sky is a gradient "
+          "from ground to zenith, the rectangle a soft box, and the furnace radiance 1 from "
+          "everywhere: what a white surface reflects whole is as bright as its ground")
       ->check(CLI::IsMember({"point", "studio", "sky", "rectangle", "furnace"}))
       ->capture_default_str()
       ->group(group);

@@ -74,6 +74,8 @@ int Run(int argc, char** argv) {
       "nacre renders shading models on spheres and meshes: exact hits, SIMD shading, HDR output.",
       "nacre");
   app.formatter(std::make_shared<nacre::HelpFormatter>());
+  app.set_help_flag("-h,--help", "Print this help: what is used most");
+  app.set_help_all_flag("--help-all", "Print all options and all about them");
   app.set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit));
   app.require_subcommand(1);
   app.footer(

@@ -11,11 +11,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "api/metadata.h"
 #include "base/error.h"
 #include "cli/progress.h"
 #include "image_io/exr_checksum.h"
-#include "image_io/exr_compress.h"
+#include "output/metadata.h"
 
 namespace nacre {
 namespace {
@@ -67,11 +66,6 @@ void CheckAttribute(const HeaderOfTile& a, const HeaderOfTile& b, const std::str
   const bool same =
       name == kRenderTimeAttribute ? (of_a == "none") == (of_b == "none") : of_a == of_b;
   if (!same) ThrowDifference(a, b, name, of_a, of_b, hint);
-}
-
-std::string CompressionName(Compression compression) {
-  constexpr const char* kNames[] = {"none", "zip", "zips", "piz", "dwaa"};
-  return kNames[static_cast<size_t>(compression)];
 }
 
 std::string ChannelNames(const ExrHeader& header) {

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "api/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/labels.h"
 #include "image_io/output_file.h"
+#include "output/metadata.h"
 
 namespace nacre {
 namespace {
@@ -146,14 +146,7 @@ void Outputs::DrawTexts() {
 OutputCounts Outputs::Finish(const RenderStats& stats) {
   if (!picture_.empty()) {
     DrawTexts();
-    for (const auto& png : png_) {
-      for (int row = 0; row < plan_.window.height(); row += kStripRows) {
-        const size_t offset =
-            3 * static_cast<size_t>(row) * static_cast<size_t>(plan_.window.width());
-        png->WriteStrip(row, std::min(kStripRows, plan_.window.height() - row),
-                        picture_.data() + offset);
-      }
-    }
+    for (const auto& png : png_) png->WriteAll(picture_);
   }
   OutputCounts counts;
   counts.nan_pixels = nan_pixels_;

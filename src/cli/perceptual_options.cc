@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error.h"
+#include "cli/help_text.h"
 #include "cli/render_options.h"
 
 namespace nacre {
@@ -76,6 +77,7 @@ void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
       ->check(InRange(-60, 60))
       ->capture_default_str()
       ->group(group);
+  MoveBehindHelpAll(command, {"--ppd", "--flip-exposures", "--tonemap", "--exposure"});
 }
 
 std::optional<PerceptualOptions> MakePerceptualOptions(const PerceptualArguments& arguments) {

@@ -12,10 +12,10 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "base/strip.h"
 #include "base/target.h"
+#include "cli/help_text.h"
 #include "color/tone.h"
-#include "image_io/exr_compress.h"
-#include "image_io/exr_writer.h"
 #include "scene/limits.h"
 
 namespace nacre {
@@ -59,8 +59,8 @@ std::function<std::string(const std::string&)> InRange(double low, double high) 
 void AddDisplayOptions(CLI::App* command, std::string* tonemap, double* exposure) {
   command
       ->add_option("--tonemap", *tonemap,
-                   "Tone operator of PNG files: neutral (Khronos PBR Neutral), reinhard, "
-                   "reinhard_extended, aces, agx, or none to clip at 1")
+                   "Tone operator of PNG files: neutral, reinhard, reinhard_extended, aces, agx "
+                   "or none; neutral is Khronos PBR Neutral, none clips at 1")
       ->check(CLI::IsMember(ToneOperatorNames()))
       ->capture_default_str();
   command->add_option("--exposure", *exposure, "Exposure of PNG files in stops: values times 2^EV")
@@ -79,8 +79,8 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option(
           "--max-error", o->max_error,
-          "Sample until each pixel's error is below this part of its value (0.05 for "
-          "darker ones, a white surface's for highlights) with 95 % confidence, e.g. 0.01; "
+          "Sample until each pixel's error is below this part of its value, e.g. 0.01; with 95 % "
+          "confidence, and of 0.05 for darker pixels, of a white surface's value for highlights. "
           "--spp is then the most samples a pixel takes (4096 if not given), and how many pixels "
           "are still unsure after these is told")
       ->check(InRange(1e-6, 1))
@@ -107,6 +107,7 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false)
       ->group(picture);
+  MoveBehindHelpAll(command, {"--region", "--tile", "--seed"});
 }
 
 namespace {
@@ -124,7 +125,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
       ->capture_default_str()
       ->group(exr);
   command->add_option("--compression", o->compression, "none, zip, zips, piz or dwaa")
-      ->check(CLI::IsMember({"none", "zip", "zips", "piz", "dwaa"}))
+      ->check(CLI::IsMember(CompressionNames()))
       ->capture_default_str()
       ->group(exr);
   command->add_flag("--small", o->small, "Smaller files (EXR and PNG), several times slower")
@@ -134,6 +135,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
                  "Leave times out of the files and deflate them by zlib, some times slower: equal "
                  "pictures make equal files")
       ->group(exr);
+  MoveBehindHelpAll(command, {"--depth", "--compression", "--small", "--reproducible"});
 }
 
 }  // namespace
@@ -152,7 +154,7 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option("--intersector", o->intersector,
                    "How camera rays find spheres: auto, embree or tiles; changes no bits")
-      ->check(CLI::IsMember({"auto", "embree", "tiles"}))
+      ->check(CLI::IsMember(IntersectorNames()))
       ->capture_default_str()
       ->group(machine);
   command->add_option("--tile-size", o->tile_size, "Width of the tiles in pixels; changes no bits")
@@ -163,6 +165,8 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
                  "Let the scene refer to files outside its own folder")
       ->group(machine);
   AddMaxPrimitivesOption(command, &o->max_primitives)->group(machine);
+  MoveBehindHelpAll(command, {"--threads", "--target", "--intersector", "--tile-size",
+                              "--allow-paths", "--max-primitives"});
 }
 
 namespace {
@@ -186,6 +190,7 @@ void AddTellingOptions(CLI::App* command, RenderOptions* o) {
       ->capture_default_str()
       ->group(telling);
   command->add_flag("--quiet", o->quiet, "Print nothing but errors")->group(telling);
+  MoveBehindHelpAll(command, {"--dry-run", "--stats", "--progress"});
 }
 
 void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
@@ -207,7 +212,7 @@ void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
 void AddRenderOptions(CLI::App* command, RenderOptions* o) {
   command
       ->add_option("-o,--output", o->outputs,
-                   "File to write, .exr (linear, HDR) or .png (tone-mapped sRGB); repeatable")
+                   "File to write, repeatable: .exr (linear, HDR) or .png (tone-mapped sRGB)")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
@@ -281,14 +286,6 @@ FrameBand ParseTile(const std::string& text) {
   return {numbers[0], numbers[1]};
 }
 
-Compression ParseCompression(const std::string& name) {
-  if (name == "none") return Compression::kNone;
-  if (name == "zips") return Compression::kZips;
-  if (name == "piz") return Compression::kPiz;
-  if (name == "dwaa") return Compression::kDwaa;
-  return Compression::kZip;
-}
-
 RenderSettings MakeRenderSettings(const RenderOptions& options) {
   RenderSettings settings;
   settings.threads = options.threads;
@@ -299,15 +296,13 @@ RenderSettings MakeRenderSettings(const RenderOptions& options) {
                 "a tile spans the frame's width; leave one of them out");
   }
   // So that a tile's chunks are those of the whole picture's file.
-  settings.band_rows =
-      std::max(ExrWriter::kStripRows, RowsPerChunk(ParseCompression(options.compression)));
+  settings.band_rows = std::max(kStripRows, RowsPerChunk(ParseCompression(options.compression)));
   settings.layers = options.layers;
   settings.tile_size = options.tile_size;
   settings.time_stages = options.explain || !options.stats.empty();
   settings.max_error = options.max_error;
   if (options.spp) settings.max_samples = *options.spp;
-  if (options.intersector == "embree") settings.intersector = IntersectorChoice::kEmbree;
-  if (options.intersector == "tiles") settings.intersector = IntersectorChoice::kTiles;
+  settings.intersector = ParseIntersector(options.intersector);
   return settings;
 }
 

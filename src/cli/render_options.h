@@ -10,7 +10,7 @@
 #include <CLI/App.hpp>
 
 #include "color/display.h"
-#include "image_io/exr_header.h"
+#include "image_io/exr_compression.h"
 #include "render/settings.h"
 #include "scene_io/load_scene.h"
 
@@ -80,9 +80,6 @@ std::function<std::string(const std::string&)> InRange(double low, double high);
 
 // "WxH". Throws Error (usage).
 void ParseSize(const std::string& text, int* width, int* height);
-
-// "none", "zip", "zips", "piz" or "dwaa".
-Compression ParseCompression(const std::string& name);
 
 // What the options ask of the renderer. Throws Error (usage).
 RenderSettings MakeRenderSettings(const RenderOptions& options);

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "api/metadata.h"
 #include "base/error.h"
 #include "base/path.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
 #include "image_io/image_file.h"
+#include "output/metadata.h"
 #include "render/render.h"
 #include "scene_io/json_text.h"
 #include "scene_io/text_file.h"

@@ -2,6 +2,7 @@
 #include "cli/sheet.h"
 
 #include "base/error.h"
+#include "cli/help_text.h"
 #include "color/display.h"
 #include "color/luminance.h"
 #include "scene_io/sheet_axis.h"
@@ -46,6 +47,8 @@ void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* re
   AddLightingOptions(command, &options->lighting);
   render->labels = true;
   AddRenderOptions(command, render);
+  MoveBehindHelpAll(command, {"--title", "--sphere-size", "--lights", "--exposure", "--max-error",
+                              "--set", "--layers", "--explain"});
 }
 
 SheetRequest MakeSheetRequest(const SheetOptions& options, const RenderOptions& render, int rows,

@@ -57,18 +57,9 @@ Margins MeasureMargins(const SheetText& text, double em, double cell, double wid
   return m;
 }
 
-void Write(const std::string& text, double x, double y, double size, AlignX align,
-           const std::array<uint8_t, 3>& ink, SheetPage* page, AlignY align_y = AlignY::kTop) {
-  TextItem item;
-  item.text = text;
-  item.x = static_cast<int>(std::lround(x));
-  item.y = static_cast<int>(std::lround(y));
-  item.size_px = std::max(static_cast<int>(std::lround(size)), 1);
-  item.align_x = align;
-  item.align_y = align_y;
-  item.color = ink;
-  item.outline = false;
-  page->text.push_back(std::move(item));
+void Write(const std::string& text, double x, double y, double size, AlignX align, const Rgb8& ink,
+           SheetPage* page, AlignY align_y = AlignY::kTop) {
+  page->text.push_back(PlainText(text, x, y, size, align, ink, align_y));
 }
 
 void WriteColumns(const SheetText& text, const Margins& m, bool light, SheetPage* page) {
@@ -172,12 +163,12 @@ double DefaultCell(const SheetRequest& r) {
 
 }  // namespace
 
-std::array<uint8_t, 3> InkColor(bool light_ground) {
+Rgb8 InkColor(bool light_ground) {
   if (light_ground) return {20, 20, 24};
   return {240, 240, 240};
 }
 
-std::array<uint8_t, 3> FaintInkColor(bool light_ground) {
+Rgb8 FaintInkColor(bool light_ground) {
   if (light_ground) return {80, 80, 88};
   return {176, 178, 184};
 }

@@ -3,7 +3,6 @@
 // plain ground, title, axis names, values and a footer. All in pixels of the picture.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -41,7 +40,7 @@ struct SheetPage {
 SheetPage LayOutSheet(const SheetText& text, const SheetRequest& request);
 
 // Colours of text on a light or dark ground: of what is read first, and of the rest.
-std::array<uint8_t, 3> InkColor(bool light_ground);
-std::array<uint8_t, 3> FaintInkColor(bool light_ground);
+Rgb8 InkColor(bool light_ground);
+Rgb8 FaintInkColor(bool light_ground);
 
 }  // namespace nacre

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/stats_json.h"
 
-#include "api/metadata.h"
 #include "base/target.h"
 #include "base/version.h"
+#include "output/metadata.h"
 #include "scene_io/json_text.h"
 
 namespace nacre {

@@ -83,8 +83,8 @@ std::optional<Error> UnknownArgument(const CLI::App& app, const CLI::ParseError&
                       (code == CLI::ExitCodes::RequiredError && option != rest.end());
   if (!may_be) return std::nullopt;
   const std::string help = command.get_name() == app.get_name()
-                               ? "nacre --help"
-                               : fmt::format("nacre {} --help", command.get_name());
+                               ? "nacre --help-all"
+                               : fmt::format("nacre {} --help-all", command.get_name());
   if (option == rest.end()) {
     const std::string word = rest.empty() ? std::string() : rest.front();
     return Error(ExitCode::kUsage, "", fmt::format("unexpected argument \"{}\"", word),

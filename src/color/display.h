@@ -7,9 +7,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include <Imath/ImathColor.h>
 
+#include "base/image.h"
+#include "base/picture.h"
 #include "color/tone.h"
 
 namespace nacre {
@@ -58,5 +61,9 @@ Imath::Color3<Real> DisplayLight(const DisplaySettings& settings, Imath::Color3<
 // Pixels with a NaN are drawn magenta (255, 0, 255); returns how many there are.
 size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const float* g,
                      const float* b, size_t count, uint8_t* rgb8);
+
+// The colours of an image that has them, or its layer's, as a display shows them.
+Rgb8Picture ShowImage(const Image& image, const DisplaySettings& settings,
+                      const std::string& layer = {});
 
 }  // namespace nacre

@@ -186,10 +186,6 @@ Plane FlipRows(const Planes& reference, const Planes& test, double pixels_per_de
 
 }  // namespace
 
-double PixelsPerDegree(double distance, double pixels, double width) {
-  return distance * pixels / width * kPi / 180;
-}
-
 Plane FlipMap(const Planes& reference, const Planes& test, double pixels_per_degree) {
   const int height = reference[0].height;
   const int radius =

@@ -8,11 +8,8 @@
 
 namespace nacre {
 
-// Pixels per degree of vision: a display `width` metres wide with `pixels`, seen from `distance`
-// metres. As theirs, the degree straight ahead: distance pixels / width pi / 180.
-double PixelsPerDegree(double distance, double pixels, double width);
-
-// 67.02: 3840 pixels on 0.7 m, seen from 0.7 m.
+// Pixels per degree of vision of a display of 3840 pixels on 0.7 m, seen from 0.7 m. As theirs, of
+// the degree straight ahead: distance pixels / width pi / 180.
 inline constexpr double kDefaultPixelsPerDegree = 67.020643276582255;
 
 // FLIP in [0, 1] of each pixel; 0: no difference. Linear display light in [0, 1], sRGB primaries.

@@ -19,7 +19,7 @@ Rgb8 PixelColor(double error, const HeatScale& scale) {
   return std::isfinite(error) ? HeatColor(scale.Position(error)) : kHeatNotFinite;
 }
 
-void Append(const Rgb8& color, HeatPicture* picture) {
+void Append(const Rgb8& color, Rgb8Picture* picture) {
   picture->rgb8.insert(picture->rgb8.end(), color.begin(), color.end());
 }
 
@@ -43,13 +43,13 @@ double HeatScale::Position(double error) const {
 
 double HeatScale::Value(double t) const { return low * std::pow(high / low, t); }
 
-HeatPicture HeatMap(const Image& got, const Image& reference, const std::string& layer,
+Rgb8Picture HeatMap(const Image& got, const Image& reference, const std::string& layer,
                     HeatQuantity quantity, const HeatScale& scale) {
   CompareOptions options;
   options.layers = {layer};
   const ImagePair pair = PairImages(got, reference, options);
   const Window& window = pair.window;
-  HeatPicture picture{window.width(), window.height(), {}};
+  Rgb8Picture picture{window.width(), window.height(), {}};
   picture.rgb8.reserve(3 * window.pixel_count());
   for (int y = window.y0; y < window.y1; ++y) {
     for (int x = window.x0; x < window.x1; ++x) {
@@ -68,8 +68,8 @@ HeatPicture HeatMap(const Image& got, const Image& reference, const std::string&
   return picture;
 }
 
-HeatPicture HeatLegend(int width, int height) {
-  HeatPicture picture{width, height, {}};
+Rgb8Picture HeatLegend(int width, int height) {
+  Rgb8Picture picture{width, height, {}};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) Append(HeatColor(x / std::max(1.0, width - 1.0)), &picture);
   }

@@ -2,16 +2,13 @@
 // compare/heat_map.h: where two images differ, as colours of the logarithm of the error.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "base/picture.h"
 #include "compare/layers.h"
 
 namespace nacre {
-
-using Rgb8 = std::array<uint8_t, 3>;
 
 // Colour of t, clamped to [0, 1]: dark violet, blue, green, yellow. The "viridis" map of van der
 // Walt and Smith (2015): lightness grows evenly, also for colour-blind readers and in print. Linear
@@ -33,18 +30,12 @@ struct HeatScale {
 
 enum class HeatQuantity : uint8_t { kAbsolute, kRelative };  // as SampleError, SoftenedError
 
-// An RGB8 picture.
-struct HeatPicture {
-  int width = 0, height = 0;
-  std::vector<uint8_t> rgb8;  // row by row, interleaved
-};
-
 // The largest error of each pixel over the channels of `layer`, over the window that both images
 // cover. Throws as PairImages does.
-HeatPicture HeatMap(const Image& got, const Image& reference, const std::string& layer,
+Rgb8Picture HeatMap(const Image& got, const Image& reference, const std::string& layer,
                     HeatQuantity quantity, const HeatScale& scale);
 
 // A bar of all colours, t growing from left to right.
-HeatPicture HeatLegend(int width, int height);
+Rgb8Picture HeatLegend(int width, int height);
 
 }  // namespace nacre

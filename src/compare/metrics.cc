@@ -117,12 +117,4 @@ LayerMetrics CompareLayer(const ImagePair& pair, const LayerPair& layer) {
   return accumulator.Finish();
 }
 
-std::vector<LayerMetrics> CompareImages(const Image& got, const Image& reference,
-                                        const CompareOptions& options) {
-  const ImagePair pair = PairImages(got, reference, options);
-  std::vector<LayerMetrics> metrics;
-  for (const LayerPair& layer : pair.layers) metrics.push_back(CompareLayer(pair, layer));
-  return metrics;
-}
-
 }  // namespace nacre

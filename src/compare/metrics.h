@@ -41,9 +41,6 @@ struct LayerMetrics {
   size_t nonfinite_mismatches = 0;  // not finite in one image, and not the same in the other
 };
 
-// The metrics of each layer, in the reference's order. Throws as PairImages does.
-std::vector<LayerMetrics> CompareImages(const Image& got, const Image& reference,
-                                        const CompareOptions& options = {});
 LayerMetrics CompareLayer(const ImagePair& pair, const LayerPair& layer);
 
 }  // namespace nacre

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 
@@ -219,6 +220,18 @@ constexpr std::array<uint16_t, 95> kAdvances = {
 constexpr double kUnits = 2048;
 
 }  // namespace
+
+TextItem PlainText(const std::string& text, double x, double y, double size_px, AlignX align_x,
+                   const Rgb8& color, AlignY align_y) {
+  return {.text = text,
+          .x = static_cast<int>(std::lround(x)),
+          .y = static_cast<int>(std::lround(y)),
+          .size_px = std::max(static_cast<int>(std::lround(size_px)), 1),
+          .align_x = align_x,
+          .align_y = align_y,
+          .color = color,
+          .outline = false};
+}
 
 void DrawText(std::span<uint8_t> rgb8, int width, int height, const std::vector<TextItem>& items) {
   if (rgb8.size() != 3 * static_cast<size_t>(width) * static_cast<size_t>(height)) {

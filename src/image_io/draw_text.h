@@ -2,12 +2,13 @@
 // image_io/draw_text.h: lines of text in DejaVu Sans, measured and drawn into pictures.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "base/picture.h"
 
 namespace nacre {
 
@@ -22,9 +23,13 @@ struct TextItem {
   int size_px = 16;
   AlignX align_x = AlignX::kLeft;  // which point of the text (x, y) is
   AlignY align_y = AlignY::kTop;   // top and centre of capital letters, bottom of descenders
-  std::array<uint8_t, 3> color = {255, 255, 255};
+  Rgb8 color = {255, 255, 255};
   bool outline = true;  // a dark one, which reads on any background
 };
+
+// A line without an outline, for a plain ground; numbers are rounded to whole pixels.
+TextItem PlainText(const std::string& text, double x, double y, double size_px, AlignX align_x,
+                   const Rgb8& color, AlignY align_y = AlignY::kTop);
 
 // Draws text into width * height RGB pixels of display codes; what lies outside is cut off. Throws
 // Error (kInternal) if the font is not installed.

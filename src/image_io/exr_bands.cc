@@ -39,20 +39,8 @@ Window ToWindow(const Imath::Box2i& box) {
 }
 
 Compression ToCompression(const std::string& path, Imf::Compression compression) {
-  switch (compression) {
-    case Imf::NO_COMPRESSION:
-      return Compression::kNone;
-    case Imf::ZIP_COMPRESSION:
-      return Compression::kZip;
-    case Imf::ZIPS_COMPRESSION:
-      return Compression::kZips;
-    case Imf::PIZ_COMPRESSION:
-      return Compression::kPiz;
-    case Imf::DWAA_COMPRESSION:
-      return Compression::kDwaa;
-    default:
-      RefuseKind(path, "its compression is not one of nacre's");
-  }
+  if (const auto known = CompressionOfNumber(compression)) return *known;
+  RefuseKind(path, "its compression is not one of nacre's");
 }
 
 PixelType ToPixelType(Imf::PixelType type) {

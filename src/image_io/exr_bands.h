@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "image_io/exr_compression.h"
 #include "image_io/exr_header.h"
 
 namespace nacre {

@@ -27,41 +27,11 @@ Imf::PixelType LibraryType(PixelType type) {
   return Imf::FLOAT;
 }
 
-Imf::Compression LibraryCompression(Compression compression) {
-  switch (compression) {
-    case Compression::kNone:
-      return Imf::NO_COMPRESSION;
-    case Compression::kZip:
-      return Imf::ZIP_COMPRESSION;
-    case Compression::kZips:
-      return Imf::ZIPS_COMPRESSION;
-    case Compression::kPiz:
-      return Imf::PIZ_COMPRESSION;
-    case Compression::kDwaa:
-      return Imf::DWAA_COMPRESSION;
-  }
-  return Imf::NO_COMPRESSION;
-}
-
 std::span<const uint8_t> Bytes(std::span<const uint16_t> words) {
   return {reinterpret_cast<const uint8_t*>(words.data()), words.size_bytes()};
 }
 
 }  // namespace
-
-int RowsPerChunk(Compression compression) {
-  switch (compression) {
-    case Compression::kNone:
-    case Compression::kZips:
-      return 1;
-    case Compression::kZip:
-      return 16;
-    case Compression::kPiz:
-    case Compression::kDwaa:
-      return 32;
-  }
-  return 1;
-}
 
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level) {
   thread_local std::vector<uint8_t> predicted;
@@ -80,7 +50,8 @@ std::vector<uint8_t> CompressByLibrary(const ExrLayout& layout, Compression comp
                                        std::span<const uint16_t> words) {
   const int rows = static_cast<int>(words.size() / layout.row_words);
   Imf::Header header(static_cast<int>(layout.width), rows, 1.0f, Imath::V2f(0.0f), 1.0f,
-                     Imf::INCREASING_Y, LibraryCompression(compression));
+                     Imf::INCREASING_Y,
+                     static_cast<Imf::Compression>(CompressionNumber(compression)));
   Imf::FrameBuffer frame;
   auto* place = reinterpret_cast<char*>(const_cast<uint16_t*>(words.data()));  // only read
   for (const ExrChannel& channel : layout.channels) {

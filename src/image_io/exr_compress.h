@@ -6,12 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "image_io/exr_compression.h"
 #include "image_io/exr_rows.h"
 
 namespace nacre {
-
-// Rows of a chunk, counted from the data window's top; the last one may have fewer.
-int RowsPerChunk(Compression compression);
 
 // ZIP and ZIPS: split, predicted and deflated; or the bytes as they are where that is not shorter.
 std::vector<uint8_t> CompressZip(std::span<const uint16_t> words, int deflate_level);

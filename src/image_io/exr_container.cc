@@ -18,22 +18,6 @@ namespace {
 // The part that every call is about.
 constexpr int kPart = 0;
 
-exr_compression_t LibraryCompression(Compression compression) {
-  switch (compression) {
-    case Compression::kNone:
-      return EXR_COMPRESSION_NONE;
-    case Compression::kZip:
-      return EXR_COMPRESSION_ZIP;
-    case Compression::kZips:
-      return EXR_COMPRESSION_ZIPS;
-    case Compression::kPiz:
-      return EXR_COMPRESSION_PIZ;
-    case Compression::kDwaa:
-      return EXR_COMPRESSION_DWAA;
-  }
-  return EXR_COMPRESSION_NONE;
-}
-
 exr_pixel_type_t LibraryType(PixelType type) {
   switch (type) {
     case PixelType::kHalf:
@@ -106,8 +90,9 @@ void ExrContainer::WriteHeader(const ExrHeader& header, Compression compression)
   int part = kPart;
   if (HasLongName(header)) Check(exr_set_longname_support(context_, 1));
   Check(exr_add_part(context_, "", EXR_STORAGE_SCANLINE, &part));
-  Check(exr_initialize_required_attr(context_, kPart, &display, &data, 1.0f, &center, 1.0f,
-                                     EXR_LINEORDER_INCREASING_Y, LibraryCompression(compression)));
+  Check(exr_initialize_required_attr(
+      context_, kPart, &display, &data, 1.0f, &center, 1.0f, EXR_LINEORDER_INCREASING_Y,
+      static_cast<exr_compression_t>(CompressionNumber(compression))));
   for (const ExrChannel& channel : header.channels) {
     Check(exr_add_channel(context_, kPart, channel.name.c_str(), LibraryType(channel.type),
                           EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));

@@ -11,6 +11,7 @@
 
 #include <openexr_context.h>
 
+#include "image_io/exr_compression.h"
 #include "image_io/exr_header.h"
 #include "image_io/output_file.h"
 

@@ -33,12 +33,4 @@ struct ExrHeader {
   std::map<std::string, ExrAttribute> attributes;  // by name
 };
 
-enum class Compression : uint8_t {
-  kNone,
-  kZip,   // lossless, 16 rows a chunk
-  kZips,  // lossless, 1 row a chunk
-  kPiz,   // lossless, 32 rows a chunk: wavelets, for noisy pictures
-  kDwaa,  // lossy in R, G and B of every layer, 32 rows a chunk
-};
-
 }  // namespace nacre

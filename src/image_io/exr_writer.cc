@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "image_io/deflate.h"
 #include "image_io/exr_compress.h"
 #include "image_io/exr_container.h"
@@ -79,7 +80,7 @@ struct ExrWriter::State {
 void ExrWriter::State::CheckStrip(const StripView& strip) const {
   const int y = strip.y - data.y0;
   if (y < 0 || y >= data.height() || y % kStripRows != 0 ||
-      strip.rows != std::min(kStripRows, data.height() - y) ||
+      strip.rows != StripRows(y, data.height()) ||
       strip.channels.size() != layout.channels.size()) {
     throw Error(ExitCode::kInternal, path, "a strip that is not one of the picture's");
   }
@@ -147,6 +148,18 @@ void ExrWriter::WriteStrip(const StripView& strip) {
   } else {
     state_->Gather(strip, words);
   }
+}
+
+void ExrWriter::WriteAll(const std::vector<const float*>& planes) {
+  const Window& data = state_->data;
+  ParallelFor(static_cast<size_t>(StripCount(data.height())), 0, [&](size_t index) {
+    const int row = static_cast<int>(index) * kStripRows;
+    StripView strip{data.y0 + row, StripRows(row, data.height()), {}};
+    for (const float* plane : planes) {
+      strip.channels.emplace_back(plane + static_cast<size_t>(row) * state_->layout.width);
+    }
+    WriteStrip(strip);
+  });
 }
 
 void ExrWriter::UpdateAttribute(const std::string& name, const ExrAttribute& value) {

@@ -4,7 +4,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "base/strip.h"
+#include "image_io/exr_compression.h"
 #include "image_io/exr_header.h"
 #include "image_io/exr_rows.h"
 #include "image_io/half.h"
@@ -23,9 +26,6 @@ struct ExrOptions {
 // when they are called wrongly.
 class ExrWriter {
  public:
-  // Rows of a strip; the last one may have fewer.
-  static constexpr int kStripRows = 16;
-
   // Opens the file and writes its header: call before rendering.
   ExrWriter(const std::string& path, const ExrHeader& header, const ExrOptions& options = {});
   // Without Finish, nothing remains of the file.
@@ -34,6 +34,9 @@ class ExrWriter {
   // Strips of kStripRows rows counted from the data window's top, each once, in any order, from
   // any thread, several at once.
   void WriteStrip(const StripView& strip);
+
+  // All strips of a picture that is there, in several threads: a plane for each channel.
+  void WriteAll(const std::vector<const float*>& planes);
 
   // Gives an attribute of ExrHeader::attributes another value of the same type, int or float:
   // for what is only known at the end, such as the render time.

@@ -14,6 +14,8 @@
 #include <zlib.h>
 
 #include "base/error.h"
+#include "base/parallel.h"
+#include "base/version.h"
 #include "image_io/deflate.h"
 #include "image_io/in_order.h"
 #include "image_io/output_file.h"
@@ -132,9 +134,7 @@ struct PngWriter::State {
     file.Write(size, bytes);
     size += bytes.size();
   }
-  size_t strip_count() const {
-    return static_cast<size_t>((header.height + kStripRows - 1) / kStripRows);
-  }
+  size_t strip_count() const { return static_cast<size_t>(StripCount(header.height)); }
   PngStrip MakeStrip(size_t index, size_t rows, const uint8_t* rgb8) const;
 
   const std::string path;
@@ -178,11 +178,33 @@ PngWriter::~PngWriter() = default;
 
 void PngWriter::WriteStrip(int y, int rows, const uint8_t* rgb8) {
   const int height = state_->header.height;
-  if (y < 0 || y >= height || y % kStripRows != 0 || rows != std::min(kStripRows, height - y)) {
+  if (y < 0 || y >= height || y % kStripRows != 0 || rows != StripRows(y, height)) {
     throw Error(ExitCode::kInternal, state_->path, "a strip that is not one of the picture's");
   }
   const auto index = static_cast<size_t>(y / kStripRows);
   state_->in_order.Add(index, state_->MakeStrip(index, static_cast<size_t>(rows), rgb8));
+}
+
+void PngWriter::WriteAll(std::span<const uint8_t> rgb8) {
+  const auto width = static_cast<size_t>(state_->header.width);
+  ParallelFor(state_->strip_count(), 0, [&](size_t strip) {
+    const int y = static_cast<int>(strip) * kStripRows;
+    WriteStrip(y, StripRows(y, state_->header.height),
+               rgb8.subspan(kPixelBytes * static_cast<size_t>(y) * width).data());
+  });
+}
+
+void PngWriter::WriteAll(
+    const std::function<void(size_t first, size_t count, uint8_t* rgb8)>& encode) {
+  const auto width = static_cast<size_t>(state_->header.width);
+  ParallelFor(state_->strip_count(), 0, [&](size_t strip) {
+    const int y = static_cast<int>(strip) * kStripRows;
+    const int rows = StripRows(y, state_->header.height);
+    const size_t count = static_cast<size_t>(rows) * width;
+    Bytes rgb8(kPixelBytes * count);
+    encode(static_cast<size_t>(y) * width, count, rgb8.data());
+    WriteStrip(y, rows, rgb8.data());
+  });
 }
 
 void PngWriter::Finish(const PngText& text) {
@@ -198,6 +220,14 @@ void PngWriter::Finish(const PngText& text) {
   AppendChunk("IEND", {}, &end);
   state_->Append(end);
   state_->file.Commit(state_->options.sync);
+}
+
+void WritePng(const std::string& path, const Rgb8Picture& picture, const PngOptions& options) {
+  PngWriter writer(
+      path, {picture.width, picture.height, {{"Software", std::string("nacre ") + kVersion}}},
+      options);
+  writer.WriteAll(picture.rgb8);
+  writer.Finish();
 }
 
 }  // namespace nacre

@@ -3,10 +3,16 @@
 // rendered.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
+
+#include "base/picture.h"
+#include "base/strip.h"
 
 namespace nacre {
 
@@ -30,9 +36,6 @@ struct PngOptions {
 // file cannot be written, kInternal when they are called wrongly.
 class PngWriter {
  public:
-  // Rows of a strip; the last one may have fewer.
-  static constexpr int kStripRows = 16;
-
   // Opens the file and writes its header: call before rendering.
   PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options = {});
   // Without Finish, nothing remains of the file.
@@ -42,6 +45,11 @@ class PngWriter {
   // pixels of three bytes. Each strip once, in any order, from any thread, several at once.
   void WriteStrip(int y, int rows, const uint8_t* rgb8);
 
+  // All strips of a picture that is there, in several threads: its codes; or encode(first, count,
+  // rgb8), which makes those of `count` pixels from pixel `first` on, counted row by row.
+  void WriteAll(std::span<const uint8_t> rgb8);
+  void WriteAll(const std::function<void(size_t first, size_t count, uint8_t* rgb8)>& encode);
+
   // After the last strip has been written: adds text that is only known at the end, such as the
   // render time, and the file appears.
   void Finish(const PngText& text = {});
@@ -50,5 +58,8 @@ class PngWriter {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+// A file of the picture that says what made it.
+void WritePng(const std::string& path, const Rgb8Picture& picture, const PngOptions& options = {});
 
 }  // namespace nacre

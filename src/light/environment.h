@@ -118,10 +118,4 @@ EnvironmentSample<Real> SampleEnvironment(const EnvironmentMap& map, double u0, 
           pick.texel};
 }
 
-// The density of SampleEnvironment.
-template <typename Real>
-Real EnvironmentPdf(const EnvironmentMap& map, const Imath::Vec3<Real>& direction) {
-  return TexelAt(map, direction).pdf;
-}
-
 }  // namespace nacre

@@ -10,12 +10,6 @@
 
 namespace nacre {
 
-// The same radiance all round.
-template <typename Real>
-Real ConstantSkyIrradiance(Real radiance) {
-  return static_cast<Real>(M_PI) * radiance;
-}
-
 // From the horizon linearly in the height of the direction, up to the zenith and down to the
 // ground.
 template <typename Real>

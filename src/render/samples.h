@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/strip.h"
 #include "hit/batch.h"
 #include "render/explanation.h"
 #include "render/settings.h"
@@ -16,10 +17,6 @@
 #include "scene/scene.h"
 
 namespace nacre {
-
-// Rows of a strip: the unit of parallel work and of output. EXR's ZIP compresses 16 rows at a
-// time, and 16 rows of all that is needed stay in L2.
-inline constexpr int kStripRows = 16;
 
 // Columns of a tile: where it spans more cells, less of what it gathers stays in L1.
 inline constexpr int kWidestTile = 64;

@@ -8,11 +8,17 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/strip.h"
 
 namespace nacre {
 
 // How rays find spheres. All find the same hits, to the bit.
 enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles };
+
+// "auto", "embree", "tiles".
+std::vector<std::string> IntersectorNames();
+// Throws Error (usage) for a name that is none of these.
+IntersectorChoice ParseIntersector(const std::string& name);
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
 struct FrameBand {
@@ -24,7 +30,7 @@ struct RenderSettings {
   int threads = 0;                  // 0: as many as the machine has
   Window region;                    // pixels to render; empty: the whole frame
   FrameBand band;                   // the same by bands; then `region` is not looked at
-  int band_rows = 16;               // bands begin at multiples of these; a multiple of kStripRows
+  int band_rows = kStripRows;       // bands begin at multiples of these; a multiple of kStripRows
   std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
   int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bits
   IntersectorChoice intersector = IntersectorChoice::kAuto;

@@ -87,8 +87,8 @@ void FinishKullaConty(const MicrofacetModel& model, const HitFit& fit, bool by_h
     const double metallic = t->metallic[i];
     const double dielectric_f_average =
         by_hit ? AverageSchlick(f0, f90) : model.dielectric_f_average[c];
-    const double metal_f_average = by_hit ? AverageF82(metal_f0, 1.0, Channel(t->exact_slope, c)[i])
-                                          : model.metal_f_average[c];
+    const double metal_f_average =
+        by_hit ? AverageF82(metal_f0, Channel(t->exact_slope, c)[i]) : model.metal_f_average[c];
     const double f_multiple = KullaContyFresnel(dielectric_f_average, fit.e_average);
     const double mixed =
         (1 - metallic) * f_multiple + metallic * KullaContyFresnel(metal_f_average, fit.e_average);
@@ -161,7 +161,7 @@ void FinishMetallicRoughness(const TexturedRun& run, const MetallicRoughnessMate
       continue;
     }
     const double tint = material.f82_tint[c];
-    hits.Fill(slope, [&](size_t i) { return F82SlopeFromTint(metal_f0[i], 1.0, tint); });
+    hits.Fill(slope, [&](size_t i) { return F82SlopeFromTint(metal_f0[i], tint); });
   }
   hits.Fill(t->exact_f90.data(),
             [&](size_t i) { return 1 - (1 - specular[i]) * (1 - metallic[i]); });

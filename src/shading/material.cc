@@ -136,13 +136,13 @@ MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
   if (tinted) {
     model.f82_slope = EachChannel(
-        [&](int c) { return F82SlopeFromTint(material.base_color[c], 1.0, material.f82_tint[c]); });
+        [&](int c) { return F82SlopeFromTint(material.base_color[c], material.f82_tint[c]); });
   }
   if (model.compensation == Compensation::kKullaConty) {
     PrepareKullaConty(
         EachChannel(
             [&](int c) { return AverageSchlick(model.dielectric_f0[c], model.dielectric_f90); }),
-        EachChannel([&](int c) { return AverageF82(model.metal_f0[c], 1.0, model.f82_slope[c]); }),
+        EachChannel([&](int c) { return AverageF82(model.metal_f0[c], model.f82_slope[c]); }),
         &model);
   }
   return model;
@@ -160,9 +160,8 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
   if (material.fresnel == ConductorFresnel::kF82Tint) {
     model.fresnel = FresnelForm::kF82;
     model.f82_slope = EachChannel([&](int c) {
-      return F82Slope(model.metal_f0[c], 1.0,
-                      FresnelConductor(1 - one_minus_seventh, one_minus_seventh, material.eta[c],
-                                       material.k[c]));
+      return F82Slope(model.metal_f0[c], FresnelConductor(1 - one_minus_seventh, one_minus_seventh,
+                                                          material.eta[c], material.k[c]));
     });
   } else if (material.fresnel == ConductorFresnel::kSchlick) {
     model.fresnel = FresnelForm::kSchlick;
@@ -171,7 +170,7 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
     PrepareKullaConty(Rgb(0), EachChannel([&](int c) {
                         return model.fresnel == FresnelForm::kConductor
                                    ? AverageConductor(material.eta[c], material.k[c])
-                                   : AverageF82(model.metal_f0[c], 1.0, model.f82_slope[c]);
+                                   : AverageF82(model.metal_f0[c], model.f82_slope[c]);
                       }),
                       &model);
   }

@@ -101,9 +101,9 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
     if constexpr (kFresnel == FresnelForm::kF82) {
       const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);
       const FloatV one = hn::Set(d, 1.0f), metallic = NumberAt(d, uniforms.metallic, i);
-      const RgbV metal{FresnelF82(d, v_dot_h, one_minus_vh, f0.r, one, slope.r),
-                       FresnelF82(d, v_dot_h, one_minus_vh, f0.g, one, slope.g),
-                       FresnelF82(d, v_dot_h, one_minus_vh, f0.b, one, slope.b)};
+      const RgbV metal{FresnelF82(d, v_dot_h, one_minus_vh, f0.r, slope.r),
+                       FresnelF82(d, v_dot_h, one_minus_vh, f0.g, slope.g),
+                       FresnelF82(d, v_dot_h, one_minus_vh, f0.b, slope.b)};
       const RgbV other = RgbAt(d, uniforms.dielectric_f0, i);
       const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i), weight = Power5(one_minus_vh);
       const RgbV dielectric{FresnelSchlick(d, other.r, f90, weight),

@@ -63,10 +63,9 @@ FresnelShares SharesOf(const MicrofacetModel& model, double v_dot_h, double one_
   switch (model.fresnel) {
     case FresnelForm::kSchlick:
     case FresnelForm::kF82:
-      return {
-          (1 - metallic) *
-              FresnelSchlick(model.dielectric_f0[c], model.dielectric_f90, Power5(one_minus_vh)),
-          metallic * FresnelF82(v_dot_h, one_minus_vh, model.metal_f0[c], 1.0, model.f82_slope[c])};
+      return {(1 - metallic) * FresnelSchlick(model.dielectric_f0[c], model.dielectric_f90,
+                                              Power5(one_minus_vh)),
+              metallic * FresnelF82(v_dot_h, one_minus_vh, model.metal_f0[c], model.f82_slope[c])};
     case FresnelForm::kDielectric:
       return {.dielectric = FresnelDielectric(v_dot_h, one_minus_vh, model.eta[c])};
     case FresnelForm::kConductor:

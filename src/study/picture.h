@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/image.h"
+#include "base/picture.h"
 #include "color/display.h"
 #include "scene/scene.h"
 #include "study/study.h"
@@ -22,20 +23,14 @@ Light SunTowards(const Vec3d& to_light, const Rgb& irradiance);
 // The whole picture with these layers.
 Image RenderLayers(const Scene& scene, const std::vector<std::string>& layers = {});
 
-// A pane of a sheet: the pixels of one picture.
-struct Pane {
-  int width = 0, height = 0;
-  std::vector<uint8_t> rgb8;
-};
-
 // The colour or layer `layer` ("": the beauty) as a display shows it. kNone clips at 1.
-Pane ShowLayer(const Image& image, const std::string& layer,
-               const DisplaySettings& display = {.tone = ToneOperator::kNone});
+Rgb8Picture ShowLayer(const Image& image, const std::string& layer,
+                      const DisplaySettings& display = {.tone = ToneOperator::kNone});
 
 // Panes of equal size in rows, with words above the columns and left of the rows (either may be
 // empty).
 struct PaneSheet {
-  std::vector<Pane> panes;  // row by row
+  std::vector<Rgb8Picture> panes;  // row by row
   std::vector<std::string> columns, rows;
 };
 StudyPicture MakeStudyPicture(const std::string& name, const std::string& caption,

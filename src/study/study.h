@@ -11,16 +11,15 @@
 #include <string>
 #include <vector>
 
+#include "base/picture.h"
 #include "report/plot.h"
 
 namespace nacre {
 
-// 8-bit sRGB, row by row from the top.
 struct StudyPicture {
   std::string name;     // of its file, without extension
   std::string caption;  // one sentence
-  int width = 0, height = 0;
-  std::vector<uint8_t> rgb8;
+  Rgb8Picture picture;
 };
 
 struct StudyFigure {

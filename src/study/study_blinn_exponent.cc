@@ -15,7 +15,7 @@ namespace {
 constexpr double kPhong = 64;
 const Vec3d kToLight(2, 3, 3);
 
-Pane RenderLobe(PhongModel model, double shininess) {
+Rgb8Picture RenderLobe(PhongModel model, double shininess) {
   Material material;
   material.model = PhongMaterial{.model = model,
                                  .convention = PhongConvention::kClassic,

@@ -75,7 +75,7 @@ Plot PbrPlot() {
   return plot;
 }
 
-Pane FurnacePane(const Material& material) {
+Rgb8Picture FurnacePane(const Material& material) {
   Scene scene = SphereScene(material, 150);
   scene.image.spp = 64;
   Light light;

@@ -50,7 +50,7 @@ Plot CurvePlot(bool degrees) {
 }
 
 // A mirror under radiance 1 from everywhere shows its reflectance.
-Pane MirrorPane(const Material& material) {
+Rgb8Picture MirrorPane(const Material& material) {
   Scene scene = SphereScene(material, 240);
   Light light;
   light.name = "white";

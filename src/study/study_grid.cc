@@ -49,7 +49,7 @@ Scene GridScene() {
   return scene;
 }
 
-Pane RenderGrid(const Light& light) {
+Rgb8Picture RenderGrid(const Light& light) {
   Scene scene = GridScene();
   scene.lights = {light};
   return ShowLayer(RenderLayers(scene), "", {.tone = ToneOperator::kNeutral});

@@ -75,9 +75,9 @@ Plot GgxPlot(StudyResult* result) {
 }
 
 // A matt sphere at this distance, seen through a telescope.
-Pane FarSphere(HitForm form, double distance) {
+Rgb8Picture FarSphere(HitForm form, double distance) {
   constexpr int kPixels = 170;
-  Pane pane{kPixels, kPixels, std::vector<uint8_t>(3 * kPixels * kPixels, 13)};
+  Rgb8Picture pane = FilledPicture(kPixels, kPixels, {13, 13, 13});
   const Vec3d center = Vec3d(0.3, -0.2, -1).normalized() * distance;
   const Vec3d right = (center % Vec3d(0, 1, 0)).normalized();
   const Vec3d up = (right % center).normalized();

@@ -9,7 +9,6 @@
 #include "brdf/albedo-inl.h"
 #include "brdf/energy_kernel.h"
 #include "brdf/fresnel-inl.h"
-#include "brdf/multi_scatter-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -52,8 +51,8 @@ void EvaluateFresnelT(const std::vector<FresnelInput>& inputs,
             outputs);
     Scatter(FresnelSchlick(d, f0, hn::Set(d, 1.0f), Power5(m)), first, &FresnelOutput::schlick,
             outputs);
-    Scatter(FresnelF82(d, c, m, f0, hn::Set(d, 1.0f), get(&FresnelInput::slope)), first,
-            &FresnelOutput::f82, outputs);
+    Scatter(FresnelF82(d, c, m, f0, get(&FresnelInput::slope)), first, &FresnelOutput::f82,
+            outputs);
   }
 }
 
@@ -67,7 +66,6 @@ void EvaluateAlbedosT(const FresnelAlbedoFit& fit, const std::vector<float>& n_d
     Scatter(AlbedoLoss(d, fit.lobe, mu), first, &AlbedoOutput::loss, outputs);
     Scatter(AlbedoSchlick(d, fit.lobe, mu), first, &AlbedoOutput::schlick, outputs);
     Scatter(AlbedoFresnel(d, fit, mu), first, &AlbedoOutput::fresnel, outputs);
-    Scatter(TurquinFactor(d, hn::Set(d, 1.0f), one), first, &AlbedoOutput::turquin, outputs);
   }
 }
 

@@ -23,7 +23,6 @@ std::vector<FresnelOutput> EvaluateFresnel(const std::vector<FresnelInput>& inpu
 
 struct AlbedoOutput {
   float one, loss, schlick, fresnel;
-  float turquin;  // of F0 = 1
 };
 
 // For each n.v.

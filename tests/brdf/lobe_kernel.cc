@@ -83,16 +83,13 @@ void AskLobeT(Lobe lobe, const std::vector<LobeQuery>& queries, std::vector<Lobe
                     Column(queries, first, [](const LobeQuery& q) { return q.u0; }),
                     Column(queries, first, [](const LobeQuery& q) { return q.u1; })};
     const Vec3V<V> sample = SampleOf(lobe, in);
-    const V weight = GgxVisibleWeight(d, FusedDot(in.n, in.l), FusedDot(in.n, in.v), in.width);
-    alignas(64) float lanes[5][kMaxLanes];
+    alignas(64) float lanes[4][kMaxLanes];
     hn::Store(sample.x, d, lanes[0]);
     hn::Store(sample.y, d, lanes[1]);
     hn::Store(sample.z, d, lanes[2]);
     hn::Store(PdfOf(lobe, in), d, lanes[3]);
-    hn::Store(weight, d, lanes[4]);
     for (size_t i = 0; i < hn::Lanes(d) && first + i < queries.size(); ++i) {
-      (*answers)[first + i] = {Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]), lanes[3][i],
-                               lanes[4][i]};
+      (*answers)[first + i] = {Vec3f(lanes[0][i], lanes[1][i], lanes[2][i]), lanes[3][i]};
     }
   }
 }

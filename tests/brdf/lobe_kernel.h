@@ -20,7 +20,6 @@ struct LobeQuery {
 struct LobeAnswer {
   Vec3f sample;
   float pdf = 0;
-  float weight = 0;  // GGX only
 };
 
 // On the active target, query by query.

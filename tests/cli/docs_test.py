@@ -37,7 +37,7 @@ class DocsTest(unittest.TestCase):
         self.assertGreater(len(commands()), 10)
         for command in commands():
             self.assertIn(f'.SS nacre {command}\n', page)
-            text = subprocess.run([PROGRAM, command, '--help'], capture_output=True, text=True,
+            text = subprocess.run([PROGRAM, command, '--help-all'], capture_output=True, text=True,
                                   check=True).stdout
             for option in set(re.findall(r'^  (?:-\w,)?(--[a-z][a-z-]*)', text, re.M)):
                 self.assertIn(option, page)

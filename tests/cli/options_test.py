@@ -121,6 +121,21 @@ class OptionsTest(unittest.TestCase):
 
     # ---- Help ----
 
+    def check_help_all(self, name, short):
+        """--help-all has all options; --help names those that it leaves out, and cuts no words."""
+        whole = self.check_works(name, '--help-all').stdout
+        listed = r'(?m)^  (?:-\w,)?(--[a-z][a-z-]*)'
+        shown, every = re.findall(listed, short), re.findall(listed, whole)
+        self.assertEqual(len(every), len(set(every)))
+        self.assertLessEqual(set(shown), set(every))
+        more = re.search(rf'(?s)\nMore: nacre {name} --help-all(.*?)\n\n', short)
+        self.assertEqual(set(re.findall(r'--[a-z][a-z-]*', more.group(1)) if more else []),
+                         set(every) - set(shown))
+        if not more:
+            self.assertEqual(short, whole)
+        for text in re.findall(r'(?m)^ {24}.*[a-z]$', short):
+            self.assertNotRegex(text, r'\be\.g$')
+
     def test_help_fits_a_terminal_and_has_examples(self):
         text = self.check_works('--help').stdout
         names = re.findall(r'^  ([a-z]+) ', text.partition('Commands:')[2], re.M)
@@ -130,6 +145,8 @@ class OptionsTest(unittest.TestCase):
             self.assertIn('Usage: nacre ' + name, help_text)
             self.assertRegex(help_text, r'(?s)Examples?:\n.*  nacre ' + name)
             options = help_text.partition('xample')[0]
+            self.assertLessEqual(len(help_text.partition('Example')[0].splitlines()), 48)
+            self.check_help_all(name, help_text)
             # Ends of text and examples, which are lines to be copied, may be longer.
             for line in options.splitlines():
                 self.assertLessEqual(len(line), 100, line)

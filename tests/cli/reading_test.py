@@ -72,7 +72,7 @@ class ReadingTest(unittest.TestCase):
                                        2, 'is not a regular file')
 
     def takes_paths(self):
-        return '--allow-paths' in self.run_nacre('validate', '--help').stdout
+        return '--allow-paths' in self.run_nacre('validate', '--help-all').stdout
 
     def test_files_too_large_are_refused_by_their_size(self):
         gib = 1 << 30

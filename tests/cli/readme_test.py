@@ -77,7 +77,7 @@ class ReadmeTest(unittest.TestCase):
         self.assertEqual(told.returncode, 0, told.stderr)
         for word in words[1:]:
             if word.startswith('--'):
-                self.assertIn(word, told.stdout + run([PROGRAM, 'render', '--help'], SOURCE).stdout)
+                self.assertIn(word, told.stdout + run([PROGRAM, 'render', '--help-all'], SOURCE).stdout)
 
     def test_every_command_does_what_it_says(self):
         done = set()
@@ -132,14 +132,14 @@ class ReadmeTest(unittest.TestCase):
 
     def test_every_option_that_is_named_exists(self):
         names = re.findall(r'^  (\w+) ', run([PROGRAM, '--help'], SOURCE).stdout, re.M)
-        known = ''.join(run([PROGRAM, name, '--help'], SOURCE).stdout for name in names)
+        known = ''.join(run([PROGRAM, name, '--help-all'], SOURCE).stdout for name in names)
         for script in sorted((SOURCE / 'scripts').iterdir()):
             if not script.suffix and script.is_file():
                 known += run([script, '--help'], SOURCE).stdout
         known = set(re.findall(r'--[a-z][a-z-]*', known)) | OTHERS
         for path in READMES:
             text = '\n'.join(re.findall(r'`([^`\n]+)`', path.read_text()))
-            named = set(re.findall(r'(?<![\w-])--[a-z][a-z-]*', text)) - {'--help'}
+            named = set(re.findall(r'(?<![\w-])--[a-z][a-z-]*', text)) - {'--help', '--help-all'}
             self.assertEqual(named - known, set(), path)
 
     @unittest.skipUnless(shutil.which('gnuplot'), 'gnuplot is missing')

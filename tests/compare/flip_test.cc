@@ -178,7 +178,7 @@ TEST_CASE("The matrix and its inverse belong together", "[flip]") {
     const flip::Triple back = flip::RgbFromYcc(flip::YccFromRgb(rgb));
     for (size_t c = 0; c < 3; ++c) CHECK(back[c] == Approx(rgb[c]).margin(1e-13));
   }
-  CHECK(PixelsPerDegree(0.7, 3840, 0.7) == Approx(kDefaultPixelsPerDegree).epsilon(1e-15));
+  CHECK(kDefaultPixelsPerDegree == Approx(3840 * M_PI / 180).epsilon(1e-15));
 }
 
 }  // namespace

@@ -46,22 +46,22 @@ TEST_CASE("Pixels have the colour of their largest error", "[compare]") {
   SampleAt(got, "G", 1, 0) = 11;
   SampleAt(got, "B", 3, 1) = std::numeric_limits<float>::quiet_NaN();
   const HeatScale scale{1e-3, 1};
-  const auto color = [](const HeatPicture& picture, int x, int y) {
+  const auto color = [](const Rgb8Picture& picture, int x, int y) {
     const size_t i =
         3 * (static_cast<size_t>(y) * static_cast<size_t>(picture.width) + static_cast<size_t>(x));
     return Rgb8{picture.rgb8[i], picture.rgb8[i + 1], picture.rgb8[i + 2]};
   };
-  const HeatPicture absolute = HeatMap(got, reference, "", HeatQuantity::kAbsolute, scale);
+  const Rgb8Picture absolute = HeatMap(got, reference, "", HeatQuantity::kAbsolute, scale);
   CHECK((absolute.width == 4 && absolute.height == 2 && absolute.rgb8.size() == 24));
   CHECK(color(absolute, 0, 0) == kHeatEqual);
   CHECK(color(absolute, 1, 0) == HeatColor(1));
   CHECK(color(absolute, 3, 1) == kHeatNotFinite);
-  const HeatPicture relative = HeatMap(got, reference, "", HeatQuantity::kRelative, scale);
+  const Rgb8Picture relative = HeatMap(got, reference, "", HeatQuantity::kRelative, scale);
   CHECK(color(relative, 1, 0) == HeatColor(scale.Position(0.1)));
 }
 
 TEST_CASE("The legend shows the whole map", "[compare]") {
-  const HeatPicture legend = HeatLegend(256, 2);
+  const Rgb8Picture legend = HeatLegend(256, 2);
   REQUIRE(legend.rgb8.size() == size_t{256} * 2 * 3);
   CHECK(legend.rgb8[0] == HeatColor(0)[0]);
   CHECK(legend.rgb8[3 * 255 + 1] == HeatColor(1)[1]);

@@ -16,6 +16,15 @@ namespace {
 constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
+// The metrics of each layer, in the reference's order.
+std::vector<LayerMetrics> CompareImages(const Image& got, const Image& reference,
+                                        const CompareOptions& options = {}) {
+  const ImagePair pair = PairImages(got, reference, options);
+  std::vector<LayerMetrics> metrics;
+  for (const LayerPair& layer : pair.layers) metrics.push_back(CompareLayer(pair, layer));
+  return metrics;
+}
+
 TEST_CASE("Equal images have no error", "[compare]") {
   const Image image = MakeImage({0, 0, 10, 10}, {"R", "G", "B", "Z"}, 0.7f);
   const auto layers = CompareImages(image, image);

@@ -31,11 +31,14 @@ BRANCHES = {
     "scene_io": {"base", "scene", "image_io"},
     "compare": {"base", "color"},
     "report": {"base", "color", "compare", "image_io"},
+    # What the files of a render say about it: for the program and the API alike.
+    "output": TRUNK_FOLDERS | {"image_io"},
     # What the lesson's exercises ask: the renderer's terms and pictures as curves and numbers.
     "study": TRUNK_FOLDERS | {"image_io", "report"},
     # The public API, nacre.h.
-    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare"},
-    "textbook": {"base"},  # shares nothing with the renderer; only cli/ may use it
+    "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
+    "textbook": {"base"},  # shares nothing with the renderer; only lesson/ and cli/ may use it
+    "lesson": TRUNK_FOLDERS | {"textbook", "scene_io", "image_io", "compare"},
 }
 # In src/ itself, and the folder whose header it is.
 PUBLIC_HEADER, PUBLIC_FOLDER = "nacre.h", "api"

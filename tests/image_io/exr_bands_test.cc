@@ -10,7 +10,6 @@
 #include <OpenEXR/ImfOutputFile.h>
 
 #include "base/error.h"
-#include "image_io/exr_compress.h"
 #include "pictures.h"
 
 namespace nacre {

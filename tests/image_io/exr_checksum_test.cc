@@ -96,8 +96,8 @@ TEST_CASE("a picture that is proven holds all of itself") {
   std::vector<uint8_t> rgb8(3 * 300 * 70);
   for (size_t i = 0; i < rgb8.size(); ++i) rgb8[i] = static_cast<uint8_t>(i * i >> 5);
   PngWriter png(folder / "a.png", header);
-  for (int y = 0; y < 70; y += PngWriter::kStripRows) {
-    png.WriteStrip(y, std::min(PngWriter::kStripRows, 70 - y), &rgb8[static_cast<size_t>(y) * 900]);
+  for (int y = 0; y < 70; y += kStripRows) {
+    png.WriteStrip(y, std::min(kStripRows, 70 - y), &rgb8[static_cast<size_t>(y) * 900]);
   }
   png.Finish();
   CHECK_NOTHROW(VerifyImage(folder / "a.png"));

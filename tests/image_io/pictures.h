@@ -90,9 +90,9 @@ inline Picture MakePicture(int width, int height) {
 inline StripView ViewStrip(const Picture& picture, size_t index) {
   const Window& data = picture.header.data;
   StripView strip;
-  const int row = static_cast<int>(index) * ExrWriter::kStripRows;
+  const int row = static_cast<int>(index) * kStripRows;
   strip.y = data.y0 + row;
-  strip.rows = std::min(ExrWriter::kStripRows, data.height() - row);
+  strip.rows = std::min(kStripRows, data.height() - row);
   const size_t offset = static_cast<size_t>(row) * static_cast<size_t>(data.width());
   for (size_t c = 0; c < picture.floats.size(); ++c) {
     if (picture.ids[c].empty()) {
@@ -105,8 +105,7 @@ inline StripView ViewStrip(const Picture& picture, size_t index) {
 }
 
 inline size_t StripCount(const Picture& picture) {
-  return static_cast<size_t>((picture.header.data.height() + ExrWriter::kStripRows - 1) /
-                             ExrWriter::kStripRows);
+  return static_cast<size_t>((picture.header.data.height() + kStripRows - 1) / kStripRows);
 }
 
 inline void WritePicture(const std::string& path, const Picture& picture,

@@ -71,7 +71,7 @@ TEST_CASE("densities times solid angles are the texels' shares of the light, and
   for (int y = 0; y < map.height; ++y) {
     for (int x = 0; x < map.width; ++x) {
       const Vec3d centre = DirectionFromLatLong((x + 0.5) / map.width, (y + 0.5) / map.height);
-      sum += EnvironmentPdf(map, centre) * TexelSolidAngle(map.width, map.height, y);
+      sum += TexelAt(map, centre).pdf * TexelSolidAngle(map.width, map.height, y);
     }
   }
   CHECK(std::abs(sum - 1) <= 1e-6);
@@ -136,7 +136,7 @@ TEST_CASE("the mean of radiance over density is the integral of radiance") {
 TEST_CASE("a black environment has no samples, and a black row none in it") {
   const EnvironmentMap black = MakeEnvironmentMap(4, 2, std::vector<Vec3f>(8, Vec3f(0)));
   CHECK(SampleEnvironment<double>(black, 0.3, 0.4).texel.pdf == 0);
-  CHECK(EnvironmentPdf(black, Vec3d(1, 0, 0)) == 0);
+  CHECK(TexelAt(black, Vec3d(1, 0, 0)).pdf == 0);
   std::vector<Vec3f> half(8, Vec3f(0));
   half[6] = Vec3f(1);
   const EnvironmentMap map = MakeEnvironmentMap(4, 2, half);

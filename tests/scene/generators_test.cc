@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "messages.h"
 #include "scene/validate.h"
 
 namespace nacre {
@@ -23,20 +24,6 @@ Rgb Grey(double x) { return {x, x, x}; }
 const MetallicRoughnessMaterial& MetalOf(const Scene& scene, size_t sphere) {
   return std::get<MetallicRoughnessMaterial>(
       scene.materials[scene.spheres[sphere].material.index].model);
-}
-
-std::string ErrorOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::kBadInput);
-    return error.what();
-  }
-  return "no error";
-}
-
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 TEST_CASE("a linear axis includes both of its ends exactly") {

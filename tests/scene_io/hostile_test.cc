@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "messages.h"
 #include "scene_io/flat_png.h"
 #include "scene_io/gltf_builder.h"
 #include "scene_io/load_scene.h"
@@ -30,20 +31,6 @@ struct HostileFolder {
   }
 };
 
-std::string MessageOf(const std::function<void()>& action, ExitCode code = ExitCode::kBadInput) {
-  try {
-    action();
-  } catch (const Error& error) {
-    CHECK(error.code() == code);
-    return error.what();
-  }
-  return "no error";
-}
-
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 // What is said of a scene with these shapes when it may have `max` spheres and triangles.
 std::string MessageOfShapes(const std::string& shapes, uint64_t max,
                             const std::string& lights = "{}") {
@@ -52,7 +39,7 @@ std::string MessageOfShapes(const std::string& shapes, uint64_t max,
   folder.Write("a.ppm", "P6\n1 1\n255\nabc");
   LoadOptions options;
   options.max_primitives = max;
-  return MessageOf([&] {
+  return ErrorOf([&] {
     LoadSceneText(fmt::format(R"({{"nacre": 1, "materials": {{"a": {{"model": "lambert"}}}},
                                   "textures": {{"t": {{"file": "a.ppm"}}}},
                                   "lights": {}, "shapes": [{}]}})",
@@ -117,7 +104,7 @@ TEST_CASE("all textures of a scene share one bound") {
   const HostileFolder folder;
   const auto path = folder.Write("a.ppm", "P6\n4 2\n255\n" + std::string(24, 'x'));
   const auto read_after = [&](uint64_t file_bytes, uint64_t before, int64_t width, int64_t height) {
-    return MessageOf([&] {
+    return ErrorOf([&] {
       TexelBudget budget(file_bytes, before);
       if (width > 0) budget.Spend("first", width, height, 1);
       ReadTextureImage(path, "a", {}, &budget);
@@ -164,18 +151,18 @@ TEST_CASE("the images of a scene or a model share the bound of its bytes") {
   for (int i = 0; i < 20; ++i) mtl += "newmtl m\nmap_Pr flat.png\nmap_Pm a.ppm\n";
   folder.Write("a.ppm", "P6\n1 1\n255\nabc");
   folder.Write("m.mtl", mtl);
-  CHECK(MessageOf([&] { LoadScene(obj); }) == "no error");
+  CHECK(ErrorOf([&] { LoadScene(obj); }) == "no error");
   const auto scene = folder.Write("s.json", R"({"nacre": 1,
       "textures": {"flat": {"file": "flat.png"}, "large": {"file": "large.png"}},
       "materials": {"a": {"model": "lambert", "albedo_map": "flat", "emission_map": "large"}}})");
-  CHECK(Contains(MessageOf([&] { LoadScene(scene); }), too_many));
+  CHECK(Contains(ErrorOf([&] { LoadScene(scene); }), too_many));
   GltfFile gltf = MakeSquare();
   gltf.json["images"] = {{{"uri", "flat.png"}}, {{"uri", "large.png"}}};
   gltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
   gltf.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 1}}}}},
                              {"emissiveTexture", {{"index", 0}}}}};
   const auto glb = folder.Write("m.glb", gltf.Binary());
-  const std::string message = MessageOf([&] { LoadScene(glb); });
+  const std::string message = ErrorOf([&] { LoadScene(glb); });
   CHECK(Contains(message, "/images/1: " + too_many));
   // The way out is not another format.
   CHECK(Contains(message, "less compression"));
@@ -187,7 +174,7 @@ TEST_CASE("slips are looked for in short names, and for faults that are told") {
   const std::string mega_a(1'000'000, 'a'), mega_b = mega_a + 'b';
   const std::string sphere = fmt::format(
       R"({{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "{}"}})", mega_b);
-  const std::string message = MessageOf([&] {
+  const std::string message = ErrorOf([&] {
     LoadSceneText(fmt::format(R"({{"nacre": 1, "materials": {{"{}": {{"model": "lambert"}}}},
                                   "shapes": [{}]}})",
                               mega_a, sphere),
@@ -199,7 +186,7 @@ TEST_CASE("slips are looked for in short names, and for faults that are told") {
     materials += fmt::format(R"(, "m{}": {{"model": "lambert"}})", i);
     shapes += R"(, {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "n"})";
   }
-  const std::string many = MessageOf([&] {
+  const std::string many = ErrorOf([&] {
     LoadSceneText(
         fmt::format(R"({{"nacre": 1, "materials": {{{}}}, "shapes": [{}]}})", materials, shapes),
         "test.json", {});
@@ -228,7 +215,7 @@ TEST_CASE("numbers of OBJ and MTL that no double holds are told") {
   folder.Write("c.mtl", "newmtl c\nmap_Kd -s 2 2 1.5 3d picture.png\n");
   const auto message = [&](const std::string& first) {
     const auto path = folder.Write("a.obj", first + "\nv 0 0 0\n" + faces);
-    return MessageOf([&] { LoadScene(path); });
+    return ErrorOf([&] { LoadScene(path); });
   };
   CHECK(message("mtllib a.mtl") == "no error");
   CHECK(Contains(message("mtllib d.mtl"), "d.mtl:2: \"1e2147483649\" is not a finite number"));
@@ -241,8 +228,8 @@ TEST_CASE("--set reaches as deep as a file does, and no deeper") {
   const auto set = [](const std::string& pointer, const std::string& value) {
     LoadOptions options;
     options.overrides.emplace_back(pointer, value);
-    return MessageOf([&] { LoadSceneText(R"({"nacre": 1})", "test.json", {}, options); },
-                     ExitCode::kUsage);
+    return ErrorOf([&] { LoadSceneText(R"({"nacre": 1})", "test.json", {}, options); },
+                   ExitCode::kUsage);
   };
   std::string deep;
   for (int i = 0; i < 100'000; ++i) deep += "/a";
@@ -256,10 +243,10 @@ TEST_CASE("names of files end where they end") {
   folder.Write("a.obj", "");
   std::filesystem::create_directory(folder.path / "scene");
   for (const std::string& name : {"a\0b"s, "../a.obj\0"s, "\0"s}) {
-    CHECK(Contains(MessageOf([&] { ResolveReference(folder.path / "scene", name, {}); }),
+    CHECK(Contains(ErrorOf([&] { ResolveReference(folder.path / "scene", name, {}); }),
                    "has a character 0 in it"));
   }
-  CHECK(Contains(MessageOf([&] { ResolveReference(folder.path, std::string(5000, 'x'), {}); }),
+  CHECK(Contains(ErrorOf([&] { ResolveReference(folder.path, std::string(5000, 'x'), {}); }),
                  "is not a path"));
 }
 

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "catch.h"
+#include "messages.h"
 #include "scene/mesh.h"
 
 namespace nacre {
@@ -33,21 +34,11 @@ Mesh Read(const std::string& text) {
 }
 
 std::string MessageOf(const std::string& text) {
-  try {
-    Read(text);
-  } catch (const Error& error) {
-    CHECK(error.code() == ExitCode::kBadInput);
-    return error.what();
-  }
-  return "no error";
+  return ErrorOf([&] { Read(text); });
 }
 
 bool Refused(const std::string& text, const std::string& part) {
-  const std::string message = MessageOf(text);
-  INFO(message);
-  const bool refused = message.find(part) != std::string::npos;
-  CHECK(refused);
-  return refused;
+  return Tells(MessageOf(text), part);
 }
 
 double Volume(const Mesh& mesh) {

@@ -107,7 +107,7 @@ inline FresnelTerms Fresnel(const MicrofacetModel& m, const Angles<double>& a) {
       case FresnelForm::kF82:
         terms.dielectric[c] =
             FresnelSchlick(m.dielectric_f0[c], m.dielectric_f90, SchlickWeight(a));
-        terms.metal[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.metal_f0[c], 1.0, m.f82_slope[c]);
+        terms.metal[c] = FresnelF82(VDotH(a), OneMinusVDotH(a), m.metal_f0[c], m.f82_slope[c]);
         break;
       case FresnelForm::kDielectric:
         terms.dielectric[c] = FresnelDielectric(VDotH(a), OneMinusVDotH(a), m.eta[c]);
@@ -176,8 +176,10 @@ inline Reflected Reflect(const MicrofacetModel& m, const Vec3d& n, const Vec3d& 
   for (int c = 0; c < 3; ++c) {
     double dielectric = fresnel.dielectric[c] * lobe, metal = fresnel.metal[c] * lobe;
     if (m.compensation == Compensation::kTurquin) {
-      dielectric *= TurquinFactor(m.dielectric_f0[c], 1 - loss_v);
-      metal *= TurquinFactor(m.metal_f0[c], 1 - loss_v);
+      // Turquin 2019, eq. 16.
+      const double more = 1 / (1 - loss_v) - 1;
+      dielectric *= 1 + m.dielectric_f0[c] * more;
+      metal *= 1 + m.metal_f0[c] * more;
     }
     const auto mix = [&](double of_dielectric, double of_metal) {
       return (1 - m.metallic) * of_dielectric + m.metallic * of_metal;

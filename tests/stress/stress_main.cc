@@ -16,6 +16,7 @@
 #include "base/target.h"
 #include "color/display.h"
 #include "compare/heat_map.h"
+#include "image_io/canvas.h"
 #include "image_io/png_writer.h"
 #include "render/render.h"
 #include "stress/fuzz.h"
@@ -45,45 +46,29 @@ struct Options {
 };
 
 // nacre, truth and error side by side, as 8-bit sRGB.
-std::vector<uint8_t> MakeTriptych(const Image& image, const TruthPicture& truth,
-                                  const Comparison& comparison) {
-  const auto width = static_cast<size_t>(truth.width);
-  const auto height = static_cast<size_t>(truth.height);
+Rgb8Picture MakeTriptych(const Image& image, const TruthPicture& truth,
+                         const Comparison& comparison) {
+  const Rgb8Picture got = ShowImage(image, {});
   std::vector<float> plane[3];
-  for (size_t c = 0; c < 3; ++c) {
-    plane[c].reserve(truth.pixels.size());
-    for (const TruthPixel& pixel : truth.pixels) {
+  for (const TruthPixel& pixel : truth.pixels) {
+    for (size_t c = 0; c < 3; ++c) {
       plane[c].push_back(static_cast<float>(pixel.radiance[static_cast<int>(c)]));
     }
   }
-  std::vector<uint8_t> rgb8(3 * 3 * width * height);
+  Rgb8Picture expected = got;
+  EncodeDisplay({}, plane[0].data(), plane[1].data(), plane[2].data(), truth.pixels.size(),
+                expected.rgb8.data());
+  Rgb8Picture errors{got.width, got.height, {}};
   const HeatScale scale{.low = 1e-8, .high = 1};
-  for (size_t y = 0; y < height; ++y) {
-    uint8_t* row = rgb8.data() + 9 * width * y;
-    const size_t first = y * width;
-    const auto channel = [&](const char* name) { return image.Find(name)->samples.data() + first; };
-    EncodeDisplay({}, channel("R"), channel("G"), channel("B"), width, row);
-    EncodeDisplay({}, plane[0].data() + first, plane[1].data() + first, plane[2].data() + first,
-                  width, row + 3 * width);
-    for (size_t x = 0; x < width; ++x) {
-      const double error = comparison.error[first + x];
-      const Rgb8 color = error == 0 ? kHeatEqual : HeatColor(scale.Position(error));
-      std::copy(color.begin(), color.end(), row + 6 * width + 3 * x);
-    }
+  for (const float error : comparison.error) {
+    const Rgb8 color = error == 0 ? kHeatEqual : HeatColor(scale.Position(error));
+    errors.rgb8.insert(errors.rgb8.end(), color.begin(), color.end());
   }
-  return rgb8;
-}
-
-void WritePng(const std::string& path, int width, int height, const std::vector<uint8_t>& rgb8) {
-  PngHeader header;
-  header.width = width;
-  header.height = height;
-  PngWriter writer(path, header);
-  for (int y = 0; y < height; y += PngWriter::kStripRows) {
-    writer.WriteStrip(y, std::min(PngWriter::kStripRows, height - y),
-                      rgb8.data() + 3 * static_cast<size_t>(width) * static_cast<size_t>(y));
-  }
-  writer.Finish();
+  Canvas canvas(3 * got.width, got.height, {0, 0, 0});
+  canvas.Paste(got, 0, 0);
+  canvas.Paste(expected, got.width, 0);
+  canvas.Paste(errors, 2 * got.width, 0);
+  return canvas.Draw();
 }
 
 // Returns whether every bound holds.
@@ -103,8 +88,7 @@ bool RunScene(const GalleryScene& entry, const Options& options) {
   if (c.not_finite > 0) fmt::print("{:<18} {} pixels not finite or negative\n", "", c.not_finite);
   std::fflush(stdout);
   if (!options.folder.empty()) {
-    WritePng(fmt::format("{}/{}.png", options.folder, entry.name), 3 * truth.width, truth.height,
-             MakeTriptych(image, truth, c));
+    WritePng(fmt::format("{}/{}.png", options.folder, entry.name), MakeTriptych(image, truth, c));
   }
   return holds;
 }

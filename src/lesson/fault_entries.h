@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/textbook_faults.h: the faults of the founding documents, one by one: in words here, in
+// lesson/fault_entries.h: the faults of the founding documents, one by one: in words here, in
 // numbers that are computed when they are asked for.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/textbook_measure.h"
+#include "lesson/code_change.h"
 
 namespace nacre {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/textbook_amounts.h: how much each fault of the founding documents amounts to (FaultAmount):
+// lesson/fault_amounts.h: how much each fault of the founding documents amounts to (FaultAmount):
 // by switching it off in the lesson's pictures, by quadrature, or from its formula.
 #pragma once
 
-#include "cli/textbook_faults.h"
+#include "lesson/fault_entries.h"
 
 namespace nacre {
 

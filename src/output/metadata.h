@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// api/metadata.h: what the files of a render say about it.
+// output/metadata.h: what the files of a render say about it.
 #pragma once
 
 #include "image_io/exr_header.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/textbook_scenes.h: scenes/textbook/*.json in the program: the lesson's two set-ups for
+// lesson/scenes.h: scenes/textbook/*.json in the program: the lesson's two set-ups for
 // nacre's own renderer, with real spheres and light that falls off.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/textbook_measure.h: by how much two versions of the lesson's pictures differ.
+// lesson/code_change.h: by how much two versions of the lesson's pictures differ.
 #pragma once
 
 #include <cstdint>

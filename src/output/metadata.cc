@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/metadata.h"
+#include "output/metadata.h"
 
 #include <set>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/textbook_amounts.h"
+#include "lesson/fault_amounts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/textbook_sheet.h: a picture of the lesson beside nacre's own and the difference of the two.
+// lesson/page.h: a picture of the lesson beside nacre's own and the difference of the two.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/image.h"
-#include "cli/textbook_measure.h"
+#include "base/picture.h"
+#include "lesson/code_change.h"
 #include "scene/scene.h"
 
 namespace nacre {
 
-// A scene by nacre's own renderer: its codes (Reinhard, which is the lesson's tone operator, and
+// A scene by nacre's own renderer: as shown (Reinhard, which is the lesson's tone operator, and
 // exact sRGB) and where spheres are.
 struct AccuratePicture {
   int spp = 0;
-  std::vector<uint8_t> codes;
+  Rgb8Picture shown;
   std::vector<uint8_t> sphere;  // 1 where a sphere covers part of the pixel
 };
-AccuratePicture RenderAccurate(const Scene& scene);
+// on_progress is told the share done, and may throw.
+AccuratePicture RenderAccurate(const Scene& scene, const std::function<void(double)>& on_progress);
 
 // A part of the pictures, each pixel `zoom` times as large.
 struct SheetView {

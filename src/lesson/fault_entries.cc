@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/textbook_faults.h"
+#include "lesson/fault_entries.h"
 
-#include "cli/textbook_amounts.h"
+#include "lesson/fault_amounts.h"
 
 namespace nacre {
 

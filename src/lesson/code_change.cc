@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/textbook_measure.h"
+#include "lesson/code_change.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// image_io/canvas.h: a picture of display codes that is put together from others and text.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "base/image.h"
+#include "base/picture.h"
+#include "image_io/draw_text.h"
+
+namespace nacre {
+
+class Canvas {
+ public:
+  Canvas(int width, int height, const Rgb8& ground);
+
+  // Copies the picture to (left, top); what lies outside is cut off.
+  void Paste(const Rgb8Picture& picture, int left, int top);
+  // Copies a part of it, each pixel `zoom` times as large.
+  void Paste(const Rgb8Picture& picture, const Window& part, int zoom, int left, int top);
+
+  // Text is drawn by Draw, all of it at once.
+  void AddText(TextItem item) { text_.push_back(std::move(item)); }
+  void AddText(const std::vector<TextItem>& items);
+
+  // The picture, complete. Throws as DrawText does.
+  const Rgb8Picture& Draw();
+
+ private:
+  Rgb8Picture picture_;
+  std::vector<TextItem> text_;
+};
+
+}  // namespace nacre

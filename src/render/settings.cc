@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/settings.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/error.h"
+
+namespace nacre {
+
+std::vector<std::string> IntersectorNames() { return {"auto", "embree", "tiles"}; }
+
+IntersectorChoice ParseIntersector(const std::string& name) {
+  const std::vector<std::string> names = IntersectorNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<IntersectorChoice>(found - names.begin());
+  throw Error(ExitCode::kUsage, "intersector", "unknown intersector \"" + name + "\"",
+              fmt::format("one of: {}", fmt::join(names, ", ")));
+}
+
+}  // namespace nacre
