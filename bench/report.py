@@ -5,7 +5,7 @@ import machine
 
 _ORDER = ("scalar_baseline", "scalar", "sse4", "avx2", "avx3")
 _CLIFF = 1.3  # the exponent of a step that is no longer near linear growth
-_STAGES = ("sample", "intersect", "refine", "light", "shadow", "shade", "film", "output")
+_STAGES = ("sample", "intersect", "surfaces", "light", "shadow", "shade", "film", "output")
 
 
 def table(header, rows):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // image_io/exr_container.h: an EXR file around chunks that are compressed already.
-// The only file, with its .cc, that uses OpenEXR's C library.
+// Uses OpenEXR's C library, as exr_chunk_check.cc does.
 #pragma once
 
 #include <cstdint>

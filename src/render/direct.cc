@@ -12,14 +12,15 @@ namespace nacre {
 namespace {
 
 // Whether shadow rays to the light need be cast from the batch.
-bool CastsShadowRays(const DirectPlan& plan, const PlannedLight& planned, const HitBatch& hits) {
+bool CastsShadowRays(const DirectPlan& plan, const PlannedPunctualLight& planned,
+                     const HitBatch& hits) {
   if (!hits.one_primitive) return planned.shadow_rays;
   return !NeverShadowed(planned, hits.primitive[0]) &&
          plan.intersector->MayOcclude(planned.occluders, hits);
 }
 
 // Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
-void CastShadows(const DirectBatch& batch, const PlannedLight& planned) {
+void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) {
   const DirectPlan& plan = batch.plan;
   const HitBatch& hits = batch.hits();
   DirectRoom& room = batch.room;
@@ -58,7 +59,7 @@ void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, L
 
 // A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
 // of its own.
-void ShadeByOne(const DirectBatch& batch, const PlannedLight& planned, bool shadow_rays,
+void ShadeByOne(const DirectBatch& batch, const PlannedPunctualLight& planned, bool shadow_rays,
                 Leaves leaves) {
   DirectRoom& room = batch.room;
   EvaluateLight(planned.light, batch.hits(), batch.surface(), &room.light);
@@ -86,7 +87,7 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
   const DirectPlan& plan = batch.plan;
   const HitBatch& hits = batch.hits();
   const BatchBounds bounds = plan.cull_lights ? BoundHits(hits, batch.surface()) : BatchBounds{};
-  batch.clock.Charge(Stage::kRefine);
+  batch.clock.Charge(Stage::kLight);
   std::vector<LightOnBatch>& together = batch.room.together;
   together.clear();
   bool dark = true;  // nothing is in the total yet
@@ -101,7 +102,7 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
     if (dark) ClearRadiance(batch.lit(), &batch.radiance.total);
     dark = false;
   };
-  for (const PlannedLight& planned : plan.lights) {
+  for (const PlannedPunctualLight& planned : plan.lights) {
     ++batch.stats.light_batches;
     if (plan.cull_lights && !MayReach(planned.reach, bounds)) {
       ++batch.stats.culled_lights;

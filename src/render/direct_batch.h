@@ -68,8 +68,8 @@ struct DirectBatch {
   size_t lit() const { return surfaces.lit; }  // how many hits lights shine on
 };
 
-// Adds what one light leaves to its layer alone; or, with AddLight, to the total as well, if
-// `layer` is not -1.
+// ShowLight adds what one light leaves to its layer. AddLight adds it to the total, and to its
+// layer unless that is -1.
 void ShowLight(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
 void AddLight(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
 

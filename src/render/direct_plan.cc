@@ -30,7 +30,7 @@ void PlanPunctualLights(const Scene& scene, const RenderSettings& settings,
           {name + " shadow rays", false,
            light.shadows ? "the scene turns shadows off" : "the light casts none"});
     }
-    PlannedLight& planned = plan->lights.emplace_back();
+    PlannedPunctualLight& planned = plan->lights.emplace_back();
     planned.index = i;
     planned.light = prepared;
     planned.shadow_rays = shadow_rays;
@@ -187,7 +187,7 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
 void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
                       Explanation* why) {
   if (!settings.offsets_by_normal || !LieOnSpheres(scene, *plan)) return;
-  for (PlannedLight& planned : plan->lights) {
+  for (PlannedPunctualLight& planned : plan->lights) {
     if (!OffsetFromSpheres(scene.spheres, scene.camera.position, &planned.light)) continue;
     why->substitutions.push_back(
         {fmt::format("light \"{}\"", scene.lights[planned.index].name), true,

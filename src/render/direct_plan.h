@@ -22,8 +22,8 @@
 
 namespace nacre {
 
-// A light that hits are shaded by: not ambient, not black.
-struct PlannedLight {
+// A directional, point or spot light that is not black.
+struct PlannedPunctualLight {
   size_t index;  // into Scene::lights
   ShadingLight light;
   bool shadow_rays;
@@ -33,7 +33,7 @@ struct PlannedLight {
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
-// A light with an extent, or an environment, that is not black.
+// A light with an extent, or an environment.
 struct PlannedSampledLight {
   size_t index;  // into Scene::lights
   SampledLight light;
@@ -73,12 +73,12 @@ struct DirectPlan {
   PrimitiveNumbers primitives;
   CameraFrame camera{};
   std::shared_ptr<const Intersector> intersector;
-  std::vector<PlannedLight> lights;
+  std::vector<PlannedPunctualLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
-  PairSampler pairs;                   // their samples'; three pairs a light
-  std::optional<size_t> sky;           // of sampled_lights: one of many colours that is seen
-  Rgb background{0, 0, 0};             // seen where nothing is hit: the scene's or a sky's, or
-                                       // that of no sky of many colours
+  PairSampler pairs;          // their samples'; three pairs a light
+  std::optional<size_t> sky;  // in sampled_lights: the visible sky, if it varies with direction
+  // The constant colour behind the shapes, the scene's or a one-colour sky's; unused with `sky`.
+  Rgb background{0, 0, 0};
   size_t light_layer_count = 0;        // lights that a layer shows alone
   bool cull_lights = false;            // leave out those that cannot reach a batch
   bool offset_shadow_origins = false;  // some shadow rays do not start at their hits

@@ -9,9 +9,9 @@ namespace nacre {
 
 // A decision and its reason. Skipping leaves every bit as the general path would make it.
 struct PlanItem {
-  std::string what;  // "shadow rays of light key"
+  std::string what;  // "light \"key\" shadow rays"
   bool used = false;
-  std::string reason;  // "one sphere alone cannot shadow itself"
+  std::string reason;  // "a sphere alone, seen from outside, is convex"
 };
 
 // Each stage's plan adds its own decisions.

@@ -23,8 +23,8 @@ struct FilmPlan {
   CameraFrame camera{};
   int spp = 1;
   double weight = 1;        // of all samples of a pixel
-  Rgb background{0, 0, 0};  // seen where nothing is hit, unless
-  bool sky = false;         // rays see BatchRadiance::sky there
+  Rgb background{0, 0, 0};  // seen where nothing is hit, if not `sky`
+  bool sky = false;         // the background is BatchRadiance::sky
   // The beauty is what the only light's kernel makes of the parts: BatchRadiance::total.sum.
   bool beauty_is_sum = false;
   bool one_sample = false;  // a pixel's only sample is its value: no sums
@@ -74,7 +74,8 @@ PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* ch
 // The channels of a strip's files: float channels first, then ids.
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type);
 
-// Gives the strip the plan's channels with room for the window, whatever it held before.
+// Gives the strip the plan's channels with room for the window. Pixels that were there stay where
+// the room suffices: RenderStrip counts on it.
 void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip);
 
 // Whether some layers show one sample of a pixel, not an average.

@@ -33,10 +33,9 @@ struct HitRays {
 void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
                std::vector<HitSpan>* spans);
 
-// What hits are worth in each of a layer's channels, one or three: in channel c, hit i
-// double(a[c][i]) + double(b[c][i]) + constant[c] + further[c]. Of null b, or a and b, which are so
-// in all channels, there is nothing to add. Or there are four, and 1 is what a hit is worth in the
-// last: its pixel is covered.
+// Hit i is worth a[c][i] + b[c][i] + constant[c] + further[c], in double, in channel c of a layer.
+// b, or a and b, may be null in all channels: 0. `channels` is 1, 3 or 4; the fourth is coverage,
+// where every hit is worth 1.
 struct HitValues {
   int channels;
   const float* a[3];

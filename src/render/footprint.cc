@@ -69,8 +69,9 @@ void CountCorners(const FramePlan& plan, const Window& cell, const TileWork& wor
 
 // Whether no light's shadow can fall on the sphere.
 bool IsNeverShadowed(const FramePlan& plan, uint32_t sphere) {
-  return std::all_of(plan.direct.lights.begin(), plan.direct.lights.end(),
-                     [&](const PlannedLight& light) { return NeverShadowed(light, sphere); });
+  return std::all_of(
+      plan.direct.lights.begin(), plan.direct.lights.end(),
+      [&](const PlannedPunctualLight& light) { return NeverShadowed(light, sphere); });
 }
 
 // Whether the spheres' surfaces may meet: in a curve that is no outline.

@@ -18,18 +18,19 @@
 
 namespace nacre {
 
-// Each part is made from what stands beside it alone; a change to anything else leaves it as it is.
+// What each part is made from; MakePlan makes them in the order in which one needs another.
 struct FramePlan {
   const Scene* scene = nullptr;
   std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` where lights are visible
   Window frame;                                        // all pixels: 0, 0, width, height
   Window window;                                       // those to render
   CameraFrame camera{};
-  FilmPlan film;          // layers asked for, image settings; sky and background of `direct`
-  HitsPlan hits;          // shapes, camera, image settings
-  SurfacePlan surfaces;   // materials, textures, ambient lights; camera for footprints
-  DirectPlan direct;      // lights, layers, and `hits` for shadows; `surfaces` for Gouraud's meshes
-  SamplingPlan sampling;  // image settings; what `direct`, `surfaces` and `film` ask of samples
+  FilmPlan film;         // layers, image settings, camera; sky and background of `direct`
+  HitsPlan hits;         // shapes, camera, image settings; shadows and readers of hits
+  SurfacePlan surfaces;  // materials, textures, ambient lights, shapes; camera for footprints
+  DirectPlan direct;     // lights, layers, shapes, camera; `hits` for shadows
+  SamplingPlan
+      sampling;  // image settings; what `direct`, `surfaces`, `hits`, `film` ask of samples
   AdaptivePlan adaptive;  // max_error, and all of the above
   Explanation why;        // of all parts
 };

@@ -171,7 +171,7 @@ void AddGlints(const FramePlan& plan, const Projector& projector, const TileCand
     if (ShowsWide(projector, sphere, width, std::sqrt(largest))) return;
   }
   size_t number = 0;
-  for (const PlannedLight& planned : plan.direct.lights) {
+  for (const PlannedPunctualLight& planned : plan.direct.lights) {
     AddGlint(
         plan, projector, candidate,
         SeenLight(plan.scene->lights[planned.index], plan.scene->camera.position, sphere.center), 0,

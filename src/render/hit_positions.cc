@@ -8,14 +8,14 @@
 namespace nacre {
 namespace {
 
-bool ReadsPositions(const PlannedLight& planned) {
+bool ReadsPositions(const PlannedPunctualLight& planned) {
   return planned.light.form != LightForm::kDirectional && planned.light.from_spheres.empty();
 }
 
 // What reads the positions of all hits; null: nothing does.
 const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
                             const HitReaders& readers, const HitsPlan& plan) {
-  const std::vector<PlannedLight>& lights = readers.direct.lights;
+  const std::vector<PlannedPunctualLight>& lights = readers.direct.lights;
   const bool near = std::any_of(lights.begin(), lights.end(), ReadsPositions);
   return settings.general_path                    ? "the general path is asked for"
          : !plan.tiles                            ? "camera rays are traced by Embree"
@@ -23,8 +23,8 @@ const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
          : near                                   ? "lights are found from them"
          : !readers.direct.sampled_lights.empty() ? "some lights have an extent"
          : readers.direct.cull_lights             ? "lights are culled by them"
-         : plan.exact_directions                  ? "narrow lobes find lights from them"
          : readers.surfaces.textured              ? "textures may need them"
+         : plan.exact_directions                  ? "narrow lobes find lights from them"
          : readers.surfaces.one_sided             ? "some materials emit in front only"
          : ShowsNearest(readers.film)             ? "some layers show hits, not averages"
                                                   : nullptr;
@@ -34,7 +34,7 @@ const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
 
 void PlanPositions(const Scene& scene, const RenderSettings& settings, const HitReaders& readers,
                    HitsPlan* plan, Explanation* why) {
-  plan->exact_directions = HasNarrowLobes(readers.surfaces);
+  plan->exact_directions = NeedsExactDirections(readers.surfaces);
   if (plan->intersector == nullptr) return;
   const char* const reason = WhyAllPositions(scene, settings, readers, *plan);
   plan->all_positions = reason != nullptr;
@@ -42,12 +42,12 @@ void PlanPositions(const Scene& scene, const RenderSettings& settings, const Hit
     why->items.push_back({"positions of hits", true, reason});
     return;
   }
-  const std::vector<PlannedLight>& lights = readers.direct.lights;
+  const std::vector<PlannedPunctualLight>& lights = readers.direct.lights;
   plan->may_be_shadowed.resize(scene.spheres.size());
   for (uint32_t sphere = 0; sphere < scene.spheres.size(); ++sphere) {
-    plan->may_be_shadowed[sphere] =
-        std::any_of(lights.begin(), lights.end(),
-                    [&](const PlannedLight& planned) { return !NeverShadowed(planned, sphere); });
+    plan->may_be_shadowed[sphere] = std::any_of(
+        lights.begin(), lights.end(),
+        [&](const PlannedPunctualLight& planned) { return !NeverShadowed(planned, sphere); });
   }
   const auto count =
       std::count(plan->may_be_shadowed.begin(), plan->may_be_shadowed.end(), uint8_t{1});

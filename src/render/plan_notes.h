@@ -13,8 +13,8 @@ namespace nacre {
 // Which of the scene's materials are on a shape, splits resolved.
 std::vector<bool> FindUsedMaterials(const Scene& scene);
 
-// Adds to the notes: perfect mirrors under lights that have no extent, and diffuse reflection
-// that makes light. `materials`: of the scene, in its order.
+// Adds to the notes: scenes that nothing lights, perfect mirrors under lights that have no extent,
+// and materials that reflect more than they get. `materials`: of the scene, in its order.
 void NoteMaterials(const Scene& scene, const std::vector<ShadingMaterial>& materials,
                    bool sampled_lights, std::vector<std::string>* notes);
 

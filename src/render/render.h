@@ -14,8 +14,9 @@ namespace nacre {
 using StripSink = std::function<void(const Strip&)>;
 
 // Renders what the plan says and hands strips of kStripRows rows, counted from the window's top,
-// to the sink. A pixel's bits depend on (scene, pixel, sample, target) only: not on threads,
-// tiles, crop or the layers asked for. Exceptions of the sink and of settings.on_progress end it.
+// to the sink. A pixel's bits depend on scene, pixel, samples, target and the settings
+// that choose another estimate (max_error, closed forms) only: not on threads, tiles, crop or the
+// layers asked for. Exceptions of the sink and of settings.on_progress end it.
 RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink);
 
 // The whole picture in memory, channels as StripChannels has them, all in float. For tests,

@@ -16,7 +16,8 @@ size_t ShineAlong(const LightDirections& directions, const Surface& surface, siz
                   LightBatch* light);
 
 // The density of the directions in the ways that the diffuse part is sampled by: SampleLight's,
-// SampleCosine's or the sum. 0 where `flat` (may be null) is not.
+// SampleCosine's or the sum. 0 at hits with flat[i] != 0, whose diffuse part is in closed form;
+// `flat` may be null.
 struct DiffuseWays {
   bool light, cosine;
 };

@@ -108,8 +108,8 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
   return plan;
 }
 
-void EnterTile(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
-               CameraSamples* samples) {
+void ChoosePlaces(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
+                  CameraSamples* samples) {
   ChoosePixels(plan, tile, sight, samples);
   if (plan.numbered) NumberPixels(plan, tile, &NumbersOf(samples));
 }

@@ -58,8 +58,8 @@ inline SampleNumbers& NumbersOf(CameraSamples* samples) {
 }
 
 // Readies the samples for a tile that FindSight has seen: which of its pixels get places.
-void EnterTile(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
-               CameraSamples* samples);
+void ChoosePlaces(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
+                  CameraSamples* samples);
 
 // Samples [first, first + count) of each of the tile's pixels, sample by sample, row by row.
 void PlaceSamples(const SamplingPlan& plan, const Window& tile, const TileSight& sight, int first,

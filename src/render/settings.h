@@ -45,8 +45,9 @@ struct RenderSettings {
   // Find where far lights lie from the normals of hits on spheres (ShadingLight::from_spheres);
   // false: always from their positions. Likewise.
   bool offsets_by_normal = true;
-  // Trace shadow rays even where the plan proves that nothing can be in the way: for tests that
-  // hold skips and the general path together.
+  // Take no shortcut that changes no bits: shadow rays are traced even where nothing can be in the
+  // way, no light is culled, every sample is placed and summed. For tests that hold shortcuts and
+  // the general path together.
   bool general_path = false;
   // Measure how long each stage takes (RenderStats::stage_seconds): some per cent of small frames'
   // time. Output is measured always.

@@ -33,7 +33,7 @@ std::vector<uint8_t> FindShadowed(const OccluderLists& lists) {
 }
 
 // Takes from the light the shadow rays that nothing can be in the way of; says why in `item`.
-void SkipUnshadowed(const OccluderLists& lists, PlannedLight* light, PlanItem* item) {
+void SkipUnshadowed(const OccluderLists& lists, PlannedPunctualLight* light, PlanItem* item) {
   std::vector<uint8_t> shadowed = FindShadowed(lists);
   const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
   const size_t spheres = shadowed.size();
@@ -77,8 +77,9 @@ std::string WhyTree(const Scene& scene, const RenderSettings& settings, const Hi
   if (settings.intersector == IntersectorChoice::kTiles) return {};
   // Measured: by then one tree is made faster than the bins of all lights, and takes less room.
   constexpr double kMostPairs = 8e6;
-  const auto lights = std::count_if(plan.lights.begin(), plan.lights.end(),
-                                    [](const PlannedLight& light) { return light.shadow_rays; });
+  const auto lights =
+      std::count_if(plan.lights.begin(), plan.lights.end(),
+                    [](const PlannedPunctualLight& light) { return light.shadow_rays; });
   if (static_cast<double>(lights) * static_cast<double>(scene.spheres.size()) > kMostPairs &&
       lights > 1) {
     return fmt::format("one tree is less work than bins for {} lights", lights);
@@ -98,7 +99,7 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
   // Embree is asked about the same rays as the others, when it is asked for.
   if (why_tree.empty() || (few && why_tree == kEmbreeAskedFor)) {
     std::vector<const Light*> lights;
-    for (PlannedLight& light : plan->lights) {
+    for (PlannedPunctualLight& light : plan->lights) {
       if (!light.shadow_rays) continue;
       light.occluders = static_cast<uint32_t>(lights.size());
       lights.push_back(&scene.lights[light.index]);
@@ -108,7 +109,7 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
   size_t listed = 0, binned = 0, left = 0;
   std::vector<PlanItem> items;
   std::string crowded, crowd;  // why bins are not used, or what they are like
-  for (PlannedLight& light : plan->lights) {
+  for (PlannedPunctualLight& light : plan->lights) {
     if (!light.shadow_rays) continue;
     PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name), true,
                   settings.general_path ? "the general path is asked for"

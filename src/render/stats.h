@@ -12,7 +12,7 @@ namespace nacre {
 enum class Stage : uint8_t {
   kSample,
   kIntersect,
-  kRefine,
+  kSurfaces,
   kLight,
   kShadow,
   kShade,
@@ -22,8 +22,8 @@ enum class Stage : uint8_t {
 inline constexpr size_t kStageCount = 8;
 
 constexpr std::string_view StageName(Stage stage) {
-  constexpr std::string_view kNames[kStageCount] = {"sample", "intersect", "refine", "light",
-                                                    "shadow", "shade",     "film",   "output"};
+  constexpr std::string_view kNames[kStageCount] = {"sample", "intersect", "surfaces", "light",
+                                                    "shadow", "shade",     "film",     "output"};
   return kNames[static_cast<size_t>(stage)];
 }
 
@@ -36,8 +36,8 @@ struct RenderStats {
   uint64_t unsettled_pixels = 0;  // of adaptive sampling: their error is not known to be small
   // Sampled directions to light that are no numbers: they bring nothing, and none is expected.
   uint64_t directions_not_finite = 0;
-  uint64_t shades = 0;            // hits times lights that were evaluated
-  // Thread seconds; but for output 0 unless RenderSettings::time_stages.
+  uint64_t shades = 0;  // hits times lights that were evaluated
+  // Thread seconds. Without RenderSettings::time_stages only kOutput is measured.
   std::array<double, kStageCount> stage_seconds{};
   double plan_seconds = 0;    // wall: planning and building the intersector
   double render_seconds = 0;  // wall: the rest

@@ -206,7 +206,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
   return plan;
 }
 
-bool HasNarrowLobes(const SurfacePlan& plan) {
+bool NeedsExactDirections(const SurfacePlan& plan) {
   return std::any_of(plan.materials.begin(), plan.materials.end(), HasDoubleTerms);
 }
 

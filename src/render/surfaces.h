@@ -33,8 +33,9 @@ struct SurfacePlan {
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const CameraFrame& camera, const Rgb& ambient, Explanation* why);
 
-// Some material has a lobe so narrow that its hits keep their directions in double.
-bool HasNarrowLobes(const SurfacePlan& plan);
+// Whether some material has a lobe too narrow for float, or maps: its hits keep their directions in
+// double.
+bool NeedsExactDirections(const SurfacePlan& plan);
 
 // The material of a primitive where the sample lies at film_x pixels from the frame's left edge:
 // splits resolved.

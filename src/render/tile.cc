@@ -41,7 +41,7 @@ void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip
     clock->Charge(Stage::kFilm);
     return;
   }
-  EnterTile(plan.sampling, tile, work->sight, &work->samples);
+  ChoosePlaces(plan.sampling, tile, work->sight, &work->samples);
   if (plan.film.one_sample) return RenderOnce(plan, tile, work, strip, blank, clock, stats);
   *blank = 0;
   clock->Charge(Stage::kSample);

@@ -7,7 +7,7 @@
 namespace nacre {
 
 // Renders the pixels of `tile`, which lies within the strip and has at most kBatchCapacity of them.
-// `blank`: 1 if they show nothing but the background already; then whether they do.
+// `blank`, in: 1 if the strip already holds the background there; out: whether it does now.
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats);
 

@@ -14,6 +14,7 @@ void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, Rend
   stats->hits += hits;
   ResolveSurfaces(plan.surfaces, film.x.data(), &w.hits, &w.sort_room, &w.surfaces);
   if (hits > 0) {
+    clock->Charge(Stage::kSurfaces);
     ShadeDirect({plan.direct, w.surfaces, w.direct_room, w.radiance, *clock, *stats},
                 w.samples.numbers ? &*w.samples.numbers : nullptr);
   }

@@ -15,11 +15,12 @@
 
 namespace nacre {
 
-// Reused from tile to tile. Each is written by one stage alone, with its room.
+// Reused from tile to tile. Each is written by one stage alone, with its room; but ResolveSurfaces
+// swaps its buffers with those of `hits`, where it need not copy them.
 struct TileWork {
   TileSight sight;        // FindSight
   CameraSamples samples;  // PlaceSamples, or adaptive sampling
-  CameraHits hits;        // TraceCamera; ResolveSurfaces takes them over
+  CameraHits hits;        // TraceCamera
   TraceRoom trace_room;
   Surfaces surfaces;  // ResolveSurfaces
   SortRoom sort_room;

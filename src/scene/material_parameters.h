@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // scene/material_parameters.h: the parameters of each material model by name, defined once. The
-// reader of scene files, the JSON Schema, the scene's hash, the axes of grids, Validate() and the
-// tables of scenes/README.md are made of it.
+// reader of scene files, the JSON Schema, the scene's hash, the axes of grids and Validate() are
+// made of it, and the maps that a model may have.
 #pragma once
 
 #include <cstddef>

@@ -30,8 +30,8 @@ struct Surface : HitDirections {
 
 // One light as the hits of a batch see it.
 struct LightBatch {
-  // Unit vectors of a LightForm::kGiven, which EvaluateLight does not leave: there they are of any
-  // length, and times inverse_length unit vectors.
+  // Of LightForm::kGiven: unit vectors. After EvaluateLight: of any length, to be multiplied by
+  // inverse_length.
   Soa3<float> to_light;
   AlignedArray<float> inverse_length{kBatchCapacity};
   // Irradiance perpendicular to the light per unit of its colour: fall-off, cone and visibility.

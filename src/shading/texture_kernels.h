@@ -48,7 +48,7 @@ void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextu
                          HitBatch* hits, Surface* surface);
 
 // The material's numbers at every hit, each map's values multiplied to them, and what shading and
-// layers make of them (mapped_material.cc).
+// layers make of them (mapped_kernel.cc).
 void StartMaterial(const TexturedRun& run, HitTextures* textures);
 void ApplyMap(const TexturedRun& run, MapRole role, HitTextures* textures);
 void FinishMaterial(const TexturedRun& run, HitTextures* textures);

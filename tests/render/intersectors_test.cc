@@ -188,7 +188,7 @@ TEST_CASE("bins for shadow rays give the same bits as Embree") {
       RenderSettings settings;
       settings.threads = static_cast<int>(seed % 3);
       CheckSame(scene, settings);
-      for (const PlannedLight& light : MakePlan(scene, {}).direct.lights) {
+      for (const PlannedPunctualLight& light : MakePlan(scene, {}).direct.lights) {
         CHECK(light.occluders != kAnyLight);
       }
     }
@@ -230,7 +230,7 @@ TEST_CASE("spheres that nothing can shadow need no shadow rays") {
     RenderSettings general;
     general.general_path = true;
     CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, general)));
-    for (const PlannedLight& light : MakePlan(scene, {}).direct.lights) {
+    for (const PlannedPunctualLight& light : MakePlan(scene, {}).direct.lights) {
       some += light.shadow_rays && !light.shadowed.empty();
       none += !light.shadow_rays;
     }
