@@ -121,7 +121,8 @@ TEST_CASE("Shares are the integrals that they are said to be") {
 // albedos for F = 1 and for Schlick's weight, are the table's, to 5e-14.
 TEST_CASE(
     "A part metal reflects the shares of its dielectric and its metal, to the table's albedos") {
-  for (const auto& row : LoadTable("energy").at("dfg")) {
+  const auto table = LoadTable("energy");
+  for (const auto& row : table.at("dfg")) {
     const double mu = TableNumber(row.at("mu")), roughness = TableNumber(row.at("roughness"));
     const double one = TableNumber(row.at("E")), schlick = TableNumber(row.at("B"));
     for (const double metallic : {0.0, 0.3, 0.8, 1.0}) {
