@@ -265,7 +265,8 @@ struct CompareSettings {
   std::vector<std::string> layers;  // empty: all, and then both must have the same channels
   // Samples may differ by max_abs + max_rel |reference|, in all but this fraction of the pixels.
   double max_abs = 0, max_rel = 0, exceeding_fraction = 0;
-  double max_rmse = std::numeric_limits<double>::infinity();  // of any layer
+  // Of any layer. If it is the only tolerance, nothing is asked of single samples.
+  double max_rmse = std::numeric_limits<double>::infinity();
   bool perceptual = false;                                    // measure SSIM and FLIP, too
   // Compare the pixels that both have where frames or data windows differ, which is a difference
   // otherwise.

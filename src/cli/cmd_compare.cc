@@ -176,7 +176,11 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
                    "Share of the pixels that may exceed both")
       ->check(InRange(0, 1))
       ->group(tolerance);
-  command->add_option("--rmse", a->tolerances.rmse, "Allowed RMSE of a layer")
+  command
+      ->add_option(
+          "--rmse", a->tolerances.rmse,
+          "Allowed RMSE of a layer; of single samples nothing is asked if this is the only "
+          "tolerance")
       ->check(not_negative)
       ->group(tolerance);
   AddPerceptualOptions(command, &a->perceptual);

@@ -66,6 +66,12 @@ std::string WindowsInWords(const Image& got, const Image& reference) {
   return {};
 }
 
+// Nothing is said of single samples: images that are equal need no limit of their RMSE.
+bool RmseAloneDecides(const Tolerances& tolerances) {
+  return std::isfinite(tolerances.rmse) && tolerances.max_abs == 0 && tolerances.max_rel == 0 &&
+         tolerances.exceeding_fraction == 0;
+}
+
 std::string LimitInWords(const Tolerances& tolerances) {
   if (tolerances.max_abs == 0 && tolerances.max_rel == 0) return "differ";
   if (tolerances.max_rel == 0) return fmt::format("differ by more than {}", tolerances.max_abs);
@@ -81,7 +87,10 @@ Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolera
   Verdict verdict;
   verdict.pixels = pair.window.pixel_count();
   for (const LayerPair& layer : pair.layers) verdict.layers.push_back(CompareLayer(pair, layer));
-  const Excess excess = FindExcess(pair, tolerances);
+  const bool by_rmse = RmseAloneDecides(tolerances);
+  Tolerances of_samples = tolerances;
+  if (by_rmse) of_samples.max_abs = HUGE_VAL;  // which what is not finite exceeds still
+  const Excess excess = FindExcess(pair, of_samples);
   verdict.exceeding_pixels = excess.pixels;
   const double fraction = static_cast<double>(excess.pixels) / static_cast<double>(verdict.pixels);
   if (fraction > tolerances.exceeding_fraction) {
@@ -105,6 +114,10 @@ Verdict Judge(const Image& got, const Image& reference, const Tolerances& tolera
     return verdict;
   }
   verdict.match = true;
+  if (by_rmse) {
+    verdict.reason = fmt::format("no layer's RMSE is more than {:.6g}", tolerances.rmse);
+    return verdict;
+  }
   verdict.reason = excess.pixels == 0
                        ? fmt::format("none of {} pixels {}", verdict.pixels,
                                      tolerances.max_abs == 0 && tolerances.max_rel == 0

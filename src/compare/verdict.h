@@ -12,7 +12,8 @@ namespace nacre {
 
 // A sample exceeds them if |got - reference| > max_abs + max_rel |reference|, or if it is not
 // finite in one image and not the same in the other. A pixel exceeds them if a sample of it does,
-// in any layer compared. By default images must be equal.
+// in any layer compared. By default images must be equal. A limit of the RMSE alone, with nothing
+// said of samples or pixels, is the whole verdict.
 struct Tolerances {
   double max_abs = 0;
   double max_rel = 0;

@@ -74,6 +74,21 @@ TEST_CASE("RMSE is judged by layer", "[compare]") {
   CHECK(verdict.reason == "RMSE of N is 0.1, 0.05 is allowed");
 }
 
+TEST_CASE("A limit of the RMSE alone is the whole verdict", "[compare]") {
+  Image got = MakeImage({0, 0, 10, 10}, {"R", "N.X"}, 1);
+  const Image reference = got;
+  SampleAt(got, "N.X", 5, 5) = 2;
+  Tolerances tolerances;
+  tolerances.rmse = 0.1000001;
+  CHECK(Judge(got, reference, tolerances).match);
+  CHECK(Judge(got, reference, tolerances).reason == "no layer's RMSE is more than 0.1");
+  tolerances.rmse = 0.09;
+  CHECK(Judge(got, reference, tolerances).reason == "RMSE of N is 0.1, 0.09 is allowed");
+  SampleAt(got, "N.X", 5, 5) = kNan;
+  tolerances.rmse = 1e30;
+  CHECK_FALSE(Judge(got, reference, tolerances).match);
+}
+
 TEST_CASE("No tolerance forgives a NaN", "[compare]") {
   Pair pair;
   SampleAt(pair.got, "R", 7, 8) = kNan;
