@@ -149,12 +149,12 @@ void BenchTextbookGgx(benchmark::State& state, TextbookKernel kernel, Target tar
   });
 }
 
-using PhongKernel = void (*)(const PhongUniforms&, const ShadeRange&);
+using PhongKernel = void (*)(const PhongUniforms<float>&, const ShadeRange&);
 
 void BenchGiven(benchmark::State& state, PhongKernel kernel, PhongModel model, Target target,
                 bool in_lobe) {
-  const PhongLight light{{38, 25, 8}, {30, 30, 30}};
-  const PhongUniforms uniforms{model, static_cast<float>(kShininess), &light, nullptr};
+  const PhongLight<float> light{{38, 25, 8}, {30, 30, 30}};
+  const PhongUniforms<float> uniforms{model, {static_cast<float>(kShininess)}, &light, nullptr};
   const Lights lights{.in_lobe = in_lobe};
   BenchShade(state, target, lights, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
     kernel(uniforms, RangeOf(lit, radiance));

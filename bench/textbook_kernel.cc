@@ -123,7 +123,7 @@ struct NaiveLobe {
   static constexpr bool kReadsIrradiance = true;
   using Incident = LobeIncidentV;
   struct View {};
-  const PhongUniforms& uniforms;
+  const PhongUniforms<float>& uniforms;
 
   HWY_INLINE bool ReadsLobe() const { return true; }
   HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
@@ -133,8 +133,8 @@ struct NaiveLobe {
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in,
                                 size_t k) const {
-    const FloatV lobe = LobePower(d, in.log2_cosine, hn::Set(d, uniforms.shininess));
-    const PhongLight& by = uniforms.lights[k];
+    const FloatV lobe = LobePower(d, in.log2_cosine, hn::Set(d, uniforms.constants.shininess));
+    const PhongLight<float>& by = uniforms.lights[k];
     return {{ScaledPart(SetRgb(d, by.diffuse), in.weight)},
             ScaledPart(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
   }
@@ -150,11 +150,11 @@ void ShadeWrittenGgxT(const TextbookGgxUniforms& uniforms, const ShadeRange& ran
   ShadePackets(FloatTag(), WrittenGgx{*uniforms.light, uniforms.alpha2, uniforms.k}, range);
 }
 
-void ShadeNaivePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+void ShadeNaivePhongT(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
   ShadePackets(FloatTag(), NaiveLobe<FillNaivePhong>{uniforms}, range);
 }
 
-void ShadeNaiveBlinnPhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+void ShadeNaiveBlinnPhongT(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
   ShadePackets(FloatTag(), NaiveLobe<FillNaiveBlinnPhong>{uniforms}, range);
 }
 
@@ -177,11 +177,11 @@ void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& rang
   HWY_DYNAMIC_DISPATCH(ShadeWrittenGgxT)(uniforms, range);
 }
 
-void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range) {
+void ShadeNaivePhong(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeNaivePhongT)(uniforms, range);
 }
 
-void ShadeNaiveBlinnPhong(const PhongUniforms& uniforms, const ShadeRange& range) {
+void ShadeNaiveBlinnPhong(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeNaiveBlinnPhongT)(uniforms, range);
 }
 }  // namespace nacre

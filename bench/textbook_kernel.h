@@ -22,8 +22,8 @@ void ShadeTextbookGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& ran
 // divisions and roots.
 void ShadeWrittenGgx(const TextbookGgxUniforms& uniforms, const ShadeRange& range);
 // (r.v)^n as 2^(n log2(r.v)).
-void ShadeNaivePhong(const PhongUniforms& uniforms, const ShadeRange& range);
+void ShadeNaivePhong(const PhongUniforms<float>& uniforms, const ShadeRange& range);
 // (n.h)^n likewise, of a normalised h.
-void ShadeNaiveBlinnPhong(const PhongUniforms& uniforms, const ShadeRange& range);
+void ShadeNaiveBlinnPhong(const PhongUniforms<float>& uniforms, const ShadeRange& range);
 
 }  // namespace nacre

@@ -32,8 +32,7 @@ ShadingMaterial Prepare(const Scene& scene, const std::string& name) {
                          "name one of the materials that it chooses from");
     }
     // Maps belong to places on shapes; the model is that of their factors.
-    prepared.textured = nullptr;
-    prepared.mapped = prepared.turned = false;
+    DropMaps(&prepared);
     return prepared;
   }
   const std::string nearest = NearestName(name, names);

@@ -9,23 +9,44 @@
 
 namespace nacre {
 
-AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
+namespace {
+
+// to += weight * curve.
+template <class Curve>
+void AddCurve(double weight, const Curve& curve, AlbedoPolynomial* to) {
+  const auto by = static_cast<float>(weight);
+  for (size_t j = 0; j < kAlbedoTerms; ++j) (*to)[j] += by * curve[j];
+}
+
+const AlbedoEntry* EntriesOf(Shadowing shadowing) {
+  return kAlbedoTable[static_cast<int>(shadowing)];
+}
+
+}  // namespace
+
+AlbedoFit BlendAlbedoCurves(Shadowing shadowing, double roughness) {
   AlbedoFit fit;
   fit.shape = MakeAlbedoShape(shadowing, roughness);
+  const AlbedoWeights at = FindAlbedoWeights(roughness);
+  for (int i = 0; i < 4; ++i) {
+    const AlbedoEntry& entry = EntriesOf(shadowing)[at.first + i];
+    AddCurve(at.weights[i], entry.one, &fit.one);
+    AddCurve(at.weights[i], entry.schlick, &fit.schlick);
+  }
+  if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror has no width
+  return fit;
+}
+
+AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
+  AlbedoFit fit = BlendAlbedoCurves(shadowing, roughness);
   const AlbedoWeights at = FindAlbedoWeights(roughness);
   double one_average = 0;
   double schlick_average = 0;
   for (int i = 0; i < 4; ++i) {
-    const AlbedoEntry& entry = kAlbedoTable[static_cast<int>(shadowing)][at.first + i];
-    const auto weight = static_cast<float>(at.weights[i]);
-    for (size_t j = 0; j < kAlbedoTerms; ++j) {
-      fit.one[j] += weight * entry.one[j];
-      fit.schlick[j] += weight * entry.schlick[j];
-    }
+    const AlbedoEntry& entry = EntriesOf(shadowing)[at.first + i];
     one_average += at.weights[i] * double{entry.one_average};
     schlick_average += at.weights[i] * double{entry.schlick_average};
   }
-  if (!(fit.shape.offset > 0)) fit.schlick = {};  // a mirror has no width
   fit.e_average = shadowing == Shadowing::kSchlickDirect
                       ? one_average
                       : 1 - one_average * AverageLossScale(AlphaFromRoughness(roughness));
@@ -66,6 +87,18 @@ DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta) {
     curves.average.push_back(fit.average);
   }
   return curves;
+}
+
+DielectricCurve BlendDielectricCurves(const DielectricCurves& curves, double roughness) {
+  DielectricCurve curve;
+  const AlbedoWeights at = FindAlbedoWeights(roughness);
+  for (int i = 0; i < 4; ++i) {
+    const auto node = static_cast<size_t>(at.first + i);
+    AddCurve(at.weights[i], curves.fresnel[node], &curve.fresnel);
+    curve.average += at.weights[i] * curves.average[node];
+  }
+  if (IsDeltaLobe(AlphaFromRoughness(roughness))) curve.fresnel = {};  // a mirror has no width
+  return curve;
 }
 
 }  // namespace nacre

@@ -27,6 +27,9 @@ struct AlbedoFit {
 // roughness in [0, 1], and continuous in it.
 AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness);
 
+// The same without the averages, whose logarithm is most of the work.
+AlbedoFit BlendAlbedoCurves(Shadowing shadowing, double roughness);
+
 // The same with a third curve, for the exact Fresnel curve of a dielectric.
 struct FresnelAlbedoFit {
   AlbedoFit lobe;
@@ -46,6 +49,13 @@ struct DielectricCurves {
   std::vector<double> average;
 };
 DielectricCurves MakeDielectricCurves(Shadowing shadowing, double eta);
+
+// The curve of a roughness, and its average.
+struct DielectricCurve {
+  AlbedoPolynomial fresnel{};
+  double average = 0;
+};
+DielectricCurve BlendDielectricCurves(const DielectricCurves& curves, double roughness);
 
 // 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. Of Smith's forms
 // to a relative precision: for smooth surfaces it is far below the rounding of E.

@@ -79,8 +79,7 @@ std::vector<std::string> NamesOf(const std::vector<Item>& items) {
 // Curves are of one set of numbers: those that maps multiply.
 NamedMaterial Prepare(const std::string& label, const Material& material) {
   NamedMaterial named{label, PrepareMaterial(material, Rgb(0))};
-  named.material.textured = nullptr;
-  named.material.mapped = named.material.turned = false;
+  DropMaps(&named.material);
   if (std::holds_alternative<std::monostate>(named.material.model)) {
     throw Error(ExitCode::kBadInput, label, "a split has no reflection model of its own",
                 "name one of its materials");

@@ -11,7 +11,7 @@ namespace {
 constexpr size_t kMostWindows = 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-struct Range {
+struct Extent {
   double low = kInfinity, high = -kInfinity;
 
   void Add(double v) {
@@ -26,8 +26,8 @@ int ToPixel(double v) { return static_cast<int>(std::clamp(v, -1e9, 1e9)); }
 const Window kEverywhere{-1000000000, -1000000000, 1000000000, 1000000000};
 
 // Where a box is seen: its corners' pictures hold it between them if all lie well before the eye.
-Window WindowOf(const Range (&box)[3], const CameraFrame& frame, double reach) {
-  Range x, y;
+Window WindowOf(const Extent (&box)[3], const CameraFrame& frame, double reach) {
+  Extent x, y;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3d p;
     for (int c = 0; c < 3; ++c) p[c] = ((corner >> c) & 1) != 0 ? box[c].high : box[c].low;
@@ -55,7 +55,7 @@ Window Around(const Window& a, const Window& b) {
 std::vector<Window> FindMeshWindows(const Scene& scene, const CameraFrame& frame, double reach) {
   std::vector<Window> windows;
   for (const Mesh& mesh : scene.meshes) {
-    Range box[3];
+    Extent box[3];
     for (const Vec3d& position : mesh.positions) {
       const Vec3d p = position - scene.camera.position;
       for (int c = 0; c < 3; ++c) box[c].Add(p[c]);

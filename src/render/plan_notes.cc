@@ -45,19 +45,20 @@ double BurleyGain(const ShadingMaterial& material) {
   const auto gain = [](const Rgb& diffuse, double roughness) {
     return std::max({diffuse.x, diffuse.y, diffuse.z}) * M_PI * BurleyGrazingAlbedo(roughness);
   };
-  return std::visit(Overloaded{[&](const RoughMatteModel& matte) {
-                                 const bool burley = matte.form == DiffuseForm::kBurley;
-                                 return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
-                               },
-                               [&](const MicrofacetModel& model) {
-                                 // Under what the lobe's albedo leaves, which is nothing of grazing
-                                 // light, it cannot.
-                                 const bool burley = model.base_form == DiffuseForm::kBurley &&
-                                                     model.coupling == DiffuseCoupling::kNone;
-                                 return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
-                               },
-                               [](const auto&) { return 0.0; }},
-                    material.model);
+  return std::visit(
+      Overloaded{[&](const MatteModel& matte) {
+                   const bool burley = matte.form == DiffuseForm::kBurley;
+                   return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
+                 },
+                 [&](const MicrofacetModel& model) {
+                   // Under what the lobe's albedo leaves, which is nothing of grazing
+                   // light, it cannot.
+                   const bool burley = model.base_form == DiffuseForm::kBurley &&
+                                       model.coupling == DiffuseCoupling::kNone;
+                   return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
+                 },
+                 [](const PhongFamilyModel&) { return 0.0; }, [](std::monostate) { return 0.0; }},
+      material.model);
 }
 
 void NoteGain(const Scene& scene, const std::vector<ShadingMaterial>& materials,

@@ -202,7 +202,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
   PlanTextures(scene, settings, camera, &plan, why);
   plan.black = {static_cast<uint32_t>(plan.materials.size())};
-  plan.materials.emplace_back().model = LambertModel{Rgb(0, 0, 0)};
+  plan.materials.emplace_back().model = MatteModel{.diffuse = Rgb(0, 0, 0)};
   return plan;
 }
 

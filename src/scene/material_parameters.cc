@@ -62,10 +62,35 @@ constexpr MaterialChoice Choice(std::string_view name, std::span<const std::stri
           meaning};
 }
 
+// The parameter `kMember` as what a map multiplies: a colour, or by a channel of the texels a
+// number.
 template <auto kMember>
-constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning) {
-  return {name, use, [](const Material& material) { return FieldOf<kMember>(material); },
-          [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; }, meaning};
+constexpr MapTarget Target(MappedNumber number, int channel = 0, double most = limits::kUnit.max) {
+  using Struct = decltype(StructOf(kMember));
+  constexpr bool kIsColor = std::is_same_v<decltype(std::declval<Struct>().*kMember), Rgb&&>;
+  return {number, kIsColor, channel,
+          [](const Material& material) { return Rgb(FieldOf<kMember>(material)); }, most};
+}
+
+template <auto kMember>
+constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning,
+                          const MapTarget& target) {
+  return {name,
+          use,
+          [](const Material& material) { return FieldOf<kMember>(material); },
+          [](Material& material, TextureId id) { FieldOf<kMember>(material) = id; },
+          meaning,
+          {target},
+          1};
+}
+
+template <auto kMember>
+constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning,
+                          const MapTarget& first, const MapTarget& second) {
+  MaterialMap map = Map<kMember>(name, use, meaning, first);
+  map.targets[1] = second;
+  map.target_count = 2;
+  return map;
 }
 
 // The roughness of a base: the lobe's unless it is set. One out of range is the lobe's fault alone.
@@ -269,55 +294,78 @@ constexpr std::array kDielectricChoices = {
                                          "exact: Fresnel's equations. schlick: Schlick's curve "
                                          "through their value at normal incidence.")};
 
-constexpr MaterialMap kEmissionMap =
-    Map<&Material::emission_map>("emission_map", MapUse::kColor, "Multiplies emission.");
-constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>(
-    "opacity_map", MapUse::kOpacity,
+constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
+    "emission_map", MapUse::kColor, "Multiplies emission.",
+    Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
+constexpr MaterialMap kOpacityMap = {
+    "opacity_map",
+    MapUse::kOpacity,
+    [](const Material& material) { return material.opacity_map; },
+    [](Material& material, TextureId id) { material.opacity_map = id; },
     "Multiplies opacity: the image's alpha, or its first channel where the texture's encoding is "
-    "linear. Looked up in the image itself, never in a smaller copy.");
-constexpr std::array kLambertMaps = {
-    Map<&LambertMaterial::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo."),
-    kEmissionMap, kOpacityMap};
-constexpr std::array kOrenNayarMaps = {
-    Map<&OrenNayarMaterial::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo."),
-    kEmissionMap, kOpacityMap};
-constexpr std::array kBurleyMaps = {
-    Map<&BurleyMaterial::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo."),
-    kEmissionMap, kOpacityMap};
+    "linear. Looked up in the image itself, never in a smaller copy.",
+    {},
+    0};
+template <class Struct>
+constexpr MaterialMap AlbedoMap() {
+  return Map<&Struct::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo.",
+                                  Target<&Struct::albedo>(MappedNumber::kColor));
+}
+template <class Struct>
+constexpr MaterialMap BaseColorMap() {
+  return Map<&Struct::base_color_map>("base_color_map", MapUse::kColor, "Multiplies base_color.",
+                                      Target<&Struct::base_color>(MappedNumber::kColor));
+}
+template <class Struct>
+constexpr MaterialMap RoughnessMap() {
+  return Map<&Struct::roughness_map>("roughness_map", MapUse::kData, "Multiplies roughness.",
+                                     Target<&Struct::roughness>(MappedNumber::kWidth));
+}
+constexpr std::array kLambertMaps = {AlbedoMap<LambertMaterial>(), kEmissionMap, kOpacityMap};
+constexpr std::array kOrenNayarMaps = {AlbedoMap<OrenNayarMaterial>(), kEmissionMap, kOpacityMap};
+constexpr std::array kBurleyMaps = {AlbedoMap<BurleyMaterial>(), kEmissionMap, kOpacityMap};
 constexpr std::array kPhongMaps = {
     Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor,
-                                     "Multiplies color, and so kd and ka."),
-    Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor, "Multiplies ks."),
-    Map<&PhongMaterial::shininess_map>("shininess_map", MapUse::kData, "Multiplies shininess."),
+                                     "Multiplies color, and so kd and ka.",
+                                     Target<&PhongMaterial::color>(MappedNumber::kColor)),
+    Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor, "Multiplies ks.",
+                                      Target<&PhongMaterial::ks>(MappedNumber::kSpecularColor)),
+    Map<&PhongMaterial::shininess_map>(
+        "shininess_map", MapUse::kData, "Multiplies shininess.",
+        Target<&PhongMaterial::shininess>(MappedNumber::kWidth, 0, limits::kExponent.max)),
     kEmissionMap, kOpacityMap};
 constexpr std::array kMetallicRoughnessMaps = {
-    Map<&MetallicRoughnessMaterial::base_color_map>("base_color_map", MapUse::kColor,
-                                                    "Multiplies base_color."),
+    BaseColorMap<MetallicRoughnessMaterial>(),
     Map<&MetallicRoughnessMaterial::metallic_roughness_map>(
         "metallic_roughness_map", MapUse::kTwoData,
-        "As in glTF: green multiplies roughness, blue metallic."),
+        "As in glTF: green multiplies roughness, blue metallic.",
+        Target<&MetallicRoughnessMaterial::roughness>(MappedNumber::kWidth, 1),
+        Target<&MetallicRoughnessMaterial::metallic>(MappedNumber::kMetallic, 2)),
     Map<&MetallicRoughnessMaterial::specular_map>(
         "specular_map", MapUse::kData,
-        "Multiplies specular, by its first channel; glTF has it in alpha (encoding)."),
-    Map<&MetallicRoughnessMaterial::specular_color_map>("specular_color_map", MapUse::kColor,
-                                                        "Multiplies dielectric_f0."),
+        "Multiplies specular, by its first channel; glTF has it in alpha (encoding).",
+        Target<&MetallicRoughnessMaterial::specular>(MappedNumber::kSpecular)),
+    Map<&MetallicRoughnessMaterial::specular_color_map>(
+        "specular_color_map", MapUse::kColor, "Multiplies dielectric_f0.",
+        Target<&MetallicRoughnessMaterial::dielectric_f0>(MappedNumber::kSpecularColor)),
     kEmissionMap,
     kOpacityMap};
-constexpr std::array kConductorMaps = {
-    Map<&ConductorMaterial::roughness_map>("roughness_map", MapUse::kData, "Multiplies roughness."),
-    kEmissionMap, kOpacityMap};
-constexpr std::array kDielectricMaps = {
-    Map<&DielectricMaterial::base_color_map>("base_color_map", MapUse::kColor,
-                                             "Multiplies base_color."),
-    Map<&DielectricMaterial::roughness_map>("roughness_map", MapUse::kData,
-                                            "Multiplies roughness."),
-    kEmissionMap, kOpacityMap};
+constexpr std::array kConductorMaps = {RoughnessMap<ConductorMaterial>(), kEmissionMap,
+                                       kOpacityMap};
+constexpr std::array kDielectricMaps = {BaseColorMap<DielectricMaterial>(),
+                                        RoughnessMap<DielectricMaterial>(), kEmissionMap,
+                                        kOpacityMap};
 
 template <typename Model>
 Material Make() {
   Material material;
   material.model = Model{};
   return material;
+}
+
+template <typename Model>
+bool Holds(const Material& material) {
+  return std::holds_alternative<Model>(material.model);
 }
 
 template <PhongModel kModel>
@@ -327,6 +375,12 @@ Material MakePhong() {
   return material;
 }
 
+template <PhongModel kModel>
+bool HoldsPhong(const Material& material) {
+  const auto* const phong = std::get_if<PhongMaterial>(&material.model);
+  return phong != nullptr && phong->model == kModel;
+}
+
 // Sheets. The normalised Phong lobes are bright: more than a tenth of ks is white on the screen.
 constexpr std::string_view kExponentAxis = "shininess=4:256:4:log";
 constexpr std::string_view kKsAxis = "ks=0:0.1:6";
@@ -334,20 +388,20 @@ constexpr std::string_view kRoughnessAxis = "roughness=0.1:0.9:5";
 constexpr std::string_view kMatteAxis = "roughness=0:1:5";
 constexpr std::string_view kAlbedoAxis = "albedo=0.1:0.9:5";
 
-// The Phong family first and in the order of its enumeration: see ModelOf.
 constexpr std::array<MaterialModel, 9> kModels = {{
     {"phong", "Phong: highlight (r.v)^n where the light is above the surface",
-     MakePhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices, kPhongMaps, kExponentAxis,
-     kKsAxis},
+     MakePhong<PhongModel::kPhong>, HoldsPhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices,
+     kPhongMaps, kExponentAxis, kKsAxis},
     {"modified_phong", "Modified Phong: highlight (r.v)^n n.l",
-     MakePhong<PhongModel::kModifiedPhong>, kPhongParameters, kPhongChoices, kPhongMaps,
-     kExponentAxis, kKsAxis},
+     MakePhong<PhongModel::kModifiedPhong>, HoldsPhong<PhongModel::kModifiedPhong>,
+     kPhongParameters, kPhongChoices, kPhongMaps, kExponentAxis, kKsAxis},
     {"blinn_phong", "Blinn-Phong: highlight (n.h)^n where the light is above the surface",
-     MakePhong<PhongModel::kBlinnPhong>, kPhongParameters, kPhongChoices, kPhongMaps, kExponentAxis,
-     kKsAxis},
+     MakePhong<PhongModel::kBlinnPhong>, HoldsPhong<PhongModel::kBlinnPhong>, kPhongParameters,
+     kPhongChoices, kPhongMaps, kExponentAxis, kKsAxis},
     {"lambert",
      "Lambert: perfectly diffuse",
      Make<LambertMaterial>,
+     Holds<LambertMaterial>,
      kLambertParameters,
      {},
      kLambertMaps,
@@ -357,6 +411,7 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      "Oren-Nayar: rough and perfectly diffuse, as clay or the moon (EON, Portsmouth et al. 2025, "
      "which keeps energy)",
      Make<OrenNayarMaterial>,
+     Holds<OrenNayarMaterial>,
      kOrenNayarParameters,
      {},
      kOrenNayarMaps,
@@ -365,22 +420,24 @@ constexpr std::array<MaterialModel, 9> kModels = {{
     {"burley",
      "Burley 2012: Disney's diffuse term, which reflects up to 1.56 times the light that grazes it",
      Make<BurleyMaterial>,
+     Holds<BurleyMaterial>,
      kBurleyParameters,
      {},
      kBurleyMaps,
      kMatteAxis,
      kAlbedoAxis},
     {"metallic_roughness", "Metallic-roughness as in glTF 2.0: GGX and Schlick's Fresnel",
-     Make<MetallicRoughnessMaterial>, kMetallicRoughnessParameters, kMetallicRoughnessChoices,
-     kMetallicRoughnessMaps, kRoughnessAxis, "metallic=0:1:5"},
+     Make<MetallicRoughnessMaterial>, Holds<MetallicRoughnessMaterial>,
+     kMetallicRoughnessParameters, kMetallicRoughnessChoices, kMetallicRoughnessMaps,
+     kRoughnessAxis, "metallic=0:1:5"},
     {"conductor", "Conductor: a bare metal, by its complex index of refraction eta - i k",
-     Make<ConductorMaterial>, kConductorParameters, kConductorChoices, kConductorMaps,
-     kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
+     Make<ConductorMaterial>, Holds<ConductorMaterial>, kConductorParameters, kConductorChoices,
+     kConductorMaps, kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
     {"dielectric",
      "Dielectric: a clear coat over a diffuse base. Nothing is transmitted: a black base shows the "
      "reflection of glass alone.",
-     Make<DielectricMaterial>, kDielectricParameters, kDielectricChoices, kDielectricMaps,
-     kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
+     Make<DielectricMaterial>, Holds<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
+     kDielectricMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
 }};
 
 }  // namespace
@@ -395,15 +452,9 @@ const MaterialModel* FindModel(std::string_view name) {
 }
 
 const MaterialModel* ModelOf(const Material& material) {
-  if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
-    return &kModels[static_cast<size_t>(phong->model)];
+  for (const MaterialModel& model : kModels) {
+    if (model.holds(material)) return &model;
   }
-  if (std::holds_alternative<LambertMaterial>(material.model)) return &kModels[3];
-  if (std::holds_alternative<OrenNayarMaterial>(material.model)) return &kModels[4];
-  if (std::holds_alternative<BurleyMaterial>(material.model)) return &kModels[5];
-  if (std::holds_alternative<MetallicRoughnessMaterial>(material.model)) return &kModels[6];
-  if (std::holds_alternative<ConductorMaterial>(material.model)) return &kModels[7];
-  if (std::holds_alternative<DielectricMaterial>(material.model)) return &kModels[8];
   return nullptr;
 }
 

@@ -36,25 +36,53 @@ struct MaterialChoice {
   std::string_view meaning;
 };
 
-// A texture that multiplies a parameter.
+// How the image behind a map is read.
 enum class MapUse : uint8_t {
   kColor,    // its 8- and 16-bit files are sRGB unless they say otherwise
   kData,     // numbers, never encoded; the first channel counts
   kTwoData,  // the same; green and blue count
   kOpacity,  // its alpha, unless it says otherwise; where surfaces are, not what they look like
 };
+
+// The parameters that hits may have each their own of, of all models, by what they mean.
+enum class MappedNumber : uint8_t {
+  kColor,          // albedo, the Phong family's color, base_color
+  kSpecularColor,  // ks; dielectric_f0
+  kSpecular,       // the weight of that name
+  kWidth,          // roughness of lobes; shininess
+  kMetallic,
+  kEmission,
+};
+inline constexpr size_t kMappedNumbers = 6;
+
+// One of the parameters that a map multiplies.
+struct MapTarget {
+  MappedNumber number;
+  bool is_color;
+  int channel;  // of the texels, for a number; colours are multiplied channel by channel
+  Rgb (*factor)(const Material&);  // what the map multiplies, as MaterialParameter::get
+  double most;                     // products are kept within [0, most]
+};
+
+// A texture that multiplies parameters.
 struct MaterialMap {
   std::string_view name;
   MapUse use;
   TextureId (*get)(const Material&);
   void (*set)(Material&, TextureId);
   std::string_view meaning;
+  MapTarget targets[2];
+  size_t target_count;  // 0: of opacity, which is looked up where rays meet meshes
 };
+inline std::span<const MapTarget> TargetsOf(const MaterialMap& map) {
+  return {map.targets, map.target_count};
+}
 
 struct MaterialModel {
   std::string_view name;  // "metallic_roughness"
   std::string_view title;
   Material (*make)();  // one with every default
+  bool (*holds)(const Material&);
   std::span<const MaterialParameter> parameters;
   std::span<const MaterialChoice> choices;
   std::span<const MaterialMap> maps;

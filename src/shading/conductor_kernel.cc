@@ -12,13 +12,12 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-void ShadeConductorT(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeConductorT(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
 }
 
 // Of materials with maps.
-void ShadeConductorMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
-                         const ShadeRange& range) {
+void ShadeConductorMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacetMaps<FresnelForm::kConductor>(uniforms, range);
 }
 
@@ -31,12 +30,11 @@ namespace nacre {
 HWY_EXPORT(ShadeConductorT);
 HWY_EXPORT(ShadeConductorMapsT);
 
-void ShadeConductor(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeConductor(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeConductorT)(uniforms, range);
 }
 
-void ShadeConductorMaps(const MicrofacetUniformsOf<const float*>& uniforms,
-                        const ShadeRange& range) {
+void ShadeConductor(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeConductorMapsT)(uniforms, range);
 }
 }  // namespace nacre

@@ -12,13 +12,12 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-void ShadeDielectricT(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeDielectricT(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
 }
 
 // Of materials with maps.
-void ShadeDielectricMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
-                          const ShadeRange& range) {
+void ShadeDielectricMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacetMaps<FresnelForm::kDielectric>(uniforms, range);
 }
 
@@ -31,12 +30,11 @@ namespace nacre {
 HWY_EXPORT(ShadeDielectricT);
 HWY_EXPORT(ShadeDielectricMapsT);
 
-void ShadeDielectric(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeDielectric(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeDielectricT)(uniforms, range);
 }
 
-void ShadeDielectricMaps(const MicrofacetUniformsOf<const float*>& uniforms,
-                         const ShadeRange& range) {
+void ShadeDielectric(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeDielectricMapsT)(uniforms, range);
 }
 }  // namespace nacre

@@ -4,10 +4,33 @@
 #include <variant>
 
 #include "base/overloaded.h"
+#include "shading/hit_parameters.h"
 #include "shading/lobe_sample.h"
 #include "shading/mapped.h"
 #include "shading/scalar_material.h"
-#include "shading/texture_kernels.h"
+
+#ifndef NACRE_SHADING_LOBE_KERNEL_ONCE_
+#define NACRE_SHADING_LOBE_KERNEL_ONCE_
+namespace nacre {
+namespace {
+
+// A GGX lobe to sample, of all hits or of each: `fit` as in MicrofacetUniforms.
+template <class Number>
+struct GgxLobe {
+  const MicrofacetModel& model;
+  MicrofacetConstants<Number> constants;
+  const float* fit;
+};
+
+// The exponent of a Phong lobe: of all hits, or of each.
+struct PhongExponent {
+  float uniform;
+  const float* by_hit;  // or null
+};
+
+}  // namespace
+}  // namespace nacre
+#endif
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "shading/lobe_kernel.cc"
@@ -51,67 +74,45 @@ void SampleCosineT(const Surface& surface, size_t count, const float* u, const f
   });
 }
 
-// The width of a material's lobe: its own, or that of each hit by a map.
-struct Width {
-  float uniform;
-  const float* by_hit;  // or null
+HWY_INLINE V NumberAt(float number, size_t) { return hn::Set(D(), number); }
+HWY_INLINE V NumberAt(const float* numbers, size_t i) { return hn::LoadU(D(), numbers + i); }
 
-  HWY_INLINE V At(size_t i) const {
-    const D d;
-    return by_hit != nullptr ? hn::LoadU(d, by_hit + i) : hn::Set(d, uniform);
-  }
-};
+HWY_INLINE V ExponentAt(const PhongExponent& exponent, size_t i) {
+  return exponent.by_hit != nullptr ? NumberAt(exponent.by_hit, i) : NumberAt(exponent.uniform, i);
+}
 
-HWY_INLINE Width WidthOf(double uniform, const float* by_hit) {
-  return {static_cast<float>(uniform), by_hit};
+template <class Number>
+HWY_INLINE V MaxChannel(const Number (&rgb)[3], size_t i) {
+  return hn::Max(hn::Max(NumberAt(rgb[0], i), NumberAt(rgb[1], i)), NumberAt(rgb[2], i));
 }
 
 // Probability of sampling the multiple-scattering lobe (Kulla and Conty's) in the place of the
 // single-scattering one, proportional to the estimated albedo of each lobe; and its spread.
+template <class Number>
 class KullaContyShares {
  public:
-  KullaContyShares(const MicrofacetModel& model, const Surface& surface, const HitTextures* maps,
-                   bool own_fits)
-      : multiple_(surface.multiple.data()),
-        maps_(maps),
-        fit_(own_fits ? maps->fit.data() : nullptr),
-        schlick_direct_(model.shadowing == Shadowing::kSchlickDirect),
-        spread_(KullaContySpread(model.albedo.lobe.shape)),
-        scale_(static_cast<float>(model.multiple)),
-        f90_(static_cast<float>(model.f90)),
-        not_delta_(model.delta ? 0.0f : 1.0f) {
-    for (int c = 0; c < 3; ++c) {
-      f0_ = std::max(f0_, static_cast<float>(model.f0[c]));
-      f_multiple_ = std::max(f_multiple_, static_cast<float>(model.f_multiple[c]));
-    }
-  }
+  KullaContyShares(const GgxLobe<Number>& lobe, const Surface& surface)
+      : lobe_(lobe),
+        multiple_(surface.multiple.data()),
+        schlick_direct_(lobe.model.shadowing == Shadowing::kSchlickDirect),
+        spread_(KullaContySpread(lobe.model.albedo.lobe.shape)) {}
 
   // The probability of a sample of Kulla and Conty's lobe: all where the other one is a mirror's.
   HWY_INLINE V Share(size_t i) const {
     const D d;
     const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-    V scale, f0, f90, f_multiple, not_delta;
-    if (maps_ != nullptr) {
-      scale = hn::LoadU(d, maps_->multiple_scale.data() + i);
-      f0 = MaxChannel(maps_->f0, i);
-      f90 = hn::LoadU(d, maps_->f90.data() + i);
-      f_multiple = MaxChannel(maps_->f_multiple, i);
-      not_delta = hn::LoadU(d, maps_->not_delta.data() + i);
-    } else {
-      scale = hn::Set(d, scale_);
-      f0 = hn::Set(d, f0_);
-      f90 = hn::Set(d, f90_);
-      f_multiple = hn::Set(d, f_multiple_);
-      not_delta = hn::Set(d, not_delta_);
-    }
+    const MicrofacetConstants<Number>& constants = lobe_.constants;
+    const V scale = NumberAt(constants.multiple, i);
+    const V f0 = MaxChannel(constants.f0, i), f90 = NumberAt(constants.f90, i);
     const auto loses = hn::Gt(scale, zero);
     const V loss = hn::Min(hn::IfThenElseZero(loses, hn::Div(hn::LoadU(d, multiple_ + i),
                                                              hn::IfThenElse(loses, scale, one))),
                            one);
     // The mean of Schlick's curve stands for that of all.
     const V f_average = hn::MulAdd(hn::Sub(f90, f0), hn::Set(d, 1.0f / 21), f0);
-    const V single = hn::Mul(hn::Mul(f_average, hn::Sub(one, loss)), not_delta);
-    const V multiple = hn::Mul(f_multiple, loss);
+    const V single =
+        hn::Mul(hn::Mul(f_average, hn::Sub(one, loss)), NumberAt(constants.not_delta, i));
+    const V multiple = hn::Mul(MaxChannel(constants.f_multiple, i), loss);
     const auto any = hn::Gt(multiple, zero);
     const V sum = hn::IfThenElse(any, hn::Add(multiple, single), one);
     return hn::IfThenElseZero(any, hn::Div(multiple, sum));
@@ -119,44 +120,36 @@ class KullaContyShares {
 
   HWY_INLINE V Spread(size_t i) const {
     const D d;
-    if (fit_ == nullptr) return hn::Set(d, spread_);
+    if (lobe_.fit == nullptr) return hn::Set(d, spread_);
     // KullaContySpread of the hit's AlbedoShape: `offset` is the fit's first entry, `k` its third.
-    const float* const entry = fit_ + i;
-    const V width = schlick_direct_ ? hn::Add(hn::LoadU(d, entry + 2 * HitTextures::kFitStride),
-                                              hn::LoadU(d, entry + 2 * HitTextures::kFitStride))
+    const float* const entry = lobe_.fit + i;
+    const V width = schlick_direct_ ? hn::Add(hn::LoadU(d, entry + 2 * HitTextures::kStride),
+                                              hn::LoadU(d, entry + 2 * HitTextures::kStride))
                                     : hn::Div(hn::LoadU(d, entry), hn::Set(d, 3.0f));
     return hn::Mul(width, width);
   }
 
  private:
-  static HWY_INLINE V MaxChannel(const Soa3<float>& soa, size_t i) {
-    const Vec3V<V> v = LoadSoa(D(), soa, i);
-    return hn::Max(hn::Max(v.x, v.y), v.z);
-  }
-
+  const GgxLobe<Number>& lobe_;
   const float* multiple_;
-  const HitTextures* maps_;  // null: all hits have the model's numbers
-  const float* fit_;         // null: all hits have the model's spread
   bool schlick_direct_;
-  float spread_, scale_, f90_, not_delta_;
-  float f0_ = 0, f_multiple_ = 0;  // of the largest channel
+  float spread_;
 };
 
-void SampleGgxT(const MicrofacetModel& model, const float* by_hit, bool own_fits,
-                const LobeRange& range, const float* u, const float* v, Soa3<float>* to_light) {
+template <class Number>
+void SampleGgxOf(const GgxLobe<Number>& lobe, const LobeRange& range, const float* u,
+                 const float* v, Soa3<float>* to_light) {
   const D d;
-  const Width width = WidthOf(model.delta ? 1 : model.alpha, by_hit);
   const V one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-  if (model.compensation != Compensation::kKullaConty) {
+  if (lobe.model.compensation != Compensation::kKullaConty) {
     ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
-      return SampleGgxVisible(d, LoadSoa(D(), range.surface.normal, i),
-                              LoadSoa(D(), range.surface.to_view, i), width.At(i),
-                              hn::LoadU(d, u + i), hn::LoadU(d, v + i));
+      return SampleGgxVisible(
+          d, LoadSoa(D(), range.surface.normal, i), LoadSoa(D(), range.surface.to_view, i),
+          NumberAt(lobe.constants.alpha, i), hn::LoadU(d, u + i), hn::LoadU(d, v + i));
     });
     return;
   }
-  const KullaContyShares shares(model, range.surface, by_hit != nullptr ? range.textures : nullptr,
-                                own_fits);
+  const KullaContyShares<Number> shares(lobe, range.surface);
   const V below_one = hn::Set(d, 1 - 0x1p-24f);
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
     const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i);
@@ -169,38 +162,46 @@ void SampleGgxT(const MicrofacetModel& model, const float* by_hit, bool own_fits
     const V again =
         hn::Min(hn::Div(hn::Sub(u0, offset), hn::IfThenElse(hn::Gt(divisor, zero), divisor, one)),
                 below_one);
-    const Vec3V<V> single =
-        SampleGgxVisible(d, normal, LoadSoa(D(), range.surface.to_view, i), width.At(i), again, u1);
+    const Vec3V<V> single = SampleGgxVisible(d, normal, LoadSoa(D(), range.surface.to_view, i),
+                                             NumberAt(lobe.constants.alpha, i), again, u1);
     if (hn::AllFalse(d, multiple)) return single;
     return Select(multiple, SampleKullaConty(d, normal, shares.Spread(i), again, u1), single);
   });
 }
 
+void SampleGgxT(const GgxLobe<float>& lobe, const LobeRange& range, const float* u, const float* v,
+                Soa3<float>* to_light) {
+  SampleGgxOf(lobe, range, u, v, to_light);
+}
+
+void SampleGgxMapsT(const GgxLobe<float*>& lobe, const LobeRange& range, const float* u,
+                    const float* v, Soa3<float>* to_light) {
+  SampleGgxOf(lobe, range, u, v, to_light);
+}
+
 // Phong's lobe is about the mirrored view direction, Blinn's half vector about the normal.
-void SamplePhongT(const PhongFamilyModel& phong, const float* by_hit, const LobeRange& range,
+void SamplePhongT(PhongModel model, const PhongExponent& exponent, const LobeRange& range,
                   const float* u, const float* v, Soa3<float>* to_light) {
   const D d;
-  const Width width = WidthOf(phong.shininess, by_hit);
-  const bool blinn = phong.model == PhongModel::kBlinnPhong;
+  const bool blinn = model == PhongModel::kBlinnPhong;
   ForEachPacket(range.begin, range.end, to_light, [&](size_t i) HWY_ATTR {
     const Vec3V<V> normal = LoadSoa(D(), range.surface.normal, i);
     const Vec3V<V> to_view = LoadSoa(D(), range.surface.to_view, i);
     const V u0 = hn::LoadU(d, u + i), u1 = hn::LoadU(d, v + i);
-    return blinn ? SampleBlinnLobe(d, normal, to_view, width.At(i), u0, u1)
-                 : SamplePhongLobe(d, normal, to_view, width.At(i), u0, u1);
+    const V n = ExponentAt(exponent, i);
+    return blinn ? SampleBlinnLobe(d, normal, to_view, n, u0, u1)
+                 : SamplePhongLobe(d, normal, to_view, n, u0, u1);
   });
 }
 
-void GgxDensityT(const MicrofacetModel& model, const float* by_hit, bool own_fits,
-                 const LobeRange& range, const LightBatch& light, const float* narrow,
-                 float* density) {
+template <class Number>
+void GgxDensityOf(const GgxLobe<Number>& lobe, const LobeRange& range, const LightBatch& light,
+                  const float* narrow, float* density) {
   const D d;
-  const Width width = WidthOf(model.delta ? 1 : model.alpha, by_hit);
-  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  const KullaContyShares shares(model, range.surface, by_hit != nullptr ? range.textures : nullptr,
-                                own_fits);
+  const bool kulla_conty = lobe.model.compensation == Compensation::kKullaConty;
+  const KullaContyShares<Number> shares(lobe, range.surface);
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
-    const V alpha = width.At(i);
+    const V alpha = NumberAt(lobe.constants.alpha, i);
     const AnglesV<V> angles =
         ComputeAngles(d, LoadSoa(D(), range.surface.normal, i), LoadSoa(D(), light.to_light, i),
                       LoadSoa(D(), range.surface.to_view, i));
@@ -220,11 +221,20 @@ void GgxDensityT(const MicrofacetModel& model, const float* by_hit, bool own_fit
   }
 }
 
-void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const LobeRange& range,
+void GgxDensityT(const GgxLobe<float>& lobe, const LobeRange& range, const LightBatch& light,
+                 const float* narrow, float* density) {
+  GgxDensityOf(lobe, range, light, narrow, density);
+}
+
+void GgxDensityMapsT(const GgxLobe<float*>& lobe, const LobeRange& range, const LightBatch& light,
+                     const float* narrow, float* density) {
+  GgxDensityOf(lobe, range, light, narrow, density);
+}
+
+void PhongDensityT(PhongModel model, const PhongExponent& exponents, const LobeRange& range,
                    const LightBatch& light, const NarrowLobes* narrow, float* density) {
   const D d;
-  const Width width = WidthOf(phong.shininess, by_hit);
-  const bool blinn = phong.model == PhongModel::kBlinnPhong;
+  const bool blinn = model == PhongModel::kBlinnPhong;
   const V one = hn::Set(d, 1.0f);
   const V half_pi_inverse = hn::Set(d, 0.159154943f);  // 1 / 2 pi
   const V smallest = hn::Set(d, 0x1p-60f);
@@ -242,7 +252,7 @@ void PhongDensityT(const PhongFamilyModel& phong, const float* by_hit, const Lob
       cosine = {hn::IfThenElse(is_narrow, exact, cosine.one_minus_c),
                 hn::IfThenElse(is_narrow, hn::LoadU(d, narrow->second.data() + i), cosine.c)};
     }
-    const V exponent = width.At(i);
+    const V exponent = ExponentAt(exponents, i);
     const V lobe = blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent);
     const V scaled = hn::Mul(hn::Mul(half_pi_inverse, hn::Add(exponent, one)), lobe);
     V value = blinn ? scaled : PhongLobePdf(d, lobe, exponent);
@@ -268,8 +278,10 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(SampleCosineT);
 HWY_EXPORT(SampleGgxT);
+HWY_EXPORT(SampleGgxMapsT);
 HWY_EXPORT(SamplePhongT);
 HWY_EXPORT(GgxDensityT);
+HWY_EXPORT(GgxDensityMapsT);
 HWY_EXPORT(PhongDensityT);
 HWY_EXPORT(MirrorDirectionsT);
 
@@ -288,50 +300,36 @@ const ShadingLight& GivenLight() {
   return kGiven;
 }
 
-// The lobe's width at each hit, if a map gives it; else null.
-const float* WidthByHit(const ShadingMaterial& material, const LobeRange& range) {
-  return HasMappedModel(material) ? range.textures->alpha.data() : nullptr;
+// The maps of hits that have a width each; else null.
+const HitTextures* MapsOf(const ShadingMaterial& material, const LobeRange& range) {
+  return material.mapped_model ? range.textures : nullptr;
 }
 
-// The terms of narrow lobes along a light's directions, or null if no hit has one.
-const NarrowLobes* Narrow(const MicrofacetModel& model, bool mapped, const LobeRange& hits,
-                          const ShadeRange& range, NarrowLobes* scratch) {
-  if (mapped) {
-    const double* const alpha = hits.textures->double_alpha.data();
-    const auto is_narrow = [](double a) { return a >= 0; };
-    if (std::none_of(alpha + hits.begin, alpha + hits.end, is_narrow)) return nullptr;
-    NarrowGgxMaps(alpha, range, scratch);
-  } else {
-    if (!model.double_terms) return nullptr;
-    NarrowGgx(model.alpha, range, scratch);
+PhongExponent ExponentOf(const PhongFamilyModel& phong, const HitTextures* maps) {
+  return {static_cast<float>(phong.shininess),
+          maps != nullptr ? ColumnsIn<PhongConstants<float*>>(maps->constants).shininess : nullptr};
+}
+
+GgxLobe<float> LobeOf(const MicrofacetModel& model) { return {model, model.constants, nullptr}; }
+GgxLobe<float*> LobeOf(const MicrofacetModel& model, const HitTextures& maps, bool widths) {
+  return {model, ColumnsIn<MicrofacetConstants<float*>>(maps.constants),
+          widths ? maps.fit.data() : nullptr};
+}
+
+// The model's Fresnel curve is that of hit i, and its shadowing.
+void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
+             MicrofacetModel* model) {
+  for (int c = 0; c < 3; ++c) {
+    VisitChannel(material, t, c, [&](const auto& channel) {
+      const MicrofacetColors at = channel.Colors(i);
+      model->metallic = at.metallic;
+      model->dielectric_f0[c] = at.dielectric_f0;
+      model->dielectric_f90 = at.dielectric_f90;
+      model->metal_f0[c] = at.metal_f0;
+      model->f82_slope[c] = at.f82_slope;
+    });
   }
-  return scratch;
-}
-
-const NarrowLobes* Narrow(const PhongFamilyModel& phong, bool mapped, const LobeRange& hits,
-                          const ShadeRange& range, NarrowLobes* scratch) {
-  if (mapped) {
-    const double* const width = hits.textures->width.data();
-    const auto is_narrow = [](double n) { return n > kDoubleTermsShininess; };
-    if (std::none_of(width + hits.begin, width + hits.end, is_narrow)) return nullptr;
-    NarrowPhongMaps(phong.model, width, range, scratch);
-  } else {
-    if (!phong.double_terms) return nullptr;
-    NarrowPhong(phong.model, range, scratch);
-  }
-  return scratch;
-}
-
-// Overwrites the model's Fresnel parameters by the hit's, which are the same to the bit where maps
-// are constant.
-void ApplyMappedFresnel(const HitTextures& t, size_t i, MicrofacetModel* model) {
-  const auto at = [i](const Soa3<double>& soa) { return Rgb(soa.x[i], soa.y[i], soa.z[i]); };
-  model->metallic = t.metallic[i];
-  model->dielectric_f0 = at(t.exact_dielectric_f0);
-  model->dielectric_f90 = t.exact_dielectric_f90[i];
-  model->metal_f0 = at(t.exact_metal_f0);
-  model->f82_slope = at(t.exact_slope);
-  model->schlick_k = (t.width[i] + 1) * (t.width[i] + 1) / 8;
+  model->schlick_k = DeriveWidth(NumbersOf(t, MappedNumber::kWidth)[i]).schlick_k;
 }
 
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
@@ -357,7 +355,9 @@ bool HasSampledLobe(const ShadingMaterial& material) {
 
 bool DiffuseIsFlat(const ShadingMaterial& material) {
   if (material.turned) return false;  // the surface's own horizon cuts the light
-  if (std::holds_alternative<RoughMatteModel>(material.model)) return false;
+  if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
+    return matte->form == DiffuseForm::kLambert;
+  }
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr) return true;
   if (model->base_form != DiffuseForm::kLambert) return false;
@@ -374,14 +374,17 @@ void SampleCosine(const Surface& surface, size_t count, const float* u, const fl
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
                 const float* v, Soa3<float>* to_light) {
   if (!HasSampledLobe(material)) return;
-  const float* const by_hit = WidthByHit(material, range);
-  const bool mapped = by_hit != nullptr;
+  const HitTextures* const maps = MapsOf(material, range);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    return HWY_DYNAMIC_DISPATCH(SamplePhongT)(*phong, by_hit, range, u, v, to_light);
+    return HWY_DYNAMIC_DISPATCH(SamplePhongT)(phong->model, ExponentOf(*phong, maps), range, u, v,
+                                              to_light);
   }
-  HWY_DYNAMIC_DISPATCH(SampleGgxT)
-  (std::get<MicrofacetModel>(material.model), by_hit, mapped && HasOwnFits(material), range, u, v,
-   to_light);
+  const auto& model = std::get<MicrofacetModel>(material.model);
+  if (maps == nullptr) {
+    return HWY_DYNAMIC_DISPATCH(SampleGgxT)(LobeOf(model), range, u, v, to_light);
+  }
+  HWY_DYNAMIC_DISPATCH(SampleGgxMapsT)
+  (LobeOf(model, *maps, material.mapped_width), range, u, v, to_light);
 }
 
 void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
@@ -392,27 +395,29 @@ void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const L
   }
   const LightOnBatch given{&GivenLight(), &light};
   const ShadeRange range{hits.hits, hits.surface, {&given, 1}, hits.begin, hits.end, nullptr};
-  const float* const by_hit = WidthByHit(material, hits);
-  const bool mapped = by_hit != nullptr;
+  const HitTextures* const maps = MapsOf(material, hits);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    const NarrowLobes* const narrow = Narrow(*phong, mapped, hits, range, scratch);
-    return HWY_DYNAMIC_DISPATCH(PhongDensityT)(*phong, by_hit, hits, light, narrow, density);
+    return HWY_DYNAMIC_DISPATCH(PhongDensityT)(phong->model, ExponentOf(*phong, maps), hits, light,
+                                               NarrowTerms(*phong, range, maps, scratch), density);
   }
   const auto& model = std::get<MicrofacetModel>(material.model);
-  const NarrowLobes* const narrow = Narrow(model, mapped, hits, range, scratch);
-  HWY_DYNAMIC_DISPATCH(GgxDensityT)
-  (model, by_hit, mapped && HasOwnFits(material), hits, light,
-   narrow != nullptr ? narrow->first.data() : nullptr, density);
+  const NarrowLobes* const terms = NarrowTerms(model, range, maps, scratch);
+  const float* const narrow = terms != nullptr ? terms->first.data() : nullptr;
+  if (maps == nullptr) {
+    return HWY_DYNAMIC_DISPATCH(GgxDensityT)(LobeOf(model), hits, light, narrow, density);
+  }
+  HWY_DYNAMIC_DISPATCH(GgxDensityMapsT)
+  (LobeOf(model, *maps, material.mapped_width), hits, light, narrow, density);
 }
 
 bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit) {
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
-  if (model == nullptr || !HasMappedModel(material)) return HasDeltaLobe(material);
-  return range.textures->not_delta[hit] == 0;
+  if (model == nullptr || !material.mapped_model) return HasDeltaLobe(material);
+  return DeriveWidth(NumbersOf(*range.textures, MappedNumber::kWidth)[hit]).delta;
 }
 
 bool AnyMirror(const ShadingMaterial& material, const LobeRange& range) {
-  if (!HasMappedModel(material)) return HasDeltaLobe(material);
+  if (!material.mapped_model) return HasDeltaLobe(material);
   for (size_t i = range.begin; i < range.end; ++i) {
     if (IsMirror(material, range, i)) return true;
   }
@@ -428,11 +433,10 @@ void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
   auto at_hit = std::get<MicrofacetModel>(material.model);
   const Soa3<float>& n = range.surface.normal;
   const Soa3<float>& v = range.surface.to_view;
-  const bool mapped = HasMappedModel(material);
   for (size_t i = range.begin; i < range.end; ++i) {
     const double n_dot_v =
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
-    if (mapped) ApplyMappedFresnel(*range.textures, i, &at_hit);
+    if (material.mapped_model) TakeHit(material, *range.textures, i, &at_hit);
     const Rgb mirrored = MirrorAt(at_hit, std::clamp(n_dot_v, 0.0, 1.0));
     reflectance->x[i] = static_cast<float>(mirrored.x);
     reflectance->y[i] = static_cast<float>(mirrored.y);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mapped.h: shading of materials whose maps give each hit a model of its own.
+// shading/mapped.h: what shading takes of hits that maps give a model of their own.
 #pragma once
 
 #include "shading/kernels.h"
@@ -7,22 +7,20 @@
 
 namespace nacre {
 
-// Whether maps give each hit its own reflection; a map of emission, or of normals, does not.
-bool HasMappedModel(const ShadingMaterial& material);
-
-// Whether hits have a roughness each.
-bool HasOwnFits(const ShadingMaterial& material);
-
-// As ShadeRun, from what FinishMaterial left in `textures`; one light after the other.
-void ShadeMapped(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,
-                 HitTextures* textures);
-
-// Products of a light with what each hit reflects, in double and rounded once, as uniforms are.
+// Fills HitTextures::products with the MatteLight, PhongLight or MicrofacetLight of hits
+// [begin, end), in double and rounded once, as those of other materials are.
 struct MappedProducts {
   const ShadingMaterial& material;
   Rgb color;
   size_t begin, end;
 };
 void MakeProducts(const MappedProducts& products, HitTextures* textures);
+
+// The terms of narrow lobes under the first light of a range, in `scratch`; null if no hit has one.
+// `maps`: of hits with a width each; or null.
+const NarrowLobes* NarrowTerms(const PhongFamilyModel& model, const ShadeRange& range,
+                               const HitTextures* maps, NarrowLobes* scratch);
+const NarrowLobes* NarrowTerms(const MicrofacetModel& model, const ShadeRange& range,
+                               const HitTextures* maps, NarrowLobes* scratch);
 
 }  // namespace nacre

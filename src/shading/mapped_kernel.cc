@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/mapped_kernel.cc: what maps make of a material at each hit, and the products of that with
-// a light. The arithmetic is that of material.cc and shade.cc, operation by operation, in double:
-// where a map is constant, the bits are those of the constant material. Plain loops, which the
-// compiler makes vectors of for each target. Lobes: mapped_microfacet_kernel.cc.
+// shading/mapped_kernel.cc: the parameters of materials with maps at each hit, and what is derived
+// from them, by the functions of derive.h. Plain loops, which the compiler makes vectors of for
+// each target.
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
-#include "brdf/phong.h"
-#include "scene/limits.h"
+#include "shading/hit_parameters.h"
 #include "shading/mapped.h"
 #include "shading/texture_kernels.h"
 
@@ -17,215 +16,320 @@
 
 #include "hwy/highway.h"
 
-#include "shading/mapped-inl.h"
-
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace {
 
-// value *= texel, kept within [0, most].
-void Multiply(const Hits& hits, const float* HWY_RESTRICT texels, double most,
-              double* HWY_RESTRICT values) {
-  for (size_t i = hits.begin; i < hits.end; ++i) {
-    values[i] = std::min(std::max(values[i] * double{texels[i]}, 0.0), most);
-  }
-}
+struct Hits {
+  size_t begin, end;
 
-void StartMaterialT(const TexturedRun& run, HitTextures* t) {
+  // do(i) for each hit.
+  template <class Do>
+  HWY_INLINE void Each(const Do& at) const {
+    for (size_t i = begin; i < end; ++i) at(i);
+  }
+
+  // to[i] = of(i).
+  template <class T, class Of>
+  HWY_INLINE void Fill(T* HWY_RESTRICT to, const Of& of) const {
+    for (size_t i = begin; i < end; ++i) to[i] = static_cast<T>(of(i));
+  }
+};
+
+void StartNumbersT(const TexturedRun& run, HitTextures* t) {
   const Hits hits{run.begin, run.end};
   const Material& material = *run.material.textured;
-  for (int c = 0; c < 3; ++c) {
-    const auto emission = static_cast<float>(run.material.emission[c]);
-    std::fill(Channel(t->emission, c) + run.begin, Channel(t->emission, c) + run.end, emission);
-    const auto albedo = static_cast<float>(run.material.albedo[c]);
-    std::fill(Channel(t->albedo, c) + run.begin, Channel(t->albedo, c) + run.end, albedo);
-    const auto ambient = static_cast<float>(run.material.ambient[c]);
-    std::fill(Channel(t->ambient, c) + run.begin, Channel(t->ambient, c) + run.end, ambient);
-  }
-  if (const auto* lambert = std::get_if<LambertMaterial>(&material.model)) {
-    FillRgb(hits, lambert->albedo, &t->diffuse);
-  } else if (const auto* rough = std::get_if<OrenNayarMaterial>(&material.model)) {
-    FillRgb(hits, rough->albedo, &t->diffuse);
-  } else if (const auto* burley = std::get_if<BurleyMaterial>(&material.model)) {
-    FillRgb(hits, burley->albedo, &t->diffuse);
-  } else if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
-    FillRgb(hits, phong->color, &t->diffuse);
-    FillRgb(hits, phong->ks, &t->specular);
-    FillNumber(hits, phong->shininess, &t->width);
-  } else if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
-    FillRgb(hits, metallic->base_color, &t->diffuse);
-    FillRgb(hits, metallic->dielectric_f0, &t->specular);
-    FillNumber(hits, metallic->specular, &t->exact_dielectric_f90);
-    FillNumber(hits, metallic->metallic, &t->metallic);
-    FillNumber(hits, metallic->roughness, &t->width);
-  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
-    FillNumber(hits, conductor->roughness, &t->width);
-  } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
-    FillRgb(hits, dielectric->base_color, &t->diffuse);
-    FillNumber(hits, dielectric->roughness, &t->width);
-  }
-}
-
-void ApplyMapT(const TexturedRun& run, MapRole role, HitTextures* t) {
-  const Hits hits{run.begin, run.end};
-  const bool exponent = std::holds_alternative<PhongFamilyModel>(run.material.model);
-  const double widest = exponent ? limits::kExponent.max : 1;
-  for (int c = 0; c < 3; ++c) {
-    const float* const texels = Channel(t->texels, c);
-    switch (role) {
-      case MapRole::kDiffuse:
-        Multiply(hits, texels, 1, Channel(t->diffuse, c));
-        break;
-      case MapRole::kSpecular:
-        Multiply(hits, texels, 1, Channel(t->specular, c));
-        break;
-      case MapRole::kSpecularWeight:
-        if (c == 0) Multiply(hits, texels, 1, t->exact_dielectric_f90.data());
-        break;
-      case MapRole::kEmission: {
-        const double factor = run.material.emission[c];
-        hits.Fill(Channel(t->emission, c),
-                  [&](size_t i) { return std::max(factor * double{texels[i]}, 0.0); });
-        break;
+  for (const MaterialMap& map : ModelOf(material)->maps) {
+    for (const MapTarget& target : TargetsOf(map)) {
+      const Rgb factor = target.factor(material);
+      for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
+        hits.Fill(Channel(t->numbers[static_cast<size_t>(target.number)], c),
+                  [&](size_t) { return factor[c]; });
       }
-      case MapRole::kShown: {
-        float* const emission = Channel(t->emission, c);
-        hits.Fill(emission, [&](size_t i) { return double{emission[i]} * double{texels[i]}; });
-        break;
-      }
-      case MapRole::kWidth:
-        if (c == 0) Multiply(hits, texels, widest, t->width.data());
-        break;
-      case MapRole::kMetallicRoughness:
-        if (c == 1) Multiply(hits, texels, 1, t->width.data());
-        if (c == 2) Multiply(hits, texels, 1, t->metallic.data());
-        break;
     }
   }
 }
 
-// Lambert's, and the rough ones.
-void FinishMatte(const TexturedRun& run, HitTextures* t) {
-  FinishLayers(run, Rgb(1), Rgb(1), t);
-  if (const auto* rough = std::get_if<RoughMatteModel>(&run.material.model)) {
-    FinishRatio(
-        run, [&](size_t) { return rough->roughness; }, t);
-  }
-  for (int c = 0; c < 3; ++c) {
-    double* const diffuse = Channel(t->diffuse, c);
-    Hits{run.begin, run.end}.Fill(diffuse, [&](size_t i) { return diffuse[i] * M_1_PI; });
+void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitTextures* t) {
+  const double most = target.most;
+  for (int c = 0; c < (target.is_color ? 3 : 1); ++c) {
+    const float* HWY_RESTRICT const texels =
+        Channel(t->texels, target.is_color ? c : target.channel);
+    double* HWY_RESTRICT const values = Channel(t->numbers[static_cast<size_t>(target.number)], c);
+    for (size_t i = run.begin; i < run.end; ++i) {
+      values[i] = std::min(std::max(values[i] * double{texels[i]}, 0.0), most);
+    }
   }
 }
 
-void FinishPhong(const TexturedRun& run, const PhongMaterial& phong, HitTextures* t) {
-  FinishLayers(run, phong.kd, phong.ka, t);
+// The layers that maps give values of their own. layers_of(c, i): those of a channel of a hit.
+template <class LayersOf>
+void PutLayers(const TexturedRun& run, const LayersOf& layers_of, HitTextures* t) {
   const Hits hits{run.begin, run.end};
-  const bool radiometric = phong.convention == PhongConvention::kRadiometric;
-  const double* const exponents = t->width.data();
-  const auto scale = [&](double n) {
-    if (!radiometric) return 1.0;
-    return phong.model == PhongModel::kBlinnPhong ? BlinnNormalization(n) : PhongNormalization(n);
-  };
-  const bool one_exponent = !phong.shininess_map.valid();
-  const double common = scale(phong.shininess);
-  for (size_t i = run.begin; i < run.end; ++i) {
-    const double by = one_exponent ? common : scale(exponents[i]);
-    t->specular.x[i] *= by;
-    t->specular.y[i] *= by;
-    t->specular.z[i] *= by;
-  }
-  hits.Fill(t->alpha.data(), [&](size_t i) { return exponents[i]; });
   for (int c = 0; c < 3; ++c) {
-    double* const diffuse = Channel(t->diffuse, c);
-    const double kd = phong.kd[c], by = radiometric ? M_1_PI : 1;
-    hits.Fill(diffuse, [&](size_t i) { return kd * diffuse[i] * by; });
+    float *const albedo = Channel(t->albedo, c), *const ambient = Channel(t->ambient, c);
+    const double radiance = run.material.ambient_radiance[c];
+    hits.Each([&](size_t i) {
+      const LayerColors at = layers_of(c, i);
+      albedo[i] = static_cast<float>(at.albedo);
+      ambient[i] = static_cast<float>(at.of_ambient * radiance);
+    });
   }
 }
 
-void FinishMaterialT(const TexturedRun& run, HitTextures* t) {
+void PutLayers(const TexturedRun& run, HitTextures* t) {
+  const Hits hits{run.begin, run.end};
+  const double* color[3];
+  for (int c = 0; c < 3; ++c) {
+    const double* const emission = NumbersOf(*t, MappedNumber::kEmission, c);
+    hits.Fill(Channel(t->emission, c), [&](size_t i) { return emission[i]; });
+    color[c] = NumbersOf(*t, MappedNumber::kColor, c);
+  }
   const Material& material = *run.material.textured;
   if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
-    FinishPhong(run, *phong, t);
+    const Rgb kd = phong->kd, ka = phong->ka;
+    PutLayers(
+        run, [&](int c, size_t i) { return DerivePhongLayers(color[c][i], kd[c], ka[c]); }, t);
+  } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
+    const double gloss = AverageDielectric(dielectric->ior);
+    PutLayers(
+        run, [&](int c, size_t i) { return DeriveDielectricLayers(color[c][i], gloss); }, t);
+  } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // not of colours
+    for (int c = 0; c < 3; ++c) {
+      hits.Fill(Channel(t->albedo, c), [&](size_t) { return run.material.albedo[c]; });
+      hits.Fill(Channel(t->ambient, c), [&](size_t) { return run.material.ambient[c]; });
+    }
   } else {
-    FinishMatte(run, t);
+    PutLayers(
+        run, [&](int c, size_t i) { return DeriveLayers(color[c][i]); }, t);
   }
 }
 
-// MixCurves of material.cc, times the light.
-void MakeTurquinProducts(const MappedProducts& products, int c, HitTextures* t) {
-  const double color = products.color[c];
-  const double* const dielectric = Channel(t->exact_dielectric_f0, c);
-  const double* const metal = Channel(t->exact_metal_f0, c);
-  const double *const f90 = t->exact_dielectric_f90.data(), *const metallic = t->metallic.data();
-  const float* const not_delta = t->not_delta.data();
-  float* HWY_RESTRICT const at_normal = Channel(t->by_turquin_f0, c);
-  float* HWY_RESTRICT const rise = Channel(t->by_turquin_rise, c);
-  for (size_t i = products.begin; i < products.end; ++i) {
-    const double normal =
-        (1 - metallic[i]) * dielectric[i] * dielectric[i] + metallic[i] * metal[i] * metal[i];
-    const double grazing = (1 - metallic[i]) * dielectric[i] * f90[i] + metallic[i] * metal[i];
-    const double light = double{not_delta[i]} * color;
-    at_normal[i] = static_cast<float>(normal * light);
-    rise[i] = static_cast<float>((grazing - normal) * light);
-  }
-}
-
-void MakeSchlickProducts(const MappedProducts& products, int c, HitTextures* t) {
-  const Hits hits{products.begin, products.end};
-  const auto& model = std::get<MicrofacetModel>(products.material.model);
-  const double color = products.color[c];
-  const float* const not_delta = t->not_delta.data();
-  const double* const diffuse = Channel(t->diffuse, c);
-  const double *const f0 = Channel(t->specular, c), *const f90 = t->exact_f90.data();
-  hits.Fill(Channel(t->by_specular_f0, c),
-            [&](size_t i) { return f0[i] * (double{not_delta[i]} * color); });
-  hits.Fill(Channel(t->by_specular_rise, c),
-            [&](size_t i) { return (f90[i] - f0[i]) * (double{not_delta[i]} * color); });
-  if (model.coupling == DiffuseCoupling::kOneMinusFresnel) {
-    hits.Fill(Channel(t->by_diffuse_normal, c),
-              [&](size_t i) { return (1 - f0[i]) * diffuse[i] * color; });
-    hits.Fill(Channel(t->by_diffuse_grazing, c),
-              [&](size_t i) { return (1 - f90[i]) * diffuse[i] * color; });
-  } else {  // where nobody reads the grazing one
-    hits.Fill(Channel(t->by_diffuse_normal, c), [&](size_t i) { return diffuse[i] * color; });
-  }
-  if (model.compensation == Compensation::kTurquin) MakeTurquinProducts(products, c, t);
-}
-
-void MakeMicrofacetProducts(const MappedProducts& products, HitTextures* t) {
-  const Hits hits{products.begin, products.end};
-  const auto& model = std::get<MicrofacetModel>(products.material.model);
-  const float* const not_delta = t->not_delta.data();
+// EonMultipleRatio of the colours of a rough surface; roughness(i) is that of a hit.
+template <class Roughness>
+void PutMatte(const TexturedRun& run, DiffuseForm form, const Roughness& roughness,
+              const MatteConstants<float*>& to, HitTextures* t) {
+  if (form == DiffuseForm::kLambert) return;
+  const Hits hits{run.begin, run.end};
+  hits.Fill(to.roughness, roughness);
+  if (form != DiffuseForm::kOrenNayar) return;
   for (int c = 0; c < 3; ++c) {
-    const double color = products.color[c];
-    if (model.fresnel == FresnelForm::kSchlick) {
-      MakeSchlickProducts(products, c, t);
-    } else {
-      const double* const diffuse = Channel(t->diffuse, c);
-      hits.Fill(Channel(t->by_diffuse, c), [&](size_t i) { return diffuse[i] * color; });
-      hits.Fill(Channel(t->by_specular, c), [&](size_t i) { return double{not_delta[i]} * color; });
-    }
-    if (model.compensation == Compensation::kKullaConty) {
-      const double* const f_multiple = Channel(t->exact_f_multiple, c);
-      hits.Fill(Channel(t->by_multiple, c), [&](size_t i) { return f_multiple[i] * color; });
-    }
+    const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
+    hits.Fill(to.ratio[c], [&](size_t i) { return EonMultipleRatio(color[i], roughness(i)); });
   }
 }
+
+void Finish(const TexturedRun& run, const MatteModel& model, HitTextures* t) {
+  const auto to = ColumnsIn<MatteConstants<float*>>(t->constants);
+  PutMatte(
+      run, model.form, [&](size_t) { return model.roughness; }, to, t);
+}
+
+void Finish(const TexturedRun& run, const PhongFamilyModel&, HitTextures* t) {
+  const Hits hits{run.begin, run.end};
+  const auto& phong = std::get<PhongMaterial>(run.material.textured->model);
+  const double* const exponents = NumbersOf(*t, MappedNumber::kWidth);
+  const auto to = ColumnsIn<PhongConstants<float*>>(t->constants);
+  hits.Fill(to.shininess, [&](size_t i) { return exponents[i]; });
+  if (run.material.mapped_width) {
+    hits.Fill(t->phong_scale.data(),
+              [&](size_t i) { return DerivePhongScale(phong, exponents[i]); });
+  } else {
+    const double scale = DerivePhongScale(phong, phong.shininess);
+    hits.Fill(t->phong_scale.data(), [&](size_t) { return scale; });
+  }
+}
+
+void PutFit(const AlbedoFit& fit, const AlbedoPolynomial& second, size_t i, HitTextures* t) {
+  float* to = t->fit.data() + i;
+  const auto put = [&](float value) {
+    *to = value;
+    to += HitTextures::kStride;
+  };
+  put(fit.shape.offset);
+  put(fit.shape.scale);
+  put(fit.shape.k);
+  put(fit.shape.softening);
+  for (const float coefficient : fit.one) put(coefficient);
+  for (const float coefficient : second) put(coefficient);
+}
+
+// The albedos of the hits' lobes: fits of those with a roughness each, of which the second curve is
+// Schlick's, or that of a dielectric's index; and, for Kulla and Conty's compensation, averages.
+// Hits of the same roughness as the one before have the same.
+void PutAlbedos(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t) {
+  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
+  if (!run.material.mapped_width && !kulla_conty) return;
+  const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
+  AlbedoFit fit = model.albedo.lobe;
+  DielectricCurve curve{model.albedo.fresnel, model.albedo.average};
+  double last = -1;
+  for (size_t i = run.begin; i < run.end; ++i) {
+    if (run.material.mapped_width && roughness[i] != last) {
+      last = roughness[i];
+      fit = kulla_conty ? MakeAlbedoFit(model.shadowing, last)
+                        : BlendAlbedoCurves(model.shadowing, last);
+      if (model.curves) curve = BlendDielectricCurves(*model.curves, last);
+    }
+    if (run.material.mapped_width) PutFit(fit, model.curves ? curve.fresnel : fit.schlick, i, t);
+    t->one_average[i] = fit.e_average;
+    t->schlick_average[i] = fit.schlick_average;
+    t->dielectric_average[i] = curve.average;
+  }
+}
+
+// Kulla and Conty's part of a channel at hit i.
+template <class Channel>
+struct KullaContyAt {
+  KullaContyAt(const MicrofacetModel& model, const Channel& hits, const HitTextures& t)
+      : form(model),
+        channel(hits),
+        one(t.one_average.data()),
+        schlick(t.schlick_average.data()),
+        dielectric(t.dielectric_average.data()) {}
+  HWY_INLINE KullaContyChannel operator()(size_t i) const {
+    const MicrofacetColors at = channel.Colors(i);
+    return DeriveKullaConty(form, at, channel.Averages(at),
+                            AlbedoAverages{one[i], schlick[i], dielectric[i]});
+  }
+  MicrofacetForm form;
+  Channel channel;
+  const double *one, *schlick, *dielectric;
+};
+
+void PutWidths(const TexturedRun& run, const MicrofacetConstants<float*>& to, HitTextures* t) {
+  const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
+  double* const narrow = t->narrow_alpha.data();
+  Hits{run.begin, run.end}.Each([&](size_t i) {
+    const LobeWidth width = DeriveWidth(roughness[i]);
+    PutWidth(width, AtHit{i}, &to);
+    narrow[i] = width.narrow_alpha;
+  });
+}
+
+void PutBase(const TexturedRun& run, const MicrofacetModel& model,
+             const MicrofacetConstants<float*>& to, HitTextures* t) {
+  if (model.base_form == DiffuseForm::kLambert) return;
+  const Material& material = *run.material.textured;
+  std::optional<double> own;  // none: the lobe's
+  if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
+    own = metallic->diffuse_roughness;
+  } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
+    own = dielectric->diffuse_roughness;
+  }
+  const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
+  if (own) {
+    PutMatte(
+        run, model.base_form, [&](size_t) { return *own; }, to.base, t);
+  } else {
+    PutMatte(
+        run, model.base_form, [&](size_t i) { return roughness[i]; }, to.base, t);
+  }
+}
+
+void Finish(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t) {
+  const Hits hits{run.begin, run.end};
+  const auto to = ColumnsIn<MicrofacetConstants<float*>>(t->constants);
+  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
+  PutWidths(run, to, t);
+  if (model.prepared) PutAlbedos(run, model, t);
+  for (int c = 0; c < 3; ++c) {
+    VisitChannel(run.material, *t, c, [&](const auto& channel) {
+      hits.Each([&](size_t i) { PutCurve(channel.Colors(i), c, AtHit{i}, &to); });
+      if (model.fresnel == FresnelForm::kF82) {
+        hits.Each([&](size_t i) { PutF82(channel.Colors(i), c, AtHit{i}, &to); });
+      }
+      if (kulla_conty) {
+        const KullaContyAt kulla_conty_at(model, channel, *t);
+        hits.Each([&](size_t i) { PutKullaConty(kulla_conty_at(i), c, AtHit{i}, &to); });
+      }
+    });
+  }
+  if (kulla_conty) {
+    hits.Fill(to.multiple, [&](size_t i) { return KullaContyScale(t->one_average[i]); });
+  }
+  PutBase(run, model, to, t);
+}
+
+void Finish(const TexturedRun&, const std::monostate&, HitTextures*) {}
+
+void FinishNumbersT(const TexturedRun& run, HitTextures* t) {
+  PutLayers(run, t);
+  if (!run.material.mapped_model) return;
+  std::visit([&](const auto& model) { Finish(run, model, t); }, run.material.model);
+}
+
+void Multiply(const MappedProducts& products, const MatteModel&, int c, HitTextures* t) {
+  const double light = products.color[c];
+  const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
+  const auto to = ColumnsIn<MatteLight<float*>>(t->products);
+  Hits{products.begin, products.end}.Fill(
+      to.diffuse[c], [&](size_t i) { return DeriveDiffuse(color[i]) * light; });
+}
+
+void Multiply(const MappedProducts& products, const PhongFamilyModel&, int c, HitTextures* t) {
+  const auto& phong = std::get<PhongMaterial>(products.material.textured->model);
+  const PhongConvention convention = phong.convention;
+  const double light = products.color[c], kd = phong.kd[c];
+  const double* const color = NumbersOf(*t, MappedNumber::kColor, c);
+  const double* const ks = NumbersOf(*t, MappedNumber::kSpecularColor, c);
+  const double* const scale = t->phong_scale.data();
+  const auto to = ColumnsIn<PhongLight<float*>>(t->products);
+  Hits{products.begin, products.end}.Each([&](size_t i) {
+    const PhongChannel at = DerivePhong(convention, kd, color[i], ks[i], scale[i]);
+    to.diffuse[c][i] = static_cast<float>(at.diffuse * light);
+    to.specular[c][i] = static_cast<float>(at.specular * light);
+  });
+}
+
+template <class Channel, class Diffuse>
+void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c,
+              const Channel& channel, const Diffuse& diffuse, HitTextures* t) {
+  const Hits hits{products.begin, products.end};
+  const MicrofacetForm form = model;
+  const double light = products.color[c];
+  const float* const not_delta = ColumnsIn<MicrofacetConstants<float*>>(t->constants).not_delta;
+  const auto to = ColumnsIn<MicrofacetLight<float*>>(t->products);
+  if (form.fresnel != FresnelForm::kSchlick) {
+    hits.Each([&](size_t i) {
+      to.diffuse[c][i] = static_cast<float>(diffuse(i) * light);
+      to.specular[c][i] = static_cast<float>(double{not_delta[i]} * light);
+    });
+    return;
+  }
+  hits.Each([&](size_t i) {
+    PutSchlickLight(TimesLight(form, channel.Colors(i), diffuse(i), light, double{not_delta[i]}), c,
+                    AtHit{i}, &to);
+  });
+  if (form.compensation != Compensation::kTurquin) return;
+  hits.Each([&](size_t i) {
+    PutTurquinLight(channel.Colors(i), double{not_delta[i]} * light, c, AtHit{i}, &to);
+  });
+}
+
+void Multiply(const MappedProducts& products, const MicrofacetModel& model, int c, HitTextures* t) {
+  VisitChannel(products.material, *t, c, [&](const auto& channel) {
+    if (model.compensation != Compensation::kKullaConty) {
+      return Multiply(
+          products, model, c, channel, [&](size_t i) { return channel.Colors(i).diffuse; }, t);
+    }
+    const KullaContyAt at(model, channel, *t);
+    Multiply(
+        products, model, c, channel, [&](size_t i) { return at(i).diffuse; }, t);
+    const double light = products.color[c];
+    const auto to = ColumnsIn<MicrofacetLight<float*>>(t->products);
+    Hits{products.begin, products.end}.Fill(to.multiple[c],
+                                            [&](size_t i) { return at(i).f_multiple * light; });
+  });
+}
+
+void Multiply(const MappedProducts&, const std::monostate&, int, HitTextures*) {}
 
 void MakeProductsT(const MappedProducts& products, HitTextures* t) {
-  if (std::holds_alternative<MicrofacetModel>(products.material.model)) {
-    return MakeMicrofacetProducts(products, t);
-  }
-  const Hits hits{products.begin, products.end};
-  const bool phong = std::holds_alternative<PhongFamilyModel>(products.material.model);
   for (int c = 0; c < 3; ++c) {
-    const double color = products.color[c];
-    const double* const diffuse = Channel(t->diffuse, c);
-    hits.Fill(Channel(t->by_diffuse, c), [&](size_t i) { return diffuse[i] * color; });
-    if (!phong) continue;
-    const double* const specular = Channel(t->specular, c);
-    hits.Fill(Channel(t->by_specular, c), [&](size_t i) { return specular[i] * color; });
+    std::visit([&](const auto& model) { Multiply(products, model, c, t); },
+               products.material.model);
   }
 }
 
@@ -236,26 +340,22 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(StartMaterialT);
-HWY_EXPORT(ApplyMapT);
-HWY_EXPORT(FinishMaterialT);
+HWY_EXPORT(StartNumbersT);
+HWY_EXPORT(MultiplyNumberT);
+HWY_EXPORT(FinishNumbersT);
 HWY_EXPORT(MakeProductsT);
 
-void StartMaterial(const TexturedRun& run, HitTextures* textures) {
-  HWY_DYNAMIC_DISPATCH(StartMaterialT)(run, textures);
+void StartNumbers(const TexturedRun& run, HitTextures* textures) {
+  HWY_DYNAMIC_DISPATCH(StartNumbersT)(run, textures);
 }
 
-void ApplyMap(const TexturedRun& run, MapRole role, HitTextures* textures) {
-  HWY_DYNAMIC_DISPATCH(ApplyMapT)(run, role, textures);
+void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitTextures* textures) {
+  HWY_DYNAMIC_DISPATCH(MultiplyNumberT)(run, target, textures);
 }
 
-void FinishMaterial(const TexturedRun& run, HitTextures* textures) {
-  if (!HasMappedModel(run.material)) return;
+void FinishNumbers(const TexturedRun& run, HitTextures* textures) {
   textures->products_end = 0;  // are of other numbers
-  if (std::holds_alternative<MicrofacetModel>(run.material.model)) {
-    return FinishMicrofacet(run, textures);
-  }
-  HWY_DYNAMIC_DISPATCH(FinishMaterialT)(run, textures);
+  HWY_DYNAMIC_DISPATCH(FinishNumbersT)(run, textures);
 }
 
 void MakeProducts(const MappedProducts& products, HitTextures* textures) {

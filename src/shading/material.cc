@@ -12,6 +12,7 @@
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
 #include "scene/material_parameters.h"
+#include "shading/derive.h"
 
 namespace nacre {
 namespace {
@@ -22,39 +23,43 @@ Rgb EachChannel(const OfChannel& of_channel) {
   return {of_channel(0), of_channel(1), of_channel(2)};
 }
 
-LambertModel MakeModel(const LambertMaterial& material) { return {material.albedo * M_1_PI}; }
-
 Rgb EonRatio(const Rgb& albedo, double roughness) {
   return EachChannel([&](int c) { return EonMultipleRatio(albedo[c], roughness); });
 }
 
-RoughMatteModel MakeModel(const OrenNayarMaterial& material) {
-  return {.form = DiffuseForm::kOrenNayar,
-          .diffuse = material.albedo * M_1_PI,
-          .ratio = EonRatio(material.albedo, material.roughness),
-          .roughness = material.roughness};
+MatteModel MakeMatte(DiffuseForm form, const Rgb& albedo, double roughness) {
+  MatteModel model{.form = form,
+                   .diffuse = EachChannel([&](int c) { return DeriveDiffuse(albedo[c]); }),
+                   .roughness = roughness};
+  if (form == DiffuseForm::kOrenNayar) model.ratio = EonRatio(albedo, roughness);
+  return model;
 }
 
-RoughMatteModel MakeModel(const BurleyMaterial& material) {
-  return {.form = DiffuseForm::kBurley,
-          .diffuse = material.albedo * M_1_PI,
-          .roughness = material.roughness};
+MatteModel MakeModel(const LambertMaterial& material) {
+  return MakeMatte(DiffuseForm::kLambert, material.albedo, 0);
+}
+
+MatteModel MakeModel(const OrenNayarMaterial& material) {
+  return MakeMatte(DiffuseForm::kOrenNayar, material.albedo, material.roughness);
+}
+
+MatteModel MakeModel(const BurleyMaterial& material) {
+  return MakeMatte(DiffuseForm::kBurley, material.albedo, material.roughness);
 }
 
 PhongFamilyModel MakeModel(const PhongMaterial& material) {
-  double diffuse_scale = 1;
-  double specular_scale = 1;
-  if (material.convention == PhongConvention::kRadiometric) {
-    diffuse_scale = M_1_PI;
-    specular_scale = material.model == PhongModel::kBlinnPhong
-                         ? BlinnNormalization(material.shininess)
-                         : PhongNormalization(material.shininess);
+  PhongFamilyModel model;
+  model.model = material.model;
+  model.shininess = material.shininess;
+  model.double_terms = material.shininess > kDoubleTermsShininess;
+  const double scale = DerivePhongScale(material, material.shininess);
+  for (int c = 0; c < 3; ++c) {
+    const PhongChannel at =
+        DerivePhong(material.convention, material.kd[c], material.color[c], material.ks[c], scale);
+    model.diffuse[c] = at.diffuse;
+    model.specular[c] = at.specular;
   }
-  return {.model = material.model,
-          .diffuse = material.kd * material.color * diffuse_scale,
-          .specular = material.ks * specular_scale,
-          .shininess = material.shininess,
-          .double_terms = material.shininess > kDoubleTermsShininess};
+  return model;
 }
 
 // What all microfacet materials have; the Fresnel curve and the base are the caller's.
@@ -64,10 +69,12 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   model.shadowing = material.shadowing;
   model.compensation = material.compensation;
   model.coupling = DiffuseCoupling::kNone;
-  model.alpha = AlphaFromRoughness(material.roughness);
-  model.schlick_k = (material.roughness + 1) * (material.roughness + 1) / 8;
-  model.delta = IsDeltaLobe(model.alpha);
-  model.double_terms = IsNarrow(material.roughness, model.alpha);
+  const LobeWidth width = DeriveWidth(material.roughness);
+  PutWidth(width, Rounded(), &model.constants);
+  model.alpha = width.alpha;
+  model.schlick_k = width.schlick_k;
+  model.delta = width.delta;
+  model.double_terms = width.narrow_alpha >= 0;
   model.albedo.lobe = MakeAlbedoFit(material.shadowing, material.roughness);
   return model;
 }
@@ -82,69 +89,61 @@ void PrepareBase(const Microfacet& material, MicrofacetModel* model) {
   if (model->base_roughness == 0) model->base_form = DiffuseForm::kLambert;
 }
 
-// F0 and F90 of the mix, and of Turquin's compensation, from those of dielectric and metal.
-void MixCurves(MicrofacetModel* model) {
-  const double m = model->metallic, not_metal = 1 - m;
-  model->f90 = 1 - (1 - model->dielectric_f90) * not_metal;  // 1, not nearly, of the default
-  for (int c = 0; c < 3; ++c) {
-    const double dielectric = model->dielectric_f0[c], metal = model->metal_f0[c];
-    model->f0[c] = not_metal * dielectric + m * metal;
-    model->turquin_f0[c] = not_metal * dielectric * dielectric + m * metal * metal;
-    model->turquin_f90[c] = not_metal * dielectric * model->dielectric_f90 + m * metal;
-  }
-}
-
-// Kulla and Conty 2017: the lobe of what bounced more than once, and, for a reciprocal base, the
-// mean albedo that its scale is divided by.
-void PrepareKullaConty(const Rgb& dielectric_f_average, const Rgb& metal_f_average,
-                       MicrofacetModel* model) {
-  const double e_average = model->albedo.lobe.e_average;
-  model->dielectric_f_average = dielectric_f_average;
-  model->metal_f_average = metal_f_average;
-  model->dielectric_f_multiple =
-      EachChannel([&](int c) { return KullaContyFresnel(dielectric_f_average[c], e_average); });
-  model->f_multiple = EachChannel([&](int c) {
-    return (1 - model->metallic) * model->dielectric_f_multiple[c] +
-           model->metallic * KullaContyFresnel(metal_f_average[c], e_average);
-  });
-  model->multiple = KullaContyScale(e_average);
-  if (model->coupling != DiffuseCoupling::kAlbedoScaled) return;
+// of_channel(c): the colours of a channel. The averages of both curves, which Kulla and Conty's
+// compensation asks for, are those of the model already.
+template <class OfChannel>
+void TakeColors(const OfChannel& of_channel, MicrofacetModel* model) {
   const AlbedoFit& lobe = model->albedo.lobe;
+  const AlbedoAverages albedo{lobe.e_average, lobe.schlick_average, model->albedo.average};
+  const bool kulla_conty = model->compensation == Compensation::kKullaConty;
+  MicrofacetConstants<float>* const constants = &model->constants;
+  if (kulla_conty) model->multiple = KullaContyScale(albedo.one);
+  Rounded()(model->multiple, constants->multiple);
+  Rounded()(model->base_roughness, constants->base.roughness);
   for (int c = 0; c < 3; ++c) {
-    const double f0 = model->dielectric_f0[c];
-    const double single = model->fresnel == FresnelForm::kDielectric
-                              ? model->albedo.average
-                              : f0 * (e_average - lobe.schlick_average) +
-                                    model->dielectric_f90 * lobe.schlick_average;
-    const double left = 1 - single - model->dielectric_f_multiple[c] * (1 - e_average);
-    model->diffuse[c] = left > 0 ? model->diffuse[c] / left : 0;
+    const MicrofacetColors at = of_channel(c);
+    const MixedCurve mix = MixCurves(at);
+    PutCurve(at, c, Rounded(), constants);
+    PutF82(at, c, Rounded(), constants);
+    Rounded()(model->base_ratio[c], constants->base.ratio[c]);
+    model->metallic = at.metallic;
+    model->diffuse[c] = at.diffuse;
+    model->dielectric_f0[c] = at.dielectric_f0;
+    model->dielectric_f90 = at.dielectric_f90;
+    model->metal_f0[c] = at.metal_f0;
+    model->f82_slope[c] = at.f82_slope;
+    model->f0[c] = mix.f0;
+    model->f90 = MixedF90(at.dielectric_f90, at.metallic);
+    model->turquin_f0[c] = mix.turquin_f0;
+    model->turquin_f90[c] = mix.turquin_f90;
+    if (!kulla_conty) continue;
+    const KullaContyChannel multiple = DeriveKullaConty(
+        *model, at, {model->dielectric_f_average[c], model->metal_f_average[c]}, albedo);
+    PutKullaConty(multiple, c, Rounded(), constants);
+    model->diffuse[c] = multiple.diffuse;
+    model->dielectric_f_multiple[c] = multiple.dielectric_f_multiple;
+    model->f_multiple[c] = multiple.f_multiple;
   }
 }
 
 MicrofacetModel MakeModel(const MetallicRoughnessMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.coupling = material.diffuse_coupling;
-  model.diffuse = material.base_color * ((1 - material.metallic) * M_1_PI);
   PrepareBase(material, &model);
-  model.metallic = material.metallic;
-  model.dielectric_f0 = material.dielectric_f0 * material.specular;
-  model.dielectric_f90 = material.specular;
-  model.metal_f0 = material.base_color;
-  MixCurves(&model);
   // Of a material that is no metal the tint does not show.
   const bool tinted = material.metallic > 0 && material.f82_tint != Rgb(1);
+  const Rgb tint = tinted ? material.f82_tint : Rgb(1);
   model.fresnel = tinted ? FresnelForm::kF82 : FresnelForm::kSchlick;
-  if (tinted) {
-    model.f82_slope = EachChannel(
-        [&](int c) { return F82SlopeFromTint(material.base_color[c], material.f82_tint[c]); });
+  const auto of_channel = [&](int c) {
+    return DeriveMetallicRoughness(material.base_color[c], material.metallic,
+                                   material.dielectric_f0[c], material.specular, tint[c]);
+  };
+  for (int c = 0; c < 3; ++c) {
+    const CurveAverages average = DeriveAverages(of_channel(c));
+    model.dielectric_f_average[c] = average.dielectric;
+    model.metal_f_average[c] = average.metal;
   }
-  if (model.compensation == Compensation::kKullaConty) {
-    PrepareKullaConty(
-        EachChannel(
-            [&](int c) { return AverageSchlick(model.dielectric_f0[c], model.dielectric_f90); }),
-        EachChannel([&](int c) { return AverageF82(model.metal_f0[c], model.f82_slope[c]); }),
-        &model);
-  }
+  TakeColors(of_channel, &model);
   return model;
 }
 
@@ -153,27 +152,26 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   model.eta = material.eta;
   model.k = material.k;
-  model.metallic = 1;
-  model.metal_f0 = EachChannel([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
-  MixCurves(&model);
   model.fresnel = FresnelForm::kConductor;
+  const Rgb f0 = EachChannel([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
+  Rgb slope(0, 0, 0);
   if (material.fresnel == ConductorFresnel::kF82Tint) {
     model.fresnel = FresnelForm::kF82;
-    model.f82_slope = EachChannel([&](int c) {
-      return F82Slope(model.metal_f0[c], FresnelConductor(1 - one_minus_seventh, one_minus_seventh,
-                                                          material.eta[c], material.k[c]));
+    slope = EachChannel([&](int c) {
+      return F82Slope(f0[c], FresnelConductor(1 - one_minus_seventh, one_minus_seventh,
+                                              material.eta[c], material.k[c]));
     });
   } else if (material.fresnel == ConductorFresnel::kSchlick) {
     model.fresnel = FresnelForm::kSchlick;
   }
   if (model.compensation == Compensation::kKullaConty) {
-    PrepareKullaConty(Rgb(0), EachChannel([&](int c) {
-                        return model.fresnel == FresnelForm::kConductor
-                                   ? AverageConductor(material.eta[c], material.k[c])
-                                   : AverageF82(model.metal_f0[c], model.f82_slope[c]);
-                      }),
-                      &model);
+    model.metal_f_average = EachChannel([&](int c) {
+      return model.fresnel == FresnelForm::kConductor
+                 ? AverageConductor(material.eta[c], material.k[c])
+                 : AverageF82(f0[c], slope[c]);
+    });
   }
+  TakeColors([&](int c) { return DeriveConductor(f0[c], slope[c]); }, &model);
   return model;
 }
 
@@ -181,11 +179,9 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
   MicrofacetModel model = MakeLobe(material);
   const bool exact = material.fresnel == DielectricFresnel::kExact;
   model.coupling = material.diffuse_coupling;
-  model.diffuse = material.base_color * M_1_PI;
   PrepareBase(material, &model);
   model.eta = Rgb(material.ior);
-  model.dielectric_f0 = Rgb(FresnelF0(material.ior, 0.0));
-  MixCurves(&model);
+  const double f0 = FresnelF0(material.ior, 0.0);
   model.fresnel = exact ? FresnelForm::kDielectric : FresnelForm::kSchlick;
   if (exact) {
     model.albedo = MakeDielectricAlbedoFit(material.shadowing, material.roughness, material.ior);
@@ -195,24 +191,25 @@ MicrofacetModel MakeModel(const DielectricMaterial& material) {
     }
   }
   if (model.compensation == Compensation::kKullaConty) {
-    PrepareKullaConty(Rgb(exact ? AverageDielectric(material.ior) : AverageSchlick(model.f0.x)),
-                      Rgb(0), &model);
+    model.dielectric_f_average = Rgb(exact ? AverageDielectric(material.ior) : AverageSchlick(f0));
   }
+  TakeColors([&](int c) { return DeriveDielectric(material.base_color[c], f0); }, &model);
   return model;
 }
 
-}  // namespace
-
-namespace {
-
 void FindMaps(const Material& material, ShadingMaterial* prepared) {
+  prepared->mapped = material.vertex_colors != VertexColors::kNone;
+  prepared->mapped_model = material.vertex_colors == VertexColors::kBase;
   if (const MaterialModel* const model = ModelOf(material)) {
-    prepared->mapped =
-        std::any_of(model->maps.begin(), model->maps.end(), [&](const MaterialMap& map) {
-          return map.use != MapUse::kOpacity && map.get(material).valid();
-        });
+    for (const MaterialMap& map : model->maps) {
+      if (!map.get(material).valid()) continue;
+      for (const MapTarget& target : TargetsOf(map)) {
+        prepared->mapped = true;
+        if (target.number != MappedNumber::kEmission) prepared->mapped_model = true;
+        if (target.number == MappedNumber::kWidth) prepared->mapped_width = true;
+      }
+    }
   }
-  prepared->mapped = prepared->mapped || material.vertex_colors != VertexColors::kNone;
   prepared->turned = material.normal_map.texture.valid() || material.bump_map.texture.valid();
   if (prepared->mapped || prepared->turned) prepared->textured = &material;
 }
@@ -232,45 +229,46 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
   Rgb of_ambient(0, 0, 0);  // what it reflects of light from everywhere
-  std::visit(Overloaded{[&](const LambertMaterial& lambert) {
-                          prepared.model = MakeModel(lambert);
-                          prepared.albedo = of_ambient = lambert.albedo;
-                        },
-                        [&](const OrenNayarMaterial& rough) {
-                          prepared.model = MakeModel(rough);
-                          prepared.albedo = of_ambient = rough.albedo;
-                        },
-                        [&](const BurleyMaterial& burley) {
-                          prepared.model = MakeModel(burley);
-                          prepared.albedo = of_ambient = burley.albedo;
-                        },
-                        [&](const PhongMaterial& phong) {
-                          prepared.model = MakeModel(phong);
-                          prepared.albedo = phong.color * phong.kd;
-                          of_ambient = phong.color * phong.ka;
-                        },
-                        [&](const MetallicRoughnessMaterial& metallic_roughness) {
-                          prepared.model = MakeModel(metallic_roughness);
-                          // base_color is what both the diffuse base and a metal reflect. The
-                          // gloss of a dielectric is left out, as lessons do.
-                          prepared.albedo = of_ambient = metallic_roughness.base_color;
-                        },
-                        [&](const ConductorMaterial& conductor) {
-                          const MicrofacetModel model = MakeModel(conductor);
-                          prepared.model = model;
-                          prepared.albedo = model.f0;
-                          of_ambient = EachChannel([&](int c) {
-                            return AverageConductor(conductor.eta[c], conductor.k[c]);
-                          });
-                        },
-                        [&](const DielectricMaterial& dielectric) {
-                          const double gloss = AverageDielectric(dielectric.ior);
-                          prepared.model = MakeModel(dielectric);
-                          prepared.albedo = dielectric.base_color;
-                          of_ambient = Rgb(gloss) + dielectric.base_color * (1 - gloss);
-                        },
-                        [](const SplitMaterial&) {}},
-             material.model);
+  const auto take_layers = [&](const auto& of_channel) {
+    for (int c = 0; c < 3; ++c) {
+      const LayerColors layers = of_channel(c);
+      prepared.albedo[c] = layers.albedo;
+      of_ambient[c] = layers.of_ambient;
+    }
+  };
+  const auto matte = [&](const auto& material_of) {
+    prepared.model = MakeModel(material_of);
+    take_layers([&](int c) { return DeriveLayers(material_of.albedo[c]); });
+  };
+  std::visit(
+      Overloaded{
+          [&](const LambertMaterial& lambert) { matte(lambert); },
+          [&](const OrenNayarMaterial& rough) { matte(rough); },
+          [&](const BurleyMaterial& burley) { matte(burley); },
+          [&](const PhongMaterial& phong) {
+            prepared.model = MakeModel(phong);
+            take_layers(
+                [&](int c) { return DerivePhongLayers(phong.color[c], phong.kd[c], phong.ka[c]); });
+          },
+          [&](const MetallicRoughnessMaterial& metallic_roughness) {
+            prepared.model = MakeModel(metallic_roughness);
+            take_layers([&](int c) { return DeriveLayers(metallic_roughness.base_color[c]); });
+          },
+          [&](const ConductorMaterial& conductor) {
+            const MicrofacetModel model = MakeModel(conductor);
+            prepared.model = model;
+            take_layers([&](int c) {
+              return LayerColors{model.f0[c], AverageConductor(conductor.eta[c], conductor.k[c])};
+            });
+          },
+          [&](const DielectricMaterial& dielectric) {
+            const double gloss = AverageDielectric(dielectric.ior);
+            prepared.model = MakeModel(dielectric);
+            take_layers(
+                [&](int c) { return DeriveDielectricLayers(dielectric.base_color[c], gloss); });
+          },
+          [](const SplitMaterial&) {}},
+      material.model);
   prepared.ambient = of_ambient * ambient_radiance;
   prepared.ambient_radiance = ambient_radiance;
   FindMaps(material, &prepared);
@@ -280,6 +278,11 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
                            microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
   }
   return prepared;
+}
+
+void DropMaps(ShadingMaterial* material) {
+  material->textured = nullptr;
+  material->mapped = material->mapped_model = material->mapped_width = material->turned = false;
 }
 
 double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {

@@ -8,6 +8,7 @@
 
 #include "brdf/albedo.h"
 #include "scene/material.h"
+#include "shading/constants.h"
 
 namespace nacre {
 
@@ -20,16 +21,12 @@ namespace nacre {
 inline constexpr double kDoubleTermsRoughness = 0.1;
 inline constexpr double kDoubleTermsShininess = 300;
 
-struct LambertModel {
-  Rgb diffuse;  // albedo / pi
-};
-
-// Oren-Nayar (EON) or Burley's.
-struct RoughMatteModel {
-  DiffuseForm form;
-  Rgb diffuse;         // albedo / pi
-  Rgb ratio{0, 0, 0};  // kOrenNayar: EonMultipleRatio of the albedo
-  double roughness;
+// Lambert's, Oren-Nayar (EON) or Burley's.
+struct MatteModel {
+  DiffuseForm form = DiffuseForm::kLambert;
+  Rgb diffuse;           // albedo / pi
+  Rgb ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the albedo
+  double roughness = 0;  // not kLambert
 };
 
 struct PhongFamilyModel {
@@ -42,6 +39,15 @@ struct PhongFamilyModel {
 
 enum class FresnelForm : uint8_t { kSchlick, kF82, kDielectric, kConductor };
 
+// What kind of microfacet model it is.
+struct MicrofacetForm {
+  Shadowing shadowing;
+  FresnelForm fresnel;
+  Compensation compensation;
+  DiffuseCoupling coupling;
+  DiffuseForm base_form = DiffuseForm::kLambert;
+};
+
 // A GGX lobe over a diffuse base: metallic-roughness, conductor and dielectric.
 //
 // Metallic-roughness mixes two surfaces, as glTF 2.0 does (Appendix B.2): (1 - metallic) of a
@@ -50,14 +56,9 @@ enum class FresnelForm : uint8_t { kSchlick, kF82, kDielectric, kConductor };
 // of their lobes. What is no linear function of the Fresnel curve is mixed itself: compensation,
 // and the base's share of the light, which only the dielectric above it takes from. Conductors are
 // all metal, dielectrics all dielectric.
-struct MicrofacetModel {
-  Shadowing shadowing;
-  FresnelForm fresnel;
-  Compensation compensation;
-  DiffuseCoupling coupling;
+struct MicrofacetModel : MicrofacetForm {
   Rgb diffuse{0, 0, 0};  // of the base, over pi; with reciprocal scaling also over 1 - mean albedo
-  DiffuseForm base_form = DiffuseForm::kLambert;
-  double base_roughness = 0;  // of other forms
+  double base_roughness = 0;  // of forms that are not Lambert's
   Rgb base_ratio{0, 0, 0};    // kOrenNayar: EonMultipleRatio of the base's colour
   double metallic = 0;        // the metal's share of the mix
   // Reflectance at normal incidence, and of Schlick's curve (and F82's) at grazing incidence; the
@@ -76,15 +77,16 @@ struct MicrofacetModel {
   // of the dielectric's reflection, F_ms, and of the mix.
   Rgb dielectric_f_average{0, 0, 0}, metal_f_average{0, 0, 0};
   Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
-  double multiple;   // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
-  double alpha;      // of the lobe
-  double schlick_k;  // (roughness + 1)^2 / 8
-  bool delta;        // a perfect mirror, which punctual lights cannot show
+  double multiple = 0;  // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
+  double alpha;         // of the lobe
+  double schlick_k;     // (roughness + 1)^2 / 8
+  bool delta;           // a perfect mirror, which punctual lights cannot show
   bool double_terms;
-  bool prepared;            // shading needs what PrepareRun computes
+  bool prepared = false;    // shading needs what PrepareRun computes
   FresnelAlbedoFit albedo;  // kDielectric: with the curve of its index
   // kDielectric with a roughness for each hit: those curves of all roughnesses; else null.
   std::shared_ptr<const DielectricCurves> curves;
+  MicrofacetConstants<float> constants;  // the numbers above, as kernels read them
 };
 
 // A material prepared for shading; a split has no model of its own.
@@ -96,14 +98,18 @@ struct ShadingMaterial {
   // Of materials with maps: the scene's, which outlives this; else null. The model is then that of
   // the maps' factors.
   const Material* textured = nullptr;
-  bool mapped = false;  // maps give each hit numbers of its own
-  bool turned = false;  // maps turn the normal
+  bool mapped = false;        // maps give each hit numbers of its own
+  bool mapped_model = false;  // of its reflection, not of its emission alone
+  bool mapped_width = false;  // of the width of its lobe
+  bool turned = false;        // maps turn the normal
   Rgb ambient_radiance{0, 0, 0};
-  std::variant<std::monostate, LambertModel, RoughMatteModel, PhongFamilyModel, MicrofacetModel>
-      model;
+  std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel> model;
 };
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);
+
+// Leaves the material of the maps' factors.
+void DropMaps(ShadingMaterial* material);
 
 // The directional albedo of one channel seen from n.v, compensation included, of what covers the
 // base: of a mix with a metal, the dielectric.

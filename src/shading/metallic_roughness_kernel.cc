@@ -13,21 +13,20 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-void ShadeSchlickT(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeSchlickT(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kSchlick>(uniforms, range);
 }
 
-void ShadeF82T(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeF82T(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
 }
 
 // Of materials with maps.
-void ShadeSchlickMapsT(const MicrofacetUniformsOf<const float*>& uniforms,
-                       const ShadeRange& range) {
+void ShadeSchlickMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacetMaps<FresnelForm::kSchlick>(uniforms, range);
 }
 
-void ShadeF82MapsT(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+void ShadeF82MapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacetMaps<FresnelForm::kF82>(uniforms, range);
 }
 
@@ -42,19 +41,19 @@ HWY_EXPORT(ShadeF82T);
 HWY_EXPORT(ShadeSchlickMapsT);
 HWY_EXPORT(ShadeF82MapsT);
 
-void ShadeSchlick(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeSchlick(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeSchlickT)(uniforms, range);
 }
 
-void ShadeF82(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeF82(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeF82T)(uniforms, range);
 }
 
-void ShadeSchlickMaps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+void ShadeSchlick(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeSchlickMapsT)(uniforms, range);
 }
 
-void ShadeF82Maps(const MicrofacetUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+void ShadeF82(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadeF82MapsT)(uniforms, range);
 }
 }  // namespace nacre

@@ -77,7 +77,7 @@ HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) {
 // 1 - v.h for Schlick's weight; by kBrightF0.
 template <class Form, class Number>
 HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
-                              const MicrofacetUniformsOf<Number>& uniforms) {
+                              const MicrofacetUniforms<Number>& uniforms) {
   const FloatV rounded = hn::NegMulAdd(half.twice_u_length, hn::Set(d, 0.25f), hn::Set(d, 1.0f));
   const auto exact = [&]() HWY_ATTR { return OneMinusVDotH(d, half.lv_squared, half.ULength(d)); };
   if constexpr (std::is_same_v<Number, float>) {
@@ -91,7 +91,7 @@ HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
 
 template <FresnelForm kFresnel, class Form, class Number>
 HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
-                              const MicrofacetUniformsOf<Number>& uniforms) {
+                              const MicrofacetUniforms<Number>& uniforms) {
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     return SchlickCurveV{Power5(SchlickBase<Form>(d, half, i, uniforms))};
   } else {
@@ -125,12 +125,12 @@ HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
 // F times the light.
 template <class Number>
 HWY_INLINE RgbV ReflectedBy(FloatTag d, const SchlickCurveV& curve, size_t i,
-                            const MicrofacetLightOf<Number>& light) {
+                            const MicrofacetLight<Number>& light) {
   return MulAddRgb(RgbAt(d, light.specular_rise, i), curve.weight, RgbAt(d, light.specular_f0, i));
 }
 template <class Curve, class Number>
 HWY_INLINE RgbV ReflectedBy(FloatTag d, const Curve& curve, size_t i,
-                            const MicrofacetLightOf<Number>& light) {
+                            const MicrofacetLight<Number>& light) {
   return MulRgb(FresnelOf(curve), RgbAt(d, light.specular, i));
 }
 
@@ -138,14 +138,14 @@ HWY_INLINE RgbV ReflectedBy(FloatTag d, const Curve& curve, size_t i,
 // but for the factor 1 / E - 1 (TurquinTerm of scalar_material.h).
 template <class Number>
 HWY_INLINE RgbV TurquinTerm(FloatTag d, const SchlickCurveV& curve, size_t i,
-                            const MicrofacetUniformsOf<Number>&,
-                            const MicrofacetLightOf<Number>& light) {
+                            const MicrofacetUniforms<Number>&,
+                            const MicrofacetLight<Number>& light) {
   return MulAddRgb(RgbAt(d, light.turquin_rise, i), curve.weight, RgbAt(d, light.turquin_f0, i));
 }
 template <class Number>
 HWY_INLINE RgbV TurquinTerm(FloatTag d, const MixedCurveV& curve, size_t i,
-                            const MicrofacetUniformsOf<Number>& uniforms,
-                            const MicrofacetLightOf<Number>& light) {
+                            const MicrofacetUniforms<Number>& uniforms,
+                            const MicrofacetLight<Number>& light) {
   const RgbV of_dielectric = MulRgb(RgbAt(d, uniforms.dielectric_f0, i), curve.dielectric);
   const RgbV of_metal = MulRgb(RgbAt(d, uniforms.metal_f0, i), curve.metal);
   return MulRgb(AddRgb(of_dielectric, of_metal), RgbAt(d, light.specular, i));
@@ -155,7 +155,7 @@ HWY_INLINE RgbV TurquinTerm(FloatTag d, const MixedCurveV& curve, size_t i,
 // (DiffuseCoupling::kOneMinusFresnel), which is (1 - F0) (1 - W) + (1 - F90) W by Schlick.
 template <class Form, class Number>
 HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
-                             const MicrofacetModel& model, const MicrofacetLightOf<Number>& light,
+                             const MicrofacetModel& model, const MicrofacetLight<Number>& light,
                              FloatV weight) {
   const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
   if constexpr (Form::kTypical) {
@@ -179,7 +179,7 @@ HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
 }
 template <class Form, class Curve, class Number>
 HWY_INLINE PartV LeftForBase(FloatTag d, const Curve& curve, size_t i, const MicrofacetModel& model,
-                             const MicrofacetLightOf<Number>& light, FloatV weight) {
+                             const MicrofacetLight<Number>& light, FloatV weight) {
   const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
   // The exact curves may round to just above 1 at grazing angles.
   const auto left = [&](FloatV fresnel, size_t c) HWY_ATTR {

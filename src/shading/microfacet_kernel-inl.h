@@ -28,7 +28,7 @@ struct Microfacet {
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
   // Of a dielectric and a metal, which Turquin's compensation scales each by its own F0.
   static constexpr bool kIsMix = kFresnel == FresnelForm::kSchlick || kFresnel == FresnelForm::kF82;
-  MicrofacetUniformsOf<Number> uniforms;  // a copy: nothing that a kernel stores is in it
+  MicrofacetUniforms<Number> uniforms;  // a copy: nothing that a kernel stores is in it
   const MicrofacetModel& model;
 
   struct View {
@@ -105,7 +105,7 @@ struct Microfacet {
 
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,
                                 size_t k) const {
-    const MicrofacetLightOf<Number>& light = uniforms.lights[k];
+    const MicrofacetLight<Number>& light = uniforms.lights[k];
     const HalfV half{in.half.lv_squared, TwiceSquareRoot(d, in.half.u_squared)};
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const bool spreads =
@@ -141,7 +141,7 @@ struct Microfacet {
   HWY_INLINE RgbV SpreadAt(FloatTag d, size_t i) const {
     const FloatV single = hn::LoadU(d, uniforms.spread->single.data() + i);
     const FloatV multiple = hn::LoadU(d, uniforms.spread->multiple.data() + i);
-    return MulAddRgb(RgbAt(d, uniforms.base_ratio, i), multiple, {single, single, single});
+    return MulAddRgb(RgbAt(d, uniforms.base.ratio, i), multiple, {single, single, single});
   }
 
   // Of what covers the base.
@@ -158,7 +158,7 @@ struct Microfacet {
 
   // Adds Kulla and Conty's lobe, and takes from the base what the albedo of its cover does.
   HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
-                           const MicrofacetLightOf<Number>& light, PartV* reflected,
+                           const MicrofacetLight<Number>& light, PartV* reflected,
                            RgbV* base) const {
     const bool scaled = CouplingOf<Form>(model) == DiffuseCoupling::kAlbedoScaled;
     const Surface& surface = *view.surface;
@@ -181,12 +181,12 @@ struct Microfacet {
 };
 
 template <FresnelForm kFresnel, class Form, class Number>
-void ShadeMicrofacetForm(const MicrofacetUniformsOf<Number>& uniforms, const ShadeRange& range) {
+void ShadeMicrofacetForm(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& range) {
   ShadePackets(FloatTag(), Microfacet<kFresnel, Form, Number>{uniforms, *uniforms.model}, range);
 }
 
 template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared>
-void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeUsualMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   using Typical = UsualForm<kShadowing, kPrepared, true>;
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const MicrofacetModel& model = *uniforms.model;
@@ -200,7 +200,7 @@ void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& 
 }
 
 template <FresnelForm kFresnel, Shadowing kShadowing>
-void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeUsualMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   if (uniforms.model->prepared) {
     ShadeUsualMicrofacet<kFresnel, kShadowing, true>(uniforms, range);
   } else {
@@ -209,7 +209,7 @@ void ShadeUsualMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& 
 }
 
 template <FresnelForm kFresnel>
-void ShadeMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   if (uniforms.narrow != nullptr || uniforms.spread != nullptr) {
     return ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
   }
@@ -226,8 +226,7 @@ void ShadeMicrofacet(const MicrofacetUniforms& uniforms, const ShadeRange& range
 // Hits with numbers of their own, of which looking up and rounding them is most of the work: one
 // kernel for all.
 template <FresnelForm kFresnel>
-void ShadeMicrofacetMaps(const MicrofacetUniformsOf<const float*>& uniforms,
-                         const ShadeRange& range) {
+void ShadeMicrofacetMaps(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
 }
 

@@ -138,12 +138,12 @@ void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) 
   HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, range, lobes);
 }
 
-void NarrowGgxMaps(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
+void NarrowGgx(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
   HWY_DYNAMIC_DISPATCH(NarrowGgxMapsT)(alphas, range, lobes);
 }
 
-void NarrowPhongMaps(PhongModel model, const double* exponents, const ShadeRange& range,
-                     NarrowLobes* lobes) {
+void NarrowPhong(PhongModel model, const double* exponents, const ShadeRange& range,
+                 NarrowLobes* lobes) {
   HWY_DYNAMIC_DISPATCH(NarrowPhongMapsT)(model, exponents, range, lobes);
 }
 }  // namespace nacre

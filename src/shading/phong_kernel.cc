@@ -41,7 +41,7 @@ struct PhongFamily {
   static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
   using Incident = LobeIncidentV;
   struct View {};
-  const PhongUniformsOf<Number>& uniforms;
+  const PhongUniforms<Number>& uniforms;
 
   // Lobes of one exponent are all narrow, and theirs come from elsewhere, or none.
   HWY_INLINE bool ReadsLobe() const {
@@ -69,19 +69,19 @@ struct PhongFamily {
   HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
                                 size_t k) const {
     const FloatV log2 = Log2Cosine(d, p, in);
-    const FloatV shininess = NumberAt(d, uniforms.shininess, p.i);
+    const FloatV shininess = NumberAt(d, uniforms.constants.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? LobePowerOfSquare(d, log2, shininess)
                                                           : LobePower(d, log2, shininess);
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
-    const PhongLightOf<Number>& by = uniforms.lights[k];
+    const PhongLight<Number>& by = uniforms.lights[k];
     return {{ScaledPart(RgbAt(d, by.diffuse, p.i), in.weight)},
             ScaledPart(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light))};
   }
 };
 
 template <class Number>
-void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& range) {
+void ShadePhongOf(const PhongUniforms<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.model) {
     case PhongModel::kPhong:
       return ShadePackets(FloatTag(), PhongFamily<PhongModel::kPhong, Number>{uniforms}, range);
@@ -94,11 +94,11 @@ void ShadePhongOf(const PhongUniformsOf<Number>& uniforms, const ShadeRange& ran
   }
 }
 
-void ShadePhongT(const PhongUniforms& uniforms, const ShadeRange& range) {
+void ShadePhongT(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
   ShadePhongOf(uniforms, range);
 }
 
-void ShadePhongMapsT(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+void ShadePhongMapsT(const PhongUniforms<float*>& uniforms, const ShadeRange& range) {
   ShadePhongOf(uniforms, range);
 }
 
@@ -110,10 +110,10 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(ShadePhongT);
 HWY_EXPORT(ShadePhongMapsT);
-void ShadePhong(const PhongUniforms& uniforms, const ShadeRange& range) {
+void ShadePhong(const PhongUniforms<float>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadePhongT)(uniforms, range);
 }
-void ShadePhongMaps(const PhongUniformsOf<const float*>& uniforms, const ShadeRange& range) {
+void ShadePhong(const PhongUniforms<float*>& uniforms, const ShadeRange& range) {
   HWY_DYNAMIC_DISPATCH(ShadePhongMapsT)(uniforms, range);
 }
 }  // namespace nacre

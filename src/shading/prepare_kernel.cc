@@ -10,7 +10,6 @@
 #include "hwy/highway.h"
 
 #include "shading/microfacet_albedo-inl.h"
-#include "shading/textures.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -40,59 +39,35 @@ HWY_INLINE FloatV Multiple(FloatTag d, Compensation compensation, const AlbedoV&
   return hn::Zero(d);
 }
 
-// A model's numbers for all hits: those of the dielectric, which covers the base.
-struct SameForAll {
-  const MicrofacetModel& model;
-  float f90, multiple_scale, f0[3], f_multiple[3];  // rounded once
+// The numbers of hits: one model's for all of them, or each hit's. Those of the dielectric, which
+// covers the base.
+template <class Number>
+struct Numbers {
+  const PrepareUniforms<Number>& uniforms;
 
-  explicit SameForAll(const MicrofacetModel& of)
-      : model(of),
-        f90(static_cast<float>(of.dielectric_f90)),
-        multiple_scale(static_cast<float>(of.multiple)) {
-    for (int c = 0; c < 3; ++c) {
-      f0[c] = static_cast<float>(of.dielectric_f0[c]);
-      f_multiple[c] = static_cast<float>(of.dielectric_f_multiple[c]);
-    }
-  }
-  HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t, FloatV n_dot_v) const {
-    return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
-  }
-  HWY_INLINE AlbedoV Albedo(FloatTag d, size_t, const AlbedoVariablesV<FloatV>& x) const {
-    return EvaluateAlbedo(d, model, hn::Set(d, f90), x);
-  }
-  HWY_INLINE FloatV MultipleScale(FloatTag d, size_t) const { return hn::Set(d, multiple_scale); }
-  HWY_INLINE FloatV F0(FloatTag d, size_t, int c) const { return hn::Set(d, f0[c]); }
-  HWY_INLINE FloatV FMultiple(FloatTag d, size_t, int c) const { return hn::Set(d, f_multiple[c]); }
-};
-
-// Those that maps give to each hit.
-struct ByHit {
-  const MicrofacetModel& model;
-  const HitTextures& t;
-  bool own_fits;
-  HWY_INLINE AlbedoFitLanes Fit(size_t i) const {
-    return FitAt(t.fit.data() + i, HitTextures::kFitStride, model.shadowing);
-  }
   HWY_INLINE AlbedoVariablesV<FloatV> Variables(FloatTag d, size_t i, FloatV n_dot_v) const {
-    if (!own_fits) return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
-    return ComputeAlbedoVariables(d, Fit(i).shape, n_dot_v);
+    const MicrofacetModel& model = uniforms.model;
+    if (uniforms.fit == nullptr) {
+      return ComputeAlbedoVariables(d, model.albedo.lobe.shape, n_dot_v);
+    }
+    return ComputeAlbedoVariables(
+        d, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing).shape, n_dot_v);
   }
   HWY_INLINE AlbedoV Albedo(FloatTag d, size_t i, const AlbedoVariablesV<FloatV>& x) const {
-    const FloatV f90 = hn::LoadU(d, t.dielectric_f90.data() + i);
-    if (!own_fits) return EvaluateAlbedo(d, model, f90, x);
-    return EvaluateAlbedo(d, model, Fit(i), f90, x);
+    const MicrofacetModel& model = uniforms.model;
+    const FloatV f90 = NumberAt(d, uniforms.dielectric_f90, i);
+    if (uniforms.fit == nullptr) return EvaluateAlbedo(d, model, f90, x);
+    return EvaluateAlbedo(d, model, FitAt(uniforms.fit + i, uniforms.fit_stride, model.shadowing),
+                          f90, x);
   }
   HWY_INLINE FloatV MultipleScale(FloatTag d, size_t i) const {
-    return hn::LoadU(d, t.multiple_scale.data() + i);
-  }
-  static HWY_INLINE FloatV Channel(FloatTag d, const Soa3<float>& soa, size_t i, int c) {
-    return hn::LoadU(d, (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data() + i);
+    return NumberAt(d, uniforms.multiple, i);
   }
   HWY_INLINE FloatV F0(FloatTag d, size_t i, int c) const {
-    return Channel(d, t.dielectric_f0, i, c);
+    return NumberAt(d, uniforms.dielectric_f0[c], i);
   }
   HWY_INLINE FloatV FMultiple(FloatTag d, size_t i, int c) const {
-    return Channel(d, t.dielectric_f_multiple, i, c);
+    return NumberAt(d, uniforms.dielectric_f_multiple[c], i);
   }
 };
 
@@ -182,13 +157,14 @@ HWY_INLINE void PrepareRange(const MicrofacetModel& model, const Numbers& number
   }
 }
 
-void PrepareMicrofacetT(const MicrofacetModel& model, size_t begin, size_t end, Surface* surface) {
-  PrepareRange(model, SameForAll{model}, begin, end, surface);
+void PrepareMicrofacetT(const PrepareUniforms<float>& uniforms, size_t begin, size_t end,
+                        Surface* surface) {
+  PrepareRange(uniforms.model, Numbers<float>{uniforms}, begin, end, surface);
 }
 
-void PrepareMicrofacetMapsT(const MicrofacetModel& model, const HitTextures& textures,
-                            bool own_fits, size_t begin, size_t end, Surface* surface) {
-  PrepareRange(model, ByHit{model, textures, own_fits}, begin, end, surface);
+void PrepareMicrofacetMapsT(const PrepareUniforms<float*>& uniforms, size_t begin, size_t end,
+                            Surface* surface) {
+  PrepareRange(uniforms.model, Numbers<float*>{uniforms}, begin, end, surface);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -199,12 +175,13 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(PrepareMicrofacetT);
 HWY_EXPORT(PrepareMicrofacetMapsT);
-void PrepareMicrofacet(const MicrofacetModel& model, size_t begin, size_t end, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetT)(model, begin, end, surface);
+void PrepareMicrofacet(const PrepareUniforms<float>& uniforms, size_t begin, size_t end,
+                       Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetT)(uniforms, begin, end, surface);
 }
-void PrepareMicrofacetMaps(const MicrofacetModel& model, const HitTextures& textures, bool own_fits,
-                           size_t begin, size_t end, Surface* surface) {
-  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetMapsT)(model, textures, own_fits, begin, end, surface);
+void PrepareMicrofacet(const PrepareUniforms<float*>& uniforms, size_t begin, size_t end,
+                       Surface* surface) {
+  HWY_DYNAMIC_DISPATCH(PrepareMicrofacetMapsT)(uniforms, begin, end, surface);
 }
 }  // namespace nacre
 #endif

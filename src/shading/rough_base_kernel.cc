@@ -61,8 +61,7 @@ HWY_EXPORT(SpreadBaseMapsT);
 void SpreadBase(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to) {
   HWY_DYNAMIC_DISPATCH(SpreadBaseT)(form, roughness, range, to);
 }
-void SpreadBaseMaps(DiffuseForm form, const float* roughness, const ShadeRange& range,
-                    BaseSpread* to) {
+void SpreadBase(DiffuseForm form, const float* roughness, const ShadeRange& range, BaseSpread* to) {
   HWY_DYNAMIC_DISPATCH(SpreadBaseMapsT)(form, roughness, range, to);
 }
 }  // namespace nacre

@@ -14,10 +14,6 @@
 namespace nacre {
 namespace {
 
-Reflection ReflectModel(const LambertModel& model, const Vec3d& n, const Vec3d& l, const Vec3d&) {
-  return {model.diffuse * (n ^ l), Rgb(0)};
-}
-
 // A diffuse model's share of Lambert's: of channel c, with EonMultipleRatio of its colour.
 double SpreadOf(DiffuseForm form, const Angles<double>& a, double roughness, double ratio) {
   switch (form) {
@@ -32,8 +28,7 @@ double SpreadOf(DiffuseForm form, const Angles<double>& a, double roughness, dou
   return 1;
 }
 
-Reflection ReflectModel(const RoughMatteModel& model, const Vec3d& n, const Vec3d& l,
-                        const Vec3d& v) {
+Reflection ReflectModel(const MatteModel& model, const Vec3d& n, const Vec3d& l, const Vec3d& v) {
   const Angles<double> a = ComputeAngles(n, l, v);
   Reflection out;
   for (int c = 0; c < 3; ++c) {

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <type_traits>
 #include <variant>
 
 #include "base/overloaded.h"
+#include "shading/derive.h"
+#include "shading/hit_parameters.h"
 #include "shading/kernels.h"
 #include "shading/mapped.h"
 
@@ -21,77 +23,66 @@ void Assign(const Rgb& from, float (&to)[3]) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
 }
 
-LambertLight MakeLight(const LambertModel& model, const Rgb& color) {
-  LambertLight light;
+MatteLight<float> MakeLight(const MatteModel& model, const Rgb& color) {
+  MatteLight<float> light;
   Assign(model.diffuse * color, light.diffuse);
   return light;
 }
 
-LambertLight MakeLight(const RoughMatteModel& model, const Rgb& color) {
-  return MakeLight(LambertModel{model.diffuse}, color);
-}
-
-PhongLight MakeLight(const PhongFamilyModel& model, const Rgb& color) {
-  PhongLight light;
+PhongLight<float> MakeLight(const PhongFamilyModel& model, const Rgb& color) {
+  PhongLight<float> light;
   Assign(model.diffuse * color, light.diffuse);
   Assign(model.specular * color, light.specular);
   return light;
 }
 
 // What the model's curve and compensation ask for alone: a batch has few hits of each material.
-MicrofacetLight MakeLight(const MicrofacetModel& model, const Rgb& color) {
-  MicrofacetLight light;
-  const Rgb specular = model.delta ? Rgb(0, 0, 0) : color;
-  const Rgb diffuse = model.diffuse * color;
-  if (model.fresnel == FresnelForm::kSchlick) {
-    const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
-    Assign(model.f0 * specular, light.specular_f0);
-    Assign((Rgb(model.f90) - model.f0) * specular, light.specular_rise);
-    Assign(coupled ? (Rgb(1) - model.f0) * diffuse : diffuse, light.diffuse_normal);
-    Assign(coupled ? (1 - model.f90) * diffuse : Rgb(0), light.diffuse_grazing);
-    if (model.compensation == Compensation::kTurquin) {
-      Assign(model.turquin_f0 * specular, light.turquin_f0);
-      Assign((model.turquin_f90 - model.turquin_f0) * specular, light.turquin_rise);
+MicrofacetLight<float> MakeLight(const MicrofacetModel& model, const Rgb& color) {
+  MicrofacetLight<float> light;
+  const double not_delta = model.delta ? 0 : 1;
+  const bool kulla_conty = model.compensation == Compensation::kKullaConty;
+  for (int c = 0; c < 3; ++c) {
+    const double specular = not_delta * color[c];
+    if (model.fresnel == FresnelForm::kSchlick) {
+      const MicrofacetColors at = ColorsOf(model, c);
+      PutSchlickLight(TimesLight(model, at, at.diffuse, color[c], not_delta), c, Rounded(), &light);
+      if (model.compensation == Compensation::kTurquin) {
+        PutTurquinLight(at, specular, c, Rounded(), &light);
+      }
+    } else {
+      light.diffuse[c] = static_cast<float>(model.diffuse[c] * color[c]);
+      light.specular[c] = static_cast<float>(specular);
     }
-  } else {
-    Assign(diffuse, light.diffuse);
-    Assign(specular, light.specular);
-  }
-  if (model.compensation == Compensation::kKullaConty) {
-    Assign(model.f_multiple * color, light.multiple);
+    if (kulla_conty) light.multiple[c] = static_cast<float>(model.f_multiple[c] * color[c]);
   }
   return light;
 }
 
-MicrofacetUniforms MakeUniforms(const MicrofacetModel& model, const MicrofacetLight* lights) {
-  const double alpha = model.delta ? 1 : model.alpha;
-  MicrofacetUniforms uniforms{};
-  uniforms.model = &model;
-  uniforms.lights = lights;
-  uniforms.alpha = static_cast<float>(alpha);
-  uniforms.pi_over_alpha2 = static_cast<float>(M_PI / (alpha * alpha));
-  uniforms.schlick_k = static_cast<float>(model.schlick_k);
-  Assign(model.f0, uniforms.f0);
-  uniforms.is_bright = std::min({uniforms.f0[0], uniforms.f0[1], uniforms.f0[2]}) >= kBrightF0;
-  Assign(model.dielectric_f0, uniforms.dielectric_f0);
-  uniforms.dielectric_f90 = static_cast<float>(model.dielectric_f90);
-  if (model.fresnel == FresnelForm::kF82) {
-    uniforms.metallic = static_cast<float>(model.metallic);
-    Assign(model.metal_f0, uniforms.metal_f0);
-    Assign(model.f82_slope, uniforms.f82_slope);
-  }
-  if (model.fresnel == FresnelForm::kDielectric || model.fresnel == FresnelForm::kConductor) {
-    Assign(model.eta, uniforms.eta);
-    Assign(model.k, uniforms.k);
-  }
-  if (model.compensation == Compensation::kKullaConty) {
-    Assign(model.dielectric_f_multiple, uniforms.dielectric_f_multiple);
-  }
-  if (model.base_form != DiffuseForm::kLambert) Assign(model.base_ratio, uniforms.base_ratio);
-  return uniforms;
+// Of hits with constants of their own; else `textures` is null.
+struct RunMaps {
+  const HitTextures* textures = nullptr;
+  bool widths = false;  // ShadingMaterial::mapped_width
+};
+
+// By the kernel of a model, whose constants are all hits' or each hit's. `lights` are those of the
+// range.
+template <class Number>
+void ShadeGroup(const MatteModel& model, const MatteConstants<Number>& constants,
+                const MatteLight<Number>* lights, const ShadeRange& range, const RunMaps&,
+                NarrowLobes*) {
+  ShadeMatte(MatteUniforms<Number>{model.form, constants, lights}, range);
 }
 
-void ShadeByCurve(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
+template <class Number>
+void ShadeGroup(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
+                const PhongLight<Number>* lights, const ShadeRange& range, const RunMaps& maps,
+                NarrowLobes* scratch) {
+  const NarrowLobes* const narrow = NarrowTerms(model, range, maps.textures, scratch);
+  ShadePhong(PhongUniforms<Number>{model.model, constants, lights, narrow}, range);
+}
+
+template <class Number>
+void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.model->fresnel) {
     case FresnelForm::kSchlick:
       return ShadeSchlick(uniforms, range);
@@ -104,66 +95,113 @@ void ShadeByCurve(const MicrofacetUniforms& uniforms, const ShadeRange& range) {
   }
 }
 
-// Calls shade(lights, range) for groups of at most `at_once` lights of the range, with the
-// constants of model and light.
-template <class Model, class Shade>
-void ForEachGroup(const Model& model, const ShadeRange& range, size_t at_once, const Shade& shade) {
+template <class Number>
+void ShadeGroup(const MicrofacetModel& model, const MicrofacetConstants<Number>& constants,
+                const MicrofacetLight<Number>* lights, const ShadeRange& range, const RunMaps& maps,
+                NarrowLobes* scratch) {
+  MicrofacetUniforms<Number> uniforms{constants, &model, lights};
+  if constexpr (std::is_same_v<Number, float>) {
+    const auto& f0 = constants.f0;
+    uniforms.is_bright = std::min({f0[0], f0[1], f0[2]}) >= kBrightF0;
+  }
+  Assign(model.eta, uniforms.eta);
+  Assign(model.k, uniforms.k);
+  const NarrowLobes* const narrow = NarrowTerms(model, range, maps.textures, scratch);
+  if (narrow != nullptr) uniforms.narrow = narrow->first.data();
+  if (maps.widths) uniforms.fit = maps.textures->fit.data();
+  uniforms.fit_stride = HitTextures::kStride;
+  if (model.base_form != DiffuseForm::kLambert) {
+    SpreadBase(model.base_form, constants.base.roughness, range, &scratch->base);
+    uniforms.spread = &scratch->base;
+  }
+  ShadeByCurve(uniforms, range);
+}
+
+// Whether a kernel has room for the terms of one light only.
+bool TakesOneLight(const MatteModel&) { return false; }
+bool TakesOneLight(const PhongFamilyModel& model) { return model.double_terms; }
+bool TakesOneLight(const MicrofacetModel& model) {
+  return model.double_terms || model.base_form != DiffuseForm::kLambert;
+}
+
+MatteConstants<float> ConstantsOf(const MatteModel& model) {
+  MatteConstants<float> constants;
+  Assign(model.ratio, constants.ratio);
+  constants.roughness = static_cast<float>(model.roughness);
+  return constants;
+}
+PhongConstants<float> ConstantsOf(const PhongFamilyModel& model) {
+  return {static_cast<float>(model.shininess)};
+}
+const MicrofacetConstants<float>& ConstantsOf(const MicrofacetModel& model) {
+  return model.constants;
+}
+
+// The part of a range under some of its lights, those before which have been shaded by.
+ShadeRange Under(const ShadeRange& range, size_t first, size_t count) {
+  ShadeRange group = range;
+  group.lights = range.lights.subspan(first, count);
+  if (first > 0) group.leaves = Leaves::kAddedParts;
+  return group;
+}
+
+// Hits that share the constants of their material.
+template <class Model>
+void Shade(const Model& model, const ShadeRange& range, NarrowLobes* scratch) {
+  const size_t at_once = TakesOneLight(model) ? 1 : kLightsAtOnce;
+  const auto& constants = ConstantsOf(model);
   std::array<decltype(MakeLight(model, Rgb())), kLightsAtOnce> lights;
   for (size_t first = 0; first < range.lights.size(); first += at_once) {
     const size_t count = std::min(at_once, range.lights.size() - first);
     for (size_t k = 0; k < count; ++k) {
       lights[k] = MakeLight(model, range.lights[first + k].light->color);
     }
-    ShadeRange group = range;
-    group.lights = range.lights.subspan(first, count);
-    if (first > 0) group.leaves = Leaves::kAddedParts;
-    shade(lights.data(), group);
+    ShadeGroup(model, constants, lights.data(), Under(range, first, count), {}, scratch);
   }
 }
 
-void Shade(const LambertModel& lambert, const ShadeRange& range) {
-  ForEachGroup(lambert, range, kLightsAtOnce, ShadeLambert);
-}
-
-void Shade(const RoughMatteModel& model, const ShadeRange& range) {
-  ForEachGroup(
-      model, range, kLightsAtOnce, [&](const LambertLight* lights, const ShadeRange& group) {
-        RoughMatteUniforms uniforms{model.form, static_cast<float>(model.roughness), lights, {}};
-        Assign(model.ratio, uniforms.ratio);
-        ShadeRoughMatte(uniforms, group);
-      });
-}
-
-void Shade(const PhongFamilyModel& phong, const ShadeRange& range, NarrowLobes* scratch) {
-  const size_t at_once = phong.double_terms ? 1 : kLightsAtOnce;
-  ForEachGroup(phong, range, at_once, [&](const PhongLight* lights, const ShadeRange& group) {
-    PhongUniforms uniforms{phong.model, static_cast<float>(phong.shininess), lights, nullptr};
-    if (phong.double_terms) {
-      NarrowPhong(phong.model, group, scratch);
-      uniforms.narrow = scratch;
-    }
-    ShadePhong(uniforms, group);
-  });
-}
-
-void Shade(const MicrofacetModel& model, const ShadeRange& range, NarrowLobes* scratch) {
-  const bool rough_base = model.base_form != DiffuseForm::kLambert;
-  const size_t at_once = model.double_terms || rough_base ? 1 : kLightsAtOnce;
-  ForEachGroup(model, range, at_once, [&](const MicrofacetLight* lights, const ShadeRange& group) {
-    MicrofacetUniforms uniforms = MakeUniforms(model, lights);
-    if (model.double_terms) {
-      NarrowGgx(model.alpha, group, scratch);
-      uniforms.narrow = scratch->first.data();
-    }
-    if (rough_base) {
-      SpreadBase(model.base_form, static_cast<float>(model.base_roughness), group, &scratch->base);
-      uniforms.spread = &scratch->base;
-    }
-    ShadeByCurve(uniforms, group);
-  });
+// Hits with constants of their own, one light after the other.
+template <template <class> class Constants, template <class> class Light, class Model>
+void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
+                 NarrowLobes* scratch, HitTextures* maps) {
+  const auto constants = ColumnsIn<Constants<float*>>(maps->constants);
+  const auto products = ColumnsIn<Light<float*>>(maps->products);
+  const RunMaps run{maps, material.mapped_width};
+  for (size_t k = 0; k < range.lights.size(); ++k) {
+    MakeProducts({material, range.lights[k].light->color, range.begin, range.end}, maps);
+    ShadeGroup(model, constants, &products, Under(range, k, 1), run, scratch);
+  }
 }
 
 }  // namespace
+
+const NarrowLobes* NarrowTerms(const PhongFamilyModel& model, const ShadeRange& range,
+                               const HitTextures* maps, NarrowLobes* scratch) {
+  if (maps == nullptr) {
+    if (!model.double_terms) return nullptr;
+    NarrowPhong(model.model, range, scratch);
+    return scratch;
+  }
+  const double* const exponents = NumbersOf(*maps, MappedNumber::kWidth);
+  const auto is_narrow = [](double n) { return n > kDoubleTermsShininess; };
+  if (std::none_of(exponents + range.begin, exponents + range.end, is_narrow)) return nullptr;
+  NarrowPhong(model.model, exponents, range, scratch);
+  return scratch;
+}
+
+const NarrowLobes* NarrowTerms(const MicrofacetModel& model, const ShadeRange& range,
+                               const HitTextures* maps, NarrowLobes* scratch) {
+  if (maps == nullptr) {
+    if (!model.double_terms) return nullptr;
+    NarrowGgx(model.alpha, range, scratch);
+    return scratch;
+  }
+  const double* const alpha = maps->narrow_alpha.data();
+  const auto is_narrow = [](double a) { return a >= 0; };
+  if (std::none_of(alpha + range.begin, alpha + range.end, is_narrow)) return nullptr;
+  NarrowGgx(alpha, range, scratch);
+  return scratch;
+}
 
 bool EvaluatedInPlace(const ShadingLight& light) {
   return light.form == LightForm::kDirectional || light.form == LightForm::kInverseSquare;
@@ -173,21 +211,40 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
                 const HitTextures* textures) {
   const auto* microfacet = std::get_if<MicrofacetModel>(&material.model);
   if (microfacet == nullptr || !microfacet->prepared) return;
-  if (HasMappedModel(material)) {
-    PrepareMicrofacetMaps(*microfacet, *textures, HasOwnFits(material), begin, end, surface);
-  } else {
-    PrepareMicrofacet(*microfacet, begin, end, surface);
+  if (!material.mapped_model) {
+    PrepareMicrofacet(PrepareUniforms<float>{microfacet->constants, *microfacet, nullptr, 0}, begin,
+                      end, surface);
+    return;
   }
+  const float* const fit = material.mapped_width ? textures->fit.data() : nullptr;
+  PrepareMicrofacet(
+      PrepareUniforms<float*>{ColumnsIn<MicrofacetConstants<float*>>(textures->constants),
+                              *microfacet, fit, HitTextures::kStride},
+      begin, end, surface);
 }
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               NarrowLobes* scratch, ReflectedRadiance* radiance) {
   const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.leaves};
-  if (HasMappedModel(material)) return ShadeMapped(material, range, scratch, lit.textures);
+  if (!material.mapped_model) {
+    std::visit(
+        Overloaded{[](std::monostate) {}, [&](const auto& model) { Shade(model, range, scratch); }},
+        material.model);
+    return;
+  }
+  HitTextures* const maps = lit.textures;
   std::visit(
-      Overloaded{[](std::monostate) {}, [&](const LambertModel& lambert) { Shade(lambert, range); },
-                 [&](const RoughMatteModel& matte) { Shade(matte, range); },
-                 [&](const auto& model) { Shade(model, range, scratch); }},
+      Overloaded{[](std::monostate) {},
+                 [&](const MatteModel& model) {
+                   ShadeMapped<MatteConstants, MatteLight>(material, model, range, scratch, maps);
+                 },
+                 [&](const PhongFamilyModel& model) {
+                   ShadeMapped<PhongConstants, PhongLight>(material, model, range, scratch, maps);
+                 },
+                 [&](const MicrofacetModel& model) {
+                   ShadeMapped<MicrofacetConstants, MicrofacetLight>(material, model, range,
+                                                                     scratch, maps);
+                 }},
       material.model);
 }
 

@@ -8,18 +8,6 @@
 
 namespace nacre {
 
-// What a map multiplies.
-enum class MapRole : uint8_t {
-  kDiffuse,            // albedo, the Phong family's color, base_color
-  kSpecular,           // ks; dielectric_f0
-  kSpecularWeight,     // `specular`
-  kWidth,              // shininess; roughness of conductors and dielectrics
-  kMetallicRoughness,  // green: roughness, blue: metallic
-  kEmission,
-  kShown,  // emission that a map may have multiplied already
-};
-TextureId MapOf(const Material& material, MapRole role);
-
 // Fills point, inverse_size, geometric, side and, where maps turn normals, unturned
 // (surface_points.cc).
 void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textures);
@@ -47,12 +35,10 @@ void TurnNormals(const TexturedRun& run, float middle, float scale, bool frames,
 void TurnNormalsBySlopes(const TexturedRun& run, double distance, const HitTextures& textures,
                          HitBatch* hits, Surface* surface);
 
-// The material's numbers at every hit, each map's values multiplied to them, and what shading and
-// layers make of them (mapped_kernel.cc).
-void StartMaterial(const TexturedRun& run, HitTextures* textures);
-void ApplyMap(const TexturedRun& run, MapRole role, HitTextures* textures);
-void FinishMaterial(const TexturedRun& run, HitTextures* textures);
-// Of microfacet materials (mapped_microfacet_kernel.cc).
-void FinishMicrofacet(const TexturedRun& run, HitTextures* textures);
+// HitTextures::numbers: the material's own at every hit, then the texels that were looked up last
+// multiplied to one of them; and what shading and layers make of all of them (mapped_kernel.cc).
+void StartNumbers(const TexturedRun& run, HitTextures* textures);
+void MultiplyNumber(const TexturedRun& run, const MapTarget& target, HitTextures* textures);
+void FinishNumbers(const TexturedRun& run, HitTextures* textures);
 
 }  // namespace nacre

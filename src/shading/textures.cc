@@ -79,17 +79,20 @@ class RunTexturer {
     const Material& material = *run_.material.textured;
     if (material.normal_map.texture.valid()) TurnByNormalMap(material.normal_map);
     if (material.bump_map.texture.valid()) TurnByBumpMap(material.bump_map);
-    StartMaterial(run_, t_);
-    if (material.vertex_colors == VertexColors::kBase) ApplyVertexColors(MapRole::kDiffuse);
-    for (const MapRole role : {MapRole::kDiffuse, MapRole::kSpecular, MapRole::kSpecularWeight,
-                               MapRole::kWidth, MapRole::kMetallicRoughness, MapRole::kEmission}) {
-      const TextureId id = MapOf(material, role);
-      if (!id.valid()) continue;
-      LookUp(id);
-      ApplyMap(run_, role, t_);
+    const MaterialModel& model = *ModelOf(material);
+    StartNumbers(run_, t_);
+    if (material.vertex_colors == VertexColors::kBase) {
+      MultiplyByVertexColors(model, MappedNumber::kColor);
     }
-    if (material.vertex_colors == VertexColors::kEmission) ApplyVertexColors(MapRole::kShown);
-    FinishMaterial(run_, t_);
+    for (const MaterialMap& map : model.maps) {
+      if (map.target_count == 0 || !map.get(material).valid()) continue;
+      LookUp(map.get(material));
+      for (const MapTarget& target : TargetsOf(map)) MultiplyNumber(run_, target, t_);
+    }
+    if (material.vertex_colors == VertexColors::kEmission) {
+      MultiplyByVertexColors(model, MappedNumber::kEmission);
+    }
+    FinishNumbers(run_, t_);
   }
 
  private:
@@ -117,9 +120,14 @@ class RunTexturer {
     SampleTexture(*texture.image, texture.sampling, Points(), 3, to);
   }
 
-  void ApplyVertexColors(MapRole role) {
-    FindVertexColors(run_, *hits_, t_);
-    ApplyMap(run_, role, t_);
+  void MultiplyByVertexColors(const MaterialModel& model, MappedNumber number) {
+    for (const MaterialMap& map : model.maps) {
+      for (const MapTarget& target : TargetsOf(map)) {
+        if (target.number != number) continue;
+        FindVertexColors(run_, *hits_, t_);
+        return MultiplyNumber(run_, target, t_);
+      }
+    }
   }
 
   void TurnByNormalMap(const NormalMap& map) {
@@ -146,41 +154,6 @@ class RunTexturer {
 };
 
 }  // namespace
-
-TextureId MapOf(const Material& material, MapRole role) {
-  if (role == MapRole::kEmission) return material.emission_map;
-  if (const auto* lambert = std::get_if<LambertMaterial>(&material.model)) {
-    return role == MapRole::kDiffuse ? lambert->albedo_map : TextureId{};
-  }
-  if (const auto* rough = std::get_if<OrenNayarMaterial>(&material.model)) {
-    return role == MapRole::kDiffuse ? rough->albedo_map : TextureId{};
-  }
-  if (const auto* burley = std::get_if<BurleyMaterial>(&material.model)) {
-    return role == MapRole::kDiffuse ? burley->albedo_map : TextureId{};
-  }
-  if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
-    return role == MapRole::kDiffuse    ? phong->diffuse_map
-           : role == MapRole::kSpecular ? phong->specular_map
-           : role == MapRole::kWidth    ? phong->shininess_map
-                                        : TextureId{};
-  }
-  if (const auto* m = std::get_if<MetallicRoughnessMaterial>(&material.model)) {
-    return role == MapRole::kDiffuse             ? m->base_color_map
-           : role == MapRole::kSpecular          ? m->specular_color_map
-           : role == MapRole::kSpecularWeight    ? m->specular_map
-           : role == MapRole::kMetallicRoughness ? m->metallic_roughness_map
-                                                 : TextureId{};
-  }
-  if (const auto* conductor = std::get_if<ConductorMaterial>(&material.model)) {
-    return role == MapRole::kWidth ? conductor->roughness_map : TextureId{};
-  }
-  if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
-    return role == MapRole::kDiffuse ? dielectric->base_color_map
-           : role == MapRole::kWidth ? dielectric->roughness_map
-                                     : TextureId{};
-  }
-  return {};
-}
 
 TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
                              int threads) {

@@ -3,11 +3,14 @@
 // they give at the hits of a batch.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <memory>
 #include <vector>
 
 #include "hit/batch.h"
 #include "hit/camera_frame.h"
+#include "scene/material_parameters.h"
 #include "scene/primitives.h"
 #include "scene/scene.h"
 #include "scene/tangents.h"
@@ -80,41 +83,46 @@ struct HitTextures {
 
   Soa3<float> texels;  // looked up last
 
-  // What the maps make of a material at each hit: what MicrofacetModel and PhongFamilyModel have of
-  // those names; `specular` of the former is F0. Not rounded: exact_...
-  Soa3<double> diffuse, specular;
-  AlignedArray<double> width{kBatchCapacity};  // roughness; or the Phong family's exponent
-  AlignedArray<double> metallic{kBatchCapacity};
-  AlignedArray<double> exact_f90{kBatchCapacity};
-  AlignedArray<double> exact_dielectric_f90{kBatchCapacity};
-  Soa3<double> exact_dielectric_f0, exact_metal_f0, exact_slope, exact_f_multiple;
-  Soa3<float> albedo, ambient, emission;  // for the layers of these names
-  // The constants of models, rounded: alpha or exponent, pi / alpha^2, Schlick's k; 0 for mirrors
-  // and else 1.
-  AlignedArray<float> alpha{kBatchCapacity}, pi_over_alpha2{kBatchCapacity};
-  AlignedArray<float> schlick_k{kBatchCapacity}, not_delta{kBatchCapacity};
-  AlignedArray<double> double_alpha{kBatchCapacity};  // of narrow lobes; -1: not narrow
-  Soa3<float> f0, dielectric_f0, dielectric_f_multiple, metal_f0, f82_slope;
-  AlignedArray<float> dielectric_f90{kBatchCapacity}, rounded_metallic{kBatchCapacity};
-  // Of the mix, which samples are shared out by.
-  AlignedArray<float> f90{kBatchCapacity};
-  Soa3<float> f_multiple;
-  // Of rough matte surfaces and bases: EonMultipleRatio of their colour; a base's roughness.
-  Soa3<float> base_ratio;
-  AlignedArray<float> base_roughness{kBatchCapacity};
-  AlignedArray<float> multiple_scale{kBatchCapacity};  // kKullaConty: MicrofacetModel::multiple
-  // Coefficients of albedo fits, hit by hit: entry k of hit i is at [k * kFitStride + i].
+  // The parameters of the material at each hit, its own times the maps', by MappedNumber: of those
+  // that are no colours in x. What follows is derived from them (derive.h).
+  std::array<Soa3<double>, kMappedNumbers> numbers;
+  // Of Kulla and Conty's compensation: AlbedoAverages of each hit's lobe. Of the Phong family: what
+  // its convention multiplies the lobe by.
+  AlignedArray<double> one_average{kBatchCapacity}, schlick_average{kBatchCapacity};
+  AlignedArray<double> dielectric_average{kBatchCapacity}, phong_scale{kBatchCapacity};
+  AlignedArray<double> narrow_alpha{kBatchCapacity};  // LobeWidth::narrow_alpha
+  Soa3<float> albedo, ambient, emission;              // for the layers of these names
+
+  // Columns of numbers, hit by hit: entry k of hit i is at [k * kStride + i].
+  static constexpr size_t kStride = kBatchCapacity + 3 * kBatchPadding;  // no power of two
+  // The coefficients of albedo fits: AlbedoShape's four, then two polynomials.
   static constexpr size_t kFitEntries = 4 + 2 * kAlbedoTerms;
-  static constexpr size_t kFitStride = kBatchCapacity + 3 * kBatchPadding;  // no power of two
-  AlignedArray<float> fit{kFitEntries * kFitStride};
-  // Products with one light; see MicrofacetLightOf.
-  Soa3<float> by_diffuse, by_specular, by_specular_f0, by_specular_rise, by_diffuse_normal,
-      by_diffuse_grazing, by_turquin_f0, by_turquin_rise, by_multiple;
+  AlignedArray<float> fit{kFitEntries * kStride};
+  // The constants of models, and their products with one light, of hits of whichever model: each
+  // hit has one.
+  AlignedArray<float> constants{ColumnsOf<MicrofacetConstants<float*>>() * kStride};
+  AlignedArray<float> products{ColumnsOf<MicrofacetLight<float*>>() * kStride};
   // The hits that the products were last made for, none if the end is 0, and the light's colour:
   // lobes are shaded anew along mirrored directions, and by the unit light of several strategies.
   size_t products_begin = 0, products_end = 0;
   Rgb products_color{0, 0, 0};
+
+  // How many columns a struct of pointers to columns has.
+  template <class Columns>
+  static constexpr size_t ColumnsOf() {
+    return sizeof(Columns) / sizeof(float*);
+  }
 };
+
+// The columns of `Columns`, which is made of nothing but float*, one behind the other in a pool.
+template <class Columns>
+Columns ColumnsIn(const AlignedArray<float>& pool) {
+  std::array<float*, HitTextures::ColumnsOf<Columns>()> columns;
+  for (size_t k = 0; k < columns.size(); ++k) {
+    columns[k] = const_cast<float*>(pool.data()) + k * HitTextures::kStride;
+  }
+  return std::bit_cast<Columns>(columns);
+}
 
 // What a material with maps has at hits [begin, end) of the batch, all of it: looks the maps up,
 // turns the normals of `hits` and `surface` by normal and bump maps, and leaves the rest in

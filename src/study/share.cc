@@ -45,8 +45,6 @@ Vec3d InPlane(double cosine, double sign) {
   return {sign * std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
 }
 
-Rgb ShareOfModel(const LambertModel& model, ShareOf, double) { return model.diffuse * M_PI; }
-
 // Of channel c of the diffuse part, which has no narrow lobe.
 double DiffuseShare(const ShadingMaterial& material, ShareOf what, double cosine, int c) {
   const Vec3d normal(0, 0, 1);
@@ -58,7 +56,8 @@ double DiffuseShare(const ShadingMaterial& material, ShareOf what, double cosine
   });
 }
 
-Rgb ShareOfModel(const RoughMatteModel& model, ShareOf what, double cosine) {
+Rgb ShareOfModel(const MatteModel& model, ShareOf what, double cosine) {
+  if (model.form == DiffuseForm::kLambert) return model.diffuse * M_PI;
   ShadingMaterial material;
   material.model = model;
   Rgb share;

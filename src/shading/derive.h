@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/derive.h: from the parameters of a material to the constants of its model, in double.
+//
+// One function for each step, called once per material (material.cc) and, where maps give hits
+// parameters of their own, at each hit (mapped_kernel.cc): a map that is constant gives the bits of
+// the constant. They are inline and without branches on their numbers, so that the compiler makes
+// vectors of the loops over hits.
+#pragma once
+
+#include <cmath>
+
+#include "base/vec.h"
+#include "brdf/albedo.h"
+#include "brdf/eon.h"
+#include "brdf/fresnel.h"
+#include "brdf/fresnel_average.h"
+#include "brdf/ggx.h"
+#include "brdf/multi_scatter.h"
+#include "brdf/phong.h"
+#include "shading/constants.h"
+#include "shading/material.h"
+
+#if defined(__GNUC__)
+#define NACRE_DERIVE inline __attribute__((always_inline))
+#else
+#define NACRE_DERIVE inline
+#endif
+
+namespace nacre {
+
+// --- Diffuse surfaces and bases. One channel each. ---
+
+// What a diffuse colour reflects: albedo / pi.
+NACRE_DERIVE double DeriveDiffuse(double albedo) { return albedo * M_1_PI; }
+
+// --- The Phong family. ---
+
+// What the convention multiplies the lobe by.
+inline double DerivePhongScale(const PhongMaterial& material, double shininess) {
+  if (material.convention == PhongConvention::kClassic) return 1;
+  return material.model == PhongModel::kBlinnPhong ? BlinnNormalization(shininess)
+                                                   : PhongNormalization(shininess);
+}
+
+// One channel.
+struct PhongChannel {
+  double diffuse, specular;
+};
+NACRE_DERIVE PhongChannel DerivePhong(PhongConvention convention, double kd, double color,
+                                      double ks, double scale) {
+  const double over_pi = convention == PhongConvention::kRadiometric ? M_1_PI : 1;
+  return {kd * color * over_pi, ks * scale};
+}
+
+// --- Microfacet models. ---
+
+// What follows from the roughness of a lobe.
+struct LobeWidth {
+  double alpha;
+  bool delta;
+  double shown_alpha;   // 1 of a delta lobe
+  double schlick_k;     // (roughness + 1)^2 / 8
+  double narrow_alpha;  // of lobes whose terms are formed in double; else -1
+};
+NACRE_DERIVE LobeWidth DeriveWidth(double roughness) {
+  const double alpha = AlphaFromRoughness(roughness);
+  const bool delta = IsDeltaLobe(alpha);
+  return {.alpha = alpha,
+          .delta = delta,
+          .shown_alpha = delta ? 1 : alpha,
+          .schlick_k = (roughness + 1) * (roughness + 1) / 8,
+          .narrow_alpha = IsNarrow(roughness, alpha) ? alpha : -1};
+}
+
+// One channel of what lies under and over a lobe: the colour of the base, what that reflects, and
+// both Fresnel curves.
+struct MicrofacetColors {
+  double base_color;
+  double diffuse;  // base_color / pi, less what is metal
+  double metallic;
+  double dielectric_f0, dielectric_f90;
+  double metal_f0, f82_slope;
+};
+
+NACRE_DERIVE MicrofacetColors DeriveMetallicRoughness(double base_color, double metallic,
+                                                      double dielectric_f0, double specular,
+                                                      double f82_tint) {
+  return {.base_color = base_color,
+          .diffuse = base_color * ((1 - metallic) * M_1_PI),
+          .metallic = metallic,
+          .dielectric_f0 = dielectric_f0 * specular,
+          .dielectric_f90 = specular,
+          .metal_f0 = base_color,
+          .f82_slope = F82SlopeFromTint(base_color, f82_tint)};
+}
+
+// The Fresnel curve's numbers are the material's: f0 by FresnelF0.
+NACRE_DERIVE MicrofacetColors DeriveConductor(double f0, double f82_slope) {
+  return {.base_color = 0,
+          .diffuse = 0,
+          .metallic = 1,
+          .dielectric_f0 = 0,
+          .dielectric_f90 = 1,
+          .metal_f0 = f0,
+          .f82_slope = f82_slope};
+}
+
+NACRE_DERIVE MicrofacetColors DeriveDielectric(double base_color, double f0) {
+  return {.base_color = base_color,
+          .diffuse = DeriveDiffuse(base_color),
+          .metallic = 0,
+          .dielectric_f0 = f0,
+          .dielectric_f90 = 1,
+          .metal_f0 = 0,
+          .f82_slope = 0};
+}
+
+// F90 of the mix: 1, not nearly, of the default.
+NACRE_DERIVE double MixedF90(double dielectric_f90, double metallic) {
+  return 1 - (1 - dielectric_f90) * (1 - metallic);
+}
+
+// One channel of the mix of both curves, at normal and at grazing incidence; and of Turquin's
+// compensation (MicrofacetModel::turquin_f0).
+struct MixedCurve {
+  double f0, turquin_f0, turquin_f90;
+};
+NACRE_DERIVE MixedCurve MixCurves(const MicrofacetColors& at) {
+  const double m = at.metallic, not_metal = 1 - m;
+  const double dielectric = at.dielectric_f0, metal = at.metal_f0;
+  return {.f0 = not_metal * dielectric + m * metal,
+          .turquin_f0 = not_metal * dielectric * dielectric + m * metal * metal,
+          .turquin_f90 = not_metal * dielectric * at.dielectric_f90 + m * metal};
+}
+
+// Channel c of a model's.
+inline MicrofacetColors ColorsOf(const MicrofacetModel& model, int c) {
+  return {.base_color = 0,  // which the model has used
+          .diffuse = model.diffuse[c],
+          .metallic = model.metallic,
+          .dielectric_f0 = model.dielectric_f0[c],
+          .dielectric_f90 = model.dielectric_f90,
+          .metal_f0 = model.metal_f0[c],
+          .f82_slope = model.f82_slope[c]};
+}
+
+// Means over the hemisphere of a lobe's directional albedos: for F = 1, for Schlick's weight, and
+// of kDielectric for its curve.
+struct AlbedoAverages {
+  double one = 1, schlick = 0, dielectric = 0;
+};
+
+// The means of both curves over the hemisphere, F_avg, where they are Schlick's and F82's.
+struct CurveAverages {
+  double dielectric, metal;
+};
+NACRE_DERIVE CurveAverages DeriveAverages(const MicrofacetColors& at) {
+  return {AverageSchlick(at.dielectric_f0, at.dielectric_f90),
+          AverageF82(at.metal_f0, at.f82_slope)};
+}
+
+// Kulla and Conty 2017, one channel: what light that bounced more than once has left of the
+// dielectric's reflection, and of the mix; and the base, which their form scales by what the albedo
+// of its cover leaves, over the mean of that.
+struct KullaContyChannel {
+  double dielectric_f_multiple, f_multiple;
+  double diffuse;
+};
+NACRE_DERIVE KullaContyChannel DeriveKullaConty(const MicrofacetForm& form,
+                                                const MicrofacetColors& at,
+                                                const CurveAverages& curves,
+                                                const AlbedoAverages& albedo) {
+  const double of_dielectric = KullaContyFresnel(curves.dielectric, albedo.one);
+  const double of_metal = KullaContyFresnel(curves.metal, albedo.one);
+  const double single =
+      form.fresnel == FresnelForm::kDielectric
+          ? albedo.dielectric
+          : at.dielectric_f0 * (albedo.one - albedo.schlick) + at.dielectric_f90 * albedo.schlick;
+  const double left = 1 - single - of_dielectric * (1 - albedo.one);
+  const double scaled = left > 0 ? at.diffuse / (left > 0 ? left : 1) : 0;
+  return {.dielectric_f_multiple = of_dielectric,
+          .f_multiple = (1 - at.metallic) * of_dielectric + at.metallic * of_metal,
+          .diffuse = form.coupling == DiffuseCoupling::kAlbedoScaled ? scaled : at.diffuse};
+}
+
+// --- Layers. ---
+
+// One channel of what the layers of these names show: the albedo, and the share of ambient light.
+struct LayerColors {
+  double albedo, of_ambient;
+};
+// Of metallic-roughness, too: base_color is what both the diffuse base and a metal reflect. The
+// gloss of its dielectric is left out, as lessons do.
+NACRE_DERIVE LayerColors DeriveLayers(double color) { return {color, color}; }
+NACRE_DERIVE LayerColors DerivePhongLayers(double color, double kd, double ka) {
+  return {color * kd, color * ka};
+}
+// `gloss`: AverageDielectric of the index.
+NACRE_DERIVE LayerColors DeriveDielectricLayers(double color, double gloss) {
+  return {color, gloss + color * (1 - gloss)};
+}
+
+// --- Constants as kernels read them. put(number, place): Rounded of a material, AtHit of a hit.
+// ---
+
+struct Rounded {
+  void operator()(double number, float& to) const { to = static_cast<float>(number); }
+};
+struct AtHit {
+  size_t i;
+  NACRE_DERIVE void operator()(double number, float* to) const {
+    to[i] = static_cast<float>(number);
+  }
+};
+
+template <class Put, class Constants>
+NACRE_DERIVE void PutWidth(const LobeWidth& width, const Put& put, Constants* to) {
+  put(width.shown_alpha, to->alpha);
+  put(M_PI / (width.shown_alpha * width.shown_alpha), to->pi_over_alpha2);
+  put(width.delta ? 0 : 1, to->not_delta);
+  put(width.schlick_k, to->schlick_k);
+}
+
+// Those of channel c; those that channels share with the first.
+template <class Put, class Constants>
+NACRE_DERIVE void PutCurve(const MicrofacetColors& at, int c, const Put& put, Constants* to) {
+  put(MixCurves(at).f0, to->f0[c]);
+  put(at.dielectric_f0, to->dielectric_f0[c]);
+  if (c > 0) return;
+  put(MixedF90(at.dielectric_f90, at.metallic), to->f90);
+  put(at.dielectric_f90, to->dielectric_f90);
+}
+
+template <class Put, class Constants>
+NACRE_DERIVE void PutF82(const MicrofacetColors& at, int c, const Put& put, Constants* to) {
+  put(at.metal_f0, to->metal_f0[c]);
+  put(at.f82_slope, to->f82_slope[c]);
+  if (c == 0) put(at.metallic, to->metallic);
+}
+
+template <class Put, class Constants>
+NACRE_DERIVE void PutKullaConty(const KullaContyChannel& at, int c, const Put& put, Constants* to) {
+  put(at.f_multiple, to->f_multiple[c]);
+  put(at.dielectric_f_multiple, to->dielectric_f_multiple[c]);
+}
+
+// --- Products of a channel with a light. ---
+
+// What Schlick's curve makes of it; the names are MicrofacetLight's. `not_delta`: 0 for a delta
+// lobe, which punctual lights cannot show.
+struct SchlickLight {
+  double specular_f0, specular_rise, diffuse_normal, diffuse_grazing;
+};
+NACRE_DERIVE SchlickLight TimesLight(const MicrofacetForm& form, const MicrofacetColors& at,
+                                     double diffuse, double light, double not_delta) {
+  const bool coupled = form.coupling == DiffuseCoupling::kOneMinusFresnel;
+  const double f0 = MixCurves(at).f0, f90 = MixedF90(at.dielectric_f90, at.metallic);
+  const double lit = diffuse * light, specular = not_delta * light;
+  return {.specular_f0 = f0 * specular,
+          .specular_rise = (f90 - f0) * specular,
+          .diffuse_normal = coupled ? (1 - f0) * lit : lit,
+          .diffuse_grazing = coupled ? (1 - f90) * lit : 0};
+}
+
+template <class Put, class Light>
+NACRE_DERIVE void PutSchlickLight(const SchlickLight& from, int c, const Put& put, Light* to) {
+  put(from.specular_f0, to->specular_f0[c]);
+  put(from.specular_rise, to->specular_rise[c]);
+  put(from.diffuse_normal, to->diffuse_normal[c]);
+  put(from.diffuse_grazing, to->diffuse_grazing[c]);
+}
+
+// `specular`: the light, or 0 for a delta lobe.
+template <class Put, class Light>
+NACRE_DERIVE void PutTurquinLight(const MicrofacetColors& at, double specular, int c,
+                                  const Put& put, Light* to) {
+  const MixedCurve mix = MixCurves(at);
+  put(mix.turquin_f0 * specular, to->turquin_f0[c]);
+  put((mix.turquin_f90 - mix.turquin_f0) * specular, to->turquin_rise[c]);
+}
+
+}  // namespace nacre

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/hit_parameters.h: derive.h at hits whose parameters are HitTextures::numbers.
+#pragma once
+
+#include <variant>
+
+#include "scene/material.h"
+#include "shading/derive.h"
+#include "shading/textures.h"
+
+namespace nacre {
+
+template <class T>
+NACRE_DERIVE T* Channel(Soa3<T>& soa, int c) {
+  return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
+}
+template <class T>
+NACRE_DERIVE const T* Channel(const Soa3<T>& soa, int c) {
+  return (c == 0 ? soa.x : c == 1 ? soa.y : soa.z).data();
+}
+
+inline const double* NumbersOf(const HitTextures& t, MappedNumber number, int c = 0) {
+  return Channel(t.numbers[static_cast<size_t>(number)], c);
+}
+
+// One channel of microfacet materials: colors(i) and averages(colors) at hit i.
+struct MetallicRoughnessHits {
+  MetallicRoughnessHits(const MetallicRoughnessMaterial& material, const MicrofacetModel& model,
+                        const HitTextures& t, int c)
+      : base_color(NumbersOf(t, MappedNumber::kColor, c)),
+        metallic(NumbersOf(t, MappedNumber::kMetallic)),
+        dielectric_f0(NumbersOf(t, MappedNumber::kSpecularColor, c)),
+        specular(NumbersOf(t, MappedNumber::kSpecular)),
+        tint(model.fresnel == FresnelForm::kF82 ? material.f82_tint[c] : 1) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return DeriveMetallicRoughness(base_color[i], metallic[i], dielectric_f0[i], specular[i], tint);
+  }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors& at) const {
+    return DeriveAverages(at);
+  }
+
+  const double *base_color, *metallic, *dielectric_f0, *specular;
+  double tint;
+};
+
+struct ConductorHits {
+  ConductorHits(const ConductorMaterial&, const MicrofacetModel& model, const HitTextures&, int c)
+      : f0(model.metal_f0[c]), slope(model.f82_slope[c]), average(model.metal_f_average[c]) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t) const { return DeriveConductor(f0, slope); }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return {0, average}; }
+
+  double f0, slope, average;
+};
+
+struct DielectricHits {
+  DielectricHits(const DielectricMaterial&, const MicrofacetModel& model, const HitTextures& t,
+                 int c)
+      : base_color(NumbersOf(t, MappedNumber::kColor, c)),
+        f0(model.dielectric_f0[c]),
+        average(model.dielectric_f_average[c]) {}
+
+  NACRE_DERIVE MicrofacetColors Colors(size_t i) const {
+    return DeriveDielectric(base_color[i], f0);
+  }
+  NACRE_DERIVE CurveAverages Averages(const MicrofacetColors&) const { return {average, 0}; }
+
+  const double* base_color;
+  double f0, average;
+};
+
+// Calls use(hits) with that of a channel of the material, whose model is a MicrofacetModel.
+template <class Use>
+void VisitChannel(const ShadingMaterial& material, const HitTextures& t, int c, const Use& use) {
+  const auto& model = std::get<MicrofacetModel>(material.model);
+  const Material& of = *material.textured;
+  if (const auto* metallic = std::get_if<MetallicRoughnessMaterial>(&of.model)) {
+    use(MetallicRoughnessHits(*metallic, model, t, c));
+  } else if (const auto* conductor = std::get_if<ConductorMaterial>(&of.model)) {
+    use(ConductorHits(*conductor, model, t, c));
+  } else {
+    use(DielectricHits(std::get<DielectricMaterial>(of.model), model, t, c));
+  }
+}
+
+}  // namespace nacre
