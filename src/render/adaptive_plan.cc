@@ -13,8 +13,13 @@
 namespace nacre {
 namespace {
 
-// About where a lobe has fallen to half its height.
+// About where the narrowest lobe has fallen to half its height.
 double LobeWidth(const ShadingMaterial& material) {
+  if (material.coat) {
+    ShadingMaterial below = material;
+    below.coat = nullptr;
+    return std::min(LobeWidth(below), LobeWidth(*material.coat));
+  }
   const double infinity = std::numeric_limits<double>::infinity();
   return std::visit(Overloaded{[&](const PhongFamilyModel& phong) {
                                  const bool matte = phong.specular.length2() == 0;

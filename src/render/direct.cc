@@ -126,9 +126,8 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
   batch.clock.Charge(Stage::kShade);
 }
 
-}  // namespace
-
-void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
+// All but the coats over the hits.
+void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.radiance.per_light.resize(batch.plan.light_layer_count);
   if (batch.lit() > 0) {
     for (Soa3<float>& layer : batch.radiance.per_light) ClearSoa(batch.lit(), &layer);
@@ -139,6 +138,42 @@ void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
   if (batch.lit() == batch.hits().count) return;
   InterpolateRadiance(batch);
   batch.clock.Charge(Stage::kShade);
+}
+
+// Of what the hits below coats reflect the coats take their part, and add what they reflect
+// themselves, which is all specular.
+void CoverBelow(const CoatedHits& coats, const Soa3<float>& of_coats, Soa3<float>* below) {
+  const Soa3<float>& left = coats.surfaces.surface.base;
+  for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
+    const size_t j = coats.below[i];
+    below->x[j] = below->x[j] * left.x[i] + of_coats.x[i];
+    below->y[j] = below->y[j] * left.y[i] + of_coats.y[i];
+    below->z[j] = below->z[j] * left.z[i] + of_coats.z[i];
+  }
+}
+
+void ShadeCoats(const DirectBatch& batch, const SampleNumbers* numbers) {
+  const CoatedHits& coats = *batch.surfaces.coats;
+  std::unique_ptr<BatchRadiance>& room = batch.room.of_coats;
+  if (!room) room = std::make_unique<BatchRadiance>();
+  ShadeSurfaces({batch.plan, coats.surfaces, batch.room, *room, batch.clock, batch.stats,
+                 batch.plan.coat_pairs},
+                numbers);
+  ReflectedRadiance& total = batch.radiance.total;
+  CoverBelow(coats, room->total.diffuse, &total.diffuse);
+  CoverBelow(coats, room->total.specular, &total.specular);
+  CoverBelow(coats, room->total.sum, &total.sum);
+  for (size_t layer = 0; layer < room->per_light.size(); ++layer) {
+    CoverBelow(coats, room->per_light[layer], &batch.radiance.per_light[layer]);
+  }
+  batch.clock.Charge(Stage::kShade);
+}
+
+}  // namespace
+
+void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
+  ShadeSurfaces(batch, numbers);
+  if (AnyCoat(batch.surfaces)) ShadeCoats(batch, numbers);
 }
 
 void SeeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,

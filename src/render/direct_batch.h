@@ -50,8 +50,9 @@ struct DirectRoom {
   Soa3<double> shadow_origin;              // of the hits, where the plan offsets some
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
-  ReflectedRadiance single;  // of one light
-  RayBatch sky_rays;         // through the samples
+  ReflectedRadiance single;                 // of one light
+  RayBatch sky_rays;                        // through the samples
+  std::unique_ptr<BatchRadiance> of_coats;  // made for the first hit with a coat
 };
 
 // A batch on its way through the integrator.
@@ -62,6 +63,7 @@ struct DirectBatch {
   BatchRadiance& radiance;
   StageClock& clock;
   RenderStats& stats;
+  size_t first_pair = 0;  // DirectPlan::pairs before those of these surfaces
 
   const HitBatch& hits() const { return surfaces.hits; }
   const Surface& surface() const { return surfaces.surface; }

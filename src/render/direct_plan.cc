@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "render/camera.h"
+#include "scene/coat.h"
 
 namespace nacre {
 namespace {
@@ -101,8 +102,13 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
     plan->sampled_lights.push_back(std::move(planned));
   }
   if (plan->sampled_lights.empty()) return;
+  // Coats are surfaces of their own, and their samples independent of those of what is below.
+  const bool coats =
+      std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const Material& material) { return CoatOf(material).has_value(); });
+  plan->coat_pairs = kPairs * plan->sampled_lights.size();
   plan->pairs = MakePairSampler(LongestSequence(scene, settings),
-                                kPairs * plan->sampled_lights.size(), scene.image.seed);
+                                (coats ? 2 : 1) * plan->coat_pairs, scene.image.seed);
   for (size_t i = 0; i < plan->sampled_lights.size(); ++i) {
     const PlannedSampledLight& planned = plan->sampled_lights[i];
     const auto* sky = std::get_if<EnvironmentLight>(&scene.lights[planned.index].kind);

@@ -76,6 +76,7 @@ struct DirectPlan {
   std::vector<PlannedPunctualLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
   PairSampler pairs;          // their samples'; three pairs a light
+  size_t coat_pairs = 0;      // the first of those for coats
   std::optional<size_t> sky;  // in sampled_lights: the visible sky, if it varies with direction
   // The constant colour behind the shapes, the scene's or a one-colour sky's; unused with `sky`.
   Rgb background{0, 0, 0};

@@ -65,11 +65,9 @@ MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, doubl
 // Half-width, in radians, of a lobe around the half vector; infinite of none. That of Phong's,
 // which is around the mirrored direction, turns twice as far as the normal.
 double HalfVectorWidth(const FramePlan& plan, uint32_t material) {
-  const auto& model = plan.surfaces.materials[material].model;
-  if (const auto* microfacet = std::get_if<MicrofacetModel>(&model);
-      microfacet != nullptr && microfacet->delta) {
-    return 0;
-  }
+  const ShadingMaterial& prepared = plan.surfaces.materials[material];
+  const auto& model = prepared.model;
+  if (HasDeltaLobe(prepared) || (prepared.coat && HasDeltaLobe(*prepared.coat))) return 0;
   const auto* phong = std::get_if<PhongFamilyModel>(&model);
   const bool mirrored = phong != nullptr && phong->model != PhongModel::kBlinnPhong;
   return plan.adaptive.widths[material] * (mirrored ? 0.5 : 1);

@@ -165,8 +165,8 @@ void AddClosedForm(const Lit& lit) {
 }
 
 void ChoosePoints(const Lit& lit, size_t pair) {
-  SamplePair(lit.batch.plan.pairs, lit.planned.first_pair + pair, lit.numbers,
-             lit.hits().ray.data(), lit.count(), &lit.c.points);
+  SamplePair(lit.batch.plan.pairs, lit.batch.first_pair + lit.planned.first_pair + pair,
+             lit.numbers, lit.hits().ray.data(), lit.count(), &lit.c.points);
 }
 
 void AddByLight(const Lit& lit, const Components& components) {

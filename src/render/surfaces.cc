@@ -67,21 +67,23 @@ struct HitFields {
   bool positions, exact;
 };
 
-// Makes hit i the one that was order[i]; the padding repeats the last one.
-void PermuteHits(const CameraHits& from, const HitFields& fields, AlignedArray<uint32_t>* order,
-                 Surfaces* to) {
-  const size_t hits = from.batch.count, count = RoundUp(hits, kBatchPadding);
-  to->hits.count = hits;
-  to->hits.one_primitive = from.batch.one_primitive;
-  for (size_t i = hits; i < count; ++i) (*order)[i] = (*order)[hits - 1];
-  Permute(*order, count, from.batch.ray, &to->hits.ray);
-  Permute(*order, count, from.batch.primitive, &to->hits.primitive);
-  if (fields.positions) Permute(*order, count, from.batch.position, &to->hits.position);
-  Permute(*order, count, from.directions.normal, &to->surface.normal);
-  Permute(*order, count, from.directions.to_view, &to->surface.to_view);
+struct HitsFrom {
+  const HitBatch* batch;
+  const HitDirections* directions;
+};
+
+// Makes hit i the one that was order[i], of `count` with their padding.
+void PermuteHits(const HitsFrom& from, const HitFields& fields, size_t count,
+                 const AlignedArray<uint32_t>& order, Surfaces* to) {
+  to->hits.one_primitive = from.batch->one_primitive;
+  Permute(order, count, from.batch->ray, &to->hits.ray);
+  Permute(order, count, from.batch->primitive, &to->hits.primitive);
+  if (fields.positions) Permute(order, count, from.batch->position, &to->hits.position);
+  Permute(order, count, from.directions->normal, &to->surface.normal);
+  Permute(order, count, from.directions->to_view, &to->surface.to_view);
   if (!fields.exact) return;
-  Permute(*order, count, from.batch.normal, &to->hits.normal);
-  Permute(*order, count, from.batch.to_view, &to->hits.to_view);
+  Permute(order, count, from.batch->normal, &to->hits.normal);
+  Permute(order, count, from.batch->to_view, &to->hits.to_view);
 }
 
 void TakeHits(CameraHits* from, Surfaces* to) {
@@ -140,7 +142,37 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   for (size_t i = 0; i < hits->batch.count; ++i) {
     room->order[runs[room->run_of_hit[i]].end++] = static_cast<uint32_t>(i);
   }
-  PermuteHits(*hits, {hits->positions, hits->exact}, &room->order, to);
+  const size_t count = hits->batch.count, padded = RoundUp(count, kBatchPadding);
+  for (size_t i = count; i < padded; ++i) room->order[i] = room->order[count - 1];
+  PermuteHits({&hits->batch, &hits->directions}, {hits->positions, hits->exact}, padded,
+              room->order, to);
+  to->hits.count = count;
+}
+
+// Makes a hit of the coat of each hit that has one.
+void FindCoats(const SurfacePlan& plan, Surfaces* s) {
+  if (s->coats) s->coats->surfaces.hits.count = 0;
+  if (!plan.coated) return;
+  size_t count = 0;
+  for (const MaterialRun& run : LitRuns(*s)) {
+    if (!run.shading->coat) continue;
+    if (!s->coats) s->coats = std::make_unique<CoatedHits>();
+    std::vector<MaterialRun>& runs = s->coats->surfaces.runs;
+    if (count == 0) runs.clear();
+    const MaterialId coat = plan.coats[run.material.index];
+    const size_t begin = count;
+    for (size_t i = run.begin; i < run.end; ++i) {
+      s->coats->below[count++] = static_cast<uint32_t>(i);
+    }
+    runs.push_back({coat, &plan.materials[coat.index], begin, count, false});
+  }
+  if (count == 0) return;
+  Surfaces& to = s->coats->surfaces;
+  const AlignedArray<uint32_t>& below = s->coats->below;
+  const size_t padded = RoundUp(count, kBatchPadding);
+  for (size_t i = count; i < padded; ++i) s->coats->below[i] = below[count - 1];
+  PermuteHits({&s->hits, &s->surface}, {true, true}, padded, below, &to);
+  to.hits.count = count;
 }
 
 // Looks up the maps of the materials that have any.
@@ -164,7 +196,9 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
   const std::vector<bool> used = FindUsedMaterials(scene);
   size_t count = 0;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    if (used[i] && plan->materials[i].textured != nullptr) ++count;
+    const ShadingMaterial& material = plan->materials[i];
+    const bool coat_has_maps = material.coat && material.coat->textured != nullptr;
+    if (used[i] && (material.textured != nullptr || coat_has_maps)) ++count;
   }
   plan->textured = count > 0;
   if (!plan->textured) {
@@ -193,16 +227,24 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
   plan.frame_width = scene.image.width;
   why->items.push_back({"ambient light", !IsBlack(ambient),
                         IsBlack(ambient) ? "the scene has none" : "a constant per material"});
-  plan.materials.reserve(scene.materials.size() + 1);
+  const MaterialId none{};
+  plan.materials.reserve(2 * scene.materials.size() + 1);
   for (const Material& material : scene.materials) {
     plan.materials.push_back(PrepareMaterial(material, ambient));
     plan.splits = plan.splits || std::holds_alternative<SplitMaterial>(material.model);
     plan.one_sided = plan.one_sided || material.emits_in_front_only;
   }
-  plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
-  PlanTextures(scene, settings, camera, &plan, why);
   plan.black = {static_cast<uint32_t>(plan.materials.size())};
   plan.materials.emplace_back().model = MatteModel{.diffuse = Rgb(0, 0, 0)};
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    plan.coats.push_back(none);
+    if (!plan.materials[i].coat) continue;
+    plan.coats[i] = {static_cast<uint32_t>(plan.materials.size())};
+    plan.materials.push_back(*plan.materials[i].coat);
+    plan.coated = true;
+  }
+  plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
+  PlanTextures(scene, settings, camera, &plan, why);
   return plan;
 }
 
@@ -230,16 +272,53 @@ void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* 
   PrepareSurfaces(plan, surfaces);
 }
 
+namespace {
+
+// to[j] *= by[i].
+void DimBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
+  to->x[j] *= by.x[i];
+  to->y[j] *= by.y[i];
+  to->z[j] *= by.z[i];
+}
+
+// Of the light that the layers show beside what lights leave, a coat takes its part, too.
+void DimLayers(Surfaces* s) {
+  if (!AnyCoat(*s)) return;
+  const CoatedHits& coats = *s->coats;
+  for (const MaterialRun& run : LitRuns(*s)) {
+    if (!run.shading->coat || !run.shading->mapped) continue;
+    for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
+      const size_t below = coats.below[i];
+      if (below < run.begin || below >= run.end) continue;
+      DimBy(coats.surfaces.surface.base, i, below, &s->textures->ambient);
+      DimBy(coats.surfaces.surface.base, i, below, &s->textures->emission);
+    }
+  }
+}
+
+void PrepareRuns(const SurfacePlan& plan, Surfaces* s) {
+  LookUpMaps(plan, s);
+  for (const MaterialRun& run : LitRuns(*s)) {
+    PrepareRun(*run.shading, run.begin, run.end, &s->surface, s->textures.get());
+  }
+}
+
+}  // namespace
+
 void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
   Surfaces& s = *surfaces;
   const auto interpolated = std::stable_partition(
       s.runs.begin(), s.runs.end(), [](const MaterialRun& run) { return !run.interpolated; });
   s.lit_runs = static_cast<size_t>(interpolated - s.runs.begin());
   s.lit = s.lit_runs == 0 ? 0 : s.runs[s.lit_runs - 1].end;
-  LookUpMaps(plan, &s);
-  for (const MaterialRun& run : LitRuns(s)) {
-    PrepareRun(*run.shading, run.begin, run.end, &s.surface, s.textures.get());
-  }
+  FindCoats(plan, &s);
+  PrepareRuns(plan, &s);
+  if (!AnyCoat(s)) return;
+  Surfaces& coats = s.coats->surfaces;
+  coats.lit_runs = coats.runs.size();
+  coats.lit = coats.hits.count;
+  PrepareRuns(plan, &coats);
+  DimLayers(&s);
 }
 
 }  // namespace nacre

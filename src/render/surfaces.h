@@ -20,8 +20,10 @@ namespace nacre {
 struct SurfacePlan {
   PrimitiveNumbers primitives;
   int frame_width = 0;                     // that split materials divide
-  std::vector<ShadingMaterial> materials;  // one per material of the scene, and `black`
+  std::vector<ShadingMaterial> materials;  // one per material of the scene, `black`, and coats
   MaterialId black;                        // the back of one-sided emitters
+  std::vector<MaterialId> coats;           // by material of the scene; none of those without
+  bool coated = false;                     // some material has a coat
   bool splits = false;                     // some material depends on the film position
   bool one_sided = false;                  // some material emits in front only
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
@@ -49,6 +51,8 @@ struct MaterialRun {
   bool interpolated;  // they reflect what was worked out for their mesh's vertices or triangles
 };
 
+struct CoatedHits;
+
 struct Surfaces {
   HitBatch hits;
   Surface surface;
@@ -57,7 +61,20 @@ struct Surfaces {
   size_t lit = 0;                 // and how many hits these have
   // What maps have made of the materials: made for the first hit on one with maps.
   std::unique_ptr<HitTextures> textures;
+  // Coats over some of the hits: made for the first hit that has one.
+  std::unique_ptr<CoatedHits> coats;
 };
+
+// The coats of hits, as hits of their own: surfaces above those of the same places.
+struct CoatedHits {
+  Surfaces surfaces;  // Surface::base is what the coat leaves of what is below
+  AlignedArray<uint32_t> below{kBatchCapacity};  // the index of the hit that a coat's is over
+};
+
+// Whether any hit has a coat.
+inline bool AnyCoat(const Surfaces& surfaces) {
+  return surfaces.coats && surfaces.coats->surfaces.hits.count > 0;
+}
 
 // The runs that lights shine on.
 inline std::span<const MaterialRun> LitRuns(const Surfaces& surfaces) {
@@ -77,7 +94,8 @@ struct SortRoom {
 void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* hits,
                      SortRoom* room, Surfaces* surfaces);
 
-// After the hits of `surfaces` and their runs are there: looks up maps and readies the materials.
+// After the hits of `surfaces` and their runs are there: looks up maps and readies the materials,
+// and coats.
 void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces);
 
 }  // namespace nacre

@@ -97,10 +97,13 @@ void AddMaps(const Material& material, Hasher* hash) {
     hash->Word(i);
     hash->Add(id);
   }
-  if (material.normal_map.texture.valid()) {
-    hash->Add(material.normal_map.texture);
-    hash->Add(material.normal_map.scale);
-    hash->Word(static_cast<uint64_t>(material.normal_map.convention));
+  for (const MaterialNormalMap& row : model->normal_maps) {
+    const NormalMap& map = NormalMapOf(row, material);
+    if (!map.texture.valid()) continue;
+    if (&row != model->normal_maps.data()) hash->Add(row.name);
+    hash->Add(map.texture);
+    hash->Add(map.scale);
+    hash->Word(static_cast<uint64_t>(map.convention));
   }
   if (material.bump_map.texture.valid()) {
     hash->Add(material.bump_map.texture);

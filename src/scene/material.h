@@ -103,6 +103,15 @@ struct MetallicRoughnessMaterial {
   TextureId metallic_roughness_map{};  // as in glTF: green multiplies roughness, blue metallic
   TextureId specular_map{};            // of `specular`
   TextureId specular_color_map{};      // of dielectric_f0
+  // A clear coat over all of that (CoatOf): how much of it there is, its roughness, and its index
+  // of refraction. As KHR_materials_clearcoat of glTF, but that what is below gets what the coat's
+  // albedo leaves.
+  double coat = 0;                 // in [0, 1]
+  double coat_roughness = 0;       // in [0, 1]
+  double coat_ior = 1.5;           // in [1, 10]
+  TextureId coat_map{};            // red multiplies coat
+  TextureId coat_roughness_map{};  // green multiplies coat_roughness
+  NormalMap coat_normal_map{};     // of the coat alone, which the normal map of the base is not for
 };
 
 enum class ConductorFresnel : uint8_t {

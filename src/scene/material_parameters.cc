@@ -200,6 +200,14 @@ constexpr std::array kMetallicRoughnessParameters = {
         "What the reflectance of a metal at 81.8 degrees (cosine 1/7) is multiplied by: the dip of "
         "real metals before grazing. 1: Schlick's curve."),
     BaseRoughness<MetallicRoughnessMaterial>(),
+    Number<&MetallicRoughnessMaterial::coat>(
+        "coat", limits::kUnit,
+        "How much clear coat there is over all of this: a dielectric's highlight of its own, which "
+        "what is below gets as much less light by."),
+    Number<&MetallicRoughnessMaterial::coat_roughness>("coat_roughness", limits::kUnit,
+                                                       kRoughnessMeaning),
+    Number<&MetallicRoughnessMaterial::coat_ior>("coat_ior", limits::kIor,
+                                                 "Index of refraction of the coat."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
@@ -297,15 +305,17 @@ constexpr std::array kDielectricChoices = {
 constexpr MaterialMap kEmissionMap = Map<&Material::emission_map>(
     "emission_map", MapUse::kColor, "Multiplies emission.",
     Target<&Material::emission>(MappedNumber::kEmission, 0, limits::kRadiance.max));
-constexpr MaterialMap kOpacityMap = {
-    "opacity_map",
-    MapUse::kOpacity,
-    [](const Material& material) { return material.opacity_map; },
-    [](Material& material, TextureId id) { material.opacity_map = id; },
+// A map whose values go elsewhere.
+template <auto kMember>
+constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view meaning) {
+  MaterialMap map = Map<kMember>(name, use, meaning, MapTarget{});
+  map.target_count = 0;
+  return map;
+}
+constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>(
+    "opacity_map", MapUse::kOpacity,
     "Multiplies opacity: the image's alpha, or its first channel where the texture's encoding is "
-    "linear. Looked up in the image itself, never in a smaller copy.",
-    {},
-    0};
+    "linear. Looked up in the image itself, never in a smaller copy.");
 template <class Struct>
 constexpr MaterialMap AlbedoMap() {
   return Map<&Struct::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo.",
@@ -349,12 +359,27 @@ constexpr std::array kMetallicRoughnessMaps = {
         "specular_color_map", MapUse::kColor, "Multiplies dielectric_f0.",
         Target<&MetallicRoughnessMaterial::dielectric_f0>(MappedNumber::kSpecularColor)),
     kEmissionMap,
-    kOpacityMap};
+    kOpacityMap,
+    Map<&MetallicRoughnessMaterial::coat_map>("coat_map", MapUse::kData,
+                                              "Multiplies coat, by its first channel."),
+    Map<&MetallicRoughnessMaterial::coat_roughness_map>(
+        "coat_roughness_map", MapUse::kTwoData,
+        "Multiplies coat_roughness; as in glTF, by its green channel.")};
 constexpr std::array kConductorMaps = {RoughnessMap<ConductorMaterial>(), kEmissionMap,
                                        kOpacityMap};
 constexpr std::array kDielectricMaps = {BaseColorMap<DielectricMaterial>(),
                                         RoughnessMap<DielectricMaterial>(), kEmissionMap,
                                         kOpacityMap};
+
+constexpr std::array kNormalMaps = {MaterialNormalMap{
+    "normal_map", [](Material& material) -> NormalMap& { return material.normal_map; }, ""}};
+constexpr std::array kMetallicRoughnessNormalMaps = {
+    kNormalMaps[0],
+    MaterialNormalMap{"coat_normal_map",
+                      [](Material& material) -> NormalMap& {
+                        return std::get<MetallicRoughnessMaterial>(material.model).coat_normal_map;
+                      },
+                      "Of the coat, which normal_map is not for."}};
 
 template <typename Model>
 Material Make() {
@@ -391,13 +416,13 @@ constexpr std::string_view kAlbedoAxis = "albedo=0.1:0.9:5";
 constexpr std::array<MaterialModel, 9> kModels = {{
     {"phong", "Phong: highlight (r.v)^n where the light is above the surface",
      MakePhong<PhongModel::kPhong>, HoldsPhong<PhongModel::kPhong>, kPhongParameters, kPhongChoices,
-     kPhongMaps, kExponentAxis, kKsAxis},
+     kPhongMaps, kNormalMaps, kExponentAxis, kKsAxis},
     {"modified_phong", "Modified Phong: highlight (r.v)^n n.l",
      MakePhong<PhongModel::kModifiedPhong>, HoldsPhong<PhongModel::kModifiedPhong>,
-     kPhongParameters, kPhongChoices, kPhongMaps, kExponentAxis, kKsAxis},
+     kPhongParameters, kPhongChoices, kPhongMaps, kNormalMaps, kExponentAxis, kKsAxis},
     {"blinn_phong", "Blinn-Phong: highlight (n.h)^n where the light is above the surface",
      MakePhong<PhongModel::kBlinnPhong>, HoldsPhong<PhongModel::kBlinnPhong>, kPhongParameters,
-     kPhongChoices, kPhongMaps, kExponentAxis, kKsAxis},
+     kPhongChoices, kPhongMaps, kNormalMaps, kExponentAxis, kKsAxis},
     {"lambert",
      "Lambert: perfectly diffuse",
      Make<LambertMaterial>,
@@ -405,6 +430,7 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      kLambertParameters,
      {},
      kLambertMaps,
+     kNormalMaps,
      "emission=0:0.2:3",
      kAlbedoAxis},
     {"oren_nayar",
@@ -415,6 +441,7 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      kOrenNayarParameters,
      {},
      kOrenNayarMaps,
+     kNormalMaps,
      kMatteAxis,
      kAlbedoAxis},
     {"burley",
@@ -424,20 +451,21 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      kBurleyParameters,
      {},
      kBurleyMaps,
+     kNormalMaps,
      kMatteAxis,
      kAlbedoAxis},
     {"metallic_roughness", "Metallic-roughness as in glTF 2.0: GGX and Schlick's Fresnel",
      Make<MetallicRoughnessMaterial>, Holds<MetallicRoughnessMaterial>,
      kMetallicRoughnessParameters, kMetallicRoughnessChoices, kMetallicRoughnessMaps,
-     kRoughnessAxis, "metallic=0:1:5"},
+     kMetallicRoughnessNormalMaps, kRoughnessAxis, "metallic=0:1:5"},
     {"conductor", "Conductor: a bare metal, by its complex index of refraction eta - i k",
      Make<ConductorMaterial>, Holds<ConductorMaterial>, kConductorParameters, kConductorChoices,
-     kConductorMaps, kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
+     kConductorMaps, kNormalMaps, kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
     {"dielectric",
      "Dielectric: a clear coat over a diffuse base. Nothing is transmitted: a black base shows the "
      "reflection of glass alone.",
      Make<DielectricMaterial>, Holds<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
-     kDielectricMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
+     kDielectricMaps, kNormalMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
 }};
 
 }  // namespace

@@ -72,10 +72,22 @@ struct MaterialMap {
   void (*set)(Material&, TextureId);
   std::string_view meaning;
   MapTarget targets[2];
-  size_t target_count;  // 0: of opacity, which is looked up where rays meet meshes
+  // 0: of opacity, which is looked up where rays meet meshes, and of coats, which are surfaces of
+  // their own (scene/coat.h).
+  size_t target_count;
 };
 inline std::span<const MapTarget> TargetsOf(const MaterialMap& map) {
   return {map.targets, map.target_count};
+}
+
+// A map that turns normals.
+struct MaterialNormalMap {
+  std::string_view name;
+  NormalMap& (*of)(Material&);
+  std::string_view meaning;
+};
+inline const NormalMap& NormalMapOf(const MaterialNormalMap& map, const Material& material) {
+  return map.of(const_cast<Material&>(material));  // which it only finds
 }
 
 struct MaterialModel {
@@ -86,6 +98,7 @@ struct MaterialModel {
   std::span<const MaterialParameter> parameters;
   std::span<const MaterialChoice> choices;
   std::span<const MaterialMap> maps;
+  std::span<const MaterialNormalMap> normal_maps;
   // What `nacre grid` varies unless it is told: axes as people type them (scene_io/sheet_axis.h).
   std::string_view rows, columns;
 };

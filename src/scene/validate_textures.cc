@@ -54,9 +54,11 @@ void ValidateMap(const Scene& scene, TextureId id, int channels, const std::stri
 using NamedMap = std::pair<std::string_view, TextureId>;
 
 std::vector<NamedMap> MapsOf(const Material& material) {
-  std::vector<NamedMap> maps = {{"normal_map", material.normal_map.texture},
-                                {"bump_map", material.bump_map.texture}};
+  std::vector<NamedMap> maps = {{"bump_map", material.bump_map.texture}};
   if (const MaterialModel* const model = ModelOf(material)) {
+    for (const MaterialNormalMap& row : model->normal_maps) {
+      maps.emplace_back(row.name, NormalMapOf(row, material).texture);
+    }
     for (const MaterialMap& map : model->maps) maps.emplace_back(map.name, map.get(material));
   }
   return maps;
@@ -81,10 +83,16 @@ void ValidateCoordinates(const Scene& scene, const Material& material, const std
 void ValidateMaps(const Scene& scene, const Material& material, const std::string& where,
                   FaultList* faults) {
   for (const auto& [name, id] : MapsOf(material)) {
-    const bool needs_rgb = name == "normal_map" || name == "metallic_roughness_map";
+    const bool needs_rgb =
+        name == "normal_map" || name == "coat_normal_map" || name == "metallic_roughness_map";
     ValidateMap(scene, id, needs_rgb ? 3 : 1, where + "/" + std::string(name), faults);
   }
-  CheckNumber(material.normal_map.scale, limits::kNormalScale, where + "/normal_map/scale", faults);
+  if (const MaterialModel* const model = ModelOf(material)) {
+    for (const MaterialNormalMap& row : model->normal_maps) {
+      CheckNumber(NormalMapOf(row, material).scale, limits::kNormalScale,
+                  where + "/" + std::string(row.name) + "/scale", faults);
+    }
+  }
   CheckNumber(material.bump_map.distance, limits::kCoordinate, where + "/bump_map/distance",
               faults);
 }

@@ -79,7 +79,8 @@ TextureId AddTexture(const Info& info, const std::string& place, TextureEncoding
 
 // The texture that an extension has as its member `name`.
 TextureId AddTexture(const GltfDocument& document, const GltfExtension& extension, const char* name,
-                     const std::string& place, TextureEncoding encoding, GltfTextures* textures) {
+                     const std::string& place, TextureEncoding encoding, GltfTextures* textures,
+                     bool needs_rgb = false) {
   if (!extension.Has(name)) return {};
   const Json& info = extension.Get(name);
   const std::string member = place + "/" + name;
@@ -91,7 +92,8 @@ TextureId AddTexture(const GltfDocument& document, const GltfExtension& extensio
   const bool has_extensions = reader.Has("extensions") && reader.Get("extensions").is_object();
   const gltf::Extensions extensions = has_extensions ? &reader.Get("extensions") : nullptr;
   return textures->Add(
-      {static_cast<int>(index), static_cast<int>(tex_coord), extensions, encoding, false}, member);
+      {static_cast<int>(index), static_cast<int>(tex_coord), extensions, encoding, needs_rgb},
+      member);
 }
 
 // KHR_materials_ior and KHR_materials_specular: what a material reflects where it is no metal.
@@ -128,6 +130,34 @@ void ApplyReflectance(GltfDocument* document, const gltf::Material& material, si
   if (f0 != result->dielectric_f0 && result->specular_color_map.valid()) {
     document->Warn("specular colours that reflect more than all are cut before their images");
   }
+}
+
+// KHR_materials_clearcoat.
+void ApplyCoat(GltfDocument* document, const gltf::Material& material, size_t index,
+               GltfTextures* textures, MetallicRoughnessMaterial* result) {
+  const auto coat = FindExtension(*document, material, index, "KHR_materials_clearcoat");
+  if (!coat) return;
+  const std::string place = fmt::format("/materials/{}/extensions/KHR_materials_clearcoat", index);
+  const auto factor = [&](const char* name) {
+    const double value = coat->Number(name, 0);
+    if (!(value >= 0 && value <= 1)) document->Refuse(place + "/" + name, "is not in [0, 1]");
+    return value;
+  };
+  const auto map = [&](const char* name) {
+    return AddTexture(*document, *coat, name, place, TextureEncoding::kLinear, textures);
+  };
+  result->coat = factor("clearcoatFactor");
+  result->coat_roughness = factor("clearcoatRoughnessFactor");
+  if (result->coat == 0) return;
+  result->coat_map = map("clearcoatTexture");
+  result->coat_roughness_map = map("clearcoatRoughnessTexture");
+  const char* const normal = "clearcoatNormalTexture";
+  result->coat_normal_map.texture =
+      AddTexture(*document, *coat, normal, place, TextureEncoding::kLinear, textures, true);
+  result->coat_normal_map.convention = NormalMap::Convention::kLiteral;
+  if (!coat->Has(normal)) return;
+  const GltfExtension info(*document, coat->Get(normal), place + "/" + normal);
+  result->coat_normal_map.scale = info.Number("scale", 1);
 }
 
 // alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
@@ -217,6 +247,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
       pbr.metallicRoughnessTexture, place + "/pbrMetallicRoughness/metallicRoughnessTexture",
       TextureEncoding::kLinear, true, textures);
   ApplyReflectance(document, material, index, textures, &metallic_roughness);
+  ApplyCoat(document, material, index, textures, &metallic_roughness);
   mask_by_base_color("/pbrMetallicRoughness/baseColorTexture");
   result.model = metallic_roughness;
   return result;

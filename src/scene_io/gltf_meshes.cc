@@ -257,10 +257,13 @@ bool UsesSecondUvs(const Scene& scene, MaterialId id) {
     return texture.valid() && scene.textures[texture.index].second_uvs;
   };
   const MaterialModel* const model = ModelOf(material);
-  return second(material.normal_map.texture) || second(material.emission_map) ||
-         (model != nullptr &&
-          std::any_of(model->maps.begin(), model->maps.end(),
-                      [&](const MaterialMap& map) { return second(map.get(material)); }));
+  if (model == nullptr) return false;
+  return std::any_of(model->maps.begin(), model->maps.end(),
+                     [&](const MaterialMap& map) { return second(map.get(material)); }) ||
+         std::any_of(model->normal_maps.begin(), model->normal_maps.end(),
+                     [&](const MaterialNormalMap& row) {
+                       return second(NormalMapOf(row, material).texture);
+                     });
 }
 
 MaterialId MaterialOf(const GltfDocument& document, const Primitive& primitive) {

@@ -141,11 +141,15 @@ void SetLights(const JsonValue& value, const SceneContext& context, Scene* scene
 }
 
 bool UsesTextures(const Material& material) {
-  if (material.normal_map.texture.valid() || material.bump_map.texture.valid()) return true;
+  if (material.bump_map.texture.valid()) return true;
   const MaterialModel* const model = ModelOf(material);
-  return model != nullptr &&
-         std::any_of(model->maps.begin(), model->maps.end(),
-                     [&](const MaterialMap& map) { return map.get(material).valid(); });
+  if (model == nullptr) return false;
+  return std::any_of(model->maps.begin(), model->maps.end(),
+                     [&](const MaterialMap& map) { return map.get(material).valid(); }) ||
+         std::any_of(model->normal_maps.begin(), model->normal_maps.end(),
+                     [&](const MaterialNormalMap& row) {
+                       return NormalMapOf(row, material).texture.valid();
+                     });
 }
 
 }  // namespace

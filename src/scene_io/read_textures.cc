@@ -223,17 +223,19 @@ void ReadMaps(const MaterialModel& model, JsonObject* object, SceneContext* cont
     read_others(&map);
     map.RefuseOthers();
   };
-  member("normal_map", [&](const JsonValue& value) {
-    NormalMap& normal = material->normal_map;
-    if (value.json.is_null()) {
-      normal = {};
-      return;
-    }
-    texture_of(value, &normal.texture, [&](JsonObject* map) {
-      map->Number("scale", limits::kNormalScale, &normal.scale);
-      ReadChoice(map, "convention", kConventions, &normal.convention);
+  for (const MaterialNormalMap& row : model.normal_maps) {
+    member(row.name, [&](const JsonValue& value) {
+      NormalMap& normal = row.of(*material);
+      if (value.json.is_null()) {
+        normal = {};
+        return;
+      }
+      texture_of(value, &normal.texture, [&](JsonObject* map) {
+        map->Number("scale", limits::kNormalScale, &normal.scale);
+        ReadChoice(map, "convention", kConventions, &normal.convention);
+      });
     });
-  });
+  }
   member("bump_map", [&](const JsonValue& value) {
     BumpMap& bump = material->bump_map;
     if (value.json.is_null()) {

@@ -78,9 +78,13 @@ std::string DefinitionOf(const MaterialModel& model) {
     properties.push_back(PropertyOf(parameter, defaults));
   }
   for (const MaterialMap& map : model.maps) properties.push_back(PropertyOf(map));
-  for (const char* const name : {"normal_map", "bump_map"}) {
-    properties.push_back(fmt::format(R"("{0}": {{ "$ref": "#/$defs/{0}" }})", name));
+  for (const MaterialNormalMap& row : model.normal_maps) {
+    const std::string meaning =
+        row.meaning.empty() ? "" : fmt::format(R"("description": {}, )", Quoted(row.meaning));
+    properties.push_back(
+        fmt::format(R"("{}": {{ {}"$ref": "#/$defs/normal_map" }})", row.name, meaning));
   }
+  properties.emplace_back(R"("bump_map": { "$ref": "#/$defs/bump_map" })");
   return fmt::format(R"(    "{}_material": {{
       "title": {},
       "type": "object",

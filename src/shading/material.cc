@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/overloaded.h"
 #include "brdf/eon.h"
@@ -11,6 +13,7 @@
 #include "brdf/ggx.h"
 #include "brdf/multi_scatter.h"
 #include "brdf/phong.h"
+#include "scene/coat.h"
 #include "scene/material_parameters.h"
 #include "shading/derive.h"
 
@@ -225,7 +228,10 @@ void SkipBlackBase(ShadingMaterial* prepared) {
 
 }  // namespace
 
-ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
+namespace {
+
+// All but the coat.
+ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radiance) {
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
   Rgb of_ambient(0, 0, 0);  // what it reflects of light from everywhere
@@ -272,10 +278,39 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
   prepared.ambient = of_ambient * ambient_radiance;
   prepared.ambient_radiance = ambient_radiance;
   FindMaps(material, &prepared);
+  return prepared;
+}
+
+// Once the couplings of a model are decided.
+void FinishModel(ShadingMaterial* prepared) {
+  auto* const microfacet = std::get_if<MicrofacetModel>(&prepared->model);
+  if (microfacet == nullptr) return;
+  microfacet->prepared = microfacet->compensation != Compensation::kNone ||
+                         microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
+}
+
+std::shared_ptr<const ShadingMaterial> PrepareCoat(const Material& material) {
+  const std::optional<Material> coat = CoatOf(material);
+  if (!coat) return nullptr;
+  const auto own = std::make_shared<const Material>(*coat);
+  // Its base is black, but what its albedo leaves is asked for: it is what the material shows.
+  ShadingMaterial prepared = PrepareSurface(*own, Rgb(0, 0, 0));
+  prepared.own = own;
+  FinishModel(&prepared);
+  return std::make_shared<const ShadingMaterial>(std::move(prepared));
+}
+
+}  // namespace
+
+ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance) {
+  ShadingMaterial prepared = PrepareSurface(material, ambient_radiance);
   SkipBlackBase(&prepared);
-  if (auto* microfacet = std::get_if<MicrofacetModel>(&prepared.model)) {
-    microfacet->prepared = microfacet->compensation != Compensation::kNone ||
-                           microfacet->coupling == DiffuseCoupling::kAlbedoScaled;
+  FinishModel(&prepared);
+  prepared.coat = PrepareCoat(material);
+  if (prepared.coat && !(IsBlack(prepared.ambient) && IsBlack(prepared.emission))) {
+    // What is left of them depends on the hit.
+    prepared.mapped = true;
+    prepared.textured = &material;
   }
   return prepared;
 }
@@ -283,6 +318,15 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
 void DropMaps(ShadingMaterial* material) {
   material->textured = nullptr;
   material->mapped = material->mapped_model = material->mapped_width = material->turned = false;
+  if (!material->coat) return;
+  ShadingMaterial coat = *material->coat;
+  DropMaps(&coat);
+  material->coat = std::make_shared<const ShadingMaterial>(std::move(coat));
+}
+
+Rgb LeftByCoat(const ShadingMaterial& coat, double n_dot_v) {
+  const auto& model = std::get<MicrofacetModel>(coat.model);
+  return EachChannel([&](int c) { return std::max(1 - CoverAlbedo(model, n_dot_v, c), 0.0); });
 }
 
 double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {

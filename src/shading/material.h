@@ -103,6 +103,10 @@ struct ShadingMaterial {
   bool mapped_width = false;  // of the width of its lobe
   bool turned = false;        // maps turn the normal
   Rgb ambient_radiance{0, 0, 0};
+  // Of materials with a clear coat: the coat (scene/coat.h), which is shaded as a surface of its
+  // own. Its `textured` is `own`.
+  std::shared_ptr<const ShadingMaterial> coat;
+  std::shared_ptr<const Material> own;
   std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel> model;
 };
 
@@ -110,6 +114,9 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
 
 // Leaves the material of the maps' factors.
 void DropMaps(ShadingMaterial* material);
+
+// What a coat leaves of the light of what is below, seen from n.v: 1 less its albedo.
+Rgb LeftByCoat(const ShadingMaterial& coat, double n_dot_v);
 
 // The directional albedo of one channel seen from n.v, compensation included, of what covers the
 // base: of a mix with a metal, the dielectric.

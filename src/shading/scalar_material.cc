@@ -113,10 +113,14 @@ Reflection ReflectModel(const MicrofacetModel& model, const Vec3d& n, const Vec3
 Reflection Reflect(const ShadingMaterial& material, const Vec3d& normal, const Vec3d& to_light,
                    const Vec3d& to_view) {
   if (!((normal ^ to_light) > 0) || !((normal ^ to_view) > 0)) return {};
-  return std::visit(
+  Reflection reflection = std::visit(
       Overloaded{[](const std::monostate&) { return Reflection{}; },
                  [&](const auto& model) { return ReflectModel(model, normal, to_light, to_view); }},
       material.model);
+  if (!material.coat) return reflection;
+  const Rgb left = LeftByCoat(*material.coat, normal ^ to_view);
+  const Reflection coat = Reflect(*material.coat, normal, to_light, to_view);
+  return {reflection.diffuse * left, reflection.specular * left + coat.specular};
 }
 
 Rgb FresnelOf(const MicrofacetModel& model, double v_dot_h, double one_minus_vh) {

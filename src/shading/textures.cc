@@ -30,8 +30,7 @@ void PrepareTangents(int threads, TextureScene* prepared) {
     uint32_t index;
   };
   std::vector<Made> made;  // of one mesh
-  const auto prepare = [&](MaterialId id, size_t number) {
-    const TextureId map = scene.materials[id.index].normal_map.texture;
+  const auto prepare_map = [&](TextureId map, size_t number) {
     if (!map.valid() || scene.textures[map.index].mapping != MappingKind::kUv) return;
     const Mesh& mesh = scene.meshes[number];
     const PreparedTexture& texture = prepared->textures[map.index];
@@ -53,6 +52,12 @@ void PrepareTangents(int threads, TextureScene* prepared) {
         !mesh.tangents.empty() && HasSmoothNormals(mesh)
             ? RotateTangents(mesh, rows)
             : MakeTangents(mesh, second ? mesh.second_uvs : mesh.uvs, rows, threads));
+  };
+  const auto prepare = [&](MaterialId id, size_t number) {
+    const Material& material = scene.materials[id.index];
+    for (const MaterialNormalMap& row : ModelOf(material)->normal_maps) {
+      prepare_map(NormalMapOf(row, material).texture, number);
+    }
   };
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     made.clear();

@@ -161,13 +161,39 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   return share;
 }
 
+// Of light from one direction, what a coat lets through of what is below, `share` without it: the
+// coat takes its part on the way to the viewer.
+Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double cosine) {
+  ShadingMaterial below = material;
+  below.coat = nullptr;
+  const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
+  const auto integrate = [&](int c, const auto& seen) {
+    return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
+      return seen(Reflect(below, normal, fixed, other), other.z)[c] * other.z / fixed.z;
+    });
+  };
+  const auto left = [&](double mu) { return LeftByCoat(*material.coat, mu); };
+  Rgb through;
+  for (int c = 0; c < 3; ++c) {
+    through[c] = integrate(c, [&](const Reflection& r, double mu) { return r.Sum() * left(mu); });
+    if (!HasDeltaLobe(below)) continue;
+    const double diffuse = integrate(c, [](const Reflection& r, double) { return r.diffuse; });
+    through[c] += (share[c] - diffuse) * left(cosine)[c];
+  }
+  return through;
+}
+
 }  // namespace
 
 Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine) {
-  return std::visit(
-      Overloaded{[](const std::monostate&) { return Rgb(0); },
-                 [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
-      material.model);
+  const Rgb share =
+      std::visit(Overloaded{[](const std::monostate&) { return Rgb(0); },
+                            [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
+                 material.model);
+  if (!material.coat) return share;
+  const Rgb of_coat = ReflectedShare(*material.coat, what, cosine);
+  if (what == ShareOf::kFurnace) return share * LeftByCoat(*material.coat, cosine) + of_coat;
+  return ShareThroughCoat(material, share, cosine) + of_coat;
 }
 
 double PhongLobeIntegral(double shininess, double cosine) {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/render/coat_test.cc: clear coats: white surfaces under them stay white, what kernels make
+// of them is what the scalar twin says, and maps of theirs are theirs.
+#include "scene/coat.h"
+
+#include <cmath>
+#include <string>
+
+#include "pictures.h"
+#include "shading/scalar_material.h"
+#include "targets.h"
+#include "textured_scenes.h"
+
+namespace nacre {
+namespace {
+
+MetallicRoughnessMaterial White() {
+  MetallicRoughnessMaterial white;
+  white.base_color = Rgb(1);
+  white.coat = 1;
+  return white;
+}
+
+// 2e-4: the worst error of two albedos at render time (brdf/albedo.h).
+void CheckWhite(const Scene& scene) {
+  const Mean mean = MeanRed(RenderImage(scene, {}));
+  CAPTURE(mean.value, mean.error);
+  CHECK(std::abs(mean.value - 1) <= 4 * mean.error + 2e-4);
+  CHECK(mean.error < 3e-3);  // the check above could fail
+}
+
+TEST_CASE("a white surface stays white under a coat of any roughness, by numbers and by maps") {
+  ForEachTarget([](Target) {
+    for (const double metallic : {0.0, 1.0}) {
+      for (const double roughness : {0.0, 0.05, 0.4, 1.0}) {
+        for (const double coat : {1.0, 0.3}) {
+          CAPTURE(metallic, roughness, coat);
+          MetallicRoughnessMaterial white = White();
+          white.metallic = metallic;
+          white.coat = coat;
+          white.coat_roughness = roughness;
+          Scene scene = OrthographicSphere(white, 64);
+          scene.lights = {WhiteSky()};
+          CheckWhite(scene);
+          if (coat < 1) continue;
+          auto& mapped = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
+          mapped.coat_map =
+              AddTexture(&scene, 16, 8, [](int x, int) { return Rgb((x % 4) / 3.0); });
+          mapped.coat_roughness_map =
+              AddTexture(&scene, 16, 8, [](int, int y) { return Rgb(0, y / 7.0, 1); });
+          CheckWhite(scene);
+        }
+      }
+    }
+  });
+}
+
+// The radiance of a pixel against Reflect at the normal that a layer shows.
+TEST_CASE("coats under a lamp reflect what the scalar material does") {
+  const Vec3d to_light = Vec3d(0.3, 0.5, 0.8).normalized(), to_view(0, 0, 1);
+  MetallicRoughnessMaterial model;
+  model.base_color = Rgb(0.8, 0.3, 0.1);
+  model.metallic = 0.3;
+  model.roughness = 0.4;
+  model.coat_ior = 1.8;
+  for (const double coat : {0.5, 1.0}) {
+    for (const double roughness : {0.02, 0.09, 0.3, 0.8}) {  // narrow lobes, and wide
+      CAPTURE(coat, roughness);
+      model.coat = coat;
+      model.coat_roughness = roughness;
+      Scene scene = OrthographicSphere(model, 1);
+      scene.lights = {
+          Named("lamp", DirectionalLight{.direction_of_travel = -to_light, .irradiance = Rgb(2)})};
+      const ShadingMaterial twin = PrepareMaterial(scene.materials[0], Rgb(0));
+      ForEachTarget([&](Target) {
+        RenderSettings settings;
+        settings.layers = {"all"};
+        const Image image = RenderImage(scene, settings);
+        const auto at = [&](const std::string& name, size_t i) {
+          return double{image.Find(name)->samples[i]};
+        };
+        const size_t pixels = image.channels[0].samples.size();
+        size_t lit = 0;
+        double worst = 0;
+        for (size_t i = 0; i < pixels; ++i) {
+          if (at("A", i) < 1) continue;
+          const Vec3d normal = Vec3d(at("N.X", i), at("N.Y", i), at("N.Z", i)).normalized();
+          if (normal.z < 0.1 || (normal ^ to_light) < 0.01) continue;
+          const Reflection expected = Reflect(twin, normal, to_light, to_view);
+          const Rgb sum = expected.Sum() * 2.0;
+          const Rgb got(at("R", i), at("G", i), at("B", i));
+          for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(got[c] / sum[c] - 1));
+          ++lit;
+        }
+        CHECK(lit > 500);
+        // A float normal, 6e-8, under a lobe of this width; and the albedo's 1e-4 of what is below.
+        CHECK(worst <= 2e-4 + 4e-7 / (roughness * roughness));
+      });
+    }
+  }
+}
+
+TEST_CASE("no coat has the bits of none, and constant maps of a coat those of constants") {
+  ForEachTarget([](Target) {
+    const Rgb share = Held(Rgb(0.6)), width = Held(Rgb(0.1, 0.5, 0.9));
+    Material plain;
+    MetallicRoughnessMaterial factors;
+    factors.coat = 0.8;
+    factors.coat_roughness = 0.6;
+    MetallicRoughnessMaterial constant = factors;
+    constant.coat = factors.coat * share.x;
+    constant.coat_roughness = factors.coat_roughness * width.y;
+    plain.model = constant;
+    Material mapped;
+    mapped.model = factors;
+    Scene with_maps = TexturedSpheres(mapped);
+    auto& model = std::get<MetallicRoughnessMaterial>(with_maps.materials[0].model);
+    model.coat_map = AddConstant(&with_maps, share);
+    model.coat_roughness_map = AddConstant(&with_maps, width);
+    CheckSameBits(AllLayers(with_maps), AllLayers(TexturedSpheres(plain)));
+  });
+}
+
+TEST_CASE("a coat dims what a material emits, by what it reflects") {
+  MetallicRoughnessMaterial model;
+  model.base_color = Rgb(0);
+  model.specular = 0;
+  model.coat = 1;
+  model.coat_roughness = 0.3;
+  Scene scene = OrthographicSphere(model, 1);
+  scene.materials[0].emission = Rgb(3, 2, 1);
+  const ShadingMaterial twin = PrepareMaterial(scene.materials[0], Rgb(0));
+  const Image image = RenderImage(scene, {});
+  const size_t middle = static_cast<size_t>(32 * 64 + 32);
+  const double left = LeftByCoat(*twin.coat, 1)[0];
+  CHECK(left < 0.97);
+  // The pixel's centre is half a pixel from the middle: n.v is 1 - 3e-4 there.
+  CHECK(std::abs(image.Find("R")->samples[middle] / (3 * left) - 1) < 1e-4);
+  CHECK(std::abs(image.Find("B")->samples[middle] / (1 * left) - 1) < 1e-4);
+}
+
+TEST_CASE("the normal map of the base is not the coat's, nor the coat's the base's") {
+  MetallicRoughnessMaterial model;
+  model.base_color = Rgb(0);
+  model.specular = 0;  // the coat alone is seen
+  model.coat = 1;
+  model.coat_roughness = 0.3;
+  Scene plain = OrthographicSphere(model, 1);
+  plain.lights = {Named("lamp", DirectionalLight{.direction_of_travel = Vec3d(-0.3, -0.2, -1),
+                                                 .irradiance = Rgb(1)})};
+  Scene turned = plain;
+  const TextureId leaning = AddTexture(&turned, 8, 4, [](int, int) { return Rgb(0.8, 0.5, 0.9); });
+  turned.materials[0].normal_map.texture = leaning;
+  const Image expected = RenderImage(plain, {});
+  CHECK(SameBits(expected.Find("R")->samples, RenderImage(turned, {}).Find("R")->samples));
+  turned.materials[0].normal_map = {};
+  std::get<MetallicRoughnessMaterial>(turned.materials[0].model).coat_normal_map.texture = leaning;
+  CHECK_FALSE(SameBits(expected.Find("R")->samples, RenderImage(turned, {}).Find("R")->samples));
+}
+
+}  // namespace
+}  // namespace nacre
