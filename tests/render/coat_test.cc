@@ -14,7 +14,7 @@
 namespace nacre {
 namespace {
 
-MetallicRoughnessMaterial White() {
+MetallicRoughnessMaterial WhiteUnderCoat() {
   MetallicRoughnessMaterial white;
   white.base_color = Rgb(1);
   white.coat = 1;
@@ -22,7 +22,7 @@ MetallicRoughnessMaterial White() {
 }
 
 // 2e-4: the worst error of two albedos at render time (brdf/albedo.h).
-void CheckWhite(const Scene& scene) {
+void CheckWhiteUnderCoat(const Scene& scene) {
   const Mean mean = MeanRed(RenderImage(scene, {}));
   CAPTURE(mean.value, mean.error);
   CHECK(std::abs(mean.value - 1) <= 4 * mean.error + 2e-4);
@@ -35,20 +35,20 @@ TEST_CASE("a white surface stays white under a coat of any roughness, by numbers
       for (const double roughness : {0.0, 0.05, 0.4, 1.0}) {
         for (const double coat : {1.0, 0.3}) {
           CAPTURE(metallic, roughness, coat);
-          MetallicRoughnessMaterial white = White();
+          MetallicRoughnessMaterial white = WhiteUnderCoat();
           white.metallic = metallic;
           white.coat = coat;
           white.coat_roughness = roughness;
           Scene scene = OrthographicSphere(white, 64);
           scene.lights = {WhiteSky()};
-          CheckWhite(scene);
+          CheckWhiteUnderCoat(scene);
           if (coat < 1) continue;
           auto& mapped = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
           mapped.coat_map =
               AddTexture(&scene, 16, 8, [](int x, int) { return Rgb((x % 4) / 3.0); });
           mapped.coat_roughness_map =
               AddTexture(&scene, 16, 8, [](int, int y) { return Rgb(0, y / 7.0, 1); });
-          CheckWhite(scene);
+          CheckWhiteUnderCoat(scene);
         }
       }
     }

@@ -301,6 +301,8 @@ const std::vector<MappedParameter> kMappedParameters = {
     {"specular_color_map", {"dielectric_f0"}},
     {"roughness_map", {"roughness"}},
     {"emission_map", {"emission"}},
+    {"coat_map", {"coat"}},
+    {"coat_roughness_map", {"coat_roughness"}},
 };
 
 // Every other choice of the model beside those that each map is walked with.
@@ -334,6 +336,11 @@ TEST_CASE("every map of every model is the constant, from code 0 to 255, under e
         for (const int code : {0, 1, 128, 255}) {
           const double value = Held(code / 255.0);
           Material constant = factors, mapped = factors;
+          if (map.name == "coat_roughness_map") {
+            const MaterialParameter* const coat = FindParameter(model, "coat");
+            coat->set(mapped, Rgb(1));
+            coat->set(constant, Rgb(1));
+          }
           for (const std::string_view name : entry->parameters) {
             const MaterialParameter* const parameter = FindParameter(model, name);
             if (parameter == nullptr) continue;
