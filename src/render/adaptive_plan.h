@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "render/small_triangles.h"
 #include "sampling/pixel_sampler.h"
 #include "scene/scene.h"
 #include "shading/material.h"
@@ -38,6 +39,7 @@ struct AdaptivePlan {
   double reach = 0.5;          // of the pixel filter, from the centre
   double center_error = 0;     // of a centre's value, in units of its second differences
   std::vector<double> widths;  // of each material's narrowest lobe, in radians
+  SmallTriangles small_triangles;
 };
 
 // `max_samples`: of a pixel, at least. Materials are those of the scene.

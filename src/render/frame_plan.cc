@@ -63,6 +63,12 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   // A texture may hold anything between pixel centres, and triangles are not binned.
   adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
                         !plan.surfaces.splits && !plan.surfaces.textured;
+  // A pixel beyond the cell: what covers its neighbours tells edges from what is rare.
+  if (!scene.meshes.empty()) {
+    adaptive.small_triangles =
+        BinSmallTriangles(plan.surfaces.primitives, MakeProjector(plan.camera), plan.window,
+                          adaptive.reach + 1, settings.threads);
+  }
   const PixelFilter& filter = scene.image.filter;
   const bool square = filter.kind == FilterKind::kBox && filter.width <= 1;
   if (square && adaptive.footprints) adaptive.square = filter.width / 2;
