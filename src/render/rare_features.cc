@@ -58,6 +58,10 @@ std::vector<Glint> GlintsIn(const FramePlan& plan, const Projector& projector, c
     }
   }
   const double reach = plan.adaptive.reach + kWidestRare;
+  const std::vector<Glint>& of_meshes = plan.adaptive.mesh_glints;
+  const auto first = std::lower_bound(of_meshes.begin(), of_meshes.end(), cell.y0 - reach,
+                                      [](const Glint& g, double y) { return g.y < y; });
+  for (auto g = first; g != of_meshes.end() && g->y < cell.y1 + reach; ++g) glints.push_back(*g);
   std::erase_if(glints, [&](const Glint& g) {
     return !(g.x > cell.x0 - reach && g.x < cell.x1 + reach && g.y > cell.y0 - reach &&
              g.y < cell.y1 + reach);
@@ -70,6 +74,7 @@ std::vector<Glint> GlintsIn(const FramePlan& plan, const Projector& projector, c
 void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, TileWork* work,
                    StageClock* clock, RenderStats* stats, std::vector<SmallPicture>* small) {
   constexpr size_t kAtOnce = kBatchCapacity / 2;
+  bool seen[kAtOnce];  // the peaks that nothing hides
   TileWork& s = *work;
   for (size_t first = 0; first < glints.size(); first += kAtOnce) {
     const size_t count = std::min(kAtOnce, glints.size() - first);
@@ -86,7 +91,14 @@ void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, Tile
     const Layer& beauty = plan.film.layers[0];
     Soa3<double>& values = GatherLayer(plan.film, beauty, 0, BackgroundOf(beauty, plan.film),
                                        BatchOf(plan, s), &s.layer_room);
+    std::fill_n(seen, count, false);
+    for (size_t hit = 0; hit < s.surfaces.hits.count; ++hit) {
+      const uint32_t ray = s.surfaces.hits.ray[hit];
+      if (ray % 2 != 0) continue;
+      seen[ray / 2] = s.surfaces.hits.primitive[hit] == glints[first + ray / 2].primitive;
+    }
     for (size_t i = 0; i < count; ++i) {
+      if (!seen[i]) continue;
       const Glint& g = glints[first + i];
       double radiance = 0;
       for (int channel = 0; channel < 3; ++channel) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // render/rare_features.h: what is known, before a pixel's first sample, of things in it that few of
 // its samples find: spheres and triangles (rare_triangles.h) that are smaller than a pixel, and
-// highlights that are (glints.h).
+// highlights that are
+// (glints.h, mesh_glints.h).
 #pragma once
 
 #include "render/cell_scratch.h"

@@ -11,7 +11,9 @@
 #include "render/adaptive.h"
 #include "render/convergence.h"
 #include "render/film.h"
+#include "render/glints.h"
 #include "render/render.h"
+#include "scene/sphere_mesh.h"
 #include "textured_scenes.h"
 
 namespace nacre {
@@ -355,6 +357,31 @@ Scene MeshGlints() {
   return scene;
 }
 
+// A sphere as a mesh with its normals.
+Mesh RoundMesh(const Vec3d& center, double radius, int subdivisions, MaterialId material) {
+  Mesh mesh = MakeMesh(Icosphere{center, radius, subdivisions});
+  mesh.material = material;
+  return mesh;
+}
+
+// Coarse ones, whose normals alone are round: the highlights are much smaller than a pixel.
+Scene IcosphereGlints() {
+  Scene scene = Parallel();
+  scene.camera.projection = Projection::kPerspective;
+  scene.camera.position = {3, 4, 30};
+  scene.camera.fov_y_deg = 56;
+  scene.background = Rgb(0.2);
+  const MaterialId shiny = Add(&scene, Metal(0.03));
+  for (int y = -3; y < 4; ++y) {
+    for (int x = -3; x < 4; ++x) {
+      scene.meshes.push_back(RoundMesh({4.1 * x + 0.37, 4.1 * y + 0.11, 0}, 1.9, 2, shiny));
+    }
+  }
+  scene.lights = {Named(
+      "lamp", PointLight{.position = {20, 30, 40}, .intensity = Rgb(6000), .attenuation = {}})};
+  return scene;
+}
+
 // Edges of a mesh in most pixels, before what is far brighter.
 Scene Confetti() {
   Scene scene = Parallel();
@@ -582,6 +609,7 @@ const Case kCases[] = {
     {"mirrored lamps", MirroredLamps, 0.05, 0.07},
     {"glints near by", NearGlints, 0.05, 0.03},
     {"glints of a mesh", MeshGlints, 0.05, 0.13},
+    {"glints of icospheres", IcosphereGlints, 0.1, 0.06},
     {"confetti", Confetti, 0.02, 0.06},
     {"an emission map of high range", [] { return BrightEmission(0.02, 3000); }, 0.05, 0.03},
     {"classic dust", ClassicDust, 0.05, 0.18},
@@ -700,6 +728,59 @@ TEST_CASE("small triangles that are hidden ask for nothing but a look") {
   CHECK(with.unsettled_pixels == 0);
   CHECK(with.camera_rays > without.camera_rays);
   CHECK(with.camera_rays <= without.camera_rays + 2 * 300);  // some in the reach of two cells
+}
+
+// A finely cut mesh has the highlights of the sphere that it stands for: where and how large the
+// former's normals and the latter's formula say.
+TEST_CASE("highlights of a round mesh are those of a sphere") {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    Scene scene = Parallel();
+    scene.camera.projection = projection;
+    scene.camera.position = {1, 2, 9};
+    scene.camera.fov_y_deg = 40;
+    scene.camera.height = 9;
+    const MaterialId shiny = Add(&scene, Phong(PhongModel::kBlinnPhong, 1e5));
+    SphereAreaLight ball;
+    ball.center = {-3, 2, 5};
+    ball.radius = 0.01;
+    ball.radiance = Rgb(1000);
+    scene.lights = {
+        Along({-1, -2, -3}, 2),
+        Named("lamp", PointLight{.position = {4, 1, 3}, .intensity = Rgb(9), .attenuation = {}}),
+        Named("ball", ball)};
+    RenderSettings settings;
+    settings.max_error = 0.1;
+    const Sphere sphere{{0.3, 0.2, 0}, 1.3, shiny};
+    Scene of_mesh = scene;
+    of_mesh.meshes = {RoundMesh(sphere.center, sphere.radius, 6, shiny)};
+    const FramePlan plan = MakePlan(of_mesh, settings);
+    scene.spheres = {sphere};
+    const FramePlan sphere_plan = MakePlan(scene, settings);
+    TileCandidate candidate{};
+    candidate.sphere.center = sphere.center - scene.camera.position;
+    candidate.sphere.radius = sphere.radius;
+    std::vector<Glint> expected;
+    AddGlints(sphere_plan, MakeProjector(sphere_plan.camera), candidate, 4, &expected);
+    REQUIRE(expected.size() == 3);
+    // As many lie on the inside of the far half, which the near one hides.
+    const std::vector<Glint>& found = plan.adaptive.mesh_glints;
+    REQUIRE(found.size() == 6);
+    for (const Glint& other : expected) {
+      const auto distance = [&](const Glint& g) {
+        return g.light == other.light ? std::hypot(g.x - other.x, g.y - other.y) : 1e9;
+      };
+      const Glint& glint = *std::min_element(
+          found.begin(), found.end(),
+          [&](const Glint& a, const Glint& b) { return distance(a) < distance(b); });
+      CAPTURE(static_cast<int>(projection), other.light, glint.x, other.x, glint.y, other.y);
+      // Edges are 1/50 of the radius long, and so lie 1/20000 of it inside the sphere: of 6 pixels.
+      CHECK(std::abs(glint.x - other.x) < 1e-3);
+      CHECK(std::abs(glint.y - other.y) < 1e-3);
+      // A triangle is tilted to the sphere at its corners by 1/100 (1/50 over the square root of
+      // 3), and seen as much wider or narrower where it does not face the camera.
+      CHECK(glint.area == Approx(other.area).epsilon(0.01));
+    }
+  }
 }
 
 TEST_CASE("what is rare under filters wider than a pixel is, too") {
