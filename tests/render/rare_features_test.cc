@@ -487,22 +487,6 @@ Scene LitMeshDust() {
   return scene;
 }
 
-// Under a light with an extent, over a floor that it lights as well.
-Scene LampDust() {
-  Scene scene = Floor(0.1);
-  Mesh mesh;
-  mesh.material = AddMatte(&scene, 1);
-  Scatter(500, 13, Scaled(kTetrahedron, 0.025), &mesh);
-  for (Vec3d& position : mesh.positions) position.z += 50;
-  scene.meshes.push_back(mesh);
-  SphereAreaLight light;
-  light.center = {0, 90, 60};
-  light.radius = 5;
-  light.radiance = Rgb(3000);
-  scene.lights = {Named("lamp", light)};
-  return scene;
-}
-
 // Wires of 1/500 of a pixel that glow.
 Scene GlowingWires() {
   Scene scene = Parallel();
@@ -616,7 +600,6 @@ const Case kCases[] = {
     {"dust of triangles", MeshDust, 0.1, 0.33},
     {"dust of triangles nearby", MeshDustNearby, 0.1, 0.34},
     {"lit dust of triangles", LitMeshDust, 0.1, 0.28},
-    {"dust of triangles under a lamp", LampDust, 0.1, 0.01},
     {"glowing wires", GlowingWires, 0.1, 0.65},
     {"bright texels",
      [] { return TexturedFloor(3.7, TextureFilter::kNearest, Rgb(20), Dots(500, 0)); }, 0.05, 0.02},
