@@ -48,6 +48,17 @@ struct CellScratch {
   // What few samples find of a pixel (rare_features.h): how many find it, and at most how much of
   // the pixel's radiance it is.
   double rare_samples[kCellPixels], rare_radiance[kCellPixels];
+  // The same of triangles of one material (rare_triangles.h), whose radiance is known: pixel by
+  // pixel.
+  struct RareTriangles {
+    uint32_t pixel;
+    double share;  // of the pixel's samples, that hit them
+    Rgb radiance;  // what they add to the pixel's: times that share
+  };
+  std::vector<RareTriangles> rare_triangles;
+  // What comes of both where it matters for the pixel as it looks now (evidence.h): how many
+  // samples it must have; 0 where nothing that is rare does.
+  double known_rare[kCellPixels];
   // Pixels whose covered share is known, and a place on the film in each that hits.
   struct SoughtHit {
     uint32_t pixel;

@@ -147,7 +147,7 @@ double WidestAround(const CellScratch& c, uint32_t pixel) {
       if ((intervals.narrow >> i & 1) != 0) continue;
       // What is known to be rare there is known here, too.
       const uint32_t other = pixel - pixel % uint32_t{kBlockPixels} + i;
-      if (2 * c.rare_radiance[other] > intervals.wanted[i]) continue;
+      if (c.known_rare[other] > 0) continue;
       widest = std::max(widest, intervals.half_width[i]);
     }
   }

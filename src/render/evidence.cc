@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace nacre {
@@ -71,22 +72,29 @@ double WantedOf(const CellScratch& c, uint32_t pixel) {
   return c.intervals[pixel / kBlockPixels].wanted[pixel % kBlockPixels];
 }
 
-// Whether what the pixel's samples differ by is more than twice that of the means around it: of an
-// edge between two parts of the picture, both sides are seen there.
-bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double contrast) {
+// The least and the greatest mean of the pixel and those around it in the cell.
+PixelRange MeansAround(const CellScratch& c, uint32_t pixel, size_t channel) {
   const CellPlace at = PlaceInCell(pixel);
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+  PixelRange range{std::numeric_limits<double>::infinity(),
+                   -std::numeric_limits<double>::infinity()};
   for (int row = std::max(at.row - 1, 0); row <= std::min(at.row + 1, kCellSide - 1); ++row) {
     for (int column = std::max(at.column - 1, 0); column <= std::min(at.column + 1, kCellSide - 1);
          ++column) {
       const uint32_t other = PixelAt({column, row});
       if (c.samples[other] == 0) continue;
       const double mean = MeanOf(c, other, channel);
-      low = std::min(low, mean);
-      high = std::max(high, mean);
+      range.low = std::min(range.low, mean);
+      range.high = std::max(range.high, mean);
     }
   }
-  return 2 * (high - low) < contrast;
+  return range;
+}
+
+// Whether what the pixel's samples differ by is more than twice that of the means around it: of an
+// edge between two parts of the picture, both sides are seen there.
+bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double contrast) {
+  const PixelRange means = MeansAround(c, pixel, channel);
+  return 2 * (means.high - means.low) < contrast;
 }
 
 PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel) {
@@ -117,8 +125,48 @@ bool IsInner(uint32_t pixel) {
 }
 
 // Whether what is known beforehand of the pixel matters for it.
-bool HasKnownRare(const CellScratch& c, uint32_t pixel) {
-  return 2 * c.rare_radiance[pixel] > WantedOf(c, pixel);
+bool HasKnownRare(const CellScratch& c, uint32_t pixel) { return c.known_rare[pixel] > 0; }
+
+// By how much the pixel's mean is wrong if no sample has hit these triangles, as far as they are
+// darker or brighter than all that is seen around: else they are the edge of something.
+double ContrastOf(const CellScratch& c, const CellScratch::RareTriangles& rare) {
+  double contrast = 0;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const PixelRange around = MeansAround(c, rare.pixel, channel);
+    const double radiance = rare.radiance[static_cast<int>(channel)];
+    contrast = std::max(
+        {contrast, radiance - rare.share * around.high, rare.share * around.low - radiance});
+  }
+  return contrast;
+}
+
+// The triangles of one pixel matter together. Those of which all together cannot matter ask for
+// nothing: a part of what is wanted, divided by their number, each.
+void AddKnownTriangles(std::span<const CellScratch::RareTriangles> of_pixel, CellScratch* c) {
+  const uint32_t pixel = of_pixel[0].pixel;
+  const double wanted = WantedOf(*c, pixel);
+  double all = 0;
+  for (const auto& rare : of_pixel) all += ContrastOf(*c, rare);
+  if (!(2 * all > wanted)) return;
+  const auto count = static_cast<double>(of_pixel.size());
+  for (const auto& rare : of_pixel) {
+    if (!(2 * count * ContrastOf(*c, rare) > wanted)) continue;
+    c->known_rare[pixel] = std::max(c->known_rare[pixel], kExpectedHits / rare.share);
+  }
+}
+
+// Sets known_rare, of pixels with samples.
+void FindKnownRare(CellScratch* c) {
+  for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
+    const bool matters = 2 * c->rare_radiance[pixel] > WantedOf(*c, pixel);
+    c->known_rare[pixel] = matters ? c->rare_samples[pixel] : 0;
+  }
+  const auto& all = c->rare_triangles;
+  for (size_t first = 0, end = 0; first < all.size(); first = end) {
+    const uint32_t pixel = all[first].pixel;
+    while (end < all.size() && all[end].pixel == pixel) ++end;
+    if (c->samples[pixel] > 0) AddKnownTriangles({all.data() + first, end - first}, c);
+  }
 }
 
 // Pixels of the kind `left_out` tell nothing, nor do those in which what is rare is known
@@ -163,6 +211,7 @@ void ClearEvidence(CellScratch* c) {
 }
 
 void RequireEvidence(CellScratch* c) {
+  FindKnownRare(c);
   std::vector<PixelEvidence> all;
   for (const uint32_t pixel : c->active) {
     if (IsOpen(*c, pixel)) all.push_back(EvidenceOf(*c, pixel));
@@ -180,8 +229,7 @@ void RequireEvidence(CellScratch* c) {
     if (!by_own || !by_cell) Doubt(e.pixel, c);
   }
   for (const uint32_t pixel : c->active) {
-    const bool by_plan = SamplesTaken(*c, pixel) >= c->rare_samples[pixel];
-    if (!by_plan && HasKnownRare(*c, pixel)) Doubt(pixel, c);
+    if (SamplesTaken(*c, pixel) < c->known_rare[pixel]) Doubt(pixel, c);
   }
 }
 

@@ -35,6 +35,11 @@ namespace nacre {
 // x = 0.451. A replicate's sample is 4 / n of the contrast: 4 x = 1.80.
 inline constexpr double kByChance = 1.80;
 
+// Hits on rare things that a pixel must expect before the spread of its replicates tells of them:
+// two in each, so that all agree by chance in one of 82 cases (the sum of the fourth powers of
+// Poisson's probabilities).
+inline constexpr double kExpectedHits = 2 * kReplicates;
+
 // Before a cell's first sample.
 void ClearEvidence(CellScratch* cell_scratch);
 

@@ -13,6 +13,7 @@
 #include "render/camera.h"
 #include "render/frame_window.h"
 #include "render/hit_positions.h"
+#include "render/mesh_glints.h"
 #include "render/mesh_shading.h"
 #include "render/plan_notes.h"
 #include "render/shadow_origins.h"
@@ -63,6 +64,16 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   // A texture may hold anything between pixel centres, and triangles are not binned.
   adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
                         !plan.surfaces.splits && !plan.surfaces.textured;
+  adaptive.lights = FindHighlightLights(scene, plan.direct);
+  adaptive.mesh_glints = FindMeshGlints(scene, plan.surfaces, adaptive, plan.camera, plan.window,
+                                        kCellSize + adaptive.reach + kWidestRare,
+                                        kWidestRare * kWidestRare, settings.threads);
+  // A pixel beyond the cell: what covers its neighbours tells edges from what is rare.
+  if (!scene.meshes.empty()) {
+    adaptive.small_triangles =
+        BinSmallTriangles(plan.surfaces.primitives, MakeProjector(plan.camera), plan.window,
+                          adaptive.reach + 1, settings.threads);
+  }
   const PixelFilter& filter = scene.image.filter;
   const bool square = filter.kind == FilterKind::kBox && filter.width <= 1;
   if (square && adaptive.footprints) adaptive.square = filter.width / 2;

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <variant>
+
+#include "render/highlights.h"
 
 namespace nacre {
 namespace {
@@ -62,37 +63,15 @@ MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, doubl
   return point;
 }
 
-// Half-width, in radians, of a lobe around the half vector; infinite of none. That of Phong's,
-// which is around the mirrored direction, turns twice as far as the normal.
-double HalfVectorWidth(const FramePlan& plan, uint32_t material) {
-  const ShadingMaterial& prepared = plan.surfaces.materials[material];
-  const auto& model = prepared.model;
-  if (HasDeltaLobe(prepared) || (prepared.coat && HasDeltaLobe(*prepared.coat))) return 0;
-  const auto* phong = std::get_if<PhongFamilyModel>(&model);
-  const bool mirrored = phong != nullptr && phong->model != PhongModel::kBlinnPhong;
-  return plan.adaptive.widths[material] * (mirrored ? 0.5 : 1);
+SeenPoint SeenLight(const HighlightLight& light, const Vec3d& center) {
+  if (light.far) return {light.place, kFarAway};
+  return SeenFrom(center, light.place);
 }
 
-// Pixels per length at a point, across the view: squared also of areas that face the camera plane.
-double ScaleAt(const Projector& projector, const Vec3d& place) {
-  return projector.inverse_pixel / (projector.perspective ? place.dot(projector.forward) : 1);
-}
-
-struct FilmPlace {
-  double x, y;
-};
-
-FilmPlace ProjectPoint(const Projector& projector, const Vec3d& place) {
-  const double scale = ScaleAt(projector, place);
-  return {place.dot(projector.right) * scale + projector.middle_x,
-          place.dot(projector.down) * scale + projector.middle_y};
-}
-
-// A light to look for in a sphere: `radius` of what it extends over.
 void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
-              const SeenPoint& light, double light_radius, size_t number, double largest,
-              std::vector<Glint>* glints) {
+              const HighlightLight& shown, double largest, std::vector<Glint>* glints) {
   const TraceSphere& sphere = candidate.sphere;
+  const SeenPoint light = SeenLight(shown, sphere.center);
   const SeenPoint eye = projector.perspective ? SeenFrom(sphere.center, {0, 0, 0})
                                               : SeenPoint{-projector.forward, kFarAway};
   if (!(light.distance > sphere.radius)) return;
@@ -110,7 +89,7 @@ void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandi
   if (!(depth > 0)) return;
   const FilmPlace peak = ProjectPoint(projector, place);
   const uint32_t material = MaterialAt(plan.surfaces, candidate.primitive, peak.x).index;
-  const double lobe = HalfVectorWidth(plan, material);
+  const double lobe = HalfVectorWidth(plan.surfaces, plan.adaptive, material);
   if (lobe == kFarAway) return;
   // By how much the normal turns away from the half vector along a step on the sphere: the normal
   // itself, and the half vector the other way, as the ways to eye and light turn. Twice the mean of
@@ -120,7 +99,7 @@ void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandi
   const double bend = 1 / sphere.radius;
   const double turns = (bend + ways * cosine) * (bend + ways / cosine);
   // A light's angular radius turns the half vector by half as much.
-  const double of_light = light_radius / mirror.light.length / 2;
+  const double of_light = shown.radius / mirror.light.length / 2;
   const double width2 = lobe * lobe + of_light * of_light;
   const double scale = ScaleAt(projector, place);
   const double facing = projector.perspective ? cosine * mirror.eye.length / depth : cosine;
@@ -131,19 +110,8 @@ void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandi
   const double step = 4 * std::sqrt(width2 / turns) * scale;
   // Of a sphere that is lit from the camera, any way is inwards.
   const double part = way > 0 ? std::min(step / way, 1.0) : 0;
-  glints->push_back({candidate.primitive, material, number, peak.x, peak.y, area,
+  glints->push_back({candidate.primitive, material, shown.number, peak.x, peak.y, area,
                      way > 0 ? dx * part : step, way > 0 ? dy * part : 0});
-}
-
-// The place of a punctual light, or else the direction to it.
-SeenPoint SeenLight(const Light& light, const Vec3d& camera, const Vec3d& center) {
-  if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
-    return {-sun->direction_of_travel.normalized(), kFarAway};
-  }
-  const auto* point = std::get_if<PointLight>(&light.kind);
-  const Vec3d& position =
-      point != nullptr ? point->position : std::get<SpotLight>(light.kind).position;
-  return SeenFrom(center, position - camera);
 }
 
 // Whether all highlights on the sphere are wider than `least` pixels, unless they are seen at a
@@ -163,25 +131,13 @@ void AddGlints(const FramePlan& plan, const Projector& projector, const TileCand
   if (candidate.around_camera) return;
   const TraceSphere& sphere = candidate.sphere;
   if (!plan.surfaces.splits) {
-    const double width =
-        HalfVectorWidth(plan, MaterialAt(plan.surfaces, candidate.primitive, 0).index);
+    const double width = HalfVectorWidth(plan.surfaces, plan.adaptive,
+                                         MaterialAt(plan.surfaces, candidate.primitive, 0).index);
     if (width == kFarAway || (width == 0 && plan.direct.sampled_lights.empty())) return;
     if (ShowsWide(projector, sphere, width, std::sqrt(largest))) return;
   }
-  size_t number = 0;
-  for (const PlannedPunctualLight& planned : plan.direct.lights) {
-    AddGlint(
-        plan, projector, candidate,
-        SeenLight(plan.scene->lights[planned.index], plan.scene->camera.position, sphere.center), 0,
-        number++, largest, glints);
-  }
-  for (const PlannedSampledLight& planned : plan.direct.sampled_lights) {
-    const SampledLight& light = planned.light;
-    if (IsSky(light)) continue;
-    const Vec3d diagonal = light.edge_x + light.edge_y;  // of rectangles
-    const double radius = light.radius + diagonal.length() / 2;
-    AddGlint(plan, projector, candidate, SeenFrom(sphere.center, light.place + diagonal / 2),
-             radius, number++, largest, glints);
+  for (const HighlightLight& light : plan.adaptive.lights) {
+    AddGlint(plan, projector, candidate, light, largest, glints);
   }
 }
 

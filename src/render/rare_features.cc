@@ -7,21 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "render/evidence.h"
+#include "render/filter_shares.h"
 #include "render/glints.h"
 #include "render/interval.h"
-#include "sampling/pixel_filter.h"
+#include "render/rare_triangles.h"
 
 namespace nacre {
 namespace {
-
-// Hits on rare things that a pixel must expect before the spread of its replicates tells of them:
-// two in each, so that all agree by chance in one of 82 cases (the sum of the fourth powers of
-// Poisson's probabilities).
-constexpr double kExpectedHits = 2 * kReplicates;
-
-// Spheres and highlights whose pictures are wider, in pixels, are found: 16 samples expect more
-// hits than that.
-constexpr double kWidestRare = 2;
 
 // Pictures that look alike: each of them that a sample hits tells of the others.
 struct Likeness {
@@ -37,15 +30,6 @@ struct SmallPicture {
   double x, y, half_side;
   double radiance;  // at most, beyond what is beside it
 };
-
-// The share of a pixel's samples, along one axis, that lie between two distances from its centre.
-double ShareBetween(const PixelFilter& filter, double from, double to) {
-  const auto below = [&](double x) {
-    const double inside = FilterIntegral(filter, std::min(std::abs(x), filter.width / 2));
-    return x < 0 ? -inside : inside;
-  };
-  return std::abs(below(to) - below(from));
-}
 
 void AddSpheres(const FramePlan& plan, const Projector& projector, const TileCandidates& candidates,
                 std::vector<SmallPicture>* small) {
@@ -74,6 +58,10 @@ std::vector<Glint> GlintsIn(const FramePlan& plan, const Projector& projector, c
     }
   }
   const double reach = plan.adaptive.reach + kWidestRare;
+  const std::vector<Glint>& of_meshes = plan.adaptive.mesh_glints;
+  const auto first = std::lower_bound(of_meshes.begin(), of_meshes.end(), cell.y0 - reach,
+                                      [](const Glint& g, double y) { return g.y < y; });
+  for (auto g = first; g != of_meshes.end() && g->y < cell.y1 + reach; ++g) glints.push_back(*g);
   std::erase_if(glints, [&](const Glint& g) {
     return !(g.x > cell.x0 - reach && g.x < cell.x1 + reach && g.y > cell.y0 - reach &&
              g.y < cell.y1 + reach);
@@ -86,6 +74,7 @@ std::vector<Glint> GlintsIn(const FramePlan& plan, const Projector& projector, c
 void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, TileWork* work,
                    StageClock* clock, RenderStats* stats, std::vector<SmallPicture>* small) {
   constexpr size_t kAtOnce = kBatchCapacity / 2;
+  bool seen[kAtOnce];  // the peaks that nothing hides
   TileWork& s = *work;
   for (size_t first = 0; first < glints.size(); first += kAtOnce) {
     const size_t count = std::min(kAtOnce, glints.size() - first);
@@ -102,7 +91,14 @@ void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, Tile
     const Layer& beauty = plan.film.layers[0];
     Soa3<double>& values = GatherLayer(plan.film, beauty, 0, BackgroundOf(beauty, plan.film),
                                        BatchOf(plan, s), &s.layer_room);
+    std::fill_n(seen, count, false);
+    for (size_t hit = 0; hit < s.surfaces.hits.count; ++hit) {
+      const uint32_t ray = s.surfaces.hits.ray[hit];
+      if (ray % 2 != 0) continue;
+      seen[ray / 2] = s.surfaces.hits.primitive[hit] == glints[first + ray / 2].primitive;
+    }
     for (size_t i = 0; i < count; ++i) {
+      if (!seen[i]) continue;
       const Glint& g = glints[first + i];
       double radiance = 0;
       for (int channel = 0; channel < 3; ++channel) {
@@ -124,24 +120,11 @@ struct Shares {
 // Adds the picture's share of the samples of each of the cell's pixels that it is in the reach of.
 void AddShares(const PixelFilter& filter, const Window& cell, const SmallPicture& picture,
                Shares* shares) {
-  const double reach = filter.width / 2 + picture.half_side;
-  const auto first = [&](double at, int from) {
-    return std::max(static_cast<int>(std::floor(at - 0.5 - reach)), from);
-  };
-  const auto last = [&](double at, int to) {
-    return std::min(static_cast<int>(std::ceil(at - 0.5 + reach)), to - 1);
-  };
-  for (int y = first(picture.y, cell.y0); y <= last(picture.y, cell.y1); ++y) {
-    const double down = picture.y - (y + 0.5);
-    const double of_rows = ShareBetween(filter, down - picture.half_side, down + picture.half_side);
-    for (int x = first(picture.x, cell.x0); x <= last(picture.x, cell.x1); ++x) {
-      const double across = picture.x - (x + 0.5);
-      const double share =
-          of_rows * ShareBetween(filter, across - picture.half_side, across + picture.half_side);
-      shares->samples[y - cell.y0][x - cell.x0] += share;
-      shares->radiance[y - cell.y0][x - cell.x0] += share * picture.radiance;
-    }
-  }
+  ForEachShare(filter, cell, {picture.x, picture.y, picture.half_side, picture.half_side},
+               [&](int column, int row, double share) {
+                 shares->samples[row][column] += share;
+                 shares->radiance[row][column] += share * picture.radiance;
+               });
 }
 
 }  // namespace
@@ -175,6 +158,7 @@ void FindRareFeatures(const FramePlan& plan, const Window& cell, TileWork* work,
       c->rare_radiance[pixel] += radiance;
     }
   }
+  FindRareTriangles(plan, cell, work, c, clock, stats);
 }
 
 }  // namespace nacre

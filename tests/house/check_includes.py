@@ -51,14 +51,14 @@ FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 # headers of those before it.
 RENDER_ORDER = """
     settings stats stage_clock explanation layers camera camera_kernel frame_window white_level plan_notes
-    film_kernel adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel light_cull mesh_windows
+    film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel light_cull mesh_windows
     outline_coverage sphere_pictures
     hits_plan tile_sight samples hits surfaces
-    direct_plan shadow_plan brightest_object direct_batch
+    direct_plan highlights mesh_glints shadow_plan brightest_object direct_batch
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
     frame_plan tile_work tile
-    cell_scratch cell_film footprint evidence convergence glints rare_features adaptive
+    cell_scratch cell_film footprint evidence convergence glints rare_triangles rare_features adaptive
     render
 """.split()
 

@@ -11,7 +11,9 @@
 #include "render/adaptive.h"
 #include "render/convergence.h"
 #include "render/film.h"
+#include "render/glints.h"
 #include "render/render.h"
+#include "scene/sphere_mesh.h"
 #include "textured_scenes.h"
 
 namespace nacre {
@@ -355,6 +357,31 @@ Scene MeshGlints() {
   return scene;
 }
 
+// A sphere as a mesh with its normals.
+Mesh RoundMesh(const Vec3d& center, double radius, int subdivisions, MaterialId material) {
+  Mesh mesh = MakeMesh(Icosphere{center, radius, subdivisions});
+  mesh.material = material;
+  return mesh;
+}
+
+// Coarse ones, whose normals alone are round: the highlights are much smaller than a pixel.
+Scene IcosphereGlints() {
+  Scene scene = Parallel();
+  scene.camera.projection = Projection::kPerspective;
+  scene.camera.position = {3, 4, 30};
+  scene.camera.fov_y_deg = 56;
+  scene.background = Rgb(0.2);
+  const MaterialId shiny = Add(&scene, Metal(0.03));
+  for (int y = -3; y < 4; ++y) {
+    for (int x = -3; x < 4; ++x) {
+      scene.meshes.push_back(RoundMesh({4.1 * x + 0.37, 4.1 * y + 0.11, 0}, 1.9, 2, shiny));
+    }
+  }
+  scene.lights = {Named(
+      "lamp", PointLight{.position = {20, 30, 40}, .intensity = Rgb(6000), .attenuation = {}})};
+  return scene;
+}
+
 // Edges of a mesh in most pixels, before what is far brighter.
 Scene Confetti() {
   Scene scene = Parallel();
@@ -394,6 +421,80 @@ Scene ClassicDust() {
   EnvironmentLight sky{.sky = ConstantSky{Rgb(1)}};
   sky.background = false;
   scene.lights = {Named("sky", sky)};
+  return scene;
+}
+
+// `count` copies of some triangles at random places and turned at random about the view.
+void Scatter(int count, uint32_t seed, const std::vector<Vec3d>& corners, Mesh* mesh) {
+  std::mt19937 random(seed);
+  for (const Vec3d& place : Places(count, seed, 0)) {
+    const double turn = 2 * M_PI * static_cast<double>(random()) / 4294967296.0;
+    const double cosine = std::cos(turn), sine = std::sin(turn);
+    for (const Vec3d& p : corners) {
+      mesh->triangles.push_back(static_cast<uint32_t>(mesh->positions.size()));
+      mesh->positions.push_back(place +
+                                Vec3d(cosine * p.x - sine * p.y, sine * p.x + cosine * p.y, p.z));
+    }
+  }
+}
+
+const std::vector<Vec3d> kFlake = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+const std::vector<Vec3d> kTetrahedron = {{1, 1, 1},   {1, -1, -1}, {-1, 1, -1}, {1, 1, 1},
+                                         {-1, -1, 1}, {1, -1, -1}, {1, 1, 1},   {-1, 1, -1},
+                                         {-1, -1, 1}, {1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}};
+
+std::vector<Vec3d> Scaled(std::vector<Vec3d> corners, double scale) {
+  for (Vec3d& corner : corners) corner *= scale;
+  return corners;
+}
+
+// Triangles of 1/800 of a pixel that shine.
+Scene MeshDust() {
+  Scene scene = Parallel();
+  Mesh mesh;
+  mesh.material = Add(&scene, LambertMaterial{Rgb(0)}, Rgb(200));
+  Scatter(300, 11, Scaled(kFlake, 0.05), &mesh);
+  scene.meshes.push_back(mesh);
+  scene.background = Rgb(0.3);
+  return scene;
+}
+
+// The same from near by, among triangles behind the camera, beside the picture and without an area.
+Scene MeshDustNearby() {
+  Scene scene = MeshDust();
+  scene.camera.projection = Projection::kPerspective;
+  scene.camera.position = {0, 0, 20};
+  scene.camera.fov_y_deg = 77;
+  Mesh& mesh = scene.meshes[0];
+  for (const Vec3d& place : {Vec3d(0, 0, 30), Vec3d(0, 0, 20), Vec3d(50, 3, 0)}) {
+    AddStrip(place, {0.05, 0, 0}, {0, 0.05, 0}, &mesh);
+    AddStrip(place, {0.05, 0, 0}, {0.05, 0, 0}, &mesh);
+    AddStrip(place, {0, 0, 0}, {0, 0, 0}, &mesh);
+  }
+  AddStrip({-9, -9, 0}, {0, 0, 40}, {1e-3, 0, 0}, &mesh);  // from before the camera to behind it
+  return scene;
+}
+
+// Closed ones under one light, some in the shadow of others.
+Scene LitMeshDust() {
+  Scene scene = Parallel();
+  Mesh mesh;
+  mesh.material = AddMatte(&scene, 0.8);
+  Scatter(250, 12, Scaled(kTetrahedron, 0.02), &mesh);
+  scene.meshes.push_back(mesh);
+  scene.background = Rgb(0.05);
+  scene.lights = {Along({-1, -2, -3}, 200)};
+  return scene;
+}
+
+// Wires of 1/500 of a pixel that glow.
+Scene GlowingWires() {
+  Scene scene = Parallel();
+  Mesh mesh;
+  mesh.material = Add(&scene, LambertMaterial{Rgb(0)}, Rgb(60));
+  for (int i = -12; i < 12; ++i) AddStrip({i * 2.7, -40, 0}, {20, 80, 0}, {0.002, 0, 0}, &mesh);
+  scene.meshes.push_back(mesh);
+  scene.background = Rgb(0.1);
   return scene;
 }
 
@@ -492,9 +593,14 @@ const Case kCases[] = {
     {"mirrored lamps", MirroredLamps, 0.05, 0.07},
     {"glints near by", NearGlints, 0.05, 0.03},
     {"glints of a mesh", MeshGlints, 0.05, 0.13},
+    {"glints of icospheres", IcosphereGlints, 0.1, 0.06},
     {"confetti", Confetti, 0.02, 0.06},
     {"an emission map of high range", [] { return BrightEmission(0.02, 3000); }, 0.05, 0.03},
     {"classic dust", ClassicDust, 0.05, 0.18},
+    {"dust of triangles", MeshDust, 0.1, 0.33},
+    {"dust of triangles nearby", MeshDustNearby, 0.1, 0.34},
+    {"lit dust of triangles", LitMeshDust, 0.1, 0.28},
+    {"glowing wires", GlowingWires, 0.1, 0.65},
     {"bright texels",
      [] { return TexturedFloor(3.7, TextureFilter::kNearest, Rgb(20), Dots(500, 0)); }, 0.05, 0.02},
     {"filtered bright texels",
@@ -544,6 +650,118 @@ TEST_CASE("a highlight of a needle's width on one sphere is not missed") {
       CAPTURE(shininess, max_error, image.channels[0].samples[peak], red[peak], told[peak]);
       CHECK((told[peak] || !IsBeyond(image, truth, peak, max_error)));
       CHECK(std::count(told.begin(), told.end(), true) <= 4);
+    }
+  }
+}
+
+// A square of n x n quads in front of a sky, 20 pixels wide.
+Scene CutSquare(int n) {
+  Scene scene = Parallel();
+  Mesh mesh;
+  mesh.material = AddMatte(&scene, 0.8);
+  const double step = 20.0 / n;
+  for (int y = 0; y < n; ++y) {
+    for (int x = 0; x < n; ++x) {
+      const Vec3d from(x * step - 10.3, y * step - 10.4, 0);
+      AddStrip(from, {step, 0, 0}, {0, step, 0}, &mesh);
+    }
+  }
+  scene.meshes.push_back(mesh);
+  scene.background = Rgb(0.1);
+  scene.lights = {Along({0.3, 0.2, -1}, 3)};
+  return scene;
+}
+
+RenderStats StatsOf(const Scene& scene, double max_error) {
+  RenderSettings settings;
+  settings.max_error = max_error;
+  RenderStats stats;
+  RenderImage(scene, settings, &stats);
+  return stats;
+}
+
+TEST_CASE("a finely cut mesh takes no more samples than one of few triangles") {
+  for (const double max_error : {0.1, 0.03}) {
+    const RenderStats coarse = StatsOf(CutSquare(1), max_error);
+    for (const int n : {25, 300}) {
+      const RenderStats fine = StatsOf(CutSquare(n), max_error);
+      CAPTURE(max_error, n, coarse.camera_rays, fine.camera_rays);
+      CHECK(static_cast<double>(fine.camera_rays) <=
+            1.05 * static_cast<double>(coarse.camera_rays));
+      CHECK(fine.unsettled_pixels == 0);
+    }
+  }
+}
+
+TEST_CASE("small triangles that are hidden ask for nothing but a look") {
+  Scene scene = Floor(0.5);
+  scene.lights = {Along({0, 0, -1}, 1)};
+  // Above the floor, under a larger mesh.
+  Mesh mesh;
+  mesh.material = Add(&scene, LambertMaterial{Rgb(0)}, Rgb(200));
+  Scatter(300, 14, Scaled(kFlake, 0.05), &mesh);
+  for (Vec3d& position : mesh.positions) position.z += 5;
+  Mesh roof;
+  roof.material = AddMatte(&scene, 0.5);
+  AddStrip({-40, -40, 10}, {80, 0, 0}, {0, 80, 0}, &roof);
+  scene.meshes = {roof};
+  const RenderStats without = StatsOf(scene, 0.1);
+  scene.meshes = {roof, mesh};
+  const RenderStats with = StatsOf(scene, 0.1);
+  CHECK(with.unsettled_pixels == 0);
+  CHECK(with.camera_rays > without.camera_rays);
+  CHECK(with.camera_rays <= without.camera_rays + 2 * 300);  // some in the reach of two cells
+}
+
+// A finely cut mesh has the highlights of the sphere that it stands for: where and how large the
+// former's normals and the latter's formula say.
+TEST_CASE("highlights of a round mesh are those of a sphere") {
+  for (const Projection projection : {Projection::kPerspective, Projection::kOrthographic}) {
+    Scene scene = Parallel();
+    scene.camera.projection = projection;
+    scene.camera.position = {1, 2, 9};
+    scene.camera.fov_y_deg = 40;
+    scene.camera.height = 9;
+    const MaterialId shiny = Add(&scene, Phong(PhongModel::kBlinnPhong, 1e5));
+    SphereAreaLight ball;
+    ball.center = {-3, 2, 5};
+    ball.radius = 0.01;
+    ball.radiance = Rgb(1000);
+    scene.lights = {
+        Along({-1, -2, -3}, 2),
+        Named("lamp", PointLight{.position = {4, 1, 3}, .intensity = Rgb(9), .attenuation = {}}),
+        Named("ball", ball)};
+    RenderSettings settings;
+    settings.max_error = 0.1;
+    const Sphere sphere{{0.3, 0.2, 0}, 1.3, shiny};
+    Scene of_mesh = scene;
+    of_mesh.meshes = {RoundMesh(sphere.center, sphere.radius, 6, shiny)};
+    const FramePlan plan = MakePlan(of_mesh, settings);
+    scene.spheres = {sphere};
+    const FramePlan sphere_plan = MakePlan(scene, settings);
+    TileCandidate candidate{};
+    candidate.sphere.center = sphere.center - scene.camera.position;
+    candidate.sphere.radius = sphere.radius;
+    std::vector<Glint> expected;
+    AddGlints(sphere_plan, MakeProjector(sphere_plan.camera), candidate, 4, &expected);
+    REQUIRE(expected.size() == 3);
+    // As many lie on the inside of the far half, which the near one hides.
+    const std::vector<Glint>& found = plan.adaptive.mesh_glints;
+    REQUIRE(found.size() == 6);
+    for (const Glint& other : expected) {
+      const auto distance = [&](const Glint& g) {
+        return g.light == other.light ? std::hypot(g.x - other.x, g.y - other.y) : 1e9;
+      };
+      const Glint& glint = *std::min_element(
+          found.begin(), found.end(),
+          [&](const Glint& a, const Glint& b) { return distance(a) < distance(b); });
+      CAPTURE(static_cast<int>(projection), other.light, glint.x, other.x, glint.y, other.y);
+      // Edges are 1/50 of the radius long, and so lie 1/20000 of it inside the sphere: of 6 pixels.
+      CHECK(std::abs(glint.x - other.x) < 1e-3);
+      CHECK(std::abs(glint.y - other.y) < 1e-3);
+      // A triangle is tilted to the sphere at its corners by 1/100 (1/50 over the square root of
+      // 3), and seen as much wider or narrower where it does not face the camera.
+      CHECK(glint.area == Approx(other.area).epsilon(0.01));
     }
   }
 }

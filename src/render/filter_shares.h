@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/filter_shares.h: which share of a pixel's samples lies in a box on the film.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/image.h"
+#include "sampling/pixel_filter.h"
+
+namespace nacre {
+
+// The share of a pixel's samples, along one axis, that lie between two distances from its centre.
+inline double ShareBetween(const PixelFilter& filter, double from, double to) {
+  const auto below = [&](double x) {
+    const double inside = FilterIntegral(filter, std::min(std::abs(x), filter.width / 2));
+    return x < 0 ? -inside : inside;
+  };
+  return std::abs(below(to) - below(from));
+}
+
+// A box on the film, in pixels.
+struct FilmBox {
+  double x, y;  // its middle
+  double half_width, half_height;
+};
+
+// The pixels of the window whose samples may lie in the box.
+inline Window PixelsOver(const PixelFilter& filter, const Window& window, const FilmBox& box) {
+  const double reach = filter.width / 2;
+  const auto first = [&](double at, double half, int from) {
+    return std::max(static_cast<int>(std::floor(at - 0.5 - reach - half)), from);
+  };
+  const auto end = [&](double at, double half, int to) {
+    return std::min(static_cast<int>(std::ceil(at - 0.5 + reach + half)) + 1, to);
+  };
+  return {first(box.x, box.half_width, window.x0), first(box.y, box.half_height, window.y0),
+          end(box.x, box.half_width, window.x1), end(box.y, box.half_height, window.y1)};
+}
+
+// Calls add(column, row, share) for each of these pixels, counted from the window's corner.
+template <class Add>
+void ForEachShare(const PixelFilter& filter, const Window& window, const FilmBox& box,
+                  const Add& add) {
+  constexpr int kMostColumns = 32;  // filters are up to 16 pixels wide, boxes two
+  const Window pixels = PixelsOver(filter, window, box);
+  double of_columns[kMostColumns];
+  for (int x = pixels.x0; x < pixels.x1; ++x) {
+    const double across = box.x - (x + 0.5);
+    of_columns[x - pixels.x0] =
+        ShareBetween(filter, across - box.half_width, across + box.half_width);
+  }
+  for (int y = pixels.y0; y < pixels.y1; ++y) {
+    const double down = box.y - (y + 0.5);
+    const double of_row = ShareBetween(filter, down - box.half_height, down + box.half_height);
+    for (int x = pixels.x0; x < pixels.x1; ++x) {
+      add(x - window.x0, y - window.y0, of_row * of_columns[x - pixels.x0]);
+    }
+  }
+}
+
+}  // namespace nacre

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/small_triangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "visibility/cell_lists.h"
+
+namespace nacre {
+namespace {
+
+// Farther from the film's corner, in pixels, nothing is looked for: cells are numbered by int.
+constexpr double kFarthestPlace = 1e9;
+
+using FilmTriangle = std::array<Vec2d, 3>;
+
+struct Borders {
+  double x0, y0, x1, y1;
+};
+
+Borders BordersOf(const FilmTriangle& t) {
+  const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+  const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+  return {x0, y0, x1, y1};
+}
+
+Borders BordersAround(const Window& window, double reach) {
+  return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
+}
+
+bool Overlap(const Borders& a, const Borders& b) {
+  return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+}
+
+// Twice the area, positive where the corners run counter-clockwise as seen: the film's y points
+// down.
+double SignedArea2(const FilmTriangle& t) { return -(t[1] - t[0]).cross(t[2] - t[0]); }
+
+// The edge from this corner to the next is the longest.
+size_t LongestEdge(const FilmTriangle& t) {
+  size_t longest = 0;
+  for (size_t i = 1; i < 3; ++i) {
+    if ((t[(i + 1) % 3] - t[i]).length2() > (t[(longest + 1) % 3] - t[longest]).length2()) {
+      longest = i;
+    }
+  }
+  return longest;
+}
+
+// A triangle that is less than kWidestRare high over its longest edge. None where a corner is
+// beside or behind the camera, and none of an edge or a point, which no ray hits.
+struct NarrowTriangle {
+  FilmTriangle corners;
+  size_t longest;  // LongestEdge
+  double height;
+};
+
+std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
+                                            const Projector& projector, uint32_t primitive) {
+  const TriangleRef triangle = TriangleOf(numbers, primitive);
+  NarrowTriangle narrow{};
+  for (size_t c = 0; c < 3; ++c) {
+    const Vec3d place =
+        triangle.mesh->positions[triangle.Vertex(c)] - numbers.scene->camera.position;
+    const double depth = place.dot(projector.forward);
+    if (!(depth > 0)) return std::nullopt;
+    const double scale = projector.inverse_pixel / (projector.perspective ? depth : 1);
+    Vec2d& corner = narrow.corners[c];
+    corner = {place.dot(projector.right) * scale + projector.middle_x,
+              place.dot(projector.down) * scale + projector.middle_y};
+    if (!(std::abs(corner.x) < kFarthestPlace && std::abs(corner.y) < kFarthestPlace)) {
+      return std::nullopt;
+    }
+  }
+  const double area2 = std::abs(SignedArea2(narrow.corners));
+  if (!(area2 > 0)) return std::nullopt;
+  narrow.longest = LongestEdge(narrow.corners);
+  const FilmTriangle& t = narrow.corners;
+  narrow.height = area2 / (t[(narrow.longest + 1) % 3] - t[narrow.longest]).length();
+  if (!(narrow.height < kWidestRare)) return std::nullopt;
+  return narrow;
+}
+
+int Columns(const Window& cells) { return cells.width() / kCellSize; }
+
+// Calls emit(column, row) for each cell that the triangle may lie within reach of: the cells around
+// its box, of a long triangle only those near its longest edge.
+template <class Emit>
+void ForEachCell(const SmallTriangles& triangles, const NarrowTriangle& narrow, const Emit& emit) {
+  const Window& cells = triangles.cells;
+  const Borders box = BordersOf(narrow.corners);
+  const auto place = [&](double at, int from, int count) {
+    return static_cast<int>(std::clamp(std::floor((at - from) / kCellSize), -1.0, double(count)));
+  };
+  const int columns = Columns(cells), rows = cells.height() / kCellSize;
+  const int column0 = std::max(place(box.x0 - triangles.reach, cells.x0, columns), 0);
+  const int column1 = std::min(place(box.x1 + triangles.reach, cells.x0, columns), columns - 1);
+  const int row0 = std::max(place(box.y0 - triangles.reach, cells.y0, rows), 0);
+  const int row1 = std::min(place(box.y1 + triangles.reach, cells.y0, rows), rows - 1);
+  const Vec2d& from = narrow.corners[narrow.longest];
+  const Vec2d along = (narrow.corners[(narrow.longest + 1) % 3] - from).normalized();
+  const double nearby = narrow.height + std::sqrt(2.0) * (kCellSize / 2.0 + triangles.reach);
+  for (int row = row0; row <= row1; ++row) {
+    for (int column = column0; column <= column1; ++column) {
+      const Vec2d middle(cells.x0 + (column + 0.5) * kCellSize, cells.y0 + (row + 0.5) * kCellSize);
+      if (std::abs(along.cross(middle - from)) <= nearby) emit(column, row);
+    }
+  }
+}
+
+struct Origin {
+  uint32_t primitive;
+  MaterialId material;
+};
+
+TrianglePiece PieceOf(const Origin& origin, const FilmTriangle& t, const Borders& borders) {
+  const double area2 = SignedArea2(t);
+  const double width = borders.x1 - borders.x0, height = borders.y1 - borders.y0;
+  TrianglePiece piece{};
+  piece.primitive = origin.primitive;
+  piece.material = origin.material.index;
+  piece.front = area2 > 0;
+  piece.x = (t[0].x + t[1].x + t[2].x) / 3;
+  piece.y = (t[0].y + t[1].y + t[2].y) / 3;
+  piece.box = {(borders.x0 + borders.x1) / 2, (borders.y0 + borders.y1) / 2, width / 2, height / 2};
+  piece.fill = std::abs(area2) / 2 / (width * height);
+  return piece;
+}
+
+// Halves the longest edge until the pieces are narrow both ways.
+template <class Work>
+void CutToPieces(const Origin& origin, const FilmTriangle& t, const Borders& around,
+                 const Work& work) {
+  const Borders borders = BordersOf(t);
+  if (!Overlap(borders, around)) return;
+  const double width = borders.x1 - borders.x0, height = borders.y1 - borders.y0;
+  if (width < kWidestRare && height < kWidestRare) {
+    // Halves of what is thinner than rounding may have no area left.
+    if (width * height > 0) work(PieceOf(origin, t, borders));
+    return;
+  }
+  const size_t from = LongestEdge(t), to = (from + 1) % 3;
+  const Vec2d middle = (t[from] + t[to]) / 2;
+  for (const size_t moved : {to, from}) {
+    FilmTriangle half = t;
+    half[moved] = middle;
+    CutToPieces(origin, half, around, work);
+  }
+}
+
+}  // namespace
+
+SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projector& projector,
+                                 const Window& window, double reach, int threads) {
+  SmallTriangles triangles;
+  const auto up = [](int pixel) { return (pixel + kCellSize - 1) / kCellSize * kCellSize; };
+  const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
+  triangles.cells = {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
+  triangles.reach = reach;
+  const Scene& scene = *numbers.scene;
+  size_t count = 0;
+  for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size() / 3;
+  const int columns = Columns(triangles.cells);
+  const size_t cells =
+      static_cast<size_t>(columns) * static_cast<size_t>(triangles.cells.height() / kCellSize);
+  const auto for_cells = [&](size_t i, const auto& emit) {
+    const auto narrow =
+        ProjectNarrow(numbers, projector, static_cast<uint32_t>(scene.spheres.size() + i));
+    if (!narrow) return;
+    ForEachCell(triangles, *narrow, [&](int column, int row) {
+      emit(static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column));
+    });
+  };
+  SortIntoCells(
+      count, cells, std::numeric_limits<uint32_t>::max() - 1, threads, for_cells, &triangles.end,
+      [&](size_t entries) { triangles.primitives = HugeArray<uint32_t>(entries); },
+      [&](size_t i, size_t, uint32_t position) {
+        triangles.primitives[position] = static_cast<uint32_t>(scene.spheres.size() + i);
+      });
+  if (triangles.primitives.empty()) triangles.end.clear();
+  return triangles;
+}
+
+void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
+                  const Projector& projector, const Window& cell,
+                  const std::function<void(const TrianglePiece&)>& work) {
+  if (triangles.end.empty()) return;
+  const auto number = [](int pixel) { return static_cast<size_t>(pixel / kCellSize); };
+  const size_t list =
+      number(cell.y0 - triangles.cells.y0) * static_cast<size_t>(Columns(triangles.cells)) +
+      number(cell.x0 - triangles.cells.x0);
+  const Borders around = BordersAround(cell, triangles.reach);
+  for (size_t i = list == 0 ? 0 : triangles.end[list - 1]; i < triangles.end[list]; ++i) {
+    const uint32_t primitive = triangles.primitives[i];
+    const auto narrow = ProjectNarrow(numbers, projector, primitive);
+    if (!narrow) continue;
+    CutToPieces({primitive, ShapeMaterial(numbers, primitive)}, narrow->corners, around, work);
+  }
+}
+
+}  // namespace nacre
