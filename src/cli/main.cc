@@ -19,6 +19,7 @@
 #include "cli/commands.h"
 #include "cli/help_text.h"
 #include "cli/manual.h"
+#include "cli/option_values.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/unknown_option.h"
@@ -107,6 +108,7 @@ int Run(int argc, char** argv) {
     nacre::CatchStopSignals();
     const std::vector<std::string> reversed = ReversedArguments(argc, argv);
     CheckCommandName(app, reversed);
+    nacre::CheckOptionValues(app, {reversed.rbegin(), reversed.rend()});
     Parse(&app, reversed);
     nacre::FinishOutput();
     return exit_code;

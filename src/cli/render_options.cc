@@ -119,6 +119,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
                    "Layers besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, "
                    "id.object, id.material, light.NAME, or all")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(exr);
   command->add_option("--depth", o->depth, "Samples of colours: half or float")
       ->check(CLI::IsMember({"half", "float"}))
