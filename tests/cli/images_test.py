@@ -239,26 +239,37 @@ def icc_profile(gamma):
     return header.ljust(128, b'\0') + table + data
 
 
-def jpeg(blocks, orientation):
-    """A baseline grey JPEG with an EXIF block, whose blocks of 8 x 8 pixels are of one value each:
-    `blocks` are rows of them as they are stored. Quantized by 8 they have that value exactly."""
-    def segment(marker, data):
-        return b'\xff' + bytes([marker]) + struct.pack('>H', len(data) + 2) + data
-    exif = b'Exif\0\0II*\0' + struct.pack('<IHHHII', 8, 1, 274, 3, 1, orientation) + b'\0' * 4
-    bits, last = '', 128
-    for value in (value for row in blocks for value in row):
-        difference, last = value - last, value
-        size = abs(difference).bit_length()
-        low = difference if difference >= 0 else difference + (1 << size) - 1
-        # The code of the size, the difference, and that all other coefficients are 0.
-        bits += f'{size:04b}' + (f'{low:0{size}b}' if size else '') + '0'
+def jpeg_segment(marker, data):
+    return b'\xff' + bytes([marker]) + struct.pack('>H', len(data) + 2) + data
+
+
+def jpeg_of(planes, application):
+    """A baseline JPEG, whose blocks of 8 x 8 pixels are of one value each: of each component, rows of
+    them as they are stored. Quantized by 8 they have that value exactly. `application`: segments."""
+    bits, last = '', [128] * len(planes)
+    for blocks in zip(*[[value for row in plane for value in row] for plane in planes]):
+        for c, value in enumerate(blocks):
+            difference, last[c] = value - last[c], value
+            size = abs(difference).bit_length()
+            low = difference if difference >= 0 else difference + (1 << size) - 1
+            # The code of the size, the difference, and that all other coefficients are 0.
+            bits += f'{size:04b}' + (f'{low:0{size}b}' if size else '') + '0'
     bits += '1' * (-len(bits) % 8)
     scan = bytes(int(bits[i:i + 8], 2) for i in range(0, len(bits), 8)).replace(b'\xff', b'\xff\0')
-    return (b'\xff\xd8' + segment(0xe1, exif) + segment(0xdb, b'\0' + bytes([8]) * 64) +
-            segment(0xc0, struct.pack('>BHHBBBB', 8, 8 * len(blocks), 8 * len(blocks[0]), 1, 1, 0x11, 0)) +
-            segment(0xc4, bytes([0, 0, 0, 0, 9] + [0] * 12) + bytes(range(9))) +
-            segment(0xc4, bytes([0x10, 1] + [0] * 15) + b'\0') +
-            segment(0xda, bytes([1, 1, 0, 0, 63, 0])) + scan + b'\xff\xd9')
+    count, rows, columns = len(planes), len(planes[0]), len(planes[0][0])
+    return (b'\xff\xd8' + application + jpeg_segment(0xdb, b'\0' + bytes([8]) * 64) +
+            jpeg_segment(0xc0, struct.pack('>BHHB', 8, 8 * rows, 8 * columns, count) +
+                         b''.join(bytes([c + 1, 0x11, 0]) for c in range(count))) +
+            jpeg_segment(0xc4, bytes([0, 0, 0, 0, 9] + [0] * 12) + bytes(range(9))) +
+            jpeg_segment(0xc4, bytes([0x10, 1] + [0] * 15) + b'\0') +
+            jpeg_segment(0xda, bytes([count]) + b''.join(bytes([c + 1, 0]) for c in range(count)) +
+                         bytes([0, 63, 0])) + scan + b'\xff\xd9')
+
+
+def jpeg(blocks, orientation):
+    """A grey one with an EXIF block."""
+    exif = b'Exif\0\0II*\0' + struct.pack('<IHHHII', 8, 1, 274, 3, 1, orientation) + b'\0' * 4
+    return jpeg_of([blocks], jpeg_segment(0xe1, exif))
 
 
 class ImagesTest(unittest.TestCase):
@@ -697,6 +708,30 @@ class ImagesTest(unittest.TestCase):
                 ('one sample of colours', tiff_of(self.STRIPS, meaning=2))):
             with self.subTest(what):
                 self.refused_everywhere(self.write('a.tif', data), 'cannot be read: ')
+
+    def test_jpegs_of_four_inks_and_of_unknown_ones(self):
+        inks = [[[0, 51, 255]], [[102, 0, 0]], [[255, 204, 51]], [[0, 51, 153]]]
+        adobe = jpeg_segment(0xee, b'Adobe' + struct.pack('>HHHB', 100, 0, 0, 0))
+        inverted = [[[255 - code for code in row] for row in plane] for plane in inks]
+        # What light each ink leaves, of what black leaves: whole codes of these values.
+        rgb = [[round((255 - inks[c][0][i]) * (255 - inks[3][0][i]) / 255) for i in range(3)] for c in range(3)]
+        row = [rgb[c][i] for i in range(3) for _ in range(8) for c in range(3)]
+        expected = self.write('rgb.png', png([row] * 8, 2))
+        for name, data in (('plain', jpeg_of(inks, b'')), ('adobe', jpeg_of(inverted, adobe))):
+            with self.subTest(name):
+                image = self.write('a.jpg', data)
+                # Products of codes that are no multiple of 255 are off the nearest code by half of one.
+                self.check(0, 'match', 'compare', image, expected, '--max-abs', str(0.51 / 255))
+                self.check(65, 'display-referred', 'tonemap', image, '-o', self.out / 'x.png')
+                self.check(65, 'display codes', 'render', self.environment(image), '-o',
+                           self.out / 'x.exr')
+                # sRGB's curve rises by 2.28 at most; an albedo under light 1 is what is seen.
+                self.check(0, 'match', 'compare', self.render(self.textured(image), 'a.exr'),
+                           self.render(self.textured(expected), 'b.exr'), '--layers', 'beauty',
+                           '--max-abs', str(2.28 * 0.51 / 255))
+        for count in 2, 5:
+            with self.subTest(components=count):
+                self.refused_everywhere(self.write('a.jpg', jpeg_of((inks + inks)[:count], b'')), 'cannot be read')
 
     # ---- Memory ----
 
