@@ -311,6 +311,33 @@ TEST_CASE("maps turn the normals of vertices and centroids once, not once a ligh
   }
 }
 
+// Equal triangles give equal distances, by the same arithmetic: what comes first in the scene is
+// seen in every pixel, on every target, whatever the tree makes of the order.
+TEST_CASE("of triangles with the same vertices the first one is seen") {
+  for (const bool one_mesh_each : {true, false}) {
+    Scene scene = MakeSphereScene(Interpolation::kFaceted, 2);
+    scene.lights.clear();
+    scene.materials = {Material{}, Material{}};
+    scene.materials[0].emission = {1, 0, 0};
+    scene.materials[1].emission = {0, 1, 0};
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].material = {1};
+    if (!one_mesh_each) {  // other triangles between them
+      scene.meshes.insert(scene.meshes.begin() + 1, MakeMesh(Icosphere{.radius = 0.5}));
+      scene.meshes[1].material = {1};
+    }
+    ForEachTarget([&](Target) {
+      const Image image = RenderImage(scene, Settings());
+      double red = 0;
+      for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+        CHECK(Samples(image, "G")[i] == 0);
+        red += Samples(image, "R")[i];
+      }
+      CHECK(red > 500);
+    });
+  }
+}
+
 TEST_CASE("lights with an extent shine on vertices and centroids, too") {
   for (const Interpolation interpolation : {Interpolation::kGouraud, Interpolation::kFlat}) {
     Scene scene = MakeSphereScene(interpolation, 3);
