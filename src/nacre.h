@@ -316,7 +316,7 @@ struct Reflections {
 };
 
 // A material without maps, emission and ambient light, for measuring and for renderers of others. A
-// perfect mirror (roughness 0) shows nothing of its lobe.
+// perfect mirror (roughness below 2^-20) shows nothing of its lobe.
 class NACRE_API Brdf {
  public:
   // As in scene files: Brdf("conductor", {{"preset", "gold"}, {"roughness", 0.2}}).

@@ -25,11 +25,14 @@ Real AlphaFromRoughness(Real roughness) {
   return roughness * roughness;
 }
 
-// True for lobes so narrow (1e-12 rad: roughness below 9.5e-7) that no picture resolves them. Their
-// peak, 1 / (pi alpha^2), times light and visibility would leave the range of float.
+// Lobes below this roughness, whose alpha is below its square, are so narrow (1e-12 rad) that no
+// picture resolves them. Their peak, 1 / (pi alpha^2), times light and visibility would leave the
+// range of float: they are delta lobes, of a perfect mirror.
+inline constexpr double kDeltaRoughness = 0x1p-20;  // 9.5e-7
+
 template <typename Real>
 bool IsDeltaLobe(Real alpha) {
-  return alpha < static_cast<Real>(0x1p-40);
+  return alpha < static_cast<Real>(kDeltaRoughness * kDeltaRoughness);
 }
 
 // Walter et al. 2007, eq. 33, isotropic: alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2), with cos and

@@ -101,6 +101,12 @@ std::string PartWindowsInWords(const ImageFile& image, const ImageFile& referenc
 }
 
 int RunCompare(const CompareArguments& arguments) {
+  const HeatScale& scale = arguments.heat_scale;
+  if (!(scale.low < scale.high)) {
+    throw Error(ExitCode::kUsage, "--heat-low",
+                fmt::format("{} is not below --heat-high, {}", scale.low, scale.high),
+                "the scale goes from its dark end up to its bright end");
+  }
   if (!arguments.heat_map.empty()) {
     CheckPngPath(arguments.heat_map);
     CheckPathsDiffer({arguments.image, arguments.heat_map});
@@ -154,7 +160,8 @@ void AddCompareCommand(CLI::App* app, int* exit_code) {
       ->add_option("--layers", a->options.layers,
                    "Layers to compare, e.g. beauty,diffuse; without it all, and the images must "
                    "then have the same")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command->add_option("--part", a->part, "Only this part of EXR files that have several");
   command->add_flag("--crop", a->options.crop,
                     "Compare the pixels that both have where their windows differ, which is a "

@@ -262,6 +262,7 @@ void AddCurveOptions(CLI::App* command, PlotArguments* a) {
                    "Degrees from the normal: of the viewer (brdf) or the light (polar); several by "
                    "commas (45 if not given)")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(InRange(0, 89.9));
   command->add_option("--channel", a->channel, "Of colours: luminance, red, green or blue")
       ->check(CLI::IsMember({"luminance", "red", "green", "blue"}))

@@ -148,6 +148,7 @@ void AddReportCommand(CLI::App* app, int*) {
       ->add_option("--layers", a->render.layers,
                    "Layers of scenes to render besides R G B A, or all")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group("Picture");
   AddMachineOptions(command, &a->render);
   MoveBehindHelpAll(command, {"--limit"});

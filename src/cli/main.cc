@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // cli/main.cc: the program: commands, and the one place where errors are printed.
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 #include <new>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "cli/commands.h"
 #include "cli/help_text.h"
 #include "cli/manual.h"
+#include "cli/option_values.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/unknown_option.h"
@@ -68,45 +70,50 @@ void Parse(CLI::App* app, std::vector<std::string> reversed) {
   }
 }
 
+void AddCommands(CLI::App* app, int* exit_code) {
+  app->formatter(std::make_shared<nacre::HelpFormatter>());
+  app->set_help_flag("-h,--help", "Print this help: what is used most");
+  app->set_help_all_flag("--help-all", "Print all options and all about them");
+  app->set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit));
+  app->require_subcommand(1);
+  app->footer(
+      "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
+      "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"
+      "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
+  nacre::AddRenderCommand(app, exit_code);
+  nacre::AddGridCommand(app, exit_code);
+  nacre::AddPairCommand(app, exit_code);
+  nacre::AddConvertCommand(app, exit_code);
+  nacre::AddCompareCommand(app, exit_code);
+  nacre::AddValidateCommand(app, exit_code);
+  nacre::AddMergeCommand(app, exit_code);
+  nacre::AddTonemapCommand(app, exit_code);
+  nacre::AddInfoCommand(app, exit_code);
+  nacre::AddSchemaCommand(app, exit_code);
+  nacre::AddReportCommand(app, exit_code);
+  nacre::AddExplainCommand(app, exit_code);
+  nacre::AddPlotCommand(app, exit_code);
+  nacre::AddStudyCommand(app, exit_code);
+  nacre::AddDocsCommand(app, exit_code);
+  app->get_formatter()->label("SUBCOMMAND", "COMMAND");
+  for (CLI::App* command : app->get_subcommands({})) {
+    if (!command->get_group().empty()) command->group("Commands");  // empty: not shown
+  }
+}
+
 int Run(int argc, char** argv) {
   using nacre::ExitCode;
   CLI::App app(
       "nacre renders shading models on spheres and meshes: exact hits, SIMD shading, HDR output.",
       "nacre");
-  app.formatter(std::make_shared<nacre::HelpFormatter>());
-  app.set_help_flag("-h,--help", "Print this help: what is used most");
-  app.set_help_all_flag("--help-all", "Print all options and all about them");
-  app.set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit));
-  app.require_subcommand(1);
-  app.footer(
-      "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
-      "Exit codes: 0 done, 1 images differ, 2 cannot compare, 64 usage, 65 bad input,\n"
-      "            70 internal error, 74 cannot write, 130 and 143 stopped by a signal");
   int exit_code = 0;
-  nacre::AddRenderCommand(&app, &exit_code);
-  nacre::AddGridCommand(&app, &exit_code);
-  nacre::AddPairCommand(&app, &exit_code);
-  nacre::AddConvertCommand(&app, &exit_code);
-  nacre::AddCompareCommand(&app, &exit_code);
-  nacre::AddValidateCommand(&app, &exit_code);
-  nacre::AddMergeCommand(&app, &exit_code);
-  nacre::AddTonemapCommand(&app, &exit_code);
-  nacre::AddInfoCommand(&app, &exit_code);
-  nacre::AddSchemaCommand(&app, &exit_code);
-  nacre::AddReportCommand(&app, &exit_code);
-  nacre::AddExplainCommand(&app, &exit_code);
-  nacre::AddPlotCommand(&app, &exit_code);
-  nacre::AddStudyCommand(&app, &exit_code);
-  nacre::AddDocsCommand(&app, &exit_code);
-  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  for (CLI::App* command : app.get_subcommands({})) {
-    if (!command->get_group().empty()) command->group("Commands");  // empty: not shown
-  }
   try {
+    AddCommands(&app, &exit_code);
     nacre::OpenStandardStreams();
     nacre::CatchStopSignals();
     const std::vector<std::string> reversed = ReversedArguments(argc, argv);
     CheckCommandName(app, reversed);
+    nacre::CheckOptionValues(app, {reversed.rbegin(), reversed.rend()});
     Parse(&app, reversed);
     nacre::FinishOutput();
     return exit_code;
@@ -129,15 +136,27 @@ int Run(int argc, char** argv) {
   return static_cast<int>(ExitCode::kInternal);
 }
 
+// Without formatting or allocating: that may be what failed.
+int FailPlainly(std::initializer_list<std::string_view> message) {
+  for (const std::string_view part : message) {
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, part.data(), part.size());
+  }
+  return static_cast<int>(nacre::ExitCode::kInternal);
+}
+
 }  // namespace
 
+// What Run lets through: exceptions before its own reports, while it makes one, and of no known
+// type.
 int main(int argc, char** argv) {
   try {
     return Run(argc, argv);
-  } catch (...) {  // not even the message of an error could be put together
-    constexpr std::string_view kMessage =
-        "error: out of memory\n  hint: give the program more, not even a message had room\n";
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kMessage.data(), kMessage.size());
-    return static_cast<int>(nacre::ExitCode::kInternal);
+  } catch (const std::bad_alloc&) {
+    return FailPlainly(
+        {"error: out of memory\n  hint: give the program more, not even a message had room\n"});
+  } catch (const std::exception& error) {
+    return FailPlainly({"error: internal: ", error.what(), "\n"});
+  } catch (...) {
+    return FailPlainly({"error: internal: an exception that is no std::exception\n"});
   }
 }

@@ -51,6 +51,7 @@ void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
       "seen to change when the pictures alternate, 0: nothing, 1: all), hdr_flip (the "
       "same at every exposure; linear images), all or none");
   metrics->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::IsMember({"ssim", "flip", "hdr_flip", "all", "none"}))
       ->group(group);
   if (!a->metrics.empty()) metrics->capture_default_str();

@@ -58,16 +58,16 @@ void Summarize(const RenderOptions& options, const FramePlan& plan, const Render
                const JobTimes& times) {
   std::string files;
   for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
-  // Tiles that hold nothing are not sampled, and then count nothing.
-  const auto pixels = static_cast<double>(plan.window.pixel_count());
+  const PixelSampleCounts& counts = stats.pixel_samples;
   const std::string samples =
       plan.adaptive.max_error > 0
-          ? fmt::format("{:.1f}", static_cast<double>(stats.camera_rays) / pixels)
-          : fmt::format("{}", plan.scene->image.spp);
+          ? fmt::format("{} to {} samples a pixel, {:.1f} on average", counts.fewest, counts.most,
+                        counts.Mean())
+          : fmt::format("{} sample{} a pixel", counts.most, counts.most == 1 ? "" : "s");
   PrintError(
-      "{}: {}x{}, {} sample{} a pixel, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
-      plan.window.width(), plan.window.height(), samples, samples == "1" ? "" : "s",
-      1e3 * times.total_seconds, 1e3 * stats.render_seconds,
+      "{}: {}x{}, {}, {:.0f} ms ({:.0f} ms rendering, {:.1f} M rays/s)\n", files,
+      plan.window.width(), plan.window.height(), samples, 1e3 * times.total_seconds,
+      1e3 * stats.render_seconds,
       1e-6 * static_cast<double>(stats.camera_rays + stats.shadow_rays) / stats.render_seconds);
 }
 
@@ -148,7 +148,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
     PrintError(
         "note: {} of {} pixels did not settle within {} samples; give more by --spp, or a larger "
         "--max-error\n",
-        stats.unsettled_pixels, plan.window.pixel_count(), settings.max_samples);
+        stats.unsettled_pixels, plan.window.pixel_count(), stats.pixel_samples.most);
   }
   WarnAboutSamples(counts, stats);
   if (!options.quiet && options.progress != "json") Summarize(options, plan, stats, times);

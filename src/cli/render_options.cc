@@ -81,8 +81,8 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
           "--max-error", o->max_error,
           "Sample until each pixel's error is below this part of its value, e.g. 0.01; with 95 % "
           "confidence, and of 0.05 for darker pixels, of a white surface's value for highlights. "
-          "--spp is then the most samples a pixel takes (4096 if not given), and how many pixels "
-          "are still unsure after these is told")
+          "--spp is then the most samples a pixel takes (4096 if not given; rounded up to a power "
+          "of two), and how many pixels are still unsure after these is told")
       ->check(InRange(1e-6, 1))
       ->type_name("E")
       ->group(picture);
@@ -119,6 +119,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
                    "Layers besides R G B A: diffuse, specular, ambient, emission, albedo, N, P, Z, "
                    "id.object, id.material, light.NAME, or all")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->group(exr);
   command->add_option("--depth", o->depth, "Samples of colours: half or float")
       ->check(CLI::IsMember({"half", "float"}))

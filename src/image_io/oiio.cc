@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "image_io/oiio_abi.h"
 #include "image_io/orientation.h"
+#include "image_io/tiff_check.h"
 
 namespace nacre {
 namespace {
@@ -142,6 +143,11 @@ class OpenFile {
   explicit OpenFile(const std::string& path) : path_(path) {
     if (const char* const failure = GetModule().open(path.c_str(), kFreeSamples, &file_)) {
       FailToRead(path, failure);
+    }
+    // After libtiff's own words for files that it refuses.
+    if (const std::string lacks = WhatTiffLacks(path); !lacks.empty()) {
+      GetModule().close(&file_);
+      FailToRead(path, lacks);
     }
   }
   ~OpenFile() { GetModule().close(&file_); }

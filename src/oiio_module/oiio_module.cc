@@ -2,6 +2,7 @@
 // oiio_module/oiio_module.cc: the functions of image_io/oiio_abi.h, on OpenImageIO.
 #include <algorithm>
 #include <array>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
+#include <tiffio.h>
 
 // Only these names are seen from outside.
 #pragma GCC visibility push(default)
@@ -37,6 +39,18 @@ char* Copy(const std::string& strings) {
   if (copy == nullptr) throw std::bad_alloc();
   std::memcpy(copy, strings.c_str(), strings.size() + 1);
   return copy;
+}
+
+// What libtiff complained of on this thread: warnings, too, after which it goes on with pixels that
+// it made up (the end of a fax or of a JPEG that is missing), and OpenImageIO with them.
+thread_local std::string g_complaint;
+
+void TakeComplaint(const char* module, const char* format, va_list arguments) {
+  if (!g_complaint.empty()) return;  // the first tells the cause
+  std::array<char, 512> text{};
+  std::vsnprintf(text.data(), text.size(), format, arguments);
+  g_complaint = std::string(module == nullptr ? "libtiff" : module) + ": " + text.data();
+  g_complaint.erase(g_complaint.find_last_not_of(": ") + 1);  // what zlib may leave of its reasons
 }
 
 void DescribeImage(const OIIO::ImageSpec& spec, NacreOiioFile* file) {
@@ -105,6 +119,11 @@ std::string Open(const char* path, uint64_t max_samples, NacreOiioFile* file) {
   const auto channels = static_cast<uint64_t>(spec.nchannels);
   const uint64_t across = std::max(tile_width, static_cast<uint64_t>(spec.width));
   if (tile_height > max_samples / channels / across) return "its tiles are too large";
+  // OpenImageIO has put its own in their place, once and for all, when the first file was opened.
+  TIFFSetErrorHandler(&TakeComplaint);
+  TIFFSetWarningHandler(&TakeComplaint);
+  // Of tiles that it inflates itself on several threads it does not ask whether they are whole.
+  input->threads(1);
   DescribeImage(spec, file);
   file->input = input.release();
   return {};
@@ -114,15 +133,27 @@ std::string ReadAs(OIIO::TypeDesc type, NacreOiioFile* file, int32_t y0, int32_t
   auto* const input = static_cast<OIIO::ImageInput*>(file->input);
   const OIIO::ImageSpec spec = input->spec();
   const int first = spec.y + y0, end = spec.y + y1;
-  const bool read = spec.tile_height > 0
-                        ? input->read_tiles(0, 0, spec.x, spec.x + spec.width, first, end, 0, 1, 0,
-                                            spec.nchannels, type, to)
-                        : input->read_scanlines(0, 0, first, end, 0, 0, spec.nchannels, type, to);
-  // Libraries go on after what they only warn of, with pixels that they made up.
-  const std::string complaint = input->geterror();
-  return read && complaint.empty() ? std::string()
-         : complaint.empty()       ? "unknown reason"
-                                   : complaint;
+  g_complaint.clear();
+  bool read = true;
+  if (spec.tile_height > 0) {
+    read = input->read_tiles(0, 0, spec.x, spec.x + spec.width, first, end, 0, 1, 0, spec.nchannels,
+                             type, to);
+  } else if (spec.get_int_attribute("tiff:Compression") == COMPRESSION_ADOBE_DEFLATE &&
+             spec.get_int_attribute("tiff:PlanarConfiguration") == PLANARCONFIG_CONTIG) {
+    // Row by row: whole strips of these it inflates itself, and does not ask whether they end
+    // early.
+    const size_t row =
+        static_cast<size_t>(spec.width) * static_cast<size_t>(spec.nchannels) * type.size();
+    for (int y = first; read && y < end; ++y) {
+      read = input->read_scanlines(0, 0, y, y + 1, 0, 0, spec.nchannels, type,
+                                   static_cast<char*>(to) + static_cast<size_t>(y - first) * row);
+    }
+  } else {
+    read = input->read_scanlines(0, 0, first, end, 0, 0, spec.nchannels, type, to);
+  }
+  const std::string error = input->geterror();
+  if (!g_complaint.empty()) return g_complaint;
+  return read && error.empty() ? std::string() : error.empty() ? "unknown reason" : error;
 }
 
 // Codes are divided by white's, as in nacre's other readers: OpenImageIO multiplies by the rounded

@@ -350,6 +350,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
   clock->Charge(Stage::kIntersect);
   if (!ShowsAnything(plan, s.sight)) {
     FillBackground(plan.film, part, strip);
+    stats->pixel_samples.Add(0, part.pixel_count());
     clock->Charge(Stage::kFilm);
     return;
   }
@@ -377,6 +378,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
     clock->Charge(Stage::kFilm);
   }
   stats->unsettled_pixels += CountUnsettled(plan, cell, part, &c);
+  stats->pixel_samples.Add(CountSamples(cell, part, c));
   AddReplicates(sampled, c, &s.film);
   ResolveCell(plan, cell, part, s.film, c, strip);
   clock->Charge(Stage::kFilm);

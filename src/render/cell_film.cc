@@ -54,6 +54,16 @@ void AddReplicates(uint32_t blocks, const CellScratch& c, TileFilm* film) {
   });
 }
 
+PixelSampleCounts CountSamples(const Window& cell, const Window& part, const CellScratch& c) {
+  PixelSampleCounts counts;
+  for (uint32_t i = 0; i < kCellPixels; ++i) {
+    const FilmPixel at = PixelOf(cell, i);
+    if (Intersect({at.x, at.y, at.x + 1, at.y + 1}, part).empty()) continue;
+    counts.Add(std::max(1u, kReplicates * c.samples[i]), 1);  // at least the centre
+  }
+  return counts;
+}
+
 // Where n samples, h of which hit, fall on a share s of a pixel that is covered, its value is s
 // times the mean of the hits and 1 - s times the background, which all others see: of their sum,
 // s / h, and of the background 1 - s n / h. Elsewhere it is the mean of all.

@@ -13,6 +13,10 @@ void ClearReplicates(uint32_t blocks, CellScratch* cell_scratch);
 // Adds them to the film's first four channels, the beauty and coverage.
 void AddReplicates(uint32_t blocks, const CellScratch& cell_scratch, TileFilm* film);
 
+// The samples of the cell's pixels that lie in `part`.
+PixelSampleCounts CountSamples(const Window& cell, const Window& part,
+                               const CellScratch& cell_scratch);
+
 // Divides by the numbers of samples, or weighs what hits and the background by the shares of the
 // pixels that are known to be covered, and puts the cell's pixels that lie in `part` into the
 // strip.

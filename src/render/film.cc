@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "hit/batch.h"
+
 namespace nacre {
 namespace {
 

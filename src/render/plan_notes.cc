@@ -8,6 +8,7 @@
 
 #include "base/overloaded.h"
 #include "brdf/burley.h"
+#include "brdf/ggx.h"
 #include "brdf/phong.h"
 
 namespace nacre {
@@ -29,15 +30,38 @@ std::string NameThose(const Scene& scene, const Test& test) {
   return fmt::format("material \"{}\"{}", first, others);
 }
 
+// Of a material with a GGX lobe; else 0.
+double LobeRoughness(const Material& material) {
+  return std::visit(
+      [](const auto& model) {
+        if constexpr (requires { model.shadowing; }) {
+          return model.roughness;
+        } else {
+          return 0.0;
+        }
+      },
+      material.model);
+}
+
 // A perfect mirror shows only what has an extent; says so where no light has one.
 void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materials,
                  std::vector<std::string>* notes) {
-  const std::string names = NameThose(scene, [&](size_t i) { return HasDeltaLobe(materials[i]); });
+  double greatest = 0;
+  int count = 0;
+  const std::string names = NameThose(scene, [&](size_t i) {
+    if (!HasDeltaLobe(materials[i])) return false;
+    greatest = std::max(greatest, LobeRoughness(scene.materials[i]));
+    ++count;
+    return true;
+  });
   if (names.empty()) return;
-  notes->push_back(
-      names +
-      ": roughness 0 is a perfect mirror, in which point, spot and directional lights have no "
-      "highlight; a roughness above 0 gives them one");
+  const std::string value = fmt::format("{:.6g}", greatest);
+  notes->push_back(fmt::format(
+      "{}: {} is below 2^-20 ({:.3g}) and so a perfect mirror, in which point, spot and "
+      "directional "
+      "lights have no highlight; a roughness of 2^-20 or more gives them one",
+      names, count > 1 ? "the greatest roughness, " + value + "," : "roughness " + value,
+      kDeltaRoughness));
 }
 
 // What Burley's term gives back of grazing light, of the brightest channel; else 0.

@@ -102,6 +102,9 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
     ++done;
     if (settings.on_progress) settings.on_progress(static_cast<double>(done) / strip_count);
   });
+  if (plan.adaptive.max_error == 0) {
+    total.pixel_samples.Add(static_cast<uint32_t>(plan.scene->image.spp), window.pixel_count());
+  }
   total.render_seconds = SecondsSince(start);
   return total;
 }

@@ -2,6 +2,7 @@
 // render/stats.h: what a render counted and how long its stages took.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -27,13 +28,34 @@ constexpr std::string_view StageName(Stage stage) {
   return kNames[static_cast<size_t>(stage)];
 }
 
+// How many samples pixels are the means of.
+struct PixelSampleCounts {
+  uint64_t pixels = 0, samples = 0;
+  uint32_t fewest = 0, most = 0;  // of a pixel
+
+  void Add(uint32_t of_each, uint64_t of_pixels) {
+    Add({of_pixels, of_pixels * of_each, of_each, of_each});
+  }
+  void Add(const PixelSampleCounts& part) {
+    if (part.pixels == 0) return;
+    fewest = pixels == 0 ? part.fewest : std::min(fewest, part.fewest);
+    most = std::max(most, part.most);
+    pixels += part.pixels;
+    samples += part.samples;
+  }
+  double Mean() const {
+    return pixels == 0 ? 0 : static_cast<double>(samples) / static_cast<double>(pixels);
+  }
+};
+
 struct RenderStats {
   uint64_t camera_rays = 0;
   uint64_t hits = 0;
   uint64_t shadow_rays = 0;
-  uint64_t light_batches = 0;     // lights times batches of hits
-  uint64_t culled_lights = 0;     // of these, those that could not reach any hit
-  uint64_t unsettled_pixels = 0;  // of adaptive sampling: their error is not known to be small
+  uint64_t light_batches = 0;       // lights times batches of hits
+  uint64_t culled_lights = 0;       // of these, those that could not reach any hit
+  uint64_t unsettled_pixels = 0;    // of adaptive sampling: their error is not known to be small
+  PixelSampleCounts pixel_samples;  // of adaptive sampling 0 where it is known that nothing is hit
   // Sampled directions to light that are no numbers: they bring nothing, and none is expected.
   uint64_t directions_not_finite = 0;
   uint64_t shades = 0;  // hits times lights that were evaluated
@@ -56,6 +78,7 @@ struct RenderStats {
     shades += part.shades;
     directions_not_finite += part.directions_not_finite;
     unsettled_pixels += part.unsettled_pixels;
+    pixel_samples.Add(part.pixel_samples);
     for (size_t i = 0; i < kStageCount; ++i) stage_seconds[i] += part.stage_seconds[i];
   }
 };

@@ -79,7 +79,7 @@ enum class DiffuseCoupling : uint8_t {
 enum class DiffuseForm : uint8_t { kLambert, kOrenNayar, kBurley };
 
 // The microfacet models have a GGX lobe each. Roughness is perceptual, in [0, 1]:
-// alpha = roughness^2; 0 is a perfect mirror.
+// alpha = roughness^2; below kDeltaRoughness (brdf/ggx.h) it is a perfect mirror.
 
 // Metallic-roughness as in glTF 2.0 with KHR_materials_ior and KHR_materials_specular: by metallic
 // a mix of GGX with Schlick's Fresnel from specular dielectric_f0 to specular, over a diffuse base

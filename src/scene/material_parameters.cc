@@ -112,7 +112,7 @@ constexpr MaterialParameter BaseRoughness() {
 
 // What several models have.
 constexpr std::string_view kRoughnessMeaning =
-    "Perceptual roughness: alpha is its square. 0: a perfect mirror.";
+    "Perceptual roughness: alpha is its square. Below 2^-20 (9.5e-7): a perfect mirror.";
 constexpr std::string_view kShadowingMeaning =
     "Masking and shadowing of microfacets. height_correlated: Smith (Heitz 2014). separable: "
     "Smith, product of two terms. schlick_direct: Schlick's with k = (roughness + 1)^2 / 8 (Karis "

@@ -144,6 +144,7 @@ class CliTest(unittest.TestCase):
         self.render('-o', self.out / 'a.exr', '--stats', self.out / 's.json', *SMALL)
         stats = json.loads((self.out / 's.json').read_text())
         self.assertEqual(stats['counts']['camera_rays'], 64 * 36)
+        self.assertEqual(stats['image']['samples_per_pixel'], {'min': 1, 'mean': 1, 'max': 1})
         self.assertGreater(stats['counts']['hits'], 0)
         self.assertIn('render', stats['time_ms'])
         for stage in 'intersect', 'shade', 'film', 'output':
@@ -181,8 +182,13 @@ class CliTest(unittest.TestCase):
         self.assertEqual(image['max_error'], 0.05)
         self.assertLess(image['unsettled_pixels'], 96 * 54 / 20)
         self.assertIn('nacre:maxError', run('info', self.out / 'a.exr').stdout)
-        self.assertIn('did not settle within 8 samples',
-                      self.render(*options, '--spp', '8', scene=grid).stderr)
+        for spp, most in ('8', 8), ('9', 16):
+            told = self.render(*options, '--spp', spp, '--stats', self.out / 's.json', scene=grid).stderr
+            self.assertIn(f'did not settle within {most} samples', told)
+            counts = json.loads((self.out / 's.json').read_text())['image']['samples_per_pixel']
+            self.assertEqual(counts['max'], most)
+            self.assertEqual(counts['min'], 0)  # the background around the spheres
+            self.assertIn(f"0 to {most} samples a pixel, {counts['mean']:.1f} on average", told)
 
     def test_region_writes_a_data_window_in_the_display_window(self):
         self.render('-o', self.out / 'a.exr', '--region', '5,6,25,30', *SMALL)

@@ -192,6 +192,35 @@ def tiff(rows, orientation=1, strip_bytes=None, declared_height=None):
     return b'II*\0' + struct.pack('<I', 8) + body + struct.pack('<I', 0) + data
 
 
+def tiff_of(blocks, drop=(), **tags):
+    """A TIFF of strips or tiles that are stored as they are given; without the tags in `drop`. The
+    tags are those of 16 x 16 pixels of 8 bits in strips of 4 rows, but for those in `tags`."""
+    places, data = [], b''
+    for block in blocks:
+        places.append(8 + len(data))
+        data += block + b'\0' * (len(block) % 2)
+    names = {'width': 256, 'height': 257, 'bits': 258, 'compression': 259, 'meaning': 262, 'places': 273,
+             'samples': 277, 'rows': 278, 'bytes': 279, 'planes': 284, 'palette': 320,
+             'tile_width': 322, 'tile_height': 323, 'tile_places': 324, 'tile_bytes': 325}
+    is_tiled = 'tile_width' in tags
+    values = {'width': 16, 'height': 16, 'bits': 8, 'compression': 1, 'meaning': 1, 'samples': 1, 'planes': 1}
+    values |= {'tile_places' if is_tiled else 'places': places,
+               'tile_bytes' if is_tiled else 'bytes': [len(block) for block in blocks]}
+    values |= ({} if is_tiled else {'rows': 4}) | tags
+    entries, rest = b'', b''
+    fields = sorted((names[name], value) for name, value in values.items() if name not in drop)
+    behind = 8 + len(data) + 2 + 12 * len(fields) + 4
+    for tag, value in fields:
+        value = value if isinstance(value, list) else [value]
+        kind = 3 if tag == 320 else 4
+        packed = struct.pack('<%d%s' % (len(value), 'H' if kind == 3 else 'I'), *value)
+        if len(packed) > 4:
+            packed, rest = struct.pack('<I', behind + len(rest)), rest + packed
+        entries += struct.pack('<HHI', tag, kind, len(value)) + packed.ljust(4, b'\0')
+    return (b'II*\0' + struct.pack('<I', 8 + len(data)) + data + struct.pack('<H', len(fields)) + entries +
+            b'\0' * 4 + rest)
+
+
 def icc_profile(gamma):
     """The primaries of sRGB (ICC.1, adapted to D50) with a power for a curve."""
     def xyz(*values):
@@ -210,26 +239,37 @@ def icc_profile(gamma):
     return header.ljust(128, b'\0') + table + data
 
 
-def jpeg(blocks, orientation):
-    """A baseline grey JPEG with an EXIF block, whose blocks of 8 x 8 pixels are of one value each:
-    `blocks` are rows of them as they are stored. Quantized by 8 they have that value exactly."""
-    def segment(marker, data):
-        return b'\xff' + bytes([marker]) + struct.pack('>H', len(data) + 2) + data
-    exif = b'Exif\0\0II*\0' + struct.pack('<IHHHII', 8, 1, 274, 3, 1, orientation) + b'\0' * 4
-    bits, last = '', 128
-    for value in (value for row in blocks for value in row):
-        difference, last = value - last, value
-        size = abs(difference).bit_length()
-        low = difference if difference >= 0 else difference + (1 << size) - 1
-        # The code of the size, the difference, and that all other coefficients are 0.
-        bits += f'{size:04b}' + (f'{low:0{size}b}' if size else '') + '0'
+def jpeg_segment(marker, data):
+    return b'\xff' + bytes([marker]) + struct.pack('>H', len(data) + 2) + data
+
+
+def jpeg_of(planes, application):
+    """A baseline JPEG, whose blocks of 8 x 8 pixels are of one value each: of each component, rows of
+    them as they are stored. Quantized by 8 they have that value exactly. `application`: segments."""
+    bits, last = '', [128] * len(planes)
+    for blocks in zip(*[[value for row in plane for value in row] for plane in planes]):
+        for c, value in enumerate(blocks):
+            difference, last[c] = value - last[c], value
+            size = abs(difference).bit_length()
+            low = difference if difference >= 0 else difference + (1 << size) - 1
+            # The code of the size, the difference, and that all other coefficients are 0.
+            bits += f'{size:04b}' + (f'{low:0{size}b}' if size else '') + '0'
     bits += '1' * (-len(bits) % 8)
     scan = bytes(int(bits[i:i + 8], 2) for i in range(0, len(bits), 8)).replace(b'\xff', b'\xff\0')
-    return (b'\xff\xd8' + segment(0xe1, exif) + segment(0xdb, b'\0' + bytes([8]) * 64) +
-            segment(0xc0, struct.pack('>BHHBBBB', 8, 8 * len(blocks), 8 * len(blocks[0]), 1, 1, 0x11, 0)) +
-            segment(0xc4, bytes([0, 0, 0, 0, 9] + [0] * 12) + bytes(range(9))) +
-            segment(0xc4, bytes([0x10, 1] + [0] * 15) + b'\0') +
-            segment(0xda, bytes([1, 1, 0, 0, 63, 0])) + scan + b'\xff\xd9')
+    count, rows, columns = len(planes), len(planes[0]), len(planes[0][0])
+    return (b'\xff\xd8' + application + jpeg_segment(0xdb, b'\0' + bytes([8]) * 64) +
+            jpeg_segment(0xc0, struct.pack('>BHHB', 8, 8 * rows, 8 * columns, count) +
+                         b''.join(bytes([c + 1, 0x11, 0]) for c in range(count))) +
+            jpeg_segment(0xc4, bytes([0, 0, 0, 0, 9] + [0] * 12) + bytes(range(9))) +
+            jpeg_segment(0xc4, bytes([0x10, 1] + [0] * 15) + b'\0') +
+            jpeg_segment(0xda, bytes([count]) + b''.join(bytes([c + 1, 0]) for c in range(count)) +
+                         bytes([0, 63, 0])) + scan + b'\xff\xd9')
+
+
+def jpeg(blocks, orientation):
+    """A grey one with an EXIF block."""
+    exif = b'Exif\0\0II*\0' + struct.pack('<IHHHII', 8, 1, 274, 3, 1, orientation) + b'\0' * 4
+    return jpeg_of([blocks], jpeg_segment(0xe1, exif))
 
 
 class ImagesTest(unittest.TestCase):
@@ -608,6 +648,90 @@ class ImagesTest(unittest.TestCase):
                 ('a.pfm', b'Pf\n9 9\n-1.0\n' + bytes(200))):
             with self.subTest(name):
                 self.refused_everywhere(self.write(name, data), 'cannot be read')
+
+    # Rows of 16 bytes in strips of four, and in tiles of 16 x 16 of a picture of 32 x 32.
+    STRIPS = [bytes((16 * y + x) % 251 for y in range(4 * i, 4 * i + 4) for x in range(16))
+              for i in range(4)]
+    TILES = {'width': 32, 'height': 32, 'tile_width': 16, 'tile_height': 16}
+
+    def test_tiff_blocks_that_are_short_or_missing(self):
+        deflate, plain = zlib.compress, bytes
+        for name, compression, pack in ('none', 1, plain), ('deflate', 8, deflate):
+            blocks = [pack(strip) for strip in self.STRIPS]
+            tiles = [pack(b''.join(self.STRIPS))] * 4
+            lengths = [len(block) for block in blocks]
+            places = [8 + sum(length + length % 2 for length in lengths[:i]) for i in range(4)]
+            more = {'compression': compression}
+            self.check(0, 'match', 'compare', *[self.write('whole.tif', tiff_of(blocks, **more))] * 2)
+            self.check(0, 'match', 'compare', *[self.write('tiles.tif', tiff_of(tiles, **self.TILES, **more))] * 2)
+            for what, data in (
+                    ('cut', tiff_of([*blocks[:2], blocks[2][:-9], blocks[3]], **more)),
+                    ('last cut', tiff_of([*blocks[:3], blocks[3][:-9]], **more)),
+                    ('counted short', tiff_of(blocks, bytes=[length - 9 for length in lengths], **more)),
+                    ('of fewer rows', tiff_of([*blocks[:3], pack(self.STRIPS[3][:48])], **more)),
+                    ('counted as 0', tiff_of(blocks, bytes=[*lengths[:3], 0], **more)),
+                    ('at 0', tiff_of(blocks, places=[*places[:3], 0], **more)),
+                    ('beyond the end', tiff_of(blocks, places=[*places[:3], 1 << 20], **more)),
+                    ('longer than the file', tiff_of(blocks, bytes=[*lengths[:3], 1 << 20], **more)),
+                    ('too few', tiff_of(blocks[:2], **more)),
+                    ('too few lengths', tiff_of(blocks, bytes=lengths[:2], **more)),
+                    ('without lengths', tiff_of(blocks, drop=['bytes'], **more)),
+                    ('tile cut', tiff_of([*tiles[:3], tiles[3][:-9]], **self.TILES, **more)),
+                    ('tile short', tiff_of([*tiles[:3], pack(self.STRIPS[0])], **self.TILES, **more)),
+                    ('tiles too few', tiff_of(tiles[:3], **self.TILES, **more)),
+                    ('tile 0', tiff_of(tiles, tile_bytes=[*[len(t) for t in tiles[:3]], 0], **self.TILES, **more))):
+                with self.subTest(compression=name, blocks=what):
+                    self.refused_everywhere(self.write('a.tif', data), 'cannot be read: ')
+
+    def test_a_fax_that_ends_early(self):
+        # White rows below white ones are a 1 each; then twice the mark of the end.
+        white = {'compression': 4, 'bits': 1, 'meaning': 0, 'rows': 16}
+        whole = self.write('whole.tif', tiff_of([b'\xff\xff\0\x10\x01'], **white))
+        self.check(0, 'match', 'compare', whole, whole)
+        self.refused_everywhere(self.write('a.tif', tiff_of([b'\xff'], **white)), 'Premature EOF')
+
+    def test_tiff_samples_without_a_meaning(self):
+        colors = {'samples': 3, 'rows': 4}
+        triples = [strip * 3 for strip in self.STRIPS]
+        palette = [257 * (i % 256) for i in range(768)]
+        grey = self.write('grey.tif', tiff_of(self.STRIPS))
+        shown = self.write('palette.tif', tiff_of(self.STRIPS, meaning=3, palette=palette))
+        self.check(2, 'channel', 'compare', grey, shown)  # read as grey and as colours
+        for what, data in (
+                ('no palette', tiff_of(self.STRIPS, meaning=3)),
+                ('short palette', tiff_of(self.STRIPS, meaning=3, palette=palette[:300])),
+                ('palette of 4 bits', tiff_of(self.STRIPS, meaning=3, palette=palette, bits=4)),
+                ('palette of colours', tiff_of(triples, meaning=3, palette=palette, **colors)),
+                ('no palette of colours', tiff_of(triples, meaning=3, **colors)),
+                ('no meaning', tiff_of(self.STRIPS, drop=['meaning'])),
+                ('unknown meaning', tiff_of(self.STRIPS, meaning=99)),
+                ('one sample of colours', tiff_of(self.STRIPS, meaning=2))):
+            with self.subTest(what):
+                self.refused_everywhere(self.write('a.tif', data), 'cannot be read: ')
+
+    def test_jpegs_of_four_inks_and_of_unknown_ones(self):
+        inks = [[[0, 51, 255]], [[102, 0, 0]], [[255, 204, 51]], [[0, 51, 153]]]
+        adobe = jpeg_segment(0xee, b'Adobe' + struct.pack('>HHHB', 100, 0, 0, 0))
+        inverted = [[[255 - code for code in row] for row in plane] for plane in inks]
+        # What light each ink leaves, of what black leaves: whole codes of these values.
+        rgb = [[round((255 - inks[c][0][i]) * (255 - inks[3][0][i]) / 255) for i in range(3)] for c in range(3)]
+        row = [rgb[c][i] for i in range(3) for _ in range(8) for c in range(3)]
+        expected = self.write('rgb.png', png([row] * 8, 2))
+        for name, data in (('plain', jpeg_of(inks, b'')), ('adobe', jpeg_of(inverted, adobe))):
+            with self.subTest(name):
+                image = self.write('a.jpg', data)
+                # Products of codes that are no multiple of 255 are off the nearest code by half of one.
+                self.check(0, 'match', 'compare', image, expected, '--max-abs', str(0.51 / 255))
+                self.check(65, 'display-referred', 'tonemap', image, '-o', self.out / 'x.png')
+                self.check(65, 'display codes', 'render', self.environment(image), '-o',
+                           self.out / 'x.exr')
+                # sRGB's curve rises by 2.28 at most; an albedo under light 1 is what is seen.
+                self.check(0, 'match', 'compare', self.render(self.textured(image), 'a.exr'),
+                           self.render(self.textured(expected), 'b.exr'), '--layers', 'beauty',
+                           '--max-abs', str(2.28 * 0.51 / 255))
+        for count in 2, 5:
+            with self.subTest(components=count):
+                self.refused_everywhere(self.write('a.jpg', jpeg_of((inks + inks)[:count], b'')), 'cannot be read')
 
     # ---- Memory ----
 

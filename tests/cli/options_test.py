@@ -74,6 +74,76 @@ class OptionsTest(unittest.TestCase):
             with self.subTest(kind=kind, option=option):
                 self.check_refused(option, 'plot', kind, *out, *option)
 
+    # ---- Values ----
+
+    def check_usage(self, message, *arguments):
+        result = run(*arguments)
+        self.assertEqual(result.returncode, 64, (arguments, result.stderr))
+        self.assertIn(message, result.stderr)
+        self.assertEqual(result.stderr.count('error: '), 1)
+        self.assertIn('hint: ', result.stderr)
+        self.assertEqual(result.stdout, '')
+        self.assertEqual(list(self.out.iterdir()), [])
+
+    # Every option that takes a list, with a list that is right, of commands that end with -o FILE
+    # or with positional arguments: an option that took one word too many would take these.
+    def lists(self):
+        image = SOURCE / 'tests/references/textbook/phong_vs_pbr.exr'
+        out = ['-o', self.out / 'a.exr', *SMALL]
+        return (('--layers', 'N,Z', ['render', FIRST_SCENE], out),
+                ('--layers', 'N,Z', ['grid', '--rows', 'roughness=0.5'], out),
+                ('--layers', 'beauty', ['compare'], [image, image]),
+                ('--metrics', 'ssim,flip', ['compare'], [image, image]),
+                ('--angle', '30,60', ['plot', 'brdf'], ['-o', self.out / 'a.csv']),
+                ('--layers', 'N,Z', ['report'], [self.out / 'a.html', FIRST_SCENE, *SMALL]),
+                ('--metrics', 'ssim,flip', ['report'], [self.out / 'a.html', image, image]))
+
+    def test_lists_have_no_empty_elements(self):
+        for name, right, before, after in self.lists():
+            first = right.split(',')[0]
+            for wrong in ',', '', f'{first},', f',{first}', f'{first},,{first}':
+                with self.subTest(command=before[0], name=name, list=wrong):
+                    self.check_usage(f'error: {name}: ', *before, name, wrong, *after)
+            with self.subTest(command=before[0], name=name, list='='):
+                self.check_usage(f'error: {name}: its value is missing', *before, name + '=', *after)
+
+    def test_lists_take_one_word(self):
+        for name, right, before, after in self.lists():
+            for given in [name, right], [f'{name}={right}'], [name, right.split(',')[0], name, right]:
+                with self.subTest(command=before[0], given=given):
+                    self.check_works(*before, *given, *after)
+
+    def test_an_option_is_no_value_of_the_option_before(self):
+        out = ['-o', self.out / 'a.exr', *SMALL]
+        for option, before, after in (
+                ('--size', ['render', FIRST_SCENE], out),
+                ('--layers', ['render', FIRST_SCENE], out),
+                ('--set', ['render', FIRST_SCENE], out),
+                ('--stats', ['render', FIRST_SCENE], ['--exposure=1', *out]),
+                ('-o', ['render', FIRST_SCENE], SMALL),
+                ('--title', ['plot', 'brdf'], ['--log', '-o', self.out / 'a.csv']),
+                ('--part', ['tonemap', 'a.exr'], ['--layer', 'N', '-o', self.out / 'a.png'])):
+            with self.subTest(option=option):
+                self.check_usage(f'error: {option}: its value is missing', *before, option, *after)
+                self.check_usage(f'error: {option}: its value is missing', *before, *after, option)
+                if option != '-o':
+                    self.check_usage(f'error: {option}: its value is missing', *before, option + '=',
+                                     *after)
+        # Negative numbers, "-" for standard output and what is written with "=" are values.
+        self.check_works('render', FIRST_SCENE, '-o', self.out / 'a.png', *SMALL, '--exposure', '-1',
+                         '--stats', '-')
+        self.check_works('plot', 'brdf', '--title=--log', '-o', self.out / 'a.csv')
+
+    def test_a_heat_scale_goes_up(self):
+        image = SOURCE / 'tests/references/textbook/phong_vs_pbr.exr'
+        for low, high in (['1', '0.1'], ['0.1', '0.1'], ['2', None], [None, '1e-7']):
+            ends = (['--heat-low', low] if low else []) + (['--heat-high', high] if high else [])
+            for heat_map in [], ['--heat-map', self.out / 'a.png']:
+                with self.subTest(ends=ends, heat_map=heat_map):
+                    self.check_usage('error: --heat-low: ', 'compare', image, image, *ends, *heat_map)
+        self.check_works('compare', image, image, '--heat-low', '0.1', '--heat-high', '0.2',
+                         '--heat-map', self.out / 'a.png')
+
     # ---- Files ----
 
     def test_slices_are_drawn_with_their_numbers(self):

@@ -3,7 +3,7 @@
 """What goes wrong around the program: full disks, folders that vanish, signals, no memory.
 
 Each time: no crash, the right exit code with words, no part of a file, and old files as they were.
-Usage: faults_test.py PROGRAM SOURCE_FOLDER [UNITTEST-ARGUMENTS...]
+Usage: faults_test.py PROGRAM SOURCE_FOLDER COMPILER [UNITTEST-ARGUMENTS...]
 """
 import contextlib
 import os
@@ -20,7 +20,9 @@ import threading
 import time
 import unittest
 
-PROGRAM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
+PROGRAM, SOURCE, COMPILER = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
+SANITIZED = b'__asan_init' in pathlib.Path(PROGRAM).read_bytes() or \
+    b'__tsan_init' in pathlib.Path(PROGRAM).read_bytes()
 GRID = SOURCE / 'scenes/material_grid.json'
 FIRST = SOURCE / 'scenes/first_scene.json'
 SMALL = ['--size', '64x36', '--spp', '1']
@@ -286,6 +288,49 @@ class FaultsTest(unittest.TestCase):
         self.assertIn(result.returncode, (65, 70), result.stderr)
         self.assertIn('error: ', result.stderr)
 
+    # ---- Exceptions ----
+
+    def test_an_exception_is_named_wherever_it_comes_from(self):
+        """From setting the commands up, and again while that is being told."""
+        if SANITIZED:
+            self.skipTest('sanitizers come before any other library')
+        # In the place of fmt's, which the program calls for its first option.
+        library = self.out / 'failing_format.so'
+        subprocess.run([COMPILER, '-std=c++20', '-shared', '-fPIC', '-x', 'c++', '-', '-o', library,
+                        '-lfmt'], check=True, text=True, input='''
+            #define FMT_SHARED
+            #include <cstdlib>
+            #include <cstring>
+            #include <new>
+            #include <stdexcept>
+            #include <fmt/format.h>
+            FMT_BEGIN_NAMESPACE
+            std::string vformat(string_view format, format_args arguments) {
+              static int left = std::atoi(std::getenv("FAILURES"));
+              const char* const kind = std::getenv("KIND");
+              if (left-- > 0) {
+                if (std::strcmp(kind, "memory") == 0) throw std::bad_alloc();
+                if (std::strcmp(kind, "number") == 0) throw 1;
+                throw std::logic_error("set-up failed");
+              }
+              memory_buffer text;
+              vformat_to(std::back_inserter(text), format, arguments);
+              return to_string(text);
+            }
+            FMT_END_NAMESPACE
+            ''')
+        for kind, words in (('logic', 'error: internal: set-up failed\n'),
+                            ('memory', 'error: out of memory\n  hint: '),
+                            ('number', 'error: internal: an exception that is no std::exception\n')):
+            for failures in 1, 100:
+                with self.subTest(kind=kind, failures=failures):
+                    result = run('render', FIRST, '-o', self.out / 'a.png', *SMALL, env=dict(
+                        os.environ, LD_PRELOAD=str(library), KIND=kind, FAILURES=str(failures)))
+                    self.assertEqual(result.returncode, 70, result.stderr)
+                    self.assertTrue(result.stderr.startswith(words), result.stderr)
+                    self.assertEqual(result.stderr.count('error: '), 1)
+                    self.assertEqual(os.listdir(self.out), [library.name])
+
     # ---- Files that change while they are read ----
 
     def test_a_texture_cut_while_it_is_read(self):
@@ -324,4 +369,4 @@ class FaultsTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:], verbosity=1)
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=1)

@@ -166,6 +166,45 @@ TEST_CASE("a smaller error takes more samples") {
   CHECK(stats.camera_rays <= (32u + 1) * 120 * 88);
 }
 
+TEST_CASE("the samples of pixels are counted as they are taken") {
+  const Scene scene = MakeScene();
+  RenderSettings settings = Adaptive(0.05);
+  settings.max_samples = 100;
+  RenderStats whole;
+  RenderImage(scene, settings, &whole);
+  const PixelSampleCounts& counts = whole.pixel_samples;
+  CHECK(counts.pixels == 120 * 88);
+  CHECK(counts.fewest == 0);
+  CHECK(counts.most == 128);  // of 4, 8, 16, ... the first that is no less than was asked for
+  // What is traced beside them: centres of pixels that then take samples, and hits that are sought.
+  CHECK(counts.samples <= whole.camera_rays);
+  CHECK(counts.samples + 2 * counts.pixels > whole.camera_rays);
+  // Parts of the picture, which do not end where cells do, take what the whole takes there.
+  PixelSampleCounts parts;
+  for (const Window& part :
+       {Window{0, 0, 120, 13}, Window{0, 13, 45, 88}, Window{45, 13, 120, 88}}) {
+    settings.region = part;
+    RenderStats stats;
+    RenderImage(scene, settings, &stats);
+    CHECK(stats.pixel_samples.pixels == part.pixel_count());
+    parts.Add(stats.pixel_samples);
+  }
+  CHECK(parts.samples == counts.samples);
+  CHECK(parts.fewest == counts.fewest);
+  CHECK(parts.most == counts.most);
+  // The middle of a smooth sphere: one sample each, at the centre.
+  Scene smooth = OneSphere(LambertMaterial{Rgb(0.9)}, 120);
+  smooth.lights = {Named("ambient", AmbientLight{Rgb(1, 1, 1)})};
+  settings.region = {56, 40, 64, 48};
+  RenderStats stats;
+  RenderImage(smooth, settings, &stats);
+  CHECK(stats.pixel_samples.samples == 64);
+  CHECK(stats.pixel_samples.most == 1);
+  RenderImage(smooth, {}, &stats);
+  CHECK(stats.pixel_samples.samples == stats.pixel_samples.pixels * stats.pixel_samples.most);
+  CHECK(stats.pixel_samples.fewest == static_cast<uint32_t>(smooth.image.spp));
+}
+
 TEST_CASE("a smooth picture stops at the pixels' centres") {
   Scene scene = MakeScene();
   scene.lights.resize(1);

@@ -13,6 +13,7 @@
 #include "scene/mesh.h"
 #include "scene/sphere_mesh.h"
 #include "targets.h"
+#include "textured_scenes.h"
 
 namespace nacre {
 namespace {
@@ -245,6 +246,95 @@ TEST_CASE("every model with every interpolation: finite, the same bits, layers t
         CHECK(std::abs(at("light.sun") + at("light.lamp") - reflected) <= 16 * kUnit * reflected);
       }
     }
+  }
+}
+
+// A map that leans all normals one way is looked up once for a point, however many samples of the
+// light follow: the mesh with the normals that it leads to reflects the same.
+TEST_CASE("maps turn the normals of vertices and centroids once, not once a light sample") {
+  for (const Interpolation interpolation : {Interpolation::kGouraud, Interpolation::kFlat}) {
+    for (const bool glossy : {false, true}) {
+      Scene scene;
+      scene.camera.projection = Projection::kOrthographic;
+      scene.camera.position = {0, 0, 5};
+      scene.camera.height = 2;
+      scene.image.width = scene.image.height = 16;
+      scene.image.spp = 16;
+      Mesh mesh;
+      mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+      mesh.normals.assign(4, Vec3d(0, 0, 1));
+      mesh.triangles = {0, 1, 2, 0, 2, 3};
+      mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+      mesh.material = {0};
+      mesh.interpolation = interpolation;
+      scene.meshes = {mesh};
+      scene.materials = {MakeGlossy()};
+      if (!glossy) scene.materials[0].model = LambertMaterial{{0.9, 0.6, 0.3}};
+      Light lamp;
+      lamp.name = "lamp";
+      SphereAreaLight ball;
+      ball.center = {1, 2, 4};
+      ball.radius = 0.5;
+      ball.radiance = {80, 70, 60};
+      lamp.kind = ball;
+      scene.lights = {lamp};
+      const Vec3d leaning = Vec3d(96.0 / 127, 0, 1).normalized();  // of code 224; 0 is that of 128
+      Scene expected = scene;
+      expected.meshes[0].normals.assign(4, leaning);
+      scene.materials[0].normal_map.texture = AddConstant(&scene, Rgb(224.0 / 255, 128.0 / 255, 1));
+      scene.textures[0].mapping = MappingKind::kUv;
+      // The normal is that of floats, and so are colours: some roundings. A triangle's plane does
+      // not lean with its map: its centroid is looked at alone, and sampled apart. Samples of a
+      // lamp of 0.1 sr tell its light to 10 %, and 4096 random ones would tell it to 0.2 %.
+      double tolerance = 32 * kUnit;
+      if (interpolation == Interpolation::kFlat) {
+        expected.meshes[0].interpolation = Interpolation::kPhong;
+        for (Scene* s : {&scene, &expected}) {
+          s->camera.position = {1.0 / 3, -1.0 / 3, 5};
+          s->camera.look_at = {1.0 / 3, -1.0 / 3, 0};
+          s->camera.height = 1e-3;
+          s->image.spp = 4096;
+          s->image.width = s->image.height = 1;
+        }
+        tolerance = 0.005;
+      }
+      const Image got = RenderImage(scene, Settings()), wanted = RenderImage(expected, Settings());
+      for (const char* channel : kColor) {
+        for (size_t i = 0; i < got.data.pixel_count(); ++i) {
+          const double value = Samples(wanted, channel)[i];
+          CAPTURE(channel, i, glossy, tolerance, value);
+          REQUIRE(value > 0.1);
+          CHECK(std::abs(Samples(got, channel)[i] - value) <= tolerance * value);
+        }
+      }
+    }
+  }
+}
+
+// Equal triangles give equal distances, by the same arithmetic: what comes first in the scene is
+// seen in every pixel, on every target, whatever the tree makes of the order.
+TEST_CASE("of triangles with the same vertices the first one is seen") {
+  for (const bool one_mesh_each : {true, false}) {
+    Scene scene = MakeSphereScene(Interpolation::kFaceted, 2);
+    scene.lights.clear();
+    scene.materials = {Material{}, Material{}};
+    scene.materials[0].emission = {1, 0, 0};
+    scene.materials[1].emission = {0, 1, 0};
+    scene.meshes.push_back(scene.meshes[0]);
+    scene.meshes[1].material = {1};
+    if (!one_mesh_each) {  // other triangles between them
+      scene.meshes.insert(scene.meshes.begin() + 1, MakeMesh(Icosphere{.radius = 0.5}));
+      scene.meshes[1].material = {1};
+    }
+    ForEachTarget([&](Target) {
+      const Image image = RenderImage(scene, Settings());
+      double red = 0;
+      for (size_t i = 0; i < image.data.pixel_count(); ++i) {
+        CHECK(Samples(image, "G")[i] == 0);
+        red += Samples(image, "R")[i];
+      }
+      CHECK(red > 500);
+    });
   }
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "brdf/burley.h"
 #include "brdf/eon.h"
 #include "catch.h"
@@ -152,6 +154,35 @@ TEST_CASE("a plan notes the light that Burley's term makes, and no other's") {
   CHECK(notes(base).empty());
   base.diffuse_coupling = DiffuseCoupling::kNone;
   CHECK(notes(base).size() == 1);
+}
+
+// What it says is mirrored has no highlight, and what it does not has one: the middle pixel's only
+// sample looks along the light.
+TEST_CASE("a plan notes perfect mirrors, with their roughness") {
+  Scene scene = OrthographicSphere(ConductorMaterial{}, 1);
+  scene.image.width = scene.image.height = 63;
+  scene.image.spp = 1;
+  scene.lights = {Named("key", DirectionalLight{Vec3d(0, 0, -1), Rgb(1)})};
+  const double least = 0x1p-20;
+  for (const double roughness : {0.0, 1e-200, 1e-9, std::nextafter(least, 0), least, 0.5}) {
+    std::get<ConductorMaterial>(scene.materials[0].model).roughness = roughness;
+    const std::vector<std::string> notes = MakePlan(scene, {}).why.notes;
+    CAPTURE(roughness);
+    CHECK(notes.size() == (roughness < least ? 1 : 0));
+    for (const std::string& note : notes) {
+      CHECK(note.find(fmt::format(": roughness {:.6g} is below 2^-20", roughness)) !=
+            std::string::npos);
+    }
+    const Image image = RenderImage(scene, {});
+    CHECK((image.Find("R")->samples[63 * 63 / 2] > 0) == (roughness >= least));
+  }
+  // The greatest of several.
+  std::get<ConductorMaterial>(scene.materials[0].model).roughness = 1e-9;
+  scene.materials.push_back(scene.materials[0]);
+  std::get<ConductorMaterial>(scene.materials[1].model).roughness = 1e-8;
+  scene.spheres.push_back({Vec3d(3, 0, 0), 1, MaterialId{1}});
+  CHECK(MakePlan(scene, {}).why.notes.at(0).find(
+            " and 1 more: the greatest roughness, 1e-08, is") != std::string::npos);
 }
 
 TEST_CASE("a plan notes the light that the Phong family makes") {

@@ -301,5 +301,91 @@ TEST_CASE("scenes with textures have the same bits by tiles, crops, layers and t
   }
 }
 
+// A wall of bands of the materials, each from the top to the bottom and 32 pixels wide, so that
+// every tile has hits of all of them at the same places of its batch.
+Scene BandedWall(const std::vector<decltype(Material::model)>& models) {
+  Scene scene = Square(MappingKind::kPlanar);
+  scene.image.width = static_cast<int>(32 * models.size());
+  scene.image.height = 64;
+  scene.camera.height = 64.0 / 32;
+  scene.meshes.clear();
+  const double left = -static_cast<double>(models.size()) / 2;
+  for (size_t i = 0; i < models.size(); ++i) {
+    Mesh band;
+    const double x = left + static_cast<double>(i);
+    band.positions = {{x, -2, 0}, {x + 1, -2, 0}, {x + 1, 2, 0}, {x, 2, 0}};
+    band.triangles = {0, 1, 2, 0, 2, 3};
+    band.material = {static_cast<uint32_t>(i)};
+    scene.meshes.push_back(band);
+  }
+  scene.materials.resize(models.size());
+  for (size_t i = 0; i < models.size(); ++i) {
+    scene.materials[i] = {};
+    scene.materials[i].model = models[i];
+  }
+  return scene;
+}
+
+// The products of maps with a light's colour are kept from light sample to light sample: those of
+// the batch before, of another material, or of another light would be taken for them.
+TEST_CASE("what maps make of a light is of the hit's own texels, material and light") {
+  const TextureId map{0};  // Square's
+  const LambertMaterial lambert{.albedo = Rgb(0.9), .albedo_map = map};
+  const LambertMaterial darker{.albedo = Rgb(0.4), .albedo_map = map};
+  MetallicRoughnessMaterial metallic;
+  metallic.base_color_map = map;
+  PhongMaterial phong;
+  phong.diffuse_map = map;
+  DielectricMaterial coat;
+  coat.base_color_map = map;
+  const Light red = {.name = "red",
+                     .kind = DirectionalLight{Vec3d(-0.3, -0.2, -1), Rgb(1, 0.25, 0.125)}};
+  const Light blue = {.name = "blue",
+                      .kind = DirectionalLight{Vec3d(-0.3, -0.2, -1), Rgb(0.125, 0.25, 1)}};
+  const Light lamp = {.name = "lamp",
+                      .kind = RectangleAreaLight{.center = Vec3d(0, 0, 4),
+                                                 .facing = Vec3d(0, 0, -1),
+                                                 .up = Vec3d(0, 1, 0),
+                                                 .radiance = Rgb(5, 4, 3)}};
+  const std::vector<std::vector<decltype(Material::model)>> walls = {
+      {lambert}, {metallic}, {phong}, {coat}, {lambert, darker}, {metallic, phong, coat}};
+  for (const auto& models : walls) {
+    for (const std::vector<Light>& lights :
+         {std::vector<Light>{red}, std::vector<Light>{lamp}, std::vector<Light>{red, blue}}) {
+      Scene scene = BandedWall(models);
+      scene.lights = lights;
+      CAPTURE(models.size(), models[0].index(), lights[0].name, lights.size());
+      RenderSettings settings;
+      settings.threads = 1;
+      const Image whole = RenderImage(scene, settings);
+      // A pixel alone is a batch that nothing came before.
+      for (int y = 3; y < 64; y += 15) {
+        for (int x = 5; x < scene.image.width; x += 11) {
+          settings.region = {x, y, x + 1, y + 1};
+          const Image alone = RenderImage(scene, settings);
+          const auto at = static_cast<size_t>(y * scene.image.width + x);
+          for (const char* channel : {"R", "G", "B"}) {
+            CHECK(whole.Find(channel)->samples[at] == alone.Find(channel)->samples[0]);
+          }
+        }
+      }
+      settings.region = {};
+      if (lights.size() < 2) continue;
+      scene.lights = {red};
+      const Image by_red = RenderImage(scene, settings);
+      scene.lights = {blue};
+      const Image by_blue = RenderImage(scene, settings);
+      for (const char* channel : {"R", "G", "B"}) {
+        for (size_t i = 0; i < whole.data.pixel_count(); ++i) {
+          const double sum =
+              double{by_red.Find(channel)->samples[i]} + by_blue.Find(channel)->samples[i];
+          // Each light's diffuse and specular part are rounded after two products, and their sums.
+          REQUIRE(std::abs(whole.Find(channel)->samples[i] - sum) <= 8 * 0x1p-24 * sum);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace nacre

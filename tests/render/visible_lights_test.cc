@@ -6,6 +6,7 @@
 #include "pictures.h"
 #include "render/direct_plan.h"
 #include "render/frame_plan.h"
+#include "render/camera.h"
 #include "render/render.h"
 #include "targets.h"
 #include "visibility/sphere_test.h"
