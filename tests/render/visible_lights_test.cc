@@ -4,6 +4,7 @@
 #include <random>
 
 #include "pictures.h"
+#include "render/camera.h"
 #include "render/direct_plan.h"
 #include "render/frame_plan.h"
 #include "render/camera.h"
