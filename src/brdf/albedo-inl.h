@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/albedo-inl.h: directional albedos on SIMD vectors, all lanes of one material, or each of its
-// own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
+// brdf/albedo-inl.h: directional albedos on SIMD vectors of floats or doubles, all lanes of one
+// material, or each of its own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
 #if defined(NACRE_BRDF_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_ALBEDO_INL_H_
 #undef NACRE_BRDF_ALBEDO_INL_H_
@@ -37,7 +37,11 @@ HWY_INLINE hn::Vec<D> AlbedoNumber(D d, float number) {
 }
 template <class D>
 HWY_INLINE hn::Vec<D> AlbedoNumber(D d, const float* numbers) {
-  return hn::LoadU(d, numbers);
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(double)) {
+    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), numbers));
+  } else {
+    return hn::LoadU(d, numbers);
+  }
 }
 template <class D>
 HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomial& polynomial, size_t i) {
@@ -45,7 +49,7 @@ HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomial& polynomial,
 }
 template <class D>
 HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomialLanes& polynomial, size_t i) {
-  return hn::LoadU(d, polynomial.first + i * polynomial.stride);
+  return AlbedoNumber(d, polynomial.first + i * polynomial.stride);
 }
 HWY_INLINE bool HasMasking(const AlbedoShape& shape) { return shape.k > 0; }
 HWY_INLINE bool HasMasking(const AlbedoShapeLanes& shape) { return shape.has_masking; }
