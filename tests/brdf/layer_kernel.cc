@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/brdf/layer_kernel.cc: the loop behind layer_kernel.h.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "brdf/layer_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "brdf/coat-inl.h"
+#include "brdf/layer_kernel.h"
+#include "brdf/sheen-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+
+constexpr size_t kMaxLanes = 32;
+
+// Up to a whole vector of queries from `first` on, the last one repeated.
+template <typename T>
+struct Packet {
+  using D = hn::ScalableTag<T>;
+  using V = hn::Vec<D>;
+  const std::vector<LayerQuery<T>>& queries;
+  size_t first;
+
+  const LayerQuery<T>& At(size_t lane) const {
+    return queries[std::min(first + lane, queries.size() - 1)];
+  }
+  template <class Member>
+  V Column(const Member& member) const {
+    alignas(64) T lanes[kMaxLanes];
+    for (size_t i = 0; i < hn::Lanes(D()); ++i) lanes[i] = member(At(i));
+    return hn::Load(D(), lanes);
+  }
+  V Number(T LayerQuery<T>::*number) const {
+    return Column([=](const LayerQuery<T>& q) { return q.*number; });
+  }
+  Vec3V<V> Vector(Imath::Vec3<T> LayerQuery<T>::*vector) const {
+    return {Column([=](const LayerQuery<T>& q) { return (q.*vector).x; }),
+            Column([=](const LayerQuery<T>& q) { return (q.*vector).y; }),
+            Column([=](const LayerQuery<T>& q) { return (q.*vector).z; })};
+  }
+};
+
+// The fits of lanes with a roughness each, as AlbedoFitLanes reads them.
+struct FitArrays {
+  float shape[4][kMaxLanes], one[kAlbedoTerms][kMaxLanes], schlick[kAlbedoTerms][kMaxLanes];
+
+  void Set(size_t lane, const AlbedoFit& fit) {
+    shape[0][lane] = fit.shape.offset;
+    shape[1][lane] = fit.shape.scale;
+    shape[2][lane] = fit.shape.k;
+    shape[3][lane] = fit.shape.softening;
+    for (size_t i = 0; i < kAlbedoTerms; ++i) {
+      one[i][lane] = fit.one[i];
+      schlick[i][lane] = fit.schlick[i];
+    }
+  }
+  AlbedoFitLanes Lanes() const {
+    return {{shape[0], shape[1], shape[2], shape[3], false},
+            {one[0], kMaxLanes},
+            {schlick[0], kMaxLanes}};
+  }
+};
+
+template <typename T>
+void Evaluate(RoughnessOf roughness_of, const std::vector<LayerQuery<T>>& queries,
+              std::vector<LayerAnswer<T>>* answers) {
+  using Query = LayerQuery<T>;
+  using Answer = LayerAnswer<T>;
+  const hn::ScalableTag<T> d;
+  using V = hn::Vec<decltype(d)>;
+  for (size_t first = 0; first < queries.size(); first += hn::Lanes(d)) {
+    const Packet<T> packet{queries, first};
+    const bool each = roughness_of == RoughnessOf::kEach;
+    const V roughness =
+        each ? packet.Number(&Query::roughness) : hn::Set(d, packet.At(0).roughness);
+    const AnglesV<V> a = ComputeAngles(d, packet.Vector(&Query::n), packet.Vector(&Query::l),
+                                       packet.Vector(&Query::v));
+    const CharlieV<V> charlie =
+        each ? MakeCharlie(d, roughness)
+             : BroadcastCharlie(d, nacre::MakeCharlie(double{packet.At(0).roughness}));
+    const auto write = [&](T Answer::*member, V value) {
+      alignas(64) T lanes[kMaxLanes];
+      hn::Store(value, d, lanes);
+      for (size_t i = 0; i < hn::Lanes(d) && first + i < queries.size(); ++i) {
+        (*answers)[first + i].*member = lanes[i];
+      }
+    };
+    write(&Answer::distribution, CharlieDistribution(d, a, charlie.alpha));
+    write(&Answer::sheen, CharlieLobe(d, charlie, a));
+    const V cosine_lambda_v = CharlieCosineLambda(d, charlie, a.n_dot_v);
+    write(&Answer::cosine_lambda_v, cosine_lambda_v);
+    const V albedo_v = CharlieAlbedo(d, charlie, a.n_dot_v, cosine_lambda_v);
+    const V albedo_l = CharlieAlbedo(d, charlie, a.n_dot_l);
+    write(&Answer::sheen_albedo_v, albedo_v);
+    write(&Answer::sheen_albedo_l, albedo_l);
+    const SheenScaleV<V> scale =
+        ScaleSheen(d, packet.Number(&Query::largest_channel), albedo_v, albedo_l);
+    write(&Answer::sheen_scale, scale.lobe);
+    write(&Answer::below_sheen, scale.below);
+    write(&Answer::pdf, CharliePdf(d, a.n_dot_l, roughness));
+
+    const V f0 = packet.Number(&Query::f0);
+    V coat_albedo;
+    if (each) {
+      FitArrays fits;
+      for (size_t i = 0; i < hn::Lanes(d); ++i) {
+        fits.Set(i, MakeAlbedoFit(Shadowing::kHeightCorrelated, packet.At(i).roughness));
+      }
+      coat_albedo = CoatAlbedo(d, fits.Lanes(), f0, a.n_dot_v);
+    } else {
+      const AlbedoFit fit = MakeAlbedoFit(Shadowing::kHeightCorrelated, packet.At(0).roughness);
+      coat_albedo = CoatAlbedo(d, fit, f0, a.n_dot_v);
+    }
+    write(&Answer::coat, CoatLobe(d, a, f0, hn::Mul(roughness, roughness)));
+    write(&Answer::coat_albedo, coat_albedo);
+    write(&Answer::below_coat, ScaleBelowCoat(d, hn::Set(d, T(0.5)), coat_albedo));
+  }
+}
+
+void EvaluateFloatT(RoughnessOf roughness, const std::vector<LayerQuery<float>>& queries,
+                    std::vector<LayerAnswer<float>>* answers) {
+  Evaluate(roughness, queries, answers);
+}
+void EvaluateDoubleT(RoughnessOf roughness, const std::vector<LayerQuery<double>>& queries,
+                     std::vector<LayerAnswer<double>>* answers) {
+  Evaluate(roughness, queries, answers);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(EvaluateFloatT);
+HWY_EXPORT(EvaluateDoubleT);
+template <>
+std::vector<LayerAnswer<float>> EvaluateLayers(RoughnessOf roughness,
+                                               const std::vector<LayerQuery<float>>& queries) {
+  std::vector<LayerAnswer<float>> answers(queries.size());
+  HWY_DYNAMIC_DISPATCH(EvaluateFloatT)(roughness, queries, &answers);
+  return answers;
+}
+template <>
+std::vector<LayerAnswer<double>> EvaluateLayers(RoughnessOf roughness,
+                                                const std::vector<LayerQuery<double>>& queries) {
+  std::vector<LayerAnswer<double>> answers(queries.size());
+  HWY_DYNAMIC_DISPATCH(EvaluateDoubleT)(roughness, queries, &answers);
+  return answers;
+}
+}  // namespace nacre
+#endif
