@@ -75,7 +75,7 @@ class KullaContyShares {
       : multiple_(surface.multiple.data()),
         maps_(maps),
         fit_(own_fits ? maps->fit.data() : nullptr),
-        schlick_direct_(model.shadowing == Shadowing::kSchlickDirect),
+        form_(model.albedo.lobe.shape.form),
         spread_(KullaContySpread(model.albedo.lobe.shape)),
         scale_(static_cast<float>(model.multiple)),
         f90_(static_cast<float>(model.f90)),
@@ -121,10 +121,11 @@ class KullaContyShares {
     const D d;
     if (fit_ == nullptr) return hn::Set(d, spread_);
     // KullaContySpread of the hit's AlbedoShape: `offset` is the fit's first entry, `k` its third.
-    const float* const entry = fit_ + i;
-    const V width = schlick_direct_ ? hn::Add(hn::LoadU(d, entry + 2 * HitTextures::kFitStride),
-                                              hn::LoadU(d, entry + 2 * HitTextures::kFitStride))
-                                    : hn::Div(hn::LoadU(d, entry), hn::Set(d, 3.0f));
+    const V offset = hn::LoadU(d, fit_ + i);
+    if (form_ == AlbedoForm::kLossLinear) return hn::Div(offset, hn::Set(d, 6.0f));
+    const V k = hn::LoadU(d, fit_ + i + 2 * HitTextures::kFitStride);
+    const V width =
+        form_ == AlbedoForm::kMasked ? hn::Add(k, k) : hn::Div(offset, hn::Set(d, 3.0f));
     return hn::Mul(width, width);
   }
 
@@ -137,7 +138,7 @@ class KullaContyShares {
   const float* multiple_;
   const HitTextures* maps_;  // null: all hits have the model's numbers
   const float* fit_;         // null: all hits have the model's spread
-  bool schlick_direct_;
+  AlbedoForm form_;
   float spread_, scale_, f90_, not_delta_;
   float f0_ = 0, f_multiple_ = 0;  // of the largest channel
 };
@@ -331,7 +332,7 @@ void ApplyMappedFresnel(const HitTextures& t, size_t i, MicrofacetModel* model) 
   model->dielectric_f90 = t.exact_dielectric_f90[i];
   model->metal_f0 = at(t.exact_metal_f0);
   model->f82_slope = at(t.exact_slope);
-  model->schlick_k = (t.width[i] + 1) * (t.width[i] + 1) / 8;
+  model->schlick_k = SchlickK<double>(model->shadowing, t.width[i]);
 }
 
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis

@@ -201,14 +201,14 @@ void FinishDielectric(const TexturedRun& run, const DielectricMaterial& material
 }
 
 // The constants of the lobe, from each hit's roughness.
-void FinishLobe(const TexturedRun& run, HitTextures* t) {
+void FinishLobe(const TexturedRun& run, Shadowing shadowing, HitTextures* t) {
   for (size_t i = run.begin; i < run.end; ++i) {
     const double r = t->width[i], alpha = AlphaFromRoughness(r);
     const bool delta = IsDeltaLobe(alpha);
     const double shown = delta ? 1 : alpha;
     t->alpha[i] = static_cast<float>(shown);
     t->pi_over_alpha2[i] = static_cast<float>(M_PI / (shown * shown));
-    t->schlick_k[i] = static_cast<float>((r + 1) * (r + 1) / 8);
+    t->schlick_k[i] = static_cast<float>(SchlickK(shadowing, r));
     t->not_delta[i] = delta ? 0.0f : 1.0f;
     t->double_alpha[i] = IsNarrow(r, alpha) ? alpha : -1;
   }
@@ -241,7 +241,7 @@ void FinishMicrofacetT(const TexturedRun& run, HitTextures* t) {
   if (model.fresnel == FresnelForm::kF82) {
     Round(hits, t->metallic.data(), t->rounded_metallic.data());
   }
-  FinishLobe(run, t);
+  FinishLobe(run, model.shadowing, t);
   if (model.prepared) FinishAlbedo(run, model, t);
 }
 

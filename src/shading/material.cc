@@ -65,7 +65,7 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   model.compensation = material.compensation;
   model.coupling = DiffuseCoupling::kNone;
   model.alpha = AlphaFromRoughness(material.roughness);
-  model.schlick_k = (material.roughness + 1) * (material.roughness + 1) / 8;
+  model.schlick_k = SchlickK(material.shadowing, material.roughness);
   model.delta = IsDeltaLobe(model.alpha);
   model.double_terms = IsNarrow(material.roughness, model.alpha);
   model.albedo.lobe = MakeAlbedoFit(material.shadowing, material.roughness);

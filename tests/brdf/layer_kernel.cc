@@ -58,7 +58,7 @@ struct FitArrays {
     }
   }
   AlbedoFitLanes Lanes() const {
-    return {{shape[0], shape[1], shape[2], shape[3], false},
+    return {{shape[0], shape[1], shape[2], shape[3], AlbedoForm::kLossSquared},
             {one[0], kMaxLanes},
             {schlick[0], kMaxLanes}};
   }
