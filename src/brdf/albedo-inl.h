@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/albedo-inl.h: directional albedos on SIMD vectors, all lanes of one material, or each of its
-// own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
+// brdf/albedo-inl.h: directional albedos on SIMD vectors of floats or doubles, all lanes of one
+// material, or each of its own roughness. Scalar twins: brdf/albedo_curve.h and brdf/albedo.h.
 #if defined(NACRE_BRDF_ALBEDO_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_ALBEDO_INL_H_
 #undef NACRE_BRDF_ALBEDO_INL_H_
@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // A fit for each lane: what AlbedoFit has, in arrays.
 struct AlbedoShapeLanes {
   const float *offset, *scale, *k, *softening;
-  bool has_masking;
+  AlbedoForm form;
 };
 struct AlbedoPolynomialLanes {
   const float* first;
@@ -37,7 +37,11 @@ HWY_INLINE hn::Vec<D> AlbedoNumber(D d, float number) {
 }
 template <class D>
 HWY_INLINE hn::Vec<D> AlbedoNumber(D d, const float* numbers) {
-  return hn::LoadU(d, numbers);
+  if constexpr (sizeof(hn::TFromD<D>) == sizeof(double)) {
+    return hn::PromoteTo(d, hn::LoadU(hn::Rebind<float, D>(), numbers));
+  } else {
+    return hn::LoadU(d, numbers);
+  }
 }
 template <class D>
 HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomial& polynomial, size_t i) {
@@ -45,16 +49,18 @@ HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomial& polynomial,
 }
 template <class D>
 HWY_INLINE hn::Vec<D> AlbedoCoefficient(D d, const AlbedoPolynomialLanes& polynomial, size_t i) {
-  return hn::LoadU(d, polynomial.first + i * polynomial.stride);
+  return AlbedoNumber(d, polynomial.first + i * polynomial.stride);
 }
-HWY_INLINE bool HasMasking(const AlbedoShape& shape) { return shape.k > 0; }
-HWY_INLINE bool HasMasking(const AlbedoShapeLanes& shape) { return shape.has_masking; }
+template <class Shape>
+HWY_INLINE bool HasMasking(const Shape& shape) {
+  return shape.form == AlbedoForm::kMasked;
+}
 
 // What the curves of one n.v share: evaluated once for all of them.
 template <class V>
 struct AlbedoVariablesV {
   V z, n_dot_v;
-  V factor;  // of fit.one: of the loss for Smith's forms, of E for kSchlickDirect
+  V factor;  // AlbedoFactor
 };
 
 template <class D, class Shape, class V = hn::Vec<D>>
@@ -84,6 +90,11 @@ HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shape& shape, V
   } else {
     const V layer = hn::Mul(hn::Add(offset, offset), inverse);
     factor = hn::Mul(hn::MulAdd(mu, mu, one), hn::Mul(layer, layer));
+    if (shape.form == AlbedoForm::kLossLinear) {
+      const V twelfth = hn::Set(d, static_cast<hn::TFromD<D>>(1.0 / 12));
+      const V scaled = hn::Mul(layer, hn::MulAdd(offset, hn::Set(d, 0.25f), twelfth));
+      factor = hn::Mul(layer, hn::Add(hn::Sub(one, mu), scaled));
+    }
   }
   return {z, mu, factor};
 }

@@ -47,9 +47,9 @@ AlbedoFit MakeAlbedoFit(Shadowing shadowing, double roughness) {
     one_average += at.weights[i] * double{entry.one_average};
     schlick_average += at.weights[i] * double{entry.schlick_average};
   }
-  fit.e_average = shadowing == Shadowing::kSchlickDirect
+  fit.e_average = fit.shape.form == AlbedoForm::kMasked
                       ? one_average
-                      : 1 - one_average * AverageLossScale(AlphaFromRoughness(roughness));
+                      : 1 - one_average * AverageLossScale(fit.shape.form, roughness);
   fit.schlick_average = schlick_average;
   return fit;
 }
@@ -65,7 +65,8 @@ FresnelAlbedoFit MakeDielectricAlbedoFit(Shadowing shadowing, double roughness, 
   for (int i = 0; i < kAlbedoTerms && fit.lobe.shape.offset > 0; ++i) {
     const double mu = AlbedoNodeCosine(fit.lobe.shape, i);
     const double albedo = AlbedoOf(shadowing, roughness, mu, curve, kFastAlbedoQuadrature);
-    const double masking = fit.lobe.shape.k > 0 ? AlbedoMasking(fit.lobe.shape, mu) : 1;
+    const double masking =
+        fit.lobe.shape.form == AlbedoForm::kMasked ? AlbedoMasking(fit.lobe.shape, mu) : 1;
     values[static_cast<size_t>(i)] =
         (albedo - curve(mu, 1 - mu) * AlbedoOne(fit.lobe, mu)) / masking;
   }

@@ -57,21 +57,19 @@ struct DielectricCurve {
 };
 DielectricCurve BlendDielectricCurves(const DielectricCurves& curves, double roughness);
 
-// 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. Of Smith's forms
-// to a relative precision: for smooth surfaces it is far below the rounding of E.
+// 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. But of
+// kSchlickDirect to a relative precision: for smooth surfaces it is far below the rounding of E.
 template <typename Real>
 Real AlbedoLoss(const AlbedoFit& fit, Real n_dot_v) {
   const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
-  const Real polynomial = EvaluateAlbedoPolynomial(fit.one, x.z);
-  const Real loss = fit.shape.k > 0 ? 1 - AlbedoMasking(fit.shape, x.n_dot_v) * polynomial
-                                    : (1 + x.n_dot_v * x.n_dot_v) * x.layer * x.layer * polynomial;
-  return std::max(loss, Real(0));
+  const Real product = AlbedoFactor(fit.shape, x) * EvaluateAlbedoPolynomial(fit.one, x.z);
+  return std::max(fit.shape.form == AlbedoForm::kMasked ? 1 - product : product, Real(0));
 }
 
 // E: the albedo for F = 1, in (0, 1].
 template <typename Real>
 Real AlbedoOne(const AlbedoFit& fit, Real n_dot_v) {
-  if (!(fit.shape.k > 0)) return 1 - AlbedoLoss(fit, n_dot_v);
+  if (fit.shape.form != AlbedoForm::kMasked) return 1 - AlbedoLoss(fit, n_dot_v);
   const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
   return std::min(AlbedoMasking(fit.shape, x.n_dot_v) * EvaluateAlbedoPolynomial(fit.one, x.z),
                   Real(1));
@@ -83,7 +81,8 @@ template <typename Real>
 Real AlbedoNearMirror(const AlbedoFit& fit, const AlbedoPolynomial& polynomial, Real mirror,
                       Real n_dot_v) {
   const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);
-  const Real masking = fit.shape.k > 0 ? AlbedoMasking(fit.shape, x.n_dot_v) : Real(1);
+  const Real masking =
+      fit.shape.form == AlbedoForm::kMasked ? AlbedoMasking(fit.shape, x.n_dot_v) : Real(1);
   const Real albedo =
       mirror * AlbedoOne(fit, n_dot_v) + masking * EvaluateAlbedoPolynomial(polynomial, x.z);
   return std::min(std::max(albedo, Real(0)), Real(1));

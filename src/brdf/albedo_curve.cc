@@ -15,8 +15,9 @@ AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness) {
   const double offset = 6 * alpha;
   shape.offset = static_cast<float>(offset);
   shape.scale = static_cast<float>(2 * std::sqrt(offset + std::sqrt(1 + offset * offset)));
-  if (shadowing == Shadowing::kSchlickDirect) {
-    const double k = (roughness + 1) * (roughness + 1) / 8;
+  shape.form = AlbedoFormOf(shadowing);
+  if (shape.form == AlbedoForm::kMasked) {
+    const double k = SchlickK(shadowing, roughness);
     shape.k = static_cast<float>(k);
     // What is left at n.v = 0 is a moment of D's tail, alpha^2 log(1 / alpha), cut off at k.
     if (alpha > 0) {

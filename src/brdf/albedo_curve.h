@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "brdf/ggx.h"
 
@@ -21,12 +22,25 @@ inline constexpr int kAlbedoTerms = 18;
 // Below this n.v, albedos are those at this n.v: its square must not underflow.
 inline constexpr double kLeastAlbedoCosine = 1e-15;
 
+// What the curve of F = 1 is a polynomial times, a function of n.v: AlbedoFactor.
+enum class AlbedoForm : uint8_t {
+  kLossSquared,  // it is of 1 - E, which falls as (alpha / n.v)^2: Smith's forms
+  kLossLinear,   // it is of 1 - E, which falls as alpha / n.v: kSchlickIbl
+  kMasked,       // it is of E, which grazing angles take to nearly 0: kSchlickDirect
+};
+
+inline AlbedoForm AlbedoFormOf(Shadowing shadowing) {
+  if (shadowing == Shadowing::kSchlickDirect) return AlbedoForm::kMasked;
+  return shadowing == Shadowing::kSchlickIbl ? AlbedoForm::kLossLinear : AlbedoForm::kLossSquared;
+}
+
 // What the variable and the factors of a curve depend on beside n.v. `offset` is 0 for a mirror.
 struct AlbedoShape {
   float offset = 0;     // 6 alpha
   float scale = 2;      // of sqrt(tan(theta / 2)), so that z is 1 where n.v is
-  float k = 0;          // Schlick's k; 0 for Smith's forms
-  float softening = 0;  // kSchlickDirect: see AlbedoMasking
+  float k = 0;          // kMasked: Schlick's k
+  float softening = 0;  // kMasked: see AlbedoMasking
+  AlbedoForm form = AlbedoForm::kLossSquared;
 };
 
 AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness);
@@ -39,8 +53,8 @@ template <typename Real>
 struct AlbedoVariables {
   Real z;        // in [-1, 1]
   Real n_dot_v;  // in (0, 1]
-  Real layer;    // about 2 offset / n.v far above the layer, 1 at 0; squared, the shape of
-                 // the loss 1 - E of Smith's forms, which falls as alpha^2 (1 + mu^2) / 2 mu^2
+  Real layer;    // about 2 offset / n.v far above the layer, 1 at 0: the shape of the loss 1 - E,
+                 // squared of Smith's forms, which lose alpha^2 (1 + mu^2) / 2 mu^2
 };
 
 template <typename Real>
@@ -59,6 +73,20 @@ Real AlbedoMasking(const AlbedoShape& shape, Real n_dot_v) {
   const Real y2 = n_dot_v * n_dot_v + shape.softening;
   const Real y = std::sqrt(y2);
   return y2 / ((n_dot_v * (1 - k) + k) * (y * (1 - k) + k));
+}
+
+template <typename Real>
+Real AlbedoFactor(const AlbedoShape& shape, const AlbedoVariables<Real>& x) {
+  switch (shape.form) {
+    case AlbedoForm::kMasked:
+      return AlbedoMasking(shape, x.n_dot_v);
+    case AlbedoForm::kLossLinear:
+      // alpha (1 - mu) / mu + alpha^2 times 12; the last summand keeps wide lobes smooth.
+      return x.layer * (1 - x.n_dot_v + x.layer * (Real(1) / 12 + shape.offset / 4));
+    case AlbedoForm::kLossSquared:
+      break;
+  }
+  return (1 + x.n_dot_v * x.n_dot_v) * x.layer * x.layer;
 }
 
 template <typename Real>

@@ -58,7 +58,8 @@ double Visibility(Shadowing shadowing, double n_dot_l, double n_dot_v, double ro
     case Shadowing::kSeparable:
       return VisibilitySeparable(n_dot_l, n_dot_v, alpha);
     case Shadowing::kSchlickDirect:
-      return VisibilitySchlickDirect(n_dot_l, n_dot_v, roughness);
+    case Shadowing::kSchlickIbl:
+      return VisibilitySchlick(n_dot_l, n_dot_v, SchlickK(shadowing, roughness));
   }
   return 0;
 }

@@ -12,19 +12,21 @@ namespace nacre {
 
 // Roughnesses stand at (i / kAlbedoIntervals)^2: curves change fastest where surfaces are smooth.
 inline constexpr int kAlbedoIntervals = 40;
-inline constexpr int kShadowingForms = 3;
+inline constexpr int kShadowingForms = 4;
 
 struct AlbedoEntry {
   float one[kAlbedoTerms];
   float schlick[kAlbedoTerms];
-  float one_average;  // (1 - E_avg) / AverageLossScale of Smith's forms, E_avg of kSchlickDirect
+  float one_average;  // E_avg of kMasked, otherwise (1 - E_avg) / AverageLossScale
   float schlick_average;
 };
 
 extern const AlbedoEntry kAlbedoTable[kShadowingForms][kAlbedoIntervals + 1];
 
-// 1 - E_avg falls as alpha^2 log(1 / alpha).
-inline double AverageLossScale(double alpha) {
+// As what 1 - E_avg falls: alpha^2 log(1 / alpha) of Smith's forms, alpha of kSchlickIbl.
+inline double AverageLossScale(AlbedoForm form, double roughness) {
+  const double alpha = AlphaFromRoughness(roughness);
+  if (form == AlbedoForm::kLossLinear) return alpha;
   return alpha > 0 ? alpha * alpha * (1 + std::log1p(1 / alpha)) : 0;
 }
 

@@ -61,7 +61,7 @@ HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha, 
                  scale);
 }
 
-// Karis 2013, k = (roughness + 1)^2 / 8.
+// Karis 2013, k = SchlickK.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k, V scale) {
   const V one_minus_k = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), k);

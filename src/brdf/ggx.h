@@ -18,6 +18,7 @@ enum class Shadowing : uint8_t {
   kHeightCorrelated,  // Smith, height-correlated (Heitz 2014, eq. 99)
   kSeparable,         // Smith, product of two G1
   kSchlickDirect,     // Schlick's G1 with k = (roughness + 1)^2 / 8 (Karis 2013), the lesson's
+  kSchlickIbl,        // Schlick's G1 with k = alpha / 2 = roughness^2 / 2 (Karis 2013): SchlickK
 };
 
 template <typename Real>
@@ -69,10 +70,20 @@ Real VisibilitySeparable(Real n_dot_l, Real n_dot_v, Real alpha) {
   return 1 / ((n_dot_l + SmithRoot(n_dot_l, alpha)) * (n_dot_v + SmithRoot(n_dot_v, alpha)));
 }
 
-// Schlick's G1 with Karis' k = (roughness + 1)^2 / 8 for direct light (Karis 2013).
+// k of Schlick's G1 in the two forms of Karis 2013, "Real Shading in Unreal Engine 4", where alpha
+// is roughness^2 as here. k = alpha / 2 makes G1 Smith's of GGX as nearly as it can be, and is what
+// he uses for image-based light; for analytic lights he puts (roughness + 1) / 2 in the place of
+// the roughness, k = (roughness + 1)^2 / 8. Texts that write alpha^2 / 2 for the former call the
+// roughness alpha: it is roughness^2 / 2, not roughness^4 / 2.
 template <typename Real>
-Real VisibilitySchlickDirect(Real n_dot_l, Real n_dot_v, Real roughness) {
-  const Real k = (roughness + 1) * (roughness + 1) / 8;
+Real SchlickK(Shadowing shadowing, Real roughness) {
+  if (shadowing == Shadowing::kSchlickIbl) return AlphaFromRoughness(roughness) / 2;
+  return (roughness + 1) * (roughness + 1) / 8;
+}
+
+// Schlick's G1(l) G1(v), G1(x) = n.x / (n.x (1 - k) + k), which k = 0 leaves at 1.
+template <typename Real>
+Real VisibilitySchlick(Real n_dot_l, Real n_dot_v, Real k) {
   return 1 / (4 * (n_dot_l * (1 - k) + k) * (n_dot_v * (1 - k) + k));
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // brdf/lobe_sampling-inl.h: lobes sampled on SIMD vectors. Scalar twin: brdf/lobe_sampling.h.
+//
+// Log2 and Exp2 are named by their namespace: Highway's own are found beside them where a kernel
+// includes its math, too.
 #if defined(NACRE_BRDF_LOBE_SAMPLING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_LOBE_SAMPLING_INL_H_
 #undef NACRE_BRDF_LOBE_SAMPLING_INL_H_
@@ -80,7 +83,7 @@ HWY_INLINE V OneMinusExp2(D d, V y) {
   // 2^y less its first coefficient: base/math-inl.h.
   constexpr float kCoefficients[] = {0.693147182f,   0.240226507f,  0.0555032715f,
                                      0.00961805694f, 0.0013400428f, 0.000154614449f};
-  const V far = hn::Sub(hn::Set(d, 1.0f), Exp2(d, y));
+  const V far = hn::Sub(hn::Set(d, 1.0f), HWY_NAMESPACE::Exp2(d, y));
   const V near = hn::Neg(hn::Mul(y, EvaluatePolynomial(d, kCoefficients, 6, y)));
   return hn::IfThenElse(hn::Gt(y, hn::Set(d, -0.5f)), near, far);
 }
@@ -89,7 +92,7 @@ HWY_INLINE V OneMinusExp2(D d, V y) {
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V KullaContyLog2(D d, V spread) {
   const V one = hn::Set(d, 1.0f);
-  return hn::Neg(Log2(d, hn::Div(spread, hn::Add(spread, one))));
+  return hn::Neg(HWY_NAMESPACE::Log2(d, hn::Div(spread, hn::Add(spread, one))));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -97,7 +100,8 @@ HWY_INLINE Vec3V<V> SampleKullaConty(D d, const Vec3V<V>& normal, V spread, V u0
   const V one = hn::Set(d, 1.0f);
   // spread (2^y - 1) = spread 2^y (1 - 2^-y), without cancellation.
   const V y = hn::Mul(u0, KullaContyLog2(d, spread));
-  const V product = hn::Mul(hn::Mul(spread, Exp2(d, y)), OneMinusExp2(d, hn::Neg(y)));
+  const V product =
+      hn::Mul(hn::Mul(spread, HWY_NAMESPACE::Exp2(d, y)), OneMinusExp2(d, hn::Neg(y)));
   const V squared = hn::Min(product, one);
   const V sin = hn::Sqrt(hn::Sub(one, squared));
   const SinCosV<V> phi = SinCosTurns(d, u1);

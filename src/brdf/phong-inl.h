@@ -74,7 +74,7 @@ HWY_INLINE LobeCosineV<V> BlinnSquaredCosine(D d, const HalfAnglesV<V>& a) {
 // c^n by log2(c): 0 where c <= 0, but 1 everywhere for n = 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LobePower(D d, V log2, V n) {
-  return Exp2(d, hn::Mul(n, log2));
+  return HWY_NAMESPACE::Exp2(d, hn::Mul(n, log2));
 }
 
 // (n.h)^n by log2((n.h)^2).

@@ -40,7 +40,7 @@ std::vector<PlotItem> DefaultDistributions() {
 std::vector<PlotItem> DefaultMaskings() {
   std::vector<PlotItem> items;
   for (const double roughness : {0.3, 0.8}) {
-    for (const char* form : {"height_correlated", "separable", "schlick_direct"}) {
+    for (const char* form : {"height_correlated", "separable", "schlick_direct", "schlick_ibl"}) {
       items.push_back(Metal(roughness, fmt::format(R"(, "shadowing": "{}")", form),
                             fmt::format("{}, roughness {}", form, roughness)));
     }

@@ -20,7 +20,7 @@ constexpr FaultEntry kEntries[] = {
      AmountOfDirectK},
     {"E3", "k for light from everywhere", "k = alpha^2 / 2 = r^4 / 2, in words only",
      "the source has r^2 / 2; and a surface has one G for all lights",
-     "no k: one G; an ambient light counts the base colour once", AmountOfAmbientK},
+     "one G for all lights; the source's k is named schlick_ibl", AmountOfAmbientK},
     {"E4", "+ 0.0001 in the denominator", "D F G / (4 n.l n.v + 0.0001)",
      "G contains n.l n.v: divided out on paper, nothing can be 0",
      "visibility terms V = G / (4 n.l n.v) without a singularity", AmountOfEpsilon},

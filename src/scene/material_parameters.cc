@@ -116,7 +116,7 @@ constexpr std::string_view kRoughnessMeaning =
 constexpr std::string_view kShadowingMeaning =
     "Masking and shadowing of microfacets. height_correlated: Smith (Heitz 2014). separable: "
     "Smith, product of two terms. schlick_direct: Schlick's with k = (roughness + 1)^2 / 8 (Karis "
-    "2013).";
+    "2013). schlick_ibl: Schlick's with k = roughness^2 / 2, Karis's for image-based light.";
 constexpr std::string_view kCompensationMeaning =
     "What is done for light that bounces more than once between microfacets. turquin: the "
     "highlight is scaled to the viewer's share (Turquin 2019). kulla_conty: a second lobe (Kulla "
@@ -236,8 +236,8 @@ constexpr std::array kDielectricParameters = {
 };
 
 constexpr std::array<std::string_view, 2> kConventions = {"classic", "radiometric"};
-constexpr std::array<std::string_view, 3> kShadowings = {"height_correlated", "separable",
-                                                         "schlick_direct"};
+constexpr std::array<std::string_view, 4> kShadowings = {"height_correlated", "separable",
+                                                         "schlick_direct", "schlick_ibl"};
 constexpr std::array<std::string_view, 3> kCompensations = {"turquin", "kulla_conty", "none"};
 constexpr std::array<std::string_view, 3> kCouplings = {"albedo_scaled", "one_minus_fresnel",
                                                         "none"};

@@ -59,16 +59,16 @@ struct LobeWidth {
   double alpha;
   bool delta;
   double shown_alpha;   // 1 of a delta lobe
-  double schlick_k;     // (roughness + 1)^2 / 8
+  double schlick_k;     // SchlickK
   double narrow_alpha;  // of lobes whose terms are formed in double; else -1
 };
-NACRE_DERIVE LobeWidth DeriveWidth(double roughness) {
+NACRE_DERIVE LobeWidth DeriveWidth(Shadowing shadowing, double roughness) {
   const double alpha = AlphaFromRoughness(roughness);
   const bool delta = IsDeltaLobe(alpha);
   return {.alpha = alpha,
           .delta = delta,
           .shown_alpha = delta ? 1 : alpha,
-          .schlick_k = (roughness + 1) * (roughness + 1) / 8,
+          .schlick_k = SchlickK(shadowing, roughness),
           .narrow_alpha = IsNarrow(roughness, alpha) ? alpha : -1};
 }
 

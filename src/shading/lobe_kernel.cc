@@ -94,7 +94,7 @@ class KullaContyShares {
   KullaContyShares(const GgxLobe<Number>& lobe, const Surface& surface)
       : lobe_(lobe),
         multiple_(surface.multiple.data()),
-        schlick_direct_(lobe.model.shadowing == Shadowing::kSchlickDirect),
+        form_(lobe.model.albedo.lobe.shape.form),
         spread_(KullaContySpread(lobe.model.albedo.lobe.shape)) {}
 
   // The probability of a sample of Kulla and Conty's lobe: all where the other one is a mirror's.
@@ -123,16 +123,18 @@ class KullaContyShares {
     if (lobe_.fit == nullptr) return hn::Set(d, spread_);
     // KullaContySpread of the hit's AlbedoShape: `offset` is the fit's first entry, `k` its third.
     const float* const entry = lobe_.fit + i;
-    const V width = schlick_direct_ ? hn::Add(hn::LoadU(d, entry + 2 * HitTextures::kStride),
-                                              hn::LoadU(d, entry + 2 * HitTextures::kStride))
-                                    : hn::Div(hn::LoadU(d, entry), hn::Set(d, 3.0f));
+    const V offset = hn::LoadU(d, entry);
+    if (form_ == AlbedoForm::kLossLinear) return hn::Div(offset, hn::Set(d, 6.0f));
+    const V k = hn::LoadU(d, entry + 2 * HitTextures::kStride);
+    const V width =
+        form_ == AlbedoForm::kMasked ? hn::Add(k, k) : hn::Div(offset, hn::Set(d, 3.0f));
     return hn::Mul(width, width);
   }
 
  private:
   const GgxLobe<Number>& lobe_;
   const float* multiple_;
-  bool schlick_direct_;
+  AlbedoForm form_;
   float spread_;
 };
 
@@ -329,7 +331,7 @@ void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
       model->f82_slope[c] = at.f82_slope;
     });
   }
-  model->schlick_k = DeriveWidth(NumbersOf(t, MappedNumber::kWidth)[i]).schlick_k;
+  model->schlick_k = SchlickK<double>(model->shadowing, NumbersOf(t, MappedNumber::kWidth)[i]);
 }
 
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
@@ -413,7 +415,7 @@ void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const L
 bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit) {
   const auto* model = std::get_if<MicrofacetModel>(&material.model);
   if (model == nullptr || !material.mapped_model) return HasDeltaLobe(material);
-  return DeriveWidth(NumbersOf(*range.textures, MappedNumber::kWidth)[hit]).delta;
+  return IsDeltaLobe(AlphaFromRoughness(NumbersOf(*range.textures, MappedNumber::kWidth)[hit]));
 }
 
 bool AnyMirror(const ShadingMaterial& material, const LobeRange& range) {

@@ -198,11 +198,12 @@ struct KullaContyAt {
   const double *one, *schlick, *dielectric;
 };
 
-void PutWidths(const TexturedRun& run, const MicrofacetConstants<float*>& to, HitTextures* t) {
+void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetConstants<float*>& to,
+               HitTextures* t) {
   const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
   double* const narrow = t->narrow_alpha.data();
   Hits{run.begin, run.end}.Each([&](size_t i) {
-    const LobeWidth width = DeriveWidth(roughness[i]);
+    const LobeWidth width = DeriveWidth(shadowing, roughness[i]);
     PutWidth(width, AtHit{i}, &to);
     narrow[i] = width.narrow_alpha;
   });
@@ -232,7 +233,7 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t
   const Hits hits{run.begin, run.end};
   const auto to = ColumnsIn<MicrofacetConstants<float*>>(t->constants);
   const bool kulla_conty = model.compensation == Compensation::kKullaConty;
-  PutWidths(run, to, t);
+  PutWidths(run, model.shadowing, to, t);
   if (model.prepared) PutAlbedos(run, model, t);
   for (int c = 0; c < 3; ++c) {
     VisitChannel(run.material, *t, c, [&](const auto& channel) {

@@ -72,7 +72,7 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   model.shadowing = material.shadowing;
   model.compensation = material.compensation;
   model.coupling = DiffuseCoupling::kNone;
-  const LobeWidth width = DeriveWidth(material.roughness);
+  const LobeWidth width = DeriveWidth(material.shadowing, material.roughness);
   PutWidth(width, Rounded(), &model.constants);
   model.alpha = width.alpha;
   model.schlick_k = width.schlick_k;

@@ -79,7 +79,7 @@ struct MicrofacetModel : MicrofacetForm {
   Rgb dielectric_f_multiple{0, 0, 0}, f_multiple{0, 0, 0};
   double multiple = 0;  // kKullaConty: 1 / (pi (1 - E_avg)); 0 where nothing is lost
   double alpha;         // of the lobe
-  double schlick_k;     // (roughness + 1)^2 / 8
+  double schlick_k;     // SchlickK
   bool delta;           // a perfect mirror, which punctual lights cannot show
   bool double_terms;
   bool prepared = false;    // shading needs what PrepareRun computes

@@ -75,8 +75,7 @@ HWY_INLINE AlbedoV EvaluateAlbedo(FloatTag d, const MicrofacetModel& model,
 // The fits of hits from `fit` on, whose entries are `stride` apart.
 HWY_INLINE AlbedoFitLanes FitAt(const float* fit, size_t stride, Shadowing shadowing) {
   AlbedoFitLanes lanes;
-  lanes.shape = {fit, fit + stride, fit + 2 * stride, fit + 3 * stride,
-                 shadowing == Shadowing::kSchlickDirect};
+  lanes.shape = {fit, fit + stride, fit + 2 * stride, fit + 3 * stride, AlbedoFormOf(shadowing)};
   lanes.one = {fit + 4 * stride, stride};
   lanes.schlick = {fit + (4 + kAlbedoTerms) * stride, stride};
   return lanes;

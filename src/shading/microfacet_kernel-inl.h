@@ -52,6 +52,7 @@ struct Microfacet {
       case Shadowing::kSeparable:
         return VisibilityDenominatorSeparable(d, in.n_dot_l, in.n_dot_v, alpha, scale);
       case Shadowing::kSchlickDirect:
+      case Shadowing::kSchlickIbl:
         break;
     }
     return VisibilityDenominatorSchlick(d, in.n_dot_l, in.n_dot_v,
@@ -219,6 +220,7 @@ void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange
     case Shadowing::kSeparable:
       return ShadeUsualMicrofacet<kFresnel, Shadowing::kSeparable>(uniforms, range);
     case Shadowing::kSchlickDirect:
+    case Shadowing::kSchlickIbl:  // but for k, a number of the uniforms, the same
       return ShadeUsualMicrofacet<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
   }
 }

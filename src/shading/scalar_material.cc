@@ -148,9 +148,10 @@ double VisibilityOf(const MicrofacetModel& model, double n_dot_l, double n_dot_v
     case Shadowing::kSeparable:
       return VisibilitySeparable(n_dot_l, n_dot_v, model.alpha);
     case Shadowing::kSchlickDirect:
+    case Shadowing::kSchlickIbl:
       break;
   }
-  return VisibilitySchlickDirect(n_dot_l, n_dot_v, std::sqrt(model.alpha));
+  return VisibilitySchlick(n_dot_l, n_dot_v, model.schlick_k);
 }
 
 }  // namespace nacre

@@ -138,6 +138,7 @@ TEST_CASE("albedos keep their closed forms and limits") {
     const double k = 1.0 / 8;
     const double masked = mu / (mu * (1 - k) + k);
     CHECK(AlbedoOfOne(Shadowing::kSchlickDirect, 0, mu) == Approx(masked * masked));
+    CHECK(AlbedoOfOne(Shadowing::kSchlickIbl, 0, mu) == 1);  // k is 0
   }
   CHECK(AverageAlbedoOfOne(Shadowing::kHeightCorrelated, 1) ==
         Approx(4.0 / 3 * (1 - std::log(2.0))).epsilon(1e-8));

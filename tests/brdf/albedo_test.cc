@@ -19,7 +19,7 @@ namespace nacre {
 namespace {
 
 constexpr Shadowing kForms[] = {Shadowing::kHeightCorrelated, Shadowing::kSeparable,
-                                Shadowing::kSchlickDirect};
+                                Shadowing::kSchlickDirect, Shadowing::kSchlickIbl};
 constexpr double kEta = 1.5;
 
 double Dielectric(double v_dot_h, double one_minus_vh) {

@@ -161,7 +161,8 @@ Values Evaluate(const Row& row) {
   values.blinn_ungated = BlinnLobe(a, row.shininess);
   values.phong_gated = lit ? values.phong_ungated : 0.0;
   values.blinn_gated = lit ? values.blinn_ungated : 0.0;
-  values.lesson_spec_exact = specular(VisibilitySchlickDirect(a.n_dot_l, n_dot_v, row.roughness));
+  values.lesson_spec_exact = specular(VisibilitySchlick(
+      a.n_dot_l, n_dot_v, SchlickK<double>(Shadowing::kSchlickDirect, row.roughness)));
   const double height_correlated = VisibilityHeightCorrelated(a.n_dot_l, n_dot_v, alpha);
   values.hc_spec = specular(height_correlated);
   const TermCheck check(row, kHalfUlpDouble);

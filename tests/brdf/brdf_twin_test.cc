@@ -58,7 +58,7 @@ std::vector<TermInput> RandomInputs(double roughness, double shininess, double s
 
 struct MaxErrors {
   double phong = 0, blinn = 0, distribution = 0, height_correlated = 0, separable = 0,
-         schlick_direct = 0, fresnel = 0;
+         schlick_direct = 0, schlick_ibl = 0, fresnel = 0;
 };
 
 void Raise(double* maximum, double got, double reference) {
@@ -100,10 +100,35 @@ MaxErrors Measure(const std::vector<TermInput>& inputs) {
     Raise(&errors.separable, outputs[i].separable,
           VisibilitySeparable(a.n_dot_l, a.n_dot_v, alpha));
     Raise(&errors.schlick_direct, outputs[i].schlick_direct,
-          VisibilitySchlickDirect(a.n_dot_l, a.n_dot_v, roughness));
+          VisibilitySchlick(a.n_dot_l, a.n_dot_v, SchlickK(Shadowing::kSchlickDirect, roughness)));
+    Raise(&errors.schlick_ibl, outputs[i].schlick_ibl,
+          VisibilitySchlick(a.n_dot_l, a.n_dot_v, SchlickK(Shadowing::kSchlickIbl, roughness)));
     Raise(&errors.fresnel, outputs[i].fresnel, FresnelSchlick(double{in.f0}, SchlickWeight(a)));
   }
   return errors;
+}
+
+TEST_CASE("Schlick's k is that of Karis 2013, alpha / 2 or (roughness + 1)^2 / 8") {
+  CHECK(SchlickK(Shadowing::kSchlickIbl, 0.4) == Approx(0.08).epsilon(1e-15));
+  CHECK(SchlickK(Shadowing::kSchlickIbl, 0.0) == 0);
+  CHECK(SchlickK(Shadowing::kSchlickIbl, 1.0) == 0.5);
+  CHECK(SchlickK(Shadowing::kSchlickDirect, 0.4) == Approx(0.245).epsilon(1e-15));
+  // G1(l) G1(v) / (4 n.l n.v) by hand: (1/2) / (1/2 0.92 + 0.08) and (1/4) / (1/4 0.92 + 0.08).
+  CHECK(VisibilitySchlick(0.5, 0.25, 0.08) ==
+        Approx((0.5 / 0.54) * (0.25 / 0.31) / (4 * 0.5 * 0.25)).epsilon(1e-14));
+  // With k = alpha / 2 it is near Smith's G1, within a sixth at every angle; the other is not.
+  const auto error = [](Shadowing form, double cosine, double roughness) {
+    const double k = SchlickK(form, roughness), alpha = AlphaFromRoughness(roughness);
+    const double smith = 2 * cosine / (cosine + SmithRoot(cosine, alpha));
+    return std::abs(cosine / (cosine * (1 - k) + k) / smith - 1);
+  };
+  double ibl = 0, direct = 0;
+  for (double cosine = 1e-3; cosine <= 1; cosine *= 1.1) {
+    ibl = std::max(ibl, error(Shadowing::kSchlickIbl, cosine, 0.4));
+    direct = std::max(direct, error(Shadowing::kSchlickDirect, cosine, 0.4));
+  }
+  CHECK(ibl < 0.17);
+  CHECK(direct > 0.6);
 }
 
 TEST_CASE("SIMD terms agree with their double twins on every target") {
@@ -120,6 +145,7 @@ TEST_CASE("SIMD terms agree with their double twins on every target") {
       CHECK(errors.height_correlated < 0x1p-24 / 1e-3 * 2);
       CHECK(errors.separable < 0x1p-24 / 1e-3 * 2);
       CHECK(errors.schlick_direct < 16 * 0x1p-24);  // k >= 1/8 damps the cosines' errors
+      CHECK(errors.schlick_ibl < 0x1p-24 / 1e-3 * 2);
       CHECK(errors.fresnel < 64 * 0x1p-24);
     }
     // The lobes' powers within their width, where sin(theta) < 2 / sqrt(n): n 2 sin(theta) u.

@@ -8,11 +8,11 @@
 
 namespace nacre {
 
-enum class Lobe { kCosine, kGgx, kPhong, kBlinn, kKullaConty };
+enum class Lobe { kCosine, kGgx, kPhong, kBlinn, kKullaConty, kCharlie };
 
 struct LobeQuery {
   Vec3f n, v;
-  float width = 0;       // alpha, shininess or spread
+  float width = 0;       // alpha, shininess, spread or roughness
   float u0 = 0, u1 = 0;  // for the sample
   Vec3f l{0, 0, 1};      // for the density
 };

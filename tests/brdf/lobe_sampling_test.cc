@@ -8,6 +8,7 @@
 #include <random>
 
 #include "brdf/lobe_kernel.h"
+#include "brdf/sheen.h"
 #include "catch.h"
 #include "chi_squared.h"
 #include "tables.h"
@@ -43,6 +44,12 @@ std::vector<LobeUnderTest> LobesUnderTest() {
         {"Kulla and Conty " + std::to_string(spread),
          [=](double u0, double u1) { return SampleKullaConty(kNormal, spread, u0, u1); },
          [=](const Vec3d& l) { return KullaContyPdf(kNormal ^ l, spread); }, kNormal, 1, 200});
+  }
+  for (const double roughness : {0.05, 0.3, 1.0}) {
+    lobes.push_back(
+        {"Charlie " + std::to_string(roughness),
+         [=](double u0, double u1) { return SampleCharlie(kNormal, roughness, u0, u1); },
+         [=](const Vec3d& l) { return CharliePdf(kNormal ^ l, roughness); }, kNormal, 1, 200});
   }
   for (const double n_dot_v : {1.0, 0.6, 0.05, 0.0}) {
     const Vec3d v = ViewAt(n_dot_v);
@@ -250,12 +257,18 @@ void CheckTwins(Lobe lobe, double width, double lobe_width, double n_dot_v) {
     const LobeQuery& q = queries[i];
     const auto n = Vec3d(q.n), view = Vec3d(q.v), l = Vec3d(q.l);
     const double u0 = q.u0, u1 = q.u1, w = q.width;
-    const Vec3d samples[] = {SampleCosine(n, u0, u1), SampleGgxVisible(n, view, w, u0, u1),
+    const Vec3d samples[] = {SampleCosine(n, u0, u1),
+                             SampleGgxVisible(n, view, w, u0, u1),
                              SamplePhongLobe(n, view, w, u0, u1),
-                             SampleBlinnLobe(n, view, w, u0, u1), SampleKullaConty(n, w, u0, u1)};
-    const double pdfs[] = {CosinePdf(n ^ l), GgxVisiblePdf(n, view, l, w),
-                           PhongLobePdf(n, view, l, w), BlinnLobePdf(n, view, l, w),
-                           KullaContyPdf(n ^ l, w)};
+                             SampleBlinnLobe(n, view, w, u0, u1),
+                             SampleKullaConty(n, w, u0, u1),
+                             SampleCharlie(n, w, u0, u1)};
+    const double pdfs[] = {CosinePdf(n ^ l),
+                           GgxVisiblePdf(n, view, l, w),
+                           PhongLobePdf(n, view, l, w),
+                           BlinnLobePdf(n, view, l, w),
+                           KullaContyPdf(n ^ l, w),
+                           CharliePdf(n ^ l, w)};
     const auto index = static_cast<size_t>(lobe);
     direction = std::max(direction, (l - samples[index]).length());
     if (pdfs[index] > 1e-30) pdf = std::max(pdf, std::abs(answers[i].pdf / pdfs[index] - 1));
@@ -290,6 +303,9 @@ TEST_CASE("SIMD lobe samplers agree with their double twins on every target") {
     // n.l of a spread s is as small as sqrt(s) and known to 1e-7.
     for (const double spread : {1e-8, 1e-4, 0.01, 1.0, 4.0}) {
       CheckTwins(Lobe::kKullaConty, spread, std::sqrt(spread), 1);
+    }
+    for (const double roughness : {1e-3, 0.05, 0.3, 1.0}) {
+      CheckTwins(Lobe::kCharlie, roughness, roughness, 1);
     }
     for (const double n_dot_v : {1.0, 0.6, 0.05}) {
       CheckTwins(Lobe::kCosine, 1, 1, n_dot_v);

@@ -46,9 +46,12 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
     const V shininess = Gather(inputs, first, [](const TermInput& in) { return in.shininess; });
     const V alpha =
         Gather(inputs, first, [](const TermInput& in) { return in.roughness * in.roughness; });
-    const V k = Gather(inputs, first, [](const TermInput& in) {
-      return (in.roughness + 1) * (in.roughness + 1) / 8;
-    });
+    const auto schlick_k = [&](Shadowing shadowing) {
+      return Gather(inputs, first,
+                    [=](const TermInput& in) { return SchlickK(shadowing, in.roughness); });
+    };
+    const V direct_k = schlick_k(Shadowing::kSchlickDirect);
+    const V ibl_k = schlick_k(Shadowing::kSchlickIbl);
     const V f0 = Gather(inputs, first, [](const TermInput& in) { return in.f0; });
     const AnglesV<V> a = ComputeAngles(d, n, l, v);
     const V n_dot_v = hn::Max(a.n_dot_v, zero);
@@ -58,14 +61,15 @@ void EvaluateTermsT(const std::vector<TermInput>& inputs, std::vector<TermOutput
         GgxDistribution(d, a, alpha),
         hn::Div(one, VisibilityDenominatorHeightCorrelated(d, a.n_dot_l, n_dot_v, alpha, one)),
         hn::Div(one, VisibilityDenominatorSeparable(d, a.n_dot_l, n_dot_v, alpha, one)),
-        hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, k, one)),
+        hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, direct_k, one)),
+        hn::Div(one, VisibilityDenominatorSchlick(d, a.n_dot_l, n_dot_v, ibl_k, one)),
         FresnelSchlick(d, f0, hn::Set(d, hn::TFromD<D>(1)), SchlickWeight(d, a)),
     };
     float TermOutput::*const members[] = {
         &TermOutput::phong,        &TermOutput::blinn,
         &TermOutput::distribution, &TermOutput::height_correlated,
         &TermOutput::separable,    &TermOutput::schlick_direct,
-        &TermOutput::fresnel,
+        &TermOutput::schlick_ibl,  &TermOutput::fresnel,
     };
     for (size_t m = 0; m < std::size(members); ++m) {
       alignas(64) float lanes[16];

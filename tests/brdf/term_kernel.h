@@ -16,10 +16,10 @@ struct TermInput {
 };
 
 struct TermOutput {
-  float phong, blinn;                                  // ungated lobes
-  float distribution;                                  // GGX
-  float height_correlated, separable, schlick_direct;  // visibility terms
-  float fresnel;                                       // Schlick
+  float phong, blinn;                                               // ungated lobes
+  float distribution;                                               // GGX
+  float height_correlated, separable, schlick_direct, schlick_ibl;  // visibility terms
+  float fresnel;                                                    // Schlick
 };
 
 // On the active target.

@@ -242,7 +242,7 @@ class SceneMaker:
         r = self.random
         material.update(
             roughness=r.choice((0, 0.01, 0.05, 0.1, 0.2, 0.35, 0.6, 1)),
-            shadowing=r.choice(('height_correlated', 'separable', 'schlick_direct')),
+            shadowing=r.choice(('height_correlated', 'separable', 'schlick_direct', 'schlick_ibl')),
             compensation=r.choice(('turquin', 'kulla_conty', 'none')))
         if material['model'] == 'conductor':
             material['fresnel'] = r.choice(('exact', 'f82_tint', 'schlick'))

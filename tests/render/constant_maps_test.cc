@@ -37,7 +37,8 @@ TEST_CASE("constant maps have the bits of constants: metallic-roughness") {
   for (const double roughness : {1.0, 0.1, 0.0}) {
     for (const Compensation compensation :
          {Compensation::kTurquin, Compensation::kKullaConty, Compensation::kNone}) {
-      for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect}) {
+      for (const Shadowing shadowing :
+           {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
         for (const double tint : {1.0, 0.7}) {
           MetallicRoughnessMaterial factors;
           factors.base_color = Rgb(0.5, 1, 0.75);

@@ -69,12 +69,13 @@ TEST_CASE("names mean the fields of the same name") {
 TEST_CASE("options are in the order of the enumerations") {
   Material material = FindModel("metallic_roughness")->make();
   const MaterialChoice& shadowing = ModelOf(material)->choices[0];
-  REQUIRE(shadowing.options.size() == 3);
+  REQUIRE(shadowing.options.size() == 4);
   const std::pair<std::string_view, Shadowing> names[] = {
       {"height_correlated", Shadowing::kHeightCorrelated},
       {"separable", Shadowing::kSeparable},
-      {"schlick_direct", Shadowing::kSchlickDirect}};
-  for (size_t i = 0; i < 3; ++i) {
+      {"schlick_direct", Shadowing::kSchlickDirect},
+      {"schlick_ibl", Shadowing::kSchlickIbl}};
+  for (size_t i = 0; i < 4; ++i) {
     CHECK(shadowing.options[i] == names[i].first);
     shadowing.set(material, i);
     CHECK(std::get<MetallicRoughnessMaterial>(material.model).shadowing == names[i].second);

@@ -67,8 +67,8 @@ TEST_CASE("the schema's materials are those of the parameter table") {
     CHECK(definition["additionalProperties"] == false);
     CHECK(definition["properties"]["model"]["const"] == model.name);
     // The model, its parameters, choices and maps, and the maps that all have.
-    CHECK(definition["properties"].size() ==
-          1 + model.parameters.size() + model.choices.size() + model.maps.size() + 2);
+    CHECK(definition["properties"].size() == 1 + model.parameters.size() + model.choices.size() +
+                                                 model.maps.size() + model.normal_maps.size() + 1);
     for (const MaterialMap& map : model.maps) {
       INFO(map.name);
       CHECK(definition["properties"].at(std::string(map.name))["$ref"] == "#/$defs/texture_name");

@@ -151,8 +151,8 @@ TEST_CASE("a white furnace stays white at every roughness and angle") {
     for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.6, 1.0}) {
       const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
       const auto directions = SampleDirections(to_view, AlphaFromRoughness(roughness));
-      for (const Shadowing shadowing :
-           {Shadowing::kHeightCorrelated, Shadowing::kSeparable, Shadowing::kSchlickDirect}) {
+      for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSeparable,
+                                        Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
         for (const Compensation compensation :
              {Compensation::kTurquin, Compensation::kKullaConty}) {
           CAPTURE(roughness, n_dot_v, static_cast<int>(shadowing), static_cast<int>(compensation));
@@ -200,8 +200,8 @@ TEST_CASE("a white furnace stays white at every metallic") {
       for (const double metallic : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0}) {
         check(metallic, Shadowing::kHeightCorrelated, Compensation::kTurquin);
       }
-      for (const Shadowing shadowing :
-           {Shadowing::kHeightCorrelated, Shadowing::kSeparable, Shadowing::kSchlickDirect}) {
+      for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSeparable,
+                                        Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
         for (const Compensation compensation :
              {Compensation::kTurquin, Compensation::kKullaConty}) {
           check(0.5, shadowing, compensation);

@@ -40,6 +40,8 @@ TEST_CASE("metallic-roughness mixes its base and F0") {
   CheckEqual(model.diffuse * M_PI, {0.6, 0.3, 0.15});
   CHECK(model.alpha == Approx(0.09));
   CHECK(model.schlick_k == Approx(0.21125));  // 1.3^2 / 8
+  material.shadowing = Shadowing::kSchlickIbl;
+  CHECK(PrepareModel(material).schlick_k == Approx(0.045));  // 0.3^2 / 2
 }
 
 // glTF 2.0, Appendix B: metallic mixes the BRDFs of a dielectric and of a metal, not their numbers.
@@ -51,7 +53,7 @@ TEST_CASE("a part metal reflects the mix of what the dielectric and the metal re
          {DiffuseCoupling::kAlbedoScaled, DiffuseCoupling::kNone}) {
       for (const Rgb& tint : {Rgb(1), Rgb(0, 0.5, 0.9)}) {
         for (const Shadowing shadowing :
-             {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect}) {
+             {Shadowing::kHeightCorrelated, Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
           for (const double metallic : {0.1, 0.5, 0.9}) {
             MetallicRoughnessMaterial material;
             material.base_color = {0.9, 0.3, 0.02};

@@ -127,9 +127,10 @@ inline double Visibility(const MicrofacetModel& m, const Angles<double>& a) {
     case Shadowing::kSeparable:
       return VisibilitySeparable(a.n_dot_l, a.n_dot_v, m.alpha);
     case Shadowing::kSchlickDirect:
+    case Shadowing::kSchlickIbl:
       break;
   }
-  return VisibilitySchlickDirect(a.n_dot_l, a.n_dot_v, std::sqrt(m.alpha));
+  return VisibilitySchlick(a.n_dot_l, a.n_dot_v, SchlickK(m.shadowing, std::sqrt(m.alpha)));
 }
 
 // What reaches the base and leaves it again, of channel c.

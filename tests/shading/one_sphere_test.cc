@@ -85,8 +85,8 @@ void MakeLimb(Lit* lit) {
 
 std::vector<ShadingMaterial> Materials() {
   std::vector<ShadingMaterial> materials;
-  for (const Shadowing shadowing :
-       {Shadowing::kSchlickDirect, Shadowing::kSeparable, Shadowing::kHeightCorrelated}) {
+  for (const Shadowing shadowing : {Shadowing::kSchlickDirect, Shadowing::kSchlickIbl,
+                                    Shadowing::kSeparable, Shadowing::kHeightCorrelated}) {
     materials.push_back(
         Prepare(MetallicRoughnessMaterial{.base_color = {0.9, 0.5, 0.1},
                                           .metallic = 0.3,

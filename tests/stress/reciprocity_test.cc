@@ -109,12 +109,12 @@ TEST_CASE("reciprocal models are so to 16 roundings") {
     for (uint64_t seed = 0; seed < 20; ++seed) {
       const auto sides = std::make_unique<BothSides>(seed);
       Scene scene;
-      scene.materials.resize(4);
+      scene.materials.resize(5);
       scene.materials[0].model = LambertMaterial{{0.3, 0.9, 1}};
       FuzzRandom random(seed);
       const Shadowing forms[] = {Shadowing::kHeightCorrelated, Shadowing::kSeparable,
-                                 Shadowing::kSchlickDirect};
-      for (size_t i = 0; i < 3; ++i) {
+                                 Shadowing::kSchlickDirect, Shadowing::kSchlickIbl};
+      for (size_t i = 0; i < 4; ++i) {
         scene.materials[i + 1].model =
             MetallicRoughnessMaterial{.base_color = {0.2, 0.7, 1},
                                       .metallic = random.Uniform(0, 1),

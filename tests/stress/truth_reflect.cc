@@ -75,7 +75,9 @@ TruthReal Visibility(Shadowing shadowing, TruthReal nl, TruthReal nv, TruthReal 
   if (shadowing == Shadowing::kSeparable) {  // Walter et al. 2007, eq. 34
     return 1 / ((nl + SmithRoot(nl, a)) * (nv + SmithRoot(nv, a)));
   }
-  const TruthReal k = (roughness + 1) * (roughness + 1) / 8;  // Karis 2013
+  // Karis 2013
+  const TruthReal k =
+      shadowing == Shadowing::kSchlickIbl ? a / 2 : (roughness + 1) * (roughness + 1) / 8;
   return 1 / (4 * (nl * (1 - k) + k) * (nv * (1 - k) + k));
 }
 

@@ -28,15 +28,10 @@ Curves SampleCurves(Shadowing shadowing, double roughness, const AlbedoShape& sh
     const double mu = AlbedoNodeCosine(shape, i);
     const double e = AlbedoOfOne(shadowing, roughness, mu, kPoints);
     const double wider = AlbedoOfSchlick(shadowing, roughness, mu) - Power5(1 - mu) * e;
-    if (shape.k > 0) {
-      const double masking = AlbedoMasking(shape, mu);
-      values.one[node] = e / masking;
-      values.schlick[node] = wider / masking;
-    } else {
-      const double layer = ComputeAlbedoVariables(shape, mu).layer;
-      values.one[node] = (1 - e) / ((1 + mu * mu) * layer * layer);
-      values.schlick[node] = wider;
-    }
+    const double factor = AlbedoFactor(shape, ComputeAlbedoVariables(shape, mu));
+    const bool masked = shape.form == AlbedoForm::kMasked;
+    values.one[node] = (masked ? e : 1 - e) / factor;
+    values.schlick[node] = masked ? wider / factor : wider;
   }
   return {InterpolateAlbedo(values.one), InterpolateAlbedo(values.schlick)};
 }
@@ -46,22 +41,21 @@ struct Averages {
 };
 
 // 2 int of the fitted curves mu dmu: averages belong to the fit, so that what is lost along one
-// direction and what is given back along all others agree. `one` is of the loss for Smith's forms.
+// direction and what is given back along all others agree. `one` is of the loss but for kMasked.
 Averages Average(const AlbedoShape& shape, const Curves& curves) {
   const auto evaluate = [](const std::array<double, kAlbedoTerms>& polynomial, double z) {
     double sum = 0;
     for (size_t i = kAlbedoTerms; i-- > 0;) sum = sum * z + polynomial[i];
     return sum;
   };
+  const bool masked = shape.form == AlbedoForm::kMasked;
   const auto one = [&](double mu) {
     const auto x = ComputeAlbedoVariables(shape, mu);
-    const double factor =
-        shape.k > 0 ? AlbedoMasking(shape, mu) : (1 + mu * mu) * x.layer * x.layer;
-    return factor * evaluate(curves.one, x.z);
+    return AlbedoFactor(shape, x) * evaluate(curves.one, x.z);
   };
   const auto schlick = [&](double mu) {
-    const double e = shape.k > 0 ? one(mu) : 1 - one(mu);
-    const double masking = shape.k > 0 ? AlbedoMasking(shape, mu) : 1;
+    const double e = masked ? one(mu) : 1 - one(mu);
+    const double masking = masked ? AlbedoMasking(shape, mu) : 1;
     return Power5(1 - mu) * e +
            masking * evaluate(curves.schlick, ComputeAlbedoVariables(shape, mu).z);
   };
@@ -81,12 +75,13 @@ void PrintEntry(std::FILE* file, Shadowing shadowing, double roughness) {
   print(curves.one);
   print(curves.schlick);
   const Averages average = Average(shape, curves);
-  const double scale = shape.k > 0 ? 1 : AverageLossScale(AlphaFromRoughness(roughness));
+  const double scale =
+      shape.form == AlbedoForm::kMasked ? 1 : AverageLossScale(shape.form, roughness);
   std::fprintf(file, "%.9eF, %.9eF},\n", average.one / scale, average.schlick);
 }
 
-// At roughness 0 stands the boundary layer's own limit. Smith's forms have reached it at the next
-// node, below which their loss is rounding; Schlick's k still changes.
+// At roughness 0 stands the boundary layer's own limit. It is reached at the next node, below which
+// the loss is rounding, but by kSchlickDirect, whose k still changes.
 double NodeRoughness(Shadowing shadowing, int i) {
   if (i == 0 && shadowing == Shadowing::kSchlickDirect) return 1e-5;
   const double root = std::max(i, 1) / static_cast<double>(kAlbedoIntervals);
