@@ -6,12 +6,12 @@
 namespace nacre {
 namespace {
 
-struct Basis {
+struct CameraAxes {
   Vec3d right, up, forward;
 };
 
-Basis MakeBasis(const Camera& camera) {
-  Basis basis;
+CameraAxes MakeAxes(const Camera& camera) {
+  CameraAxes basis;
   basis.forward = (camera.look_at - camera.position).normalized();
   basis.right = (basis.forward % camera.up).normalized();
   basis.up = basis.right % basis.forward;
@@ -27,7 +27,7 @@ double HalfHeight(const Camera& camera) {
 }  // namespace
 
 CameraFrame MakeCameraFrame(const Camera& camera, int width, int height) {
-  const Basis basis = MakeBasis(camera);
+  const CameraAxes basis = MakeAxes(camera);
   const double pixel = 2 * HalfHeight(camera) / height;
   CameraFrame frame;
   frame.projection = camera.projection;
@@ -40,7 +40,7 @@ CameraFrame MakeCameraFrame(const Camera& camera, int width, int height) {
 }
 
 Imath::M44d WorldToCamera(const Camera& camera) {
-  const Basis b = MakeBasis(camera);
+  const CameraAxes b = MakeAxes(camera);
   const Vec3d& p = camera.position;
   return {b.right.x,      b.up.x,      -b.forward.x,  0,  //
           b.right.y,      b.up.y,      -b.forward.y,  0,  //

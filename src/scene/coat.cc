@@ -18,7 +18,9 @@ std::optional<Material> CoatOf(const Material& material) {
   model.roughness = below->coat_roughness;
   model.metallic_roughness_map = below->coat_roughness_map;
   model.shadowing = below->shadowing;
-  model.compensation = below->compensation;
+  // Light that the coat's microfacets block after one bounce enters it at the next one, mostly:
+  // what the coat does not reflect at once is what is below it gets.
+  model.compensation = Compensation::kNone;
   Material coat;
   coat.name = material.name;
   coat.model = model;

@@ -112,6 +112,10 @@ struct MetallicRoughnessMaterial {
   TextureId coat_map{};            // red multiplies coat
   TextureId coat_roughness_map{};  // green multiplies coat_roughness
   NormalMap coat_normal_map{};     // of the coat alone, which the normal map of the base is not for
+  // The fuzz of cloth (brdf/sheen.h), between the coat and the rest, as KHR_materials_sheen.
+  Rgb sheen_color{0, 0, 0};    // each in [0, 1]; 0: none
+  double sheen_roughness = 0;  // in [0, 1]; 0: none is seen
+  TextureId sheen_color_map{}, sheen_roughness_map{};
 };
 
 enum class ConductorFresnel : uint8_t {

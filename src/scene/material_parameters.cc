@@ -208,6 +208,13 @@ constexpr std::array kMetallicRoughnessParameters = {
                                                        kRoughnessMeaning),
     Number<&MetallicRoughnessMaterial::coat_ior>("coat_ior", limits::kIor,
                                                  "Index of refraction of the coat."),
+    Color<&MetallicRoughnessMaterial::sheen_color>(
+        "sheen_color", limits::kUnit,
+        "Colour of a layer of fuzz, as on velvet, which is bright where it is grazed (Estevez and "
+        "Kulla 2017). What is below gets what its albedo leaves. 0: none."),
+    Number<&MetallicRoughnessMaterial::sheen_roughness>(
+        "sheen_roughness", limits::kUnit,
+        "How far from the outline the fuzz shows: alpha is its square. 0: it shows nowhere."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
@@ -364,7 +371,14 @@ constexpr std::array kMetallicRoughnessMaps = {
                                               "Multiplies coat, by its first channel."),
     Map<&MetallicRoughnessMaterial::coat_roughness_map>(
         "coat_roughness_map", MapUse::kTwoData,
-        "Multiplies coat_roughness; as in glTF, by its green channel.")};
+        "Multiplies coat_roughness; as in glTF, by its green channel."),
+    Map<&MetallicRoughnessMaterial::sheen_color_map>(
+        "sheen_color_map", MapUse::kColor, "Multiplies sheen_color.",
+        Target<&MetallicRoughnessMaterial::sheen_color>(MappedNumber::kSheenColor)),
+    Map<&MetallicRoughnessMaterial::sheen_roughness_map>(
+        "sheen_roughness_map", MapUse::kData,
+        "Multiplies sheen_roughness, by its first channel; glTF has it in alpha (encoding).",
+        Target<&MetallicRoughnessMaterial::sheen_roughness>(MappedNumber::kSheenRoughness))};
 constexpr std::array kConductorMaps = {RoughnessMap<ConductorMaterial>(), kEmissionMap,
                                        kOpacityMap};
 constexpr std::array kDielectricMaps = {BaseColorMap<DielectricMaterial>(),

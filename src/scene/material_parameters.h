@@ -51,9 +51,11 @@ enum class MappedNumber : uint8_t {
   kSpecular,       // the weight of that name
   kWidth,          // roughness of lobes; shininess
   kMetallic,
+  kSheenColor,
+  kSheenRoughness,
   kEmission,
 };
-inline constexpr size_t kMappedNumbers = 6;
+inline constexpr size_t kMappedNumbers = 8;
 
 // One of the parameters that a map multiplies.
 struct MapTarget {

@@ -28,16 +28,12 @@ namespace {
 constexpr uint64_t kMaxBytes = 0xffffffffu;  // the length in a GLB header
 
 // Extensions that are supported, at least in part, or that do not change the picture.
-constexpr std::array<std::string_view, 10> kKnownExtensions = {
-    "KHR_materials_clearcoat",
-    "KHR_lights_punctual",
-    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",
-    "KHR_materials_pbrSpecularGlossiness",
-    "KHR_materials_specular",
-    "KHR_materials_unlit",
-    "KHR_mesh_quantization",
-    "KHR_xmp_json_ld",
+constexpr std::array<std::string_view, 11> kKnownExtensions = {
+    "KHR_materials_clearcoat", "KHR_materials_sheen",
+    "KHR_lights_punctual",     "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular",  "KHR_materials_unlit",
+    "KHR_mesh_quantization",   "KHR_xmp_json_ld",
     "KHR_texture_transform"};
 
 bool IsKnown(const std::string& extension) {

@@ -160,6 +160,31 @@ void ApplyCoat(GltfDocument* document, const gltf::Material& material, size_t in
   result->coat_normal_map.scale = info.Number("scale", 1);
 }
 
+// KHR_materials_sheen.
+void ApplySheen(GltfDocument* document, const gltf::Material& material, size_t index,
+                GltfTextures* textures, MetallicRoughnessMaterial* result) {
+  const auto sheen = FindExtension(*document, material, index, "KHR_materials_sheen");
+  if (!sheen) return;
+  const std::string place = fmt::format("/materials/{}/extensions/KHR_materials_sheen", index);
+  const auto check = [&](bool is_right, const char* member) {
+    if (!is_right) document->Refuse(place + "/" + member, "is not in [0, 1]");
+  };
+  const Rgb color = sheen->Color("sheenColorFactor", Rgb(0));
+  const double roughness = sheen->Number("sheenRoughnessFactor", 0);
+  const auto is_unit = [](double value) { return value >= 0 && value <= 1; };
+  check(is_unit(color.x) && is_unit(color.y) && is_unit(color.z), "sheenColorFactor");
+  check(is_unit(roughness), "sheenRoughnessFactor");
+  if (IsBlack(color) || roughness == 0) return;
+  result->sheen_color = color;
+  result->sheen_roughness = roughness;
+  const auto map = [&](const char* name, TextureEncoding encoding) {
+    return AddTexture(*document, *sheen, name, place, encoding, textures);
+  };
+  result->sheen_color_map = map("sheenColorTexture", TextureEncoding::kSrgb);
+  result->sheen_roughness_map = map("sheenRoughnessTexture", TextureEncoding::kAlpha);
+  if (textures->IsWhite(result->sheen_roughness_map)) result->sheen_roughness_map = {};
+}
+
 // alphaMode MASK: holes where the base colour's alpha is below alphaCutoff. KHR_materials_unlit has
 // the base colour's members, too.
 void ApplyMask(const gltf::Material& material, double alpha, TextureId alpha_map,
@@ -248,6 +273,7 @@ Material MakeMaterial(GltfDocument* document, size_t index, std::string name,
       TextureEncoding::kLinear, true, textures);
   ApplyReflectance(document, material, index, textures, &metallic_roughness);
   ApplyCoat(document, material, index, textures, &metallic_roughness);
+  ApplySheen(document, material, index, textures, &metallic_roughness);
   mask_by_base_color("/pbrMetallicRoughness/baseColorTexture");
   result.model = metallic_roughness;
   return result;

@@ -87,6 +87,17 @@ void NarrowPhong(PhongModel model, const double* exponents, const ShadeRange& ra
 void SpreadBase(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to);
 void SpreadBase(DiffuseForm form, const float* roughness, const ShadeRange& range, BaseSpread* to);
 
+// A layer of fuzz over what hits reflect of a range's one light, which has been evaluated: `below`
+// is what the model under it reflects, and range.radiance what both do (sheen_kernel.cc).
+struct SheenUniforms {
+  const SheenModel& sheen;
+  // Of hits with a sheen each; else null.
+  const double* color[3];
+  const double* roughness;
+};
+void CoverBySheen(const SheenUniforms& uniforms, const ShadeRange& range,
+                  const ReflectedRadiance& below);
+
 // Each of one material's constants, and of each hit's.
 void ShadeMatte(const MatteUniforms<float>& uniforms, const ShadeRange& range);
 void ShadeMatte(const MatteUniforms<float*>& uniforms, const ShadeRange& range);

@@ -334,6 +334,20 @@ void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
   model->schlick_k = SchlickK<double>(model->shadowing, NumbersOf(t, MappedNumber::kWidth)[i]);
 }
 
+// What a layer of fuzz over hit i leaves of a mirror's reflection.
+double LeftBySheen(const ShadingMaterial& material, const LobeRange& range, size_t i,
+                   double cosine) {
+  if (!material.sheen) return 1;
+  SheenModel sheen = *material.sheen;
+  if (const HitTextures* const maps = MapsOf(material, range)) {
+    for (int c = 0; c < 3; ++c) {
+      sheen.color[c] = NumbersOf(*maps, MappedNumber::kSheenColor, c)[i];
+    }
+    sheen.charlie = MakeCharlie(NumbersOf(*maps, MappedNumber::kSheenRoughness)[i]);
+  }
+  return ShareLight(sheen, cosine, cosine).below;
+}
+
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
 // 2013); Turquin's compensation gives back of that what the reflectance at normal incidence says.
 // Kulla and Conty's is a lobe of its own.
@@ -357,6 +371,7 @@ bool HasSampledLobe(const ShadingMaterial& material) {
 
 bool DiffuseIsFlat(const ShadingMaterial& material) {
   if (material.turned) return false;  // the surface's own horizon cuts the light
+  if (material.sheen) return false;
   if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
     return matte->form == DiffuseForm::kLambert;
   }
@@ -439,7 +454,8 @@ void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
     const double n_dot_v =
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
     if (material.mapped_model) TakeHit(material, *range.textures, i, &at_hit);
-    const Rgb mirrored = MirrorAt(at_hit, std::clamp(n_dot_v, 0.0, 1.0));
+    const double cosine = std::clamp(n_dot_v, 0.0, 1.0);
+    const Rgb mirrored = MirrorAt(at_hit, cosine) * LeftBySheen(material, range, i, cosine);
     reflectance->x[i] = static_cast<float>(mirrored.x);
     reflectance->y[i] = static_cast<float>(mirrored.y);
     reflectance->z[i] = static_cast<float>(mirrored.z);

@@ -277,6 +277,7 @@ ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radi
       material.model);
   prepared.ambient = of_ambient * ambient_radiance;
   prepared.ambient_radiance = ambient_radiance;
+  prepared.sheen = MakeSheen(material);
   FindMaps(material, &prepared);
   return prepared;
 }

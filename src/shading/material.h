@@ -9,6 +9,7 @@
 #include "brdf/albedo.h"
 #include "scene/material.h"
 #include "shading/constants.h"
+#include "shading/sheen.h"
 
 namespace nacre {
 
@@ -103,8 +104,9 @@ struct ShadingMaterial {
   bool mapped_width = false;  // of the width of its lobe
   bool turned = false;        // maps turn the normal
   Rgb ambient_radiance{0, 0, 0};
-  // Of materials with a clear coat: the coat (scene/coat.h), which is shaded as a surface of its
-  // own. Its `textured` is `own`.
+  // `coat`: of materials with a clear coat (scene/coat.h), which is shaded as a surface of its own.
+  // Its `textured` is `own`.
+  std::optional<SheenModel> sheen;  // a layer of fuzz over the model, under the coat
   std::shared_ptr<const ShadingMaterial> coat;
   std::shared_ptr<const Material> own;
   std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel> model;

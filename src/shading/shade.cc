@@ -223,16 +223,17 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
       begin, end, surface);
 }
 
-void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
-              NarrowLobes* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.leaves};
+namespace {
+
+// All but a layer of fuzz.
+void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,
+                HitTextures* maps) {
   if (!material.mapped_model) {
     std::visit(
         Overloaded{[](std::monostate) {}, [&](const auto& model) { Shade(model, range, scratch); }},
         material.model);
     return;
   }
-  HitTextures* const maps = lit.textures;
   std::visit(
       Overloaded{[](std::monostate) {},
                  [&](const MatteModel& model) {
@@ -246,6 +247,41 @@ void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin,
                                                                      scratch, maps);
                  }},
       material.model);
+}
+
+// One light after the other: what is below gets a share of each that depends on where it is.
+void ShadeUnderSheen(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,
+                     HitTextures* maps) {
+  if (!scratch->below_sheen) scratch->below_sheen = std::make_unique<BelowSheen>();
+  BelowSheen& below = *scratch->below_sheen;
+  SheenUniforms uniforms{*material.sheen, {}, nullptr};
+  if (material.mapped_model) {
+    for (int c = 0; c < 3; ++c) uniforms.color[c] = NumbersOf(*maps, MappedNumber::kSheenColor, c);
+    uniforms.roughness = NumbersOf(*maps, MappedNumber::kSheenRoughness);
+  }
+  for (size_t k = 0; k < range.lights.size(); ++k) {
+    LightOnBatch light = range.lights[k];
+    if (light.evaluated == nullptr) {
+      EvaluateLight(*light.light, range.hits, range.surface, &below.light);
+      light.evaluated = &below.light;
+    }
+    ShadeRange all = Under(range, k, 1);
+    all.lights = {&light, 1};
+    ShadeRange under = all;
+    under.radiance = &below.radiance;
+    under.leaves = Leaves::kParts;
+    ShadeModel(material, under, scratch, maps);
+    CoverBySheen(uniforms, all, below.radiance);
+  }
+}
+
+}  // namespace
+
+void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
+              NarrowLobes* scratch, ReflectedRadiance* radiance) {
+  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.leaves};
+  if (material.sheen) return ShadeUnderSheen(material, range, scratch, lit.textures);
+  ShadeModel(material, range, scratch, lit.textures);
 }
 
 void ClearSoa(size_t count, Soa3<float>* soa) {

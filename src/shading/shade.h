@@ -10,6 +10,7 @@
 // Each is one call of a Highway kernel (2.4 ns of dispatch), so batches, never packets.
 #pragma once
 
+#include <memory>
 #include <span>
 
 #include "hit/batch.h"
@@ -67,10 +68,17 @@ struct BaseSpread {
   AlignedArray<float> single{kBatchCapacity}, multiple{kBatchCapacity};
 };
 
+// What is below a layer of fuzz, under a light.
+struct BelowSheen {
+  LightBatch light;
+  ReflectedRadiance radiance;
+};
+
 // Room for the terms of lobes that are formed in double, and for what bases make of a light.
 struct NarrowLobes {
   AlignedArray<float> first{kBatchCapacity}, second{kBatchCapacity};
   BaseSpread base;
+  std::unique_ptr<BelowSheen> below_sheen;  // made for the first hit that has any
 };
 
 struct HitTextures;

@@ -161,6 +161,30 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   return share;
 }
 
+// With a layer of fuzz over a model that reflects `share`: under it each pair of directions gets
+// its own part of the light.
+Rgb ShareWithSheen(const ShadingMaterial& material, const Rgb& share, ShareOf what, double cosine) {
+  ShadingMaterial below = material, whole = material;
+  below.sheen.reset();
+  below.coat = whole.coat = nullptr;
+  const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
+  const auto integrate = [&](int c, const ShadingMaterial& of, const auto& part) {
+    return IntegrateAround(InPlane(cosine, 1), [&](const Vec3d& other) {
+      return what == ShareOf::kFurnace
+                 ? part(Reflect(of, normal, other, fixed))[c]
+                 : part(Reflect(of, normal, fixed, other))[c] * other.z / fixed.z;
+    });
+  };
+  const double left = ShareLight(*material.sheen, cosine, cosine).below;  // of a mirror
+  Rgb all;
+  for (int c = 0; c < 3; ++c) {
+    all[c] = integrate(c, whole, [](const Reflection& r) { return r.Sum(); });
+    if (!HasDeltaLobe(below)) continue;
+    all[c] += (share[c] - integrate(c, below, [](const Reflection& r) { return r.Sum(); })) * left;
+  }
+  return all;
+}
+
 // Of light from one direction, what a coat lets through of what is below, `share` without it: the
 // coat takes its part on the way to the viewer.
 Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double cosine) {
@@ -177,8 +201,8 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double c
   for (int c = 0; c < 3; ++c) {
     through[c] = integrate(c, [&](const Reflection& r, double mu) { return r.Sum() * left(mu); });
     if (!HasDeltaLobe(below)) continue;
-    const double diffuse = integrate(c, [](const Reflection& r, double) { return r.diffuse; });
-    through[c] += (share[c] - diffuse) * left(cosine)[c];
+    const double seen = integrate(c, [](const Reflection& r, double) { return r.Sum(); });
+    through[c] += (share[c] - seen) * left(cosine)[c];
   }
   return through;
 }
@@ -186,10 +210,11 @@ Rgb ShareThroughCoat(const ShadingMaterial& material, const Rgb& share, double c
 }  // namespace
 
 Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine) {
-  const Rgb share =
+  Rgb share =
       std::visit(Overloaded{[](const std::monostate&) { return Rgb(0); },
                             [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
                  material.model);
+  if (material.sheen) share = ShareWithSheen(material, share, what, cosine);
   if (!material.coat) return share;
   const Rgb of_coat = ReflectedShare(*material.coat, what, cosine);
   if (what == ShareOf::kFurnace) return share * LeftByCoat(*material.coat, cosine) + of_coat;

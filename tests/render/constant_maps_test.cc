@@ -304,7 +304,15 @@ const std::vector<MappedParameter> kMappedParameters = {
     {"emission_map", {"emission"}},
     {"coat_map", {"coat"}},
     {"coat_roughness_map", {"coat_roughness"}},
+    {"sheen_color_map", {"sheen_color"}},
+    {"sheen_roughness_map", {"sheen_roughness"}},
 };
+
+// What a layer of a map needs beside its parameter to be there.
+constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
+    {"coat_roughness_map", "coat"},
+    {"sheen_color_map", "sheen_roughness"},
+    {"sheen_roughness_map", "sheen_color"}};
 
 // Every other choice of the model beside those that each map is walked with.
 std::vector<Material> WithEveryChoice(const MaterialModel& model) {
@@ -337,10 +345,11 @@ TEST_CASE("every map of every model is the constant, from code 0 to 255, under e
         for (const int code : {0, 1, 128, 255}) {
           const double value = Held(code / 255.0);
           Material constant = factors, mapped = factors;
-          if (map.name == "coat_roughness_map") {
-            const MaterialParameter* const coat = FindParameter(model, "coat");
-            coat->set(mapped, Rgb(1));
-            coat->set(constant, Rgb(1));
+          // Layers whose other parameter is 0 are none.
+          for (const auto& [of, other] : kOthers) {
+            if (map.name != of) continue;
+            FindParameter(model, other)->set(mapped, Rgb(0.5));
+            FindParameter(model, other)->set(constant, Rgb(0.5));
           }
           for (const std::string_view name : entry->parameters) {
             const MaterialParameter* const parameter = FindParameter(model, name);

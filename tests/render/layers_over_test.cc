@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/render/coat_test.cc: clear coats: white surfaces under them stay white, what kernels make
-// of them is what the scalar twin says, and maps of theirs are theirs.
-#include "scene/coat.h"
-
+// tests/render/layers_over_test.cc: coats and sheen: white surfaces under them stay white, what
+// kernels make of them is what the scalar twin says, and maps of theirs are theirs.
 #include <cmath>
 #include <string>
 
 #include "pictures.h"
+#include "scene/coat.h"
 #include "shading/scalar_material.h"
 #include "targets.h"
 #include "textured_scenes.h"
@@ -55,9 +54,38 @@ TEST_CASE("a white surface stays white under a coat of any roughness, by numbers
   });
 }
 
-// The radiance of a pixel against Reflect at the normal that a layer shows.
+// The worst error of a sphere's pixels against Reflect at the normals that a layer shows, relative
+// to it; of pixels away from the outline.
+double WorstAgainstTwin(const Scene& scene, const Vec3d& to_light, double irradiance) {
+  const ShadingMaterial twin = PrepareMaterial(scene.materials[0], Rgb(0));
+  RenderSettings settings;
+  settings.layers = {"all"};
+  const Image image = RenderImage(scene, settings);
+  const auto at = [&](const char* name, size_t i) { return double{image.Find(name)->samples[i]}; };
+  size_t lit = 0;
+  double worst = 0;
+  for (size_t i = 0; i < image.channels[0].samples.size(); ++i) {
+    if (at("A", i) < 1) continue;
+    const Vec3d normal = Vec3d(at("N.X", i), at("N.Y", i), at("N.Z", i)).normalized();
+    if (normal.z < 0.1 || (normal ^ to_light) < 0.01) continue;
+    const Rgb sum = Reflect(twin, normal, to_light, Vec3d(0, 0, 1)).Sum() * irradiance;
+    const Rgb got(at("R", i), at("G", i), at("B", i));
+    for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(got[c] / sum[c] - 1));
+    ++lit;
+  }
+  CHECK(lit > 500);
+  return worst;
+}
+
+Scene UnderALamp(const MetallicRoughnessMaterial& model, const Vec3d& to_light) {
+  Scene scene = OrthographicSphere(model, 1);
+  scene.lights = {
+      Named("lamp", DirectionalLight{.direction_of_travel = -to_light, .irradiance = Rgb(2)})};
+  return scene;
+}
+
 TEST_CASE("coats under a lamp reflect what the scalar material does") {
-  const Vec3d to_light = Vec3d(0.3, 0.5, 0.8).normalized(), to_view(0, 0, 1);
+  const Vec3d to_light = Vec3d(0.3, 0.5, 0.8).normalized();
   MetallicRoughnessMaterial model;
   model.base_color = Rgb(0.8, 0.3, 0.1);
   model.metallic = 0.3;
@@ -68,36 +96,55 @@ TEST_CASE("coats under a lamp reflect what the scalar material does") {
       CAPTURE(coat, roughness);
       model.coat = coat;
       model.coat_roughness = roughness;
-      Scene scene = OrthographicSphere(model, 1);
-      scene.lights = {
-          Named("lamp", DirectionalLight{.direction_of_travel = -to_light, .irradiance = Rgb(2)})};
-      const ShadingMaterial twin = PrepareMaterial(scene.materials[0], Rgb(0));
       ForEachTarget([&](Target) {
-        RenderSettings settings;
-        settings.layers = {"all"};
-        const Image image = RenderImage(scene, settings);
-        const auto at = [&](const std::string& name, size_t i) {
-          return double{image.Find(name)->samples[i]};
-        };
-        const size_t pixels = image.channels[0].samples.size();
-        size_t lit = 0;
-        double worst = 0;
-        for (size_t i = 0; i < pixels; ++i) {
-          if (at("A", i) < 1) continue;
-          const Vec3d normal = Vec3d(at("N.X", i), at("N.Y", i), at("N.Z", i)).normalized();
-          if (normal.z < 0.1 || (normal ^ to_light) < 0.01) continue;
-          const Reflection expected = Reflect(twin, normal, to_light, to_view);
-          const Rgb sum = expected.Sum() * 2.0;
-          const Rgb got(at("R", i), at("G", i), at("B", i));
-          for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(got[c] / sum[c] - 1));
-          ++lit;
-        }
-        CHECK(lit > 500);
         // A float normal, 6e-8, under a lobe of this width; and the albedo's 1e-4 of what is below.
-        CHECK(worst <= 2e-4 + 4e-7 / (roughness * roughness));
+        CHECK(WorstAgainstTwin(UnderALamp(model, to_light), to_light, 2) <=
+              2e-4 + 4e-7 / (roughness * roughness));
       });
     }
   }
+}
+
+TEST_CASE("sheen under a lamp reflects what the scalar material does, with a coat and without") {
+  const Vec3d to_light = Vec3d(0.6, 0.5, 0.3).normalized();
+  MetallicRoughnessMaterial model;
+  model.base_color = Rgb(0.2, 0.3, 0.1);
+  model.roughness = 0.6;
+  model.sheen_color = Rgb(0.9, 0.5, 0.2);
+  for (const double coat : {0.0, 1.0}) {
+    model.coat = coat;
+    model.coat_roughness = 0.5;
+    for (const double roughness : {0.1, 0.3, 1.0}) {
+      CAPTURE(coat, roughness);
+      model.sheen_roughness = roughness;
+      ForEachTarget([&](Target) {
+        // The base's albedo, 1e-4; a float normal, 6e-8, in sin^(1 / alpha).
+        CHECK(WorstAgainstTwin(UnderALamp(model, to_light), to_light, 2) <=
+              2e-4 + 4e-7 / (roughness * roughness));
+      });
+    }
+  }
+}
+
+TEST_CASE("a white surface under white sheen makes no light, and sheen brightens black cloth") {
+  ForEachTarget([](Target) {
+    for (const double roughness : {0.1, 0.4, 1.0}) {
+      CAPTURE(roughness);
+      MetallicRoughnessMaterial cloth;
+      cloth.base_color = Rgb(1);
+      cloth.sheen_color = Rgb(1);
+      cloth.sheen_roughness = roughness;
+      Scene scene = OrthographicSphere(cloth, 64);
+      scene.lights = {WhiteSky()};
+      const Mean white = MeanRed(RenderImage(scene, {}));
+      CHECK(white.value <= 1 + 2e-3 + 4 * white.error);  // brdf/sheen.h: E is right within 1.6e-3
+      CHECK(white.value > 0.8);
+      auto& black = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
+      black.base_color = Rgb(0);
+      black.specular = 0;
+      CHECK(MeanRed(RenderImage(scene, {})).value > 0.05 * roughness);
+    }
+  });
 }
 
 TEST_CASE("no coat has the bits of none, and constant maps of a coat those of constants") {
