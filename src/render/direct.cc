@@ -140,15 +140,18 @@ void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.clock.Charge(Stage::kShade);
 }
 
+// Of light, which may be beyond float's range: nothing of it is 0.
+float LeftOf(float light, float share) { return share > 0 ? light * share : 0; }
+
 // Of what the hits below coats reflect the coats take their part, and add what they reflect
 // themselves, which is all specular.
 void CoverBelow(const CoatedHits& coats, const Soa3<float>& of_coats, Soa3<float>* below) {
   const Soa3<float>& left = coats.surfaces.surface.base;
   for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
     const size_t j = coats.below[i];
-    below->x[j] = below->x[j] * left.x[i] + of_coats.x[i];
-    below->y[j] = below->y[j] * left.y[i] + of_coats.y[i];
-    below->z[j] = below->z[j] * left.z[i] + of_coats.z[i];
+    below->x[j] = LeftOf(below->x[j], left.x[i]) + of_coats.x[i];
+    below->y[j] = LeftOf(below->y[j], left.y[i]) + of_coats.y[i];
+    below->z[j] = LeftOf(below->z[j], left.z[i]) + of_coats.z[i];
   }
 }
 

@@ -38,6 +38,12 @@ HWY_INLINE Vec3V<V> UnitOf(const Vec3V<V>& v) {
   return Scale(v, hn::Div(one, hn::Sqrt(hn::IfThenElse(some, squared, one))));
 }
 
+// What a share leaves of light, which may be beyond float's range: nothing of it is 0.
+HWY_INLINE V Left(V light, V share) {
+  const D d;
+  return hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), hn::Mul(light, share));
+}
+
 // The sheen of all hits, or of each.
 class SheenAt {
  public:
@@ -95,8 +101,8 @@ void CoverBySheenT(const SheenUniforms& uniforms, const ShadeRange& range,
                          AlignedArray<float>& to_diffuse, AlignedArray<float>& to_specular,
                          AlignedArray<float>& to_sum) HWY_ATTR {
       const V of_sheen = hn::Mul(hn::Mul(lobe, color_of), hn::Set(d, light_of));
-      const V all_diffuse = hn::MulAdd(diffuse_of, scale.below, of_sheen);
-      const V all_specular = hn::Mul(specular_of, scale.below);
+      const V all_diffuse = hn::Add(Left(diffuse_of, scale.below), of_sheen);
+      const V all_specular = Left(specular_of, scale.below);
       const auto part = [&](V value, AlignedArray<float>& array) HWY_ATTR {
         const auto rounded = hn::DemoteTo(df, value);
         const auto before = added ? hn::LoadU(df, array.data() + i) : hn::Zero(df);
