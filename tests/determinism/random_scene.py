@@ -269,6 +269,14 @@ class SceneMaker:
             material['f82_tint'] = self.color()
         self.maybe_map(material, metallic_roughness_map='grey', specular_map='grey',
                        specular_color_map='colors')
+        if r.random() < 0.3:
+            material.update(coat=r.choice((1, 1, 0.5)), coat_ior=r.choice((1.3, 1.5, 2)),
+                            coat_roughness=r.choice((0, 0.01, 0.1, 0.3, 1)))
+            self.maybe_map(material, coat_map='grey', coat_roughness_map='grey',
+                           coat_normal_map='normals')
+        if r.random() < 0.3:
+            material.update(sheen_color=self.color(), sheen_roughness=r.choice((0, 0.1, 0.4, 1)))
+            self.maybe_map(material, sheen_color_map='colors', sheen_roughness_map='grey')
 
     # Punctual lights are the most frequent: of theirs there are the most forms of kernels.
     def lights(self):
