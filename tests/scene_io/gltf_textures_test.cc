@@ -256,6 +256,66 @@ TEST_CASE("images of specular weights and colours") {
   CHECK_THROWS_AS(LoadFile(file), Error);
 }
 
+TEST_CASE("clear coats and sheen, with their images") {
+  GltfFile file = MakeTexturedSquare();
+  Json& extensions = file.json["materials"][0]["extensions"];
+  const Json image = {{"index", 0}};
+  Json normal = image;
+  normal["scale"] = 0.5;
+  extensions["KHR_materials_clearcoat"] = {{"clearcoatFactor", 0.75},
+                                           {"clearcoatTexture", image},
+                                           {"clearcoatRoughnessFactor", 0.25},
+                                           {"clearcoatRoughnessTexture", image},
+                                           {"clearcoatNormalTexture", normal}};
+  extensions["KHR_materials_sheen"] = {{"sheenColorFactor", {0.5, 0.25, 1}},
+                                       {"sheenColorTexture", image},
+                                       {"sheenRoughnessFactor", 0.5},
+                                       {"sheenRoughnessTexture", image}};
+  std::vector<std::string> warnings;
+  const Scene scene = LoadFile(file, &warnings);
+  CHECK(warnings.empty());
+  const MetallicRoughnessMaterial& model = MaterialOf(scene);
+  CHECK(model.coat == 0.75);
+  CHECK(model.coat_roughness == 0.25);
+  CHECK(model.coat_ior == 1.5);
+  CHECK(model.coat_normal_map.scale == 0.5);
+  CHECK(model.coat_normal_map.convention == NormalMap::Convention::kLiteral);
+  CHECK(model.sheen_color == Rgb(0.5, 0.25, 1));
+  CHECK(model.sheen_roughness == 0.5);
+  const auto image_of = [&](TextureId id) {
+    REQUIRE(id.valid());
+    return scene.textures.at(id.index).image;
+  };
+  // Numbers are numbers, colours are sRGB; an image without alpha takes nothing of the roughness.
+  CHECK(image_of(model.coat_map) == image_of(model.coat_roughness_map));
+  CHECK(image_of(model.coat_map) == image_of(model.coat_normal_map.texture));
+  CHECK(image_of(model.sheen_color_map) == image_of(model.base_color_map));
+  CHECK(image_of(model.sheen_color_map) != image_of(model.coat_map));
+  CHECK(!model.sheen_roughness_map.valid());
+  const auto refused = [&](const char* extension, const char* member, const Json& value) {
+    GltfFile bad = file;
+    bad.json["materials"][0]["extensions"][extension][member] = value;
+    try {
+      LoadFile(bad);
+    } catch (const Error& error) {
+      const std::string& where = error.faults().front().where;
+      return where.find(std::string(extension) + "/" + member) != std::string::npos;
+    }
+    return false;
+  };
+  CHECK(refused("KHR_materials_clearcoat", "clearcoatFactor", 1.5));
+  CHECK(refused("KHR_materials_clearcoat", "clearcoatRoughnessFactor", -1));
+  CHECK(refused("KHR_materials_clearcoat", "clearcoatTexture", {{"index", "none"}}));
+  CHECK(refused("KHR_materials_sheen", "sheenColorFactor", {0.5, 2, 0}));
+  CHECK(refused("KHR_materials_sheen", "sheenRoughnessFactor", 7));
+  // Without colour or roughness there is none, and without a coat its images are not asked for.
+  extensions["KHR_materials_clearcoat"]["clearcoatFactor"] = 0;
+  extensions["KHR_materials_sheen"]["sheenRoughnessFactor"] = 0;
+  const MetallicRoughnessMaterial bare = MaterialOf(LoadFile(file));
+  CHECK(!bare.coat_map.valid());
+  CHECK(bare.sheen_color == Rgb(0));
+}
+
 TEST_CASE("images that are not there, or are none, are refused") {
   const auto message = [](const GltfFile& file) -> std::string {
     try {
