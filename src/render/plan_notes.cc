@@ -43,25 +43,39 @@ double LobeRoughness(const Material& material) {
       material.model);
 }
 
-// A perfect mirror shows only what has an extent; says so where no light has one.
-void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materials,
-                 std::vector<std::string>* notes) {
+// A perfect mirror shows only what has an extent; says so where no light has one. `parameter`: the
+// roughness that is_mirror(i) is about, of material i roughness_of(i).
+template <class IsMirror, class RoughnessOf>
+void NoteMirrors(const Scene& scene, const char* parameter, const IsMirror& is_mirror,
+                 const RoughnessOf& roughness_of, std::vector<std::string>* notes) {
   double greatest = 0;
   int count = 0;
   const std::string names = NameThose(scene, [&](size_t i) {
-    if (!HasDeltaLobe(materials[i])) return false;
-    greatest = std::max(greatest, LobeRoughness(scene.materials[i]));
+    if (!is_mirror(i)) return false;
+    greatest = std::max(greatest, roughness_of(i));
     ++count;
     return true;
   });
   if (names.empty()) return;
-  const std::string value = fmt::format("{:.6g}", greatest);
   notes->push_back(fmt::format(
-      "{}: {} is below 2^-20 ({:.3g}) and so a perfect mirror, in which point, spot and "
-      "directional "
-      "lights have no highlight; a roughness of 2^-20 or more gives them one",
-      names, count > 1 ? "the greatest roughness, " + value + "," : "roughness " + value,
-      kDeltaRoughness));
+      "{}: {}{} {:.6g}{} is below 2^-20 ({:.3g}) and so a perfect mirror, in which point, spot and "
+      "directional lights have no highlight; a {} of 2^-20 or more gives them one",
+      names, count > 1 ? "the greatest " : "", count > 1 ? std::string(parameter) + "," : parameter,
+      greatest, count > 1 ? "," : "", kDeltaRoughness, parameter));
+}
+
+void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materials,
+                 std::vector<std::string>* notes) {
+  NoteMirrors(
+      scene, "roughness", [&](size_t i) { return HasDeltaLobe(materials[i]); },
+      [&](size_t i) { return LobeRoughness(scene.materials[i]); }, notes);
+  NoteMirrors(
+      scene, "coat_roughness",
+      [&](size_t i) { return materials[i].coat && HasDeltaLobe(*materials[i].coat); },
+      [&](size_t i) {
+        return std::get<MetallicRoughnessMaterial>(scene.materials[i].model).coat_roughness;
+      },
+      notes);
 }
 
 // What Burley's term gives back of grazing light, of the brightest channel; else 0.

@@ -243,6 +243,9 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
     plan.materials.push_back(*plan.materials[i].coat);
     plan.coated = true;
   }
+  why->items.push_back(
+      {"coats", plan.coated,
+       plan.coated ? "hits with one are shaded once more, by the coat" : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
   PlanTextures(scene, settings, camera, &plan, why);
   return plan;

@@ -237,6 +237,17 @@ void NoteLosses(const Material& original, bool to_phong, MaterialFit* fit) {
   if (has_maps) fit->notes.emplace_back("maps are not converted");
 }
 
+// The original without the layers over it, which other models do not have.
+Material WithoutLayers(Material material, std::vector<std::string>* notes) {
+  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material.model);
+  if (model == nullptr) return material;
+  if (model->coat > 0) notes->emplace_back("the coat: what is below it is converted");
+  if (MakeSheen(material)) notes->emplace_back("sheen: what is below it is converted");
+  model->coat = 0;
+  model->sheen_color = Rgb(0, 0, 0);
+  return material;
+}
+
 // The original with a lobe that can be looked at.
 Material WithLobe(Material material, std::vector<std::string>* notes) {
   const auto raise = [&](double* roughness) {
@@ -261,7 +272,9 @@ MaterialFit FitMaterial(const Material& original, std::string_view target) {
                 "convert those that it is made of");
   }
   MaterialFit fit;
-  const Material material = WithLobe(original, &fit.notes);
+  const bool has_layers = target == "metallic_roughness";
+  const Material material =
+      WithLobe(has_layers ? original : WithoutLayers(original, &fit.notes), &fit.notes);
   fit.guess.name = fit.fitted.name = original.name;
   fit.guess.emission = fit.fitted.emission = original.emission;
   const bool to_phong = target.ends_with("phong");

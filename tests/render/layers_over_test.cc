@@ -147,6 +147,18 @@ TEST_CASE("a white surface under white sheen makes no light, and sheen brightens
   });
 }
 
+TEST_CASE("a plan notes coats that are perfect mirrors") {
+  MetallicRoughnessMaterial model;
+  model.coat = 1;
+  const auto notes = [&](double roughness) {
+    model.coat_roughness = roughness;
+    return MakePlan(UnderALamp(model, Vec3d(0, 0, 1)), {}).why.notes;
+  };
+  CHECK(notes(0.1).empty());
+  REQUIRE(notes(0).size() == 1);
+  CHECK(notes(0)[0].find(": coat_roughness 0 is below 2^-20") != std::string::npos);
+}
+
 TEST_CASE("no coat has the bits of none, and constant maps of a coat those of constants") {
   ForEachTarget([](Target) {
     const Rgb share = Held(Rgb(0.6)), width = Held(Rgb(0.1, 0.5, 0.9));
