@@ -140,6 +140,13 @@ TEST_CASE("a white surface under white sheen makes no light, and sheen brightens
       CHECK(white.value <= 1 + 2e-3 + 4 * white.error);  // brdf/sheen.h: E is right within 1.6e-3
       CHECK(white.value > 0.8);
       auto& black = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
+      // Over a mirror, which is looked along by itself.
+      black.metallic = 1;
+      black.roughness = 0;
+      const Mean mirror = MeanRed(RenderImage(scene, {}));
+      CHECK(mirror.value <= 1 + 2e-3 + 4 * mirror.error);
+      CHECK(mirror.value > 0.8);
+      black.metallic = 0;
       black.base_color = Rgb(0);
       black.specular = 0;
       CHECK(MeanRed(RenderImage(scene, {})).value > 0.05 * roughness);
