@@ -140,11 +140,11 @@ void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.clock.Charge(Stage::kShade);
 }
 
-// Of light, which may be beyond float's range: nothing of it is 0.
+// light * share, but 0 for a share of 0 where the light has overflowed: infinity times 0 is NaN.
 float LeftOf(float light, float share) { return share > 0 ? light * share : 0; }
 
-// Of what the hits below coats reflect the coats take their part, and add what they reflect
-// themselves, which is all specular.
+// Attenuates the radiance of the hits below coats by what each coat transmits, 1 less its
+// directional albedo, and adds what the coat itself reflects.
 void CoverBelow(const CoatedHits& coats, const Soa3<float>& of_coats, Soa3<float>* below) {
   const Soa3<float>& left = coats.surfaces.surface.base;
   for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {

@@ -149,7 +149,8 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   to->hits.count = count;
 }
 
-// Makes a hit of the coat of each hit that has one.
+// For each lit hit whose material has a coat, adds a hit on the coat at the same place, with the
+// shading normal that the maps of the material below have not turned.
 void FindCoats(const SurfacePlan& plan, Surfaces* s) {
   if (s->coats) s->coats->surfaces.hits.count = 0;
   if (!plan.coated) return;
@@ -284,7 +285,8 @@ void DimBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
   to->z[j] *= by.z[i];
 }
 
-// Of the light that the layers show beside what lights leave, a coat takes its part, too.
+// Attenuates the emission and the reflected ambient light of hits below coats, which no light's
+// radiance holds.
 void DimLayers(Surfaces* s) {
   if (!AnyCoat(*s)) return;
   const CoatedHits& coats = *s->coats;

@@ -65,10 +65,11 @@ struct Surfaces {
   std::unique_ptr<CoatedHits> coats;
 };
 
-// The coats of hits, as hits of their own: surfaces above those of the same places.
+// Hits on clear coats, each at the place of a hit below it, with a shading normal, maps and lobe of
+// its own. The integrator shades them like any others.
 struct CoatedHits {
-  Surfaces surfaces;  // Surface::base is what the coat leaves of what is below
-  AlignedArray<uint32_t> below{kBatchCapacity};  // the index of the hit that a coat's is over
+  Surfaces surfaces;  // their Surface::base is what the coat transmits, per channel
+  AlignedArray<uint32_t> below{kBatchCapacity};  // by hit on a coat: the index of the hit below it
 };
 
 // Whether any hit has a coat.

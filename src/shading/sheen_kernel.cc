@@ -38,7 +38,7 @@ HWY_INLINE Vec3V<V> UnitOf(const Vec3V<V>& v) {
   return Scale(v, hn::Div(one, hn::Sqrt(hn::IfThenElse(some, squared, one))));
 }
 
-// What a share leaves of light, which may be beyond float's range: nothing of it is 0.
+// light * share, but 0 for a share of 0 where the light has overflowed: infinity times 0 is NaN.
 HWY_INLINE V Left(V light, V share) {
   const D d;
   return hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), hn::Mul(light, share));

@@ -115,6 +115,7 @@ struct HitTextures {
 };
 
 // The columns of `Columns`, which is made of nothing but float*, one behind the other in a pool.
+// Only mapped_kernel.cc writes to them, in a pool that is its own to change; kernels read.
 template <class Columns>
 Columns ColumnsIn(const AlignedArray<float>& pool) {
   std::array<float*, HitTextures::ColumnsOf<Columns>()> columns;
