@@ -130,6 +130,11 @@ class ReadmeTest(unittest.TestCase):
         self.assertEqual(result.returncode, 65)
         self.assertIn(shown.strip(), result.stderr)
 
+    def test_every_command_has_a_row(self):
+        text = (SOURCE / 'src/cli/README.md').read_text()
+        for name in re.findall(r'^  ([a-z]+) ', run([PROGRAM, '--help'], SOURCE).stdout, re.M):
+            self.assertRegex(text, rf'(?m)^\| `nacre {name}\b')
+
     def test_every_option_that_is_named_exists(self):
         names = re.findall(r'^  (\w+) ', run([PROGRAM, '--help'], SOURCE).stdout, re.M)
         known = ''.join(run([PROGRAM, name, '--help-all'], SOURCE).stdout for name in names)

@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the READMEs: links lead somewhere, and every picture is made by a script of the tree.
+"""Checks the READMEs: links lead somewhere, the source files that they name are there, and every
+picture is made by a script of the tree.
 
 Pictures of scenes/gallery come from scripts/gallery (its --list) or, bench_*, from bench/figures.py;
 what lies there and no README shows is a fault too, but for the SVG twin of a diagram. Diagrams of
 speed are drawn on a quiet machine, by hand: one that is not there yet is told and is no fault.
+
+Where a README says `grep -rlw WORD src`, it goes on to name every file of src/ that holds the word: so
+the lists of what a new light or command touches stay whole.
 """
 import argparse
 import ast
@@ -18,6 +22,9 @@ GALLERY = "scenes/gallery"
 LINK = re.compile(r"!?\[(?:[^\[\]]|!\[[^\]]*\]\([^)]*\))*\]\(([^)\s]+)\)")
 PICTURE = re.compile(r"!\[([^\]]*)\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
+# A source file in backquotes; NAME stands for the name of what is added.
+SOURCE_FILE = re.compile(r"`(\w[\w./-]*\.(?:h|cc|py|in))`")
+USERS = re.compile(r"`grep -rlw (\w+) src`")
 
 
 def readmes(root):
@@ -57,6 +64,34 @@ def check_links(root, path):
             yield f"{name}: {target}: no heading of that name"
 
 
+def sources(root):
+    """All source files of the tree, by their paths in it."""
+    return {path.relative_to(root).as_posix() for path in root.rglob("*")
+            if path.suffix in (".h", ".cc", ".py", ".in")
+            and not re.fullmatch(r"build.*|out|\.git", path.relative_to(root).parts[0])}
+
+
+def check_source_files(page, text, files):
+    for name in SOURCE_FILE.findall(text):
+        if "NAME" not in name and not any(f"/{file}".endswith(f"/{name}") for file in files):
+            yield f"{page}: {name}: there is no such file"
+
+
+def check_lists(root, page, text, files):
+    """Up to the next list or heading the files that hold the word are named, each."""
+    for match in USERS.finditer(text):
+        part = re.split(r"^#|`grep ", text[match.end():], maxsplit=1, flags=re.M)[0]
+        named = [re.escape(name).replace("NAME", r"\w+") for name in SOURCE_FILE.findall(part)]
+        word = re.compile(rf"\b{match.group(1)}\b")
+        users = [file for file in sorted(files) if re.fullmatch(r"src/.*\.(h|cc)", file)
+                 and word.search((root / file).read_text())]
+        if not users:
+            yield f"{page}: no file of src/ holds {match.group(1)}"
+        for file in users:
+            if not any(re.search(rf"(^|/){name}$", file) for name in named):
+                yield f"{page}: {file} holds {match.group(1)} and is not named"
+
+
 def made_by_gallery(root):
     result = subprocess.run(["bash", root / "scripts/gallery", "--list"], capture_output=True,
                             text=True, check=True)
@@ -92,7 +127,12 @@ def check_pictures(root, pages):
 def check(root):
     """All faults, and the pages looked at."""
     pages = readmes(root)
+    files = sources(root)
     faults = [fault for page in pages for fault in check_links(root, page)]
+    for page in pages:
+        name = page.relative_to(root).as_posix()
+        faults += check_source_files(name, prose(page), files)
+        faults += check_lists(root, name, prose(page), files)
     return faults + list(check_pictures(root, pages)), pages
 
 

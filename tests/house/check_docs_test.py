@@ -12,6 +12,11 @@ SOUND = {
                  "![one](scenes/gallery/one.png)\n```\n[not](a-link)\n```\n## `b` it's\n"
                  "[d](#b-its) [folder](sub)\n",
     "sub/README.md": "# X\n## Two words\n| ![t](../scenes/gallery/bench_t.png) |\n",
+    "src/README.md": "## Adding\n`grep -rlw Spot src`: `src/light.h`, `read_NAME.cc`.\n## Else\n"
+                     "`cone.h`\n",
+    "src/light.h": "struct Spot;",
+    "src/io/read_spot.cc": "Spot Read();",
+    "src/cone.h": "struct Spotted;",
     "scripts/gallery": "echo one\n",
     "bench/figures.py": 'ALL = {"bench_t": None}\n',
     "scenes/gallery/one.png": "",
@@ -51,7 +56,10 @@ class CheckDocsTest(unittest.TestCase):
                 ({"README.md": more + "![](scenes/gallery/one.png)\n"}, "no words"),
                 ({"scenes/gallery/old.png": ""}, "old.png: no README shows it"),
                 ({"scenes/gallery/one.png": None}, "one.png: there is no such file"),
-                ({"README.md": more + "[![p](scenes/gallery/one.png)](gone.md)\n"}, "gone.md")):
+                ({"README.md": more + "[![p](scenes/gallery/one.png)](gone.md)\n"}, "gone.md"),
+                ({"README.md": more + "`gone.cc`\n"}, "gone.cc: there is no such file"),
+                ({"src/cone.h": "Spot"}, "src/cone.h holds Spot and is not named"),
+                ({"src/light.h": "", "src/io/read_spot.cc": ""}, "no file of src/ holds Spot")):
             with self.subTest(word=word):
                 self.assertTrue(any(word in fault for fault in faults_of(changes)),
                                 faults_of(changes))
