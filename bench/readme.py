@@ -92,13 +92,14 @@ def markdown(results, runs):
                      f"{f'{ratio:.1f}' if ratio else ''} | "
                      f"{report.share_of_bound(results, model, best, ns)} | "
                      f"{report.ratio_at_bound(results, model, best, ns, ratio)} | {avx2} |")
-    ways = ["Ways to do the same work: `a_over_b` is how many times faster a is, or in how "
-              "many times fewer rays if its name ends in `in_rays`; in memory, each frame in that "
-              "of the one before, unless it says process. Embree's spheres are traced bare, in "
-              "float, their tree built before; what says in_float is the nearest sphere and its "
-              "depth on both sides, the rest exact hits with points and normals on ours. What says "
-              "at_port_bound is counted: the exact test alone, its vectors full and nothing waiting.",
-              "", *headline_table(runs)]
+    ways = ["`a_over_b` compares two ways to do the same work: how many times faster a is, or how "
+            "many times fewer rays it takes if the name ends in `in_rays`. Frames are rendered in "
+            "memory, each into that of the one before, unless the name says process. Embree's "
+            "spheres are traced alone, in float, with their tree built before; `in_float` finds "
+            "the nearest sphere and its depth on both sides, all others exact hits with points "
+            "and normals on nacre's. `at_port_bound` is counted, not timed: the exact test alone, "
+            "with full vectors and no stalls.",
+            "", *headline_table(runs)]
     measured = [f"Measured by `{results['command']}`: {machine.line(results['machine'])}."]
     if runs[1:]:
         measured.append("The other columns: " + "; ".join(run["line"] for run in runs[1:]) + ".")

@@ -76,7 +76,7 @@ class NACRE_API Error : public std::exception {
 
 // ---- This build and this machine ----------------------------------------------------------------
 
-NACRE_API std::string Version();  // "0.1.0"
+NACRE_API std::string Version();  // "0.2.0"
 
 // The SIMD targets that this machine can run, slowest first, of "scalar", "sse4", "avx2", "avx3".
 NACRE_API std::vector<std::string> SupportedTargets();

@@ -4,7 +4,7 @@
 
 namespace nacre {
 
-extern const char kVersion[];  // "0.1.0"
+extern const char kVersion[];  // "0.2.0"
 extern const char kCommit[];   // abbreviated commit, or "unknown" outside a git checkout
 
 }  // namespace nacre

@@ -107,37 +107,40 @@ constexpr MaterialParameter BaseRoughness() {
           [](Material& material, const Rgb& value) {
             std::get<Struct>(material.model).diffuse_roughness = value.x;
           },
-          "Roughness of a base that is not lambert. Absent: \"roughness\"."};
+          "Roughness of a base that is not lambert. Absent: that of the lobe, \"roughness\"."};
 }
 
 // What several models have.
 constexpr std::string_view kRoughnessMeaning =
-    "Perceptual roughness: alpha is its square. Below 2^-20 (9.5e-7): a perfect mirror.";
+    "Perceptual roughness: alpha is its square. Below 2^-20 (9.5e-7) the surface is a perfect "
+    "mirror.";
 constexpr std::string_view kShadowingMeaning =
-    "Masking and shadowing of microfacets. height_correlated: Smith (Heitz 2014). separable: "
-    "Smith, product of two terms. schlick_direct: Schlick's with k = (roughness + 1)^2 / 8 (Karis "
-    "2013). schlick_ibl: Schlick's with k = roughness^2 / 2, Karis's for image-based light.";
+    "Shadowing and masking of microfacets. height_correlated: Smith's, height-correlated (Heitz "
+    "2014). separable: Smith's, as the product of two terms. schlick_direct: Schlick's "
+    "approximation of that with k = (roughness + 1)^2 / 8, meant for direct light (Karis 2013). "
+    "schlick_ibl: the same with k = roughness^2 / 2, meant for image-based light.";
 constexpr std::string_view kCompensationMeaning =
-    "What is done for light that bounces more than once between microfacets. turquin: the "
-    "highlight is scaled to the viewer's share (Turquin 2019). kulla_conty: a second lobe (Kulla "
-    "and Conty 2017), reciprocal. none: that light is lost, up to 59 %.";
+    "Energy compensation: what replaces the light that bounces more than once between "
+    "microfacets. turquin: the lobe is scaled (Turquin 2019). kulla_conty: a second lobe (Kulla "
+    "and "
+    "Conty 2017), reciprocal. none: that light is lost, up to 59 %.";
 constexpr std::string_view kCouplingMeaning =
-    "How much light the diffuse base gets. albedo_scaled: what the albedo of the dielectric's "
-    "highlight leaves, so that a white surface reflects exactly all, at every metallic. "
-    "one_minus_fresnel: 1 - F(v.h), as many lessons have it; of metallic_roughness with the F of "
-    "dielectric and metal mixed, so that part metals are dark. none: all of it.";
+    "How much light reaches the diffuse base. albedo_scaled: what the albedo of the dielectric's "
+    "lobe leaves, so that a white surface reflects exactly all light, at every metallic. "
+    "one_minus_fresnel: 1 - F(v.h), as in many lessons; in metallic_roughness F is that of "
+    "dielectric and metal mixed, which makes partial metals too dark. none: all of it.";
 constexpr std::string_view kDiffuseMeaning =
-    "How the diffuse base reflects. oren_nayar: EON (Portsmouth et al. 2025), which keeps energy. "
-    "burley: Burley 2012, which does not.";
+    "Reflection model of the diffuse base. oren_nayar: EON (Portsmouth et al. 2025), which "
+    "conserves energy. burley: Burley 2012, which does not.";
 
 constexpr MaterialParameter kEmission =
     Color<&Material::emission>("emission", limits::kRadiance, "Emitted radiance.");
 constexpr MaterialParameter kOpacity = Number<&Material::opacity>(
     "opacity", limits::kUnit,
-    "Meshes only: the surface is there where this, times its map, is at least opacity_cutoff; "
-    "elsewhere no ray meets it. Nothing is half transparent.");
+    "Meshes only: the surface exists where its opacity, times the map, is at least opacity_cutoff; "
+    "elsewhere all rays pass through. Nothing is semi-transparent.");
 constexpr MaterialParameter kOpacityCutoff = Number<&Material::opacity_cutoff>(
-    "opacity_cutoff", limits::kOpacityCutoff, "As glTF's alphaCutoff. Above 1 nothing is left.");
+    "opacity_cutoff", limits::kOpacityCutoff, "As glTF's alphaCutoff. Above 1 no surface is left.");
 
 constexpr std::array kLambertParameters = {
     Color<&LambertMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
@@ -149,7 +152,7 @@ constexpr std::array kLambertParameters = {
 constexpr std::array kOrenNayarParameters = {
     Color<&OrenNayarMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
     Number<&OrenNayarMaterial::roughness>("roughness", limits::kUnit,
-                                          "The model's own. 0: Lambert."),
+                                          "The model's own roughness. 0: Lambert."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
@@ -159,22 +162,21 @@ constexpr std::array kBurleyParameters = {
     Color<&BurleyMaterial::albedo>("albedo", limits::kUnit, "Reflectance."),
     Number<&BurleyMaterial::roughness>(
         "roughness", limits::kUnit,
-        "Perceptual. Below 0.5 darker, above it brighter towards grazing angles."),
+        "Perceptual roughness. Towards grazing angles darker below 0.5, brighter above."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
 };
 
 constexpr std::array kPhongParameters = {
-    Color<&PhongMaterial::color>("color", limits::kUnit, "Multiplies ambient and diffuse."),
+    Color<&PhongMaterial::color>("color", limits::kUnit, "Multiplies ka and kd."),
     Color<&PhongMaterial::ka>("ka", limits::kUnit, "Ambient coefficient."),
     Color<&PhongMaterial::kd>("kd", limits::kUnit, "Diffuse coefficient."),
     Color<&PhongMaterial::ks>("ks", limits::kUnit, "Specular coefficient."),
     Number<&PhongMaterial::shininess>(
         "shininess", limits::kExponent,
-        "Exponent of the highlight's cosine. At 0 the lobe is 1 in all "
-        "directions, those behind its axis too, as 0^0 is 1; any "
-        "exponent above 0 leaves nothing there."),
+        "Exponent n of the highlight. With n = 0 the lobe is 1 in all directions, also behind its "
+        "axis (0^0 is 1); any n above 0 leaves nothing there."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
@@ -182,39 +184,42 @@ constexpr std::array kPhongParameters = {
 
 constexpr std::array kMetallicRoughnessParameters = {
     Color<&MetallicRoughnessMaterial::base_color>(
-        "base_color", limits::kUnit, "Diffuse colour of dielectrics, reflectance of metals."),
+        "base_color", limits::kUnit,
+        "Diffuse colour of a dielectric; reflectance of a metal at normal incidence."),
     Number<&MetallicRoughnessMaterial::metallic>(
         "metallic", limits::kUnit,
-        "0: dielectric, 1: metal. Between: what both reflect, mixed, as glTF 2.0 has it."),
+        "0: dielectric, 1: metal. In between, what the two reflect is blended, as in glTF 2.0."),
     Number<&MetallicRoughnessMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
     Color<&MetallicRoughnessMaterial::dielectric_f0>(
         "dielectric_f0", limits::kUnit,
-        "What is reflected at normal incidence where there is no metal: ((ior - 1) / (ior + 1))^2 "
-        "of an index of refraction."),
+        "Reflectance of the dielectric at normal incidence; for an index of refraction it is "
+        "((ior - 1) / (ior + 1))^2."),
     Number<&MetallicRoughnessMaterial::specular>(
         "specular", limits::kUnit,
-        "How much of a dielectric's reflection there is, at all angles; 0: none, a matte surface. "
-        "Metal keeps its own."),
+        "Strength of the dielectric's specular reflection, at all angles. 0: none, a matte "
+        "surface. "
+        "Metals are not affected."),
     Color<&MetallicRoughnessMaterial::f82_tint>(
         "f82_tint", limits::kUnit,
-        "What the reflectance of a metal at 81.8 degrees (cosine 1/7) is multiplied by: the dip of "
-        "real metals before grazing. 1: Schlick's curve."),
+        "Factor on the reflectance of a metal at 81.8 degrees (cosine 1/7): the dip of real metals "
+        "before grazing angles (Kutz et al. 2021). 1: Schlick's curve."),
     BaseRoughness<MetallicRoughnessMaterial>(),
     Number<&MetallicRoughnessMaterial::coat>(
         "coat", limits::kUnit,
-        "How much clear coat there is over all of this: a dielectric's highlight of its own, which "
-        "what is below gets as much less light by."),
+        "Strength of a clear coat over all of this: a dielectric lobe of its own. The layers below "
+        "get the light that its albedo leaves."),
     Number<&MetallicRoughnessMaterial::coat_roughness>("coat_roughness", limits::kUnit,
                                                        kRoughnessMeaning),
     Number<&MetallicRoughnessMaterial::coat_ior>("coat_ior", limits::kIor,
                                                  "Index of refraction of the coat."),
     Color<&MetallicRoughnessMaterial::sheen_color>(
         "sheen_color", limits::kUnit,
-        "Colour of a layer of fuzz, as on velvet, which is bright where it is grazed (Estevez and "
-        "Kulla 2017). What is below gets what its albedo leaves. 0: none."),
+        "Colour of the sheen, the fuzz of velvet, which is bright at grazing angles (Estevez and "
+        "Kulla 2017). The layers below get the light that its albedo leaves. 0: none."),
     Number<&MetallicRoughnessMaterial::sheen_roughness>(
         "sheen_roughness", limits::kUnit,
-        "How far from the outline the fuzz shows: alpha is its square. 0: it shows nowhere."),
+        "Roughness of the sheen: alpha is its square. The larger, the farther from the outline it "
+        "shows; 0: nowhere."),
     kEmission,
     kOpacity,
     kOpacityCutoff,
@@ -222,9 +227,9 @@ constexpr std::array kMetallicRoughnessParameters = {
 
 constexpr std::array kConductorParameters = {
     Color<&ConductorMaterial::eta>("eta", limits::kEta,
-                                   "Real part of the index, one number or [r, g, b]."),
+                                   "Real part of the complex index of refraction."),
     Color<&ConductorMaterial::k>("k", limits::kExtinction,
-                                 "Extinction coefficient, one number or [r, g, b]."),
+                                 "Extinction coefficient: its imaginary part."),
     Number<&ConductorMaterial::roughness>("roughness", limits::kUnit, kRoughnessMeaning),
     kEmission,
     kOpacity,
@@ -279,11 +284,12 @@ constexpr MaterialChoice kDielectricPreset = {
 constexpr std::array kPhongChoices = {Choice<&PhongMaterial::convention>(
     "convention", kConventions,
     "radiometric: kd / pi, and lobes normalised so that ks is the share that they reflect of light "
-    "from along the normal. Seen along the normal under light from everywhere that is ks of "
-    "modified_phong too, but ks (n + 2) / (n + 1) of phong and 1.13 ks (n = 32) to 2 ks (n = 0) of "
-    "blinn_phong: without n.l they make light, of light that grazes the surface any multiple; "
-    "render notes what exceeds 1. classic: the equations as the lessons write them, without "
-    "either, and no reflectances.")};
+    "from along the normal. Under light from everywhere, seen along the normal, modified_phong "
+    "reflects ks, too, but phong ks (n + 2) / (n + 1) and blinn_phong from 1.13 ks (n = 32) to 2 "
+    "ks "
+    "(n = 0): they have no n.l, and gain energy, of light at grazing angles without bound; render "
+    "notes what exceeds 1. classic: the equations as lessons write them, without these factors; "
+    "the coefficients are not reflectances.")};
 constexpr std::array kMetallicRoughnessChoices = {
     Choice<&MetallicRoughnessMaterial::shadowing>("shadowing", kShadowings, kShadowingMeaning),
     Choice<&MetallicRoughnessMaterial::compensation>("compensation", kCompensations,
@@ -322,7 +328,7 @@ constexpr MaterialMap Map(std::string_view name, MapUse use, std::string_view me
 constexpr MaterialMap kOpacityMap = Map<&Material::opacity_map>(
     "opacity_map", MapUse::kOpacity,
     "Multiplies opacity: the image's alpha, or its first channel where the texture's encoding is "
-    "linear. Looked up in the image itself, never in a smaller copy.");
+    "linear. Looked up in the full-resolution image, never in a mip level.");
 template <class Struct>
 constexpr MaterialMap AlbedoMap() {
   return Map<&Struct::albedo_map>("albedo_map", MapUse::kColor, "Multiplies albedo.",
@@ -342,8 +348,7 @@ constexpr std::array kLambertMaps = {AlbedoMap<LambertMaterial>(), kEmissionMap,
 constexpr std::array kOrenNayarMaps = {AlbedoMap<OrenNayarMaterial>(), kEmissionMap, kOpacityMap};
 constexpr std::array kBurleyMaps = {AlbedoMap<BurleyMaterial>(), kEmissionMap, kOpacityMap};
 constexpr std::array kPhongMaps = {
-    Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor,
-                                     "Multiplies color, and so kd and ka.",
+    Map<&PhongMaterial::diffuse_map>("diffuse_map", MapUse::kColor, "Multiplies color.",
                                      Target<&PhongMaterial::color>(MappedNumber::kColor)),
     Map<&PhongMaterial::specular_map>("specular_map", MapUse::kColor, "Multiplies ks.",
                                       Target<&PhongMaterial::ks>(MappedNumber::kSpecularColor)),
@@ -355,12 +360,12 @@ constexpr std::array kMetallicRoughnessMaps = {
     BaseColorMap<MetallicRoughnessMaterial>(),
     Map<&MetallicRoughnessMaterial::metallic_roughness_map>(
         "metallic_roughness_map", MapUse::kTwoData,
-        "As in glTF: green multiplies roughness, blue metallic.",
+        "Green multiplies roughness, blue metallic, as in glTF.",
         Target<&MetallicRoughnessMaterial::roughness>(MappedNumber::kWidth, 1),
         Target<&MetallicRoughnessMaterial::metallic>(MappedNumber::kMetallic, 2)),
     Map<&MetallicRoughnessMaterial::specular_map>(
         "specular_map", MapUse::kData,
-        "Multiplies specular, by its first channel; glTF has it in alpha (encoding).",
+        "Its first channel multiplies specular; in glTF it is alpha (a texture's encoding).",
         Target<&MetallicRoughnessMaterial::specular>(MappedNumber::kSpecular)),
     Map<&MetallicRoughnessMaterial::specular_color_map>(
         "specular_color_map", MapUse::kColor, "Multiplies dielectric_f0.",
@@ -368,16 +373,16 @@ constexpr std::array kMetallicRoughnessMaps = {
     kEmissionMap,
     kOpacityMap,
     Map<&MetallicRoughnessMaterial::coat_map>("coat_map", MapUse::kData,
-                                              "Multiplies coat, by its first channel."),
+                                              "Its first channel multiplies coat."),
     Map<&MetallicRoughnessMaterial::coat_roughness_map>(
         "coat_roughness_map", MapUse::kTwoData,
-        "Multiplies coat_roughness; as in glTF, by its green channel."),
+        "Its green channel multiplies coat_roughness, as in glTF."),
     Map<&MetallicRoughnessMaterial::sheen_color_map>(
         "sheen_color_map", MapUse::kColor, "Multiplies sheen_color.",
         Target<&MetallicRoughnessMaterial::sheen_color>(MappedNumber::kSheenColor)),
     Map<&MetallicRoughnessMaterial::sheen_roughness_map>(
         "sheen_roughness_map", MapUse::kData,
-        "Multiplies sheen_roughness, by its first channel; glTF has it in alpha (encoding).",
+        "Its first channel multiplies sheen_roughness; in glTF it is alpha (a texture's encoding).",
         Target<&MetallicRoughnessMaterial::sheen_roughness>(MappedNumber::kSheenRoughness))};
 constexpr std::array kConductorMaps = {RoughnessMap<ConductorMaterial>(), kEmissionMap,
                                        kOpacityMap};
@@ -393,7 +398,7 @@ constexpr std::array kMetallicRoughnessNormalMaps = {
                       [](Material& material) -> NormalMap& {
                         return std::get<MetallicRoughnessMaterial>(material.model).coat_normal_map;
                       },
-                      "Of the coat, which normal_map is not for."}};
+                      "Of the coat, which normal_map does not affect."}};
 
 template <typename Model>
 Material Make() {
@@ -448,8 +453,8 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      "emission=0:0.2:3",
      kAlbedoAxis},
     {"oren_nayar",
-     "Oren-Nayar: rough and perfectly diffuse, as clay or the moon (EON, Portsmouth et al. 2025, "
-     "which keeps energy)",
+     "Oren-Nayar: rough and diffuse, as clay or the moon; the EON form (Portsmouth et al. 2025), "
+     "which conserves energy",
      Make<OrenNayarMaterial>,
      Holds<OrenNayarMaterial>,
      kOrenNayarParameters,
@@ -459,7 +464,8 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      kMatteAxis,
      kAlbedoAxis},
     {"burley",
-     "Burley 2012: Disney's diffuse term, which reflects up to 1.56 times the light that grazes it",
+     "Burley: Disney's diffuse term of 2012, which reflects up to 1.56 times the light that grazes "
+     "it",
      Make<BurleyMaterial>,
      Holds<BurleyMaterial>,
      kBurleyParameters,
@@ -468,16 +474,19 @@ constexpr std::array<MaterialModel, 9> kModels = {{
      kNormalMaps,
      kMatteAxis,
      kAlbedoAxis},
-    {"metallic_roughness", "Metallic-roughness as in glTF 2.0: GGX and Schlick's Fresnel",
+    {"metallic_roughness",
+     "Metallic-roughness as in glTF 2.0: GGX lobes with Schlick's Fresnel, over a diffuse base",
      Make<MetallicRoughnessMaterial>, Holds<MetallicRoughnessMaterial>,
      kMetallicRoughnessParameters, kMetallicRoughnessChoices, kMetallicRoughnessMaps,
      kMetallicRoughnessNormalMaps, kRoughnessAxis, "metallic=0:1:5"},
-    {"conductor", "Conductor: a bare metal, by its complex index of refraction eta - i k",
+    {"conductor",
+     "Conductor: a bare metal of complex index of refraction eta - i k, with a GGX lobe",
      Make<ConductorMaterial>, Holds<ConductorMaterial>, kConductorParameters, kConductorChoices,
      kConductorMaps, kNormalMaps, kRoughnessAxis, "preset=gold,silver,copper,iron,aluminium"},
     {"dielectric",
-     "Dielectric: a clear coat over a diffuse base. Nothing is transmitted: a black base shows the "
-     "reflection of glass alone.",
+     "Dielectric: a GGX lobe over a diffuse base. Nothing is transmitted: over a black base it "
+     "shows "
+     "the reflection of glass alone",
      Make<DielectricMaterial>, Holds<DielectricMaterial>, kDielectricParameters, kDielectricChoices,
      kDielectricMaps, kNormalMaps, kRoughnessAxis, "ior=1.1,1.33,1.5,1.8,2.4"},
 }};
