@@ -152,63 +152,63 @@ int RunCompare(const CompareArguments& arguments) {
 
 void AddCompareCommand(CLI::App* app, int* exit_code) {
   CLI::App* command = app->add_subcommand(
-      "compare", "Compare an image with a reference: metrics per layer, a verdict, a heat map");
+      "compare", "Compare an image with a reference: metrics per layer, verdict, heat map");
   const auto a = std::make_shared<CompareArguments>();
   command->add_option("IMAGE", a->image, "Image to judge")->required();
-  command->add_option("REFERENCE", a->reference, "What it should be")->required();
+  command->add_option("REFERENCE", a->reference, "Image to compare it with")->required();
   command
       ->add_option("--layers", a->options.layers,
-                   "Layers to compare, e.g. beauty,diffuse; without it all, and the images must "
-                   "then have the same")
+                   "Layers to compare, e.g. beauty,diffuse; if not given all, which must then be "
+                   "the same in both images")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--part", a->part, "Only this part of EXR files that have several");
+  command->add_option("--part", a->part, "Part of EXR files that have several");
   command->add_flag("--crop", a->options.crop,
-                    "Compare the pixels that both have where their windows differ, which is a "
-                    "difference otherwise");
+                    "Compare only the pixels that both images have; if not given, display windows "
+                    "that differ are a difference");
   const std::string tolerance = "Tolerances (without any, images must be equal)";
   const auto not_negative = InRange(0, 1e30);
-  command->add_option("--max-abs", a->tolerances.max_abs, "Allowed |difference| of a sample, plus")
+  command
+      ->add_option("--max-abs", a->tolerances.max_abs,
+                   "A sample may differ by this plus --max-rel times |reference|")
       ->check(not_negative)
       ->group(tolerance);
   command
-      ->add_option(
-          "--max-rel", a->tolerances.max_rel,
-          "this times |reference|: with --max-abs 0 the most that \"max rel\" may be, and no "
-          "difference where the reference is 0")
+      ->add_option("--max-rel", a->tolerances.max_rel,
+                   "Relative tolerance, added to --max-abs; with --max-abs 0, samples whose "
+                   "reference is 0 must be equal")
       ->check(not_negative)
       ->group(tolerance);
   command
       ->add_option("--fraction", a->tolerances.exceeding_fraction,
-                   "Share of the pixels that may exceed both")
+                   "Share of the pixels that may exceed these two")
       ->check(InRange(0, 1))
       ->group(tolerance);
   command
-      ->add_option(
-          "--rmse", a->tolerances.rmse,
-          "Allowed RMSE of a layer; of single samples nothing is asked if this is the only "
-          "tolerance")
+      ->add_option("--rmse", a->tolerances.rmse,
+                   "Allowed RMSE of a layer; if it is the only tolerance, single samples may "
+                   "differ by any amount")
       ->check(not_negative)
       ->group(tolerance);
   AddPerceptualOptions(command, &a->perceptual);
   const std::string map = "Heat map";
-  command->add_option("--heat-map", a->heat_map, "PNG of where and how much they differ")
+  command->add_option("--heat-map", a->heat_map, "PNG file that shows the error of each pixel")
       ->group(map);
-  command->add_option("--heat-layer", a->heat_layer, "Layer that it shows (the beauty)")
+  command->add_option("--heat-layer", a->heat_layer, "Layer to show (the beauty, if not given)")
       ->group(map);
   command->add_option("--heat-low", a->heat_scale.low, "Error at the dark end of the scale")
       ->check(InRange(1e-30, 1e30))
       ->capture_default_str()
       ->group(map);
-  command->add_option("--heat-high", a->heat_scale.high, "Error at its bright end")
+  command->add_option("--heat-high", a->heat_scale.high, "Error at the bright end of the scale")
       ->check(InRange(1e-30, 1e30))
       ->capture_default_str()
       ->group(map);
   command
       ->add_flag("--absolute", a->absolute,
-                 "Absolute errors in place of those relative to sqrt(reference^2 + 0.01^2)")
+                 "Show absolute errors, not errors relative to sqrt(reference^2 + 0.01^2)")
       ->group(map);
-  command->add_flag("--json", a->json, "Print JSON");
+  command->add_flag("--json", a->json, "Print the result as JSON");
   MoveBehindHelpAll(command, {"--part", "--crop", "--fraction", "--heat-layer", "--heat-low",
                               "--heat-high", "--absolute"});
   command->footer(

@@ -150,25 +150,25 @@ void RunConvert(const ConvertArguments& arguments, const CLI::App& command) {
 }  // namespace
 
 void AddConvertCommand(CLI::App* app, int*) {
-  CLI::App* command =
-      app->add_subcommand("convert", "Find the nearest material of another model: Phong <-> PBR");
+  CLI::App* command = app->add_subcommand(
+      "convert", "Find the nearest material of another model, Phong to PBR and back");
   const auto arguments = std::make_shared<ConvertArguments>();
   command->add_option("MATERIAL", arguments->material, "A model's name, or a material as JSON")
       ->required();
   std::vector<std::string> targets(FitTargets().begin(), FitTargets().end());
   command
       ->add_option("--to", arguments->to,
-                   fmt::format("The model wanted: {}", fmt::join(targets, ", ")))
+                   fmt::format("Model to convert to: {}", fmt::join(targets, ", ")))
       ->check(CLI::IsMember(targets))
       ->capture_default_str();
   command
       ->add_option("--curves", arguments->curves,
-                   "File for the lobes of original, closed form and fit over the light's angle, "
+                   "Draw the lobes of original, closed form and fit over the light's angle, as "
                    ".svg, .png or .csv; repeatable")
       ->type_name("FILE")
       ->allow_extra_args(false);
   command->add_flag("--json", arguments->json,
-                    "Print materials, residuals and what is lost as JSON");
+                    "Print materials, residuals and what the model cannot express as JSON");
   AddSheetOptions(command, &arguments->sheet, &arguments->options);
   command->get_option("--output")->required(false);
   command->footer(

@@ -189,10 +189,11 @@ std::string ModelAxes(std::string_view MaterialModel::*axis) {
 }
 
 constexpr char kAxisHelp[] =
-    "What varies {}: PARAMETER=FROM:TO:COUNT (both ends included; :log for equal ratios) or "
-    "PARAMETER=A,B,C. A parameter is a number, a colour (#rrggbb or [r,g,b], mixed in linear "
-    "light), a choice (shadowing=height_correlated,separable) or material, for whole models by "
-    "name or as JSON";
+    "Parameter that varies {}: PARAMETER=FROM:TO:COUNT (both ends included; :log "
+    "for equal ratios) or PARAMETER=A,B,C. A parameter is a number, a colour "
+    "(#rrggbb or [r,g,b], mixed in linear light), a choice "
+    "(shadowing=height_correlated,separable) or material, for whole models by name "
+    "or as JSON";
 
 }  // namespace
 
@@ -203,16 +204,16 @@ void AddGridCommand(CLI::App* app, int*) {
   command
       ->add_option("--rows", arguments->rows,
                    fmt::format(kAxisHelp, "downwards") +
-                       ". Unless given, what the model has: " + ModelAxes(&MaterialModel::rows))
+                       ". Default by model: " + ModelAxes(&MaterialModel::rows))
       ->type_name("AXIS");
   command
       ->add_option("--columns", arguments->columns,
                    fmt::format(kAxisHelp, "to the right") +
-                       ". Unless given, what the model has: " + ModelAxes(&MaterialModel::columns))
+                       ". Default by model: " + ModelAxes(&MaterialModel::columns))
       ->type_name("AXIS");
   command
       ->add_option("--material", arguments->material,
-                   "What the axes do not vary: a model's name, or a material as JSON")
+                   "Material whose parameters vary: a model's name, or a material as JSON")
       ->capture_default_str();
   AddSheetOptions(command, &arguments->sheet, &arguments->options);
   command->footer(

@@ -11,6 +11,7 @@
 #include "base/target.h"
 #include "base/version.h"
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/render_options.h"
 #include "image_io/image_file.h"
@@ -112,8 +113,8 @@ void PrintBuild() {
 }  // namespace
 
 void AddInfoCommand(CLI::App* app, int*) {
-  CLI::App* command =
-      app->add_subcommand("info", "Show what image and scene files hold; alone, about this build");
+  CLI::App* command = app->add_subcommand(
+      "info", "Show what images and scenes hold; without a file, about this build");
   struct InfoArguments {
     std::vector<std::string> files;
     std::string part;
@@ -124,13 +125,15 @@ void AddInfoCommand(CLI::App* app, int*) {
   command->add_option(
       "FILE", arguments->files,
       "Images (EXR, PNG, ...), scenes (.json) and models (.gltf, .glb, .obj, .ply)");
-  command->add_option("--part", arguments->part, "Only this part of EXR files that have several");
+  command->add_option("--part", arguments->part, "Part of EXR files that have several");
   command->add_flag("--allow-paths", arguments->load.allow_paths,
                     "Let scenes refer to files outside their own folder");
   AddMaxPrimitivesOption(command, &arguments->load.max_primitives);
-  command->add_flag("--verify", arguments->verify,
-                    "Read and decode all of each image and compare its checksums: 65 if one is not "
-                    "whole. EXR files of nacre have one in their header");
+  command->add_flag(
+      "--verify", arguments->verify,
+      "Decode each image completely and compare its checksums; exit code 65 if one is "
+      "damaged. EXR files of nacre have a checksum in their header");
+  MoveBehindHelpAll(command, {"--max-primitives"});
   command->footer(
       "Examples:\n"
       "  nacre info render.exr\n"

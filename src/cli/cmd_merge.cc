@@ -162,19 +162,21 @@ void AddMergeCommand(CLI::App* app, int*) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
-  command->add_flag("--small", arguments->small, "Smaller PNG files, several times slower");
+  command->add_flag("--small", arguments->small,
+                    "Smaller PNG files, several times slower to write");
   command->add_flag("--quiet", arguments->quiet, "Print nothing but errors");
   command->footer(
-      "The tiles must be of one picture (scene, settings, SIMD target, build, layers, "
-      "compression)\n"
-      "and hold each of its rows once, and be what was written: tiles whose checksum is wrong are\n"
-      "refused, all by name, and those without one decoded. Compressed rows are copied as they "
-      "are,\n"
-      "so the EXR file has the bits of the picture rendered at once; its render time is the sum "
-      "of\n"
-      "theirs. It is on the disk when the program ends; nacre info --verify reads it back.\n"
-      "PNG files have the codes of one rendered at once if the tiles are of --depth float; halves\n"
-      "are rounded, which some pixels show by one code.\n"
+      "The tiles must belong to one picture (scene, settings, SIMD target, build, layers,\n"
+      "compression) and hold each of its rows once. Tiles whose checksum is wrong are refused, "
+      "all of\n"
+      "them by name; those without a checksum are decoded completely. Compressed rows are copied "
+      "as\n"
+      "they are, so the EXR file has the bits of the picture rendered at once; its render time "
+      "is the\n"
+      "sum of the tiles'. It is on the disk when the program ends; nacre info --verify reads it "
+      "back.\n"
+      "PNG files of tiles with --depth float equal those of nacre render; of half-precision tiles\n"
+      "some pixels differ by one code.\n"
       "Example:\n"
       "  nacre render scene.json -o 0.exr --tile 0/2\n"
       "  nacre render scene.json -o 1.exr --tile 1/2\n"

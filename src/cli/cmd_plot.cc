@@ -141,7 +141,7 @@ const std::vector<PlotKind> kPlotKinds = {
      DrawBrdf,
      {"--material", "--angle", "--channel", "--log", "--cosine", "--kernel"}},
     {"polar",
-     "what light from one angle leaves by, as a lobe",
+     "how light from one angle is reflected, as a lobe",
      DrawPolar,
      {"--material", "--angle", "--channel", "--kernel"}},
     {"slice",
@@ -155,7 +155,7 @@ const std::vector<PlotKind> kPlotKinds = {
      DrawFresnel,
      {"--material", "--channel"}},
     {"albedo",
-     "how much light is reflected in all, over the angle",
+     "the directional albedo: how much light is reflected in all",
      DrawAlbedo,
      {"--material", "--channel", "--one-light"}},
     {"tone", "every tone operator", DrawTone, {"--exposure"}},
@@ -228,10 +228,12 @@ void RunPlot(const PlotArguments& arguments, const CLI::App& command) {
 }
 
 std::string KindHelp() {
-  std::string help;
-  for (const PlotKind& kind : kPlotKinds)
-    help += fmt::format("{}{}: {}", help.empty() ? "" : "; ", kind.name, kind.help);
-  return help;
+  std::string names, kinds;
+  for (const PlotKind& kind : kPlotKinds) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", kind.name);
+    kinds += fmt::format("; {}: {}", kind.name, kind.help);
+  }
+  return names + kinds;
 }
 
 void AddPlotOptions(CLI::App* command, PlotArguments* a) {
@@ -259,25 +261,25 @@ void AddPlotOptions(CLI::App* command, PlotArguments* a) {
 void AddCurveOptions(CLI::App* command, PlotArguments* a) {
   command
       ->add_option("--angle", a->curves.angles_deg,
-                   "Degrees from the normal: of the viewer (brdf) or the light (polar); several by "
-                   "commas (45 if not given)")
+                   "Degrees from the normal, of the viewer (brdf) or the light (polar); several "
+                   "are separated by commas (45 if not given)")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(InRange(0, 89.9));
-  command->add_option("--channel", a->channel, "Of colours: luminance, red, green or blue")
+  command->add_option("--channel", a->channel, "Channel of colours: luminance, red, green or blue")
       ->check(CLI::IsMember({"luminance", "red", "green", "blue"}))
       ->capture_default_str();
-  command->add_flag("--log", a->curves.log, "Logarithmic BRDF");
-  command->add_flag("--cosine", a->curves.times_cosine, "The BRDF times the light's cosine");
+  command->add_flag("--log", a->curves.log, "Logarithmic scale (brdf)");
+  command->add_flag("--cosine", a->curves.times_cosine, "Multiply the BRDF by the light's cosine");
   command->add_flag("--kernel", a->curves.kernel,
-                    "Also, as marks, what the SIMD kernels compute in float (brdf, polar)");
+                    "Add, as marks, what the SIMD kernels compute in float (brdf, polar)");
   command->add_flag("--one-light", a->one_light,
-                    "Of light from one angle, all that is reflected (albedo); else what is seen at "
-                    "that angle under equal light from everywhere");
-  command->add_option("--exposure", a->exposure, "In stops (tone)")
+                    "The share of light from one angle that is reflected (albedo); if not given, "
+                    "what is seen at that angle under equal light from everywhere");
+  command->add_option("--exposure", a->exposure, "Exposure in stops (tone)")
       ->check(InRange(-60, 60))
       ->capture_default_str();
-  command->add_option("--title", a->title, "Written above");
+  command->add_option("--title", a->title, "Title above the diagram");
   command
       ->add_option("--size", a->size,
                    "Width and height in pixels (1280x800; of several slices 800x640 each)")
@@ -297,12 +299,12 @@ void AddPlotCommand(CLI::App* app, int*) {
   AddPlotOptions(command, arguments.get());
   AddCurveOptions(command, arguments.get());
   command->footer(
-      "Numbers are computed in double by the scalar twins of the kernels. gnuplot draws.\n"
+      "Curves are computed in double by the formulas of the papers and drawn by gnuplot.\n"
       "Examples:\n"
       "  nacre plot fresnel -o fresnel.png\n"
       "  nacre plot brdf --angle 30,60 --log --material phong --material blinn_phong -o brdf.svg\n"
-      "  nacre plot polar --material '{\"model\": \"metallic_roughness\", \"roughness\": 0.3}' -o "
-      "lobe.png\n"
+      "  nacre plot polar --material '{\"model\": \"metallic_roughness\", \"roughness\": 0.3}' "
+      "-o lobe.png\n"
       "  nacre plot slice --material phong --material metallic_roughness -o slices.png\n"
       "  nacre plot albedo --scene scenes/first_scene.json -o albedo.svg -o albedo.csv\n"
       "  nacre plot falloff -o falloff.png");

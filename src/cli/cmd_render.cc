@@ -12,7 +12,8 @@
 namespace nacre {
 
 void AddRenderCommand(CLI::App* app, int*) {
-  CLI::App* command = app->add_subcommand("render", "Render a scene file to EXR and PNG");
+  CLI::App* command =
+      app->add_subcommand("render", "Render a scene file or a model to EXR and PNG");
   struct RenderArguments {
     std::string scene;
     std::string preset;
@@ -29,14 +30,15 @@ void AddRenderCommand(CLI::App* app, int*) {
                    "textbook: the picture of the founding lesson that SCENE resembles, made by the "
                    "lesson's own program, faults and all. SCENE only chooses between its two "
                    "pictures: numbers, camera and lights are the lesson's, and so is the size "
-                   "(400x200, 600x400) unless --size is given. EXR holds its float image, "
-                   "display-referred, in float; PNG its codes, x * 255 truncated. See nacre "
-                   "explain textbook")
+                   "(400x200, 600x400) unless --size is given. The EXR file holds its float image, "
+                   "display-referred; the PNG file its codes, x * 255 truncated. See nacre explain "
+                   "textbook")
       ->check(CLI::IsMember({"textbook"}));
   command
       ->add_option("--environment", arguments->environment,
-                   "An image of the surroundings (latitude and longitude, EXR or HDR) in the place "
-                   "of the scene's lights; --set /lights/environment/rotate_deg=90 turns it")
+                   "Light the scene by this image of its surroundings instead of its own lights "
+                   "(latitude and longitude, EXR or HDR); --set /lights/environment/rotate_deg=90 "
+                   "turns it")
       ->type_name("FILE")
       ->group("Picture");
   AddRenderOptions(command, &arguments->options);

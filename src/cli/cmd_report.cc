@@ -121,25 +121,25 @@ void RunReport(const ReportArguments& arguments) {
 
 void AddReportCommand(CLI::App* app, int*) {
   CLI::App* command = app->add_subcommand(
-      "report", "One HTML file to look at and pass on: pictures, comparisons, measurements");
+      "report", "Make an HTML page of pictures, comparisons, validations or benchmarks");
   const auto a = std::make_shared<ReportArguments>();
   a->perceptual.metrics = {"all"};
-  command->add_option("OUT.html", a->output, "File to write; nothing else is needed to read it")
+  command->add_option("OUT.html", a->output, "HTML file to write; it needs no other file")
       ->required();
   command
       ->add_option("INPUT", a->inputs,
-                   "Images (EXR, PNG, ...); scenes and models, which are rendered; the JSON of "
-                   "render --stats after its image; a folder of references, which is validated; "
-                   "the bench.json of scripts/bench")
+                   "Images, scenes and models, folders of references, bench.json of scripts/bench; "
+                   "scenes and models are rendered, references validated. The JSON of render "
+                   "--stats may follow its image")
       ->required();
   command->add_option("--reference", a->reference,
-                      "Which of several pictures the others are compared with (the second)");
+                      "Picture that the others are compared with (the second, if not given)");
   command->add_option("--part", a->part, "Part of EXR files that have several");
   command->add_option("--title", a->title, "Title of the page");
   command
       ->add_option("--limit", a->limit_mib,
-                   "MiB of samples, before they are compressed. Pictures that have more are shown "
-                   "in half floats, then smaller, and the page says so")
+                   "Most MiB of samples, before they are compressed. Pictures that have more are "
+                   "shown in half precision, then smaller, and the page says so")
       ->check(InRange(0.01, 2048))
       ->capture_default_str();
   AddPerceptualOptions(command, &a->perceptual);
@@ -153,9 +153,8 @@ void AddReportCommand(CLI::App* app, int*) {
   AddMachineOptions(command, &a->render);
   MoveBehindHelpAll(command, {"--limit"});
   command->footer(
-      "Pictures keep their samples, so that the page has an exposure slider, nacre's tone "
-      "operators\n"
-      "and the linear values of every pixel. Press ? in the page for its keys.\n"
+      "The page keeps the pictures' samples, so that it has an exposure slider, nacre's tone\n"
+      "operators and the linear values of every pixel. Press ? in it for its keys.\n"
       "Examples:\n"
       "  nacre report look.html scenes/material_grid.json --layers all\n"
       "  nacre report diff.html render.exr reference.exr --ppd 40\n"

@@ -137,7 +137,7 @@ void RunTonemap(const TonemapArguments& arguments) {
 }  // namespace
 
 void AddTonemapCommand(CLI::App* app, int*) {
-  CLI::App* command = app->add_subcommand("tonemap", "Tone-map a linear image (EXR) to a PNG");
+  CLI::App* command = app->add_subcommand("tonemap", "Tone-map a linear image (EXR, HDR) to PNG");
   const auto arguments = std::make_shared<TonemapArguments>();
   command->add_option("INPUT", arguments->input, "Linear image: EXR, HDR, ...")->required();
   command->add_option("-o,--output", arguments->output, "PNG file to write")->required();
@@ -145,7 +145,7 @@ void AddTonemapCommand(CLI::App* app, int*) {
                       "Layer to show instead of the beauty, e.g. diffuse");
   command->add_option("--part", arguments->part, "Part of an EXR file that has several");
   AddDisplayOptions(command, &arguments->tonemap, &arguments->exposure);
-  command->add_flag("--small", arguments->small, "Smaller file, several times slower");
+  command->add_flag("--small", arguments->small, "Smaller file, several times slower to write");
   command->footer(
       "Example:\n"
       "  nacre tonemap render.exr -o render.png --tonemap agx --exposure 0.5");

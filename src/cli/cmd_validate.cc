@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "cli/commands.h"
+#include "cli/help_text.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/references.h"
@@ -70,25 +71,25 @@ ExitCode Validate(const ValidateArguments& arguments) {
 
 void AddValidateCommand(CLI::App* app, int* exit_code) {
   CLI::App* command = app->add_subcommand(
-      "validate", "Render the scenes of a folder of references and compare with their images");
+      "validate", "Render the scenes of a folder and compare them with reference images");
   const auto a = std::make_shared<ValidateArguments>();
   command->add_option("DIR", a->folder, "Folder with *.reference.json files")
       ->capture_default_str();
   command
       ->add_option("--report", a->report,
-                   "Also one HTML file with all pictures, their references and errors")
+                   "Also write an HTML file with all pictures, references and errors")
       ->type_name("OUT.html");
   command
       ->add_option("--threads", a->references.threads,
-                   "Threads to use; 0: as many as the machine has")
+                   "Number of threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024));
   command->add_option("--target", a->target, "SIMD target: auto, avx3, avx2, sse4 or scalar")
       ->capture_default_str();
   command->add_flag("--allow-paths", a->references.allow_paths,
-                    "Let references name files outside their folder, and scenes, too");
+                    "Let references and their scenes name files outside their folder");
+  MoveBehindHelpAll(command, {"--threads", "--target", "--allow-paths"});
   command->footer(
-      "NAME.reference.json names a scene, its image by somebody else, tolerances and their "
-      "reason:\n"
+      "NAME.reference.json names a scene, its reference image, tolerances and their reason:\n"
       "  {\"scene\": \"ball.json\", \"image\": \"ball.exr\", \"layers\": [\"\"],\n"
       "   \"tolerances\": {\"max_rel\": 1e-5}, \"reason\": \"float shading in the other one\"}\n"
       "Exit code: 0 all match, 1 one differs, 2 one cannot be compared.\n"

@@ -131,28 +131,28 @@ Json LightsOf(const std::string& set_up, double reach, bool centred) {
 void AddLightingOptions(CLI::App* command, LightingOptions* options) {
   const std::string group = "Light";
   command
-      ->add_option(
-          "--light", options->light,
-          "point, studio, sky, rectangle or furnace. The point is at the upper right, in "
-          "split pairs above; a studio has key, fill and rim light; the sky is a gradient "
-          "from ground to zenith, the rectangle a soft box, and the furnace radiance 1 from "
-          "everywhere: what a white surface reflects whole is as bright as its ground")
+      ->add_option("--light", options->light,
+                   "point, studio, sky, rectangle or furnace. The point light is at the upper "
+                   "right (in split pairs: above); the studio has key, fill and rim light; the sky "
+                   "is a gradient from ground to zenith; the rectangle is a soft box; the furnace "
+                   "is radiance 1 from everywhere, before which a surface that reflects all light "
+                   "cannot be seen")
       ->check(CLI::IsMember({"point", "studio", "sky", "rectangle", "furnace"}))
       ->capture_default_str()
       ->group(group);
   command
       ->add_option("--lights", options->lights,
-                   "Other lights instead, as in scene files, or a scene whose lights to take")
+                   "Other lights instead: JSON as in scene files, or a scene whose lights to take")
       ->type_name("JSON|FILE")
       ->group(group);
   command
       ->add_option("--environment", options->environment,
-                   "An image of the surroundings (latitude and longitude, EXR or HDR) instead")
+                   "An image of the surroundings instead (latitude and longitude, EXR or HDR)")
       ->type_name("FILE")
       ->group(group);
   command
       ->add_option("--background", options->background,
-                   "What is behind the spheres: #rrggbb, [r,g,b] or one number, linear")
+                   "Background: #rrggbb, [r,g,b] or one number, linear")
       ->type_name("COLOR")
       ->group(group);
 }

@@ -72,9 +72,10 @@ void Parse(CLI::App* app, std::vector<std::string> reversed) {
 
 void AddCommands(CLI::App* app, int* exit_code) {
   app->formatter(std::make_shared<nacre::HelpFormatter>());
-  app->set_help_flag("-h,--help", "Print this help: what is used most");
-  app->set_help_all_flag("--help-all", "Print all options and all about them");
-  app->set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit));
+  app->set_help_flag("-h,--help", "Print the options that are used most");
+  app->set_help_all_flag("--help-all", "Print all options, in full");
+  app->set_version_flag("--version", fmt::format("nacre {} ({})", nacre::kVersion, nacre::kCommit),
+                        "Print version and commit");
   app->require_subcommand(1);
   app->footer(
       "Start with:  nacre render scenes/material_grid.json -o grid.png --labels\n"
@@ -104,7 +105,8 @@ void AddCommands(CLI::App* app, int* exit_code) {
 int Run(int argc, char** argv) {
   using nacre::ExitCode;
   CLI::App app(
-      "nacre renders shading models on spheres and meshes: exact hits, SIMD shading, HDR output.",
+      "nacre renders Phong, Blinn-Phong and physically based materials on spheres and "
+      "meshes, so that reflection models can be seen, measured and compared.",
       "nacre");
   int exit_code = 0;
   try {

@@ -103,7 +103,7 @@ std::string ManPage(const CLI::App& app) {
   std::string text = fmt::format(
       ".TH NACRE 1 \"\" \"nacre {}\" \"User Commands\"\n.SH NAME\nnacre \\- {}\n"
       ".SH SYNOPSIS\n\\fBnacre\\fR \\fICOMMAND\\fR [\\fIARGUMENTS\\fR]\n",
-      Roff(kVersion), "ray tracer for seeing and measuring reflection models");
+      Roff(kVersion), "CPU ray tracer for studying reflection models");
   text += ".SH DESCRIPTION\n" + Roff(app.get_description()) + "\n.SH OPTIONS\n";
   for (const CLI::Option* option : Options(app)) text += OptionEntry(*option);
   text += ".SH COMMANDS\n";

@@ -44,33 +44,32 @@ void ParseExposures(const std::string& text, PerceptualOptions* options) {
 }  // namespace
 
 void AddPerceptualOptions(CLI::App* command, PerceptualArguments* a) {
-  const std::string group = "Metrics of what is seen (layers with R, G and B)";
+  const std::string group = "Perceptual metrics (layers with R, G and B)";
   CLI::Option* const metrics = command->add_option(
       "--metrics", a->metrics,
-      "Besides those of numbers: ssim (structural similarity, 1: equal), flip (what is "
-      "seen to change when the pictures alternate, 0: nothing, 1: all), hdr_flip (the "
-      "same at every exposure; linear images), all or none");
+      "In addition: ssim (structural similarity, 1: equal), flip (visible difference "
+      "when the pictures alternate, 0: none, 1: most), hdr_flip (the same at several "
+      "exposures; linear images), all or none");
   metrics->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"ssim", "flip", "hdr_flip", "all", "none"}))
       ->group(group);
   if (!a->metrics.empty()) metrics->capture_default_str();
   command
-      ->add_option(
-          "--ppd", a->pixels_per_degree,
-          "FLIP: pixels per degree of vision. 67, without it, is a display 0.7 m wide with 3840 "
-          "pixels, 0.7 m away")
+      ->add_option("--ppd", a->pixels_per_degree,
+                   "FLIP: pixels per degree of vision. If not given 67: a display 0.7 m wide with "
+                   "3840 pixels, seen from 0.7 m")
       ->check(InRange(1, 1000))
       ->group(group);
   command
       ->add_option("--flip-exposures", a->exposures,
-                   "HDR-FLIP: from START to STOP stops in COUNT steps; without it from where the "
-                   "reference's brightest pixel is nearly white to where its median is")
+                   "HDR-FLIP: from START to STOP stops in COUNT steps; if not given, from where "
+                   "the reference's brightest pixel is nearly white to where its median is")
       ->type_name("START,STOP[,COUNT]")
       ->group(group);
   command
       ->add_option("--tonemap", a->tonemap,
-                   "How linear images are shown, for SSIM and FLIP, as nacre tonemap has it")
+                   "Tone operator that shows linear images to SSIM and FLIP; as in nacre tonemap")
       ->check(CLI::IsMember(ToneOperatorNames()))
       ->capture_default_str()
       ->group(group);

@@ -42,8 +42,8 @@ bool ParseIntegers(std::string_view text, char separator, size_t count, std::vec
 CLI::Option* AddMaxPrimitivesOption(CLI::App* command, std::optional<uint64_t>* max_primitives) {
   return command
       ->add_option("--max-primitives", *max_primitives,
-                   "How many spheres and triangles a file may be made into: 20 million if this is "
-                   "not given, fewer of a small model")
+                   "Most spheres and triangles that a file may be made into; if not given 20 "
+                   "million, of a small model fewer")
       ->check(CLI::Range(uint64_t{1}, limits::kMaxPrimitivesMade));
 }
 
@@ -77,33 +77,32 @@ void AddPictureOptions(CLI::App* command, RenderOptions* o) {
       ->check(CLI::Range(1, 65536))
       ->group(picture);
   command
-      ->add_option(
-          "--max-error", o->max_error,
-          "Sample until each pixel's error is below this part of its value, e.g. 0.01; with 95 % "
-          "confidence, and of 0.05 for darker pixels, of a white surface's value for highlights. "
-          "--spp is then the most samples a pixel takes (4096 if not given; rounded up to a power "
-          "of two), and how many pixels are still unsure after these is told")
+      ->add_option("--max-error", o->max_error,
+                   "Sample until each pixel's relative error is below this, e.g. 0.01; with 95 % "
+                   "confidence. Pixels darker than 0.05 count as 0.05, highlights brighter than "
+                   "white as white. --spp is then the most samples of a pixel (4096 if not given; "
+                   "rounded up to a power of two). Pixels that have not converged by then are "
+                   "reported")
       ->check(InRange(1e-6, 1))
       ->type_name("E")
       ->group(picture);
   command
       ->add_option("--region", o->region,
-                   "Render these pixels only, from the top left, x1 and y1 not included; the same "
-                   "bits as in the full frame")
+                   "Render only these pixels, counted from the top left, x1 and y1 excluded; the "
+                   "same bits as in the full frame")
       ->type_name("x0,y0,x1,y1")
       ->group(picture);
   command
-      ->add_option(
-          "--tile", o->tile,
-          "Render band i = 0 .. N-1 of N from the top: the same bits as in the full frame. "
-          "nacre merge puts the bands' EXR files together")
+      ->add_option("--tile", o->tile,
+                   "Render band i = 0 .. N-1 of N, counted from the top; the same bits as in the "
+                   "full frame. nacre merge puts the bands' EXR files together")
       ->type_name("i/N")
       ->group(picture);
   command->add_option("--seed", o->seed, "Seed of the sample pattern")->group(picture);
   command
       ->add_option("--set", o->sets,
-                   "Put a value into the scene before it is read, e.g. "
-                   "--set /materials/red/roughness=0.2; repeatable")
+                   "Change a value of the scene, e.g. /materials/red/roughness=0.2; repeatable. "
+                   "The value is put into the scene before it is read")
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false)
       ->group(picture);
@@ -121,20 +120,21 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group(exr);
-  command->add_option("--depth", o->depth, "Samples of colours: half or float")
+  command->add_option("--depth", o->depth, "Precision of colour samples: half or float")
       ->check(CLI::IsMember({"half", "float"}))
       ->capture_default_str()
       ->group(exr);
-  command->add_option("--compression", o->compression, "none, zip, zips, piz or dwaa")
+  command->add_option("--compression", o->compression, "Compression: none, zip, zips, piz or dwaa")
       ->check(CLI::IsMember(CompressionNames()))
       ->capture_default_str()
       ->group(exr);
-  command->add_flag("--small", o->small, "Smaller files (EXR and PNG), several times slower")
+  command
+      ->add_flag("--small", o->small, "Smaller files (EXR and PNG), several times slower to write")
       ->group(exr);
   command
       ->add_flag("--reproducible", o->reproducible,
-                 "Leave times out of the files and deflate them by zlib, some times slower: equal "
-                 "pictures make equal files")
+                 "Leave times out of the files and compress them with zlib (slower), so that "
+                 "equal pictures make equal files")
       ->group(exr);
   MoveBehindHelpAll(command, {"--depth", "--compression", "--small", "--reproducible"});
 }
@@ -143,7 +143,7 @@ void AddExrOptions(CLI::App* command, RenderOptions* o) {
 
 void AddMachineOptions(CLI::App* command, RenderOptions* o) {
   const std::string machine = "Machine";
-  command->add_option("--threads", o->threads, "Threads to use; 0: as many as the machine has")
+  command->add_option("--threads", o->threads, "Number of threads; 0: as many as the machine has")
       ->check(CLI::Range(0, 1024))
       ->group(machine);
   command
@@ -154,11 +154,13 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
       ->group(machine);
   command
       ->add_option("--intersector", o->intersector,
-                   "How camera rays find spheres: auto, embree or tiles; changes no bits")
+                   "How rays find spheres: auto, embree or tiles; changes no bits")
       ->check(CLI::IsMember(IntersectorNames()))
       ->capture_default_str()
       ->group(machine);
-  command->add_option("--tile-size", o->tile_size, "Width of the tiles in pixels; changes no bits")
+  command
+      ->add_option("--tile-size", o->tile_size,
+                   "Width of tiles in pixels, 0: chosen by the plan; changes no bits")
       ->check(CLI::Range(0, 64))
       ->group(machine);
   command
@@ -173,20 +175,22 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
 namespace {
 
 void AddTellingOptions(CLI::App* command, RenderOptions* o) {
-  const std::string telling = "What it tells";
+  const std::string telling = "Messages";
   command
       ->add_flag("--dry-run", o->dry_run,
-                 "Check everything and print what the EXR file's header would say, as JSON, and "
-                 "into how many tiles the picture can be cut; render nothing")
+                 "Check everything and print, as JSON, the EXR file's header and the most tiles "
+                 "that the picture can be cut into; render nothing")
       ->group(telling);
   command
       ->add_flag("--explain", o->explain,
-                 "Print the plan: what is used, what is skipped and why, and where time went")
+                 "Print the plan: what is used, what is skipped and why, and where the time went")
       ->group(telling);
   command->add_option("--stats", o->stats, "Write times and counts as JSON")
       ->type_name("FILE")
       ->group(telling);
-  command->add_option("--progress", o->progress, "auto (a bar on a terminal), bar, json or none")
+  command
+      ->add_option("--progress", o->progress,
+                   "Progress display: auto (a bar on a terminal), bar, json or none")
       ->check(CLI::IsMember({"auto", "bar", "json", "none"}))
       ->capture_default_str()
       ->group(telling);

@@ -43,7 +43,8 @@ void AddSheetOptions(CLI::App* command, SheetOptions* options, RenderOptions* re
       ->check(InRange(1, 8192))
       ->type_name("PX")
       ->group("Sheet");
-  command->add_option("--title", options->title, "Written above; - for none")->group("Sheet");
+  command->add_option("--title", options->title, "Title above the picture; - for none")
+      ->group("Sheet");
   AddLightingOptions(command, &options->lighting);
   render->labels = true;
   AddRenderOptions(command, render);
