@@ -10,10 +10,10 @@
 // Units and conventions are those of scene files (share/nacre/scenes/nacre.schema.json):
 // right-handed, +y up, linear Rec. 709 colours, unit directions that point away from the surface.
 //
-// Errors are thrown as nacre::Error; what a callback throws comes out as it is. Functions may be
-// called from several threads at once, on the same object too if it is const. The caller's
-// floating-point modes (rounding, denormals, traps) change no bit of any result and are left as
-// they were. Standard library types cross the border: build with the same standard library.
+// Errors are thrown as nacre::Error; what a callback throws is passed on unchanged. Functions may
+// be called from several threads at once, and on the same object if it is const. The caller's
+// floating-point modes (rounding, denormals, traps) neither change any result nor are changed. The
+// interface uses types of the standard library: build with the same one.
 #pragma once
 
 #include <array>
@@ -34,8 +34,8 @@
 
 namespace nacre {
 
-// The version of the binary interface. Inline, so that nobody has to write it; but in the library's
-// own sources, which have types of the same names beside these.
+// The version of the binary interface. Inline, so that users need not write it; not so in the
+// library's own sources, which have types of the same names.
 #ifndef NACRE_OWN_SOURCE
 inline
 #endif
@@ -50,11 +50,11 @@ using Rgb = std::array<double, 3>;
 struct Fault {
   std::string where;  // file and JSON pointer, e.g. "grid.json: /materials/gold/roughness"
   std::string what;
-  std::string hint;  // how to mend it; may be empty
+  std::string hint;  // how to fix it; may be empty
 };
 
-// One or more faults, and what a program that ends because of them should exit with (sysexits.h):
-// 2 images that cannot be compared, 64 wrong arguments, 65 bad input, 70 nacre's fault or out of
+// One or more faults, and the exit code for a program that ends because of them (sysexits.h): 2 for
+// images that cannot be compared, 64 wrong arguments, 65 bad input, 70 an internal error or out of
 // memory, 74 output that cannot be written.
 class NACRE_API Error : public std::exception {
  public:
@@ -151,10 +151,10 @@ class NACRE_API Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  // Puts a value where a JSON pointer points: Set("/materials/red/roughness", 0.2),
-  // Set("/image/spp", 64). Objects on the way are made.
+  // Sets the value at a JSON pointer: Set("/materials/red/roughness", 0.2), Set("/image/spp", 64).
+  // Missing objects on the way are created.
   void Set(const std::string& pointer, const Value& value);
-  // The same for whole parts. One of the same name is replaced.
+  // The same for whole objects. One of the same name is replaced.
   void SetCamera(const Parameters& camera);
   void SetBackground(const Rgb& radiance);
   void AddTexture(const std::string& name, const Parameters& texture);
@@ -162,7 +162,7 @@ class NACRE_API Scene {
   void AddLight(const std::string& name, const Parameters& light);
   // Any of the schema's: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud.
   void AddShape(const Parameters& shape);
-  // Shapes without the detour of text, for many of them. They follow all others.
+  // Shapes as numbers, not text, for many of them. They come after all others.
   void AddSphere(const Vec3& center, double radius, const std::string& material);
   void AddMesh(const Mesh& mesh, const std::string& material);
 
@@ -213,12 +213,11 @@ struct Image {
   }
 };
 
-// EXR and PNG; other formats through OpenImageIO, which is loaded then.
+// EXR, PNG, JPEG, TIFF, Radiance HDR and others, as the program. TIFF loads OpenImageIO.
 NACRE_API Image Read(const std::string& path);
 
 struct WriteSettings {
-  // EXR. Colours and normals are of `half_floats` unless that is false; positions, depths and ids
-  // always in full.
+  // EXR: colours and normals in half precision; positions, depths and ids always in full.
   bool half_floats = true;
   std::string compression = "zip";  // or none, zips, piz, dwaa
   bool small = false;               // EXR and PNG: smaller, several times slower
@@ -265,11 +264,11 @@ struct CompareSettings {
   std::vector<std::string> layers;  // empty: all, and then both must have the same channels
   // Samples may differ by max_abs + max_rel |reference|, in all but this fraction of the pixels.
   double max_abs = 0, max_rel = 0, exceeding_fraction = 0;
-  // Of any layer. If it is the only tolerance, nothing is asked of single samples.
+  // Of any layer. If it is the only tolerance, single samples may differ by any amount.
   double max_rmse = std::numeric_limits<double>::infinity();
-  bool perceptual = false;                                    // measure SSIM and FLIP, too
-  // Compare the pixels that both have where frames or data windows differ, which is a difference
-  // otherwise.
+  bool perceptual = false;  // measure SSIM and FLIP, too
+  // Compare only the pixels that both images have; if false, frames or data windows that differ are
+  // a difference.
   bool crop = false;
 };
 
@@ -298,8 +297,8 @@ NACRE_API Comparison Compare(const Image& image, const Image& reference,
 
 // ---- Reflection models --------------------------------------------------------------------------
 
-// Radiance towards the viewer per irradiance of a surface that faces the light: BRDF times n.l.
-// That is finite for every model, the BRDF is not.
+// The BRDF times n.l: radiance towards the viewer per irradiance of a surface that faces the light.
+// Unlike the BRDF itself it is finite for every model.
 struct Reflection {
   Rgb diffuse{}, specular{};
 };
@@ -315,8 +314,8 @@ struct Reflections {
   std::array<std::vector<float>, 3> diffuse, specular;
 };
 
-// A material without maps, emission and ambient light, for measuring and for renderers of others. A
-// perfect mirror (roughness below 2^-20) shows nothing of its lobe.
+// A material without maps, emission and ambient light, for measurements and for other renderers.
+// The lobe of a perfect mirror (roughness below 2^-20) is left out.
 class NACRE_API Brdf {
  public:
   // As in scene files: Brdf("conductor", {{"preset", "gold"}, {"roughness", 0.2}}).
@@ -324,12 +323,12 @@ class NACRE_API Brdf {
   Brdf(const Scene& scene, const std::string& material);
 
   // In double, by the formulas of the papers in their stable form. Black where light or viewer is
-  // not above the surface. Throws Error for a vector that is not finite, or whose |v|^2 is not 1
-  // within 9.5e-7, which vectors made unit in float keep.
+  // not above the surface. Throws Error for a vector that is not finite, or whose |v|^2 differs
+  // from 1 by more than 9.5e-7, which allows for vectors normalised in float.
   Reflection Evaluate(const Vec3& normal, const Vec3& to_view, const Vec3& to_light) const;
 
-  // The same in float through the SIMD kernels that render, in this thread. Throws likewise, and
-  // then tells the first such vector.
+  // The same in float through the SIMD kernels of the renderer, in this thread. Throws likewise,
+  // and names the first such vector.
   Reflections Shade(const Directions& directions) const;
 
  private:
