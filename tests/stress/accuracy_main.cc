@@ -199,7 +199,8 @@ double WhiteAlbedo(double roughness, double metallic, double n_dot_v) {
 
 void PrintFurnace() {
   std::printf(
-      "| roughness | white metal without compensation | white metal | white half metal | white "
+      "| roughness | white metal, `compensation` `none` | white metal | white, `metallic` 0.5 | "
+      "white "
       "dielectric |\n"
       "|---|---|---|---|---|\n");
   for (const double roughness : {0.0, 0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 1.0}) {
@@ -221,13 +222,18 @@ void PrintFurnace() {
 void PrintAll() {
   const FlushDenormals flush;
   std::printf(
-      "Largest errors on SIMD target %s.\n\nHits, %d rays at a sphere and just past it:\n\n",
+      "All are largest errors, here on target %s.\n\n**Hits**, of %d rays at a sphere and just "
+      "past "
+      "it.\n\n",
       std::string(TargetName(ActiveTarget())).c_str(), static_cast<int>(kRounds * kBatchCapacity));
   PrintHits();
   std::printf(
-      "\nHighlights, relative error within three widths of the peak (Phong: one and a half):\n\n");
+      "\n**Highlights**: relative error within three widths of the peak (Phong: one and a half)."
+      "\n\n");
   PrintHighlights();
-  std::printf("\nLight from everywhere, the worst of ten directions from n.v = 1e-4 to 1:\n\n");
+  std::printf(
+      "\n**Energy**: what a surface reflects of equal light from everywhere; the worst of ten "
+      "directions from n.v = 1e-4 to 1.\n\n");
   PrintFurnace();
 }
 
