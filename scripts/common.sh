@@ -15,13 +15,13 @@ fail() {
 }
 
 # help_if_asked ARGUMENTS...: with -h or --help among them, prints the comment at the head of the
-# running script and ends it. Arguments behind -- belong to another program.
+# running script, below its licence, and ends it. Arguments behind -- belong to another program.
 help_if_asked() {
   local argument
   for argument in "$@"; do
     case "$argument" in
       -h | --help)
-        awk 'NR > 1 { if (!/^#/) exit; sub(/^# ?/, ""); print }' "scripts/${0##*/}"
+        awk 'NR > 2 { if (!/^#/) exit; sub(/^# ?/, ""); print }' "scripts/${0##*/}"
         exit 0
         ;;
       --) return 0 ;;
