@@ -11,9 +11,9 @@
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "embree/embree_api.h"
 #include "float_visibility.h"
 #include "render/camera.h"
-#include "visibility/embree_api.h"
 #include "visibility_scenes.h"
 
 namespace nacre {

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "embree/embree_api.h"
 #include "hit/batch.h"
 #include "scene/scene.h"
-#include "visibility/embree_api.h"
 #include "visibility/tile_kernel.h"
 
 namespace nacre {

@@ -81,7 +81,7 @@ class ExactTiles {
 void BenchTiles(benchmark::State& state, const SphereScene& which, bool positions) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
-  Intersector intersector(scene, scene.camera.position, {.embree = false});
+  Intersector intersector(scene, scene.camera.position, {.tree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   TileCandidates candidates;
   ExactTiles tiles(positions);
@@ -104,7 +104,7 @@ void BenchTiles(benchmark::State& state, const SphereScene& which, bool position
 void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
-  Intersector intersector(scene, scene.camera.position, {.embree = false});
+  Intersector intersector(scene, scene.camera.position, {.tree = false});
   const std::vector<FloatSphere> spheres = FloatSpheres(scene);
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   TileCandidates candidates;

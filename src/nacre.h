@@ -242,7 +242,7 @@ struct RenderSettings {
   // light.NAME, or all.
   std::vector<std::string> layers;
   int threads = 0;                   // 0: as many as the machine has
-  std::string intersector = "auto";  // or embree, tiles; the same bits
+  std::string intersector = "auto";  // or embree, tiles, shells; the same bits
   // Told the share done in (0, 1], from any thread, one call at a time. Throwing ends the render.
   std::function<void(double)> on_progress;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // base/handover.h: tells ThreadSanitizer of data that goes from thread to thread through a library
-// that was not built with it (TBB, Embree), whose own synchronisation it cannot see. Elsewhere
+// that was not built with it (Embree), whose own synchronisation it cannot see. Elsewhere
 // nothing.
 //
 // The two are a release and an acquire of one key: what was written before HandOver(key) is there

@@ -3,85 +3,120 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
-#include <memory>
+#include <condition_variable>
+#include <exception>
+#include <list>
 #include <mutex>
-#include <new>
-#include <set>
-
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include <system_error>
+#include <thread>
 
 #include "base/float_mode.h"
-#include "base/handover.h"
 
 namespace nacre {
 namespace {
 
-// Left alone, TBB starts no more workers than the machine has cores, and prints a warning. While
-// alive, it may start as many as this and all others alive ask for: the smallest of several
-// controls counts, so there is one for all.
-class AllowThreads {
+// A call of ParallelFor.
+class Loop {
  public:
-  explicit AllowThreads(int threads) : count_(ThreadCount(threads)) {
-    if (count_ <= tbb::info::default_concurrency()) return;
-    const std::lock_guard lock(Mutex());
-    Asked().insert(count_);
-    Renew();
+  Loop(size_t count, const std::function<void(size_t)>& body) : count_(count), body_(body) {}
+
+  // Works until no index is left to begin: of the caller and of each helper. Indices are taken in
+  // order, one after the other: what is finished early is then needed early, and a consumer that
+  // wants them in order has little to keep.
+  void Work() {
+    const FlushDenormals flush;
+    try {
+      for (size_t i = next_++; i < count_; i = next_++) body_(i);
+    } catch (...) {
+      next_ = count_;  // no worker begins another
+      const std::lock_guard lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+    }
   }
-  ~AllowThreads() {
-    if (count_ <= tbb::info::default_concurrency()) return;
-    const std::lock_guard lock(Mutex());
-    Asked().erase(Asked().find(count_));
-    Renew();
+
+  // Once nobody works any more.
+  void ThrowIfFailed() {
+    if (error_) std::rethrow_exception(error_);
   }
-  AllowThreads(const AllowThreads&) = delete;
-  AllowThreads& operator=(const AllowThreads&) = delete;
 
  private:
-  static std::mutex& Mutex() {
-    static std::mutex mutex;
-    return mutex;
-  }
-  static std::multiset<int>& Asked() {
-    static std::multiset<int> asked;
-    return asked;
-  }
-  static void Renew() {
-    static std::unique_ptr<tbb::global_control> control;
-    // The new one is there before the old one goes: others run meanwhile.
-    control = Asked().empty() ? nullptr
-                              : std::make_unique<tbb::global_control>(
-                                    tbb::global_control::max_allowed_parallelism,
-                                    static_cast<size_t>(*Asked().rbegin()));
-  }
-
-  int count_;
+  size_t count_;
+  const std::function<void(size_t)>& body_;
+  std::atomic<size_t> next_{0};
+  std::mutex mutex_;
+  std::exception_ptr error_;
 };
 
-// Throws std::bad_alloc if there is no memory for an arena and its first worker. TBB's own would
-// never arrive: TBB 2022 throws it under a lock that throwing takes again, and waits for ever. Its
-// controls take that lock, too.
-void RequireMemoryForArena() {
-  constexpr size_t kBytes = size_t{8} << 20;  // a worker's stack alone is 4; never touched
-  ::operator delete(::operator new(kBytes));
-}
+// Threads that help with loops, kept from one to the next.
+class Helpers {
+ public:
+  // Works with up to `wanted` helpers. Nobody waits for one that has not come yet: loops within
+  // loops, and of several callers at once, go on whoever is busy elsewhere.
+  void Run(Loop* loop, int wanted) {
+    Call call{loop, wanted};
+    {
+      const std::lock_guard lock(mutex_);
+      Start(wanted);
+      calls_.push_back(&call);
+    }
+    for (int i = 0; i < wanted; ++i) called_.notify_one();
+    loop->Work();
+    std::unique_lock lock(mutex_);
+    calls_.remove(&call);
+    left_.wait(lock, [&] { return call.working == 0; });
+  }
 
-// One arena for each number of threads, kept: an arena that goes leaves 7 KB behind in TBB 2021.8,
-// and a program that renders thousands of pictures would feel it.
-tbb::task_arena& ArenaOf(int threads) {
-  static std::mutex mutex;
-  static std::map<int, tbb::task_arena> arenas;
-  const std::lock_guard lock(mutex);
-  if (!arenas.contains(threads)) RequireMemoryForArena();
-  return arenas.try_emplace(threads, threads).first->second;
+ private:
+  struct Call {
+    Loop* loop;
+    int wanted;       // helpers that may still come
+    int working = 0;  // that have come, and not left
+  };
+
+  // Starts threads until there are as many. Fewer do where the system gives no more.
+  void Start(int threads) {
+    try {
+      for (; started_ < threads; ++started_) std::thread([this] { Help(); }).detach();
+    } catch (const std::system_error&) {
+    }
+  }
+
+  [[noreturn]] void Help() {
+    std::unique_lock lock(mutex_);
+    const auto open = [](const Call* call) { return call->wanted > 0; };
+    for (;;) {
+      const auto found = std::find_if(calls_.begin(), calls_.end(), open);
+      if (found == calls_.end()) {
+        called_.wait(lock);
+        continue;
+      }
+      Call& call = **found;
+      --call.wanted;
+      ++call.working;
+      lock.unlock();
+      call.loop->Work();
+      lock.lock();
+      if (--call.working == 0) left_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable called_, left_;
+  std::list<Call*> calls_;
+  int started_ = 0;
+};
+
+// Never destroyed: helpers wait in it to the process's end.
+Helpers& TheHelpers() {
+  static auto* const helpers = new Helpers;
+  return *helpers;
 }
 
 }  // namespace
 
-int ThreadCount(int threads) { return threads > 0 ? threads : tbb::info::default_concurrency(); }
+int ThreadCount(int threads) {
+  return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body) {
   if (threads == 1 || count <= 1) {
@@ -89,44 +124,10 @@ void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     for (size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  tbb::task_arena& arena = ArenaOf(ThreadCount(threads));  // first: it asks for memory
-  const AllowThreads allow(threads);
-  // Workers take indices in order, one after the other: what is finished early is then needed
-  // early, and a consumer that wants them in order has little to keep.
-  std::atomic<size_t> next{0};
-  static const char begun = 0, ended = 0;
-  struct AtEnd {  // of whatever the worker read of this function's variables, too
-    ~AtEnd() { HandOver(&ended); }
-  };
-  const auto work = [&](int) {
-    TakeOver(&begun);
-    const AtEnd at_end;
-    const FlushDenormals flush;
-    for (size_t i = next++; i < count; i = next++) {
-      try {
-        body(i);
-      } catch (...) {
-        next = count;  // no worker begins another
-        throw;
-      }
-    }
-  };
-  struct AfterAll {  // by an exception, too
-    ~AfterAll() { TakeOver(&ended); }
-  };
-  const AfterAll after_all;
-  HandOver(&begun);
-  arena.execute(
-      [&] { tbb::parallel_for(0, ThreadCount(threads), work, tbb::simple_partitioner()); });
-}
-
-void WithThreads(int threads, const std::function<void()>& body) {
-  tbb::task_arena& arena = ArenaOf(ThreadCount(threads));
-  const AllowThreads allow(threads);
-  arena.execute([&] {  // maybe in a worker, which has the modes of whoever started it
-    const DefaultFloatMode mode;
-    body();
-  });
+  Loop loop(count, body);
+  const size_t workers = std::min(count, static_cast<size_t>(ThreadCount(threads)));
+  TheHelpers().Run(&loop, static_cast<int>(workers) - 1);
+  loop.ThrowIfFailed();
 }
 
 FlushDenormals::FlushDenormals() : saved_(EnterFloatMode(Denormals::kFlushed)) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/parallel.h: work on all cores. The only folder that knows TBB.
+// base/parallel.h: work on all cores.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,9 @@ namespace nacre {
 
 // Calls body(i) for every i in [0, count), on up to `threads` threads (0: as many as the machine
 // has). Indices are begun in ascending order. Each worker runs with denormals flushed to zero
-// (FlushDenormals). An exception from a body stops the loop and is thrown to the caller.
+// (FlushDenormals). An exception from a body stops the loop and is thrown to the caller. Bodies may
+// call it, too, and several threads at once.
 void ParallelFor(size_t count, int threads, const std::function<void(size_t)>& body);
-
-// Calls body() once; parallel work that it starts through TBB (Embree's builds) uses up to
-// `threads` threads, counted as above.
-void WithThreads(int threads, const std::function<void()>& body);
 
 // The number of threads that ParallelFor uses for `threads`.
 int ThreadCount(int threads);

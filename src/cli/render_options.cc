@@ -154,7 +154,7 @@ void AddMachineOptions(CLI::App* command, RenderOptions* o) {
       ->group(machine);
   command
       ->add_option("--intersector", o->intersector,
-                   "How rays find spheres: auto, embree or tiles; changes no bits")
+                   "How rays find spheres: auto, embree, tiles or shells; changes no bits")
       ->check(CLI::IsMember(IntersectorNames()))
       ->capture_default_str()
       ->group(machine);

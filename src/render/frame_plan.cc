@@ -35,7 +35,7 @@ Rgb SumAmbient(const Scene& scene) {
 const char* WhyAllPlaces(const FramePlan& plan, const RenderSettings& settings) {
   return plan.scene->spheres.empty() ? "there are no spheres"
          : settings.max_error > 0    ? "each block of pixels places its own"
-         : !plan.hits.tiles          ? "Embree looks for every ray's hit"
+         : !plan.hits.tiles          ? "a tree finds every ray's hit"
          : settings.general_path     ? "the general path is asked for"
          : plan.direct.sky           ? "they see the sky"
          : plan.surfaces.splits      ? "some material depends on where samples lie"

@@ -18,7 +18,7 @@ const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
   const std::vector<PlannedPunctualLight>& lights = readers.direct.lights;
   const bool near = std::any_of(lights.begin(), lights.end(), ReadsPositions);
   return settings.general_path                    ? "the general path is asked for"
-         : !plan.tiles                            ? "camera rays are traced by Embree"
+         : !plan.tiles                            ? "camera rays go through a tree"
          : !scene.meshes.empty()                  ? "spheres and triangles are sorted by depth"
          : near                                   ? "lights are found from them"
          : !readers.direct.sampled_lights.empty() ? "some lights have an extent"

@@ -30,8 +30,8 @@ Place PlaceOf(const RayBatch& rays, size_t ray, const Vec3d& position) {
   return {t, 1e-12 * (t + reach * std::sqrt(inverse_dd))};
 }
 
-void TraceByEmbree(const HitsPlan& plan, const FilmBatch& film, bool positions, TraceRoom* room,
-                   CameraHits* hits) {
+void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, TraceRoom* room,
+                 CameraHits* hits) {
   RayBatch& rays = room->rays;
   MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &rays);
   plan.intersector->Closest(rays, &room->closest);
@@ -146,7 +146,7 @@ void TraceCamera(const HitsPlan& plan, const TileSight& sight, const FilmBatch& 
   hits->positions = sight.positions;
   hits->exact = plan.exact_directions;
   if (!sight.shapes) return;
-  if (!plan.tiles) return TraceByEmbree(plan, film, sight.positions, room, hits);
+  if (!plan.tiles) return TraceByTree(plan, film, sight.positions, room, hits);
   plan.intersector->HitsInTile(
       sight.spheres, film,
       {&hits->batch, &hits->directions, sight.positions, plan.exact_directions});

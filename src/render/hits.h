@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/hits.h: the second stage: the first hits of a tile's camera rays, found by bins or by
-// Embree, or on spheres by bins and on triangles by Embree, the nearer of both.
+// render/hits.h: the second stage: the first hits of a tile's camera rays, found by bins or by a
+// tree, or on spheres by bins and on triangles by a tree, the nearer of both.
 #pragma once
 
 #include <memory>

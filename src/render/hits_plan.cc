@@ -79,10 +79,12 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   plan.eye_outside = EyeIsOutside(scene, settings.threads);
   plan.intersector = std::make_shared<Intersector>(
       scene, scene.camera.position,
-      IntersectorSettings{.threads = settings.threads, .embree = false});
+      IntersectorSettings{.threads = settings.threads,
+                          .tree = false,
+                          .shells = settings.intersector == IntersectorChoice::kShells});
   const bool nested = plan.intersector->SpheresAreNested();
-  const bool want_tiles =
-      settings.intersector != IntersectorChoice::kEmbree && !scene.spheres.empty() && !nested;
+  const char* const tree_asked_for = TreeAskedFor(settings.intersector);
+  const bool want_tiles = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;
   tell(0.15);
   const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   const bool adaptive = settings.max_error > 0;
@@ -103,7 +105,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
        : want_tiles ? "the bins would not fit 256 MiB"
        : scene.spheres.empty() ? "there are no spheres"
        : nested                ? kNestedSpheres
-                               : "--intersector embree"});
+                               : tree_asked_for});
   tell(0.4);
   return plan;
 }
@@ -114,13 +116,17 @@ void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why) {
   const bool triangles_apart = plan->tiles && CountTriangles(scene) > 0;
   if (!plan->tiles || for_shadows) plan->intersector->BuildTree();
   if (triangles_apart) plan->intersector->BuildTriangleTree();
-  why->items.push_back({"intersector embree", !plan->tiles || triangles_apart || for_shadows,
-                        !plan->tiles ? "for all rays: " + DescribeShapes(scene)
-                        : triangles_apart && for_shadows
-                            ? "for camera rays to triangles, and for shadow rays"
-                        : triangles_apart ? "for camera rays to triangles"
-                        : for_shadows     ? "for shadow rays"
-                                          : "nothing is left for it: no tree is built"});
+  const bool used = !plan->tiles || triangles_apart || for_shadows;
+  const char* const kind = !plan->intersector->HasShells() ? "Embree's, "
+                           : CountTriangles(scene) > 0 ? "of shells, Embree's of the triangles, "
+                                                       : "of shells, ";
+  const std::string use = !plan->tiles ? "for all rays: " + DescribeShapes(scene)
+                          : triangles_apart && for_shadows
+                              ? "for camera rays to triangles, and for shadow rays"
+                          : triangles_apart ? "for camera rays to triangles"
+                                            : "for shadow rays";
+  why->items.push_back(
+      {"intersector tree", used, used ? kind + use : "nothing is left for it: none is built"});
 }
 
 }  // namespace nacre

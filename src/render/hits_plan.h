@@ -23,7 +23,7 @@ struct HitsPlan {
   std::shared_ptr<Intersector> intersector;  // null: there is nothing to hit
   std::vector<Window> mesh_windows;          // pixels that triangles may be seen in
   bool binned = false;                       // spheres are binned for the camera
-  bool tiles = false;                        // and camera rays find them there, not by Embree
+  bool tiles = false;                        // and camera rays find them there, not by a tree
   TileRays tile_rays = TileRays::kSamples;
   bool eye_outside = false;       // no camera ray starts in a sphere
   bool exact_directions = false;  // hits have HitBatch::normal and to_view, too

@@ -13,12 +13,14 @@
 namespace nacre {
 
 // How rays find spheres. All find the same hits, to the bit.
-enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles };
+enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles, kShells };
 
-// "auto", "embree", "tiles".
+// "auto", "embree", "tiles", "shells".
 std::vector<std::string> IntersectorNames();
-// Throws Error (usage) for a name that is none of these.
+// Throws Error (usage) for a name that is none of these, and for Embree where this build has none.
 IntersectorChoice ParseIntersector(const std::string& name);
+// Why all rays go through a tree, if they do so whatever the scene; or null.
+const char* TreeAskedFor(IntersectorChoice choice);
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
 struct FrameBand {

@@ -63,14 +63,12 @@ std::string WhyNotBins(const LightBins& bins) {
   return {};
 }
 
-constexpr char kEmbreeAskedFor[] = "--intersector embree";
-
 // Why shadow rays need a tree whatever the lights, or nothing.
 std::string WhyTree(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                     const DirectPlan& plan) {
   if (settings.general_path) return "the general path is asked for";
   if (!scene.meshes.empty()) return "there are triangles";
-  if (settings.intersector == IntersectorChoice::kEmbree) return kEmbreeAskedFor;
+  if (const char* const asked_for = TreeAskedFor(settings.intersector)) return asked_for;
   if (scene.spheres.size() > kMaxListedSpheres && hits.intersector->SpheresAreNested()) {
     return kNestedSpheres;
   }
@@ -96,8 +94,9 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
                          DirectPlan* plan, Explanation* why) {
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
   const std::string why_tree = WhyTree(scene, settings, hits, *plan);
-  // Embree is asked about the same rays as the others, when it is asked for.
-  if (why_tree.empty() || (few && why_tree == kEmbreeAskedFor)) {
+  // A tree that is asked for is asked about the same rays as the others.
+  const char* const asked_for = TreeAskedFor(settings.intersector);
+  if (why_tree.empty() || (few && asked_for != nullptr && why_tree == asked_for)) {
     std::vector<const Light*> lights;
     for (PlannedPunctualLight& light : plan->lights) {
       if (!light.shadow_rays) continue;
@@ -175,7 +174,7 @@ PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits,
     item.reason = spheres == 1 ? "a sphere alone, seen from outside, is convex"
                                : "no sphere is between another and the light";
   }
-  if (settings.general_path || settings.intersector == IntersectorChoice::kEmbree ||
+  if (settings.general_path || TreeAskedFor(settings.intersector) != nullptr ||
       lists.longest > kMaxSampledList) {
     light->occluders = kAnyLight;
   } else if (light->shadow_rays) {

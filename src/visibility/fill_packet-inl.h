@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/fill_packet-inl.h: rounds a packet of a batch's rays to float, and keeps with them
-// what their proposals and the exact tests need.
+// visibility/fill_packet-inl.h: a batch's rays as packets: rounded to float, and with what their
+// proposals and the exact tests need.
 #if defined(NACRE_VISIBILITY_FILL_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_FILL_PACKET_INL_H_
 #undef NACRE_VISIBILITY_FILL_PACKET_INL_H_
@@ -8,7 +8,12 @@
 #define NACRE_VISIBILITY_FILL_PACKET_INL_H_
 #endif
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "base/power_of_two-inl.h"
+#include "hit/batch.h"
 #include "visibility/packet-inl.h"
 #include "visibility/triangle_test-inl.h"
 
@@ -32,8 +37,7 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   using V = hn::Vec<D>;
   const hn::Rebind<float, D> df;
   const auto store = [&](V v, float* to) { hn::StoreU(hn::DemoteTo(df, v), df, to + lane); };
-  RTCRayN* rays = packet->ray_n();
-  const unsigned width = packet->Width();
+  const FloatRays& rays = packet->floats;
 
   const Vec3V<V> origin = Origin(d, *packet, lane);
   const Vec3V<V> direction = Direction(d, *packet, lane);
@@ -46,13 +50,13 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
       hn::DemoteTo(df, hn::Mul(hn::Mul(inverse_dd, scale.power), scale.power));
   hn::Store(inverse_dd, d, packet->inverse_dd + lane);
   hn::Store(scale.power, d, packet->t_scale + lane);
-  store(origin.x, &RTCRayN_org_x(rays, width, 0));
-  store(origin.y, &RTCRayN_org_y(rays, width, 0));
-  store(origin.z, &RTCRayN_org_z(rays, width, 0));
-  store(FlushTiny(d, scaled.x), &RTCRayN_dir_x(rays, width, 0));
-  store(FlushTiny(d, scaled.y), &RTCRayN_dir_y(rays, width, 0));
-  store(FlushTiny(d, scaled.z), &RTCRayN_dir_z(rays, width, 0));
-  hn::StoreU(UpperDepth(d, t_max, scale.power), df, packet->tfar() + lane);
+  store(origin.x, rays.origin_x);
+  store(origin.y, rays.origin_y);
+  store(origin.z, rays.origin_z);
+  store(FlushTiny(d, scaled.x), rays.direction_x);
+  store(FlushTiny(d, scaled.y), rays.direction_y);
+  store(FlushTiny(d, scaled.z), rays.direction_z);
+  hn::StoreU(UpperDepth(d, t_max, scale.power), df, rays.depth + lane);
   hn::StoreU(scaled_inverse_dd, df, packet->ray_inverse_dd + lane);
   hn::StoreU(hn::Mul(hn::Sqrt(scaled_inverse_dd), hn::Set(df, 1 + 0x1p-22f)), df,
              packet->ray_inverse_length + lane);
@@ -66,7 +70,8 @@ HWY_INLINE void FillLanes(D d, hn::Vec<D> t_max, int lane, Packet* packet) {
   }
 }
 
-// The packet of a batch's rays from `first` on; lanes past `count` hold none.
+// The packet of a batch's rays from `first` on, which end at packet->t_max; lanes past `count` hold
+// none.
 template <class Batch>
 HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   packet->origin_x = batch.origin.x.data() + first;
@@ -80,8 +85,73 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   for (int lane = 0; lane < packet->width; lane += step) {
     FillLanes(d, hn::Load(d, packet->t_max + lane), lane, packet);
   }
+  const auto left = static_cast<int>(std::min<size_t>(batch.count - first, kMaxPacketWidth));
+  packet->lanes = (1u << std::min(left, packet->width)) - 1;
+}
+
+// For the rays' first hits that are nearer than hits->t.
+HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hits, Packet* packet) {
+  packet->film = rays.film;
+  packet->best_t = hits->t.data() + first;
+  packet->best_primitive = hits->primitive.data() + first;
+  packet->t_max = packet->best_t;
+  FillPacket(rays, first, packet);
+}
+
+// Bounds the coordinates that a point on the primitive was computed from.
+HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
+  const auto sum_of_abs = [](const Vec3d& v) {
+    return std::abs(v.x) + std::abs(v.y) + std::abs(v.z);
+  };
+  if (primitive == kNoPrimitive) return 0;
+  if (primitive < geometry.SphereCount()) {
+    const TraceSphere& sphere = geometry.spheres[primitive];
+    return sum_of_abs(sphere.center) + sphere.radius;
+  }
+  double reach = 0;
+  for (const uint32_t vertex : geometry.triangles[primitive - geometry.SphereCount()]) {
+    reach = std::max(reach, sum_of_abs(geometry.positions[vertex]));
+  }
+  return reach;
+}
+
+HWY_INLINE void FillStarts(const ShadowRayBatch& rays, size_t first, Packet* packet) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const TraceGeometry& geometry = *packet->geometry;
   for (int lane = 0; lane < packet->width; ++lane) {
-    packet->valid[lane] = first + static_cast<size_t>(lane) < batch.count ? -1 : 0;
+    const bool holds_ray = (packet->lanes >> lane & 1) != 0;
+    const uint32_t start =
+        holds_ray ? rays.primitive[first + static_cast<size_t>(lane)] : kNoPrimitive;
+    packet->start[lane] = start;
+    const bool on_sphere = start < geometry.SphereCount();
+    const TraceSphere sphere = on_sphere ? geometry.spheres[start] : TraceSphere{Vec3d(kNan), kNan};
+    packet->start_sphere[0][lane] = sphere.center.x;
+    packet->start_sphere[1][lane] = sphere.center.y;
+    packet->start_sphere[2][lane] = sphere.center.z;
+    packet->start_sphere[3][lane] = sphere.radius;
+    packet->start_reach[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
+  }
+}
+
+// For shadow rays; those that are known to be occluded are not asked about.
+HWY_INLINE void FillShadowRays(const ShadowRayBatch& rays, size_t first, Packet* packet) {
+  packet->t_max = rays.t_max.data() + first;
+  packet->outward = rays.outward;
+  packet->target = rays.target;
+  packet->end_reach = rays.end_reach;
+  FillPacket(rays, first, packet);
+  packet->occluded = 0;
+  for (int lane = 0; lane < packet->width; ++lane) {
+    const bool occluded = rays.occluded[first + static_cast<size_t>(lane)] != 0;
+    packet->occluded |= static_cast<uint32_t>(occluded) << lane;
+  }
+  packet->lanes &= ~packet->occluded;
+  FillStarts(rays, first, packet);
+}
+
+HWY_INLINE void StoreOccluded(const Packet& packet, size_t first, ShadowRayBatch* rays) {
+  for (int lane = 0; lane < packet.width; ++lane) {
+    rays->occluded[first + static_cast<size_t>(lane)] = (packet.occluded >> lane) & 1;
   }
 }
 

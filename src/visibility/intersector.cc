@@ -1,151 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/intersector.cc: sets Embree's scenes up: bounds, callbacks.
+// visibility/intersector.cc: hands each question to what answers it: shells, boxes, bins or lists.
 #include "visibility/intersector.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <optional>
-#include <utility>
 
-#include "base/error.h"
-#include "base/handover.h"
 #include "base/parallel.h"
-#include "visibility/embree_api.h"
-#include "visibility/embree_device.h"
+#include "visibility/box_trees.h"
 #include "visibility/geometry.h"
-#include "visibility/packet.h"
 #include "visibility/refine_kernel.h"
 #include "visibility/shell_kernel.h"
-#include "visibility/sphere_kernel.h"
-#include "visibility/trace_kernel.h"
-#include "visibility/triangle_kernel.h"
 
 namespace nacre {
-namespace {
 
-struct ReleaseScene {
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-};
-using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
-
-// How far the float ray strays from the true one, at or before points within `reach` of the
-// camera: its origin by u |o| and its direction by u |p - o|, with |o| at most the extent. Twice
-// that, for the rounding of the bounds themselves.
-double BoundsMargin(const TraceGeometry& geometry, double reach) {
-  return 2 * kFloatUnit * (2 * geometry.extent + reach);
-}
-
-void SetBounds(const Vec3d& lower, const Vec3d& upper, double margin, RTCBounds* bounds) {
-  bounds->lower_x = static_cast<float>(lower.x - margin);
-  bounds->lower_y = static_cast<float>(lower.y - margin);
-  bounds->lower_z = static_cast<float>(lower.z - margin);
-  bounds->upper_x = static_cast<float>(upper.x + margin);
-  bounds->upper_y = static_cast<float>(upper.y + margin);
-  bounds->upper_z = static_cast<float>(upper.z + margin);
-}
-
-void SphereBounds(const RTCBoundsFunctionArguments* args) {
-  TakeOver(args->geometryUserPtr);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const auto& [center, radius] = geometry.spheres[args->primID];
-  SetBounds(center - Vec3d(radius), center + Vec3d(radius),
-            BoundsMargin(geometry, center.length() + radius), args->bounds_o);
-  HandOver(args->geometryUserPtr);
-}
-
-// Of all spheres at once.
-void ShellBounds(const RTCBoundsFunctionArguments* args) {
-  TakeOver(args->geometryUserPtr);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const Shell& all = geometry.shells.nodes.front().shell;
-  SetBounds(all.center - Vec3d(all.outer), all.center + Vec3d(all.outer),
-            BoundsMargin(geometry, all.center.length() + all.outer), args->bounds_o);
-  HandOver(args->geometryUserPtr);
-}
-
-void TriangleBounds(const RTCBoundsFunctionArguments* args) {
-  TakeOver(args->geometryUserPtr);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const auto& corners = geometry.triangles[args->primID];
-  Vec3d lower = geometry.positions[corners[0]], upper = lower;
-  double reach = 0;
-  for (const uint32_t corner : corners) {
-    const Vec3d& position = geometry.positions[corner];
-    for (int i = 0; i < 3; ++i) {
-      lower[i] = std::min(lower[i], position[i]);
-      upper[i] = std::max(upper[i], position[i]);
-    }
-    reach = std::max(reach, position.length());
-  }
-  SetBounds(lower, upper, BoundsMargin(geometry, reach), args->bounds_o);
-  HandOver(args->geometryUserPtr);
-}
-
-void Attach(RTCDevice device, RTCScene scene, TraceGeometry* geometry, size_t count,
-            RTCBoundsFunction bounds, const PrimitiveCallbacks& callbacks) {
-  if (count == 0) return;
-  RTCGeometry shapes = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(shapes, static_cast<unsigned>(count));
-  rtcSetGeometryUserData(shapes, geometry);
-  rtcSetGeometryBoundsFunction(shapes, bounds, nullptr);
-  rtcSetGeometryIntersectFunction(shapes, callbacks.intersect);
-  rtcSetGeometryOccludedFunction(shapes, callbacks.occluded);
-  rtcCommitGeometry(shapes);
-  rtcAttachGeometry(scene, shapes);
-  rtcReleaseGeometry(shapes);
-}
-
-}  // namespace
-
-// Embree holds pointers to the geometry; the scene goes before the device.
+// Trees hold pointers to the geometry.
 struct Intersector::State {
   IntersectorSettings settings;
   Vec3d camera_position{0, 0, 0};
   TraceGeometry geometry;
+  bool nested = false;
   std::vector<LightOccluders> occluders;  // by number of the light
   CameraFrame camera;
   SphereBins bins;
-  std::optional<EmbreeDevice> device;
-  ScenePointer scene, triangle_scene;
-  int packet_width = 0;
+  bool tree = false;              // BuildTree was called
+  std::optional<BoxTrees> boxes;  // null: there is no use for any
 
   bool HasShells() const { return !geometry.shells.empty(); }
-
-  TraceScene Traced() const { return {scene.get(), packet_width, &geometry}; }
-
-  // A committed scene of the spheres, if they are asked for, and of the triangles.
-  ScenePointer Build(bool with_spheres);
+  void BuildBoxes(BoxTree tree) {
+    if (!boxes) boxes.emplace(&geometry);
+    boxes->Build(tree, settings.threads);
+  }
 };
-
-ScenePointer Intersector::State::Build(bool with_spheres) {
-  if (!device) {
-    device.emplace();
-    packet_width = device->packet_width();
-  }
-  ScenePointer built(rtcNewScene(device->get()));
-  device->ThrowIfFailed();
-  rtcSetSceneFlags(built.get(), RTC_SCENE_FLAG_ROBUST);
-  if (with_spheres && HasShells()) {
-    Attach(device->get(), built.get(), &geometry, 1, &ShellBounds, ShellCallbacks());
-  } else if (with_spheres) {
-    Attach(device->get(), built.get(), &geometry, geometry.spheres.size(), &SphereBounds,
-           SphereCallbacks());
-  }
-  Attach(device->get(), built.get(), &geometry, geometry.triangles.size(), &TriangleBounds,
-         TriangleCallbacks());
-  HandOver(&geometry);
-  WithThreads(settings.threads, [&] { rtcJoinCommitScene(built.get()); });
-  TakeOver(&geometry);
-  try {
-    device->ThrowIfFailed();
-  } catch (const Error&) {
-    // Left behind: where memory ran out as TBB made a task, the scene's task group counts a task
-    // that never was, and to release the scene would wait for it for ever.
-    [[maybe_unused]] const RTCScene left = built.release();
-    throw;
-  }
-  return built;
-}
 
 Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
                          const IntersectorSettings& settings)
@@ -154,30 +40,42 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
   s.settings = settings;
   s.camera_position = camera_position;
   s.geometry = MakeTraceGeometry(scene, camera_position, settings.threads);
-  if (settings.embree) BuildTree();
+  s.nested = s.HasShells();
+  if (settings.tree) BuildTree();
 }
 
 void Intersector::BuildTree() {
-  if (!state_->scene) state_->scene = state_->Build(true);
+  State& s = *state_;
+  if (s.tree) return;
+  TraceGeometry& geometry = s.geometry;
+  const bool shells = s.settings.shells || EmbreeVersion() == nullptr;
+  if (shells && !s.HasShells()) geometry.shells = BuildShellTree(geometry.spheres);
+  const bool spheres_in_boxes = !geometry.spheres.empty() && !s.HasShells();
+  if (spheres_in_boxes || !geometry.triangles.empty()) s.BuildBoxes(BoxTree::kAll);
+  s.tree = true;
 }
 
-bool Intersector::SpheresAreNested() const { return state_->HasShells(); }
+bool Intersector::SpheresAreNested() const { return state_->nested; }
 
-void Intersector::BuildTriangleTree() {
-  if (!state_->triangle_scene) state_->triangle_scene = state_->Build(false);
-}
+bool Intersector::HasShells() const { return state_->HasShells(); }
+
+void Intersector::BuildTriangleTree() { state_->BuildBoxes(BoxTree::kTriangles); }
 
 Intersector::~Intersector() = default;
 Intersector::Intersector(Intersector&&) noexcept = default;
 Intersector& Intersector::operator=(Intersector&&) noexcept = default;
 
 void Intersector::Closest(const RayBatch& rays, ClosestHits* hits) const {
-  TraceClosest(state_->Traced(), rays, hits);
+  const State& s = *state_;
+  std::fill(hits->t.begin(), hits->t.end(), std::numeric_limits<double>::infinity());
+  std::fill(hits->primitive.begin(), hits->primitive.end(), kNoPrimitive);
+  if (s.HasShells()) NearerInShells(s.geometry, rays, hits);
+  if (s.boxes) s.boxes->FindNearer(BoxTree::kAll, rays, hits);
 }
 
 void Intersector::NearerTriangles(const RayBatch& rays, ClosestHits* hits) const {
-  const State& s = *state_;
-  TraceNearer({s.triangle_scene.get(), s.packet_width, &s.geometry}, rays, hits);
+  std::fill(hits->primitive.begin(), hits->primitive.end(), kNoPrimitive);
+  state_->boxes->FindNearer(BoxTree::kTriangles, rays, hits);
 }
 
 bool Intersector::SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ray, double t) const {
@@ -243,10 +141,15 @@ bool Intersector::MayOcclude(uint32_t light, const HitBatch& hits) const {
 }
 
 void Intersector::Occluded(ShadowRayBatch* rays) const {
-  if (rays->light == kAnyLight) return TraceOccluded(state_->Traced(), rays);
-  const LightOccluders& occluders = state_->occluders[rays->light];
-  if (occluders.bins) return OccludedByBins(state_->geometry, *occluders.bins, rays);
-  OccludedByLists(state_->geometry, occluders.lists, rays);
+  const State& s = *state_;
+  if (rays->light != kAnyLight) {
+    const LightOccluders& occluders = s.occluders[rays->light];
+    if (occluders.bins) return OccludedByBins(s.geometry, *occluders.bins, rays);
+    return OccludedByLists(s.geometry, occluders.lists, rays);
+  }
+  std::fill(rays->occluded.begin(), rays->occluded.end(), uint8_t{0});
+  if (s.HasShells()) OccludedInShells(s.geometry, rays);
+  if (s.boxes) s.boxes->FindOccluded(rays);
 }
 
 }  // namespace nacre

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/intersector.h: which surface a ray meets first, and whether anything is in its way.
-// Embree finds candidates; our own tests decide every hit, in double (sphere_test.h, film_test.h,
-// triangle_test.h).
+// Trees find candidates (box_trees.h, shell_tree.h), or bins; our own tests decide every hit, in
+// double (sphere_test.h, film_test.h, triangle_test.h).
 //
 // Results depend on the scene, the camera and the ray alone: not on which rays share a batch, on
 // threads, or on the SIMD target. Of primitives at the same t the lowest id is hit.
@@ -23,8 +23,9 @@
 namespace nacre {
 
 struct IntersectorSettings {
-  int threads = 0;     // that building uses; 0: as many as the machine has
-  bool embree = true;  // false: no tree is built until BuildTree is called
+  int threads = 0;      // that building uses; 0: as many as the machine has
+  bool tree = true;     // false: no tree is built until BuildTree is called
+  bool shells = false;  // the tree of spheres is one of shells whatever they are like
 };
 
 // What can come between the spheres and a light: bins, or else lists; in small scenes both may be
@@ -35,17 +36,16 @@ struct LightOccluders {
   OccluderLists lists;
 };
 
-// Owns the Embree device and scene, for the SIMD target that is active when it is made. Const
-// methods may be called from several threads at once.
+// Owns the trees, for the SIMD target that is active when it is made. Const methods may be called
+// from several threads at once.
 //
 // Rays start no further from the camera than some point of the scene does: at the camera, on its
 // orthographic image plane, or on a surface. (Farther origins can lose hits: they are beyond the
-// error that the bounds in Embree's tree allow for.) Coordinates and radii are within the ranges of
-// scene/limits.h: no square of theirs, relative to the camera, leaves the range of float.
+// error that the bounds in the tree of boxes allow for.) Coordinates and radii are within the
+// ranges of scene/limits.h: no square of theirs, relative to the camera, leaves the range of float.
 class Intersector {
  public:
-  // Takes what it needs of `scene`. Throws Error (kInternal) where Embree fails: out of memory, or
-  // an instruction set that it does not offer.
+  // Takes what it needs of `scene`. Throws what BoxTrees throws.
   Intersector(const Scene& scene, const Vec3d& camera_position,
               const IntersectorSettings& settings = {});
   ~Intersector();
@@ -56,8 +56,12 @@ class Intersector {
   // is found in bins (shell_tree.h).
   bool SpheresAreNested() const;
 
-  // Makes what Closest and Occluded need, if it is not there.
+  // Makes what Closest and Occluded need, if it is not there: a tree of all, of boxes, or of shells
+  // for the spheres and of boxes for the triangles.
   void BuildTree();
+
+  // Whether the spheres are in shells: once BuildTree is called.
+  bool HasShells() const;
 
   // Makes what NearerTriangles needs: a tree of the triangles alone.
   void BuildTriangleTree();

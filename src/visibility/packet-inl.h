@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/packet-inl.h: what the callbacks for spheres and for triangles share: loading a
-// packet's rays, and recording exact hits.
+// visibility/packet-inl.h: what the tests of a packet against spheres and triangles share: loading
+// its rays, and recording exact hits.
 #if defined(NACRE_VISIBILITY_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_PACKET_INL_H_
 #undef NACRE_VISIBILITY_PACKET_INL_H_
@@ -58,8 +58,8 @@ HWY_INLINE Vec3V<hn::Vec<D>> Direction(D d, const Packet& packet, int lane) {
   return Load3(d, packet.direction_x + lane, packet.direction_y + lane, packet.direction_z + lane);
 }
 
-// Embree's depths for t: never less. Demoting errs by half a unit in the last place at most, or,
-// near the smallest floats, by one of them.
+// The float rays' depths for t: never less. Demoting errs by half a unit in the last place at most,
+// or, near the smallest floats, by one of them.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE auto UpperDepth(D /*d*/, V t, V t_scale) {
   const hn::Rebind<float, D> df;
@@ -69,7 +69,7 @@ HWY_INLINE auto UpperDepth(D /*d*/, V t, V t_scale) {
 }
 
 // Keeps the hits (t, primitive), at the lanes from `lane` on, that come before the best ones so
-// far: those nearer, and among equals the lower id. Embree need not look further than them.
+// far: those nearer, and among equals the lower id. The tree need not look further than them.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE void RecordClosest(D d, Packet* packet, int lane, hn::Mask<D> hit, V t,
                               uint32_t primitive) {
@@ -86,7 +86,7 @@ HWY_INLINE void RecordClosest(D d, Packet* packet, int lane, hn::Mask<D> hit, V 
   hn::Store(new_best, d, packet->best_t + lane);
   const hn::Rebind<float, D> df;
   hn::StoreU(UpperDepth(d, new_best, hn::Load(d, packet->t_scale + lane)), df,
-             packet->tfar() + lane);
+             packet->floats.depth + lane);
   for (; bits != 0; bits &= bits - 1)
     packet->best_primitive[lane + __builtin_ctz(bits)] = primitive;
 }
@@ -100,11 +100,12 @@ HWY_INLINE uint32_t StartingLanes(const Packet& packet, uint32_t primitive) {
   return lanes;
 }
 
-// Marks the lanes of `bits` as occluded; Embree's sign for that is a limit of -infinity.
+// Marks the lanes of `bits` as occluded; the sign for that is a limit of -infinity, as Embree has
+// it.
 HWY_INLINE void RecordOccluded(Packet* packet, uint32_t bits) {
   packet->occluded |= bits;
   for (; bits != 0; bits &= bits - 1) {
-    packet->tfar()[__builtin_ctz(bits)] = -std::numeric_limits<float>::infinity();
+    packet->floats.depth[__builtin_ctz(bits)] = -std::numeric_limits<float>::infinity();
   }
 }
 

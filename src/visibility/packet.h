@@ -1,30 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/packet.h: one packet of rays on its way through Embree: the float rays that Embree
-// walks its tree with, and what our callbacks need to decide hits in double.
+// visibility/packet.h: one packet of rays on its way through a tree: the float rays that spheres
+// are proposed by, and what decides hits in double.
 #pragma once
 
 #include <cstdint>
 
 #include "hit/camera_frame.h"
 #include "scene/light_shapes.h"
-#include "visibility/embree_api.h"
 #include "visibility/geometry.h"
 
 namespace nacre {
 
 inline constexpr int kMaxPacketWidth = 16;
 
+// The rays of a packet rounded to float, one a lane, where its tree reads them.
+struct FloatRays {
+  float* origin_x;
+  float* origin_y;
+  float* origin_z;
+  float* direction_x;
+  float* direction_y;
+  float* direction_z;
+  float* depth;  // where the rays end: t times Packet::t_scale, or more
+};
+
 // Lanes are numbered as in the batch that the packet is a piece of; the pointers are to the
-// packet's piece of the batch's arrays. Embree's depths are t times t_scale.
+// packet's piece of the batch's arrays.
 struct Packet {
-  EmbreeContext context;  // first: the callbacks get a pointer to it and find the packet
-  int width = 0;
-  RTCScene scene = nullptr;
+  int width = 0;       // 4, 8 or 16
+  uint32_t lanes = 0;  // one bit a lane that holds a ray whose answer is open
   const TraceGeometry* geometry = nullptr;
   FilmView film;  // the batch's
-
-  alignas(64) int valid[kMaxPacketWidth];  // -1: the lane holds a ray, 0: not
-  RTCRayHit16 rays;                        // laid out for `width` lanes
+  FloatRays floats{};
 
   const double* origin_x;
   const double* origin_y;
@@ -57,36 +64,6 @@ struct Packet {
   alignas(64) double start_sphere[4][kMaxPacketWidth];
   alignas(64) double start_reach[kMaxPacketWidth];  // bounds that primitive's coordinates
   uint32_t occluded = 0;                            // one bit a lane
-
-  RTCRayN* ray_n() { return RTCRayHitN_RayN(reinterpret_cast<RTCRayHitN*>(&rays), Width()); }
-  unsigned Width() const { return static_cast<unsigned>(width); }
-  float* tfar() { return &RTCRayN_tfar(ray_n(), Width(), 0); }
 };
-
-inline Packet& PacketOf(EmbreeContext* context) { return *reinterpret_cast<Packet*>(context); }
-
-// The lanes, as bits, of the rays that a callback is asked about. Embree passes the packet itself,
-// or a copy of some of its rays in another order: ids lead back.
-inline uint32_t ActiveLanes(Packet& packet, const int* valid, const void* rays, unsigned count) {
-  uint32_t lanes = 0;
-  if (rays == &packet.rays) {
-    for (unsigned i = 0; i < count; ++i) lanes |= static_cast<uint32_t>(valid[i] != 0) << i;
-    return lanes;
-  }
-  auto* copy = static_cast<RTCRayN*>(const_cast<void*>(rays));
-  for (unsigned i = 0; i < count; ++i) {
-    if (valid[i] != 0) lanes |= 1u << RTCRayN_id(copy, count, i);
-  }
-  return lanes;
-}
-
-// Hands the packet's depth limits to the rays that a callback was given.
-inline void ReturnDepths(Packet& packet, const int* valid, void* rays, unsigned count) {
-  if (rays == &packet.rays) return;
-  auto* copy = static_cast<RTCRayN*>(rays);
-  for (unsigned i = 0; i < count; ++i) {
-    if (valid[i] != 0) RTCRayN_tfar(copy, count, i) = packet.tfar()[RTCRayN_id(copy, count, i)];
-  }
-}
 
 }  // namespace nacre

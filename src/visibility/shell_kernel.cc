@@ -3,12 +3,14 @@
 // decides hits in its leaves is what decides them elsewhere.
 #include "visibility/shell_kernel.h"
 
+#include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "visibility/shell_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "visibility/fill_packet-inl.h"
 #include "visibility/sphere_packet-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -141,28 +143,48 @@ HWY_INLINE void WalkShells(const ShellTree& tree, uint32_t lanes, const Packet& 
   }
 }
 
-void IntersectShells(const RTCIntersectFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const uint32_t active = ActiveLanes(packet, args->valid, args->rayhit, args->N);
-  WalkShells(geometry.shells, active, packet, [&](const ShellMember& member, uint32_t lanes) {
-    IntersectLanes(geometry.spheres[member.lowest], member.lowest, lanes, &packet);
-  });
-  ReturnDepths(packet, args->valid, args->rayhit, args->N);
+// A packet whose tree reads its float rays here.
+struct ShellPacket {
+  explicit ShellPacket(const TraceGeometry& geometry) {
+    packet.width = std::max(4, 2 * static_cast<int>(hn::Lanes(ShellTag())));
+    packet.geometry = &geometry;
+    packet.floats = {floats[0], floats[1], floats[2], floats[3], floats[4], floats[5], floats[6]};
+  }
+  ShellPacket(const ShellPacket&) = delete;  // it points into itself
+  ShellPacket& operator=(const ShellPacket&) = delete;
+
+  size_t Width() const { return static_cast<size_t>(packet.width); }
+
+  Packet packet;
+  alignas(64) float floats[7][kMaxPacketWidth];
+};
+
+void Nearer(const TraceGeometry& geometry, const RayBatch& rays, ClosestHits* hits) {
+  ShellPacket shells(geometry);
+  Packet& packet = shells.packet;
+  for (size_t first = 0; first < rays.count; first += shells.Width()) {
+    FillClosest(rays, first, hits, &packet);
+    WalkShells(geometry.shells, packet.lanes, packet,
+               [&](const ShellMember& member, uint32_t lanes) {
+                 IntersectLanes(geometry.spheres[member.lowest], member.lowest, lanes, &packet);
+               });
+  }
 }
 
-void OccludedByShells(const RTCOccludedFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const uint32_t active = ActiveLanes(packet, args->valid, args->ray, args->N);
-  WalkShells(geometry.shells, active, packet, [&](const ShellMember& member, uint32_t lanes) {
-    if (packet.target.Contains(member.lowest) && packet.target.Contains(member.highest)) return;
-    OccludeLanes(geometry.spheres[member.lowest], lanes, &packet);
-  });
-  ReturnDepths(packet, args->valid, args->ray, args->N);
+void Occluded(const TraceGeometry& geometry, ShadowRayBatch* rays) {
+  ShellPacket shells(geometry);
+  Packet& packet = shells.packet;
+  for (size_t first = 0; first < rays->count; first += shells.Width()) {
+    FillShadowRays(*rays, first, &packet);
+    const PrimitiveRange& target = packet.target;
+    WalkShells(geometry.shells, packet.lanes, packet,
+               [&](const ShellMember& member, uint32_t lanes) {
+                 if (target.Contains(member.lowest) && target.Contains(member.highest)) return;
+                 OccludeLanes(geometry.spheres[member.lowest], lanes, &packet);
+               });
+    StoreOccluded(packet, first, rays);
+  }
 }
-
-PrimitiveCallbacks CallbacksOfShells() { return {&IntersectShells, &OccludedByShells}; }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -171,7 +193,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(CallbacksOfShells);
-PrimitiveCallbacks ShellCallbacks() { return HWY_DYNAMIC_DISPATCH(CallbacksOfShells)(); }
+HWY_EXPORT(Nearer);
+HWY_EXPORT(Occluded);
+
+void NearerInShells(const TraceGeometry& geometry, const RayBatch& rays, ClosestHits* hits) {
+  HWY_DYNAMIC_DISPATCH(Nearer)(geometry, rays, hits);
+}
+
+void OccludedInShells(const TraceGeometry& geometry, ShadowRayBatch* rays) {
+  HWY_DYNAMIC_DISPATCH(Occluded)(geometry, rays);
+}
 }  // namespace nacre
 #endif

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/shell_kernel.h: Embree's callbacks for spheres that have a shell tree.
+// visibility/shell_kernel.h: batches of rays through the tree of shells, packet by packet.
 #pragma once
 
-#include "visibility/sphere_kernel.h"
+#include "hit/batch.h"
+#include "visibility/geometry.h"
 
 namespace nacre {
 
-// As SphereCallbacks, for a geometry of one primitive that is all spheres at once.
-PrimitiveCallbacks ShellCallbacks();
+// Puts the rays' first hits on spheres in the place of those that they are nearer than.
+void NearerInShells(const TraceGeometry& geometry, const RayBatch& rays, ClosestHits* hits);
+
+// Sets rays->occluded where a sphere is in the way; the others stay.
+void OccludedInShells(const TraceGeometry& geometry, ShadowRayBatch* rays);
 
 }  // namespace nacre

@@ -31,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // rounding of the sum, 3 u S: twice `error` is enough. The direction's length is at least 1
 // (FillPacket), so depths err no more than lengths do.
 template <class D>
-HWY_INLINE uint32_t ProposedLanes(D d, Packet& packet, const TraceSphere& sphere) {
+HWY_INLINE uint32_t ProposedLanes(D d, const Packet& packet, const TraceSphere& sphere) {
   using V = hn::Vec<D>;
   const Vec3V<V> center{hn::Set(d, static_cast<float>(sphere.center.x)),
                         hn::Set(d, static_cast<float>(sphere.center.y)),
@@ -39,15 +39,12 @@ HWY_INLINE uint32_t ProposedLanes(D d, Packet& packet, const TraceSphere& sphere
   const V radius = hn::Set(d, static_cast<float>(sphere.radius));
   const V sphere_error =
       hn::Mul(hn::Add(SumOfAbs(center), radius), hn::Set(d, static_cast<float>(32 * kFloatUnit)));
-  RTCRayN* rays = packet.ray_n();
-  const unsigned width = packet.Width();
+  const FloatRays& rays = packet.floats;
   uint32_t lanes = 0;
-  for (unsigned i = 0; i < width; i += static_cast<unsigned>(hn::Lanes(d))) {
-    const Vec3V<V> origin = Load3(d, &RTCRayN_org_x(rays, width, i), &RTCRayN_org_y(rays, width, i),
-                                  &RTCRayN_org_z(rays, width, i));
+  for (int i = 0; i < packet.width; i += static_cast<int>(hn::Lanes(d))) {
+    const Vec3V<V> origin = Load3(d, rays.origin_x + i, rays.origin_y + i, rays.origin_z + i);
     const Vec3V<V> direction =
-        Load3(d, &RTCRayN_dir_x(rays, width, i), &RTCRayN_dir_y(rays, width, i),
-              &RTCRayN_dir_z(rays, width, i));
+        Load3(d, rays.direction_x + i, rays.direction_y + i, rays.direction_z + i);
     const V error = hn::Add(sphere_error, hn::Load(d, packet.origin_error + i));
     const Vec3V<V> to_center = Sub(center, origin);
     const V closest = hn::Mul(Dot(to_center, direction), hn::Load(d, packet.ray_inverse_dd + i));
@@ -57,7 +54,7 @@ HWY_INLINE uint32_t ProposedLanes(D d, Packet& packet, const TraceSphere& sphere
     const V half_chord = hn::Mul(hn::Sqrt(hn::Max(discriminant, hn::Zero(d))),
                                  hn::Load(d, packet.ray_inverse_length + i));
     const V margin = hn::Add(half_chord, hn::Add(error, error));
-    const auto near_enough = hn::Le(hn::Sub(closest, margin), hn::Load(d, packet.tfar() + i));
+    const auto near_enough = hn::Le(hn::Sub(closest, margin), hn::Load(d, rays.depth + i));
     const auto ahead = hn::Gt(hn::Add(closest, margin), hn::Zero(d));
     const auto proposed = hn::And(hn::Ge(discriminant, hn::Zero(d)), hn::And(near_enough, ahead));
     lanes |= BitsOfMask(d, proposed) << i;

@@ -26,6 +26,9 @@ TRUNK = (
 TRUNK_FOLDERS = {folder for tier in TRUNK for folder in tier}
 # Side branches, and what each may depend on.
 BRANCHES = {
+    # One of the two defines what visibility/box_trees.h declares.
+    "embree": {"base", "hit", "visibility"},
+    "no_embree": {"base", "hit", "visibility"},
     "image_io": {"base", "color"},
     "oiio_module": {"image_io"},  # loaded by it; they share one header
     "scene_io": {"base", "scene", "image_io"},
@@ -66,13 +69,13 @@ RENDER_ORDER = """
 SIMD_FILE = r"\w+/(\w+-inl\.h|\w+_kernel\.cc)"
 # Headers with a rule of their own: their names, the files of src/ that may include them, the rule.
 HEADER_RULES = (
-    (r"embree\d/", r"visibility/", "Embree only in visibility/"),
+    (r"embree\d/", r"embree/embree_api\.h", "Embree only in embree/embree_api.h"),
     (r"OpenImageIO/", r"oiio_module/", "OpenImageIO only in oiio_module/"),
     (r"OpenEXR/|Imf\w*\.h|openexr\w*\.h", r"image_io/", "OpenEXR only in image_io/"),
     (r"isa-l|igzip|zlib\.h", r"image_io/", "deflate only in image_io/"),
     (r"spng\.h|jpeglib\.h|jerror\.h|ft2build\.h", r"image_io/",
      "libspng, libjpeg and FreeType only in image_io/"),
-    (r"(oneapi/)?tbb/", r"base/", "TBB only in base/"),
+    (r"(oneapi/)?tbb/", r"embree/tbb_threads\.cc", "TBB only in embree/tbb_threads.cc"),
     (r"hwy/highway\.h", rf"{SIMD_FILE}|base/(highway_targets|target)\.cc",
      "Highway only in *-inl.h and *_kernel.cc, highway.h also in base/{highway_targets,target}.cc"),
     (r"hwy/", SIMD_FILE, "Highway only in *-inl.h and *_kernel.cc"),
@@ -84,7 +87,7 @@ HEADER_RULES = (
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^>"]+)[>"]')
 LIBRARY_CALL = re.compile(r"nacre_library\(\s*(\w+)([^)]*)\)")
 # The program `nacre` is all of cli/.
-PROGRAM_CALL = re.compile(r"target_link_libraries\(\s*nacre\s([^)]*)\)")
+PROGRAM_CALL = re.compile(r"target_link_libraries\(\s*nacre_cli\s([^)]*)\)")
 
 
 def allowed_by_table(folder):

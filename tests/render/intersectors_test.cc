@@ -264,7 +264,7 @@ TEST_CASE("Embree is there where it is needed, and only there") {
     const FramePlan plan = MakePlan(scene, settings);
     bool embree = false;
     for (const PlanItem& item : plan.why.items) {
-      if (item.what == "intersector embree") embree = item.used;
+      if (item.what == "intersector tree") embree = item.used;
     }
     return std::pair(plan.hits.tiles, embree);
   };

@@ -235,7 +235,7 @@ TEST_CASE("tiles hit what the scalar twins hit, on every target") {
       const FilmView view = MakeFilmView(frame);
       const Scene scene = SpheresBefore(frame, what, &random);
       const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
-      Intersector intersector(scene, Vec3d(0), {.embree = false});
+      Intersector intersector(scene, Vec3d(0), {.tree = false});
       HitTile(frame, film, &intersector, &hits);
       size_t next = 0;
       for (size_t i = 0; i < film.count; ++i) {

@@ -85,7 +85,7 @@ size_t CheckRandomSpheres(double tangent, int round, Random* random) {
   for (int i = 0; i < 1 + round % 11; ++i) {
     scene.spheres.push_back(RandomSphere(frame, tangent, random));
   }
-  Intersector intersector(scene, Vec3d(0), {.embree = false});
+  Intersector intersector(scene, Vec3d(0), {.tree = false});
   REQUIRE(intersector.BinForCamera(frame, {0, 0, kWidth, kHeight}, reach));
   CAPTURE(round, tangent);
   size_t pixels = 0;
@@ -131,7 +131,7 @@ TEST_CASE("a sphere that nearly touches the camera's plane has whole spans") {
   for (const double gap : {1e-7, 1.1e-6, 1e-5, 1e-4, 1e-3}) {
     Scene scene;
     scene.spheres = {MakeSphere({0.75, 0.75, -(1 + gap)}, 1)};
-    Intersector intersector(scene, Vec3d(0), {.embree = false});
+    Intersector intersector(scene, Vec3d(0), {.tree = false});
     REQUIRE(intersector.BinForCamera(frame, {0, 0, kSide, kSide}, 0));
     CAPTURE(gap);
     size_t pixels = 0;
@@ -157,7 +157,7 @@ TEST_CASE("a sphere's spans are no wider than its outline") {
     const CameraFrame frame = RandomFrame(&random, 1);
     Scene scene;
     scene.spheres = {MakeSphere(Through(frame, 30.3, 24.2) * 5, 1.1)};
-    Intersector intersector(scene, Vec3d(0), {.embree = false});
+    Intersector intersector(scene, Vec3d(0), {.tree = false});
     const double reach = centers ? kReachOfCenters : 0;
     REQUIRE(intersector.BinForCamera(frame, {0, 0, kWidth, kHeight}, reach));
     for (int y = 0; y < kHeight; y += kCellSize) {

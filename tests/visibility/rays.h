@@ -151,7 +151,7 @@ inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
 inline double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Whether the ray ends on the surface within rounding: EndsOnSphere of visibility/occlusion-inl.h
-// and EndsOnPlane of visibility/triangle_kernel.cc, which derive the bounds.
+// and EndsOnPlane of embree/triangle_kernel.cc, which derive the bounds.
 inline bool EndsOnSphere(const TraceSphere& sphere, const ShadowRay& shadow) {
   if (std::isinf(shadow.t_max)) return false;
   const Vec3d to_end = shadow.ray.direction * shadow.t_max;

@@ -48,7 +48,7 @@ void CheckSky(const Scene& scene, const Vec3d& eye, Random* random) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   const std::vector<ShadowRay> rays = RaysToRims(scene, eye, random);
   ForEachTarget([&](Target) {
-    Intersector intersector(scene, eye, {.threads = 1, .embree = false});
+    Intersector intersector(scene, eye, {.threads = 1, .tree = false});
     const uint32_t sky = intersector.FindOccludersOfBall(std::nullopt, {}, false);
     const std::vector<bool> found = TraceShadows(intersector, rays, sky, false);
     size_t occluded = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/sphere_kernel.h: Embree's callbacks for the spheres.
+// embree/sphere_kernel.h: Embree's callbacks for the spheres.
 #pragma once
 
-#include "visibility/embree_api.h"
+#include "embree/embree_api.h"
 
 namespace nacre {
 
@@ -12,7 +12,7 @@ struct PrimitiveCallbacks {
 };
 
 // For one user geometry whose primitives are TraceGeometry::spheres and whose user pointer is the
-// TraceGeometry; compiled for the active target. Queries must come with a Packet as context.
+// TraceGeometry; compiled for the active target. Queries must come with an EmbreePacket as context.
 PrimitiveCallbacks SphereCallbacks();
 
 }  // namespace nacre

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/triangle_kernel.cc: the double test of a packet of rays against one triangle.
+// embree/triangle_kernel.cc: the double test of a packet of rays against one triangle.
 //
 // Embree's own triangle test is watertight, but its float edges depend on the instruction set and
 // on which rays share a packet, and so would the picture.
-#include "visibility/triangle_kernel.h"
+#include "embree/triangle_kernel.h"
+
+#include "embree/embree_packet.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "visibility/triangle_kernel.cc"
+#define HWY_TARGET_INCLUDE "embree/triangle_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "visibility/occlusion-inl.h"
@@ -68,10 +70,11 @@ HWY_INLINE const CutOut* HolesOf(const TraceGeometry& geometry, uint32_t triangl
 }
 
 void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
+  EmbreePacket& embree = PacketOf(args->context);
+  Packet& packet = embree.packet;
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const Corners corners = CornersOf(geometry, args->primID);
-  const uint32_t lanes = ActiveLanes(packet, args->valid, args->rayhit, args->N);
+  const uint32_t lanes = ActiveLanes(embree, args->valid, args->rayhit, args->N);
   const CutOut* const holes = HolesOf(geometry, args->primID);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
@@ -87,7 +90,7 @@ void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
     }
     RecordClosest(d, &packet, lane, met, hit.t, geometry.SphereCount() + args->primID);
   }
-  ReturnDepths(packet, args->valid, args->rayhit, args->N);
+  ReturnDepths(embree, args->valid, args->rayhit, args->N);
 }
 
 constexpr double kUnit = 0x1p-53;
@@ -153,10 +156,11 @@ HWY_INLINE hn::Mask<D> TouchesPlane(D d, const Packet& packet, int lane, const C
 }
 
 HWY_NOINLINE void OccludeByTriangle(const RTCOccludedFunctionNArguments* args,
-                                    const TraceGeometry& geometry, Packet& packet) {
+                                    const TraceGeometry& geometry, EmbreePacket& embree) {
+  Packet& packet = embree.packet;
   const Corners corners = CornersOf(geometry, args->primID);
   const uint32_t starting = StartingLanes(packet, geometry.SphereCount() + args->primID);
-  const uint32_t lanes = ActiveLanes(packet, args->valid, args->ray, args->N) & ~starting;
+  const uint32_t lanes = ActiveLanes(embree, args->valid, args->ray, args->N) & ~starting;
   const CutOut* const holes = HolesOf(geometry, args->primID);
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
@@ -174,15 +178,15 @@ HWY_NOINLINE void OccludeByTriangle(const RTCOccludedFunctionNArguments* args,
     occluded |= BitsOfMask(d, hn::AndNot(TouchesPlane(d, packet, lane, corners), met)) << lane;
   }
   RecordOccluded(&packet, occluded);
-  ReturnDepths(packet, args->valid, args->ray, args->N);
+  ReturnDepths(embree, args->valid, args->ray, args->N);
 }
 
 // Most asked about are the light's own where a light is a mesh: nothing is set up for them.
 void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
+  EmbreePacket& embree = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  if (packet.target.Contains(geometry.SphereCount() + args->primID)) return;
-  OccludeByTriangle(args, geometry, packet);
+  if (embree.packet.target.Contains(geometry.SphereCount() + args->primID)) return;
+  OccludeByTriangle(args, geometry, embree);
 }
 
 PrimitiveCallbacks Callbacks() { return {&IntersectTriangle, &OccludedByTriangle}; }

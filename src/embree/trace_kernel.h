@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/trace_kernel.h: batches of rays through Embree, packet by packet.
+// embree/trace_kernel.h: batches of rays through Embree, packet by packet.
 #pragma once
 
+#include "embree/embree_api.h"
 #include "hit/batch.h"
-#include "visibility/embree_api.h"
 #include "visibility/geometry.h"
 
 namespace nacre {
@@ -15,8 +15,7 @@ struct TraceScene {
   const TraceGeometry* geometry = nullptr;
 };
 
-void TraceClosest(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits);
-// The same, but for hits nearer than hits->t; where there are none that stays.
+// As BoxTrees has them.
 void TraceNearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits);
 void TraceOccluded(const TraceScene& scene, ShadowRayBatch* rays);
 

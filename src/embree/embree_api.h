@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/embree_api.h: Embree 3 and Embree 4 under one set of names: all that differs between
+// embree/embree_api.h: Embree 3 and Embree 4 under one set of names: all that differs between
 // the two lives here. Queries run on packets of 4, 8 or 16 rays.
 #pragma once
 

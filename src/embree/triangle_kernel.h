@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/triangle_kernel.h: Embree's callbacks for the triangles.
+// embree/triangle_kernel.h: Embree's callbacks for the triangles.
 #pragma once
 
-#include "visibility/sphere_kernel.h"
+#include "embree/sphere_kernel.h"
 
 namespace nacre {
 

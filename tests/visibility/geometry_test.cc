@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/packet_test.cc: the parts beneath the intersector: geometry, exact products,
-// and packets of which Embree hands on some rays in another order.
-#include "visibility/packet.h"
+// tests/visibility/geometry_test.cc: the parts beneath the intersector: geometry, exact products.
+#include "visibility/geometry.h"
 
 #include "catch.h"
 #include "quad.h"
@@ -59,32 +58,6 @@ TEST_CASE("geometry is relative to the camera") {
   const TraceGeometry geometry = MakeTraceGeometry(scene, {1, 1, 1});
   CHECK(geometry.spheres[0].center == Vec3d(0, 1, 2));
   CHECK(geometry.extent == Vec3d(-1, 29, 39).length());
-}
-
-TEST_CASE("rays handed on as a copy are found by their ids") {
-  Packet packet;
-  packet.width = 8;
-  for (unsigned i = 0; i < 8; ++i) {
-    RTCRayN_id(packet.ray_n(), 8, i) = i;
-    packet.tfar()[i] = static_cast<float>(10 + i);
-  }
-  const int all_but_two[8] = {-1, -1, 0, -1, -1, -1, -1, -1};
-  CHECK(ActiveLanes(packet, all_but_two, &packet.rays, 8) == 0b11111011u);
-
-  RTCRayHit4 copy;
-  auto* rays = reinterpret_cast<RTCRayN*>(&copy);
-  const unsigned ids[4] = {6, 1, 5, 0};
-  const int valid[4] = {-1, -1, 0, -1};
-  for (unsigned i = 0; i < 4; ++i) {
-    RTCRayN_id(rays, 4, i) = ids[i];
-    RTCRayN_tfar(rays, 4, i) = 99;
-  }
-  CHECK(ActiveLanes(packet, valid, rays, 4) == 0b01000011u);
-  ReturnDepths(packet, valid, rays, 4);
-  CHECK(RTCRayN_tfar(rays, 4, 0) == 16);
-  CHECK(RTCRayN_tfar(rays, 4, 1) == 11);
-  CHECK(RTCRayN_tfar(rays, 4, 2) == 99);
-  CHECK(RTCRayN_tfar(rays, 4, 3) == 10);
 }
 
 }  // namespace

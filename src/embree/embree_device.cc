@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "visibility/embree_device.h"
+#include "embree/embree_device.h"
 
 #include <algorithm>
 #include <mutex>

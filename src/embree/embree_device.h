@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/embree_device.h: Embree's devices: which instruction set, what went wrong, and kept
+// embree/embree_device.h: Embree's devices: which instruction set, what went wrong, and kept
 // from render to render.
 #pragma once
 
 #include <memory>
 
-#include "visibility/embree_api.h"
+#include "embree/embree_api.h"
 
 namespace nacre {
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/sphere_kernel.cc: a float test proposes the rays of a packet that may hit a sphere,
+// embree/sphere_kernel.cc: a float test proposes the rays of a packet that may hit a sphere,
 // and the double test decides.
-#include "visibility/sphere_kernel.h"
+#include "embree/sphere_kernel.h"
+
+#include "embree/embree_packet.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "visibility/sphere_kernel.cc"
+#define HWY_TARGET_INCLUDE "embree/sphere_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "visibility/sphere_packet-inl.h"
@@ -16,21 +18,21 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 void IntersectSphere(const RTCIntersectFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
+  EmbreePacket& embree = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const TraceSphere& sphere = geometry.spheres[args->primID];
-  const uint32_t lanes = ActiveLanes(packet, args->valid, args->rayhit, args->N);
-  IntersectLanes(sphere, args->primID, lanes, &packet);
-  ReturnDepths(packet, args->valid, args->rayhit, args->N);
+  const uint32_t lanes = ActiveLanes(embree, args->valid, args->rayhit, args->N);
+  IntersectLanes(sphere, args->primID, lanes, &embree.packet);
+  ReturnDepths(embree, args->valid, args->rayhit, args->N);
 }
 
 void OccludedBySphere(const RTCOccludedFunctionNArguments* args) {
-  Packet& packet = PacketOf(args->context);
-  if (packet.target.Contains(args->primID)) return;
+  EmbreePacket& embree = PacketOf(args->context);
+  if (embree.packet.target.Contains(args->primID)) return;
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const TraceSphere& sphere = geometry.spheres[args->primID];
-  OccludeLanes(sphere, ActiveLanes(packet, args->valid, args->ray, args->N), &packet);
-  ReturnDepths(packet, args->valid, args->ray, args->N);
+  OccludeLanes(sphere, ActiveLanes(embree, args->valid, args->ray, args->N), &embree.packet);
+  ReturnDepths(embree, args->valid, args->ray, args->N);
 }
 
 PrimitiveCallbacks Callbacks() { return {&IntersectSphere, &OccludedBySphere}; }

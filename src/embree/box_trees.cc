@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// embree/box_trees.cc: sets Embree's scenes up: bounds, callbacks.
+#include "visibility/box_trees.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "base/handover.h"
+#include "embree/embree_api.h"
+#include "embree/embree_device.h"
+#include "embree/sphere_kernel.h"
+#include "embree/tbb_threads.h"
+#include "embree/trace_kernel.h"
+#include "embree/triangle_kernel.h"
+
+namespace nacre {
+namespace {
+
+struct ReleaseScene {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
+
+// How far the float ray strays from the true one, at or before points within `reach` of the
+// camera: its origin by u |o| and its direction by u |p - o|, with |o| at most the extent. Twice
+// that, for the rounding of the bounds themselves.
+double BoundsMargin(const TraceGeometry& geometry, double reach) {
+  return 2 * kFloatUnit * (2 * geometry.extent + reach);
+}
+
+void SetBounds(const Vec3d& lower, const Vec3d& upper, double margin, RTCBounds* bounds) {
+  bounds->lower_x = static_cast<float>(lower.x - margin);
+  bounds->lower_y = static_cast<float>(lower.y - margin);
+  bounds->lower_z = static_cast<float>(lower.z - margin);
+  bounds->upper_x = static_cast<float>(upper.x + margin);
+  bounds->upper_y = static_cast<float>(upper.y + margin);
+  bounds->upper_z = static_cast<float>(upper.z + margin);
+}
+
+void SphereBounds(const RTCBoundsFunctionArguments* args) {
+  TakeOver(args->geometryUserPtr);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const auto& [center, radius] = geometry.spheres[args->primID];
+  SetBounds(center - Vec3d(radius), center + Vec3d(radius),
+            BoundsMargin(geometry, center.length() + radius), args->bounds_o);
+  HandOver(args->geometryUserPtr);
+}
+
+void TriangleBounds(const RTCBoundsFunctionArguments* args) {
+  TakeOver(args->geometryUserPtr);
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const auto& corners = geometry.triangles[args->primID];
+  Vec3d lower = geometry.positions[corners[0]], upper = lower;
+  double reach = 0;
+  for (const uint32_t corner : corners) {
+    const Vec3d& position = geometry.positions[corner];
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], position[i]);
+      upper[i] = std::max(upper[i], position[i]);
+    }
+    reach = std::max(reach, position.length());
+  }
+  SetBounds(lower, upper, BoundsMargin(geometry, reach), args->bounds_o);
+  HandOver(args->geometryUserPtr);
+}
+
+void Attach(RTCDevice device, RTCScene scene, const TraceGeometry* geometry, size_t count,
+            RTCBoundsFunction bounds, const PrimitiveCallbacks& callbacks) {
+  if (count == 0) return;
+  RTCGeometry shapes = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(shapes, static_cast<unsigned>(count));
+  rtcSetGeometryUserData(shapes, const_cast<TraceGeometry*>(geometry));
+  rtcSetGeometryBoundsFunction(shapes, bounds, nullptr);
+  rtcSetGeometryIntersectFunction(shapes, callbacks.intersect);
+  rtcSetGeometryOccludedFunction(shapes, callbacks.occluded);
+  rtcCommitGeometry(shapes);
+  rtcAttachGeometry(scene, shapes);
+  rtcReleaseGeometry(shapes);
+}
+
+}  // namespace
+
+// Embree holds pointers to the geometry; the scenes go before the device.
+struct BoxTrees::State {
+  const TraceGeometry* geometry;
+  EmbreeDevice device;
+  ScenePointer all, triangles;
+
+  ScenePointer& SceneOf(BoxTree tree) { return tree == BoxTree::kAll ? all : triangles; }
+  TraceScene Traced(BoxTree tree) { return {SceneOf(tree).get(), device.packet_width(), geometry}; }
+};
+
+const char* EmbreeVersion() { return RTC_VERSION_STRING; }
+
+BoxTrees::BoxTrees(const TraceGeometry* geometry) : state_(std::make_unique<State>()) {
+  state_->geometry = geometry;
+}
+BoxTrees::~BoxTrees() = default;
+
+void BoxTrees::Build(BoxTree tree, int threads) {
+  EmbreeDevice& device = state_->device;
+  const TraceGeometry* const geometry = state_->geometry;
+  if (state_->SceneOf(tree)) return;
+  ScenePointer built(rtcNewScene(device.get()));
+  device.ThrowIfFailed();
+  rtcSetSceneFlags(built.get(), RTC_SCENE_FLAG_ROBUST);
+  if (tree == BoxTree::kAll && geometry->shells.empty()) {
+    Attach(device.get(), built.get(), geometry, geometry->spheres.size(), &SphereBounds,
+           SphereCallbacks());
+  }
+  Attach(device.get(), built.get(), geometry, geometry->triangles.size(), &TriangleBounds,
+         TriangleCallbacks());
+  HandOver(geometry);
+  WithThreads(threads, [&] { rtcJoinCommitScene(built.get()); });
+  TakeOver(geometry);
+  try {
+    device.ThrowIfFailed();
+  } catch (const Error&) {
+    // Left behind: where memory ran out as TBB made a task, the scene's task group counts a task
+    // that never was, and to release the scene would wait for it for ever.
+    [[maybe_unused]] const RTCScene left = built.release();
+    throw;
+  }
+  state_->SceneOf(tree) = std::move(built);
+}
+
+void BoxTrees::FindNearer(BoxTree tree, const RayBatch& rays, ClosestHits* hits) const {
+  TraceNearer(state_->Traced(tree), rays, hits);
+}
+
+void BoxTrees::FindOccluded(ShadowRayBatch* rays) const {
+  TraceOccluded(state_->Traced(BoxTree::kAll), rays);
+}
+
+}  // namespace nacre

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// embree/trace_kernel.cc: hands packets of rays to Embree.
+#include "embree/trace_kernel.h"
+
+#include "embree/embree_packet.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "embree/trace_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "visibility/fill_packet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+
+HWY_INLINE void ChooseLanes(EmbreePacket* to) {
+  for (int lane = 0; lane < to->packet.width; ++lane) {
+    to->valid[lane] = (to->packet.lanes >> lane & 1) != 0 ? -1 : 0;
+  }
+}
+
+void Nearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
+  EmbreePacket to(scene.packet_width, scene.scene, scene.geometry);
+  for (size_t first = 0; first < rays.count; first += to.Width()) {
+    FillClosest(rays, first, hits, &to.packet);
+    ChooseLanes(&to);
+    IntersectPacket(to.packet.width, to.valid, to.scene, &to.context, &to.rays);
+  }
+}
+
+void Occluded(const TraceScene& scene, ShadowRayBatch* rays) {
+  EmbreePacket to(scene.packet_width, scene.scene, scene.geometry);
+  for (size_t first = 0; first < rays->count; first += to.Width()) {
+    FillShadowRays(*rays, first, &to.packet);
+    ChooseLanes(&to);
+    OccludedPacket(to.packet.width, to.valid, to.scene, &to.context, &to.rays);
+    StoreOccluded(to.packet, first, rays);
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(Nearer);
+HWY_EXPORT(Occluded);
+
+void TraceNearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
+  HWY_DYNAMIC_DISPATCH(Nearer)(scene, rays, hits);
+}
+
+void TraceOccluded(const TraceScene& scene, ShadowRayBatch* rays) {
+  HWY_DYNAMIC_DISPATCH(Occluded)(scene, rays);
+}
+}  // namespace nacre
+#endif

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// no_embree/box_trees.cc: what a build without Embree has in the place of src/embree.
+#include "visibility/box_trees.h"
+
+#include "base/error.h"
+
+namespace nacre {
+
+struct BoxTrees::State {};
+
+const char* EmbreeVersion() { return nullptr; }
+
+BoxTrees::BoxTrees(const TraceGeometry* /*geometry*/) {
+  throw Error(ExitCode::kBadInput, "/shapes", "this build has no Embree: it renders spheres only",
+              "take the meshes out, or build nacre with NACRE_EMBREE=ON");
+}
+BoxTrees::~BoxTrees() = default;
+
+// There is never an object to call these of.
+void BoxTrees::Build(BoxTree /*tree*/, int /*threads*/) {}
+void BoxTrees::FindNearer(BoxTree /*tree*/, const RayBatch& /*rays*/, ClosestHits* /*hits*/) const {
+}
+void BoxTrees::FindOccluded(ShadowRayBatch* /*rays*/) const {}
+
+}  // namespace nacre
