@@ -33,6 +33,8 @@ help_if_asked() {
 install_packages() {
   if [[ $1 == clang || $1 == fuzz ]]; then
     scripts/setup --dev
+  elif [[ $1 == minimal ]]; then
+    scripts/setup --minimal
   else
     scripts/setup
   fi

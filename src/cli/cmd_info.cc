@@ -15,10 +15,12 @@
 #include "cli/print.h"
 #include "cli/render_options.h"
 #include "image_io/image_file.h"
+#include "image_io/oiio.h"
 #include "image_io/verify_image.h"
 #include "output/metadata.h"
 #include "scene/hash.h"
 #include "scene_io/load_scene.h"
+#include "visibility/box_trees.h"
 
 namespace nacre {
 namespace {
@@ -108,6 +110,9 @@ void PrintBuild() {
   PrintOut("nacre {} ({})\n", kVersion, kCommit);
   PrintOut("  SIMD targets here  {}\n", fmt::format("{}", fmt::join(targets, ", ")));
   PrintOut("  threads            {}\n", ThreadCount(0));
+  const char* const embree = EmbreeVersion();
+  PrintOut("  Embree             {}\n", embree == nullptr ? "none: spheres only" : embree);
+  PrintOut("  TIFF               {}\n", HasOiio() ? "by OpenImageIO" : "not read");
 }
 
 }  // namespace

@@ -21,7 +21,7 @@
 namespace nacre {
 namespace {
 
-enum class FileFormat : uint8_t { kExr, kHdr, kPng, kJpeg, kPnm, kTga, kOther };
+enum class FileFormat : uint8_t { kExr, kHdr, kPng, kJpeg, kPnm, kTga, kTiff, kOther };
 
 // By its first bytes. A file named .exr is opened as EXR in any case, so that the error says what
 // is wrong with the EXR.
@@ -43,6 +43,9 @@ FileFormat FormatOf(const std::string& path) {
   if (HasExtension(path, ".tga")) return FileFormat::kTga;  // has no first bytes of its own
   if (head == "\x76\x2f\x31\x01" || HasExtension(path, ".exr")) return FileFormat::kExr;
   if (head.starts_with("#?")) return FileFormat::kHdr;
+  if (head.starts_with("II*") || head.starts_with("II+") || head.starts_with("MM")) {
+    return FileFormat::kTiff;
+  }
   return FileFormat::kOther;
 }
 
@@ -97,7 +100,9 @@ ImageFile OpenImage(const std::string& path, const std::string& part) {
   if (format == FileFormat::kJpeg) return OpenJpeg(path);
   if (format == FileFormat::kPnm) return OpenPnm(path);
   if (format == FileFormat::kTga) return OpenTga(path);
-  return OpenWithOiio(path);
+  if (format == FileFormat::kTiff) return OpenWithOiio(path);
+  throw Error(ExitCode::kBadInput, path,
+              "cannot be read: not PNG, JPEG, TIFF, Radiance HDR, PNM or TGA");
 }
 
 std::vector<ImagePart> DescribeImage(const std::string& path) {

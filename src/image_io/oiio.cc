@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 #include <link.h>
 
 #include "base/error.h"
@@ -75,21 +76,23 @@ std::vector<fs::path> ModulePaths() {
   return {folder / kModuleName, folder / installed / kModuleName};
 }
 
-Module LoadModule() {
+// Empty if there is none.
+fs::path ModulePath() {
   std::error_code error;
   for (const fs::path& path : ModulePaths()) {
-    if (!fs::exists(path, error)) continue;
-    // Never closed: OpenImageIO's libraries do not survive it.
-    void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr) throw Error(ExitCode::kInternal, path, dlerror());
-    return {Find<decltype(Module::open)>(library, "NacreOiioOpen"),
-            Find<decltype(Module::read_rows)>(library, "NacreOiioReadRows"),
-            Find<decltype(Module::close)>(library, "NacreOiioClose")};
+    if (fs::exists(path, error)) return path;
   }
-  throw Error(
-      ExitCode::kInternal, kModuleName,
-      "the module for it is neither beside the program or library nor where it is installed",
-      "only TIFF files need it: build or install it");
+  return {};
+}
+
+Module LoadModule() {
+  const fs::path path = ModulePath();
+  // Never closed: OpenImageIO's libraries do not survive it.
+  void* const library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) throw Error(ExitCode::kInternal, path, dlerror());
+  return {Find<decltype(Module::open)>(library, "NacreOiioOpen"),
+          Find<decltype(Module::read_rows)>(library, "NacreOiioReadRows"),
+          Find<decltype(Module::close)>(library, "NacreOiioClose")};
 }
 
 const Module& GetModule() {
@@ -168,12 +171,21 @@ class OpenFile {
 
 }  // namespace
 
+bool HasOiio() { return !ModulePath().empty(); }
+
 ImageFile OpenWithOiio(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) throw Error(ExitCode::kBadInput, path, "no such file");
   if (!fs::is_regular_file(status)) {
     throw Error(ExitCode::kBadInput, path, "is not a regular file");
+  }
+  if (!HasOiio()) {
+    throw Error(ExitCode::kBadInput, path,
+                fmt::format("cannot be read: {} is neither beside the program or library nor where "
+                            "it is installed",
+                            kModuleName),
+                "TIFF files need that module: install it, or build nacre with NACRE_OIIO=ON");
   }
   const OpenFile opened(path);
   const Orientation orientation = OrientationOfTag(opened.get().orientation);

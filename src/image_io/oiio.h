@@ -13,6 +13,9 @@
 
 namespace nacre {
 
+// Whether the module is there.
+bool HasOiio();
+
 // TIFF, as OpenImage says. First page, full resolution. Rows are decoded in
 // bands: beside the caller's samples, reading takes memory for a band, and whatever OpenImageIO and
 // the format's library do. Orientation tags are honoured.

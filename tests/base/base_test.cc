@@ -77,6 +77,33 @@ TEST_CASE("a parallel loop stops at an exception") {
   CHECK(begun < kCount);
 }
 
+TEST_CASE("parallel loops may be within one another, and have several callers") {
+  std::vector<std::atomic<int>> visits(40 * 50);
+  const auto loops = [&] {
+    ParallelFor(40, 3, [&](size_t i) {
+      ParallelFor(50, 3, [&](size_t j) { ++visits[i * 50 + j]; });
+    });
+  };
+  std::thread other(loops);
+  loops();
+  other.join();
+  for (const auto& count : visits) REQUIRE(count == 2);
+}
+
+TEST_CASE("a parallel loop takes no more threads than it is given, and ends after its last body") {
+  ParallelFor(8, 8, [](size_t) { Sleep(); });  // so that more threads are there
+  std::atomic<int> working{0}, ended{0};
+  std::atomic<bool> too_many{false};
+  ParallelFor(60, 3, [&](size_t) {
+    if (++working > 3) too_many = true;
+    Sleep();
+    --working;
+    ++ended;
+  });
+  CHECK(ended == 60);
+  CHECK_FALSE(too_many);
+}
+
 TEST_CASE("denormals are flushed in workers and only there") {
   volatile double tiny = 1e-300;
   std::atomic<int> flushed{0};

@@ -73,7 +73,7 @@ class Configuration:
         if r.random() < 0.4:
             options += ['--layers', r.choice(('all', ','.join(r.sample(LAYERS, 3))))]
         if r.random() < (0.9 if self.adaptive else 0.5):
-            options += ['--intersector', r.choice(('embree', 'tiles'))]
+            options += ['--intersector', r.choice(('embree', 'tiles', 'shells'))]
         return options
 
     def render(self, name, *options):

@@ -24,6 +24,8 @@ void CheckSame(const Scene& scene, RenderSettings settings) {
   settings.intersector = IntersectorChoice::kTiles;
   const Image tiles = RenderImage(scene, settings);
   CHECK(SameBits(embree, tiles));
+  settings.intersector = IntersectorChoice::kShells;
+  CHECK(SameBits(RenderImage(scene, settings), tiles));
   settings.intersector = IntersectorChoice::kEmbree;
   settings.general_path = true;
   CHECK(SameBits(RenderImage(scene, settings), tiles));
@@ -251,22 +253,25 @@ TEST_CASE("the eye on a sphere, in one, and behind all of them") {
   }
 }
 
-TEST_CASE("every scene that ships has the same bits with Embree alone") {
+TEST_CASE("every scene that ships has the same bits with a tree alone") {
   ForEachShippedScene([](const Scene& scene) {
-    RenderSettings settings;
-    settings.intersector = IntersectorChoice::kEmbree;
-    CHECK(SameBits(RenderImage(scene, {}), RenderImage(scene, settings)));
+    const Image expected = RenderImage(scene, {});
+    for (const auto choice : {IntersectorChoice::kEmbree, IntersectorChoice::kShells}) {
+      RenderSettings settings;
+      settings.intersector = choice;
+      CHECK(SameBits(RenderImage(scene, settings), expected));
+    }
   });
 }
 
-TEST_CASE("Embree is there where it is needed, and only there") {
+TEST_CASE("a tree is there where it is needed, and only there") {
   const auto uses = [](const Scene& scene, const RenderSettings& settings) {
     const FramePlan plan = MakePlan(scene, settings);
-    bool embree = false;
+    bool tree = false;
     for (const PlanItem& item : plan.why.items) {
-      if (item.what == "intersector tree") embree = item.used;
+      if (item.what == "intersector tree") tree = item.used;
     }
-    return std::pair(plan.hits.tiles, embree);
+    return std::pair(plan.hits.tiles, tree);
   };
   Scene scene = RandomScene(0);
   CHECK(uses(scene, {}) == std::pair(true, false));

@@ -12,11 +12,13 @@
 namespace nacre {
 namespace {
 
-// Checks that the intersector finds what brute force finds, to the bit, on every target.
+// Checks that the intersector finds what brute force finds, to the bit, on every target, and with
+// spheres in shells whatever they are like.
 void CheckClosest(const Scene& scene, const Vec3d& eye, const std::vector<Ray>& rays) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   ForEachTarget([&](Target) {
     const std::vector<Hit> hits = Trace(Intersector(scene, eye), rays);
+    CHECK(Trace(Intersector(scene, eye, {.shells = true}), rays) == hits);
     bool any = false;
     for (size_t i = 0; i < rays.size(); ++i) {
       const Hit expected = BruteForce(geometry, rays[i]);

@@ -25,6 +25,7 @@ void CheckOccluded(const Scene& scene, const std::vector<ShadowRay>& rays, doubl
   const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
   ForEachTarget([&](Target) {
     const std::vector<bool> occluded = TraceShadows(Intersector(scene, Vec3d(0)), rays);
+    CHECK(TraceShadows(Intersector(scene, Vec3d(0), {.shells = true}), rays) == occluded);
     for (size_t i = 0; i < rays.size(); ++i) {
       INFO("ray " << i << " from " << rays[i].primitive);
       REQUIRE(occluded[i] == BruteForceOccluded(geometry, rays[i], gap));
