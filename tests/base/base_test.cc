@@ -80,9 +80,8 @@ TEST_CASE("a parallel loop stops at an exception") {
 TEST_CASE("parallel loops may be within one another, and have several callers") {
   std::vector<std::atomic<int>> visits(40 * 50);
   const auto loops = [&] {
-    ParallelFor(40, 3, [&](size_t i) {
-      ParallelFor(50, 3, [&](size_t j) { ++visits[i * 50 + j]; });
-    });
+    ParallelFor(40, 3,
+                [&](size_t i) { ParallelFor(50, 3, [&](size_t j) { ++visits[i * 50 + j]; }); });
   };
   std::thread other(loops);
   loops();
