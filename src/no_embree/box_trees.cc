@@ -11,8 +11,9 @@ struct BoxTrees::State {};
 const char* EmbreeVersion() { return nullptr; }
 
 BoxTrees::BoxTrees(const TraceGeometry* /*geometry*/) {
-  throw Error(ExitCode::kBadInput, "/shapes", "this build has no Embree: it renders spheres only",
-              "take the meshes out, or build nacre with NACRE_EMBREE=ON");
+  throw Error(ExitCode::kBadInput, "scene", "this build has no Embree: it renders spheres only",
+              "leave out meshes, and flat lights that are visible; or build nacre with "
+              "NACRE_EMBREE=ON");
 }
 BoxTrees::~BoxTrees() = default;
 
