@@ -29,16 +29,22 @@ struct LayerReflectionV {
   V below;
 };
 
-// The numbers of hits i... that maps give one each.
-HWY_INLINE V NumberOfHits(const HitTextures& textures, MappedNumber number, size_t i) {
-  return hn::LoadU(D(), NumbersOf(textures, number) + i);
+// Numbers of hits i...: the material's, or, where there are maps, those of each.
+HWY_INLINE V NumberOfHits(double of_material, const HitTextures* maps, MappedNumber number,
+                          size_t i) {
+  const D d;
+  if (maps == nullptr) return hn::Set(d, of_material);
+  return hn::LoadU(d, NumbersOf(*maps, number) + i);
 }
-HWY_INLINE Vec3V<V> ColorOfHits(const HitTextures& textures, MappedNumber number, size_t i) {
-  return LoadSoa(D(), textures.numbers[static_cast<size_t>(number)], i);
+HWY_INLINE Vec3V<V> ColorOfHits(const Rgb& of_material, const HitTextures* maps,
+                                MappedNumber number, size_t i) {
+  const D d;
+  if (maps == nullptr) return SetVec3(d, of_material);
+  return LoadSoa(d, maps->numbers[static_cast<size_t>(number)], i);
 }
 
-// --- The kinds of layers. LayerOnHits(model, textures).At(i, angles): the terms of hits i... Both
-// cosines are 0 at least. `textures` is null where all hits have the model's numbers.
+// --- The kinds of layers. LayerOnHits(model, maps).At(i, angles): the reflection of hits i... Both
+// cosines are at least 0. `maps` is null where all hits have the model's numbers.
 
 template <class Model>
 class LayerOnHits;
@@ -46,18 +52,14 @@ class LayerOnHits;
 template <>
 class LayerOnHits<SheenModel> {
  public:
-  LayerOnHits(const SheenModel& sheen, const HitTextures* textures)
-      : sheen_(sheen), textures_(textures) {}
+  LayerOnHits(const SheenModel& sheen, const HitTextures* maps) : sheen_(sheen), maps_(maps) {}
 
   HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
     const D d;
     const CharlieV<V> charlie =
-        textures_ == nullptr
-            ? BroadcastCharlie(d, sheen_.charlie)
-            : MakeCharlie(d, NumberOfHits(*textures_, MappedNumber::kSheenRoughness, i));
-    const Vec3V<V> color = textures_ == nullptr
-                               ? SetVec3(d, sheen_.color)
-                               : ColorOfHits(*textures_, MappedNumber::kSheenColor, i);
+        maps_ == nullptr ? BroadcastCharlie(d, sheen_.charlie)
+                         : MakeCharlie(d, NumberOfHits(0, maps_, MappedNumber::kSheenRoughness, i));
+    const Vec3V<V> color = ColorOfHits(sheen_.color, maps_, MappedNumber::kSheenColor, i);
     const SheenScaleV<V> scale =
         ScaleSheen(d, hn::Max(hn::Max(color.x, color.y), color.z),
                    CharlieAlbedo(d, charlie, a.n_dot_v), CharlieAlbedo(d, charlie, a.n_dot_l));
@@ -67,7 +69,7 @@ class LayerOnHits<SheenModel> {
 
  private:
   const SheenModel& sheen_;
-  const HitTextures* textures_;
+  const HitTextures* maps_;
 };
 
 // --- What they share.
@@ -98,14 +100,14 @@ HWY_INLINE V Left(V light, V share) {
 }
 
 template <class Model>
-void Cover(const Model& model, const HitTextures* textures, const ShadeRange& range,
+void Cover(const Model& model, const HitTextures* maps, const ShadeRange& range,
            const ReflectedRadiance& below) {
   const D d;
   const HalfFloatTag df;
   const LightOnBatch& on_batch = range.lights[0];
   const LightBatch& light = *on_batch.evaluated;
   const Rgb& light_color = on_batch.light->color;
-  const LayerOnHits<Model> layer(model, textures);
+  const LayerOnHits<Model> layer(model, maps);
   ReflectedRadiance& to = *range.radiance;
   const bool accumulate = range.output == OutputMode::kAccumulate;
   const bool components = range.output != OutputMode::kSum;
@@ -142,9 +144,9 @@ void Cover(const Model& model, const HitTextures* textures, const ShadeRange& ra
   }
 }
 
-void CoverByLayerT(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range,
+void CoverByLayerT(const LayerModel& layer, const HitTextures* maps, const ShadeRange& range,
                    const ReflectedRadiance& below) {
-  std::visit([&](const auto& model) { Cover(model, textures, range, below); }, layer);
+  std::visit([&](const auto& model) { Cover(model, maps, range, below); }, layer);
 }
 
 }  // namespace
