@@ -40,7 +40,7 @@ class BatchShader {
   std::vector<ShadingMaterial> materials_;
   size_t run_;
   ShadingLight light_;
-  NarrowLobes scratch_;
+  ShadeScratch scratch_;
 };
 
 }  // namespace nacre

@@ -113,7 +113,8 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
   std::vector<LightOnBatch> on_hits;
   for (const ShadingLight& light : lights) on_hits.push_back({&light, nullptr});
   for (auto _ : state) {
-    shade(LitHits{hits, surface, on_hits, nullptr, by.count == 1 ? Leaves::kSum : Leaves::kParts},
+    shade(LitHits{hits, surface, on_hits, nullptr,
+                  by.count == 1 ? OutputMode::kSum : OutputMode::kOverwrite},
           &surface, &radiance);
     benchmark::DoNotOptimize(radiance.sum.x.data());
     benchmark::ClobberMemory();
@@ -124,7 +125,7 @@ void BenchShade(benchmark::State& state, Target target, const Lights& by, const 
 
 void BenchKernel(benchmark::State& state, const Material& material, Target target,
                  const Lights& lights) {
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
   BenchShade(state, target, lights,
              [&](const LitHits& lit, Surface* surface, ReflectedRadiance* radiance) {
@@ -134,7 +135,7 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
 }
 
 ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
-  return {lit.hits, lit.surface, lit.lights, 0, kHits, radiance, lit.leaves};
+  return {lit.hits, lit.surface, lit.lights, 0, kHits, radiance, lit.output};
 }
 
 using TextbookKernel = void (*)(const TextbookGgxUniforms&, const ShadeRange&);

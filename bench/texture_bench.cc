@@ -110,7 +110,7 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   const ShadingLight shading_light = PrepareLight(light, scene.camera.position);
   const LightOnBatch on_hits{&shading_light, nullptr};
   const auto texture_hits = std::make_unique<HitTextures>();
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   ReflectedRadiance radiance;
   for (auto _ : state) {
     if (prepared.textured != nullptr) {

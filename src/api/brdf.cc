@@ -131,7 +131,7 @@ class Batch {
   Surface surface_;
   ShadingLight light_;
   LightBatch lit_;
-  NarrowLobes scratch_;
+  ShadeScratch scratch_;
   ReflectedRadiance radiance_;
 };
 

@@ -2,8 +2,8 @@
 // brdf/lobe_sampling.h: directions to light sampled from the lobes of reflection models. SIMD twin:
 // lobe_sampling-inl.h.
 //
-// Every lobe has a sampler, of u0 and u1 in [0, 1), and the density of what it gives per solid
-// angle. A sampled direction may lie below the surface, where models reflect nothing; densities
+// Every lobe has a sampler, of u0 and u1 in [0, 1), and the pdf of what it gives per solid
+// angle. A sampled direction may lie below the surface, where models reflect nothing; pdfs
 // hold there too, and integrate to 1 over the whole sphere unless a lobe says otherwise.
 #pragma once
 
@@ -35,7 +35,7 @@ Real CosinePdf(Real n_dot_l) {
 // GGX normals as far as the viewer sees them, mirrored: Dupuy and Benyoub 2023, "Sampling Visible
 // GGX Normals with Spherical Caps". With the surface squeezed by alpha the normals are those of a
 // hemisphere, and the mirror directions of what v sees of it fill the cap above -v evenly. A delta
-// lobe gives the mirror direction. Where rounding leaves n.v below 0, it is 0, here, in the density
+// lobe gives the mirror direction. Where rounding leaves n.v below 0, it is 0, here, in the pdf
 // and in the reflection models: the limit for grazing viewers.
 template <typename Real>
 Imath::Vec3<Real> SampleGgxVisible(const Imath::Vec3<Real>& normal,
@@ -80,13 +80,13 @@ Real GgxVisiblePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_
 
 // The lobe of Kulla and Conty 2017 in the direction of the light, (1 - E(n.l)) n.l. The loss 1 - E
 // is flat up to an n.l of about sqrt(spread), twice the width of the lobe or of Schlick's masking,
-// and then falls as 1 / (n.l)^2: a density of n.l / ((n.l)^2 + spread) per solid angle. With this
-// spread lobe over density is 1.9 at most and 1.04 rms, relative to their mean, at every roughness.
+// and then falls as 1 / (n.l)^2: a pdf of n.l / ((n.l)^2 + spread) per solid angle. With this
+// spread lobe over pdf is 1.9 at most and 1.04 rms, relative to their mean, at every roughness.
 // That of kSchlickIbl falls as alpha / n.l only: with a spread of alpha, 3.5 and 1.25 at roughness
 // 0.01, and less above.
 // A smooth surface loses light at its horizon alone, which cosine-weighted directions hardly meet.
 //
-// Over the hemisphere the density is pi L, L = log(1 + 1 / spread), and the part of that which lies
+// Over the hemisphere the pdf is pi L, L = log(1 + 1 / spread), and the part of that which lies
 // below n.l is u = log(1 + (n.l)^2 / spread) / L.
 inline float KullaContySpread(const AlbedoShape& shape) {
   if (shape.form == AlbedoForm::kLossLinear) return shape.offset / 6;  // alpha
@@ -121,7 +121,7 @@ Imath::Vec3<Real> DirectionAround(const Imath::Vec3<Real>& axis, Real x, Real u1
   return BasisAbout(axis).ToWorld({sin * std::cos(phi), sin * std::sin(phi), 1 - x});
 }
 
-// 1 - cos of an angle with a density of cos^shininess per solid angle: cos^(shininess + 1) is
+// 1 - cos of an angle with a pdf of cos^shininess per solid angle: cos^(shininess + 1) is
 // 1 - u0.
 template <typename Real>
 Real OneMinusPowerCosine(Real shininess, Real u0) {
@@ -148,7 +148,7 @@ Real PhongLobePdf(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_v
 }
 
 // Blinn's lobe: half vectors around the normal, and v mirrored about them. A half vector that faces
-// away from v is no sample: its direction has density 0, and the density integrates to the rest.
+// away from v is no sample: its direction has pdf 0, and the pdf integrates to the rest.
 template <typename Real>
 Imath::Vec3<Real> SampleBlinnLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_view,
                                   Real shininess, Real u0, Real u1) {

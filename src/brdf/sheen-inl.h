@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // brdf/sheen-inl.h: the sheen of brdf/sheen.h on SIMD vectors of floats or doubles, all lanes of
-// one roughness or of one each. Directions are sampled in float, as of all lobes.
+// one roughness or of one each.
 #if defined(NACRE_BRDF_SHEEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BRDF_SHEEN_INL_H_
 #undef NACRE_BRDF_SHEEN_INL_H_
@@ -12,8 +12,6 @@
 
 #include "hwy/contrib/math/math-inl.h"
 
-#include "base/basis-inl.h"
-#include "base/trig-inl.h"
 #include "brdf/angles-inl.h"
 #include "brdf/sheen.h"
 
@@ -189,30 +187,6 @@ HWY_INLINE SheenScaleV<V> ScaleSheen(D d, V largest_channel, V albedo_v, V albed
   const V one = hn::Set(d, hn::TFromD<D>(1));
   const V share = hn::Mul(largest_channel, hn::Max(albedo_v, albedo_l));
   return {hn::Div(one, hn::Max(share, one)), hn::Max(hn::Sub(one, share), hn::Zero(d))};
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> SampleCharlie(D d, const Vec3V<V>& normal, V roughness, V u0, V u1) {
-  const V one = hn::Set(d, 1.0f);
-  const V root = hn::Sqrt(u0);
-  const V one_minus_root = hn::Div(hn::Sub(one, u0), hn::Add(one, root));
-  const V z = hn::Div(hn::Mul(roughness, root), hn::Add(roughness, one_minus_root));
-  const V sin = hn::Sqrt(hn::Max(hn::Mul(hn::Sub(one, z), hn::Add(one, z)), hn::Zero(d)));
-  const SinCosV<V> phi = SinCosTurns(d, u1);
-  return ToWorld(BasisAbout(d, normal), Vec3V<V>{hn::Mul(sin, phi.cos), hn::Mul(sin, phi.sin), z});
-}
-
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V CharliePdf(D d, V n_dot_l, V roughness) {
-  using T = hn::TFromD<D>;
-  const V one = hn::Set(d, T(1));
-  const auto above = hn::Gt(n_dot_l, hn::Zero(d));
-  const V inverse = hn::Div(one, hn::IfThenElse(above, hn::Add(n_dot_l, roughness), one));
-  const V one_plus = hn::Add(one, roughness);
-  const V shares = hn::Mul(hn::Mul(roughness, inverse), hn::Mul(n_dot_l, inverse));
-  const V density = hn::Mul(hn::Mul(shares, hn::Mul(one_plus, one_plus)),
-                            hn::Mul(inverse, hn::Set(d, T(0.31830988618379067))));
-  return hn::IfThenElseZero(above, density);
 }
 
 }  // namespace HWY_NAMESPACE

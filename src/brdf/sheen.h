@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // brdf/sheen.h: the lobe of cloth's fuzz, "Charlie" of Estevez and Kulla 2017, "Production Friendly
 // Microfacet Sheen BRDF", as KHR_materials_sheen of glTF 2.0 uses it: distribution,
-// masking-shadowing, directional albedo, the scaling of what lies below, and a sampler. There is no
-// Fresnel term: a colour multiplies the lobe. SIMD twin: sheen-inl.h.
+// masking-shadowing, directional albedo and the scaling of what lies below. There is no Fresnel
+// term: a colour multiplies the lobe. SIMD twin: sheen-inl.h.
 //
 // alpha = roughness^2, as of GGX. The microfacets stand upright, the more so the smaller alpha is:
 // light is reflected where light or viewer are within a few times `roughness` (in radians) of the
@@ -14,7 +14,7 @@
 #include <array>
 #include <cmath>
 
-#include "base/basis.h"
+#include "base/vec.h"
 #include "brdf/ggx.h"
 
 namespace nacre {
@@ -178,37 +178,6 @@ template <typename Real>
 SheenScale<Real> ScaleSheen(Real largest_channel, Real albedo_v, Real albedo_l) {
   const Real share = largest_channel * std::max(albedo_v, albedo_l);
   return {share > 1 ? 1 / share : Real(1), share < 1 ? 1 - share : Real(0)};
-}
-
-// Directions to light for the lobe: any azimuth, and n.l with a density of 2 w (1 + w)^2 n.l / (n.l
-// + w)^3, w = roughness: as D V n.l the samples gather about n.l = w / 2 and thin out above. As
-// (1 + w) n.l / (n.l + w) is the square root of u0, all of them are above the surface. The lobe's
-// half vectors lie near the horizon, about which v is mirrored to below the surface more often than
-// not, and cosine-weighted directions miss the horizon. Standard deviation of one sample over its
-// mean, D V n.l over the density, by quadrature, at n.v = 0.1 and 0.6:
-//
-//   roughness   this sampler   cosine-weighted   uniform      half vectors of D
-//   0.1         1.1    2.3     5.7    14         2.1    4.3   1.0    37
-//   0.3         0.68   1.1     1.9    2.2        0.90   1.3   0.79   2.0
-//   0.5         0.47   0.73    1.2    1.1        0.55   0.81  0.82   1.4
-//   1           0.23   0.36    0.71   0.50       0.30   0.48  0.90   1.1
-template <typename Real>
-Imath::Vec3<Real> SampleCharlie(const Imath::Vec3<Real>& normal, Real roughness, Real u0, Real u1) {
-  const Real root = std::sqrt(u0);
-  const Real one_minus_root = (1 - u0) / (1 + root);  // n.l near 1 is made of it
-  const Real n_dot_l = roughness * root / (roughness + one_minus_root);
-  const Real sin = std::sqrt((1 - n_dot_l) * (1 + n_dot_l));
-  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
-  return BasisAbout(normal).ToWorld({sin * std::cos(phi), sin * std::sin(phi), n_dot_l});
-}
-
-// Per solid angle; integrates to 1 over the hemisphere. 0 for a roughness of 0, which has no lobe.
-template <typename Real>
-Real CharliePdf(Real n_dot_l, Real roughness) {
-  if (!(n_dot_l > 0)) return 0;
-  const Real inverse = 1 / (n_dot_l + roughness);
-  const Real squared = (1 + roughness) * (1 + roughness);
-  return roughness * inverse * squared * (n_dot_l * inverse) * inverse / static_cast<Real>(M_PI);
 }
 
 }  // namespace nacre

@@ -74,6 +74,17 @@ struct InUnitsV {
   V unit;
 };
 
+// Of lights with a corner and two edges: rectangles and triangles.
+template <class D, template <class> class Light, class V>
+requires requires(const Light<V>& light) { light.edge_x; }
+HWY_INLINE InUnitsV<Light<V>, V> InUnits(D d, const Light<V>& light) {
+  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
+  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.corner), edges));
+  return {{Scale(light.corner, unit.inverse), Scale(light.edge_x, unit.inverse),
+           Scale(light.edge_y, unit.inverse)},
+          unit.power};
+}
+
 // a + b s.
 template <class V>
 HWY_INLINE Vec3V<V> AddScaled(const Vec3V<V>& a, const Vec3V<V>& b, V s) {

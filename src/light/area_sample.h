@@ -9,9 +9,9 @@
 //
 // Every light has
 //   AreaSample SampleLight(light, u0, u1)    for u0 and u1 in [0, 1)
-//   Real       LightPdf(light, direction)    the density of that sample: 0 if it misses the light
+//   Real       LightPdf(light, direction)    the pdf of that sample: 0 if it misses the light
 //   Real       SolidAngle(light)             a disk's by quadrature, in double only
-// Densities are per solid angle. Samples are uniform in solid angle, unless a light's file says
+// Pdfs are per solid angle. Samples are uniform in solid angle, unless a light's file says
 // otherwise. What radiance leaves towards the point is the caller's to say; the sign of cos_light
 // tells the two sides apart.
 #pragma once
@@ -28,7 +28,7 @@ struct AreaSample {
   Real cos_light = 0;                   // of the light's outward normal towards the point
 };
 
-// Solid angles below which flat lights are sampled by area, not by solid angle: there the density
+// Solid angles below which flat lights are sampled by area, not by solid angle: there the pdf
 // per solid angle hardly varies over the light, unless it is seen edge-on, and differences of
 // angles have lost their digits.
 template <typename Real>

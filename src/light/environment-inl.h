@@ -59,7 +59,7 @@ HWY_INLINE void StoreTexel(const EnvironmentTexel& texel, size_t lane,
   lanes[3][lane] = texel.pdf;
 }
 
-// Radiance and density of sampling in these directions.
+// Radiance and pdf of sampling in these directions.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentTexelV<V> TexelAt(D d, const EnvironmentMap& map, const Vec3V<V>& direction) {
   const LatLongV<V> at = LatLongFromDirection(d, direction);

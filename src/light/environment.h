@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/environment.h: light from all round, from a latitude-longitude image: look-up, importance
-// sampling and its density. SIMD twin: environment-inl.h. Skies by formula: light/sky.h.
+// sampling and its pdf. SIMD twin: environment-inl.h. Skies by formula: light/sky.h.
 //
 // y is up. Row 0 of the image is +y, its left edge -z, its middle +z, and u runs towards +x:
 //   direction(u, v) = (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v),   u, v in [0, 1].
 //
 // Every texel is one radiance over its own solid angle: piecewise constant, looked up by nearest.
-// That is what sampling has densities for: luminance times solid angle, exactly, and within a texel
+// That is what sampling has pdfs for: luminance times solid angle, exactly, and within a texel
 // evenly per solid angle. A bilinear look-up of the same image is another function, close to it,
 // but bright also inside texels that are black here and thus are never sampled.
 #pragma once
@@ -22,7 +22,7 @@
 
 namespace nacre {
 
-// Radiance of a texel, and the density with which its directions are sampled.
+// Radiance of a texel, and the pdf with which its directions are sampled.
 struct EnvironmentTexel {
   float red, green, blue;
   float pdf;

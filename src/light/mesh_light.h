@@ -3,7 +3,7 @@
 // chosen by choosing a triangle, by its area, and then in the triangle (light/triangle_light.h);
 // what is seen along a direction is the nearest triangle.
 //
-// A direction's density is the sum over all triangles that lie along it, as each could have led to
+// A direction's pdf is the sum over all triangles that lie along it, as each could have led to
 // it: so it does not matter which one did, or how many a direction crosses. Half of a closed mesh's
 // triangles face away from the point, and no sample of those is lost.
 #pragma once

@@ -20,15 +20,6 @@ struct RectangleLightV {
   Vec3V<V> corner, edge_x, edge_y;
 };
 
-template <class D, class V>
-HWY_INLINE InUnitsV<RectangleLightV<V>, V> InUnits(D d, const RectangleLightV<V>& light) {
-  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
-  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.corner), edges));
-  return {{Scale(light.corner, unit.inverse), Scale(light.edge_x, unit.inverse),
-           Scale(light.edge_y, unit.inverse)},
-          unit.power};
-}
-
 template <class V>
 struct RectangleViewV {
   Vec3V<V> x_axis, y_axis, normal;

@@ -20,15 +20,6 @@ struct TriangleLightV {
   Vec3V<V> corner, edge_x, edge_y;
 };
 
-template <class D, class V>
-HWY_INLINE InUnitsV<TriangleLightV<V>, V> InUnits(D d, const TriangleLightV<V>& light) {
-  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
-  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.corner), edges));
-  return {{Scale(light.corner, unit.inverse), Scale(light.edge_x, unit.inverse),
-           Scale(light.edge_y, unit.inverse)},
-          unit.power};
-}
-
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> UnitDifference(D d, const Vec3V<V>& p, const Vec3V<V>& e) {
   const Vec3V<V> q = Add(p, e);
@@ -133,7 +124,7 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& given, V u0,
 
 // LightPdf of a direction that is known to meet the triangle.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V DensityInside(D d, const TriangleLightV<V>& given, const Vec3V<V>& direction) {
+HWY_INLINE V PdfInside(D d, const TriangleLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
   const TriangleLightV<V> light = InUnits(d, given).light;
   const V solid_angle = SolidAngle(d, light);
@@ -143,8 +134,8 @@ HWY_INLINE V DensityInside(D d, const TriangleLightV<V>& given, const Vec3V<V>& 
   const V t = hn::Mul(FusedDot(light.corner, cross), inverse);
   const V by_area = hn::Mul(hn::Mul(hn::Add(t, t), t), inverse);
   const auto small = hn::Lt(solid_angle, hn::Set(d, kSmallSolidAngle<float>));
-  const V density = hn::IfThenElse(small, by_area, InverseIfPositive(d, solid_angle));
-  return hn::IfThenElseZero(hn::Gt(solid_angle, zero), density);
+  const V pdf = hn::IfThenElse(small, by_area, InverseIfPositive(d, solid_angle));
+  return hn::IfThenElseZero(hn::Gt(solid_angle, zero), pdf);
 }
 
 template <class D, class V = hn::Vec<D>>

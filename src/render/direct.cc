@@ -48,19 +48,19 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
 }
 
 // `lights` is one alone, evaluated, where maps have turned normals.
-void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, Leaves leaves,
+void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, OutputMode output,
                ReflectedRadiance* radiance) {
-  const LitHits lit{batch.hits(), batch.surface(), lights, batch.surfaces.textures.get(), leaves};
+  const LitHits lit{batch.hits(), batch.surface(), lights, batch.surfaces.textures.get(), output};
   for (const MaterialRun& run : LitRuns(batch.surfaces)) {
-    ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.narrow, radiance);
-    if (batch.surface().turned) AddMirroredLobe(batch, run, *lights[0].light, leaves, radiance);
+    ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.shade, radiance);
+    if (batch.surface().turned) AddMirroredLobe(batch, run, *lights[0].light, output, radiance);
   }
 }
 
 // A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
 // of its own.
 void ShadeByOne(const DirectBatch& batch, const PlannedPunctualLight& planned, bool shadow_rays,
-                Leaves leaves) {
+                OutputMode output) {
   DirectRoom& room = batch.room;
   EvaluateLight(planned.light, batch.hits(), batch.surface(), &room.light);
   if (batch.surface().turned) HideBelowHorizon(batch);
@@ -73,10 +73,10 @@ void ShadeByOne(const DirectBatch& batch, const PlannedPunctualLight& planned, b
   // One light's parts are added up before they are added to others', in a layer or not.
   const bool apart = planned.layer >= 0 || batch.surface().turned;
   if (!apart || batch.plan.one_light) {
-    ShadeRuns(batch, {&light, 1}, leaves, &batch.radiance.total);
+    ShadeRuns(batch, {&light, 1}, output, &batch.radiance.total);
     if (planned.layer >= 0) ShowLight(batch, batch.radiance.total, planned.layer);
   } else {
-    ShadeRuns(batch, {&light, 1}, Leaves::kParts, &room.single);
+    ShadeRuns(batch, {&light, 1}, OutputMode::kOverwrite, &room.single);
     AddLight(batch, room.single, planned.layer);
   }
 }
@@ -91,10 +91,10 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
   std::vector<LightOnBatch>& together = batch.room.together;
   together.clear();
   bool dark = true;  // nothing is in the total yet
-  const auto leaves = [&] { return dark ? plan.leaves : Leaves::kAddedParts; };
+  const auto output = [&] { return dark ? plan.output : OutputMode::kAccumulate; };
   const auto shade_together = [&] {
     if (together.empty()) return;
-    ShadeRuns(batch, together, leaves(), &batch.radiance.total);
+    ShadeRuns(batch, together, output(), &batch.radiance.total);
     together.clear();
     dark = false;
   };
@@ -116,7 +116,7 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
       shade_together();
       const bool apart = planned.layer >= 0 || batch.surface().turned;
       if (apart && !plan.one_light) clear_if_dark();
-      ShadeByOne(batch, planned, shadow_rays, leaves());
+      ShadeByOne(batch, planned, shadow_rays, output());
       dark = false;
     }
     batch.stats.shades += batch.lit();

@@ -35,7 +35,7 @@ struct MirroredLobe {
 struct SampledRoom {
   UnitPoints points{kBatchCapacity};
   LightDirections directions;
-  AlignedArray<float> density{kBatchCapacity}, weight{kBatchCapacity};
+  AlignedArray<float> pdf{kBatchCapacity}, weight{kBatchCapacity};
   AlignedArray<uint8_t> flat{kBatchCapacity};  // 1: a hit's diffuse part is in closed form
   ReflectedRadiance unit;                      // of a light of colour 1
 };
@@ -43,7 +43,7 @@ struct SampledRoom {
 // Buffers of the direct integrator.
 struct DirectRoom {
   LightBatch light;
-  NarrowLobes narrow;
+  ShadeScratch shade;
   std::unique_ptr<MirroredLobe> mirrored;  // made for the first lobe about a mapped normal
   std::vector<LightOnBatch> together;      // lights shaded by in one go
   std::unique_ptr<SampledRoom> sampled;    // made where the plan has sampled lights

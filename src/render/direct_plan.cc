@@ -142,7 +142,9 @@ void PlanParts(const Scene& scene, const RenderSettings& settings, const std::ve
                              : std::any_of(layers.begin(), layers.end(), shows_parts)
                                  ? "layers show them"
                                  : nullptr;
-  if (plan->one_light) plan->leaves = reason == nullptr ? Leaves::kSum : Leaves::kPartsAndSum;
+  if (plan->one_light) {
+    plan->output = reason == nullptr ? OutputMode::kSum : OutputMode::kComponentsAndSum;
+  }
   why->items.push_back(
       {"diffuse and specular parts", reason != nullptr,
        reason != nullptr ? reason : "one light leaves their sum, and no layer asks"});

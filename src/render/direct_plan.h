@@ -87,7 +87,7 @@ struct DirectPlan {
   double camera_reach = 0;             // ShadowRayBatch::end_reach
   // One light is all that hits reflect: the beauty is the sum that its kernel makes of the parts.
   bool one_light = false;
-  Leaves leaves = Leaves::kParts;                        // what the first light leaves in a hit
+  OutputMode output = OutputMode::kOverwrite;            // of the first light of a hit
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // per mesh; empty if none has any
 };
 

@@ -63,7 +63,7 @@ MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, doubl
   return point;
 }
 
-SeenPoint SeenLight(const HighlightLight& light, const Vec3d& center) {
+SeenPoint LightSeenFrom(const Vec3d& center, const HighlightLight& light) {
   if (light.far) return {light.place, kFarAway};
   return SeenFrom(center, light.place);
 }
@@ -71,7 +71,7 @@ SeenPoint SeenLight(const HighlightLight& light, const Vec3d& center) {
 void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
               const HighlightLight& shown, double largest, std::vector<Glint>* glints) {
   const TraceSphere& sphere = candidate.sphere;
-  const SeenPoint light = SeenLight(shown, sphere.center);
+  const SeenPoint light = LightSeenFrom(sphere.center, shown);
   const SeenPoint eye = projector.perspective ? SeenFrom(sphere.center, {0, 0, 0})
                                               : SeenPoint{-projector.forward, kFarAway};
   if (!(light.distance > sphere.radius)) return;

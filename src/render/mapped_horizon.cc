@@ -43,19 +43,22 @@ void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<flo
 }
 
 void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const ShadingLight& light,
-                     Leaves leaves, ReflectedRadiance* radiance) {
+                     OutputMode output, ReflectedRadiance* radiance) {
   if (!MirrorLight(batch, run)) return;
   MirroredLobe& mirrored = *batch.room.mirrored;
   ShadingLight given;
   given.form = LightForm::kGiven;
   given.color = light.color;
   const LightOnBatch along{&given, &mirrored.light};
-  const LitHits lit{
-      batch.hits(), batch.surface(), {&along, 1}, batch.surfaces.textures.get(), Leaves::kParts};
-  ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.narrow, &mirrored.radiance);
+  const LitHits lit{batch.hits(),
+                    batch.surface(),
+                    {&along, 1},
+                    batch.surfaces.textures.get(),
+                    OutputMode::kOverwrite};
+  ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.shade, &mirrored.radiance);
   const Soa3<float>& specular = mirrored.radiance.specular;
-  if (leaves != Leaves::kSum) AddSpecular(run, specular, &radiance->specular);
-  if (leaves == Leaves::kSum || leaves == Leaves::kPartsAndSum) {
+  if (output != OutputMode::kSum) AddSpecular(run, specular, &radiance->specular);
+  if (output == OutputMode::kSum || output == OutputMode::kComponentsAndSum) {
     AddSpecular(run, specular, &radiance->sum);
   }
 }
@@ -63,9 +66,9 @@ void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const Sha
 void AddMirroredLobePdf(const DirectBatch& batch, const MaterialRun& run, float* pdf) {
   if (!MirrorLight(batch, run)) return;
   MirroredLobe& mirrored = *batch.room.mirrored;
-  LobeDensity(*run.shading,
-              {batch.hits(), batch.surface(), run.begin, run.end, batch.surfaces.textures.get()},
-              mirrored.light, &batch.room.narrow, mirrored.pdf.data());
+  LobePdf(*run.shading,
+          {batch.hits(), batch.surface(), run.begin, run.end, batch.surfaces.textures.get()},
+          mirrored.light, &batch.room.shade, mirrored.pdf.data());
   for (size_t i = run.begin; i < run.end; ++i) {
     if (mirrored.light.irradiance[i] > 0) pdf[i] += mirrored.pdf[i];
   }

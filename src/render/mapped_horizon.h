@@ -23,9 +23,9 @@ void HideBelowHorizon(const DirectBatch& batch);
 void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<float>* to_light);
 
 // Adds f(l') of room.light, which is `light`, to the specular part of `radiance`, or to its sum, or
-// both, as `leaves` says. Hidden light is not above the horizon: it counts as none.
+// both, as `output` says. Hidden light is not above the horizon: it counts as none.
 void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const ShadingLight& light,
-                     Leaves leaves, ReflectedRadiance* radiance);
+                     OutputMode output, ReflectedRadiance* radiance);
 
 // Adds the pdf of l', which RaiseLobeSamples brings to l, to that of l.
 void AddMirroredLobePdf(const DirectBatch& batch, const MaterialRun& run, float* pdf);

@@ -43,22 +43,21 @@ size_t ShineAlongT(const LightDirections& directions, const Surface& surface, si
   return not_finite;
 }
 
-void FindDiffuseDensityT(const DiffuseWays& ways, const LightDirections& directions,
-                         const Surface& surface, const uint8_t* flat, size_t count,
-                         float* density) {
+void FindDiffusePdfT(const DiffuseWays& ways, const LightDirections& directions,
+                     const Surface& surface, const uint8_t* flat, size_t count, float* pdf) {
   const D d;
   const V by_pi = hn::Set(d, 0.318309886f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     V sum = hn::Zero(d);
-    if (ways.light) sum = hn::LoadU(d, directions.density.data() + i);
+    if (ways.light) sum = hn::LoadU(d, directions.pdf.data() + i);
     if (ways.cosine) {
       const V n_dot_l = Dot(LoadAt(surface.normal, i), LoadAt(directions.to_light, i));
       sum = hn::Add(sum, hn::Mul(n_dot_l, by_pi));
     }
-    hn::StoreU(sum, d, density + i);
+    hn::StoreU(sum, d, pdf + i);
   }
   if (flat == nullptr) return;
-  for (size_t i = 0; i < count; ++i) density[i] = flat[i] != 0 ? 0 : density[i];
+  for (size_t i = 0; i < count; ++i) pdf[i] = flat[i] != 0 ? 0 : pdf[i];
 }
 
 HWY_INLINE void Widen(hn::Vec<hn::Rebind<float, DD>> v, double* to) {
@@ -86,11 +85,11 @@ void AimShadowRaysT(const LightDirections& directions, const float* irradiance, 
   }
 }
 
-void FindWeightsT(const float* irradiance, const float* density, size_t count, float* weight) {
+void FindWeightsT(const float* irradiance, const float* pdf, size_t count, float* weight) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const V chosen = hn::LoadU(d, density + i);
+    const V chosen = hn::LoadU(d, pdf + i);
     const auto counts = hn::And(hn::Gt(hn::LoadU(d, irradiance + i), zero), hn::Gt(chosen, zero));
     const V inverse = hn::Div(one, hn::IfThenElse(counts, chosen, one));
     hn::StoreU(hn::IfThenElseZero(counts, inverse), d, weight + i);
@@ -127,7 +126,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(ShineAlongT);
-HWY_EXPORT(FindDiffuseDensityT);
+HWY_EXPORT(FindDiffusePdfT);
 HWY_EXPORT(AimShadowRaysT);
 HWY_EXPORT(FindWeightsT);
 HWY_EXPORT(AddWeightedT);
@@ -137,9 +136,9 @@ size_t ShineAlong(const LightDirections& directions, const Surface& surface, siz
   return HWY_DYNAMIC_DISPATCH(ShineAlongT)(directions, surface, count, light);
 }
 
-void FindDiffuseDensity(const DiffuseWays& ways, const LightDirections& directions,
-                        const Surface& surface, const uint8_t* flat, size_t count, float* density) {
-  HWY_DYNAMIC_DISPATCH(FindDiffuseDensityT)(ways, directions, surface, flat, count, density);
+void FindDiffusePdf(const DiffuseWays& ways, const LightDirections& directions,
+                    const Surface& surface, const uint8_t* flat, size_t count, float* pdf) {
+  HWY_DYNAMIC_DISPATCH(FindDiffusePdfT)(ways, directions, surface, flat, count, pdf);
 }
 
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
@@ -147,8 +146,8 @@ void AimShadowRays(const LightDirections& directions, const float* irradiance, s
   HWY_DYNAMIC_DISPATCH(AimShadowRaysT)(directions, irradiance, count, rays);
 }
 
-void FindWeights(const float* irradiance, const float* density, size_t count, float* weight) {
-  HWY_DYNAMIC_DISPATCH(FindWeightsT)(irradiance, density, count, weight);
+void FindWeights(const float* irradiance, const float* pdf, size_t count, float* weight) {
+  HWY_DYNAMIC_DISPATCH(FindWeightsT)(irradiance, pdf, count, weight);
 }
 
 void AddWeighted(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,

@@ -15,22 +15,22 @@ namespace nacre {
 size_t ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
                   LightBatch* light);
 
-// The density of the directions in the ways that the diffuse part is sampled by: SampleLight's,
+// The pdf of the directions in the ways that the diffuse part is sampled by: SampleLight's,
 // SampleCosine's or the sum. 0 at hits with flat[i] != 0, whose diffuse part is in closed form;
 // `flat` may be null.
 struct DiffuseWays {
   bool light, cosine;
 };
-void FindDiffuseDensity(const DiffuseWays& ways, const LightDirections& directions,
-                        const Surface& surface, const uint8_t* flat, size_t count, float* density);
+void FindDiffusePdf(const DiffuseWays& ways, const LightDirections& directions,
+                    const Surface& surface, const uint8_t* flat, size_t count, float* pdf);
 
 // Aims shadow rays along the directions. Those of lit hits end at the light, and the others where
 // they start.
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
                    ShadowRayBatch* rays);
 
-// weight = 1 / density; 0 where no light comes from, or no direction is chosen.
-void FindWeights(const float* irradiance, const float* density, size_t count, float* weight);
+// weight = 1 / pdf; 0 where no light comes from, or no direction is chosen.
+void FindWeights(const float* irradiance, const float* pdf, size_t count, float* weight);
 
 // sum += part x weight x color, and x radiance unless that is null.
 void AddWeighted(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,

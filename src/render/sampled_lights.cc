@@ -67,10 +67,13 @@ void ShadeUnit(const Lit& lit) {
   }();
   const LightOnBatch light{&kUnit, &lit.light()};
   for (const MaterialRun& run : lit.runs()) {
-    const LitHits hits{
-        lit.hits(), lit.surface(), {&light, 1}, lit.batch.surfaces.textures.get(), Leaves::kParts};
-    ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.narrow, &lit.c.unit);
-    AddMirroredLobe(lit.batch, run, kUnit, Leaves::kParts, &lit.c.unit);
+    const LitHits hits{lit.hits(),
+                       lit.surface(),
+                       {&light, 1},
+                       lit.batch.surfaces.textures.get(),
+                       OutputMode::kOverwrite};
+    ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.shade, &lit.c.unit);
+    AddMirroredLobe(lit.batch, run, kUnit, OutputMode::kOverwrite, &lit.c.unit);
   }
 }
 
@@ -81,35 +84,33 @@ void AddSeen(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
   AddWeighted(part, lit.c.weight.data(), radiance, light.color, lit.count(), sum);
 }
 
-void WeighByDensity(const Lit& lit) {
-  FindWeights(lit.light().irradiance.data(), lit.c.density.data(), lit.count(),
-              lit.c.weight.data());
+void WeighByPdf(const Lit& lit) {
+  FindWeights(lit.light().irradiance.data(), lit.c.pdf.data(), lit.count(), lit.c.weight.data());
 }
 
 void WeighDiffuse(const Lit& lit, const SamplingStrategies& strategies) {
   const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
-  FindDiffuseDensity({strategies.light, strategies.cosine}, lit.c.directions, lit.surface(), flat,
-                     lit.count(), lit.c.density.data());
-  WeighByDensity(lit);
+  FindDiffusePdf({strategies.light, strategies.cosine}, lit.c.directions, lit.surface(), flat,
+                 lit.count(), lit.c.pdf.data());
+  WeighByPdf(lit);
 }
 
 void WeighSpecular(const Lit& lit, const SamplingStrategies& strategies) {
   const LightDirections& directions = lit.c.directions;
   for (const MaterialRun& run : lit.runs()) {
-    LobeDensity(*run.shading, lit.RangeOf(run), lit.light(), &lit.batch.room.narrow,
-                lit.c.density.data());
-    AddMirroredLobePdf(lit.batch, run, lit.c.density.data());
+    LobePdf(*run.shading, lit.RangeOf(run), lit.light(), &lit.batch.room.shade, lit.c.pdf.data());
+    AddMirroredLobePdf(lit.batch, run, lit.c.pdf.data());
   }
   if (strategies.light) {
-    for (size_t i = 0; i < lit.count(); ++i) lit.c.density[i] += directions.density[i];
+    for (size_t i = 0; i < lit.count(); ++i) lit.c.pdf[i] += directions.pdf[i];
   }
   // A batch is sampled if any of its hits has a lobe. Those without must not get a share then, or
   // a pixel would depend on what else is in its tile.
   for (const MaterialRun& run : lit.runs()) {
     if (HasSampledLobe(*run.shading)) continue;
-    std::fill(lit.c.density.data() + run.begin, lit.c.density.data() + run.end, 0.0f);
+    std::fill(lit.c.pdf.data() + run.begin, lit.c.pdf.data() + run.end, 0.0f);
   }
-  WeighByDensity(lit);
+  WeighByPdf(lit);
 }
 
 // Adds what is reflected along the directions, which were chosen in one of the strategies and which

@@ -2,7 +2,7 @@
 // sampling/pixel_filter.h: reconstruction filters, sampled by importance.
 //
 // A pixel's value is the integral of filter x image. Each pixel draws its own samples from the
-// density |filter|, with weight sign(filter) (Ernst, Stamminger and Greiner 2006), so there is no
+// pdf |filter|, with weight sign(filter) (Ernst, Stamminger and Greiner 2006), so there is no
 // splatting: a pixel depends on its own samples only. sampling/pixel_sampler.h places them.
 #pragma once
 
@@ -60,7 +60,7 @@ double PartMass(const FilterSampler& sampler, FilterPart part);
 // and only y negative. The share of the first kind in the part's mass.
 double FirstRegionShare(const FilterSampler& sampler, FilterPart part);
 
-// An offset from the pixel's centre, in pixels, with the density |f(x) f(y)| / PartMass, for a
+// An offset from the pixel's centre, in pixels, with the pdf |f(x) f(y)| / PartMass, for a
 // uniform u in [0, 1)^2. The part must not be empty.
 Vec2d SampleFilter(const FilterSampler& sampler, FilterPart part, const Vec2d& u);
 

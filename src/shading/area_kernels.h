@@ -25,7 +25,7 @@ void MeshIrradiance(const SampledLight& light, const HitBatch& hits, const Surfa
                     float* irradiance);
 void MeshEnds(size_t count, const LightDirections& directions, AlignedArray<double>* t_max);
 
-// The same of pictures: fills in to_light, radiance and density.
+// The same of pictures: fills in to_light, radiance and pdf.
 void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count,
                LightDirections* directions);
 
@@ -33,9 +33,9 @@ void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count
 void NormalizeDirections(const Soa3<double>& directions, size_t count, Soa3<float>* unit);
 
 // The radiance of a sky that has colours, along unit vectors, as multiples of its own; of pictures
-// also the density with which SampleSky chooses them, unless null. `radiance` may be `directions`.
+// also the pdf with which SampleSky chooses them, unless null. `radiance` may be `directions`.
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
-                 Soa3<float>* radiance, float* density);
+                 Soa3<float>* radiance, float* pdf);
 // A sky's irradiance, but of pictures.
 void SkyIrradiance(const SampledLight& light, const Surface& surface, size_t count,
                    Soa3<float>* irradiance);

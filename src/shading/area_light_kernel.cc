@@ -8,7 +8,7 @@
 #include "hwy/highway.h"
 
 #include "shading/area_kernels.h"
-#include "shading/seen-inl.h"
+#include "shading/area_light_view-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -62,16 +62,16 @@ HWY_INLINE MeetingV MeetPlane(const Vec3V<V>& point, const Vec3V<V>& normal,
           hn::Neg(towards)};
 }
 
-// Stores a direction's distance and density, or that it misses the light, or sees a side of it
+// Stores a direction's distance and pdf, or that it misses the light, or sees a side of it
 // that does not emit.
-HWY_INLINE void Keep(const SampledLight& light, V distance, V density, V cos_light, size_t i,
+HWY_INLINE void Keep(const SampledLight& light, V distance, V pdf, V cos_light, size_t i,
                      LightDirections* directions) {
   const D d;
   const V zero = hn::Zero(d);
-  auto seen = hn::And(hn::Gt(density, zero), hn::Gt(distance, zero));
+  auto seen = hn::And(hn::Gt(pdf, zero), hn::Gt(distance, zero));
   if (!light.two_sided) seen = hn::And(seen, hn::Gt(cos_light, zero));
   hn::StoreU(hn::IfThenElseZero(seen, distance), d, directions->distance.data() + i);
-  hn::StoreU(hn::IfThenElseZero(seen, density), d, directions->density.data() + i);
+  hn::StoreU(hn::IfThenElseZero(seen, pdf), d, directions->pdf.data() + i);
 }
 
 // at(i): the light as seen from hits i...
@@ -172,14 +172,6 @@ void AreaIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
 using DD = hn::ScalableTag<double>;
 using VD = hn::Vec<DD>;
 
-HWY_INLINE Vec3V<VD> Promote3(const Soa3<float>& soa, size_t i) {
-  const DD d;
-  const hn::Rebind<float, DD> half;
-  return {hn::PromoteTo(d, hn::LoadU(half, soa.x.data() + i)),
-          hn::PromoteTo(d, hn::LoadU(half, soa.y.data() + i)),
-          hn::PromoteTo(d, hn::LoadU(half, soa.z.data() + i))};
-}
-
 // Meet and MeetPlane in double, the directions of nearly unit length.
 HWY_INLINE VD EndOnSphere(const Vec3V<VD>& centre, double radius, const Vec3V<VD>& direction) {
   const DD d;
@@ -204,7 +196,7 @@ void AreaEndsT(const SampledLight& light, const HitBatch& hits, const Soa3<float
     const Vec3V<VD> offset =
         Sub(place, LoadU3(d, hits.position.x.data() + i, hits.position.y.data() + i,
                           hits.position.z.data() + i));
-    const Vec3V<VD> direction = Promote3(to_light, i);
+    const Vec3V<VD> direction = PromoteSoa(d, to_light, i);
     const VD end = light.form == SampledForm::kSphere
                        ? EndOnSphere(offset, light.radius, direction)
                        : hn::Div(Dot(offset, normal), Dot(direction, normal));

@@ -12,6 +12,7 @@
 
 #include "hwy/highway.h"
 
+#include "shading/soa-inl.h"
 #include "texture/mapping-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -27,17 +28,6 @@ using F = hn::Rebind<float, D>;
 HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
   const D d;
   return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-
-HWY_INLINE Vec3V<V> Load(const Soa3<double>& soa, size_t i) {
-  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
-
-HWY_INLINE void Store(const Vec3V<V>& v, size_t i, Soa3<double>* soa) {
-  const D d;
-  hn::StoreU(v.x, d, soa->x.data() + i);
-  hn::StoreU(v.y, d, soa->y.data() + i);
-  hn::StoreU(v.z, d, soa->z.data() + i);
 }
 
 // a x + b y.
@@ -63,13 +53,13 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
   const Vec3V<V> step_x = Set3(camera.step_x * run.scene.footprint);
   const Vec3V<V> step_y = Set3(camera.step_y * run.scene.footprint);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> position = Load(hits.position, i), normal = Load(t->geometric, i);
+    const Vec3V<V> position = LoadSoa(d, hits.position, i), normal = LoadSoa(d, t->geometric, i);
     // Perspective: steps grow with the depth, for `forward` and the film's rays have product 1.
     const V depth = perspective ? FusedDot(position, forward) : hn::Set(d, 1.0);
     const Vec3V<V> along = perspective ? position : forward;
     const Vec3V<V> scaled = Scale(normal, hn::Div(hn::Set(d, 1.0), FusedDot(along, normal)));
-    Store(NextPixel(Scale(step_x, depth), along, scaled), i, &t->dp_dx);
-    Store(NextPixel(Scale(step_y, depth), along, scaled), i, &t->dp_dy);
+    StoreSoa(d, NextPixel(Scale(step_x, depth), along, scaled), i, &t->dp_dx);
+    StoreSoa(d, NextPixel(Scale(step_y, depth), along, scaled), i, &t->dp_dy);
   }
 }
 
@@ -91,7 +81,7 @@ void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures*
   const Vec3V<V> fx = Set3(texture.frame[0]), fy = Set3(texture.frame[1]);
   const Vec3V<V> fz = Set3(texture.frame[2]);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> point = Load(t->point, i);
+    const Vec3V<V> point = LoadSoa(d, t->point, i);
     const Vec3V<V> local{FusedDot(point, fx), FusedDot(point, fy), FusedDot(point, fz)};
     MappedV<V> mapped = MapPoint(d, texture.mapping, local);
     const V scale = hn::LoadU(d, t->inverse_size.data() + i);
@@ -100,8 +90,8 @@ void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures*
     };
     hn::StoreU(mapped.u, d, t->u.data() + i);
     hn::StoreU(mapped.v, d, t->v.data() + i);
-    Store(to_world(mapped.du), i, &t->gradient_u);
-    Store(to_world(mapped.dv), i, &t->gradient_v);
+    StoreSoa(d, to_world(mapped.du), i, &t->gradient_u);
+    StoreSoa(d, to_world(mapped.dv), i, &t->gradient_v);
   }
 }
 
@@ -114,7 +104,7 @@ HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_
   const V one = hn::Set(d, 1.0);
   const V u = hn::LoadU(d, t->u.data() + i), down = hn::LoadU(d, t->v.data() + i);
   const V v = hn::IfThenElse(upside_down, hn::Sub(one, down), down);
-  const Vec3V<V> gu = Load(t->gradient_u, i), gd = Load(t->gradient_v, i);
+  const Vec3V<V> gu = LoadSoa(d, t->gradient_u, i), gd = LoadSoa(d, t->gradient_v, i);
   const Vec3V<V> gv = Scale(gd, hn::IfThenElse(upside_down, hn::Neg(one), one));
   const V uu = hn::Set(d, texture.u_row.x), uv = hn::Set(d, texture.u_row.y);
   const V vu = hn::Set(d, texture.v_row.x), vv = hn::Set(d, texture.v_row.y);
@@ -123,9 +113,9 @@ HWY_INLINE void TransformHit(const PreparedTexture& texture, hn::Mask<D> upside_
   hn::StoreU(hn::MulAdd(vu, u, hn::MulAdd(vv, v, hn::Set(d, texture.offset.y))), d,
              t->v.data() + i);
   const Vec3V<V> gradient_u = Combine(uu, gu, uv, gv), gradient_v = Combine(vu, gu, vv, gv);
-  Store(gradient_u, i, &t->gradient_u);
-  Store(gradient_v, i, &t->gradient_v);
-  const Vec3V<V> dx = Load(t->dp_dx, i), dy = Load(t->dp_dy, i);
+  StoreSoa(d, gradient_u, i, &t->gradient_u);
+  StoreSoa(d, gradient_v, i, &t->gradient_v);
+  const Vec3V<V> dx = LoadSoa(d, t->dp_dx, i), dy = LoadSoa(d, t->dp_dy, i);
   const auto store = [&](V value, AlignedArray<float>* to)
                          HWY_ATTR { hn::StoreU(hn::DemoteTo(f, value), f, to->data() + i); };
   store(FusedDot(gradient_u, dx), &t->du_dx);

@@ -58,9 +58,9 @@ NACRE_DERIVE PhongChannel DerivePhong(PhongConvention convention, double kd, dou
 struct LobeWidth {
   double alpha;
   bool delta;
-  double shown_alpha;   // 1 of a delta lobe
-  double schlick_k;     // SchlickK
-  double narrow_alpha;  // of lobes whose terms are formed in double; else -1
+  double shown_alpha;  // 1 of a delta lobe
+  double schlick_k;    // SchlickK
+  double sharp_alpha;  // of lobes whose terms are formed in double; else -1
 };
 NACRE_DERIVE LobeWidth DeriveWidth(Shadowing shadowing, double roughness) {
   const double alpha = AlphaFromRoughness(roughness);
@@ -69,7 +69,7 @@ NACRE_DERIVE LobeWidth DeriveWidth(Shadowing shadowing, double roughness) {
           .delta = delta,
           .shown_alpha = delta ? 1 : alpha,
           .schlick_k = SchlickK(shadowing, roughness),
-          .narrow_alpha = IsNarrow(roughness, alpha) ? alpha : -1};
+          .sharp_alpha = IsSharp(roughness, alpha) ? alpha : -1};
 }
 
 // One channel of what lies under and over a lobe: the colour of the base, what that reflects, and

@@ -23,6 +23,10 @@ inline const double* NumbersOf(const HitTextures& t, MappedNumber number, int c 
   return Channel(t.numbers[static_cast<size_t>(number)], c);
 }
 
+inline Rgb ColorOfHit(const HitTextures& t, MappedNumber number, size_t i) {
+  return {NumbersOf(t, number, 0)[i], NumbersOf(t, number, 1)[i], NumbersOf(t, number, 2)[i]};
+}
+
 // One channel of microfacet materials: colors(i) and averages(colors) at hit i.
 struct MetallicRoughnessHits {
   MetallicRoughnessHits(const MetallicRoughnessMaterial& material, const MicrofacetModel& model,

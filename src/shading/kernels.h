@@ -22,9 +22,7 @@ struct PhongUniforms {
   PhongModel model;
   PhongConstants<Number> constants;
   const PhongLight<Number>* lights;
-  // Terms formed in double, for a range under one light; or null. Where each hit has its exponent,
-  // `first` is below 0 at those whose lobe is wide.
-  const NarrowLobes* narrow;
+  const SharpLobeTerms* sharp;  // for a range under one light; or null
 };
 
 // Where a channel reflects as little at normal incidence, Schlick's weight needs 1 - v.h to its
@@ -38,9 +36,7 @@ struct MicrofacetUniforms : MicrofacetConstants<Number> {
   const MicrofacetLight<Number>* lights;
   bool is_bright = false;  // no channel of f0 is below kBrightF0; not of hits with their own
   float eta[3] = {}, k[3] = {};
-  // The distribution at each hit, formed in double, under one light; or null. Where each hit has
-  // its alpha, below 0 at those whose lobe is wide.
-  const float* narrow = nullptr;
+  const float* sharp_distribution = nullptr;  // of SharpLobeTerms, under one light; or null
   // Of hits with a roughness each: HitTextures::fit, of which it is entry k of hit i at
   // [k * stride + i]. Null: all have the model's.
   const float* fit = nullptr;
@@ -56,7 +52,7 @@ struct ShadeRange {
   std::span<const LightOnBatch> lights;
   size_t begin, end;
   ReflectedRadiance* radiance;
-  Leaves leaves = Leaves::kAddedParts;
+  OutputMode output = OutputMode::kAccumulate;
 };
 
 // PrepareRun of microfacet materials (prepare_kernel.cc). `fit`, `fit_stride`: MicrofacetUniforms'.
@@ -71,31 +67,24 @@ void PrepareMicrofacet(const PrepareUniforms<float>& uniforms, size_t begin, siz
 void PrepareMicrofacet(const PrepareUniforms<float*>& uniforms, size_t begin, size_t end,
                        Surface* surface);
 
-// The terms of narrow lobes under the first light of a range, formed in double and rounded to
-// float. `first`: the GGX distribution.
-void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes);
-// `first`, `second`: 1 - c and c of the lobe's cosine c.
-void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes);
-// The same, of hits with an alpha or exponent each: `first` is -1 where alphas[i] is below 0, or
-// the exponent not above kDoubleTermsShininess.
-void NarrowGgx(const double* alphas, const ShadeRange& range, NarrowLobes* lobes);
-void NarrowPhong(PhongModel model, const double* exponents, const ShadeRange& range,
-                 NarrowLobes* lobes);
+// SharpLobeTerms of hits under the first light of a range (sharp_lobe_kernel.cc).
+void FormSharpGgx(double alpha, const ShadeRange& range, SharpLobeTerms* terms);
+void FormSharpPhong(PhongModel model, const ShadeRange& range, SharpLobeTerms* terms);
+// Of hits with an alpha or exponent each; lobes are wide where alphas[i] is below 0, or the
+// exponent not above kDoubleTermsShininess.
+void FormSharpGgx(const double* alphas, const ShadeRange& range, SharpLobeTerms* terms);
+void FormSharpPhong(PhongModel model, const double* exponents, const ShadeRange& range,
+                    SharpLobeTerms* terms);
 
 // How a rough base spreads the first light of a range, at every hit; roughness: one of all, or of
 // each hit.
 void SpreadBase(DiffuseForm form, float roughness, const ShadeRange& range, BaseSpread* to);
 void SpreadBase(DiffuseForm form, const float* roughness, const ShadeRange& range, BaseSpread* to);
 
-// A layer of fuzz over what hits reflect of a range's one light, which has been evaluated: `below`
-// is what the model under it reflects, and range.radiance what both do (sheen_kernel.cc).
-struct SheenUniforms {
-  const SheenModel& sheen;
-  // Of hits with a sheen each; else null.
-  const double* color[3];
-  const double* roughness;
-};
-void CoverBySheen(const SheenUniforms& uniforms, const ShadeRange& range,
+// A layer over what hits reflect of a range's one light, which has been evaluated: `below` is what
+// the model and the layers below reflect, and range.radiance, which may be the same, what all do
+// (layer_kernel.cc). `textures`: of hits with numbers of their own; else null.
+void CoverByLayer(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range,
                   const ReflectedRadiance& below);
 
 // Each of one material's constants, and of each hit's.

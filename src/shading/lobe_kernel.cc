@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/lobe_kernel.cc: directions chosen by what surfaces reflect, and their densities.
+// shading/lobe_kernel.cc: directions chosen by what surfaces reflect, and their pdfs.
 #include <algorithm>
 #include <variant>
 
@@ -58,10 +58,7 @@ HWY_INLINE void ForEachPacket(size_t begin, size_t end, Soa3<float>* to, const A
   const D d;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const auto mask = hn::FirstN(d, end - i);
-    const Vec3V<V> direction = at(i);
-    hn::BlendedStore(direction.x, mask, d, to->x.data() + i);
-    hn::BlendedStore(direction.y, mask, d, to->y.data() + i);
-    hn::BlendedStore(direction.z, mask, d, to->z.data() + i);
+    BlendedStoreSoa(d, at(i), mask, i, to);
   }
 }
 
@@ -197,8 +194,8 @@ void SamplePhongT(PhongModel model, const PhongExponent& exponent, const LobeRan
 }
 
 template <class Number>
-void GgxDensityOf(const GgxLobe<Number>& lobe, const LobeRange& range, const LightBatch& light,
-                  const float* narrow, float* density) {
+void GgxPdfOf(const GgxLobe<Number>& lobe, const LobeRange& range, const LightBatch& light,
+              const float* sharp_distribution, float* pdf) {
   const D d;
   const bool kulla_conty = lobe.model.compensation == Compensation::kKullaConty;
   const KullaContyShares<Number> shares(lobe, range.surface);
@@ -208,8 +205,8 @@ void GgxDensityOf(const GgxLobe<Number>& lobe, const LobeRange& range, const Lig
         ComputeAngles(d, LoadSoa(D(), range.surface.normal, i), LoadSoa(D(), light.to_light, i),
                       LoadSoa(D(), range.surface.to_view, i));
     V distribution = GgxDistribution(d, angles, alpha);
-    if (narrow != nullptr) {
-      const V exact = hn::LoadU(d, narrow + i);
+    if (sharp_distribution != nullptr) {
+      const V exact = hn::LoadU(d, sharp_distribution + i);
       distribution = hn::IfThenElse(hn::Ge(exact, hn::Zero(d)), exact, distribution);
     }
     V value = GgxVisiblePdf(d, distribution, angles.n_dot_v, alpha);
@@ -219,22 +216,22 @@ void GgxDensityOf(const GgxLobe<Number>& lobe, const LobeRange& range, const Lig
       const V multiple = hn::Mul(share, KullaContyPdf(d, angles.n_dot_l, shares.Spread(i)));
       value = hn::Add(single, hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), multiple));
     }
-    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, density + i);
+    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, pdf + i);
   }
 }
 
-void GgxDensityT(const GgxLobe<float>& lobe, const LobeRange& range, const LightBatch& light,
-                 const float* narrow, float* density) {
-  GgxDensityOf(lobe, range, light, narrow, density);
+void GgxPdfT(const GgxLobe<float>& lobe, const LobeRange& range, const LightBatch& light,
+             const float* sharp_distribution, float* pdf) {
+  GgxPdfOf(lobe, range, light, sharp_distribution, pdf);
 }
 
-void GgxDensityMapsT(const GgxLobe<float*>& lobe, const LobeRange& range, const LightBatch& light,
-                     const float* narrow, float* density) {
-  GgxDensityOf(lobe, range, light, narrow, density);
+void GgxPdfMapsT(const GgxLobe<float*>& lobe, const LobeRange& range, const LightBatch& light,
+                 const float* sharp_distribution, float* pdf) {
+  GgxPdfOf(lobe, range, light, sharp_distribution, pdf);
 }
 
-void PhongDensityT(PhongModel model, const PhongExponent& exponents, const LobeRange& range,
-                   const LightBatch& light, const NarrowLobes* narrow, float* density) {
+void PhongPdfT(PhongModel model, const PhongExponent& exponents, const LobeRange& range,
+               const LightBatch& light, const SharpLobeTerms* sharp, float* pdf) {
   const D d;
   const bool blinn = model == PhongModel::kBlinnPhong;
   const V one = hn::Set(d, 1.0f);
@@ -248,20 +245,20 @@ void PhongDensityT(PhongModel model, const PhongExponent& exponents, const LobeR
     LobeCosineV<V> cosine = blinn
                                 ? BlinnSquaredCosine(d, angles)
                                 : PhongCosine(d, SquaredFromReflection(normal, to_light, to_view));
-    if (narrow != nullptr) {
-      const V exact = hn::LoadU(d, narrow->first.data() + i);
-      const auto is_narrow = hn::Ge(exact, hn::Zero(d));  // others have -1
-      cosine = {hn::IfThenElse(is_narrow, exact, cosine.one_minus_c),
-                hn::IfThenElse(is_narrow, hn::LoadU(d, narrow->second.data() + i), cosine.c)};
+    if (sharp != nullptr) {
+      const V exact = hn::LoadU(d, sharp->one_minus_cos.data() + i);
+      const auto is_sharp = hn::Ge(exact, hn::Zero(d));  // others have -1
+      cosine = {hn::IfThenElse(is_sharp, exact, cosine.one_minus_c),
+                hn::IfThenElse(is_sharp, hn::LoadU(d, sharp->cos.data() + i), cosine.c)};
     }
     const V exponent = ExponentAt(exponents, i);
     const V lobe = blinn ? BlinnLobe(d, cosine, exponent) : PhongLobe(d, cosine, exponent);
     const V scaled = hn::Mul(hn::Mul(half_pi_inverse, hn::Add(exponent, one)), lobe);
     V value = blinn ? scaled : PhongLobePdf(d, lobe, exponent);
-    // |u| = 2 v.h: the density of h over 4 v.h is that of l.
+    // |u| = 2 v.h: the pdf of h over 4 v.h is that of l.
     const V u_length = hn::Sqrt(hn::Max(angles.u_squared, smallest));
     if (blinn) value = hn::Div(value, hn::Add(u_length, u_length));
-    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, density + i);
+    hn::BlendedStore(value, hn::FirstN(d, range.end - i), d, pdf + i);
   }
 }
 
@@ -282,9 +279,9 @@ HWY_EXPORT(SampleCosineT);
 HWY_EXPORT(SampleGgxT);
 HWY_EXPORT(SampleGgxMapsT);
 HWY_EXPORT(SamplePhongT);
-HWY_EXPORT(GgxDensityT);
-HWY_EXPORT(GgxDensityMapsT);
-HWY_EXPORT(PhongDensityT);
+HWY_EXPORT(GgxPdfT);
+HWY_EXPORT(GgxPdfMapsT);
+HWY_EXPORT(PhongPdfT);
 HWY_EXPORT(MirrorDirectionsT);
 
 namespace {
@@ -334,18 +331,15 @@ void TakeHit(const ShadingMaterial& material, const HitTextures& t, size_t i,
   model->schlick_k = SchlickK<double>(model->shadowing, NumbersOf(t, MappedNumber::kWidth)[i]);
 }
 
-// What a layer of fuzz over hit i leaves of a mirror's reflection.
-double LeftBySheen(const ShadingMaterial& material, const LobeRange& range, size_t i,
-                   double cosine) {
-  if (!material.sheen) return 1;
-  SheenModel sheen = *material.sheen;
-  if (const HitTextures* const maps = MapsOf(material, range)) {
-    for (int c = 0; c < 3; ++c) {
-      sheen.color[c] = NumbersOf(*maps, MappedNumber::kSheenColor, c)[i];
-    }
-    sheen.charlie = MakeCharlie(NumbersOf(*maps, MappedNumber::kSheenRoughness)[i]);
+// What the layers over hit i leave of a mirror's reflection.
+double LeftByLayers(const ShadingMaterial& material, const LobeRange& range, size_t i,
+                    double n_dot_v) {
+  const HitTextures* const maps = MapsOf(material, range);
+  double left = 1;
+  for (const LayerModel& layer : material.layers) {
+    left *= LeftOfMirror(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer, n_dot_v);
   }
-  return ShareLight(sheen, cosine, cosine).below;
+  return left;
 }
 
 // What a mirror's shadowing leaves: all, but for the lesson's curve, whose k is 1/8 there (Karis
@@ -371,7 +365,7 @@ bool HasSampledLobe(const ShadingMaterial& material) {
 
 bool DiffuseIsFlat(const ShadingMaterial& material) {
   if (material.turned) return false;  // the surface's own horizon cuts the light
-  if (material.sheen) return false;
+  if (!material.layers.empty()) return false;
   if (const auto* matte = std::get_if<MatteModel>(&material.model)) {
     return matte->form == DiffuseForm::kLambert;
   }
@@ -404,27 +398,28 @@ void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const f
   (LobeOf(model, *maps, material.mapped_width), range, u, v, to_light);
 }
 
-void LobeDensity(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
-                 NarrowLobes* scratch, float* density) {
+void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const LightBatch& light,
+             ShadeScratch* scratch, float* pdf) {
   if (!HasSampledLobe(material)) {
-    std::fill(density + hits.begin, density + hits.end, 0.0f);
+    std::fill(pdf + hits.begin, pdf + hits.end, 0.0f);
     return;
   }
   const LightOnBatch given{&GivenLight(), &light};
   const ShadeRange range{hits.hits, hits.surface, {&given, 1}, hits.begin, hits.end, nullptr};
   const HitTextures* const maps = MapsOf(material, hits);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
-    return HWY_DYNAMIC_DISPATCH(PhongDensityT)(phong->model, ExponentOf(*phong, maps), hits, light,
-                                               NarrowTerms(*phong, range, maps, scratch), density);
+    return HWY_DYNAMIC_DISPATCH(PhongPdfT)(phong->model, ExponentOf(*phong, maps), hits, light,
+                                           FormSharpTerms(*phong, range, maps, &scratch->sharp),
+                                           pdf);
   }
   const auto& model = std::get<MicrofacetModel>(material.model);
-  const NarrowLobes* const terms = NarrowTerms(model, range, maps, scratch);
-  const float* const narrow = terms != nullptr ? terms->first.data() : nullptr;
+  const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps, &scratch->sharp);
+  const float* const distribution = sharp != nullptr ? sharp->distribution.data() : nullptr;
   if (maps == nullptr) {
-    return HWY_DYNAMIC_DISPATCH(GgxDensityT)(LobeOf(model), hits, light, narrow, density);
+    return HWY_DYNAMIC_DISPATCH(GgxPdfT)(LobeOf(model), hits, light, distribution, pdf);
   }
-  HWY_DYNAMIC_DISPATCH(GgxDensityMapsT)
-  (LobeOf(model, *maps, material.mapped_width), hits, light, narrow, density);
+  HWY_DYNAMIC_DISPATCH(GgxPdfMapsT)
+  (LobeOf(model, *maps, material.mapped_width), hits, light, distribution, pdf);
 }
 
 bool IsMirror(const ShadingMaterial& material, const LobeRange& range, size_t hit) {
@@ -455,7 +450,7 @@ void MirrorReflectance(const ShadingMaterial& material, const LobeRange& range,
         double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
     if (material.mapped_model) TakeHit(material, *range.textures, i, &at_hit);
     const double cosine = std::clamp(n_dot_v, 0.0, 1.0);
-    const Rgb mirrored = MirrorAt(at_hit, cosine) * LeftBySheen(material, range, i, cosine);
+    const Rgb mirrored = MirrorAt(at_hit, cosine) * LeftByLayers(material, range, i, cosine);
     reflectance->x[i] = static_cast<float>(mirrored.x);
     reflectance->y[i] = static_cast<float>(mirrored.y);
     reflectance->z[i] = static_cast<float>(mirrored.z);

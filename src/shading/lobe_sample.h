@@ -18,7 +18,7 @@ bool HasSampledLobe(const ShadingMaterial& material);
 // light's irradiance: Lambert's, under nothing that asks for the light's direction.
 bool DiffuseIsFlat(const ShadingMaterial& material);
 
-// Directions by the cosine law about the normals, with density n.l / pi, by points (u, v) in
+// Directions by the cosine law about the normals, with pdf n.l / pi, by points (u, v) in
 // [0, 1)^2.
 void SampleCosine(const Surface& surface, size_t count, const float* u, const float* v,
                   Soa3<float>* to_light);
@@ -37,10 +37,10 @@ struct LobeRange {
 void SampleLobe(const ShadingMaterial& material, const LobeRange& range, const float* u,
                 const float* v, Soa3<float>* to_light);
 
-// The density with which SampleLobe chooses the directions light.to_light; 0 of materials that it
+// The pdf with which SampleLobe chooses the directions light.to_light; 0 of materials that it
 // is not for.
-void LobeDensity(const ShadingMaterial& material, const LobeRange& range, const LightBatch& light,
-                 NarrowLobes* scratch, float* density);
+void LobePdf(const ShadingMaterial& material, const LobeRange& range, const LightBatch& light,
+             ShadeScratch* scratch, float* pdf);
 
 // Whether a hit of the range, or any, has a perfect mirror's lobe: the material's, or by maps that
 // give each hit a roughness.

@@ -16,11 +16,11 @@ struct MappedProducts {
 };
 void MakeProducts(const MappedProducts& products, HitTextures* textures);
 
-// The terms of narrow lobes under the first light of a range, in `scratch`; null if no hit has one.
+// SharpLobeTerms under the first light of a range, in `terms`; null if no hit has a sharp lobe.
 // `maps`: of hits with a width each; or null.
-const NarrowLobes* NarrowTerms(const PhongFamilyModel& model, const ShadeRange& range,
-                               const HitTextures* maps, NarrowLobes* scratch);
-const NarrowLobes* NarrowTerms(const MicrofacetModel& model, const ShadeRange& range,
-                               const HitTextures* maps, NarrowLobes* scratch);
+const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeRange& range,
+                                     const HitTextures* maps, SharpLobeTerms* terms);
+const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRange& range,
+                                     const HitTextures* maps, SharpLobeTerms* terms);
 
 }  // namespace nacre

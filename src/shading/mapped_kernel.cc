@@ -201,11 +201,11 @@ struct KullaContyAt {
 void PutWidths(const TexturedRun& run, Shadowing shadowing, const MicrofacetConstants<float*>& to,
                HitTextures* t) {
   const double* const roughness = NumbersOf(*t, MappedNumber::kWidth);
-  double* const narrow = t->narrow_alpha.data();
+  double* const sharp = t->sharp_alpha.data();
   Hits{run.begin, run.end}.Each([&](size_t i) {
     const LobeWidth width = DeriveWidth(shadowing, roughness[i]);
     PutWidth(width, AtHit{i}, &to);
-    narrow[i] = width.narrow_alpha;
+    sharp[i] = width.sharp_alpha;
   });
 }
 

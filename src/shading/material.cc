@@ -77,7 +77,7 @@ MicrofacetModel MakeLobe(const Microfacet& material) {
   model.alpha = width.alpha;
   model.schlick_k = width.schlick_k;
   model.delta = width.delta;
-  model.double_terms = width.narrow_alpha >= 0;
+  model.double_terms = width.sharp_alpha >= 0;
   model.albedo.lobe = MakeAlbedoFit(material.shadowing, material.roughness);
   return model;
 }
@@ -277,7 +277,7 @@ ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radi
       material.model);
   prepared.ambient = of_ambient * ambient_radiance;
   prepared.ambient_radiance = ambient_radiance;
-  prepared.sheen = MakeSheen(material);
+  prepared.layers = MakeLayers(material);
   FindMaps(material, &prepared);
   return prepared;
 }

@@ -5,11 +5,12 @@
 
 #include <memory>
 #include <variant>
+#include <vector>
 
 #include "brdf/albedo.h"
 #include "scene/material.h"
 #include "shading/constants.h"
-#include "shading/sheen.h"
+#include "shading/layer.h"
 
 namespace nacre {
 
@@ -106,10 +107,10 @@ struct ShadingMaterial {
   Rgb ambient_radiance{0, 0, 0};
   // `coat`: of materials with a clear coat (scene/coat.h), which is shaded as a surface of its own.
   // Its `textured` is `own`.
-  std::optional<SheenModel> sheen;  // a layer of fuzz over the model, under the coat
   std::shared_ptr<const ShadingMaterial> coat;
   std::shared_ptr<const Material> own;
   std::variant<std::monostate, MatteModel, PhongFamilyModel, MicrofacetModel> model;
+  std::vector<LayerModel> layers;  // over the model, bottom to top, under the coat
 };
 
 ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_radiance);
@@ -125,7 +126,7 @@ Rgb LeftByCoat(const ShadingMaterial& coat, double n_dot_v);
 double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel);
 
 // Whether a lobe's terms are formed in double where maps give the hit this roughness.
-inline bool IsNarrow(double roughness, double alpha) {
+inline bool IsSharp(double roughness, double alpha) {
   return !IsDeltaLobe(alpha) && roughness < kDoubleTermsRoughness;
 }
 

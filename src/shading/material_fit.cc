@@ -156,11 +156,12 @@ void FitWeakLobe(const Material& original, const Summary& summary, MaterialFit* 
 }
 
 void FitMetallic(const Material& original, MaterialFit* fit) {
-  if (const auto* same = std::get_if<MetallicRoughnessMaterial>(&original.model)) {
-    MetallicRoughnessMaterial material = *same;
-    material.base_color_map = material.metallic_roughness_map = {};
-    material.specular_map = material.specular_color_map = {};
-    fit->guess.model = fit->fitted.model = material;
+  if (std::holds_alternative<MetallicRoughnessMaterial>(original.model)) {
+    Material plain = original;
+    const MaterialModel& model = *ModelOf(original);
+    for (const MaterialMap& map : model.maps) map.set(plain, {});
+    for (const MaterialNormalMap& map : model.normal_maps) map.of(plain) = {};
+    fit->guess.model = fit->fitted.model = plain.model;
     return;
   }
   const Summary summary = Summarize(original);
@@ -242,9 +243,10 @@ Material WithoutLayers(Material material, std::vector<std::string>* notes) {
   auto* const model = std::get_if<MetallicRoughnessMaterial>(&material.model);
   if (model == nullptr) return material;
   if (model->coat > 0) notes->emplace_back("the coat: what is below it is converted");
-  if (MakeSheen(material)) notes->emplace_back("sheen: what is below it is converted");
   model->coat = 0;
-  model->sheen_color = Rgb(0, 0, 0);
+  for (const std::string_view layer : RemoveLayers(&material)) {
+    notes->push_back(fmt::format("{}: what is below it is converted", layer));
+  }
   return material;
 }
 

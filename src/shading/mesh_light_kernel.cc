@@ -13,8 +13,8 @@
 #include "hwy/highway.h"
 
 #include "light/mesh_light-inl.h"
+#include "shading/area_light_view-inl.h"
 #include "shading/mesh_light_kernel.h"
-#include "shading/seen-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -25,13 +25,13 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 
-HWY_INLINE TriangleLightV<V> TriangleAt(const SeenTriangles& seen, size_t i) {
+HWY_INLINE TriangleLightV<V> TriangleAt(const TriangleBatch& seen, size_t i) {
   const D d;
   return {LoadSoa(d, seen.corner, i), LoadSoa(d, seen.edge_x, i), LoadSoa(d, seen.edge_y, i)};
 }
 
-void SampleSeenT(const SeenTriangles& seen, size_t count, const float* u, const float* v,
-                 Soa3<float>* to_light) {
+void SampleTrianglesT(const TriangleBatch& seen, size_t count, const float* u, const float* v,
+                      Soa3<float>* to_light) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const AreaSampleV<V> sample =
@@ -40,11 +40,11 @@ void SampleSeenT(const SeenTriangles& seen, size_t count, const float* u, const 
   }
 }
 
-void SeenDensityT(const SeenTriangles& seen, size_t count, const Soa3<float>& to_light,
-                  float* density) {
+void TrianglePdfT(const TriangleBatch& seen, size_t count, const Soa3<float>& to_light,
+                  float* pdf) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    hn::StoreU(DensityInside(d, TriangleAt(seen, i), LoadSoa(d, to_light, i)), d, density + i);
+    hn::StoreU(PdfInside(d, TriangleAt(seen, i), LoadSoa(d, to_light, i)), d, pdf + i);
   }
 }
 
@@ -57,7 +57,7 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
   const double by_area = ByArea(light);
   V sum = zero;
   for (size_t k = 0; k < mesh.triangles.size(); ++k) {
-    const TriangleLightV<V> seen = SeenTriangle(light, hits, k, i);
+    const TriangleLightV<V> seen = TriangleFrom(light, hits, k, i);
     const auto front = hn::Lt(FusedDot(seen.corner, Set3(mesh.crosses[k] * by_area)), zero);
     if (!light.two_sided && hn::AllFalse(d, front)) continue;
     const V value = hn::Max(Irradiance(d, seen, normal), zero);
@@ -69,7 +69,7 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
 // The same by the outline of the mesh.
 HWY_INLINE V SumOutline(const SampledLight& light, const HitBatch& hits, const Vec3V<V>& normal,
                         size_t i) {
-  SeenFaces faces;
+  EmittingFaces faces;
   FindFaces(light, hits, i, &faces);
   return OutlineIrradiance(light, hits, i, faces, normal,
                            [](const Vec3V<V>& offset) HWY_ATTR { return offset; });
@@ -90,18 +90,11 @@ void MeshIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
 using DD = hn::ScalableTag<double>;
 using VD = hn::Vec<DD>;
 
-HWY_INLINE VD Promote(const float* from) {
-  const hn::Rebind<float, DD> half;
-  return hn::PromoteTo(DD(), hn::LoadU(half, from));
-}
-
 HWY_INLINE LightRaysV<VD> RaysAt(const SampledLight& light, const HitBatch& hits,
                                  const Soa3<float>& l, size_t i) {
   const DD d;
-  const Vec3V<VD> position =
-      LoadU3(d, hits.position.x.data() + i, hits.position.y.data() + i, hits.position.z.data() + i);
-  return MakeLightRays(d, Sub(position, SetVec3(d, light.place)),
-                       {Promote(l.x.data() + i), Promote(l.y.data() + i), Promote(l.z.data() + i)});
+  return MakeLightRays(d, Sub(LoadSoa(d, hits.position, i), SetVec3(d, light.place)),
+                       PromoteSoa(d, l, i));
 }
 
 // What a vector of rays has met so far.
@@ -118,7 +111,7 @@ HWY_INLINE uint32_t BitsOf(M mask) {
 }
 
 void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float>& to_light,
-               float* distance, double* end, SeenMeetings* meetings) {
+               float* distance, double* end, MeshLightHits* meetings) {
   const DD d;
   const VD zero = hn::Zero(d), infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   meetings->count = 0;
@@ -130,7 +123,7 @@ void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float
       const auto nearer = hn::And(meeting.met, hn::Lt(meeting.t, nearest.t));
       nearest.t = hn::IfThenElse(nearer, meeting.t, nearest.t);
       nearest.towards = hn::IfThenElse(nearer, meeting.towards, nearest.towards);
-      SeenMeeting* to = meetings->Room(hn::Lanes(d));
+      MeshLightHit* to = meetings->Room(hn::Lanes(d));
       for (uint32_t bits = BitsOf(meeting.met); bits != 0; bits &= bits - 1) {
         *to++ = {ray + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)), triangle};
         ++meetings->count;
@@ -152,8 +145,8 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(SampleSeenT);
-HWY_EXPORT(SeenDensityT);
+HWY_EXPORT(SampleTrianglesT);
+HWY_EXPORT(TrianglePdfT);
 HWY_EXPORT(MeshIrradianceT);
 HWY_EXPORT(MeetMeshT);
 
@@ -169,17 +162,17 @@ void Put(const Vec3d& v, size_t i, Soa3<float>* to) {
 
 // The triangle as hit `hit` sees it: the way there formed in double.
 void PutTriangle(const SampledLight& light, const HitBatch& hits, uint32_t triangle, size_t hit,
-                 size_t i, SeenTriangles* seen) {
+                 size_t i, TriangleBatch* seen) {
   const TriangleLight<double>& t = light.mesh->triangles[triangle];
   Put(light.place + t.corner - At(hits.position, hit), i, &seen->corner);
   Put(t.edge_x, i, &seen->edge_x);
   Put(t.edge_y, i, &seen->edge_y);
 }
 
-// Adds up the densities of triangles along the directions of hits, in batches.
-class DensitySum {
+// Adds up the pdfs of triangles along the directions of hits, in batches.
+class PdfSum {
  public:
-  DensitySum(const SampledLight& light, const HitBatch& hits, LightDirections* directions)
+  PdfSum(const SampledLight& light, const HitBatch& hits, LightDirections* directions)
       : light_(light), hits_(hits), directions_(*directions), scratch_(*directions->mesh) {}
 
   void Add(size_t hit, uint32_t triangle) {
@@ -195,10 +188,10 @@ class DensitySum {
   }
 
   void Flush() {
-    HWY_DYNAMIC_DISPATCH(SeenDensityT)
-    (scratch_.seen, count_, scratch_.to_light, scratch_.density.data());
+    HWY_DYNAMIC_DISPATCH(TrianglePdfT)
+    (scratch_.seen, count_, scratch_.to_light, scratch_.pdf.data());
     for (size_t i = 0; i < count_; ++i) {
-      directions_.density[scratch_.hit[i]] += scratch_.probability[i] * scratch_.density[i];
+      directions_.pdf[scratch_.hit[i]] += scratch_.probability[i] * scratch_.pdf[i];
     }
     count_ = 0;
   }
@@ -226,22 +219,22 @@ void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoint
     PutTriangle(light, hits, pick.index, i, i, &scratch.seen);
     scratch.rest[i] = std::min(static_cast<float>(pick.rest), 1 - 0x1p-24f);
   }
-  HWY_DYNAMIC_DISPATCH(SampleSeenT)
+  HWY_DYNAMIC_DISPATCH(SampleTrianglesT)
   (scratch.seen, hits.count, scratch.rest.data(), points.v.data(), &directions->to_light);
   FindMesh(light, hits, directions);
 }
 
 void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
   MakeScratch(directions);
-  SeenMeetings& meetings = directions->mesh->meetings;
+  MeshLightHits& meetings = directions->mesh->meetings;
   meetings.count = 0;
   HWY_DYNAMIC_DISPATCH(MeetMeshT)
   (light, hits, directions->to_light, directions->distance.data(), directions->mesh->end.data(),
    &meetings);
-  std::fill_n(directions->density.data(), hits.count, 0.0f);
-  DensitySum sum(light, hits, directions);
+  std::fill_n(directions->pdf.data(), hits.count, 0.0f);
+  PdfSum sum(light, hits, directions);
   for (size_t i = 0; i < meetings.count; ++i) {
-    const SeenMeeting& meeting = meetings.entries[i];
+    const MeshLightHit& meeting = meetings.entries[i];
     const bool seen = meeting.hit < hits.count && directions->distance[meeting.hit] > 0;
     if (seen) sum.Add(meeting.hit, meeting.triangle);
   }

@@ -9,21 +9,21 @@
 
 namespace nacre {
 
-struct SeenTriangles {
+struct TriangleBatch {
   Soa3<float> corner, edge_x, edge_y;  // as TriangleLight's, relative to the hit
 };
 
 // A triangle that the ray from a hit meets, whether it is the nearest or not.
-struct SeenMeeting {
+struct MeshLightHit {
   uint32_t hit, triangle;
 };
 
-struct SeenMeetings {
-  std::vector<SeenMeeting> entries;
+struct MeshLightHits {
+  std::vector<MeshLightHit> entries;
   size_t count = 0;
 
   // The place for so many more.
-  SeenMeeting* Room(size_t more) {
+  MeshLightHit* Room(size_t more) {
     if (count + more > entries.size()) entries.resize(2 * (count + more) + kBatchCapacity);
     return entries.data() + count;
   }
@@ -32,13 +32,13 @@ struct SeenMeetings {
 // What directions to a light of triangles are worked out in. It takes longer to make than a small
 // batch's directions do, so it is kept with them.
 struct MeshLightScratch {
-  SeenTriangles seen;
+  TriangleBatch seen;
   AlignedArray<float> rest{kBatchCapacity};  // what is left of the numbers that chose triangles
-  SeenMeetings meetings;
+  MeshLightHits meetings;
   AlignedArray<double> end{kBatchCapacity};  // the nearest, in units of the direction
-  // Of triangles in `seen`, on their way into the density of directions.
+  // Of triangles in `seen`, on their way into the pdf of directions.
   Soa3<float> to_light;
-  AlignedArray<float> density{kBatchCapacity}, probability{kBatchCapacity};
+  AlignedArray<float> pdf{kBatchCapacity}, probability{kBatchCapacity};
   AlignedArray<uint32_t> hit{kBatchCapacity};
 };
 

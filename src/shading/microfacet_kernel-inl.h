@@ -62,7 +62,8 @@ struct Microfacet {
   // Distribution, visibility, cosine and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in,
                          FloatV twice_u_length) const {
-    if (!Form::kUsual && kSame && uniforms.narrow != nullptr) return NarrowLobe(d, p, in);
+    if (!Form::kUsual && kSame && uniforms.sharp_distribution != nullptr)
+      return SharpLobe(d, p, in);
     const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
     const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
     // As a rule the square of |u|^2 is far from float's limits, and no root need be waited for.
@@ -79,9 +80,9 @@ struct Microfacet {
       const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
       wide = hn::IfThenElse(IsUpright(d, in.half), wide, hn::IfThenElseZero(above, of_short));
     }
-    if (Form::kUsual || kSame || uniforms.narrow == nullptr) return wide;
-    const auto is_narrow = hn::Ge(hn::LoadU(d, uniforms.narrow + p.i), hn::Zero(d));
-    return hn::IfThenElse(is_narrow, NarrowLobe(d, p, in), wide);
+    if (Form::kUsual || kSame || uniforms.sharp_distribution == nullptr) return wide;
+    const auto is_sharp = hn::Ge(hn::LoadU(d, uniforms.sharp_distribution + p.i), hn::Zero(d));
+    return hn::IfThenElse(is_sharp, SharpLobe(d, p, in), wide);
   }
 
   // `weight` is 0 where the surface is not lit.
@@ -95,12 +96,12 @@ struct Microfacet {
   }
 
   // The same with the distribution that was formed in double.
-  HWY_INLINE FloatV NarrowLobe(FloatTag d, const PacketV& p, const Incident& in) const {
+  HWY_INLINE FloatV SharpLobe(FloatTag d, const PacketV& p, const Incident& in) const {
     const FloatV smallest = hn::Set(d, std::numeric_limits<float>::min());
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const FloatV masking = Masking(d, p, in, hn::Set(d, 1.0f));
     const FloatV visibility = hn::Min(hn::Div(in.weight, hn::Max(masking, smallest)), largest);
-    const FloatV product = hn::Mul(hn::LoadU(d, uniforms.narrow + p.i), visibility);
+    const FloatV product = hn::Mul(hn::LoadU(d, uniforms.sharp_distribution + p.i), visibility);
     return hn::IfThenElseZero(IsLit(d, in.n_dot_l), hn::Min(product, largest));
   }
 
@@ -211,7 +212,7 @@ void ShadeUsualMicrofacet(const MicrofacetUniforms<float>& uniforms, const Shade
 
 template <FresnelForm kFresnel>
 void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
-  if (uniforms.narrow != nullptr || uniforms.spread != nullptr) {
+  if (uniforms.sharp_distribution != nullptr || uniforms.spread != nullptr) {
     return ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
   }
   switch (uniforms.model->shadowing) {

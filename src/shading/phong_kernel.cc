@@ -43,21 +43,21 @@ struct PhongFamily {
   struct View {};
   const PhongUniforms<Number>& uniforms;
 
-  // Lobes of one exponent are all narrow, and theirs come from elsewhere, or none.
+  // Lobes of one exponent are all sharp, and theirs come from elsewhere, or none.
   HWY_INLINE bool ReadsLobe() const {
-    return !std::is_same_v<Number, float> || uniforms.narrow == nullptr;
+    return !std::is_same_v<Number, float> || uniforms.sharp == nullptr;
   }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
 
   HWY_INLINE FloatV Log2Cosine(FloatTag d, const PacketV& p, const Incident& in) const {
-    const NarrowLobes* const narrow = uniforms.narrow;
-    if (narrow == nullptr) return in.log2_cosine;
-    const LobeCosineV<FloatV> exact{hn::LoadU(d, narrow->first.data() + p.i),
-                                    hn::LoadU(d, narrow->second.data() + p.i)};
+    const SharpLobeTerms* const sharp = uniforms.sharp;
+    if (sharp == nullptr) return in.log2_cosine;
+    const LobeCosineV<FloatV> exact{hn::LoadU(d, sharp->one_minus_cos.data() + p.i),
+                                    hn::LoadU(d, sharp->cos.data() + p.i)};
     const FloatV log2 = LobeLog2(d, exact);
     if constexpr (std::is_same_v<Number, float>) return log2;
-    const auto is_narrow = hn::Ge(exact.one_minus_c, hn::Zero(d));
-    return hn::IfThenElse(is_narrow, log2, in.log2_cosine);
+    const auto is_sharp = hn::Ge(exact.one_minus_c, hn::Zero(d));
+    return hn::IfThenElse(is_sharp, log2, in.log2_cosine);
   }
 
   HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,

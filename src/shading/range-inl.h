@@ -208,13 +208,13 @@ HWY_INLINE RgbV SumOf(const ReflectedV& of_light) {
           hn::MulAdd(color.b, scale.b, diffuse.b)};
 }
 
-// What ShadeRange::leaves says of the packet's reflection of a light, the range's first or not.
+// Stores a packet's reflection of one light as `output` says.
 template <class Reflected>
-HWY_INLINE void Leave(FloatTag d, const Reflected& of_light, Leaves leaves,
-                      const RangeArrays& arrays, size_t i) {
+HWY_INLINE void StoreReflected(FloatTag d, const Reflected& of_light, OutputMode output,
+                               const RangeArrays& arrays, size_t i) {
   constexpr bool kHasSpecular = std::is_same_v<Reflected, ReflectedV>;
   const RgbV diffuse = RgbOf(of_light.diffuse);
-  if (leaves == Leaves::kAddedParts) {
+  if (output == OutputMode::kAccumulate) {
     arrays.Store(d, AddRgb(LoadAsRgb(d, arrays.diffuse, i), diffuse), arrays.diffuse, i);
     if constexpr (kHasSpecular) {
       const RgbV specular = RgbOf(of_light.specular);
@@ -222,28 +222,28 @@ HWY_INLINE void Leave(FloatTag d, const Reflected& of_light, Leaves leaves,
     }
     return;
   }
-  if (leaves != Leaves::kSum) {
+  if (output != OutputMode::kSum) {
     const FloatV zero = hn::Zero(d);
     RgbV specular{zero, zero, zero};
     if constexpr (kHasSpecular) specular = RgbOf(of_light.specular);
     arrays.Store(d, diffuse, arrays.diffuse, i);
     arrays.Store(d, specular, arrays.specular, i);
-    if (leaves == Leaves::kParts) return;
+    if (output == OutputMode::kOverwrite) return;
   }
   arrays.Store(d, SumOf(of_light), arrays.sum, i);
 }
 
-// What `incident_at(packet)` brings to hits [begin, end) is reflected and left.
+// What `incident_at(packet)` brings to hits [begin, end) is reflected and stored.
 template <class Model, class IncidentAt>
 HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& range,
                              const RangeArrays& given, size_t k, size_t begin, size_t end,
                              const IncidentAt& incident_at) {
   const RangeArrays arrays = given;  // kept in registers: what is stored cannot be this copy
-  const Leaves leaves = k == 0 ? range.leaves : Leaves::kAddedParts;
+  const OutputMode output = k == 0 ? range.output : OutputMode::kAccumulate;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const PacketV packet = arrays.Packet(d, i);
     const auto view = model.SeenBy(d, packet, range.surface);
-    Leave(d, model.Reflect(d, view, packet, incident_at(packet), k), leaves, arrays, i);
+    StoreReflected(d, model.Reflect(d, view, packet, incident_at(packet), k), output, arrays, i);
   }
 }
 

@@ -115,10 +115,10 @@ void FindLight(const SampledLight& light, const HitBatch& hits, LightDirections*
   if (light.form == SampledForm::kMesh) return FindMesh(light, hits, directions);
   if (!IsSky(light)) return FindArea(light, hits, directions);
   std::fill_n(directions->distance.data(), hits.count, std::numeric_limits<float>::infinity());
-  std::fill_n(directions->density.data(), hits.count, 0.0f);
+  std::fill_n(directions->pdf.data(), hits.count, 0.0f);
   if (IsColored(light)) {
     EvaluateSky(light, directions->to_light, hits.count, &directions->radiance,
-                directions->density.data());
+                directions->pdf.data());
   }
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/sampled_light.h: lights with an extent, and environments: directions to them, how densely
-// these were chosen, and what is seen along a direction. Densities are per solid angle.
+// these were chosen, and what is seen along a direction. Pdfs are per solid angle.
 //
 // An estimate of what a hit reflects of such a light is the mean of (reflected radiance of a unit
-// light in direction l) x radiance(l) / density(l) over directions chosen with that density, with
+// light in direction l) x radiance(l) / pdf(l) over directions chosen with that pdf, with
 // shadow rays in between. Where two ways of choosing are combined, as Veach and Guibas 1995 do by
-// the balance heuristic, density(l) is the sum of both.
+// the balance heuristic, pdf(l) is the sum of both.
 #pragma once
 
 #include <array>
@@ -83,7 +83,7 @@ struct MeshLightScratch;
 struct LightDirections {
   Soa3<float> to_light;                          // unit
   AlignedArray<float> distance{kBatchCapacity};  // infinity: a sky; 0: the light is missed
-  AlignedArray<float> density{kBatchCapacity};   // with which SampleLight chooses it; 0: never
+  AlignedArray<float> pdf{kBatchCapacity};       // with which SampleLight chooses it; 0: never
   Soa3<float> radiance;  // of coloured lights, as multiples of SampledLight::color
   std::shared_ptr<MeshLightScratch> mesh;  // made for the first light of triangles
 };

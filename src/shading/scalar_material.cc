@@ -117,13 +117,11 @@ Reflection Reflect(const ShadingMaterial& material, const Vec3d& normal, const V
       Overloaded{[](const std::monostate&) { return Reflection{}; },
                  [&](const auto& model) { return ReflectModel(model, normal, to_light, to_view); }},
       material.model);
-  if (material.sheen) {
-    const SheenModel& sheen = *material.sheen;
-    const Angles<double> a = ComputeAngles(normal, to_light, to_view);
-    const SheenScale<double> scale = ShareLight(sheen, a.n_dot_l, a.n_dot_v);
-    const double lobe = CharlieLobe(sheen.charlie, a) * a.n_dot_l * scale.lobe;
-    reflection.diffuse = reflection.diffuse * scale.below + sheen.color * lobe;
-    reflection.specular = reflection.specular * scale.below;
+  const Angles<double> angles = ComputeAngles(normal, to_light, to_view);
+  for (const LayerModel& layer : material.layers) {
+    const LayerReflection of_layer = EvaluateLayer(layer, angles);
+    reflection.diffuse = reflection.diffuse * of_layer.below + of_layer.lobe;
+    reflection.specular = reflection.specular * of_layer.below;
   }
   if (!material.coat) return reflection;
   const Rgb left = LeftByCoat(*material.coat, normal ^ to_view);

@@ -69,16 +69,16 @@ struct RunMaps {
 template <class Number>
 void ShadeGroup(const MatteModel& model, const MatteConstants<Number>& constants,
                 const MatteLight<Number>* lights, const ShadeRange& range, const RunMaps&,
-                NarrowLobes*) {
+                ShadeScratch*) {
   ShadeMatte(MatteUniforms<Number>{model.form, constants, lights}, range);
 }
 
 template <class Number>
 void ShadeGroup(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
                 const PhongLight<Number>* lights, const ShadeRange& range, const RunMaps& maps,
-                NarrowLobes* scratch) {
-  const NarrowLobes* const narrow = NarrowTerms(model, range, maps.textures, scratch);
-  ShadePhong(PhongUniforms<Number>{model.model, constants, lights, narrow}, range);
+                ShadeScratch* scratch) {
+  const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
+  ShadePhong(PhongUniforms<Number>{model.model, constants, lights, sharp}, range);
 }
 
 template <class Number>
@@ -98,7 +98,7 @@ void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& 
 template <class Number>
 void ShadeGroup(const MicrofacetModel& model, const MicrofacetConstants<Number>& constants,
                 const MicrofacetLight<Number>* lights, const ShadeRange& range, const RunMaps& maps,
-                NarrowLobes* scratch) {
+                ShadeScratch* scratch) {
   MicrofacetUniforms<Number> uniforms{constants, &model, lights};
   if constexpr (std::is_same_v<Number, float>) {
     const auto& f0 = constants.f0;
@@ -106,8 +106,8 @@ void ShadeGroup(const MicrofacetModel& model, const MicrofacetConstants<Number>&
   }
   Assign(model.eta, uniforms.eta);
   Assign(model.k, uniforms.k);
-  const NarrowLobes* const narrow = NarrowTerms(model, range, maps.textures, scratch);
-  if (narrow != nullptr) uniforms.narrow = narrow->first.data();
+  const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
+  if (sharp != nullptr) uniforms.sharp_distribution = sharp->distribution.data();
   if (maps.widths) uniforms.fit = maps.textures->fit.data();
   uniforms.fit_stride = HitTextures::kStride;
   if (model.base_form != DiffuseForm::kLambert) {
@@ -141,13 +141,13 @@ const MicrofacetConstants<float>& ConstantsOf(const MicrofacetModel& model) {
 ShadeRange Under(const ShadeRange& range, size_t first, size_t count) {
   ShadeRange group = range;
   group.lights = range.lights.subspan(first, count);
-  if (first > 0) group.leaves = Leaves::kAddedParts;
+  if (first > 0) group.output = OutputMode::kAccumulate;
   return group;
 }
 
 // Hits that share the constants of their material.
 template <class Model>
-void Shade(const Model& model, const ShadeRange& range, NarrowLobes* scratch) {
+void Shade(const Model& model, const ShadeRange& range, ShadeScratch* scratch) {
   const size_t at_once = TakesOneLight(model) ? 1 : kLightsAtOnce;
   const auto& constants = ConstantsOf(model);
   std::array<decltype(MakeLight(model, Rgb())), kLightsAtOnce> lights;
@@ -163,7 +163,7 @@ void Shade(const Model& model, const ShadeRange& range, NarrowLobes* scratch) {
 // Hits with constants of their own, one light after the other.
 template <template <class> class Constants, template <class> class Light, class Model>
 void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
-                 NarrowLobes* scratch, HitTextures* maps) {
+                 ShadeScratch* scratch, HitTextures* maps) {
   const auto constants = ColumnsIn<Constants<float*>>(maps->constants);
   const auto products = ColumnsIn<Light<float*>>(maps->products);
   const RunMaps run{maps, material.mapped_width};
@@ -175,32 +175,32 @@ void ShadeMapped(const ShadingMaterial& material, const Model& model, const Shad
 
 }  // namespace
 
-const NarrowLobes* NarrowTerms(const PhongFamilyModel& model, const ShadeRange& range,
-                               const HitTextures* maps, NarrowLobes* scratch) {
+const SharpLobeTerms* FormSharpTerms(const PhongFamilyModel& model, const ShadeRange& range,
+                                     const HitTextures* maps, SharpLobeTerms* terms) {
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
-    NarrowPhong(model.model, range, scratch);
-    return scratch;
+    FormSharpPhong(model.model, range, terms);
+    return terms;
   }
   const double* const exponents = NumbersOf(*maps, MappedNumber::kWidth);
-  const auto is_narrow = [](double n) { return n > kDoubleTermsShininess; };
-  if (std::none_of(exponents + range.begin, exponents + range.end, is_narrow)) return nullptr;
-  NarrowPhong(model.model, exponents, range, scratch);
-  return scratch;
+  const auto is_sharp = [](double n) { return n > kDoubleTermsShininess; };
+  if (std::none_of(exponents + range.begin, exponents + range.end, is_sharp)) return nullptr;
+  FormSharpPhong(model.model, exponents, range, terms);
+  return terms;
 }
 
-const NarrowLobes* NarrowTerms(const MicrofacetModel& model, const ShadeRange& range,
-                               const HitTextures* maps, NarrowLobes* scratch) {
+const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRange& range,
+                                     const HitTextures* maps, SharpLobeTerms* terms) {
   if (maps == nullptr) {
     if (!model.double_terms) return nullptr;
-    NarrowGgx(model.alpha, range, scratch);
-    return scratch;
+    FormSharpGgx(model.alpha, range, terms);
+    return terms;
   }
-  const double* const alpha = maps->narrow_alpha.data();
-  const auto is_narrow = [](double a) { return a >= 0; };
-  if (std::none_of(alpha + range.begin, alpha + range.end, is_narrow)) return nullptr;
-  NarrowGgx(alpha, range, scratch);
-  return scratch;
+  const double* const alpha = maps->sharp_alpha.data();
+  const auto is_sharp = [](double a) { return a >= 0; };
+  if (std::none_of(alpha + range.begin, alpha + range.end, is_sharp)) return nullptr;
+  FormSharpGgx(alpha, range, terms);
+  return terms;
 }
 
 bool EvaluatedInPlace(const ShadingLight& light) {
@@ -225,8 +225,8 @@ void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surfa
 
 namespace {
 
-// All but a layer of fuzz.
-void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,
+// All but the layers.
+void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeScratch* scratch,
                 HitTextures* maps) {
   if (!material.mapped_model) {
     std::visit(
@@ -249,16 +249,13 @@ void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, Narrow
       material.model);
 }
 
-// One light after the other: what is below gets a share of each that depends on where it is.
-void ShadeUnderSheen(const ShadingMaterial& material, const ShadeRange& range, NarrowLobes* scratch,
-                     HitTextures* maps) {
-  if (!scratch->below_sheen) scratch->below_sheen = std::make_unique<BelowSheen>();
-  BelowSheen& below = *scratch->below_sheen;
-  SheenUniforms uniforms{*material.sheen, {}, nullptr};
-  if (material.mapped_model) {
-    for (int c = 0; c < 3; ++c) uniforms.color[c] = NumbersOf(*maps, MappedNumber::kSheenColor, c);
-    uniforms.roughness = NumbersOf(*maps, MappedNumber::kSheenRoughness);
-  }
+// One light after the other, as what layers leave of it depends on where it is. The model's
+// reflection is overwritten layer by layer, and the last layer's goes where the range says.
+void ShadeUnderLayers(const ShadingMaterial& material, const ShadeRange& range,
+                      ShadeScratch* scratch, HitTextures* maps) {
+  if (!scratch->below) scratch->below = std::make_unique<BelowLayers>();
+  BelowLayers& below = *scratch->below;
+  const HitTextures* const layer_maps = material.mapped_model ? maps : nullptr;
   for (size_t k = 0; k < range.lights.size(); ++k) {
     LightOnBatch light = range.lights[k];
     if (light.evaluated == nullptr) {
@@ -269,18 +266,23 @@ void ShadeUnderSheen(const ShadingMaterial& material, const ShadeRange& range, N
     all.lights = {&light, 1};
     ShadeRange under = all;
     under.radiance = &below.radiance;
-    under.leaves = Leaves::kParts;
+    under.output = OutputMode::kOverwrite;
     ShadeModel(material, under, scratch, maps);
-    CoverBySheen(uniforms, all, below.radiance);
+    for (const LayerModel& layer : material.layers) {
+      const bool is_top = &layer == &material.layers.back();
+      CoverByLayer(layer, layer_maps, is_top ? all : under, below.radiance);
+    }
   }
 }
 
 }  // namespace
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
-              NarrowLobes* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.leaves};
-  if (material.sheen) return ShadeUnderSheen(material, range, scratch, lit.textures);
+              ShadeScratch* scratch, ReflectedRadiance* radiance) {
+  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.output};
+  if (!material.layers.empty()) {
+    return ShadeUnderLayers(material, range, scratch, lit.textures);
+  }
   ShadeModel(material, range, scratch, lit.textures);
 }
 

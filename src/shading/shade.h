@@ -46,20 +46,27 @@ struct LightOnBatch {
   const LightBatch* evaluated;  // null: ShadeRun is to evaluate it in place
 };
 
-// What a batch reflects so far, per hit: its parts, or their sum, or both.
+// What a batch reflects so far, per hit: its components, or their sum, or both.
 struct ReflectedRadiance {
   Soa3<float> diffuse, specular;
   Soa3<float> sum;
 };
 
-// What ShadeRun leaves in it.
-enum class Leaves : uint8_t {
-  kAddedParts,  // the parts, added to those that are there
-  kParts,       // the parts; those that are there count as 0, whatever they are
-  // Of one light. The specular part is rounded once, as it is added: within an ulp of the parts'
-  // own sum.
+// How ShadeRun writes to it.
+enum class OutputMode : uint8_t {
+  kAccumulate,  // adds to the components that are there
+  kOverwrite,   // writes the components, whatever is there
+  // Writes the sum, of one light. The specular component is rounded once, as it is added: within an
+  // ulp of the sum of the components.
   kSum,
-  kPartsAndSum,  // the bits of both
+  kComponentsAndSum,  // the bits of kOverwrite and of kSum
+};
+
+// The half-vector terms of sharp lobes, formed in double (sharp_lobe_kernel.cc). Of hits with a
+// roughness or exponent each, those whose lobe is wide have a distribution or one_minus_cos of -1.
+struct SharpLobeTerms {
+  AlignedArray<float> distribution{kBatchCapacity};                        // of GGX
+  AlignedArray<float> one_minus_cos{kBatchCapacity}, cos{kBatchCapacity};  // of Phong's lobe
 };
 
 // How rough bases spread a light: what their Lambertian reflection is multiplied by, single + ratio
@@ -68,17 +75,17 @@ struct BaseSpread {
   AlignedArray<float> single{kBatchCapacity}, multiple{kBatchCapacity};
 };
 
-// What is below a layer of fuzz, under a light.
-struct BelowSheen {
+// What is below the layers of a material, under one light.
+struct BelowLayers {
   LightBatch light;
   ReflectedRadiance radiance;
 };
 
-// Room for the terms of lobes that are formed in double, and for what bases make of a light.
-struct NarrowLobes {
-  AlignedArray<float> first{kBatchCapacity}, second{kBatchCapacity};
+// What ShadeRun and LobePdf keep between the kernels of a run.
+struct ShadeScratch {
+  SharpLobeTerms sharp;
   BaseSpread base;
-  std::unique_ptr<BelowSheen> below_sheen;  // made for the first hit that has any
+  std::unique_ptr<BelowLayers> below;  // made for the first hit that has layers
 };
 
 struct HitTextures;
@@ -89,7 +96,7 @@ struct LitHits {
   const Surface& surface;
   std::span<const LightOnBatch> lights;
   HitTextures* textures = nullptr;  // of materials with maps
-  Leaves leaves = Leaves::kAddedParts;
+  OutputMode output = OutputMode::kAccumulate;
 };
 
 // Rounds hits whose directions were given in double.
@@ -109,7 +116,7 @@ void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surfac
 
 // Brings to `radiance` what hits [begin, end), all of `material`, reflect of the lights.
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
-              NarrowLobes* scratch, ReflectedRadiance* radiance);
+              ShadeScratch* scratch, ReflectedRadiance* radiance);
 
 // Zeroes the first `count` entries.
 void ClearSoa(size_t count, Soa3<float>* soa);

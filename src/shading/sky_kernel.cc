@@ -66,15 +66,15 @@ HWY_INLINE Vec3V<V> Turn(const Vec3V<V>& v, double cosine, double sine) {
   return {hn::MulAdd(v.x, c, hn::Mul(v.z, s)), v.y, hn::MulSub(v.z, c, hn::Mul(v.x, s))};
 }
 
-// Radiance, and the density of sampling if it is asked for.
+// Radiance, and the pdf of sampling if it is asked for.
 void EvaluatePictureT(const ShadingSky& sky, const Soa3<float>& directions, size_t count,
-                      Soa3<float>* radiance, float* density) {
+                      Soa3<float>* radiance, float* pdf) {
   const D d;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const Vec3V<V> turned = Turn(LoadSoa(D(), directions, i), sky.cos_rotation, -sky.sin_rotation);
     const EnvironmentTexelV<V> texel = TexelAt(d, *sky.picture, turned);
     StoreSoa(D(), {texel.red, texel.green, texel.blue}, i, radiance);
-    if (density != nullptr) hn::StoreU(texel.pdf, d, density + i);
+    if (pdf != nullptr) hn::StoreU(texel.pdf, d, pdf + i);
   }
 }
 
@@ -88,7 +88,7 @@ void SamplePictureT(const ShadingSky& sky, const UnitPoints& points, size_t coun
              &directions->to_light);
     StoreSoa(D(), {sample.texel.red, sample.texel.green, sample.texel.blue}, i,
              &directions->radiance);
-    hn::StoreU(sample.texel.pdf, d, directions->density.data() + i);
+    hn::StoreU(sample.texel.pdf, d, directions->pdf.data() + i);
   }
 }
 
@@ -135,9 +135,9 @@ void SampleSky(const SampledLight& light, const UnitPoints& points, size_t count
 }
 
 void EvaluateSky(const SampledLight& light, const Soa3<float>& directions, size_t count,
-                 Soa3<float>* radiance, float* density) {
+                 Soa3<float>* radiance, float* pdf) {
   if (light.form == SampledForm::kPictureSky) {
-    return HWY_DYNAMIC_DISPATCH(EvaluatePictureT)(light.sky, directions, count, radiance, density);
+    return HWY_DYNAMIC_DISPATCH(EvaluatePictureT)(light.sky, directions, count, radiance, pdf);
   }
   if (light.form == SampledForm::kGradientSky) {
     return HWY_DYNAMIC_DISPATCH(EvaluateGradientT)(light.sky, directions, count, radiance);

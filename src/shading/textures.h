@@ -90,8 +90,8 @@ struct HitTextures {
   // its convention multiplies the lobe by.
   AlignedArray<double> one_average{kBatchCapacity}, schlick_average{kBatchCapacity};
   AlignedArray<double> dielectric_average{kBatchCapacity}, phong_scale{kBatchCapacity};
-  AlignedArray<double> narrow_alpha{kBatchCapacity};  // LobeWidth::narrow_alpha
-  Soa3<float> albedo, ambient, emission;              // for the layers of these names
+  AlignedArray<double> sharp_alpha{kBatchCapacity};  // LobeWidth::sharp_alpha
+  Soa3<float> albedo, ambient, emission;             // for the layers of these names
 
   // Columns of numbers, hit by hit: entry k of hit i is at [k * kStride + i].
   static constexpr size_t kStride = kBatchCapacity + 3 * kBatchPadding;  // no power of two

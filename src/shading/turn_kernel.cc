@@ -8,8 +8,8 @@
 
 #include "hwy/highway.h"
 
-#include "base/vec3-inl.h"
 #include "hit/shading_normal-inl.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -20,14 +20,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 using F = hn::Rebind<float, D>;
-
-HWY_INLINE Vec3V<V> Load(const Soa3<double>& soa, size_t i) {
-  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
-
-HWY_INLINE V Promote(const AlignedArray<float>& from, size_t i) {
-  return hn::PromoteTo(D(), hn::LoadU(F(), from.data() + i));
-}
 
 HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
   return Scale(v, hn::Div(hn::Set(D(), 1.0), hn::Sqrt(FusedDot(v, v))));
@@ -51,7 +43,7 @@ HWY_INLINE void StoreNormal(const Vec3V<V>& turned, const Vec3V<V>& unturned, hn
   const F f;
   const V below = hn::Min(FusedDot(turned, unturned), hn::Zero(d));
   const Vec3V<V> upper = Sub(turned, Scale(unturned, hn::Add(below, below)));
-  const Vec3V<V> normal = BendNormal(d, upper, unturned, Load(hits->to_view, i));
+  const Vec3V<V> normal = BendNormal(d, upper, unturned, LoadSoa(d, hits->to_view, i));
   const auto store = [&](V value, AlignedArray<double>* exact, AlignedArray<float>* rounded)
                          HWY_ATTR {
                            double* const to = exact->data() + i;
@@ -75,7 +67,8 @@ struct Frame {
 // both are reversed where the surface is seen from behind.
 HWY_INLINE Frame FrameOfGradients(const HitTextures& t, size_t i, const Vec3V<V>& n) {
   const D d;
-  const Vec3V<V> du = Across(Load(t.gradient_u, i), n), dv = Across(Load(t.gradient_v, i), n);
+  const Vec3V<V> du = Across(LoadSoa(d, t.gradient_u, i), n),
+                 dv = Across(LoadSoa(d, t.gradient_v, i), n);
   const V det = FusedDot(FusedCross(du, dv), n);
   const V hand = hn::CopySign(hn::Set(d, 1.0), det);
   const Vec3V<V> tangent = Normalized(Scale(FusedCross(dv, n), hand));
@@ -88,8 +81,8 @@ HWY_INLINE Frame FrameOfCorners(const HitTextures& t, size_t i, const Frame& oth
   const D d;
   const V length = hn::LoadU(d, t.normal_length.data() + i);
   const auto own = hn::Gt(length, hn::Zero(d));
-  return {Select(own, Load(t.tangent, i), otherwise.tangent),
-          Select(own, Load(t.bitangent, i), otherwise.bitangent),
+  return {Select(own, LoadSoa(d, t.tangent, i), otherwise.tangent),
+          Select(own, LoadSoa(d, t.bitangent, i), otherwise.bitangent),
           Select(own, Scale(otherwise.normal, length), otherwise.normal)};
 }
 
@@ -100,11 +93,11 @@ void TurnNormalsT(const TexturedRun& run, float middle, float scale, bool frames
   const V middle_v = hn::Set(d, double{middle});
   const V stretch = hn::Set(d, 1 / (1 - double{middle}));
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = Load(hits->normal, i), unturned = Load(t.unturned, i);
+    const Vec3V<V> n = LoadSoa(d, hits->normal, i), unturned = LoadSoa(d, t.unturned, i);
     Frame frame = FrameOfGradients(t, i, n);
     if (frames) frame = FrameOfCorners(t, i, frame);
     const auto component = [&](const AlignedArray<float>& from) HWY_ATTR {
-      return hn::Mul(hn::Sub(Promote(from, i), middle_v), stretch);
+      return hn::Mul(hn::Sub(PromoteAt(d, from, i), middle_v), stretch);
     };
     const V factor = hn::Set(d, double{scale});
     const V x = hn::Mul(component(t.texels.x), factor), y = hn::Mul(component(t.texels.y), factor);
@@ -125,13 +118,13 @@ void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitText
   const D d;
   const V zero = hn::Zero(d);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
-    const Vec3V<V> n = Load(hits->normal, i), unturned = Load(t.unturned, i);
+    const Vec3V<V> n = LoadSoa(d, hits->normal, i), unturned = LoadSoa(d, t.unturned, i);
     // Heights are outwards, seen from wherever.
     const V scale = hn::Mul(hn::LoadU(d, t.side.data() + i), hn::Set(d, distance));
-    const V slope_u = hn::Mul(Promote(t.texels.x, i), scale);
-    const V slope_v = hn::Mul(Promote(t.texels.y, i), scale);
-    const Vec3V<V> gradient =
-        Add(Scale(Load(t.gradient_u, i), slope_u), Scale(Load(t.gradient_v, i), slope_v));
+    const V slope_u = hn::Mul(PromoteAt(d, t.texels.x, i), scale);
+    const V slope_v = hn::Mul(PromoteAt(d, t.texels.y, i), scale);
+    const Vec3V<V> gradient = Add(Scale(LoadSoa(d, t.gradient_u, i), slope_u),
+                                  Scale(LoadSoa(d, t.gradient_v, i), slope_v));
     const Vec3V<V> turned = Normalized(Sub(n, Across(gradient, n)));
     const auto level = hn::And(hn::Eq(slope_u, zero), hn::Eq(slope_v, zero));
     const auto sound = IsSound(turned);
@@ -142,25 +135,15 @@ void TurnNormalsBySlopesT(const TexturedRun& run, double distance, const HitText
 
 using FF = hn::ScalableTag<float>;
 
-HWY_INLINE Vec3V<hn::Vec<FF>> Load(const Soa3<float>& soa, size_t i) {
-  return LoadU3(FF(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
-
-HWY_INLINE void Store(const Vec3V<hn::Vec<FF>>& v, hn::Mask<FF> mask, size_t i, Soa3<float>* soa) {
-  hn::BlendedStore(v.x, mask, FF(), soa->x.data() + i);
-  hn::BlendedStore(v.y, mask, FF(), soa->y.data() + i);
-  hn::BlendedStore(v.z, mask, FF(), soa->z.data() + i);
-}
-
 void RaiseAboveHorizonT(const Surface& surface, size_t begin, size_t end, Soa3<float>* to_light) {
   const FF d;
   const auto zero = hn::Zero(d);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto n = Load(surface.unturned, i), l = Load(*to_light, i);
+    const auto n = LoadSoa(d, surface.unturned, i), l = LoadSoa(d, *to_light, i);
     const auto height = FusedDot(n, l);
-    const auto faces = hn::Gt(FusedDot(Load(surface.normal, i), l), zero);
+    const auto faces = hn::Gt(FusedDot(LoadSoa(d, surface.normal, i), l), zero);
     const auto mask = hn::And(hn::And(faces, hn::Lt(height, zero)), hn::FirstN(d, end - i));
-    Store(Sub(l, Scale(n, hn::Add(height, height))), mask, i, to_light);
+    BlendedStoreSoa(d, Sub(l, Scale(n, hn::Add(height, height))), mask, i, to_light);
   }
 }
 
@@ -170,17 +153,17 @@ bool MirrorAtHorizonT(const Surface& surface, size_t begin, size_t end, const Li
   const auto zero = hn::Zero(d);
   bool any = false;
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const auto n = Load(surface.unturned, i), l = Load(light.to_light, i);
+    const auto n = LoadSoa(d, surface.unturned, i), l = LoadSoa(d, light.to_light, i);
     const auto height = FusedDot(n, l);
     const auto below = Sub(l, Scale(n, hn::Add(height, height)));
     const auto unit = Scale(below, hn::Div(hn::Set(d, 1.0f), hn::Sqrt(FusedDot(below, below))));
-    const auto normal = Load(surface.normal, i);
+    const auto normal = LoadSoa(d, surface.normal, i);
     const auto irradiance = hn::LoadU(d, light.irradiance.data() + i);
     const auto in_range = hn::FirstN(d, end - i);
     const auto lit =
         hn::And(hn::And(hn::Gt(FusedDot(normal, unit), zero), hn::Gt(irradiance, zero)), in_range);
     any = any || !hn::AllFalse(d, lit);
-    Store(Select(lit, unit, normal), in_range, i, &mirrored->to_light);
+    BlendedStoreSoa(d, Select(lit, unit, normal), in_range, i, &mirrored->to_light);
     hn::BlendedStore(hn::IfThenElseZero(lit, irradiance), in_range, d,
                      mirrored->irradiance.data() + i);
   }

@@ -14,7 +14,7 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
   struct Batches {
     HitBatch hits;
     Surface surface;
-    NarrowLobes scratch;
+    ShadeScratch scratch;
     ReflectedRadiance radiance;
   };
   const auto batches = std::make_unique<Batches>();

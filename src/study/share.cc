@@ -161,11 +161,12 @@ Rgb ShareOfModel(const MicrofacetModel& model, ShareOf what, double cosine) {
   return share;
 }
 
-// With a layer of fuzz over a model that reflects `share`: under it each pair of directions gets
-// its own part of the light.
-Rgb ShareWithSheen(const ShadingMaterial& material, const Rgb& share, ShareOf what, double cosine) {
+// With layers over a model that reflects `share`: under them each pair of directions gets its own
+// part of the light.
+Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf what,
+                    double cosine) {
   ShadingMaterial below = material, whole = material;
-  below.sheen.reset();
+  below.layers.clear();
   below.coat = whole.coat = nullptr;
   const Vec3d normal(0, 0, 1), fixed = InPlane(cosine, -1);
   const auto integrate = [&](int c, const ShadingMaterial& of, const auto& part) {
@@ -175,7 +176,8 @@ Rgb ShareWithSheen(const ShadingMaterial& material, const Rgb& share, ShareOf wh
                  : part(Reflect(of, normal, fixed, other))[c] * other.z / fixed.z;
     });
   };
-  const double left = ShareLight(*material.sheen, cosine, cosine).below;  // of a mirror
+  double left = 1;  // of a mirror
+  for (const LayerModel& layer : material.layers) left *= LeftOfMirror(layer, cosine);
   Rgb all;
   for (int c = 0; c < 3; ++c) {
     all[c] = integrate(c, whole, [](const Reflection& r) { return r.Sum(); });
@@ -214,7 +216,7 @@ Rgb ReflectedShare(const ShadingMaterial& material, ShareOf what, double cosine)
       std::visit(Overloaded{[](const std::monostate&) { return Rgb(0); },
                             [&](const auto& model) { return ShareOfModel(model, what, cosine); }},
                  material.model);
-  if (material.sheen) share = ShareWithSheen(material, share, what, cosine);
+  if (!material.layers.empty()) share = ShareWithLayers(material, share, what, cosine);
   if (!material.coat) return share;
   const Rgb of_coat = ReflectedShare(*material.coat, what, cosine);
   if (what == ShareOf::kFurnace) return share * LeftByCoat(*material.coat, cosine) + of_coat;

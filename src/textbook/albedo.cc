@@ -39,7 +39,7 @@ double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f) {
   const double a2 = std::pow(roughness, 4);
   const Vec3d to_view = Direction(n_dot_v, 0);
   return Midpoint(kRadialPoints, [&](double t) {
-    // Half vectors with the density D n.h (Walter et al. 2007, eq. 35); u has its points denser at
+    // Half vectors with the pdf D n.h (Walter et al. 2007, eq. 35); u has its points denser at
     // both ends, where the integrand changes fastest.
     const double u = t * t * (3 - 2 * t);
     const double du = 6 * t * (1 - t);
@@ -47,7 +47,7 @@ double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f) {
     // 1 - cos2 without cancellation; D = a2 / (pi (a2 cos2 + sin2)^2).
     const double sin2 = a2 * u / (1 + (a2 - 1) * u);
     const double peak = a2 * cos2 + sin2;
-    const double density = a2 * std::sqrt(cos2) / (M_PI * peak * peak);
+    const double pdf = a2 * std::sqrt(cos2) / (M_PI * peak * peak);
     return du * Midpoint(kAzimuthPoints, [&](double turn) {
              const double phi = M_PI * turn;  // the other half mirrors this one
              const double sin_theta = std::sqrt(sin2);
@@ -56,7 +56,7 @@ double LobeAlbedo(double n_dot_v, double roughness, const TextbookBrdf& f) {
              const double v_dot_h = to_view ^ half;
              const Vec3d to_light = half * (2 * v_dot_h) - to_view;
              if (v_dot_h <= 0 || to_light.z <= 0) return 0.0;
-             return f(to_light, to_view) * to_light.z * 4 * v_dot_h / density;
+             return f(to_light, to_view) * to_light.z * 4 * v_dot_h / pdf;
            });
   });
 }
@@ -65,7 +65,7 @@ double SmoothAlbedo(double n_dot_v, const TextbookBrdf& f) {
   const Vec3d to_view = Direction(n_dot_v, 0);
   return Midpoint(kRadialPoints, [&](double s) {
     return Midpoint(kAzimuthPoints, [&](double turn) {
-      return M_PI * f(Direction(std::sqrt(s), M_PI * turn), to_view);  // density n.l / pi
+      return M_PI * f(Direction(std::sqrt(s), M_PI * turn), to_view);  // pdf n.l / pi
     });
   });
 }

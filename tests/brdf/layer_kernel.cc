@@ -78,7 +78,6 @@ void Evaluate(RoughnessOf roughness_of, const std::vector<LayerQuery<T>>& querie
         ScaleSheen(d, packet.Number(&Query::largest_channel), albedo_v, albedo_l);
     write(&Answer::sheen_scale, scale.lobe);
     write(&Answer::below_sheen, scale.below);
-    write(&Answer::pdf, CharliePdf(d, a.n_dot_l, roughness));
   }
 }
 

@@ -21,7 +21,7 @@ struct LayerAnswer {
   T distribution = 0, sheen = 0;             // D and D V of Charlie
   T cosine_lambda_v = 0;                     // n.v Lambda(n.v)
   T sheen_albedo_v = 0, sheen_albedo_l = 0;  // E(n.v), E(n.l)
-  T sheen_scale = 0, below_sheen = 0, pdf = 0;
+  T sheen_scale = 0, below_sheen = 0;
 };
 
 // On the active target, query by query: lanes have a roughness each, or all lanes of a vector that

@@ -9,7 +9,6 @@
 #include "base/target_ops-inl.h"
 #include "brdf/lobe_kernel.h"
 #include "brdf/lobe_sampling-inl.h"
-#include "brdf/sheen-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -52,8 +51,6 @@ Vec3V<V> SampleOf(Lobe lobe, const Inputs& in) {
       return SampleBlinnLobe(d, in.n, in.v, in.width, in.u0, in.u1);
     case Lobe::kKullaConty:
       return SampleKullaConty(d, in.n, in.width, in.u0, in.u1);
-    case Lobe::kCharlie:
-      return SampleCharlie(d, in.n, in.width, in.u0, in.u1);
   }
   return in.n;
 }
@@ -72,8 +69,6 @@ V PdfOf(Lobe lobe, const Inputs& in) {
       return BlinnLobePdf(d, a, in.width);
     case Lobe::kKullaConty:
       return KullaContyPdf(d, a.n_dot_l, in.width);
-    case Lobe::kCharlie:
-      return CharliePdf(d, a.n_dot_l, in.width);
   }
   return in.width;
 }

@@ -8,13 +8,13 @@
 
 namespace nacre {
 
-enum class Lobe { kCosine, kGgx, kPhong, kBlinn, kKullaConty, kCharlie };
+enum class Lobe { kCosine, kGgx, kPhong, kBlinn, kKullaConty };
 
 struct LobeQuery {
   Vec3f n, v;
   float width = 0;       // alpha, shininess, spread or roughness
   float u0 = 0, u1 = 0;  // for the sample
-  Vec3f l{0, 0, 1};      // for the density
+  Vec3f l{0, 0, 1};      // for the pdf
 };
 
 struct LobeAnswer {

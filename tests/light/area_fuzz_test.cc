@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/light/area_fuzz_test.cc: area lights of any shape anywhere, also degenerate ones and the
-// shaded point in, on and through them: samples, densities and irradiance stay finite and in range.
+// shaded point in, on and through them: samples, pdfs and irradiance stay finite and in range.
 #include <cmath>
 #include <random>
 #include <sstream>
@@ -58,8 +58,8 @@ void CheckInRange(const LightQuery<Light>& query, const LightAnswer& answer) {
                         answer.irradiance <= 3.1416f;
   if (finite && is_unit && in_range) return;
   UNSCOPED_INFO("u " << query.u0 << ' ' << query.u1 << " normal " << query.normal);
-  FAIL("sample " << s.to_light << " distance " << s.distance << " inverse density " << s.inverse_pdf
-                 << " cosine " << s.cos_light << " density " << answer.pdf << " irradiance "
+  FAIL("sample " << s.to_light << " distance " << s.distance << " inverse pdf " << s.inverse_pdf
+                 << " cosine " << s.cos_light << " pdf " << answer.pdf << " irradiance "
                  << answer.irradiance);
 }
 

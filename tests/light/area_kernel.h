@@ -16,7 +16,7 @@ template <class Light>
 struct LightQuery {
   Light light;
   float u0 = 0, u1 = 0;      // for the sample
-  Vec3f direction{0, 0, 1};  // for the density
+  Vec3f direction{0, 0, 1};  // for the pdf
   Vec3f normal{0, 0, 1};     // for the irradiance
 };
 

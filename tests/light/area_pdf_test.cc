@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/light/area_pdf_test.cc: densities of samples of area lights integrate to one over them.
+// tests/light/area_pdf_test.cc: pdfs of samples of area lights integrate to one over them.
 #include <cmath>
 
 #include "catch.h"
@@ -8,7 +8,7 @@
 namespace nacre {
 namespace {
 
-// The integral of the density over a light of this area, by the midpoint rule in points given by
+// The integral of the pdf over a light of this area, by the midpoint rule in points given by
 // two numbers from 0 to 1; `area` may vary with them.
 template <class Light, class PointAt>
 double IntegratePdf(const Light& light, const PointAt& point_at) {
@@ -30,7 +30,7 @@ double IntegratePdf(const Light& light, const PointAt& point_at) {
 // What midpoint rules can integrate: not the lights that all but touch the point.
 bool IsSmooth(double nearest, double size) { return nearest > 0.05 * size; }
 
-TEST_CASE("densities integrate to 1 over their lights") {
+TEST_CASE("pdfs integrate to 1 over their lights") {
   for (const RectangleLight<double>& light : RectangleLights()) {
     const RectangleView<double> view = ViewOf(light);
     if (!IsSmooth(std::abs(view.z), std::min(view.width, view.height))) continue;
@@ -65,7 +65,7 @@ TEST_CASE("densities integrate to 1 over their lights") {
       return light.centre + view.x_axis * (r * std::cos(2 * M_PI * t)) +
              view.y_axis * (r * std::sin(2 * M_PI * t));
     });
-    // A nearby disk's density counts the samples that miss it too.
+    // A nearby disk's pdf counts the samples that miss it too.
     double hits = 1;
     if (IsNearby(view, light.radius)) {
       hits = 0;
@@ -86,7 +86,7 @@ TEST_CASE("a sphere's cone integrates to 1 and knows what misses it") {
     const Basis<double> basis = BasisAbout(light.centre.normalized());
     const SphereCone<double> cone = ConeOf(light);
     const double range = IsInside(light) ? 2 : std::min(2 * cone.one_minus_cos, 2.0);
-    // Rings of a cone of twice the size; its density is 0 or the same all round.
+    // Rings of a cone of twice the size; its pdf is 0 or the same all round.
     constexpr int kRings = 100000;
     double sum = 0;
     for (int i = 0; i < kRings; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/light/area_sample_test.cc: samples of area lights in double: solid angles against the
-// table, uniformity by chi-squared against solid angles of parts, densities that belong to their
+// table, uniformity by chi-squared against solid angles of parts, pdfs that belong to their
 // samples, and the places where there is nothing to sample.
 #include "light/area_sample.h"
 
@@ -86,11 +86,11 @@ void CountSamples(const Light& light, const PartOf& part_of, Parts* parts) {
     }
     REQUIRE(std::abs(sample.to_light.length() - 1) <= 1e-14);
     const double pdf = LightPdf(light, sample.to_light);
-    if (pdf == 0) FAIL("no density where there is a sample: " << u0 << ' ' << u1);
-    // The density of area sampling is as steep as distance^2 / cosine: 1e-11 leaves room for
+    if (pdf == 0) FAIL("no pdf where there is a sample: " << u0 << ' ' << u1);
+    // The pdf of area sampling is as steep as distance^2 / cosine: 1e-11 leaves room for
     // nearly edge-on lights.
     if (std::abs(pdf * sample.inverse_pdf - 1) > 1e-10) {
-      FAIL("density " << pdf << " but inverse " << sample.inverse_pdf);
+      FAIL("pdf " << pdf << " but inverse " << sample.inverse_pdf);
     }
     parts->Count(part_of(sample.to_light * sample.distance));
   }

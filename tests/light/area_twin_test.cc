@@ -29,7 +29,7 @@ double OffsetLength(const Light& light) {
   return light.corner.length() + light.edge_x.length() + light.edge_y.length();
 }
 
-// Random samples, and their densities.
+// Random samples, and their pdfs.
 template <class Light>
 std::vector<LightAnswer> RandomAnswers(const Light& light,
                                        std::vector<LightQuery<Light>>* queries) {
@@ -46,7 +46,7 @@ std::vector<LightAnswer> RandomAnswers(const Light& light,
   return AskLights(*queries);
 }
 
-// The density of a sample is its own: 1e-6, or what a direction's rounding does to the distance
+// The pdf of a sample is its own: 1e-6, or what a direction's rounding does to the distance
 // and cosine of a light seen edge-on.
 bool IsConsistent(const LightAnswer& answer) {
   if (answer.sample.inverse_pdf == 0) return true;

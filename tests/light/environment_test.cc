@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/light/environment_test.cc: images of environments: the mapping and its inverse, sampling
-// that follows luminance and solid angle, densities that integrate to one, and the SIMD twins.
+// that follows luminance and solid angle, pdfs that integrate to one, and the SIMD twins.
 #include "light/environment.h"
 
 #include <cmath>
@@ -65,7 +65,7 @@ TEST_CASE("texels' solid angles add up to the sphere") {
   }
 }
 
-TEST_CASE("densities times solid angles are the texels' shares of the light, and add up to 1") {
+TEST_CASE("pdfs times solid angles are the texels' shares of the light, and add up to 1") {
   const EnvironmentMap map = RandomMap(40, 21);
   double sum = 0;
   for (int y = 0; y < map.height; ++y) {
@@ -77,7 +77,7 @@ TEST_CASE("densities times solid angles are the texels' shares of the light, and
   CHECK(std::abs(sum - 1) <= 1e-6);
 }
 
-TEST_CASE("samples follow the density: texels by their share, directions evenly within") {
+TEST_CASE("samples follow the pdf: texels by their share, directions evenly within") {
   constexpr int kSamples = 100000;
   for (const auto& [width, height] : {std::pair(24, 12), std::pair(15, 7), std::pair(3, 1)}) {
     CAPTURE(width, height);
@@ -97,7 +97,7 @@ TEST_CASE("samples follow the density: texels by their share, directions evenly 
       const EnvironmentSample<double> sample = SampleEnvironment<double>(map, u0, u1);
       REQUIRE(std::abs(sample.to_light.length() - 1) <= 1e-7);
       const EnvironmentTexel& texel = TexelAt(map, sample.to_light);
-      if (sample.texel.pdf != texel.pdf) FAIL("the sample's density is that of another texel");
+      if (sample.texel.pdf != texel.pdf) FAIL("the sample's pdf is that of another texel");
       const auto index = static_cast<size_t>(&texel - map.texels.data());
       counts[index] += 1;
       if (texel.red == 1000) {
@@ -117,7 +117,7 @@ TEST_CASE("samples follow the density: texels by their share, directions evenly 
   }
 }
 
-TEST_CASE("the mean of radiance over density is the integral of radiance") {
+TEST_CASE("the mean of radiance over pdf is the integral of radiance") {
   const EnvironmentMap map = RandomMap(32, 16);
   double integral = 0, mean = 0;
   for (size_t i = 0; i < map.texels.size(); ++i) {

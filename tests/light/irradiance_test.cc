@@ -121,7 +121,7 @@ void CheckSampled(const std::vector<Light>& lights) {
   }
 }
 
-TEST_CASE("irradiance is the mean of the samples' cosines over their densities") {
+TEST_CASE("irradiance is the mean of the samples' cosines over their pdfs") {
   CheckSampled(SphereLights());
   CheckSampled(RectangleLights());
   CheckSampled(TriangleLights());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/light/specular_test.cc: GGX reflections of area lights by multiple importance sampling of
-// lights and lobes, against the table: samplers, densities and BRDF together.
+// lights and lobes, against the table: samplers, pdfs and BRDF together.
 #include <cmath>
 
 #include "brdf/lobe_sampling.h"
@@ -27,7 +27,7 @@ struct Scene {
   double alpha;
 };
 
-// BRDF n.l over the sum of both densities (balance heuristic: Veach and Guibas 1995), Fresnel's
+// BRDF n.l over the sum of both pdfs (balance heuristic: Veach and Guibas 1995), Fresnel's
 // term being 1.
 template <class Light>
 double Contribution(const Scene& scene, const Light& light, const Vec3d& l) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/sampling/pixel_sampler_test.cc: the samples of pixels: weights, densities, unbiasedness.
+// tests/sampling/pixel_sampler_test.cc: the samples of pixels: weights, pdfs, unbiasedness.
 #include "sampling/pixel_sampler.h"
 
 #include <cmath>

@@ -34,8 +34,8 @@ Vec3d SampleVisibleNormal(const Vec3d& to_view, double alpha, const Vec2d& u) {
   return Vec3d(alpha * h.x, alpha * h.y, h.z).normalized();
 }
 
-// The density of directions that mirror `to_view` in a visible normal: G1 D / (4 n.v).
-double VisibleNormalDensity(const Vec3d& to_view, const Vec3d& to_light, double alpha) {
+// The pdf of directions that mirror `to_view` in a visible normal: G1 D / (4 n.v).
+double VisibleNormalPdf(const Vec3d& to_view, const Vec3d& to_light, double alpha) {
   const Angles<double> a = ComputeAngles(Vec3d(0, 0, 1), to_light, to_view);
   const double g1_over_n_dot_v = 2 / (to_view.z + SmithRoot(to_view.z, alpha));
   return GgxDistribution(a, alpha) * g1_over_n_dot_v / 4;
@@ -43,7 +43,7 @@ double VisibleNormalDensity(const Vec3d& to_view, const Vec3d& to_light, double 
 
 // A third of the directions by visible normals, a third by the cosine, and a third log-uniform in
 // the cosine, for Kulla and Conty's lobe of smooth surfaces: n.l (1 - E(n.l)) falls as 1 / n.l from
-// n.l = alpha on. Each is weighted by the mean of the three densities.
+// n.l = alpha on. Each is weighted by the mean of the three pdfs.
 std::vector<Direction> SampleDirections(const Vec3d& to_view, double alpha) {
   const double least =
       1e-3 * std::max(alpha, 1e-6);  // what lies below is of the order of its square
@@ -69,8 +69,8 @@ std::vector<Direction> SampleDirections(const Vec3d& to_view, double alpha) {
       continue;
     }
     const double log_uniform = l.z >= least ? 1 / (2 * M_PI * decades * l.z) : 0;
-    const double density = VisibleNormalDensity(to_view, l, alpha) + l.z * M_1_PI + log_uniform;
-    directions.push_back({l, 3 / (density * double{kSamples})});
+    const double pdf = VisibleNormalPdf(to_view, l, alpha) + l.z * M_1_PI + log_uniform;
+    directions.push_back({l, 3 / (pdf * double{kSamples})});
   }
   return directions;
 }
@@ -84,7 +84,7 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
   const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
   LightBatch evaluated;
   const LightOnBatch on_hits{&light, &evaluated};
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   hits.count = kBatchCapacity;
   for (size_t i = 0; i < kBatchCapacity; ++i) {
     hits.normal.z[i] = 1;

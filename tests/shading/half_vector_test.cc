@@ -23,7 +23,7 @@ struct MirrorBatch {
   Surface surface;
   ShadingLight light;
   LightBatch directions;
-  NarrowLobes scratch;
+  ShadeScratch scratch;
 };
 
 Vec3d WideAt(const Soa3<float>& soa, size_t i) {
@@ -64,7 +64,7 @@ void CheckMirrored(const ShadingMaterial& material, const Model& model, double w
   MirrorBatch batch;
   FillMirrorBatch(width, &batch);
   const LightOnBatch on_hits{&batch.light, &batch.directions};
-  const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, Leaves::kParts};
+  const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, OutputMode::kOverwrite};
   PrepareRun(material, 0, kMirrorHits, &batch.surface);
   ReflectedRadiance whole;
   ShadeRun(material, lit, 0, kMirrorHits, &batch.scratch, &whole);
@@ -162,7 +162,8 @@ TEST_CASE("a hit's bits do not depend on whether others need more care") {
     size_t material_number = 0;
     for (const ShadingMaterial& material : MaterialsWithHalfVectors()) {
       CAPTURE(material_number++);
-      const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, Leaves::kPartsAndSum};
+      const LitHits lit{
+          batch.hits, batch.surface, {&on_hits, 1}, nullptr, OutputMode::kComponentsAndSum};
       ReflectedRadiance whole, alone;
       PrepareRun(material, 0, kMirrorHits, &batch.surface);
       ShadeRun(material, lit, 0, kMirrorHits, &batch.scratch, &whole);
@@ -202,7 +203,7 @@ TEST_CASE("a half vector of next to no length keeps its lobe") {
   batch.light =
       PrepareLight({.name = {}, .kind = DirectionalLight{.irradiance = kLightColor}}, {0, 0, 0});
   const LightOnBatch on_hits{&batch.light, &batch.directions};
-  const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, Leaves::kParts};
+  const LitHits lit{batch.hits, batch.surface, {&on_hits, 1}, nullptr, OutputMode::kOverwrite};
   ForEachTarget([&](Target) {
     for (const Shadowing shadowing : {Shadowing::kSchlickDirect, Shadowing::kHeightCorrelated}) {
       const ShadingMaterial prepared =

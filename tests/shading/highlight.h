@@ -52,7 +52,7 @@ inline Highlight ShadeHighlight(const ShadingMaterial& material, const Rgb& irra
   light.kind =
       DirectionalLight{.direction_of_travel = -kHighlightToLight, .irradiance = irradiance};
   Surface surface;
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   PrepareSurface(highlight.hits, &surface);
   PrepareRun(material, 0, highlight.hits.count, &surface);
   const ShadingLight prepared = PrepareLight(light, Vec3d(0));

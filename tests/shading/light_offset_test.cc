@@ -110,7 +110,7 @@ ReflectedRadiance ReflectFromSpheres(const ShadingLight& light, HitsOnSpheres* h
   LightBatch evaluated;
   EvaluateLight(light, hits->batch, hits->surface, &evaluated);
   const LightOnBatch on_hits{&light, in_place ? nullptr : &evaluated};
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   ReflectedRadiance radiance;
   PrepareRun(prepared, 0, kHitsOnSpheres, &hits->surface);
   ShadeRun(prepared, {hits->batch, hits->surface, {&on_hits, 1}}, 0, kHitsOnSpheres, &scratch,

@@ -58,7 +58,7 @@ class SampledHits {
     Shade();
   }
 
-  double Density(size_t i) const { return density_[i]; }
+  double Pdf(size_t i) const { return pdf_[i]; }
   double Specular(size_t i) const { return radiance_.specular.y[i]; }
   double Diffuse(size_t i) const { return radiance_.diffuse.y[i]; }
   double NDotL(size_t i) const { return lit_.to_light.z[i]; }
@@ -67,7 +67,7 @@ class SampledHits {
   void Shade() {
     for (size_t i = 0; i < kCoverageHits; ++i)
       lit_.irradiance[i] = lit_.to_light.z[i] > 0 ? 1.0f : 0.0f;
-    LobeDensity(material_, Range(), lit_, &scratch_, density_.data());
+    LobePdf(material_, Range(), lit_, &scratch_, pdf_.data());
     ClearRadiance(kCoverageHits, &radiance_);
     const LightOnBatch on_hits{&light_, &lit_};
     ShadeRun(material_, {hits_, surface_, {&on_hits, 1}}, 0, kCoverageHits, &scratch_, &radiance_);
@@ -78,9 +78,9 @@ class SampledHits {
   Surface surface_;
   ShadingLight light_;
   LightBatch lit_;
-  NarrowLobes scratch_;
+  ShadeScratch scratch_;
   ReflectedRadiance radiance_;
-  AlignedArray<float> density_{kCoverageHits};
+  AlignedArray<float> pdf_{kCoverageHits};
 };
 
 struct Surfaced {
@@ -157,12 +157,12 @@ TEST_CASE("wherever a model reflects light there is a strategy that looks") {
         });
         for (size_t i = 0; i < kCoverageHits; ++i) {
           if (hits.Specular(i) > 0) ++reflecting;
-          // Densities may leave float's range where lobes do: 1e-30 of a lobe's part is nothing.
+          // Pdfs may leave float's range where lobes do: 1e-30 of a lobe's part is nothing.
           // Where n.v is below 0 by its rounding, so is the half vector of light that grazes as
           // much.
           if (n_dot_v < 0 && hits.NDotL(i) < 3e-7) continue;
-          if (hits.Specular(i) > 1e-30 && !(hits.Density(i) > 0)) {
-            CAPTURE(i, hits.Specular(i), hits.Diffuse(i), hits.NDotL(i), hits.Density(i));
+          if (hits.Specular(i) > 1e-30 && !(hits.Pdf(i) > 0)) {
+            CAPTURE(i, hits.Specular(i), hits.Diffuse(i), hits.NDotL(i), hits.Pdf(i));
             FAIL("reflects where nothing looks");
           }
         }
@@ -240,7 +240,7 @@ TEST_CASE("samples of every lobe have its albedo for their mean, and none is out
         }
         hits.Sample(u.data(), v.data());
         for (size_t i = 0; i < kCoverageHits; ++i) {
-          const double value = hits.Density(i) > 0 ? hits.Specular(i) / hits.Density(i) : 0;
+          const double value = hits.Pdf(i) > 0 ? hits.Specular(i) / hits.Pdf(i) : 0;
           REQUIRE(std::isfinite(value));
           sum += value;
           squares += value * value;

@@ -392,7 +392,7 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
     EvaluateLight(prepared_light, hits, surface, &batch);
     const LightOnBatch on_hit{&prepared_light, &batch};
     ReflectedRadiance radiance;
-    NarrowLobes scratch;
+    ShadeScratch scratch;
     ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
@@ -415,7 +415,7 @@ TEST_CASE("light exactly opposite the viewer of a normal that leans away: no hig
       PrepareRun(prepared, 0, 1, &surface);
       const LightOnBatch on_hit{&prepared_light, nullptr};
       ReflectedRadiance radiance;
-      NarrowLobes scratch;
+      ShadeScratch scratch;
       ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
       CHECK(radiance.specular.x[0] == 0);
       CHECK(std::isfinite(radiance.diffuse.x[0]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/shading/mesh_light_test.cc: directions to lights made of triangles, and their densities, on
+// tests/shading/mesh_light_test.cc: directions to lights made of triangles, and their pdfs, on
 // every target.
 #include "light/mesh_light.h"
 
@@ -56,7 +56,7 @@ double FrontSolidAngle(const SampledLight& light, const Vec3d& point) {
   return sum;
 }
 
-TEST_CASE("directions to a mesh have the densities that it finds along them") {
+TEST_CASE("directions to a mesh have the pdfs that it finds along them") {
   const SampledLight light =
       Prepare(MakeMesh(Icosphere{.center = {1, 2, -3}, .radius = 0.8, .subdivisions = 2}));
   const UnitPoints points = Points();
@@ -74,9 +74,9 @@ TEST_CASE("directions to a mesh have the densities that it finds along them") {
       double sum = 0, squares = 0;
       size_t lost = 0;
       for (size_t i = 0; i < hits.count; ++i) {
-        REQUIRE(sampled.density[i] == found.density[i]);
+        REQUIRE(sampled.pdf[i] == found.pdf[i]);
         REQUIRE(sampled.distance[i] == found.distance[i]);
-        if (!(sampled.density[i] > 0)) {
+        if (!(sampled.pdf[i] > 0)) {
           ++lost;  // at the silhouette, by the rounding of the direction to float
           continue;
         }
@@ -87,12 +87,12 @@ TEST_CASE("directions to a mesh have the densities that it finds along them") {
         const double height = (end - Vec3d(1, 2, -3)).length() / 0.8;
         REQUIRE(height <= 1 + 1e-5);
         REQUIRE(height >= 0.95);
-        const double inverse = 1 / double{sampled.density[i]};
+        const double inverse = 1 / double{sampled.pdf[i]};
         sum += inverse;
         squares += inverse * inverse;
       }
       CHECK(lost <= 2);
-      // The mean of 1 / density is the solid angle that is seen.
+      // The mean of 1 / pdf is the solid angle that is seen.
       const double count = static_cast<double>(hits.count), mean = sum / count;
       const double error = std::sqrt(std::max(squares / count - mean * mean, 0.0) / count);
       const double expected = FrontSolidAngle(light, point);
@@ -103,7 +103,7 @@ TEST_CASE("directions to a mesh have the densities that it finds along them") {
   });
 }
 
-TEST_CASE("what hides behind the nearest triangle is not seen, and counts for its density") {
+TEST_CASE("what hides behind the nearest triangle is not seen, and counts for its pdf") {
   // Two squares behind one another, both facing +z; the first is seen from its back from z < 0.
   Mesh mesh;
   for (const double z : {0.0, 1.0}) {
@@ -123,14 +123,14 @@ TEST_CASE("what hides behind the nearest triangle is not seen, and counts for it
     directions.to_light.y[0] = static_cast<float>(to_light.y);
     directions.to_light.z[0] = static_cast<float>(to_light.z);
     FindLight(light, hits, &directions);
-    return std::pair(directions.distance[0], directions.density[0]);
+    return std::pair(directions.distance[0], directions.pdf[0]);
   };
-  const auto density = [](double distance) {  // of the triangle through (0.3, 0.2, z), half of it
+  const auto pdf = [](double distance) {  // of the triangle through (0.3, 0.2, z), half of it
     const TriangleLight<double> half{{-1.3, -1.2, distance}, {2, 0, 0}, {2, 2, 0}};
     return 0.25 / SolidAngle(half);
   };
   const Vec3d before(0.3, 0.2, 4), behind(0.3, 0.2, -2), between(0.3, 0.2, 0.5);
-  const double both = density(3) + density(4);
+  const double both = pdf(3) + pdf(4);
   CHECK(find(false, before, {0, 0, -1}).first == 3);
   CHECK(find(false, before, {0, 0, -1}).second == Approx(both).epsilon(1e-6));
   CHECK(find(false, behind, {0, 0, 1}) == std::pair(0.0f, 0.0f));

@@ -118,12 +118,12 @@ std::array<uint32_t, 3> BitsAt(const Soa3<float>& soa, size_t i) {
 void CheckRange(const ShadingMaterial& material, const Lit& on, size_t begin, size_t end) {
   constexpr float kUntouched = -7;
   const LightOnBatch light{&on.light, nullptr};
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   ReflectedRadiance apart, sum;
   for (size_t i = 0; i < kSphereHits; ++i) sum.sum.x[i] = sum.sum.y[i] = sum.sum.z[i] = kUntouched;
-  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, Leaves::kPartsAndSum}, begin, end,
-           &scratch, &apart);
-  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, Leaves::kSum}, begin, end,
+  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, OutputMode::kComponentsAndSum},
+           begin, end, &scratch, &apart);
+  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, OutputMode::kSum}, begin, end,
            &scratch, &sum);
   for (size_t i = 0; i < kSphereHits; ++i) {
     CAPTURE(i, begin, end);

@@ -34,7 +34,7 @@ struct Placement {
   Surface surface;
   ShadingLight light;
   LightBatch evaluated;
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   ReflectedRadiance radiance;
 };
 

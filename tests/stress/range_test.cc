@@ -34,7 +34,7 @@ Vec3d Reflect(const Material& material, const Rgb& color, const Point& point, bo
   PrepareSurface(hits, &surface);
   EvaluateLight(light, hits, surface, &batch);
   REQUIRE(batch.irradiance[0] > 0);
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
   PrepareRun(prepared, 0, 1, &surface);
   const LightOnBatch on_hit{&light, &batch};

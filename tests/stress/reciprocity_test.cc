@@ -34,7 +34,7 @@ struct Side {
   HitBatch hits;
   Surface surface;
   LightBatch evaluated;
-  NarrowLobes scratch;
+  ShadeScratch scratch;
   ReflectedRadiance radiance;
 };
 

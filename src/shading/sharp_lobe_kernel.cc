@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/narrow_kernel.cc: the half-vector terms of narrow lobes, in double: float directions
+// shading/sharp_lobe_kernel.cc: the half-vector terms of sharp lobes, in double: float directions
 // are 6e-8 rad coarse, and a highlight 1e-4 rad wide shows it.
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "shading/narrow_kernel.cc"
+#define HWY_TARGET_INCLUDE "shading/sharp_lobe_kernel.cc"
 #include "hwy/foreach_target.h"
 
 #include "hwy/highway.h"
@@ -10,6 +10,7 @@
 #include "brdf/ggx-inl.h"
 #include "brdf/phong-inl.h"
 #include "shading/kernels.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -29,32 +30,22 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
   hn::StoreU(hn::DemoteTo(df, value), df, to);
 }
 
-// A direction that was chosen in float is that direction, to the last digit.
-HWY_INLINE Vec3V<DoubleV> PromoteGiven(const LightOnBatch& light, size_t i) {
-  const DoubleTag d;
-  const HalfFloatTag df;
-  const Soa3<float>& l = light.evaluated->to_light;
-  return {hn::PromoteTo(d, hn::LoadU(df, l.x.data() + i)),
-          hn::PromoteTo(d, hn::LoadU(df, l.y.data() + i)),
-          hn::PromoteTo(d, hn::LoadU(df, l.z.data() + i))};
-}
-
 // Calls form(directions, i) for each packet of the range. Arrays are padded, and what a packet
 // writes past the end of its run is scratch.
 template <class Form>
 HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const DoubleTag d;
-  const auto load = [&](const Soa3<double>& soa, size_t i) HWY_ATTR {
-    return LoadU3(d, soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-  };
   const ShadingLight& light = *range.lights[0].light;
   const bool far = light.form == LightForm::kDirectional;
   const Vec3d& from = far ? light.to_light : light.position;
   const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
   const DoubleV one = hn::Set(d, 1.0);
   const auto offset_at = [&](size_t i) HWY_ATTR {
-    if (light.form == LightForm::kGiven) return PromoteGiven(range.lights[0], i);
-    return far ? origin : Sub(origin, load(range.hits.position, i));
+    // A direction that was chosen in float is that direction, to the last digit.
+    if (light.form == LightForm::kGiven) {
+      return PromoteSoa(d, range.lights[0].evaluated->to_light, i);
+    }
+    return far ? origin : Sub(origin, LoadSoa(d, range.hits.position, i));
   };
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const Vec3V<DoubleV> offset = offset_at(i);
@@ -63,21 +54,22 @@ HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
     // A light exactly at the hit has no direction, and no irradiance.
     const auto apart = hn::Gt(squared, hn::Zero(d));
     const DoubleV scale = hn::Div(one, hn::IfThenElse(apart, distance, one));
-    form(Directions{load(range.hits.normal, i), Scale(offset, scale), load(range.hits.to_view, i)},
+    form(Directions{LoadSoa(d, range.hits.normal, i), Scale(offset, scale),
+                    LoadSoa(d, range.hits.to_view, i)},
          i);
   }
 }
 
-void NarrowGgxT(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
+void FormSharpGgxT(double alpha, const ShadeRange& range, SharpLobeTerms* terms) {
   const DoubleTag d;
   const DoubleV alpha_v = hn::Set(d, alpha);
   ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
     const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
-    StoreRounded(d, GgxDistribution(d, angles, alpha_v), lobes->first.data() + i);
+    StoreRounded(d, GgxDistribution(d, angles, alpha_v), terms->distribution.data() + i);
   });
 }
 
-void NarrowGgxMapsT(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
+void FormSharpGgxMapsT(const double* alphas, const ShadeRange& range, SharpLobeTerms* terms) {
   const DoubleTag d;
   const DoubleV zero = hn::Zero(d);
   ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
@@ -85,7 +77,7 @@ void NarrowGgxMapsT(const double* alphas, const ShadeRange& range, NarrowLobes* 
     const AnglesV<DoubleV> angles = ComputeAngles(d, at.normal, at.to_light, at.to_view);
     const DoubleV distribution = GgxDistribution(d, angles, hn::Max(alpha, zero));
     StoreRounded(d, hn::IfThenElse(hn::Ge(alpha, zero), distribution, hn::Set(d, -1.0)),
-                 lobes->first.data() + i);
+                 terms->distribution.data() + i);
   });
 }
 
@@ -97,25 +89,25 @@ HWY_INLINE LobeCosineV<DoubleV> CosineAt(PhongModel model, const Directions& at)
   return PhongCosine(d, SquaredFromReflection(at.normal, at.to_light, at.to_view));
 }
 
-void NarrowPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,
-                      NarrowLobes* lobes) {
+void FormSharpPhongMapsT(PhongModel model, const double* exponents, const ShadeRange& range,
+                         SharpLobeTerms* terms) {
   const DoubleTag d;
   ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
     const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
-    const auto narrow =
+    const auto sharp =
         hn::Gt(hn::LoadU(d, exponents + i), hn::Set(d, double{kDoubleTermsShininess}));
-    StoreRounded(d, hn::IfThenElse(narrow, cosine.one_minus_c, hn::Set(d, -1.0)),
-                 lobes->first.data() + i);
-    StoreRounded(d, cosine.c, lobes->second.data() + i);
+    StoreRounded(d, hn::IfThenElse(sharp, cosine.one_minus_c, hn::Set(d, -1.0)),
+                 terms->one_minus_cos.data() + i);
+    StoreRounded(d, cosine.c, terms->cos.data() + i);
   });
 }
 
-void NarrowPhongT(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
+void FormSharpPhongT(PhongModel model, const ShadeRange& range, SharpLobeTerms* terms) {
   const DoubleTag d;
   ForEachHit(range, [&](const Directions& at, size_t i) HWY_ATTR {
     const LobeCosineV<DoubleV> cosine = CosineAt(model, at);
-    StoreRounded(d, cosine.one_minus_c, lobes->first.data() + i);
-    StoreRounded(d, cosine.c, lobes->second.data() + i);
+    StoreRounded(d, cosine.one_minus_c, terms->one_minus_cos.data() + i);
+    StoreRounded(d, cosine.c, terms->cos.data() + i);
   });
 }
 
@@ -125,26 +117,26 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(NarrowGgxT);
-HWY_EXPORT(NarrowPhongT);
-HWY_EXPORT(NarrowGgxMapsT);
-HWY_EXPORT(NarrowPhongMapsT);
+HWY_EXPORT(FormSharpGgxT);
+HWY_EXPORT(FormSharpPhongT);
+HWY_EXPORT(FormSharpGgxMapsT);
+HWY_EXPORT(FormSharpPhongMapsT);
 
-void NarrowGgx(double alpha, const ShadeRange& range, NarrowLobes* lobes) {
-  HWY_DYNAMIC_DISPATCH(NarrowGgxT)(alpha, range, lobes);
+void FormSharpGgx(double alpha, const ShadeRange& range, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpGgxT)(alpha, range, terms);
 }
 
-void NarrowPhong(PhongModel model, const ShadeRange& range, NarrowLobes* lobes) {
-  HWY_DYNAMIC_DISPATCH(NarrowPhongT)(model, range, lobes);
+void FormSharpPhong(PhongModel model, const ShadeRange& range, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpPhongT)(model, range, terms);
 }
 
-void NarrowGgx(const double* alphas, const ShadeRange& range, NarrowLobes* lobes) {
-  HWY_DYNAMIC_DISPATCH(NarrowGgxMapsT)(alphas, range, lobes);
+void FormSharpGgx(const double* alphas, const ShadeRange& range, SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpGgxMapsT)(alphas, range, terms);
 }
 
-void NarrowPhong(PhongModel model, const double* exponents, const ShadeRange& range,
-                 NarrowLobes* lobes) {
-  HWY_DYNAMIC_DISPATCH(NarrowPhongMapsT)(model, exponents, range, lobes);
+void FormSharpPhong(PhongModel model, const double* exponents, const ShadeRange& range,
+                    SharpLobeTerms* terms) {
+  HWY_DYNAMIC_DISPATCH(FormSharpPhongMapsT)(model, exponents, range, terms);
 }
 }  // namespace nacre
 #endif

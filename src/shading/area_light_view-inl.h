@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// shading/seen-inl.h: area lights as the hits of a batch see them: what the kernels of area and of
-// mesh lights share.
-#if defined(NACRE_SHADING_SEEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef NACRE_SHADING_SEEN_INL_H_
-#undef NACRE_SHADING_SEEN_INL_H_
+// shading/area_light_view-inl.h: views of area lights from the hits of a batch: what the kernels of
+// area and of mesh lights share.
+#if defined(NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_
+#undef NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_
 #else
-#define NACRE_SHADING_SEEN_INL_H_
+#define NACRE_SHADING_AREA_LIGHT_VIEW_INL_H_
 #endif
 
 #include <cmath>
@@ -22,27 +22,27 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-using SeenTag = hn::ScalableTag<float>;
-using SeenV = hn::Vec<SeenTag>;
+using AreaLightTag = hn::ScalableTag<float>;
+using AreaLightV = hn::Vec<AreaLightTag>;
 
-HWY_INLINE Vec3V<SeenV> Set3(const Vec3d& v) { return SetVec3(SeenTag(), v); }
+HWY_INLINE Vec3V<AreaLightV> Set3(const Vec3d& v) { return SetVec3(AreaLightTag(), v); }
 
 // From hits i... to a point of the light, formed in double.
-HWY_INLINE Vec3V<SeenV> Offset(const SampledLight& light, const HitBatch& hits, const Vec3d& point,
-                               size_t i) {
-  const SeenTag d;
+HWY_INLINE Vec3V<AreaLightV> Offset(const SampledLight& light, const HitBatch& hits,
+                                    const Vec3d& point, size_t i) {
+  const AreaLightTag d;
   const Vec3d place = light.place + point;
   return {SubtractAndRound(d, place.x, hits.position.x.data() + i),
           SubtractAndRound(d, place.y, hits.position.y.data() + i),
           SubtractAndRound(d, place.z, hits.position.z.data() + i)};
 }
 
-HWY_INLINE Vec3V<SeenV> Offset(const SampledLight& light, const HitBatch& hits, size_t i) {
+HWY_INLINE Vec3V<AreaLightV> Offset(const SampledLight& light, const HitBatch& hits, size_t i) {
   return Offset(light, hits, Vec3d(0), i);
 }
 
-HWY_INLINE TriangleLightV<SeenV> SeenTriangle(const SampledLight& light, const HitBatch& hits,
-                                              size_t triangle, size_t i) {
+HWY_INLINE TriangleLightV<AreaLightV> TriangleFrom(const SampledLight& light, const HitBatch& hits,
+                                                   size_t triangle, size_t i) {
   const TriangleLight<double>& t = light.mesh->triangles[triangle];
   return {Offset(light, hits, t.corner, i), Set3(t.edge_x), Set3(t.edge_y)};
 }
@@ -54,22 +54,22 @@ inline double ByArea(const SampledLight& light) {
 }
 
 // The faces of a mesh with an outline, as Irradiance of mesh_outline-inl.h asks for them.
-struct SeenFaces {
-  SeenV shines[kMostClosedTriangles];
-  SeenV orientation;
+struct EmittingFaces {
+  AreaLightV shines[kMostClosedTriangles];
+  AreaLightV orientation;
 };
 
 HWY_INLINE void FindFaces(const SampledLight& light, const HitBatch& hits, size_t i,
-                          SeenFaces* faces) {
-  const SeenTag d;
-  const SeenV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+                          EmittingFaces* faces) {
+  const AreaLightTag d;
+  const AreaLightV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   const MeshOutline& outline = light.mesh->outline;
   const double by_area = ByArea(light);
   faces->orientation = hn::Set(d, -1.0f);
   for (size_t k = 0; k < outline.faces.size(); ++k) {
     const OutlineFace& face = outline.faces[k];
-    const Vec3V<SeenV> offset = Offset(light, hits, outline.corners[face.corner], i);
-    const SeenV height = FusedDot(offset, Set3(face.cross * by_area));
+    const Vec3V<AreaLightV> offset = Offset(light, hits, outline.corners[face.corner], i);
+    const AreaLightV height = FusedDot(offset, Set3(face.cross * by_area));
     faces->shines[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
     if (light.two_sided) faces->orientation = height;
   }
@@ -78,16 +78,16 @@ HWY_INLINE void FindFaces(const SampledLight& light, const HitBatch& hits, size_
 // What the outline of a mesh lights of a surface, once map(offset) has been applied to all offsets
 // from hits i...
 template <class Map>
-HWY_INLINE SeenV OutlineIrradiance(const SampledLight& light, const HitBatch& hits, size_t i,
-                                   const SeenFaces& faces, const Vec3V<SeenV>& normal,
-                                   const Map& map) {
-  const SeenTag d;
+HWY_INLINE AreaLightV OutlineIrradiance(const SampledLight& light, const HitBatch& hits, size_t i,
+                                        const EmittingFaces& faces, const Vec3V<AreaLightV>& normal,
+                                        const Map& map) {
+  const AreaLightTag d;
   const MeshOutline& outline = light.mesh->outline;
-  SeenCornersV<SeenV> seen;
+  SeenCornersV<AreaLightV> seen;
   // In units, as InUnits of other lights.
-  const Vec3V<SeenV> first = map(Offset(light, hits, outline.corners[0], i));
-  const SeenV size = hn::Set(d, static_cast<float>(light.radius));
-  const SeenV unit = PowerOfTwo(d, hn::Max(LargestComponent(first), size)).inverse;
+  const Vec3V<AreaLightV> first = map(Offset(light, hits, outline.corners[0], i));
+  const AreaLightV size = hn::Set(d, static_cast<float>(light.radius));
+  const AreaLightV unit = PowerOfTwo(d, hn::Max(LargestComponent(first), size)).inverse;
   seen.first = Scale(first, unit);
   for (size_t k = 0; k < outline.corners.size(); ++k) {
     seen.offset[k] = Scale(map(Set3(outline.corners[k] - outline.corners[0])), unit);

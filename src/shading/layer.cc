@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shading/layer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shading/hit_parameters.h"
+
+namespace nacre {
+namespace {
+
+double LargestChannel(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
+
+LayerReflection TermsOf(const SheenModel& sheen, const Angles<double>& a) {
+  const SheenScale<double> scale =
+      ScaleSheen(LargestChannel(sheen.color), CharlieAlbedo(sheen.charlie, a.n_dot_v),
+                 CharlieAlbedo(sheen.charlie, a.n_dot_l));
+  const double lobe = CharlieLobe(sheen.charlie, a) * a.n_dot_l * scale.lobe;
+  return {sheen.color * lobe, scale.below};
+}
+
+SheenModel ModelAtHit(const SheenModel&, const HitTextures& textures, size_t i) {
+  return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
+          MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i])};
+}
+
+bool ShowsSheen(const MetallicRoughnessMaterial& material) {
+  return !IsBlack(material.sheen_color) &&
+         !IsDeltaLobe(AlphaFromRoughness(material.sheen_roughness));
+}
+
+}  // namespace
+
+std::vector<LayerModel> MakeLayers(const Material& material) {
+  std::vector<LayerModel> layers;
+  const auto* const model = std::get_if<MetallicRoughnessMaterial>(&material.model);
+  if (model == nullptr) return layers;
+  if (ShowsSheen(*model)) {
+    layers.emplace_back(SheenModel{model->sheen_color, MakeCharlie(model->sheen_roughness)});
+  }
+  return layers;
+}
+
+std::vector<std::string_view> RemoveLayers(Material* material) {
+  std::vector<std::string_view> names;
+  auto* const model = std::get_if<MetallicRoughnessMaterial>(&material->model);
+  if (model == nullptr) return names;
+  if (ShowsSheen(*model)) names.emplace_back("sheen");
+  model->sheen_color = Rgb(0, 0, 0);
+  return names;
+}
+
+LayerModel LayerAtHit(const LayerModel& layer, const HitTextures& textures, size_t i) {
+  return std::visit([&](const auto& model) -> LayerModel { return ModelAtHit(model, textures, i); },
+                    layer);
+}
+
+LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles) {
+  return std::visit([&](const auto& model) { return TermsOf(model, angles); }, layer);
+}
+
+double LeftOfMirror(const LayerModel& layer, double n_dot_v) {
+  const double sin = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
+  const Vec3d to_view(sin, 0, n_dot_v), to_light(-sin, 0, n_dot_v);
+  return EvaluateLayer(layer, ComputeAngles(Vec3d(0, 0, 1), to_light, to_view)).below;
+}
+
+}  // namespace nacre

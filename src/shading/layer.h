@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/layer.h: layers over a model, such as the fuzz of cloth. A layer reflects some of the
+// light itself, and leaves a share of what the model and the layers below it reflect. SIMD twin:
+// layer_kernel.cc. Clear coats are no layers but surfaces of their own (scene/coat.h).
+#pragma once
+
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "brdf/angles.h"
+#include "brdf/sheen.h"
+#include "scene/material.h"
+
+namespace nacre {
+
+struct HitTextures;
+
+// Fuzz: brdf/sheen.h.
+struct SheenModel {
+  Rgb color{0, 0, 0};
+  Charlie<double> charlie;
+};
+
+using LayerModel = std::variant<SheenModel>;
+
+// The layers of a material, of its maps' factors, bottom to top. One that shows nothing, whatever
+// its maps, is left out.
+std::vector<LayerModel> MakeLayers(const Material& material);
+
+// Takes the layers from a material and returns their names.
+std::vector<std::string_view> RemoveLayers(Material* material);
+
+// A layer of a material with maps as it is at hit i.
+LayerModel LayerAtHit(const LayerModel& layer, const HitTextures& textures, size_t i);
+
+// One layer under one light, seen from one direction.
+struct LayerReflection {
+  Rgb lobe{0, 0, 0};  // f n.l of the layer itself
+  double below = 1;   // what is left of the reflection of all that is below
+};
+LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles);
+
+// What a layer leaves of the reflection of a perfect mirror below it, seen from n.v.
+double LeftOfMirror(const LayerModel& layer, double n_dot_v);
+
+}  // namespace nacre

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/layer_kernel.cc: a layer over what hits reflect of a light. In double: lobes of layers
+// stand at the horizon, where products with n.l leave the range of float. Scalar twin: layer.cc.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "shading/layer_kernel.cc"
+#include "hwy/foreach_target.h"
+
+#include "hwy/highway.h"
+
+#include "base/geometry-inl.h"
+#include "brdf/sheen-inl.h"
+#include "shading/hit_parameters.h"
+#include "shading/kernels.h"
+#include "shading/soa-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using D = hn::ScalableTag<double>;
+using V = hn::Vec<D>;
+using HalfFloatTag = hn::Rebind<float, D>;  // as many floats as a vector has doubles
+
+// LayerReflection of a packet of hits.
+struct LayerReflectionV {
+  Vec3V<V> lobe;
+  V below;
+};
+
+// Numbers of hits i...: the material's, or, where there are maps, those of each.
+HWY_INLINE V NumberOfHits(double of_material, const HitTextures* maps, MappedNumber number,
+                          size_t i) {
+  const D d;
+  if (maps == nullptr) return hn::Set(d, of_material);
+  return hn::LoadU(d, NumbersOf(*maps, number) + i);
+}
+HWY_INLINE Vec3V<V> ColorOfHits(const Rgb& of_material, const HitTextures* maps,
+                                MappedNumber number, size_t i) {
+  const D d;
+  if (maps == nullptr) return SetVec3(d, of_material);
+  return LoadSoa(d, maps->numbers[static_cast<size_t>(number)], i);
+}
+
+// --- The kinds of layers. LayerOnHits(model, maps).At(i, angles): the reflection of hits i... Both
+// cosines are at least 0. `maps` is null where all hits have the model's numbers.
+
+template <class Model>
+class LayerOnHits;
+
+template <>
+class LayerOnHits<SheenModel> {
+ public:
+  LayerOnHits(const SheenModel& sheen, const HitTextures* maps) : sheen_(sheen), maps_(maps) {}
+
+  HWY_INLINE LayerReflectionV At(size_t i, const AnglesV<V>& a) const {
+    const D d;
+    const CharlieV<V> charlie =
+        maps_ == nullptr ? BroadcastCharlie(d, sheen_.charlie)
+                         : MakeCharlie(d, NumberOfHits(0, maps_, MappedNumber::kSheenRoughness, i));
+    const Vec3V<V> color = ColorOfHits(sheen_.color, maps_, MappedNumber::kSheenColor, i);
+    const SheenScaleV<V> scale =
+        ScaleSheen(d, hn::Max(hn::Max(color.x, color.y), color.z),
+                   CharlieAlbedo(d, charlie, a.n_dot_v), CharlieAlbedo(d, charlie, a.n_dot_l));
+    const V lobe = hn::Mul(hn::Mul(CharlieLobe(d, charlie, a), a.n_dot_l), scale.lobe);
+    return {Scale(color, lobe), scale.below};
+  }
+
+ private:
+  const SheenModel& sheen_;
+  const HitTextures* maps_;
+};
+
+// --- What they share.
+
+// Directions that were rounded to float, of length 1 again.
+HWY_INLINE Vec3V<V> UnitOf(const Vec3V<V>& v) {
+  const D d;
+  const V squared = FusedDot(v, v);
+  const auto some = hn::Gt(squared, hn::Zero(d));
+  const V one = hn::Set(d, 1.0);
+  return Scale(v, hn::Div(one, hn::Sqrt(hn::IfThenElse(some, squared, one))));
+}
+
+HWY_INLINE AnglesV<V> AnglesAt(const Surface& surface, const LightBatch& light, size_t i) {
+  const D d;
+  AnglesV<V> angles = ComputeAngles(d, UnitOf(PromoteSoa(d, surface.normal, i)),
+                                    UnitOf(PromoteSoa(d, light.to_light, i)),
+                                    UnitOf(PromoteSoa(d, surface.to_view, i)));
+  angles.n_dot_l = hn::Max(angles.n_dot_l, hn::Zero(d));
+  angles.n_dot_v = hn::Max(angles.n_dot_v, hn::Zero(d));
+  return angles;
+}
+
+// light * share, but 0 for a share of 0 where the light has overflowed: infinity times 0 is NaN.
+HWY_INLINE V Left(V light, V share) {
+  const D d;
+  return hn::IfThenElseZero(hn::Gt(share, hn::Zero(d)), hn::Mul(light, share));
+}
+
+template <class Model>
+void Cover(const Model& model, const HitTextures* maps, const ShadeRange& range,
+           const ReflectedRadiance& below) {
+  const D d;
+  const HalfFloatTag df;
+  const LightOnBatch& on_batch = range.lights[0];
+  const LightBatch& light = *on_batch.evaluated;
+  const Rgb& light_color = on_batch.light->color;
+  const LayerOnHits<Model> layer(model, maps);
+  ReflectedRadiance& to = *range.radiance;
+  const bool accumulate = range.output == OutputMode::kAccumulate;
+  const bool components = range.output != OutputMode::kSum;
+  const bool sums = !components || range.output == OutputMode::kComponentsAndSum;
+  for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
+    const auto mask = hn::FirstN(df, range.end - i);
+    const AnglesV<V> angles = AnglesAt(range.surface, light, i);
+    const LayerReflectionV terms = layer.At(i, angles);
+    const Vec3V<V> lobe = Scale(terms.lobe, PromoteAt(d, light.irradiance, i));
+    const Vec3V<V> diffuse = PromoteSoa(d, below.diffuse, i);
+    const Vec3V<V> specular = PromoteSoa(d, below.specular, i);
+    // One channel.
+    const auto store = [&](V lobe_of, double light_of, V diffuse_of, V specular_of,
+                           AlignedArray<float>& to_diffuse, AlignedArray<float>& to_specular,
+                           AlignedArray<float>& to_sum) HWY_ATTR {
+      const V of_layer = hn::Mul(lobe_of, hn::Set(d, light_of));
+      const auto all_diffuse = hn::DemoteTo(df, hn::Add(Left(diffuse_of, terms.below), of_layer));
+      const auto all_specular = hn::DemoteTo(df, Left(specular_of, terms.below));
+      const auto component = [&](auto value, AlignedArray<float>& array) HWY_ATTR {
+        const auto before = accumulate ? hn::LoadU(df, array.data() + i) : hn::Zero(df);
+        hn::BlendedStore(hn::Add(before, value), mask, df, array.data() + i);
+      };
+      if (components) {
+        component(all_diffuse, to_diffuse);
+        component(all_specular, to_specular);
+      }
+      if (sums) {
+        hn::BlendedStore(hn::Add(all_diffuse, all_specular), mask, df, to_sum.data() + i);
+      }
+    };
+    store(lobe.x, light_color.x, diffuse.x, specular.x, to.diffuse.x, to.specular.x, to.sum.x);
+    store(lobe.y, light_color.y, diffuse.y, specular.y, to.diffuse.y, to.specular.y, to.sum.y);
+    store(lobe.z, light_color.z, diffuse.z, specular.z, to.diffuse.z, to.specular.z, to.sum.z);
+  }
+}
+
+void CoverByLayerT(const LayerModel& layer, const HitTextures* maps, const ShadeRange& range,
+                   const ReflectedRadiance& below) {
+  std::visit([&](const auto& model) { Cover(model, maps, range, below); }, layer);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace nacre {
+HWY_EXPORT(CoverByLayerT);
+
+void CoverByLayer(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range,
+                  const ReflectedRadiance& below) {
+  HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, textures, range, below);
+}
+}  // namespace nacre
+#endif
