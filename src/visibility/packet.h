@@ -21,7 +21,7 @@ struct Packet {
   int width = 0;
   RTCScene scene = nullptr;
   const TraceGeometry* geometry = nullptr;
-  FilmView film;  // the batch's
+  ProjectedTestView view;  // the batch's
 
   alignas(64) int valid[kMaxPacketWidth];  // -1: the lane holds a ray, 0: not
   RTCRayHit16 rays;                        // laid out for `width` lanes
@@ -50,13 +50,13 @@ struct Packet {
   // Occlusion queries.
   bool outward = false;                         // ShadowRayBatch's
   PrimitiveRange target;                        // likewise
-  double end_reach = 0;                         // likewise
+  double camera_extent = 0;                     // likewise
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
-  // If that is a sphere, its centre and radius, by which the ray also leaves the spheres that
-  // coincide with it; else NaN.
+  // If that is a sphere, its centre and radius, so that spheres that coincide with it are
+  // recognised; else NaN.
   alignas(64) double start_sphere[4][kMaxPacketWidth];
-  alignas(64) double start_reach[kMaxPacketWidth];  // bounds that primitive's coordinates
-  uint32_t occluded = 0;                            // one bit a lane
+  alignas(64) double start_extent[kMaxPacketWidth];  // upper bound of that primitive's coordinates
+  uint32_t occluded = 0;                             // one bit a lane
 
   RTCRayN* ray_n() { return RTCRayHitN_RayN(reinterpret_cast<RTCRayHitN*>(&rays), Width()); }
   unsigned Width() const { return static_cast<unsigned>(width); }

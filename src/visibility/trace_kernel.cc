@@ -39,7 +39,7 @@ HWY_INLINE void InitPacket(const TraceScene& scene, Packet* packet) {
 void Nearer(const TraceScene& scene, const RayBatch& rays, ClosestHits* hits) {
   Packet packet;
   InitPacket(scene, &packet);
-  packet.film = rays.film;
+  packet.view = rays.view;
   const size_t width = packet.Width();
   for (size_t first = 0; first < rays.count; first += width) {
     packet.best_t = hits->t.data() + first;
@@ -83,7 +83,7 @@ HWY_INLINE void FillStarts(const ShadowRayBatch& rays, size_t first, Packet* pac
     packet->start_sphere[1][lane] = sphere.center.y;
     packet->start_sphere[2][lane] = sphere.center.z;
     packet->start_sphere[3][lane] = sphere.radius;
-    packet->start_reach[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
+    packet->start_extent[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
   }
 }
 
@@ -95,7 +95,7 @@ void Occluded(const TraceScene& scene, ShadowRayBatch* rays) {
     packet.t_max = rays->t_max.data() + first;
     packet.outward = rays->outward;
     packet.target = rays->target;
-    packet.end_reach = rays->end_reach;
+    packet.camera_extent = rays->camera_extent;
     packet.occluded = 0;
     FillPacket(*rays, first, &packet);
     FillStarts(*rays, first, &packet);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/packet_test.cc: the parts beneath the intersector: geometry, exact products,
-// and packets of which Embree hands on some rays in another order.
+// tests/visibility/packet_test.cc: the components below the intersector: geometry, exact products,
+// and packets some rays of which Embree passes on in another order.
 #include "visibility/packet.h"
 
 #include "catch.h"
@@ -35,7 +35,7 @@ TEST_CASE(
   Random random(52);
   ForEachTarget([&](Target) {
     for (int i = 0; i < 2000; ++i) {
-      // c e agrees with a b to some 30 digits of 53: plain products leave 23 at the most.
+      // c e agrees with a b to about 30 bits of 53: plain products keep at most 23.
       const double a = random.Uniform(1, 2), b = random.Uniform(1, 2), c = random.Uniform(1, 2);
       const double e = a * b / c * (1 + random.Uniform(-1, 1) * 0x1p-30);
       const double scalar = AccurateDifference(a, b, c, e, TargetProducts());
