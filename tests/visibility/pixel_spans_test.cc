@@ -62,13 +62,13 @@ size_t CheckSpans(const CameraFrame& frame, const Scene& scene, double margin, c
     const double x = tile.x0 + static_cast<double>(i % kWidth);
     const double y = tile.y0 + static_cast<double>(i / kWidth);
     const PixelSpan* const span = of_pixel[i];
-    if (span != nullptr && span->alone == nullptr) continue;
+    if (span != nullptr && span->single_sphere == nullptr) continue;
     for (int k = 0; k < 25; ++k) {
       const double right = k % 5 / 4.0, down = k / 5 / 4.0;  // from 0 to 1
       const Vec3d direction = Through(frame, x - margin + right * (1 + 2 * margin),
                                       y - margin + down * (1 + 2 * margin));
       for (uint32_t s = 0; s < scene.spheres.size(); ++s) {
-        const bool allowed = span != nullptr && span->alone->primitive == s;
+        const bool allowed = span != nullptr && span->single_sphere->primitive == s;
         wrong += !allowed && Hits(scene.spheres[s], direction) ? 1 : 0;
       }
     }
@@ -165,7 +165,7 @@ TEST_CASE("a sphere's spans are no wider than its outline") {
       TileCandidates candidates;
       intersector.EnterTile({0, y, kWidth, y + kCellSize}, TileRays::kSamples, &candidates);
       for (const PixelSpan& span : candidates.spans) {
-        REQUIRE(span.alone != nullptr);
+        REQUIRE(span.single_sphere != nullptr);
         const auto row = y + static_cast<int>(span.first / kWidth);
         uint32_t hit = 0;
         for (uint32_t i = 0; i < span.count; ++i) {
