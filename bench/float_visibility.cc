@@ -125,10 +125,11 @@ void TraceFloatTileT(const CameraFrame& frame, const std::vector<FloatSphere>& s
     const int end = begin + static_cast<int>(span.count);
     for (int x = begin; x < end; x += step) {
       const size_t place = span.first + static_cast<size_t>(x - begin);
-      if (span.alone != nullptr) {
-        const FloatHit found = TestFloat<true>(spheres[span.alone->primitive], RaysAt(row, x));
+      if (span.single_sphere != nullptr) {
+        const FloatHit found =
+            TestFloat<true>(spheres[span.single_sphere->primitive], RaysAt(row, x));
         StoreHits(hn::And(found.hit, hn::FirstN(d, static_cast<size_t>(end - x))), found.t,
-                  hn::Set(du, span.alone->primitive), place, hits);
+                  hn::Set(du, span.single_sphere->primitive), place, hits);
       } else {
         TraceCells(spheres, candidates, row, x, end, place, hits);
       }

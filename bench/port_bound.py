@@ -32,7 +32,7 @@ _AGREE = 1.5  # the models say one or two products a cycle; measured ones miss t
 _HITS = {"avx3": 32, "avx2": 8, "sse4": 4}
 # Rays of a vector of doubles, which a turn of the loops over exact rays takes.
 _RAYS = {"avx3": 8, "avx2": 4, "sse4": 2}
-# Those loops, of src/visibility/alone-inl.h, and where they are measured.
+# Those loops, of src/visibility/single_sphere-inl.h, and where they are measured.
 _EXACT = re.compile(r"TestRays|AppendBlock")
 EXACT_HITS = "visibility/tiles_without_positions/grid"
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}

@@ -87,7 +87,7 @@ void BenchTiles(benchmark::State& state, const SphereScene& which, bool position
   ExactTiles tiles(positions);
   size_t found = 0;
   for (auto _ : state) {
-    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kReachOfCenters);
+    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kPixelCenterMargin);
     found = 0;
     ForEachTile(intersector, &candidates, [&](const Window&) {
       size_t hits = tiles.Trace(intersector, candidates).count;
@@ -110,7 +110,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
   TileCandidates candidates;
   FloatHits hits;
   for (auto _ : state) {
-    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kReachOfCenters);
+    intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kPixelCenterMargin);
     ForEachTile(intersector, &candidates, [&](const Window&) {
       TraceFloatTile(camera, spheres, candidates, &hits);
       benchmark::DoNotOptimize(hits.sphere.data());

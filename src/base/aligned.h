@@ -13,34 +13,34 @@ namespace nacre {
 // Widest vector in bytes (AVX-512), also a cache line.
 inline constexpr size_t kVectorBytes = 64;
 
-// Batches are padded to a multiple of this many entries, so that no kernel has a tail: a whole
-// vector of the narrowest type that kernels load (4-byte float).
+// Batches are padded to a multiple of this many entries, the widest vector of floats, so that no
+// kernel needs a loop for the remaining entries.
 inline constexpr size_t kBatchPadding = kVectorBytes / sizeof(float);
 
 constexpr size_t RoundUp(size_t value, size_t multiple) {
   return (value + multiple - 1) / multiple * multiple;
 }
 
-// A fixed-size array of trivial T on a kVectorBytes boundary, zero-initialised. Its allocation is
-// rounded up to whole vectors and eight more, so a kernel may load and store as many entries as
-// four vectors have floats, from any entry below size().
+// A fixed-size, zero-initialised array of trivial T, aligned to kVectorBytes. Its allocation is
+// rounded up to whole vectors, plus eight: from any entry below size(), a kernel may load and store
+// as many entries as four vectors have floats.
 template <typename T>
 class AlignedArray {
  public:
   AlignedArray() = default;
   explicit AlignedArray(size_t size) : size_(size) {
-    const size_t bytes = Room(size) * sizeof(T);
+    const size_t bytes = Capacity(size) * sizeof(T);
     data_.reset(static_cast<T*>(std::aligned_alloc(kVectorBytes, bytes)));
     if (!data_) throw std::bad_alloc();
     std::memset(static_cast<void*>(data_.get()), 0, bytes);
   }
 
-  // A part of an array that outlives it, from an entry on that begins a vector.
+  // A view of a part of another array, which must outlive it. `begin` must be aligned to a vector.
   AlignedArray(AlignedArray* whole, size_t begin, size_t size)
       : data_(whole->data() + begin, Free{false}), size_(size) {}
 
-  // The entries that an array of this size has memory for.
-  static constexpr size_t Room(size_t size) {
+  // The number of entries that are allocated for an array of this size.
+  static constexpr size_t Capacity(size_t size) {
     return (RoundUp(size * sizeof(T), kVectorBytes) + 8 * kVectorBytes) / sizeof(T);
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/basis.h: two unit vectors that make a right-handed orthonormal basis with a third. SIMD
-// twin: basis-inl.h.
+// base/basis.h: right-handed orthonormal bases about a given axis. SIMD twin: basis-inl.h.
 #pragma once
 
 #include <cmath>
@@ -21,8 +20,8 @@ struct Basis {
   }
 };
 
-// Duff et al. 2017, "Building an Orthonormal Basis, Revisited": precise at every unit z, also next
-// to the pole where Frisvad's form of 2012 breaks down.
+// Duff et al. 2017, "Building an Orthonormal Basis, Revisited": accurate for every unit z, also
+// next to the pole, where Frisvad's form of 2012 breaks down.
 template <typename Real>
 Basis<Real> BasisAbout(const Imath::Vec3<Real>& z) {
   const Real sign = std::copysign(static_cast<Real>(1), z.z);

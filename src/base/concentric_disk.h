@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/concentric_disk.h: the unit square mapped to the unit disk, areas kept. SIMD twin:
-// concentric_disk-inl.h.
+// base/concentric_disk.h: the area-preserving concentric map from the unit square to the unit disk.
+// SIMD twin: concentric_disk-inl.h.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace nacre {
 template <typename Real>
 struct PointOnDisk {
   Real x, y;
-  Real radius;  // exact: hypot(x, y) would be rounded, and 1 - radius^2 with it
+  Real radius;  // exact, so that 1 - radius^2 is accurate; hypot(x, y) would be rounded
 };
 
 // Shirley and Chiu 1997, "A Low Distortion Map Between Disk and Square", for u in [0, 1].

@@ -29,8 +29,8 @@ size_t EditDistance(const std::string& a, const std::string& b) {
 
 Error::Error(ExitCode code, std::vector<Fault> faults) : code_(code), faults_(std::move(faults)) {
   for (Fault& fault : faults_) {
-    // What a file says is quoted in excerpts (base/excerpt.h). Should one be forgotten, a message
-    // still ends.
+    // Text from files is shortened by the callers (base/excerpt.h). This limit is for those that
+    // forget.
     constexpr size_t kLongestPart = 2000;
     for (std::string* part : {&fault.what, &fault.hint}) {
       if (part->size() > kLongestPart) *part = part->substr(0, kLongestPart) + "...";
@@ -47,7 +47,8 @@ Error::Error(ExitCode code, std::string where, std::string what, std::string hin
     : Error(code, {Fault{std::move(where), std::move(what), std::move(hint)}}) {}
 
 std::string NearestName(const std::string& word, const std::vector<std::string>& candidates) {
-  // A stranger's names may be megabytes long, and the time goes with the product of two.
+  // Names from untrusted files may be megabytes long, and the time grows with the product of two
+  // lengths.
   constexpr size_t kLongest = 100;
   std::string nearest;
   if (word.size() > kLongest) return nearest;

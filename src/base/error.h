@@ -22,11 +22,11 @@ enum class ExitCode : int {
   kTerminated = 143,   // SIGTERM
 };
 
-// One thing that is wrong. Names out of files are as they are there: any bytes.
+// One mistake. Names from files are kept as they are, and may hold any bytes.
 struct Fault {
-  std::string where;  // file and place, e.g. "scenes/grid.json: /materials/gold"
+  std::string where;  // file and position, e.g. "scenes/grid.json: /materials/gold"
   std::string what;   // what is wrong there
-  std::string hint;   // how to mend it; may be empty
+  std::string hint;   // how to fix it; may be empty
 };
 
 // One or more faults and the exit code that they lead to.
@@ -38,7 +38,7 @@ class Error : public std::exception {
   ExitCode code() const { return code_; }
   const std::vector<Fault>& faults() const { return faults_; }
 
-  // All faults in the form that main prints, each part of one made Printable():
+  // All faults in the form that main prints, each part of them made Printable():
   //   error: <where>: <what>
   //     hint: <hint>
   const char* what() const noexcept override { return message_.c_str(); }
@@ -49,8 +49,8 @@ class Error : public std::exception {
   std::string message_;
 };
 
-// The candidate nearest to `word` in edit distance, or "" when none is near enough to be a
-// likely slip (more than a third of the letters differ).
+// The candidate nearest to `word` in edit distance, or "" if none is near enough to be a likely
+// typing error (more than a third of the letters differ).
 std::string NearestName(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace nacre

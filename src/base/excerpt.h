@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/excerpt.h: how much of a file's text a message shows.
+// base/excerpt.h: shortens text from files for messages.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,8 @@
 
 namespace nacre {
 
-// The first `longest` bytes of `text`, with "..." for what is left out. No UTF-8 character is cut.
+// The first `longest` bytes of `text`, followed by "..." if it is longer. No UTF-8 character is
+// cut.
 inline std::string Shortened(std::string_view text, size_t longest) {
   size_t length = text.size();
   if (length > longest) {
@@ -20,8 +21,8 @@ inline std::string Shortened(std::string_view text, size_t longest) {
   return excerpt;
 }
 
-// The same of the text's first line. A file's names, numbers and URIs may have megabytes, so
-// whatever is quoted from a file goes through one of the two.
+// The same for the text's first line. Names, numbers and URIs in files may have megabytes, so
+// everything that is quoted from a file goes through one of these two functions.
 inline std::string Excerpt(std::string_view text, size_t longest = 80) {
   const size_t line_end = text.find_first_of("\r\n");
   if (line_end >= longest) return Shortened(text, longest);  // npos, too

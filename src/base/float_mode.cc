@@ -9,14 +9,14 @@
 
 namespace nacre {
 
-// By the registers themselves: <cfenv> knows nothing of denormals, and its functions take hundreds
-// of cycles, which shows in calls as short as Brdf::Evaluate.
+// The registers are accessed directly: <cfenv> has no modes for denormals, and its functions take
+// hundreds of cycles, which is noticeable in calls as short as Brdf::Evaluate.
 #if defined(__SSE2__)
 namespace {
 
 constexpr uint32_t kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
 constexpr uint32_t kDefaultMxcsr = 0x1f80;  // rounding to nearest, all exceptions masked
-// Of the x87, which the C library asks for the rounding mode: the same with 64-bit mantissas.
+// The same for the x87, with 64-bit mantissas: the C library reads the rounding mode from it.
 constexpr uint16_t kDefaultControl = 0x037f;
 
 uint16_t ReadControl() {

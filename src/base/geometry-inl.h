@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/geometry-inl.h: vectors of three of one Vec3d, and cross products whose bits are the
-// same on every target.
+// base/geometry-inl.h: SIMD vectors that hold one Vec3d in all lanes, and cross products that have
+// the same bits on every target.
 #if defined(NACRE_BASE_GEOMETRY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_GEOMETRY_INL_H_
 #undef NACRE_BASE_GEOMETRY_INL_H_
@@ -16,7 +16,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rounded to the vectors' type.
+// v in all lanes, rounded to the lanes' type.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
   using T = hn::TFromD<D>;
@@ -24,7 +24,7 @@ HWY_INLINE Vec3V<V> SetVec3(D d, const Vec3d& v) {
           hn::Set(d, static_cast<T>(v.z))};
 }
 
-// Products and sums stay apart, as those of Dot do.
+// Products and sums are never fused, as in Dot.
 template <class V>
 HWY_INLINE Vec3V<V> Cross(const Vec3V<V>& a, const Vec3V<V>& b) {
   return {hn::Sub(hn::Mul(a.y, b.z), hn::Mul(a.z, b.y)),

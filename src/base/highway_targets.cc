@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/highway_targets.cc: which of Highway's targets this processor has, in place of libhwy's
-// three functions for that, so that nacre is not linked with the library: its initialiser measures
-// the clock for 4 ms at each start of a program.
+// base/highway_targets.cc: the Highway targets that this processor supports. Replaces three
+// functions of libhwy, so that nacre need not be linked with it: a static initialiser of libhwy
+// measures the clock for 4 ms at every start of a program.
 #include "hwy/highway.h"
 
 #if HWY_ARCH_X86
@@ -44,7 +44,7 @@ int64_t DetectTargets() {
   return targets;
 }
 
-// What SetSupportedTargetsForTest set, unless 0.
+// The targets that SetSupportedTargetsForTest has set; 0: none.
 int64_t& Pinned() {
   static int64_t pinned = 0;
   return pinned;

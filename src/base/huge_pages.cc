@@ -14,7 +14,7 @@ void AdviseHugePages(void* data, size_t bytes) {
   constexpr uintptr_t kPage = uintptr_t{1} << 21;
   constexpr size_t kWorthIt = 2 * kPage;
   if (bytes < kWorthIt) return;
-  // Whole pages only: what else lies in the first and the last is not ours.
+  // Whole pages only: the first and the last one may hold other data.
   const auto begin = (reinterpret_cast<uintptr_t>(data) + kPage - 1) / kPage * kPage;
   const auto end = (reinterpret_cast<uintptr_t>(data) + bytes) / kPage * kPage;
   if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);

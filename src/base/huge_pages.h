@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/huge_pages.h: large arrays in 2 MiB pages where the system offers them: there are then few
-// faults when they are first touched, and few misses of the page table where they are read here
-// and there.
+// base/huge_pages.h: large arrays in 2 MiB pages, if the system offers them: fewer page faults at
+// the first access, and fewer TLB misses with random access.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +11,12 @@
 
 namespace nacre {
 
-// Asks for such pages for memory that has not been touched yet. Only a hint, and of no effect on
+// Asks for such pages for memory that has not been accessed yet. A hint only, without effect on
 // small blocks.
 void AdviseHugePages(void* data, size_t bytes);
 
-// A fixed-size array that is not initialised, of T that need no destructor: pages are first
-// touched, and so given out, by the threads that fill them.
+// A fixed-size, uninitialised array of T without destructor: its pages are allocated by the threads
+// that first write to them.
 template <typename T>
 class HugeArray {
  public:

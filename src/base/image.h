@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/image.h: an image in memory: named float channels and the windows they cover.
-// What readers return, compare works on and tests build. Rendering itself works strip by strip
-// and never holds one.
+// base/image.h: an image in memory: named float channels and the windows they cover. Readers return
+// it, comparisons work on it and tests build it. Rendering works strip by strip and never holds
+// one.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
-// The place of a pixel of the window among all of them, row by row.
+// The index of a pixel in a window, row by row.
 inline size_t IndexIn(const Window& window, int x, int y) {
   return static_cast<size_t>(y - window.y0) * static_cast<size_t>(window.width()) +
          static_cast<size_t>(x - window.x0);

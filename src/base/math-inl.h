@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // base/math-inl.h: base-2 logarithm and exponential on float vectors, for powers with real
-// exponents: x^n = Exp2(n Log2(x)). Highway's contrib has natural ones, twice as slow, and their
-// log1p loses a cosine near 0.
+// exponents: x^n = Exp2(n Log2(x)). Highway's contrib has natural ones, which take twice as long,
+// and its log1p is inaccurate for cosines near 0.
 //
 // Coefficients: scripts/fit_math.py prints them with their errors.
 #if defined(NACRE_BASE_MATH_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -11,26 +11,13 @@
 #define NACRE_BASE_MATH_INL_H_
 #endif
 
+#include "base/polynomial-inl.h"
 #include "base/target_ops-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-// The polynomial in x of kTerms terms, an even number, whose coefficient(i) is that of x^i: even
-// and odd powers each by Horner's rule, two chains of dependent steps half as long as one.
-template <size_t kTerms, class V, class Coefficient>
-HWY_INLINE V EvaluateByHalves(const Coefficient& coefficient, V x) {
-  static_assert(kTerms % 2 == 0);
-  const V x2 = hn::Mul(x, x);
-  V last = coefficient(kTerms - 1), before = coefficient(kTerms - 2);
-  for (size_t i = kTerms - 2; i != 0; i -= 2) {
-    last = hn::MulAdd(last, x2, coefficient(i - 1));
-    before = hn::MulAdd(before, x2, coefficient(i - 2));
-  }
-  return hn::MulAdd(last, x, before);
-}
 
 // log2(1 + f) for f in [sqrt(1/2) - 1, sqrt(2) - 1]: relative error 2e-8 before rounding.
 template <class D, class V = hn::Vec<D>>
@@ -39,7 +26,7 @@ HWY_INLINE V Log2OnePlusPolynomial(D d, V f) {
                                      0.288552552f, -0.239608124f, 0.204857647f, -0.191388384f,
                                      0.184760332f, -0.107497893f};
   const auto coefficient = [&](size_t i) HWY_ATTR { return hn::Set(d, kCoefficients[i]); };
-  return hn::Mul(EvaluateByHalves<10>(coefficient, f), f);
+  return hn::Mul(EvaluateEvenOdd<10>(coefficient, f), f);
 }
 
 // Splits x > 0 into 2^exponent * (1 + f) with 1 + f in [sqrt(1/2), sqrt(2)).
@@ -54,20 +41,12 @@ HWY_INLINE void SplitExponent(D d, V x, V* f, V* exponent) {
   *exponent = hn::ConvertTo(d, e);
 }
 
-// log2(x) for normal x > 0: relative error 2e-7 but for x near 1, where it is absolute.
+// log2(x) for normal x > 0: relative error 2e-7, except near x = 1, where the error is absolute.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2(D d, V x) {
   V f, exponent;
   SplitExponent(d, x, &f, &exponent);
   return hn::Add(Log2OnePlusPolynomial(d, f), exponent);
-}
-
-// The polynomial in x with these coefficients, lowest first, by Horner's rule.
-template <class D, size_t kTerms, class V = hn::Vec<D>>
-HWY_INLINE V EvaluateInOrder(D d, const float (&coefficients)[kTerms], V x) {
-  V p = hn::Set(d, coefficients[kTerms - 1]);
-  for (size_t i = kTerms - 1; i != 0; --i) p = hn::MulAdd(p, x, hn::Set(d, coefficients[i - 1]));
-  return p;
 }
 
 // log2(1 - x) by tables (after Tang 1990): c = 2^(e + 1) m, and s of 16 numbers about 1 / m makes
@@ -87,7 +66,7 @@ HWY_INLINE V Log2OneMinusByTables(D d, V x, V c) {
   constexpr float kCoefficients[] = {1.44269502f, -0.721347272f, 0.481172562f, -0.361393839f};
   constexpr int kFirstOfMantissa = 19;
   const V one = hn::Set(d, 1.0f);
-  const V below_one = hn::Min(c, hn::Set(d, 1 - 0x1p-24f));  // 1 itself is of another octave
+  const V below_one = hn::Min(c, hn::Set(d, 1 - 0x1p-24f));  // 1 itself has another exponent
   const V s = LookUp16<kFirstOfMantissa>(kScale, below_one);
   const auto small = hn::Lt(x, hn::Set(d, 0.25f));  // m = c there
   const V m_minus_1 =
@@ -95,7 +74,7 @@ HWY_INLINE V Log2OneMinusByTables(D d, V x, V c) {
   const V f = hn::MulAdd(s, m_minus_1, hn::Sub(s, one));
   const V whole =
       hn::Add(Exponent(below_one), LookUp16<kFirstOfMantissa>(kOneMinusLog2, below_one));
-  return hn::MulAdd(EvaluateInOrder(d, kCoefficients, f), f, whole);
+  return hn::MulAdd(EvaluatePolynomial(d, kCoefficients, f), f, whole);
 }
 
 // 2^y = 2^w 2^(k / 16) 2^f with |f| <= 1/32.
@@ -105,7 +84,7 @@ HWY_INLINE V Exp2ByTable(D d, V y) {
       1.0f,        1.04427373f, 1.09050775f, 1.13878858f, 1.18920708f, 1.24185777f,
       1.29683959f, 1.35425556f, 1.41421354f, 1.47682619f, 1.54221082f, 1.61049032f,
       1.68179286f, 1.75625217f, 1.8340081f,  1.91520655f};
-  // What they are rounded by.
+  // The rounding errors of kRoots.
   alignas(64) static constexpr float kRootLows[] = {0.0f,
                                                     4.83347016e-08f,
                                                     -1.30775399e-08f,
@@ -130,14 +109,13 @@ HWY_INLINE V Exp2ByTable(D d, V y) {
   const V rounded = hn::Sub(shifted, shifter);
   const V f = hn::Sub(y, rounded);
   const V root = LookUp16<0>(kRoots, shifted);
-  const V p = EvaluateInOrder(d, kCoefficients, f);
+  const V p = EvaluatePolynomial(d, kCoefficients, f);
   const V low = hn::MulAdd(hn::Mul(root, f), p, LookUp16<0>(kRootLows, shifted));
   return TimesPowerOf2(hn::Add(root, low), rounded);
 }
 
-// log2(1 - x) for x in [0, 1), given also c = 1 - x: of the two, whichever is free of
-// cancellation tells the logarithm. Relative error 2e-7 everywhere. For c <= 0 it is finite, or
-// -infinity or NaN.
+// log2(1 - x) for x in [0, 1), given x and c = 1 - x, of which the accurate one is used: x if it is
+// small. Relative error 2e-7 everywhere. For c <= 0 the result is finite, -infinity or NaN.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Log2OneMinus(D d, V x, V c) {
   if constexpr (kSplitsFloats<V>) return Log2OneMinusByTables(d, x, c);
@@ -148,22 +126,22 @@ HWY_INLINE V Log2OneMinus(D d, V x, V c) {
   return hn::Add(Log2OnePlusPolynomial(d, f), hn::IfThenZeroElse(small, exponent));
 }
 
-// 2^y for finite y < 128: relative error 1e-7. 0 below -126, where the result would be denormal;
-// AVX-512 leaves that to the processor's mode.
+// 2^y for finite y < 128: relative error 1e-7. Below -126, where it is denormal, the result is 0;
+// on AVX-512 that depends on the processor's mode.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Exp2(D d, V y) {
   if constexpr (kSplitsFloats<V>) return Exp2ByTable(d, y);
   constexpr float kCoefficients[] = {1.0f,           0.693147182f,  0.240226507f,   0.0555032715f,
                                      0.00961805694f, 0.0013400428f, 0.000154614449f};
   const hn::RebindToSigned<D> di;
-  // Below the lowest, and for NaN: -127, whose power of 2 has all bits 0.
+  // Below -126, and for NaN: -127, for which all bits of the result are 0.
   const V clamped = hn::IfThenElse(hn::Gt(y, hn::Set(d, -126.0f)), y, hn::Set(d, -127.0f));
   // Adding 1.5 2^23 rounds to the nearest whole number, which is then in the sum's last bits.
   const V shifter = hn::Set(d, 0x1.8p23f);
   const V shifted = hn::Add(clamped, shifter);
   const V f = hn::Sub(clamped, hn::Sub(shifted, shifter));
-  // Not by halves, which would round its results twice as far.
-  const V p = EvaluateInOrder(d, kCoefficients, f);
+  // Not by EvaluateEvenOdd, whose rounding error is twice as large.
+  const V p = EvaluatePolynomial(d, kCoefficients, f);
   const auto bits = hn::Add(hn::BitCast(di, p), hn::ShiftLeft<23>(hn::BitCast(di, shifted)));
   return hn::BitCast(d, bits);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/path.h: file names.
+// base/path.h: file name extensions.
 #pragma once
 
 #include <algorithm>

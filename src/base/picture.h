@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/picture.h: a picture of display codes: what PNG files hold and text is drawn into.
+// base/picture.h: an 8-bit RGB picture, as in PNG files. Text is drawn into it.
 #pragma once
 
 #include <algorithm>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/strip.h: the strips that pictures are rendered and written by.
+// base/strip.h: the strips in which pictures are rendered and written.
 #pragma once
 
 #include <algorithm>
 
 namespace nacre {
 
-// Rows of a strip, counted from the picture's top; the last one may have fewer. The unit of
-// parallel work and of output: EXR's ZIP compresses 16 rows at a time, and 16 rows of all that is
-// needed stay in L2.
+// The number of rows of a strip, from the picture's top; the last strip may have fewer. The unit of
+// parallel work and of output: EXR's ZIP compresses 16 rows at a time, and the data of 16 rows fit
+// into the L2 cache.
 inline constexpr int kStripRows = 16;
 
 inline int StripCount(int height) { return (height + kStripRows - 1) / kStripRows; }

@@ -46,7 +46,7 @@ std::string TargetName(Target target) {
 }
 
 std::vector<Target> SupportedTargets() {
-  // Asked once, before any pin: Highway answers with the pinned target afterwards.
+  // Queried once, before any target is pinned: afterwards Highway returns the pinned one.
   static const int64_t supported = (hwy::SupportedTargets() | HWY_SCALAR) & HWY_TARGETS;
   std::vector<Target> targets;
   for (const Target target : kAllTargets) {

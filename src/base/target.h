@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/target.h: the SIMD targets that nacre runs on, and which of them this process uses.
+// base/target.h: the SIMD targets of nacre, and the one that this process uses.
 //
-// Kernels are compiled for all of them and dispatched at run time by Highway, whose choice is
-// one per process; PinTarget is therefore called once, before any rendering.
+// Kernels are compiled for all targets and dispatched at run time by Highway. Its choice holds for
+// the whole process; PinTarget is therefore called once, before any rendering.
 #pragma once
 
 #include <string>

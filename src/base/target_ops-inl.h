@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/target_ops-inl.h: the few operations whose fastest exact form depends on the target: with
-// visibility/inverse_length-inl.h, which is of doubles, nearly all that nacre has of #if
+// base/target_ops-inl.h: the few operations whose fastest accurate form depends on the target.
+// Together with visibility/inverse_length-inl.h, for doubles, it contains nearly all uses of #if
 // HWY_TARGET.
 //
-// AVX-512 estimates reciprocals to 14 bits: one Newton step makes a float of them, within 1 ulp,
-// in a third of a division's time. Elsewhere an estimate has 12 bits and would need two steps,
-// which the dividers beat.
+// AVX-512 estimates reciprocals to 14 bits: one Newton step makes that accurate to 1 ulp of a
+// float, in a third of a division's time. Estimates of other targets have 12 bits and would need
+// two steps, which is slower than a division.
 #if defined(NACRE_BASE_TARGET_OPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_TARGET_OPS_INL_H_
 #undef NACRE_BASE_TARGET_OPS_INL_H_
@@ -20,7 +20,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What shading works in: two vectors side by side where there are registers for them.
+// The tag of shading kernels: two vectors side by side on targets with enough registers.
 #if HWY_TARGET <= HWY_AVX3
 template <typename T>
 using ShadeTag = hn::WideTag<hn::ScalableTag<T>>;
@@ -73,7 +73,7 @@ HWY_INLINE V SquareRoot(D d, V x) {
   return hn::Sqrt(x);
 }
 
-// 2 sqrt(x) for normal x > 0, within 2 ulp: one operation fewer, and a step shorter.
+// 2 sqrt(x) for normal x > 0, within 2 ulp: one operation and one dependent step fewer.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V TwiceSquareRoot(D d, V x) {
 #if HWY_TARGET <= HWY_AVX3
@@ -88,9 +88,9 @@ HWY_INLINE V TwiceSquareRoot(D d, V x) {
   return hn::Add(root, root);
 }
 
-// Whether the target takes whole vectors V of floats apart and puts them together again, finds 16
-// numbers by their places, and moves any lanes together and apart, in an operation each. The
-// functions that follow are there only if so.
+// Whether the target has one instruction each to split vectors V of floats into exponent and
+// mantissa, to scale them by powers of two, and to look up a table of 16 floats. The functions
+// below exist only if so.
 template <class V>
 constexpr bool kSplitsFloats = false;
 
@@ -101,12 +101,12 @@ constexpr bool kSplitsFloats<FloatsV> = true;
 template <>
 constexpr bool kSplitsFloats<hn::Wide<FloatsV>> = true;
 
-// By masks of all lanes: of the plain intrinsics GCC 12 warns.
+// The masked intrinsics are used with full masks because GCC 12 warns of the plain ones.
 
-// e of |x| = m 2^e, 1 <= m < 2; -infinity for 0.
+// The exponent e of |x| = m 2^e, 1 <= m < 2; -infinity for 0.
 HWY_INLINE FloatsV Exponent(FloatsV x) { return FloatsV{_mm512_maskz_getexp_ps(0xffff, x.raw)}; }
 
-// m / 2 of the same for x > 0, 1 for 0; NaN below.
+// Half the mantissa, m / 2, for x > 0; 1 for 0, NaN for x < 0.
 HWY_INLINE FloatsV HalfMantissa(FloatsV x) {
   return FloatsV{_mm512_maskz_getmant_ps(0xffff, x.raw, _MM_MANT_NORM_p5_1, _MM_MANT_SIGN_nan)};
 }
@@ -116,12 +116,12 @@ HWY_INLINE FloatsV TimesPowerOf2(FloatsV x, FloatsV e) {
   return FloatsV{_mm512_maskz_scalef_ps(0xffff, x.raw, e.raw)};
 }
 
-// numbers[place], aligned to a vector, where the place is the four bits from kBit on.
+// table[i], where i is the four bits from kBit on. The table is aligned to a vector.
 template <int kBit>
-HWY_INLINE FloatsV LookUp16(const float* numbers, FloatsV bits) {
-  __m512i place = _mm512_castps_si512(bits.raw);
-  if constexpr (kBit != 0) place = _mm512_maskz_srli_epi32(0xffff, place, kBit);
-  return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, place, _mm512_load_ps(numbers))};
+HWY_INLINE FloatsV LookUp16(const float* table, FloatsV bits) {
+  __m512i index = _mm512_castps_si512(bits.raw);
+  if constexpr (kBit != 0) index = _mm512_maskz_srli_epi32(0xffff, index, kBit);
+  return FloatsV{_mm512_maskz_permutexvar_ps(0xffff, index, _mm512_load_ps(table))};
 }
 
 HWY_INLINE hn::Wide<FloatsV> Exponent(const hn::Wide<FloatsV>& x) {
@@ -134,12 +134,12 @@ HWY_INLINE hn::Wide<FloatsV> TimesPowerOf2(const hn::Wide<FloatsV>& x, const hn:
   return {TimesPowerOf2(x.low, e.low), TimesPowerOf2(x.high, e.high)};
 }
 template <int kBit>
-HWY_INLINE hn::Wide<FloatsV> LookUp16(const float* numbers, const hn::Wide<FloatsV>& bits) {
-  return {LookUp16<kBit>(numbers, bits.low), LookUp16<kBit>(numbers, bits.high)};
+HWY_INLINE hn::Wide<FloatsV> LookUp16(const float* table, const hn::Wide<FloatsV>& bits) {
+  return {LookUp16<kBit>(table, bits.low), LookUp16<kBit>(table, bits.high)};
 }
 #endif
 
-// (minus - from[0...]), a vector of floats that are each rounded from doubles once.
+// minuend - from[i] for a vector of floats, computed in double and rounded once.
 HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<float> d,
                                                             double minuend,
                                                             const double* HWY_RESTRICT from) {
@@ -152,7 +152,7 @@ HWY_INLINE hn::Vec<hn::ScalableTag<float>> SubtractAndRound(hn::ScalableTag<floa
   const hn::Half<hn::ScalableTag<float>> dh;
   const auto high = hn::Sub(m, hn::LoadU(dd, from + hn::Lanes(dd)));
 #if HWY_TARGET <= HWY_AVX3
-  // hn::Combine zeroes the upper half first, which no compiler finds to be for nothing.
+  // hn::Combine clears the upper half first, and no compiler removes that useless instruction.
   const __m512 lower = _mm512_castps256_ps512(hn::DemoteTo(dh, low).raw);
   return hn::Vec<hn::ScalableTag<float>>{_mm512_insertf32x8(lower, hn::DemoteTo(dh, high).raw, 1)};
 #else

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/trig-inl.h: sine, cosine and arc tangent on float vectors. Scalar twin of what the standard
-// library lacks: trig.h.
+// base/trig-inl.h: sine, cosine and arc tangent on float vectors. Scalar twins of the functions
+// that the standard library lacks: trig.h.
 //
 // Coefficients: scripts/fit_math.py prints them with their errors.
 #if defined(NACRE_BASE_TRIG_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -10,7 +10,7 @@
 #define NACRE_BASE_TRIG_INL_H_
 #endif
 
-#include "base/wide-inl.h"
+#include "base/polynomial-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -22,14 +22,6 @@ struct SinCosV {
   V sin, cos;
 };
 
-// `count` coefficients, lowest first, at x.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V EvaluatePolynomial(D d, const float* coefficients, int count, V x) {
-  V p = hn::Set(d, coefficients[count - 1]);
-  for (int i = count - 2; i >= 0; --i) p = hn::MulAdd(p, x, hn::Set(d, coefficients[i]));
-  return p;
-}
-
 // The nearest whole number of |x| < 2^22.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V RoundToNearest(D d, V x) {
@@ -37,21 +29,21 @@ HWY_INLINE V RoundToNearest(D d, V x) {
   return hn::Sub(hn::Add(x, shifter), shifter);
 }
 
-// Sine and cosine of 2 pi u, |u| < 2^22: each right to 3e-7 of itself, also next to its roots, for
-// the reduction to a quarter turn is exact.
+// Sine and cosine of 2 pi u, |u| < 2^22: relative error 3e-7, also next to their zeros, because the
+// reduction to a quarter turn is exact.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SinCosV<V> SinCosTurns(D d, V u) {
   constexpr float kSine[] = {1.57079637f, -0.645964086f, 0.0796925798f, -0.00468126638f,
                              0.000158206298f};
   constexpr float kCosine[] = {1.0f, -1.23370051f, 0.253669202f, -0.0208600704f, 0.000903628068f};
   const V one = hn::Set(d, 1.0f);
-  // Quarter turns in [-2, 2], exactly; then the nearest whole one, and what is left.
+  // u in quarter turns in [-2, 2], exactly, split into the nearest integer and a fraction.
   const V quarters = hn::Mul(hn::Sub(u, RoundToNearest(d, u)), hn::Set(d, 4.0f));
   const V whole = RoundToNearest(d, quarters);
   const V f = hn::Sub(quarters, whole);
   const V z = hn::Mul(f, f);
-  const V sine = hn::Mul(f, EvaluatePolynomial(d, kSine, 5, z));
-  const V cosine = EvaluatePolynomial(d, kCosine, 5, z);
+  const V sine = hn::Mul(f, EvaluatePolynomial(d, kSine, z));
+  const V cosine = EvaluatePolynomial(d, kCosine, z);
   const auto odd = hn::Eq(hn::Abs(whole), one);
   const V even_sign = hn::Sub(one, hn::Abs(whole));  // 1 at 0, -1 at 2 quarters
   return {
@@ -67,7 +59,7 @@ inline constexpr float kAtanRemainder[] = {0.333333313f,  -0.199997395f,  0.1427
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V AtanRemainderPolynomial(D d, V z) {
-  return EvaluatePolynomial(d, kAtanRemainder, 9, z);
+  return EvaluatePolynomial(d, kAtanRemainder, z);
 }
 
 // (x - atan x) / x^3 for x >= 0 with normal x^2 if x > 1: relative error 1e-6.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/trig.h: what trigonometry of solid angles needs beyond the standard library. SIMD twin:
+// base/trig.h: trigonometric functions for solid angles that the standard library lacks. SIMD twin:
 // trig-inl.h.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace nacre {
 
-// (x - atan x) / x^3 for x >= 0: 1/3 at 0. What is left of the arc tangent once its first term has
-// cancelled against another.
+// (x - atan x) / x^3 for x >= 0: 1/3 at 0. For expressions in which the first term of an arc
+// tangent cancels.
 template <typename Real>
 Real AtanRemainder(Real x) {
   const Real z = x * x;

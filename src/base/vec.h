@@ -2,6 +2,8 @@
 // base/vec.h: the vector types, Imath's, under short names.
 #pragma once
 
+#include <cmath>
+
 #include <Imath/ImathColor.h>
 #include <Imath/ImathMatrix.h>
 #include <Imath/ImathVec.h>
@@ -11,6 +13,9 @@ namespace nacre {
 using Vec2d = Imath::V2d;
 using Vec3d = Imath::V3d;
 using Vec3f = Imath::V3f;
+
+// |v|_1, by which rounding errors of coordinates are bounded.
+inline double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 // Linear radiometric or reflectance values, Rec. 709 primaries. Double in the scene, so that
 // products of material and light are rounded to float once, in the kernels' uniforms.

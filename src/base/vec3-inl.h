@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/vec3-inl.h: vectors of three on SIMD vectors: one per lane.
+// base/vec3-inl.h: 3-D vectors on SIMD vectors, one per lane.
 #if defined(NACRE_BASE_VEC3_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_VEC3_INL_H_
 #undef NACRE_BASE_VEC3_INL_H_
@@ -19,14 +19,14 @@ struct Vec3V {
   V x, y, z;
 };
 
-// Products and sums stay apart: every target gives the same bits. For geometry.
+// Products and sums are never fused, so that every target gives the same bits. For geometry.
 template <class V>
 HWY_INLINE V Dot(const Vec3V<V>& a, const Vec3V<V>& b) {
   return hn::Add(hn::Add(hn::Mul(a.x, b.x), hn::Mul(a.y, b.y)), hn::Mul(a.z, b.z));
 }
 
-// Fused where the target can: faster and more accurate, with other bits on targets that cannot. For
-// shading.
+// Fused if the target has fused multiply-add: faster and more accurate, but with different bits on
+// other targets. For shading.
 template <class V>
 HWY_INLINE V FusedDot(const Vec3V<V>& a, const Vec3V<V>& b) {
   return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
@@ -58,7 +58,7 @@ HWY_INLINE Vec3V<V> Scale(const Vec3V<V>& a, V s) {
   return {hn::Mul(a.x, s), hn::Mul(a.y, s), hn::Mul(a.z, s)};
 }
 
-// a b + c, fused where the target can.
+// a b + c, fused if the target can.
 template <class V>
 HWY_INLINE Vec3V<V> MulAdd3(const Vec3V<V>& a, V b, const Vec3V<V>& c) {
   return {hn::MulAdd(a.x, b, c.x), hn::MulAdd(a.y, b, c.y), hn::MulAdd(a.z, b, c.z)};
@@ -94,7 +94,7 @@ HWY_INLINE void Store3(const Vec3V<V>& v, D d, hn::TFromD<D>* x, hn::TFromD<D>* 
   hn::Store(v.z, d, z);
 }
 
-// Vectors that begin anywhere.
+// Without alignment.
 template <class D, class T>
 HWY_INLINE Vec3V<hn::Vec<D>> LoadU3(D d, const T* x, const T* y, const T* z) {
   return {hn::LoadU(d, x), hn::LoadU(d, y), hn::LoadU(d, z)};

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// base/wide-inl.h: two vectors as one, for every operation that shading uses. Kernels written for
-// Wide run two packets side by side, instruction by instruction: a shading formula is one long
-// chain of dependent operations, and a processor's window holds less than two of them one after
-// the other.
+// base/wide-inl.h: two vectors as one, for all operations that shading uses. Kernels written for
+// Wide interleave the instructions of two packets: a shading formula is one long chain of dependent
+// operations, and a processor's out-of-order window does not hold two of these one after the other.
 //
-// The overloads join Highway's own, as its wider types do on targets with vector groups, so code
-// that is generic in its tag D takes a WideTag like any other.
+// The functions overload Highway's own, as those for vector groups do on some targets, so that code
+// that is generic in its tag D accepts a WideTag like any other.
 #if defined(NACRE_BASE_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_BASE_WIDE_INL_H_
 #undef NACRE_BASE_WIDE_INL_H_
@@ -19,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace hwy {
 namespace HWY_NAMESPACE {
 
-// A vector, or a mask, of the lanes of `low` and then those of `high`.
+// A vector or a mask: the lanes of `low`, followed by those of `high`.
 template <class V>
 struct Wide {
   V low, high;

@@ -17,7 +17,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A fit for each lane: what AlbedoFit has, in arrays.
+// An AlbedoFit for each lane, as arrays.
 struct AlbedoShapeLanes {
   const float *offset, *scale, *k, *softening;
   AlbedoForm form;
@@ -56,7 +56,7 @@ HWY_INLINE bool HasMasking(const Shape& shape) {
   return shape.form == AlbedoForm::kMasked;
 }
 
-// What the curves of one n.v share: evaluated once for all of them.
+// The variables that all curves of one n.v share, computed once.
 template <class V>
 struct AlbedoVariablesV {
   V z, n_dot_v;
@@ -83,7 +83,7 @@ HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shape& shape, V
   const V inverse = Reciprocal(d, hn::Add(offset, root));
   const V scale = AlbedoNumber(d, shape.scale);
   const V z = hn::MulSub(scale, SquareRoot(d, hn::Mul(mu, inverse)), one);
-  // A vector, not a struct, is what the branch chooses: GCC takes structs through memory.
+  // The branches compute a vector, not a struct: GCC would pass a struct through memory.
   V factor;
   if (HasMasking(shape)) {
     factor = AlbedoMasking(d, shape, mu);
@@ -101,7 +101,7 @@ HWY_INLINE AlbedoVariablesV<V> ComputeAlbedoVariables(D d, const Shape& shape, V
 
 template <class D, class Polynomial, class V = hn::Vec<D>>
 HWY_INLINE V EvaluateAlbedoPolynomial(D d, const Polynomial& polynomial, V z) {
-  return EvaluateByHalves<kAlbedoTerms>(
+  return EvaluateEvenOdd<kAlbedoTerms>(
       [&](size_t i) HWY_ATTR { return AlbedoCoefficient(d, polynomial, i); }, z);
 }
 
@@ -147,7 +147,7 @@ HWY_INLINE V AlbedoFresnel(D d, const FresnelAlbedoFit& fit, V albedo_one,
   return AlbedoNearMirror(d, fit.lobe, fit.fresnel, mirror, albedo_one, x);
 }
 
-// The same from n.v alone, for callers of one of them.
+// The same from n.v, for callers that need only one of them.
 template <class D, class Fit, class V = hn::Vec<D>>
 HWY_INLINE V AlbedoOne(D d, const Fit& fit, V n_dot_v) {
   return AlbedoOne(d, fit, ComputeAlbedoVariables(d, fit.shape, n_dot_v));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/albedo.h: directional albedos of the GGX lobe at render time: how much a lobe reflects in
-// all, seen from n.v. SIMD twin: albedo-inl.h. The truth behind them: brdf/albedo_integral.h.
+// brdf/albedo.h: directional albedos of the GGX lobe at render time: the fraction of light that a
+// lobe reflects in all directions, as a function of n.v. SIMD twin: albedo-inl.h. They are fitted
+// to the quadratures of brdf/albedo_integral.h.
 //
 // A material's fit is a handful of coefficients, so that a vector of hits evaluates polynomials and
-// gathers nothing. Worst errors found in float, over roughness in [0, 1] and n.v in [1e-4, 1]:
-// E 4e-5 (1e-4 of itself), B and a dielectric's albedo 2e-5. Below n.v = 1e-4 the same holds, but
-// that kSchlickDirect's E, there next to 0, is off by up to 0.7 % of itself.
+// needs no gathers. Worst errors found in float, over roughness in [0, 1] and n.v in [1e-4, 1]:
+// E 4e-5 (relative 1e-4), B and a dielectric's albedo 2e-5. Below n.v = 1e-4 the same holds, except
+// that kSchlickDirect's E, which is nearly 0 there, has a relative error of up to 0.7 %.
 #pragma once
 
 #include <vector>
@@ -57,8 +58,9 @@ struct DielectricCurve {
 };
 DielectricCurve BlendDielectricCurves(const DielectricCurves& curves, double roughness);
 
-// 1 - E: what a lobe with F = 1 loses to light that would have to bounce again. But of
-// kSchlickDirect to a relative precision: for smooth surfaces it is far below the rounding of E.
+// 1 - E: the light that a lobe with F = 1 loses because it would have to bounce again. Accurate
+// relative to itself, except for kSchlickDirect: for smooth surfaces it is far below the rounding
+// error of E.
 template <typename Real>
 Real AlbedoLoss(const AlbedoFit& fit, Real n_dot_v) {
   const auto x = ComputeAlbedoVariables(fit.shape, n_dot_v);

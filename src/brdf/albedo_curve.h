@@ -22,11 +22,11 @@ inline constexpr int kAlbedoTerms = 18;
 // Below this n.v, albedos are those at this n.v: its square must not underflow.
 inline constexpr double kLeastAlbedoCosine = 1e-15;
 
-// What the curve of F = 1 is a polynomial times, a function of n.v: AlbedoFactor.
+// The function of n.v by which the polynomial of the curve for F = 1 is multiplied: AlbedoFactor.
 enum class AlbedoForm : uint8_t {
-  kLossSquared,  // it is of 1 - E, which falls as (alpha / n.v)^2: Smith's forms
-  kLossLinear,   // it is of 1 - E, which falls as alpha / n.v: kSchlickIbl
-  kMasked,       // it is of E, which grazing angles take to nearly 0: kSchlickDirect
+  kLossSquared,  // the curve is 1 - E, which falls as (alpha / n.v)^2: Smith's forms
+  kLossLinear,   // the curve is 1 - E, which falls as alpha / n.v: kSchlickIbl
+  kMasked,       // the curve is E, which is nearly 0 at grazing angles: kSchlickDirect
 };
 
 inline AlbedoForm AlbedoFormOf(Shadowing shadowing) {
@@ -34,7 +34,7 @@ inline AlbedoForm AlbedoFormOf(Shadowing shadowing) {
   return shadowing == Shadowing::kSchlickIbl ? AlbedoForm::kLossLinear : AlbedoForm::kLossSquared;
 }
 
-// What the variable and the factors of a curve depend on beside n.v. `offset` is 0 for a mirror.
+// The parameters of a curve's variable and factors besides n.v. `offset` is 0 for a mirror.
 struct AlbedoShape {
   float offset = 0;     // 6 alpha
   float scale = 2;      // of sqrt(tan(theta / 2)), so that z is 1 where n.v is
@@ -48,7 +48,7 @@ AlbedoShape MakeAlbedoShape(Shadowing shadowing, double roughness);
 // A polynomial in z, lowest power first.
 using AlbedoPolynomial = std::array<float, kAlbedoTerms>;
 
-// The functions of n.v that curves are made of.
+// The functions of n.v in which the curves are expressed.
 template <typename Real>
 struct AlbedoVariables {
   Real z;        // in [-1, 1]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/albedo_integral.h: directional albedos of the GGX lobe by quadrature, in double: the truth
-// that the run-time fits (brdf/albedo.h) are made from and tested against. No Monte Carlo.
+// brdf/albedo_integral.h: directional albedos of the GGX lobe by quadrature, in double: the
+// reference to which the run-time fits (brdf/albedo.h) are fitted, and against which they are
+// tested. No Monte Carlo.
 //
 // albedo(n.v) = int D V F n.l dl over the upper hemisphere, for any Fresnel curve F(v.h).
 #pragma once
@@ -12,8 +13,8 @@
 
 namespace nacre {
 
-// How finely to integrate. Measured against a finer rule, for a dielectric of index 1.5: the
-// default's albedos are right to 2e-7, the fast ones' to 4e-6.
+// The resolution of the quadrature. Compared with a finer rule, for a dielectric of index 1.5,
+// albedos of the default have errors of 2e-7, those of the fast rule 4e-6.
 struct AlbedoQuadrature {
   int points = 12;     // Gauss-Legendre points in each panel of the light's elevation
   double step = 0.42;  // of the azimuth's warped variable
@@ -21,9 +22,9 @@ struct AlbedoQuadrature {
 };
 inline constexpr AlbedoQuadrature kFastAlbedoQuadrature{7, 0.5, 1e-6};
 
-// What the albedo is an integral over: the light's elevation, in panels that are fine where the
-// integrand is. Each node is one elevation, by the quantities that the azimuth depends on; angles
-// are halved sums and differences of the light's and the viewer's elevation.
+// The nodes of the integral over the light's elevation, in panels that are fine where the integrand
+// has fine detail. Each node is one elevation, given by the quantities that the azimuth's integrand
+// depends on; angles are halved sums and differences of the light's and the viewer's elevation.
 struct AlbedoNode {
   double weight;  // of the quadrature, with the solid angle's and the projection's cosines
   double n_dot_l;

@@ -23,15 +23,15 @@ HWY_INLINE Vec3V<V> Mirrored(const Vec3V<V>& v, const Vec3V<V>& m) {
   return {hn::MulSub(m.x, twice, v.x), hn::MulSub(m.y, twice, v.y), hn::MulSub(m.z, twice, v.z)};
 }
 
-// |n x u|^2 is formed as |u - n (n.u)|^2: one fused step each way, and what |n| and n.u are off by
-// points along n, where it counts in the second order only.
+// |n x u|^2 is computed as |u - n (n.u)|^2: one fused operation for each component, and the errors
+// of |n| and n.u are along n, where their effect is of second order.
 template <class V>
 struct HalfAnglesV {
   V n_dot_u, u_squared, nxu_squared, lv_squared;
 };
 
-// Each lane's angles of one of the two. All of them: they are formed with different roundings, and
-// a lane that mixes both would have other bits than one that has either.
+// Selects one of two sets of angles in each lane. All members are selected, because the two sets
+// are rounded differently, and a lane that mixed them would have other bits than either.
 template <class M, class V>
 HWY_INLINE HalfAnglesV<V> Choose(const M& mask, const HalfAnglesV<V>& yes,
                                  const HalfAnglesV<V>& no) {
@@ -46,16 +46,16 @@ struct AnglesV : HalfAnglesV<V> {
   V n_dot_l, n_dot_v;
 };
 
-// |a|^2, not less than the smallest normal number, which is added for nothing: a sum that is above
-// 1e7 times it stays as it is.
+// |a|^2, but at least the smallest normal number, which is added: that does not change sums above
+// 1e7 times it.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SquaredLength(D d, const Vec3V<V>& a) {
   const V smallest = hn::Set(d, std::numeric_limits<hn::TFromD<D>>::min());
   return hn::MulAdd(a.z, a.z, hn::MulAdd(a.y, a.y, hn::MulAdd(a.x, a.x, smallest)));
 }
 
-// |u|^2 by what u has along n and across: two operations fewer than of its components, and where a
-// lobe is at its peak, what |n| is off by cancels against the same in n.u.
+// |u|^2 from the components of u along n and across it: two operations fewer, and at the peak of a
+// lobe the error of |n| cancels against that of n.u.
 template <class V>
 HWY_INLINE V USquared(V n_dot_u, V nxu_squared) {
   return hn::MulAdd(n_dot_u, n_dot_u, nxu_squared);
@@ -72,7 +72,7 @@ HWY_INLINE HalfAnglesV<V> HalfAnglesOf(D d, const Vec3V<V>& n, const Vec3V<V>& u
           FusedDot(l_minus_v, l_minus_v)};
 }
 
-// Of u = l + v without what it has along l - v, as the scalar twin tells.
+// The angles of u = l + v without its component along l - v, as the scalar twin explains.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE HalfAnglesV<V> ComputeHalfAngles(D d, const Vec3V<V>& n, const Vec3V<V>& l,
                                             const Vec3V<V>& v) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/angles.h: what every reflection model is a function of: the angles between a surface's
-// normal, a light and a viewer, in forms that keep their precision. SIMD twin: angles-inl.h.
+// brdf/angles.h: the variables of every reflection model: the angles between a surface's normal, a
+// light and a viewer, in forms that keep their precision. SIMD twin: angles-inl.h.
 //
 // Directions are unit length and point away from the surface. The sum u = l + v stays
 // un-normalised: h = u/|u|, and everything about h follows from u without dividing.
@@ -28,12 +28,12 @@ struct Angles {
   Real lv_squared;   // |l - v|^2 = 4 (1 - (v.h)^2)
 };
 
-// Lagrange's identity gives sin^2(theta_h) = |n x u|^2 / |u|^2. Once n.h is rounded, no
-// rearrangement of 1 - (n.h)^2 brings it back, and highlights of smooth surfaces are made of it.
+// Lagrange's identity gives sin^2(theta_h) = |n x u|^2 / |u|^2. Highlights of smooth surfaces
+// depend on it, and once n.h is rounded, no rearrangement of 1 - (n.h)^2 recovers it.
 //
-// u is perpendicular to l - v for unit vectors, but rounding makes |l| and |v| differ, which
-// tilts a small u (light and viewer opposed, both grazing) by much. What u has along l - v is
-// taken out: |l - v|^2 is 4 where it matters, so one step needs no division.
+// For unit vectors u is perpendicular to l - v, but rounding makes |l| and |v| differ, which tilts
+// a small u (light and viewer opposed, both grazing) considerably. Its component along l - v is
+// therefore subtracted; |l - v|^2 is 4 where that matters, so no division is needed.
 template <typename Real>
 Angles<Real> ComputeAngles(const Imath::Vec3<Real>& n, const Imath::Vec3<Real>& l,
                            const Imath::Vec3<Real>& v) {

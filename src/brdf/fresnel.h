@@ -9,9 +9,9 @@
 
 namespace nacre {
 
-// 1 - v.h, formed as (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is looked
-// at from the front, and 1 minus it would be rounding. Where light and viewer are opposed it rounds
-// to either side of 1; above 1 it would make 1 - F, and so the diffuse light, negative.
+// 1 - v.h, computed as (|l - v|^2 / 4) / (1 + |u| / 2): v.h is near 1 wherever a surface is seen
+// from the front, and 1 minus it would be all rounding error. Where light and viewer are opposed it
+// is rounded to either side of 1; above 1 it would make 1 - F, and so the diffuse light, negative.
 template <typename Real>
 Real OneMinusVDotH(const Angles<Real>& a) {
   const Real ratio = a.lv_squared / (4 + 2 * std::sqrt(a.u_squared));
@@ -93,7 +93,7 @@ Real FresnelConductor(Real v_dot_h, Real one_minus_vh, Real eta, Real k) {
   const Real b2_cos2 = b2 * v_dot_h * v_dot_h;
   const Real a_cos = a * v_dot_h;
   const Real s_below = squares(a + v_dot_h, b2);
-  if (!(s_below > 0)) return 0;  // grazing along no interface at all: eta = 1, k = 0
+  if (!(s_below > 0)) return 0;  // no interface (eta = 1, k = 0), at grazing incidence
   const Real s = squares(a - v_dot_h, b2) / s_below;
   const Real p = squares(a_cos - sin2, b2_cos2) / squares(a_cos + sin2, b2_cos2);
   return s * (1 + p) / 2;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/fresnel_average.h: Fresnel curves averaged over the hemisphere, F_avg = 2 int F(c) c dc:
-// what light that bounced between microfacets has met at each bounce.
+// brdf/fresnel_average.h: Fresnel curves averaged over the hemisphere, F_avg = 2 int F(c) c dc: the
+// average reflectance at each bounce of light between microfacets.
 #pragma once
 
 namespace nacre {

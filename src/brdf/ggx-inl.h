@@ -65,7 +65,7 @@ HWY_INLINE V VisibilityDenominatorSeparable(D d, V n_dot_l, V n_dot_v, V alpha, 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V VisibilityDenominatorSchlick(D d, V n_dot_l, V n_dot_v, V k, V scale) {
   const V one_minus_k = hn::Sub(hn::Set(d, hn::TFromD<D>(1)), k);
-  // Products of what all hits share, mostly.
+  // Mostly products of numbers that all hits share.
   const V scale4 = hn::Mul(hn::Set(d, hn::TFromD<D>(4)), scale);
   return hn::Mul(hn::MulAdd(n_dot_l, one_minus_k, k),
                  hn::MulAdd(n_dot_v, hn::Mul(scale4, one_minus_k), hn::Mul(scale4, k)));

@@ -84,7 +84,7 @@ HWY_INLINE V OneMinusExp2(D d, V y) {
   constexpr float kCoefficients[] = {0.693147182f,   0.240226507f,  0.0555032715f,
                                      0.00961805694f, 0.0013400428f, 0.000154614449f};
   const V far = hn::Sub(hn::Set(d, 1.0f), HWY_NAMESPACE::Exp2(d, y));
-  const V near = hn::Neg(hn::Mul(y, EvaluatePolynomial(d, kCoefficients, 6, y)));
+  const V near = hn::Neg(hn::Mul(y, EvaluatePolynomial(d, kCoefficients, y)));
   return hn::IfThenElse(hn::Gt(y, hn::Set(d, -0.5f)), near, far);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf/multi_scatter.h: what brings back the light that a single bounce on microfacets loses, as a
+// brdf/multi_scatter.h: compensation of the energy that a single bounce on microfacets loses, by a
 // second lobe: constants of a material. Turquin's factor 1 + F0 (1 / E - 1) on the lobe itself is
 // in the models' Fresnel terms (shading/scalar_material.h).
 //

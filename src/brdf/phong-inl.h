@@ -22,8 +22,8 @@ struct LobeCosineV {
   V one_minus_c, c;
 };
 
-// In place of the logarithm of 0. Times any exponent of 2^-88 and above, no power of 2 is as low;
-// times limits::kExponent it is finite, and times 0 it is 0: c^0 is 1 there, too.
+// Replaces log2(0). Its product with any exponent of at least 2^-88 is below the logarithm of every
+// float, that with limits::kExponent is finite, and that with 0 is 0, so that c^0 is 1 there, too.
 inline constexpr float kDarkLog2 = -0x1p96f;
 
 // log2(c), kDarkLog2 where c <= 0.
@@ -37,7 +37,7 @@ HWY_INLINE V LobeLog2(D d, const LobeCosineV<V>& cosine) {
   return hn::IfThenElse(hn::Gt(cosine.c, hn::Zero(d)), log2, dark);
 }
 
-// |r - v|^2, r the reflection of the light.
+// |r - v|^2, where r is the mirror direction of the light.
 template <class V>
 HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& to_light,
                                    const Vec3V<V>& to_view) {
@@ -53,7 +53,7 @@ HWY_INLINE V SquaredFromReflection(const Vec3V<V>& normal, const Vec3V<V>& offse
   return FusedDot(r_minus_v, r_minus_v);
 }
 
-// r.v by it: the scalar twin tells why.
+// r.v computed from it: the scalar twin explains why.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE LobeCosineV<V> PhongCosine(D d, V squared_from_reflection) {
   const V one_minus_c = hn::Mul(squared_from_reflection, hn::Set(d, hn::TFromD<D>(0.5)));

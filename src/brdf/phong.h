@@ -21,9 +21,9 @@ Real LobePower(Real x, Real c, Real n) {
   return std::exp(n * (2 * x < 1 ? std::log1p(-x) : std::log(c)));
 }
 
-// Phong 1975: max(r.v, 0)^n, r = 2 n (n.l) - l, without the gate on n.l. r.v = 1 - |r - v|^2 / 2,
-// as both have length 1: where n of r.v's own roundings would show, at the lobe's peak, r - v is
-// small, and what it is rounded by counts by its product with it.
+// Phong 1975: max(r.v, 0)^n, r = 2 n (n.l) - l, without the gate on n.l. For unit vectors
+// r.v = 1 - |r - v|^2 / 2. At the peak of the lobe, where n times the rounding error of r.v would
+// be visible, r - v is small, and so is the effect of its rounding errors.
 template <typename Real>
 Real PhongLobe(const Imath::Vec3<Real>& normal, const Imath::Vec3<Real>& to_light,
                const Imath::Vec3<Real>& to_view, Real shininess) {

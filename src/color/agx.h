@@ -4,8 +4,8 @@
 //
 // Matrices and range are those that Benjamin Wrensch's "Minimal AgX Implementation" (2023) takes
 // from Sobotka's OpenColorIO configuration of that time, with two differences. The curve is
-// Sobotka's own sigmoid and not the polynomial fitted to it there, which is off by 6e-3 at most
-// and reaches neither 0 nor 1. And the rows of the inset are scaled to the sum of 1, which the
+// Sobotka's own sigmoid, not the polynomial that is fitted to it there, which is off by up to 6e-3
+// and reaches neither 0 nor 1. And the rows of the inset are scaled to a sum of 1, which the
 // published digits miss by 1.4e-4, so that greys stay grey.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// color/display.h: from linear scene radiance to what a display shows: exposure, tone operator,
-// exact sRGB transfer, 8 bits.
+// color/display.h: from linear scene radiance to 8-bit display codes: exposure, tone operator,
+// exact sRGB transfer curve.
 #pragma once
 
 #include <algorithm>
@@ -53,16 +53,16 @@ Imath::Color3<Real> DisplayLight(const DisplaySettings& settings, Imath::Color3<
 // Encodes `count` pixels, given as three planes of any alignment and without padding, as 8-bit
 // sRGB: 3 count interleaved bytes in `rgb8`, which overlaps no plane.
 //
-// The display light is that of DisplayLight<double>, computed in float with an error of at most
-// 1e-6 of it or 1e-7 (AgX: 4e-6 of it or 1e-6), whichever is more; its code is exact for that float
-// (color/srgb8.h). So with kNone at exposure 0 codes are exact for every float, and otherwise at
-// most one off, where the light lies that near to a code's threshold.
+// The display light is that of DisplayLight<double>, computed in float with a relative error of
+// 1e-6 or an absolute one of 1e-7 (AgX: 4e-6 or 1e-6), whichever is larger. The code of that float
+// is exact (color/srgb8.h). With kNone at exposure 0 codes are therefore exact for every float;
+// otherwise they are off by at most one, where the light is within the error of a code's threshold.
 //
-// Pixels with a NaN are drawn magenta (255, 0, 255); returns how many there are.
+// Pixels with a NaN become magenta (255, 0, 255). Returns their number.
 size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const float* g,
                      const float* b, size_t count, uint8_t* rgb8);
 
-// The colours of an image that has them, or its layer's, as a display shows them.
+// The picture that a display shows of the image's channels R, G and B, or of those of a layer.
 Rgb8Picture ShowImage(const Image& image, const DisplaySettings& settings,
                       const std::string& layer = {});
 

@@ -16,8 +16,8 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// Pixels are encoded in chunks, in two loops: the tone operators have long dependency chains and
-// the table look-ups many micro-operations, and in one loop neither hides the other.
+// Pixels are encoded in chunks by two loops. Tone operators have long dependency chains, and table
+// look-ups many micro-operations; in one loop they would not overlap.
 constexpr size_t kChunk = 128;
 static_assert(kChunk % (HWY_MAX_BYTES / sizeof(float)) == 0);
 
@@ -87,7 +87,7 @@ HWY_INLINE size_t EncodePixels(const Tone& tone, float scale, const float* r, co
   size_t nan_count = 0, nan_in_chunk = 0;
   size_t i = 0;
   for (; i + kChunk <= count; i += kChunk) {
-    // Much of most pictures is a background of one colour.
+    // Early out: large parts of most pictures are a background of one colour.
     if (i > 0 && RepeatsChunk(r + i) && RepeatsChunk(g + i) && RepeatsChunk(b + i)) {
       std::memcpy(rgb8 + 3 * i, rgb8 + 3 * (i - kChunk), 3 * kChunk);
     } else {
@@ -96,17 +96,17 @@ HWY_INLINE size_t EncodePixels(const Tone& tone, float scale, const float* r, co
     }
     nan_count += nan_in_chunk;
   }
-  // The planes are the caller's and end where they end: the rest goes through padded copies.
-  const size_t rest = count - i;
-  if (rest != 0) {
+  // The caller's planes have no padding: the remaining pixels are copied to padded arrays.
+  const size_t remaining = count - i;
+  if (remaining != 0) {
     light = {};
-    std::memcpy(light.r, r + i, rest * sizeof(float));
-    std::memcpy(light.g, g + i, rest * sizeof(float));
-    std::memcpy(light.b, b + i, rest * sizeof(float));
+    std::memcpy(light.r, r + i, remaining * sizeof(float));
+    std::memcpy(light.g, g + i, remaining * sizeof(float));
+    std::memcpy(light.b, b + i, remaining * sizeof(float));
     ToneChunk(d, tone, scale, light.r, light.g, light.b, &light);
     uint8_t padded_rgb8[3 * kChunk];
     nan_count += EncodeChunk(d, entries, light, padded_rgb8);
-    std::memcpy(rgb8 + 3 * i, padded_rgb8, 3 * rest);
+    std::memcpy(rgb8 + 3 * i, padded_rgb8, 3 * remaining);
   }
   return nan_count;
 }

@@ -11,9 +11,9 @@
 namespace nacre {
 namespace {
 
-// The bits of the smallest float whose code is at least `code`, counted from kFirstBits. Double
-// is enough: a real threshold within its error of a float would be a one in a billion accident,
-// and the test would show it.
+// The bits of the smallest float whose code is at least `code`, relative to kFirstBits. Double is
+// accurate enough: that a real threshold lies within its error of a float has a probability of one
+// in a billion, and a test would show it.
 uint32_t ThresholdOffset(uint32_t code) {
   const double exact = SrgbEotf((code - 0.5) / 255);
   float threshold = static_cast<float>(exact);

@@ -110,7 +110,7 @@ struct NeutralTone {
   HWY_INLINE void operator()(D d, V& r, V& g, V& b) const {
     constexpr double kStart = 0.8 - 0.04, kHeadroom = 1 - kStart;
     const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
-    // From here on, less than 2^-26 is missing to white, and products of four stay finite.
+    // Above this, the result is within 2^-26 of white. The limit keeps products of four finite.
     const V largest = set(1e9);
     r = hn::Min(r, largest);
     g = hn::Min(g, largest);
@@ -124,7 +124,7 @@ struct NeutralTone {
     b = hn::Add(hn::Sub(b, lowest), kept);
     const V peak = hn::Max(hn::Max(r, g), b);
     const V start = set(kStart);
-    const V high = hn::Max(peak, start);  // dark pixels take part, with a harmless peak
+    const V high = hn::Max(peak, start);  // a valid peak for dark pixels, whose result is not used
     const V q = hn::Add(high, set(kHeadroom - kStart));
     const V a = hn::Sub(q, set(kHeadroom * kHeadroom));
     const V e = hn::Mul(set(0.15), hn::MulSub(high, q, a));
@@ -171,8 +171,8 @@ struct AgxTone {
     return hn::Exp(d, hn::Mul(hn::Log(d, x), exponent));
   }
 
-  // Logarithmic encoding and sigmoid of one channel. Called, not inlined, as is Linearise: six
-  // copies of their exponentials and logarithms are no faster and take minutes to compile.
+  // Logarithmic encoding and sigmoid of one channel. Not inlined, like Linearise: six copies of
+  // their exponentials and logarithms are no faster and take minutes to compile.
   template <class D, class V>
   static HWY_NOINLINE V Curve(D d, V x) {
     const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
@@ -191,7 +191,7 @@ struct AgxTone {
     return hn::MulAdd(hn::Add(s, s), power, set(0.5));
   }
 
-  // The light of a display of power 2.2. Below 1e-9 (3e-20 of white, code 0) it gives that.
+  // The light of a display of power 2.2. x is clamped to at least 1e-9 (3e-20 of white, code 0).
   template <class D, class V>
   static HWY_NOINLINE V Linearise(D d, V x) {
     const V encoded = hn::Min(hn::Max(x, hn::Set(d, 1e-9f)), hn::Set(d, 1.0f));

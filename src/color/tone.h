@@ -56,13 +56,13 @@ Real ToneAces(Real x) {
   return std::min(numerator / denominator, Real(1));
 }
 
-// Khronos PBR Neutral Tone Mapper, specification of 2024: keeps base colours below 0.8 - 0.04 as
-// they are, but for the Fresnel reflection of 0.04 that it takes off; compresses above.
+// Khronos PBR Neutral Tone Mapper, specification of 2024: below 0.8 - 0.04 it only subtracts the
+// Fresnel reflection of 0.04, so that base colours are kept; above it compresses.
 template <typename Real>
 Imath::Color3<Real> ToneNeutral(Imath::Color3<Real> rgb) {
   constexpr Real kStart = Real(0.8 - 0.04), kDesaturation = Real(0.15), kFresnel90 = Real(0.08);
   constexpr Real kHeadroom = 1 - kStart;
-  // Finite, so that the ratios below are numbers.
+  // Finite, so that the ratios below are not NaN.
   for (int c = 0; c < 3; ++c) rgb[c] = std::min(rgb[c], std::numeric_limits<Real>::max());
   const Real lowest = std::min({rgb.x, rgb.y, rgb.z});
   // rgb - (lowest - 6.25 lowest^2) where dark; in this order the small difference is exact.

@@ -11,6 +11,7 @@
 #define HWY_TARGET_INCLUDE "embree/triangle_kernel.cc"
 #include "hwy/foreach_target.h"
 
+#include "base/geometry-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/triangle_test-inl.h"
 
@@ -30,23 +31,18 @@ HWY_INLINE Corners CornersOf(const TraceGeometry& geometry, uint32_t triangle) {
           geometry.positions[indices[2]]};
 }
 
-template <class D>
-HWY_INLINE Vec3V<hn::Vec<D>> Set3(D d, const Vec3d& v) {
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
-
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE TriangleHitV<D> TestLanes(D d, const Packet& packet, int lane, const Corners& corners) {
   const auto& shear = packet.shear;
   const Vec3V<V> origin = Origin(d, packet, lane);
-  return TestTriangle(d, Sub(Set3(d, corners.a), origin), Sub(Set3(d, corners.b), origin),
-                      Sub(Set3(d, corners.c), origin), Direction(d, packet, lane),
+  return TestTriangle(d, Sub(SetVec3(d, corners.a), origin), Sub(SetVec3(d, corners.b), origin),
+                      Sub(SetVec3(d, corners.c), origin), Direction(d, packet, lane),
                       hn::Load(d, packet.inverse_dd + lane),
                       RayShearV<V>{Load3(d, shear[0] + lane, shear[1] + lane, shear[2] + lane),
                                    Load3(d, shear[3] + lane, shear[4] + lane, shear[5] + lane)});
 }
 
-// Those of `hits` that are not in a hole of the mesh. Out of line: few scenes have any.
+// Those of `hits` that are not in a hole of the mesh. Not inlined, because few scenes have holes.
 template <class D>
 HWY_NOINLINE hn::Mask<D> OutsideHoles(D d, const TraceGeometry& geometry, const CutOut& holes,
                                       uint32_t triangle, const Vec3V<hn::Vec<D>>& weights,
@@ -55,14 +51,14 @@ HWY_NOINLINE hn::Mask<D> OutsideHoles(D d, const TraceGeometry& geometry, const 
   hn::Store(weights.x, d, lanes[0]);
   hn::Store(weights.y, d, lanes[1]);
   hn::Store(weights.z, d, lanes[2]);
-  uint32_t there = 0;
+  uint32_t solid = 0;
   for (uint32_t bits = BitsOfMask(d, hits); bits != 0; bits &= bits - 1) {
     const int lane = __builtin_ctz(bits);
-    const bool is_there = IsThere(holes, geometry.positions, geometry.triangles[triangle],
-                                  {lanes[0][lane], lanes[1][lane], lanes[2][lane]});
-    there |= static_cast<uint32_t>(is_there) << lane;
+    const bool is_solid = IsSolidAt(holes, geometry.positions, geometry.triangles[triangle],
+                                    {lanes[0][lane], lanes[1][lane], lanes[2][lane]});
+    solid |= static_cast<uint32_t>(is_solid) << lane;
   }
-  return MaskOfBits(d, there, 0);
+  return MaskOfBits(d, solid, 0);
 }
 
 HWY_INLINE const CutOut* HolesOf(const TraceGeometry& geometry, uint32_t triangle) {
@@ -95,10 +91,10 @@ void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
 
 constexpr double kUnit = 0x1p-53;
 
-// What tells how far points are from a triangle's plane.
+// A triangle's plane, for distances of points from it.
 struct Plane {
-  Vec3d normal;         // e1 x e2, of any length
-  double size1, size2;  // |e1|_1 and |e2|_1: `normal` is off by 4 u times their product
+  Vec3d normal;         // e1 x e2, not normalised
+  double size1, size2;  // |e1|_1 and |e2|_1: the error of `normal` is 4 u times their product
 };
 
 Plane PlaneOf(const Corners& corners) {
@@ -107,32 +103,32 @@ Plane PlaneOf(const Corners& corners) {
           std::abs(e2.x) + std::abs(e2.y) + std::abs(e2.z)};
 }
 
-// Whether points, given by their ways to the corner a, are no further from the plane than `error`
-// times |e1|_1 |e2|_1 / |normal|.
+// Whether points are no further from the plane than `error` times |e1|_1 |e2|_1 / |normal|. `to_a`:
+// the vectors from the points to corner a.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> WithinOfPlane(D d, const Plane& plane, const Vec3V<V>& to_a, V error) {
-  const V scaled_distance = hn::Abs(Dot(to_a, Set3(d, plane.normal)));
+  const V scaled_distance = hn::Abs(Dot(to_a, SetVec3(d, plane.normal)));
   return hn::Le(scaled_distance, hn::Mul(hn::Set(d, plane.size1 * plane.size2), error));
 }
 
-// The lanes whose origin cannot be told from a point of the triangle's plane: their ray starts on
-// this surface (on a neighbour, or on the same triangle given twice), and is not occluded by it.
+// The lanes whose origin lies on the triangle's plane within the rounding error: their ray starts
+// on this surface (on a neighbour, or on the same triangle given twice), and is not occluded by it.
 //
-// The distance times |normal| is to_a . normal. With u = 2^-53, E = |e1|_1 |e2|_1 and R the reach
-// of the primitive that the ray starts on, the origin is off by at most 4 u R, its difference to a
-// corner by another u |to_a|, the normal by 4 u E and the dot product by 3 u |to_a| E: altogether
-// at most 12 u E (R + |to_a|_1).
+// The distance times |normal| is to_a . normal. With u = 2^-53, E = |e1|_1 |e2|_1 and R the upper
+// bound of the coordinates of the primitive that the ray starts on, the origin is off by at most 4
+// u R, its difference to a corner by another u |to_a|, the normal by 4 u E and the dot product by
+// 3 u |to_a| E: altogether at most 12 u E (R + |to_a|_1).
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> StartsOnPlane(D d, const Packet& packet, int lane, const Vec3V<V>& to_a,
                                      const Plane& plane) {
-  const V reach = hn::Add(hn::Load(d, packet.start_reach + lane), SumOfAbs(to_a));
-  return WithinOfPlane(d, plane, to_a, hn::Mul(hn::Set(d, 16 * kUnit), reach));
+  const V extent = hn::Add(hn::Load(d, packet.start_extent + lane), SumOfAbs(to_a));
+  return WithinOfPlane(d, plane, to_a, hn::Mul(hn::Set(d, 16 * kUnit), extent));
 }
 
-// The lanes whose end cannot be told from a point of the plane: the light lies on this surface.
+// The lanes whose end lies on the plane within the rounding error: the light lies on this surface.
 //
-// The end is off by 22 u R at most, as of a sphere (EndsOnSphere), where R is the sum of the
-// origin's, the end's and the camera's coordinates, of the way to the corner and of the edges.
+// The end is off by 22 u R at most, as for spheres (EndsOnSphere), where R is the sum of the
+// origin's, the end's and the camera's coordinates, of the vector to the corner and of the edges.
 // The corners are off by 25 u R: a transform's sines and cosines, and the nine products that it is
 // made of, by 6 u each, on three coordinates, and 7 u for the sums and the camera. With the
 // evaluation's 12 u R altogether at most 59 u E R.
@@ -140,9 +136,9 @@ template <class D, class V = hn::Vec<D>>
 HWY_INLINE hn::Mask<D> EndsOnPlane(D d, const ShadowRaysV<D>& rays, const Vec3V<V>& to_a,
                                    const Plane& plane) {
   const Vec3V<V> from_end = Sub(to_a, ToEnd(rays));
-  const V reach = hn::Add(hn::Add(EndReach(d, rays), SumOfAbs(from_end)),
-                          hn::Set(d, plane.size1 + plane.size2));
-  const auto on = WithinOfPlane(d, plane, from_end, hn::Mul(hn::Set(d, 64 * kUnit), reach));
+  const V extent = hn::Add(hn::Add(EndExtent(d, rays), SumOfAbs(from_end)),
+                           hn::Set(d, plane.size1 + plane.size2));
+  const auto on = WithinOfPlane(d, plane, from_end, hn::Mul(hn::Set(d, 64 * kUnit), extent));
   return hn::And(hn::Lt(rays.t_max, hn::Inf(d)), on);
 }
 
@@ -151,7 +147,7 @@ template <class D>
 HWY_INLINE hn::Mask<D> TouchesPlane(D d, const Packet& packet, int lane, const Corners& corners) {
   const Plane plane = PlaneOf(corners);
   const ShadowRaysV<D> rays = ShadowRaysOf(d, packet, lane);
-  const auto to_a = Sub(Set3(d, corners.a), rays.origin);
+  const auto to_a = Sub(SetVec3(d, corners.a), rays.origin);
   return hn::Or(StartsOnPlane(d, packet, lane, to_a, plane), EndsOnPlane(d, rays, to_a, plane));
 }
 
@@ -181,7 +177,7 @@ HWY_NOINLINE void OccludeByTriangle(const RTCOccludedFunctionNArguments* args,
   ReturnDepths(embree, args->valid, args->ray, args->N);
 }
 
-// Most asked about are the light's own where a light is a mesh: nothing is set up for them.
+// Early out for triangles of the light itself: where a mesh is the light, these are most of them.
 void OccludedByTriangle(const RTCOccludedFunctionNArguments* args) {
   EmbreePacket& embree = PacketOf(args->context);
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);

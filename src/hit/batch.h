@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: camera rays,
-// their closest hits, shaded hits and shadow rays. Data only: made by render and visibility,
-// read by shading, which never includes each other.
+// their closest hits, shaded hits and shadow rays. Data only: render and visibility write them, and
+// shading reads them.
 //
 // All positions are doubles relative to the camera's position ("camera space without rotation"):
 // world position minus camera position, rounded once. Arrays have room for kBatchCapacity entries
@@ -20,19 +20,19 @@
 
 namespace nacre {
 
-// Rays a batch holds at most: all arrays of a batch together stay in L2.
+// The most rays of a batch: all its arrays together fit into the L2 cache.
 inline constexpr size_t kBatchCapacity = 2048;
 static_assert(kBatchCapacity % kBatchPadding == 0);
 
 // Primitives are numbered spheres first, in scene order, then the triangles of all meshes.
 inline constexpr uint32_t kNoPrimitive = 0xffffffffu;
 
-// How far the coordinates' arrays lie apart in a Soa3.
+// The distance between the coordinate arrays of a Soa3, in elements.
 template <typename T>
-inline constexpr size_t kSoaStride = AlignedArray<std::remove_const_t<T>>::Room(kBatchCapacity);
+inline constexpr size_t kSoaStride = AlignedArray<std::remove_const_t<T>>::Capacity(kBatchCapacity);
 
-// Three coordinate arrays. They share one piece of memory, so that loops over several of them keep
-// one address for each Soa3 in a register, not three.
+// Three coordinate arrays in one allocation, so that loops over several Soa3 need one address
+// register for each, not three.
 template <typename T>
 struct Soa3 {
   AlignedArray<T> all{3 * kSoaStride<T>};
@@ -48,8 +48,8 @@ void CopySoa(const Soa3<T>& from, size_t count, Soa3<T>* to) {
   std::copy_n(from.z.data(), count, to->z.data());
 }
 
-// Those arrays, for loops to keep in registers: what a loop stores might be an address that a Soa3
-// holds, for all that the compiler knows.
+// Pointers to those arrays, which loops can keep in registers: the compiler must assume that a
+// store changes the pointers in a Soa3.
 template <typename T>
 struct Pointers3 {
   T* __restrict first;
@@ -68,16 +68,16 @@ Pointers3<T> PointersTo(Soa3<T>* soa) {
   return {soa->all.data()};
 }
 
-// Film positions, in pixels from the top left corner of the full frame, and the numbers of the rays
-// through them, which ascend. Of a round of samples of a tile rays are numbered sample by sample,
-// each of all the tile's pixels row by row; otherwise in their order here.
+// Film positions, in pixels from the top left corner of the full frame, and the indices of the rays
+// through them, in ascending order. The rays of a tile's samples are numbered sample by sample, and
+// within a sample by the tile's pixels row by row; other rays in their order here.
 struct FilmBatch {
   FilmBatch() { NumberInOrder(); }
   void NumberInOrder() { std::iota(ray.begin(), ray.end(), 0u); }
 
   size_t count = 0;  // of rays
-  // Of a tile's pixels those alone have positions here, one behind the other, that a ray may hit
-  // something in: its spans'. Otherwise ray i is the one through position i.
+  // Only the pixels of a tile's spans, in which rays may hit something, have positions here,
+  // without gaps. If false, ray i goes through position i.
   bool only_spans = false;
   // The rays go through the centres of a tile's pixels, row by row: x and y are not filled in.
   bool centers = false;
@@ -90,7 +90,7 @@ struct RayBatch {
   size_t count = 0;
   Soa3<double> origin;  // 0 for a perspective camera
   Soa3<double> direction;
-  FilmView film;  // their frame's; of rays of no frame, the default
+  ProjectedTestView view;  // their camera's; the default for other rays
 };
 
 // For each ray of a RayBatch, the closest hit.
@@ -111,42 +111,42 @@ struct HitBatch {
   bool one_primitive = false;                        // all hits are known to be on the same one
   AlignedArray<uint32_t> ray{kBatchCapacity};        // FilmBatch::ray
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // for excluding itself from its shadow rays
-  // These three are filled where asked for (HitsTo).
+  // Filled on request only (HitOutput).
   Soa3<double> position;  // on the surface
-  // HitDirections in double, for the lobes that are too narrow for float.
+  // HitDirections in double, for lobes that are too sharp for float.
   Soa3<double> normal, to_view;
 };
 
-// Where hits are written to.
-struct HitsTo {
+// The buffers that hits are written to, and which of their optional arrays are filled.
+struct HitOutput {
   HitBatch* hits;
   HitDirections* directions;
-  bool positions;  // HitBatch::position, too
-  bool exact;      // HitBatch::normal and to_view, too
+  bool positions;         // HitBatch::position
+  bool exact_directions;  // HitBatch::normal and to_view
 };
 
 // Shadow rays origin + t direction, 0 < t < t_max.
 inline constexpr uint32_t kAnyLight = 0xffffffffu;
 struct ShadowRayBatch {
   size_t count = 0;
-  // The light that all of them go to, as the intersector numbers those whose occluders it has
-  // found (Intersector::FindOccluders); kAnyLight: not one of these.
+  // The light that all rays go to: its index in Intersector::FindOccluders, or kAnyLight for a
+  // light whose occluders were not searched for.
   uint32_t light = kAnyLight;
-  // They surely leave the spheres that they start on outward, because these were seen from outside
-  // and face the light: such a sphere is then never in the way, whatever the last digit says.
+  // All rays leave the spheres that they start on outward, because these were hit from outside and
+  // face the light. Such a sphere then never occludes its own rays, whatever the rounding.
   bool outward = false;
-  // Primitives of the light itself, which are never in the way of rays to it.
+  // Primitives of the light itself, which never occlude rays to it.
   PrimitiveRange target;
-  // Bounds the camera's coordinates: what the light and the surfaces lost to rounding when they
-  // were made relative to the camera. A surface that the rays end on within rounding, as a ceiling
-  // that a lamp is flush with, is not in their way.
-  double end_reach = 0;
+  // An upper bound of the camera's coordinates. It bounds the rounding errors of the light and of
+  // the surfaces, which were made relative to the camera. A surface on which the rays end within
+  // the rounding error, such as a ceiling that a lamp is flush with, does not occlude them.
+  double camera_extent = 0;
   Soa3<double> origin;     // HitBatch::position
   Soa3<double> direction;  // towards the light, not normalised
-  // 1: a light at origin + direction; or infinity. 0: nobody asks, and nothing is in the way.
+  // 1: a light at origin + direction; or infinity. 0: an inactive ray, which is not occluded.
   AlignedArray<double> t_max{kBatchCapacity};
   AlignedArray<uint32_t> primitive{kBatchCapacity};  // where the ray starts
-  AlignedArray<uint8_t> occluded{kBatchCapacity};    // result: 1 if anything is in the way
+  AlignedArray<uint8_t> occluded{kBatchCapacity};    // the result: 1 if occluded
 };
 
 }  // namespace nacre

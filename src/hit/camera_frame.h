@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit/camera_frame.h: a camera as rays are made from it and spheres are projected by it. Data only,
-// made by render/camera.h.
+// hit/camera_frame.h: a camera as vectors from which rays are made and by which spheres are
+// projected. Data only, made by render/camera.h.
 #pragma once
 
 #include "base/vec.h"
@@ -8,7 +8,7 @@
 
 namespace nacre {
 
-// A camera with its basis worked out, relative to its position. The ray through film position
+// A camera's basis, relative to the camera's position. The ray through film position
 // (x, y), in pixels from the top left corner of the full frame, has the direction
 // corner + x step_x + y step_y from the origin (perspective), or that origin and the direction
 // `forward` (orthographic).
@@ -20,10 +20,11 @@ struct CameraFrame {
   Vec3d step_y;
 };
 
-// What decides how the rays of a frame are tested against a sphere (visibility/film_test.h).
-struct FilmView {
+// Decides which spheres the rays of a camera test in the film plane
+// (visibility/projected_sphere_test.h). The default: none.
+struct ProjectedTestView {
   Vec3d forward{0, 0, 0};
-  double max_scale = 0;  // the largest depth / radius of spheres that have a place on the film
+  double max_scale = 0;  // the largest depth / radius of such spheres
 };
 
 }  // namespace nacre

@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> GrazingView(D d, const Vec3V<V>& normal, const Vec3V<V>& to_view) {
-  const V least = hn::Set(d, kLeastViewCosine);
+  const V least = hn::Set(d, kMinViewCosine);
   const V n_dot_v = Dot(normal, to_view);
   const Vec3V<V> across = Sub(to_view, Scale(normal, hn::Sub(n_dot_v, least)));
   const V inverse = hn::Div(hn::Set(d, 1.0), hn::Sqrt(Dot(across, across)));

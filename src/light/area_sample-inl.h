@@ -64,25 +64,40 @@ HWY_INLINE V LargestComponent(const Vec3V<V>& v) {
   return hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
 }
 
-// A light's lengths divided by the power of two in the largest of them, `unit`, of which the offset
-// from the point is one. What follows multiplies up to five of them, and lengths of 1e-10 or of
-// 1e10 would leave float's range; solid angles and irradiances do not change, and distances are
-// multiples of `unit`. No digit changes where nothing would have left it.
+// A rectangle or a triangle. The scalar twins say which points the corner and the edges span.
+template <class Shape, class V>
+struct FlatLightV {
+  Vec3V<V> corner, edge_x, edge_y;
+};
+
+// The largest length that a light is given by, and the light with all of them multiplied by a
+// factor.
+template <class Shape, class V>
+HWY_INLINE V LargestLength(const FlatLightV<Shape, V>& light) {
+  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
+  return hn::Max(LargestComponent(light.corner), edges);
+}
+template <class Shape, class V>
+HWY_INLINE FlatLightV<Shape, V> Scaled(const FlatLightV<Shape, V>& light, V factor) {
+  return {Scale(light.corner, factor), Scale(light.edge_x, factor), Scale(light.edge_y, factor)};
+}
+
+// A light in units of `unit`, a power of two.
 template <class Light, class V>
-struct InUnitsV {
+struct ScaledLightV {
   Light light;
   V unit;
 };
 
-// Of lights with a corner and two edges: rectangles and triangles.
-template <class D, template <class> class Light, class V>
-requires requires(const Light<V>& light) { light.edge_x; }
-HWY_INLINE InUnitsV<Light<V>, V> InUnits(D d, const Light<V>& light) {
-  const V edges = hn::Max(LargestComponent(light.edge_x), LargestComponent(light.edge_y));
-  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.corner), edges));
-  return {{Scale(light.corner, unit.inverse), Scale(light.edge_x, unit.inverse),
-           Scale(light.edge_y, unit.inverse)},
-          unit.power};
+// Divides a light's lengths by the power of two in the largest of them, of which the offset from
+// the point is one. The formulas below multiply up to five lengths, and with lengths of 1e-10 or
+// 1e10 the products would leave the range of float. Solid angles and irradiances do not change, and
+// distances are multiples of `unit`. Where no product would have left the range, no bit of the
+// results changes. For lights with LargestLength and Scaled.
+template <class D, class Light, class V = hn::Vec<D>>
+HWY_INLINE ScaledLightV<Light, V> ScaleToUnit(D d, const Light& light) {
+  const PowerOfTwoV<V> unit = PowerOfTwo(d, LargestLength(light));
+  return {Scaled(light, unit.inverse), unit.power};
 }
 
 // a + b s.

@@ -2,8 +2,8 @@
 // light/disk_irradiance-inl.h: the irradiance under disks on SIMD vectors. Scalar twin:
 // disk_irradiance.h.
 //
-// Disks that cross the horizon are few, and their formula needs double: those lanes take the scalar
-// twin, one by one.
+// Disks that cross the horizon are rare, and their formula needs double: those lanes are computed
+// one by one with the scalar twin.
 #if defined(NACRE_LIGHT_DISK_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_DISK_IRRADIANCE_INL_H_
 #undef NACRE_LIGHT_DISK_IRRADIANCE_INL_H_
@@ -20,13 +20,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class V>
-struct DiskAboveV {
+struct DiskHorizonTermsV {
   Vec3V<V> n;
   V rho, z, radius, centre_height, rim_height;
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE DiskAboveV<V> DiskAboveHorizon(D d, const DiskLightV<V>& light, const Vec3V<V>& normal) {
+HWY_INLINE DiskHorizonTermsV<V> MakeDiskHorizonTerms(D d, const DiskLightV<V>& light,
+                                                     const Vec3V<V>& normal) {
   const DiskViewV<V> view = ViewOf(d, light);
   const Vec3V<V> n{FusedDot(normal, view.x_axis), FusedDot(normal, view.y_axis),
                    FusedDot(normal, light.normal)};
@@ -39,7 +40,7 @@ HWY_INLINE DiskAboveV<V> DiskAboveHorizon(D d, const DiskLightV<V>& light, const
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V IrradianceOfWholeDisk(D d, const DiskAboveV<V>& disk) {
+HWY_INLINE V IrradianceOfWholeDisk(D d, const DiskHorizonTermsV<V>& disk) {
   const V zero = hn::Zero(d);
   const V one = hn::Set(d, 1.0f);
   const V radius2 = hn::Mul(disk.radius, disk.radius), z2 = hn::Mul(disk.z, disk.z);
@@ -55,9 +56,9 @@ HWY_INLINE V IrradianceOfWholeDisk(D d, const DiskAboveV<V>& disk) {
   return hn::Mul(hn::Mul(pi_radius2, numerator), InverseIfPositive(d, hn::Mul(q, hn::Add(a, q))));
 }
 
-// Replaces the lanes of disks that cross the horizon.
+// Recomputes the lanes of disks that the horizon clips.
 template <class D, class V>
-HWY_NOINLINE void FillRisingDisks(D d, const DiskAboveV<V>& disk, V* irradiance) {
+HWY_NOINLINE void FillClippedDisks(D d, const DiskHorizonTermsV<V>& disk, V* irradiance) {
   constexpr size_t kMaxLanes = 2 * 64 / sizeof(float);
   const V columns[] = {disk.n.x, disk.n.y,    disk.n.z,           disk.rho,
                        disk.z,   disk.radius, disk.centre_height, disk.rim_height};
@@ -66,14 +67,14 @@ HWY_NOINLINE void FillRisingDisks(D d, const DiskAboveV<V>& disk, V* irradiance)
   for (size_t c = 0; c < std::size(columns); ++c) hn::Store(columns[c], d, lanes[c]);
   hn::Store(*irradiance, d, results);
   for (size_t i = 0; i < hn::Lanes(d); ++i) {
-    const DiskAbove<double> lane{{lanes[0][i], lanes[1][i], lanes[2][i]},
-                                 lanes[3][i],
-                                 lanes[4][i],
-                                 lanes[5][i],
-                                 lanes[6][i],
-                                 lanes[7][i]};
+    const DiskHorizonTerms<double> lane{{lanes[0][i], lanes[1][i], lanes[2][i]},
+                                        lanes[3][i],
+                                        lanes[4][i],
+                                        lanes[5][i],
+                                        lanes[6][i],
+                                        lanes[7][i]};
     if (lane.z == 0 || !(std::abs(lane.centre_height) < lane.rim_height)) continue;
-    results[i] = static_cast<float>(IrradianceOfRisingDisk(lane));
+    results[i] = static_cast<float>(IrradianceOfClippedDisk(lane));
   }
   *irradiance = hn::Load(d, results);
 }
@@ -81,12 +82,12 @@ HWY_NOINLINE void FillRisingDisks(D d, const DiskAboveV<V>& disk, V* irradiance)
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Irradiance(D d, const DiskLightV<V>& given, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
-  const DiskLightV<V> light = InUnits(d, given).light;
-  const DiskAboveV<V> disk = DiskAboveHorizon(d, light, normal);
+  const DiskLightV<V> light = ScaleToUnit(d, given).light;
+  const DiskHorizonTermsV<V> disk = MakeDiskHorizonTerms(d, light, normal);
   const auto above = hn::Ge(disk.centre_height, disk.rim_height);
   V irradiance = hn::IfThenElseZero(above, IrradianceOfWholeDisk(d, disk));
-  const auto rising = hn::Lt(hn::Abs(disk.centre_height), disk.rim_height);
-  if (!NoneOf(d, rising)) FillRisingDisks(d, disk, &irradiance);
+  const auto clipped = hn::Lt(hn::Abs(disk.centre_height), disk.rim_height);
+  if (!NoneOf(d, clipped)) FillClippedDisks(d, disk, &irradiance);
   const auto visible = hn::And(hn::Gt(hn::Abs(disk.z), zero), hn::Gt(light.radius, zero));
   return hn::IfThenElseZero(visible, irradiance);
 }

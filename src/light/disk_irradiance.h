@@ -2,12 +2,12 @@
 // light/disk_irradiance.h: the irradiance of a surface under a disk. SIMD twin:
 // disk_irradiance-inl.h.
 //
-// Stokes' theorem makes a contour integral of it, half of that of normal.(r x dr) / r^2 (Fock 1924,
-// Lambert for polygons). Over a circle r^2 = a + b cos(t), and the integral is elementary, also
-// over the arc above the horizon; the chord along the horizon adds its angle.
+// By Stokes' theorem it is half the contour integral of normal.(r x dr) / r^2 (Fock 1924, Lambert
+// for polygons). On a circle r^2 = a + b cos(t), so the integral is elementary, also over the arc
+// above the horizon; the chord along the horizon contributes its angle.
 //
-// In the disk's axes (light/disk_light.h) the shaded point sees the centre at z normal +
-// rho x_axis, and the surface's normal has the components n.
+// In the disk's axes (light/disk_light.h) the offset from the shaded point to the centre is
+// z normal + rho x_axis, and the surface's normal has the components n.
 #pragma once
 
 #include <algorithm>
@@ -19,17 +19,18 @@
 namespace nacre {
 
 template <typename Real>
-struct DiskAbove {
+struct DiskHorizonTerms {
   Imath::Vec3<Real> n;
   Real rho, z, radius;
-  Real centre_height;  // over the horizon
-  Real rim_height;     // of the highest point of the rim over the centre
+  Real centre_height;  // height of the centre over the horizon
+  Real rim_height;     // height of the rim's highest point over the centre
 };
 
 template <typename Real>
-DiskAbove<Real> DiskAboveHorizon(const DiskLight<Real>& light, const Imath::Vec3<Real>& normal) {
+DiskHorizonTerms<Real> MakeDiskHorizonTerms(const DiskLight<Real>& light,
+                                            const Imath::Vec3<Real>& normal) {
   const DiskView<Real> view = ViewOf(light);
-  DiskAbove<Real> disk;
+  DiskHorizonTerms<Real> disk;
   disk.n = {normal ^ view.x_axis, normal ^ view.y_axis, normal ^ light.normal};
   disk.rho = view.rho;
   disk.z = view.z;
@@ -39,10 +40,10 @@ DiskAbove<Real> DiskAboveHorizon(const DiskLight<Real>& light, const Imath::Vec3
   return disk;
 }
 
-// All above the horizon: pi radius^2 (n.z (w + q) + 2 z rho n.x) / (q (a + q)) with
+// A disk above the horizon: pi radius^2 (n.z (w + q) + 2 z rho n.x) / (q (a + q)) with
 // a = z^2 + rho^2 + radius^2, w = z^2 + radius^2 - rho^2, q^2 = a^2 - b^2 = w^2 + (2 z rho)^2.
 template <typename Real>
-Real IrradianceOfWholeDisk(const DiskAbove<Real>& disk) {
+Real IrradianceOfWholeDisk(const DiskHorizonTerms<Real>& disk) {
   const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
   const Real a = z2 + disk.rho * disk.rho + radius2;
   const Real w = z2 + (disk.radius - disk.rho) * (disk.radius + disk.rho);
@@ -60,10 +61,11 @@ Real HeightMoment(Real x) {
   return 2 * y * y * y / 3 - x * (std::acos(x) - x * y);
 }
 
-// A disk across the horizon so small that distance and direction are the same all over it (below
-// 1e-5 of its distance; this is off by 4 times that): the height's first moment over the segment.
+// A disk that the horizon clips, and that is so small (below 1e-5 of its distance) that distance
+// and direction are constant over it: the height's first moment over the segment above the horizon.
+// The relative error is 4 times the ratio of size and distance.
 template <typename Real>
-Real IrradianceOfRisingSpeck(const DiskAbove<Real>& disk) {
+Real IrradianceOfSmallClippedDisk(const DiskHorizonTerms<Real>& disk) {
   const Real x = -disk.centre_height / disk.rim_height;  // the horizon, in radii from the centre
   const Real distance2 = disk.z * disk.z + disk.rho * disk.rho;
   return std::abs(disk.z) * disk.radius * disk.radius * disk.rim_height * HeightMoment(x) /
@@ -79,7 +81,7 @@ struct RimPoint {
 };
 
 template <typename Real>
-RimPoint<Real> RimPointAt(const DiskAbove<Real>& disk, Real t) {
+RimPoint<Real> RimPointAt(const DiskHorizonTerms<Real>& disk, Real t) {
   const Real radius2 = disk.radius * disk.radius, z2 = disk.z * disk.z;
   const Real a = z2 + disk.rho * disk.rho + radius2;
   const Real b = 2 * disk.rho * disk.radius;
@@ -100,11 +102,11 @@ RimPoint<Real> RimPointAt(const DiskAbove<Real>& disk, Real t) {
   return rim;
 }
 
-// The disk cut by the horizon. In double: terms of the order of the disk's angular size cancel to
-// its cube, so at 1e-5 of its distance 6 digits are left.
-inline double IrradianceOfRisingDisk(const DiskAbove<double>& disk) {
+// A disk that the horizon clips. In double only: terms of the order of the disk's angular size
+// cancel to its cube, so that 6 digits are left where it is 1e-5.
+inline double IrradianceOfClippedDisk(const DiskHorizonTerms<double>& disk) {
   const double distance = std::hypot(disk.z, disk.rho);
-  if (disk.radius < 1e-5 * distance) return IrradianceOfRisingSpeck(disk);
+  if (disk.radius < 1e-5 * distance) return IrradianceOfSmallClippedDisk(disk);
   const double highest = std::atan2(disk.n.y, disk.n.x);
   const double half = std::acos(std::fmax(-1, std::fmin(1, -disk.centre_height / disk.rim_height)));
   const RimPoint<double> from = RimPointAt(disk, highest - half);
@@ -122,10 +124,10 @@ inline double IrradianceOfRisingDisk(const DiskAbove<double>& disk) {
 
 template <typename Real>
 Real Irradiance(const DiskLight<Real>& light, const Imath::Vec3<Real>& normal) {
-  const DiskAbove<Real> disk = DiskAboveHorizon(light, normal);
+  const DiskHorizonTerms<Real> disk = MakeDiskHorizonTerms(light, normal);
   if (disk.z == 0 || !(disk.radius > 0) || disk.centre_height <= -disk.rim_height) return 0;
   if (disk.centre_height >= disk.rim_height) return IrradianceOfWholeDisk(disk);
-  return static_cast<Real>(IrradianceOfRisingDisk(
+  return static_cast<Real>(IrradianceOfClippedDisk(
       {Vec3d(disk.n), disk.rho, disk.z, disk.radius, disk.centre_height, disk.rim_height}));
 }
 

@@ -22,11 +22,13 @@ struct DiskLightV {
   V radius;
 };
 
-template <class D, class V>
-HWY_INLINE InUnitsV<DiskLightV<V>, V> InUnits(D d, const DiskLightV<V>& light) {
-  const PowerOfTwoV<V> unit = PowerOfTwo(d, hn::Max(LargestComponent(light.centre), light.radius));
-  return {{Scale(light.centre, unit.inverse), light.normal, hn::Mul(light.radius, unit.inverse)},
-          unit.power};
+template <class V>
+HWY_INLINE V LargestLength(const DiskLightV<V>& light) {
+  return hn::Max(LargestComponent(light.centre), light.radius);
+}
+template <class V>
+HWY_INLINE DiskLightV<V> Scaled(const DiskLightV<V>& light, V factor) {
+  return {Scale(light.centre, factor), light.normal, hn::Mul(light.radius, factor)};
 }
 
 template <class V>
@@ -48,7 +50,6 @@ HWY_INLINE DiskViewV<V> ViewOf(D d, const DiskLightV<V>& light) {
           AddScaled(Scale(basis.y, cos), basis.x, hn::Neg(sin)), rho, centre.z};
 }
 
-// A mask.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE auto IsNearby(D d, const DiskViewV<V>& view, V radius) {
   const V beside = hn::Max(hn::Sub(view.rho, radius), hn::Zero(d));
@@ -80,23 +81,23 @@ HWY_INLINE AreaSampleV<V> SampleDiskByArea(D d, const DiskLightV<V>& light,
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE AreaSampleV<V> SampleLight(D d, const DiskLightV<V>& given, V u0, V u1) {
   const V zero = hn::Zero(d);
-  const auto in_units = InUnits(d, given);
-  const DiskLightV<V>& light = in_units.light;
+  const auto scaled = ScaleToUnit(d, given);
+  const DiskLightV<V>& light = scaled.light;
   const DiskViewV<V> view = ViewOf(d, light);
-  AreaSampleV<V> square = SampleInUnits(d, SquareAround(light, view), u0, u1);
+  AreaSampleV<V> square = SampleScaled(d, SquareAround(light, view), u0, u1);
   const Vec3V<V> from_centre = Sub(Scale(square.to_light, square.distance), light.centre);
   const auto hit = hn::Ge(hn::Mul(light.radius, light.radius), FusedDot(from_centre, from_centre));
   square.inverse_pdf = hn::IfThenElseZero(hit, square.inverse_pdf);
   AreaSampleV<V> sample =
       Select(IsNearby(d, view, light.radius), square, SampleDiskByArea(d, light, view, u0, u1));
-  sample.distance = hn::Mul(sample.distance, in_units.unit);
+  sample.distance = hn::Mul(sample.distance, scaled.unit);
   return SampleIf(d, hn::And(hn::Gt(hn::Abs(view.z), zero), hn::Gt(light.radius, zero)), sample);
 }
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LightPdf(D d, const DiskLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
-  const DiskLightV<V> light = InUnits(d, given).light;
+  const DiskLightV<V> light = ScaleToUnit(d, given).light;
   const V one = hn::Set(d, 1.0f);
   const DiskViewV<V> view = ViewOf(d, light);
   const V towards = FusedDot(direction, light.normal);
@@ -107,7 +108,7 @@ HWY_INLINE V LightPdf(D d, const DiskLightV<V>& given, const Vec3V<V>& direction
   const auto hit = hn::And(ahead, hn::Ge(radius2, FusedDot(from_centre, from_centre)));
   const V area = hn::Mul(hn::Mul(hn::Set(d, kTwoPi / 2), radius2), hn::Abs(towards));
   const V by_area = hn::Mul(hn::Mul(t, t), InverseIfPositive(d, area));
-  const V by_square = PdfInUnits(d, SquareAround(light, view), direction);
+  const V by_square = PdfScaled(d, SquareAround(light, view), direction);
   return hn::IfThenElseZero(hit,
                             hn::IfThenElse(IsNearby(d, view, light.radius), by_square, by_area));
 }

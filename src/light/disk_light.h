@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/disk_light.h: sampling a disk as a light. SIMD twin: disk_light-inl.h.
 //
-// A disk's solid angle takes elliptic integrals, and maps that are uniform in it take their
-// inverses (Guillen et al. 2017). Instead: a disk at some distance is sampled by area, which
-// differs from uniform by the little that cosine and distance vary over it. One nearby, where
-// they vary without bound, is sampled as the square around it, uniform in solid angle, and what
-// misses the disk is no sample: about a fifth. At the seam both have like variance.
+// The solid angle of a disk is an elliptic integral, and a map that is uniform in solid angle needs
+// its inverse (Guillen et al. 2017). Instead, a disk at some distance is sampled by area, which is
+// nearly uniform because cosine and distance vary little over it. A nearby disk, where they vary
+// without bound, is sampled uniformly in solid angle over the square around it, and samples that
+// miss the disk, about a fifth, are discarded. At the transition both have about the same variance.
 #pragma once
 
 #include <cmath>
@@ -23,16 +23,16 @@ struct DiskLight {
   Real radius;
 };
 
-// The disk's own axes, x away from the shaded point, and the point's place in them: the disk's
-// centre is z normal + rho x_axis.
+// The disk's axes, with x pointing away from the shaded point, and the coordinates of its centre in
+// them: z normal + rho x_axis.
 template <typename Real>
 struct DiskView {
   Imath::Vec3<Real> x_axis, y_axis;
   Real rho, z;
 };
 
-// The point's place is taken in axes that are perpendicular to the normal whatever it is: next to
-// the disk's axis, centre - z normal would be rounding and no direction.
+// The centre is first transformed to any basis about the normal: next to the disk's axis,
+// centre - z normal would be all rounding error.
 template <typename Real>
 DiskView<Real> ViewOf(const DiskLight<Real>& light) {
   const Basis<Real> basis = BasisAbout(light.normal);
@@ -47,8 +47,8 @@ DiskView<Real> ViewOf(const DiskLight<Real>& light) {
   return view;
 }
 
-// Whether the disk's nearest point is nearer than 0.7 radii: on its axis, the distance at which a
-// fifth of samples missing costs as much as sampling by area.
+// Whether the disk's nearest point is nearer than 0.7 radii. At that distance, on the disk's axis,
+// losing a fifth of the samples costs as much variance as sampling by area does.
 template <typename Real>
 bool IsNearby(const DiskView<Real>& view, Real radius) {
   const Real beside = std::max(view.rho - radius, static_cast<Real>(0));
@@ -61,7 +61,8 @@ RectangleLight<Real> SquareAround(const DiskLight<Real>& light, const DiskView<R
   return {light.centre - x - y, x * 2, y * 2};
 }
 
-// The solid angle, in double: for choosing among lights, not for sampling. The contour integral of
+// The solid angle, in double, for choosing among lights; sampling does not need it. The contour
+// integral of
 // e.(r x dr) / (r (r + e.r)), e the direction to the centre, which is
 // radius^2 e.normal dt / (r (r + e.r)): nothing cancels. The trapezoidal rule over a period
 // converges exponentially, the slower the nearer the disk is: 1e-10 down to heights of 1/5000 of
@@ -107,7 +108,7 @@ AreaSample<Real> SampleLight(const DiskLight<Real>& light, Real u0, Real u1) {
   return sample;
 }
 
-// Integrates to 1, for a nearby disk to the part of the samples that do not miss.
+// Integrates to 1; for a nearby disk to the fraction of samples that are not discarded.
 template <typename Real>
 Real LightPdf(const DiskLight<Real>& light, const Imath::Vec3<Real>& direction) {
   const DiskView<Real> view = ViewOf(light);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/environment-inl.h: an environment's image on SIMD vectors. Scalar twin: environment.h.
 //
-// Look-ups go lane by lane: a texel is one load of four floats, and a sampled one three random
-// reads, which no gather makes faster.
+// Look-ups are done lane by lane: a texel is one load of four floats, and a sampled one takes three
+// random reads, which gathers do not speed up.
 #if defined(NACRE_LIGHT_ENVIRONMENT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_ENVIRONMENT_INL_H_
 #undef NACRE_LIGHT_ENVIRONMENT_INL_H_
@@ -44,7 +44,7 @@ struct EnvironmentTexelV {
   V red, green, blue, pdf;
 };
 
-// The texels of four arrays' lanes.
+// Loads what StoreTexel has stored for all lanes.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentTexelV<V> LoadTexels(D d, const float (*lanes)[kMaxEnvironmentLanes]) {
   return {hn::Load(d, lanes[0]), hn::Load(d, lanes[1]), hn::Load(d, lanes[2]),
@@ -59,7 +59,7 @@ HWY_INLINE void StoreTexel(const EnvironmentTexel& texel, size_t lane,
   lanes[3][lane] = texel.pdf;
 }
 
-// Radiance and pdf of sampling in these directions.
+// Radiance and sampling pdf of these directions.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentTexelV<V> TexelAt(D d, const EnvironmentMap& map, const Vec3V<V>& direction) {
   const LatLongV<V> at = LatLongFromDirection(d, direction);
@@ -83,8 +83,8 @@ struct EnvironmentSampleV {
   EnvironmentTexelV<V> texel;
 };
 
-// Samples from 32 random bits a number, one a lane: floats have too few for dim texels next to a
-// sun.
+// One sample a lane, from numbers of 32 random bits: the 24 bits of a float would not reach dim
+// texels next to a sun.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE EnvironmentSampleV<V> SampleEnvironment(D d, const EnvironmentMap& map,
                                                    const uint32_t* HWY_RESTRICT bits0,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/environment.cc: prepares an environment's image for sampling.
+// light/environment.cc: prepares an environment image for sampling.
 #include "light/environment.h"
 
 #include "color/luminance.h"

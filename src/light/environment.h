@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/environment.h: light from all round, from a latitude-longitude image: look-up, importance
-// sampling and its pdf. SIMD twin: environment-inl.h. Skies by formula: light/sky.h.
+// light/environment.h: light from all directions, given by a latitude-longitude image: look-up,
+// importance sampling and its pdf. SIMD twin: environment-inl.h. Analytic skies: light/sky.h.
 //
 // y is up. Row 0 of the image is +y, its left edge -z, its middle +z, and u runs towards +x:
 //   direction(u, v) = (sin 2 pi u sin pi v, cos pi v, -cos 2 pi u sin pi v),   u, v in [0, 1].
 //
-// Every texel is one radiance over its own solid angle: piecewise constant, looked up by nearest.
-// That is what sampling has pdfs for: luminance times solid angle, exactly, and within a texel
-// evenly per solid angle. A bilinear look-up of the same image is another function, close to it,
-// but bright also inside texels that are black here and thus are never sampled.
+// The radiance is constant over the solid angle of each texel (nearest look-up). Importance
+// sampling matches it exactly: a texel is chosen by luminance times solid angle, and the direction
+// is uniform in its solid angle. A bilinear look-up would also be bright inside of black texels,
+// which are never sampled.
 #pragma once
 
 #include <algorithm>
@@ -28,9 +28,9 @@ struct EnvironmentTexel {
   float pdf;
 };
 
-// 1 - |cos(theta)| at both edges of a row, and the sign of cos(theta): the cosine itself would be
-// rounded away at the poles. A row across the equator has cosines above 0, and 1 - cos up to
-// over 1.
+// 1 - |cos(theta)| at both edges of a row, and the sign of cos(theta); the cosine itself loses its
+// digits at the poles. A row across the equator has the sign of its upper edge, and 1 - cos exceeds
+// 1 at its lower one.
 struct EnvironmentRow {
   float first, last;
   float sign;
@@ -48,7 +48,7 @@ struct EnvironmentMap {
 // Texels in rows from +y on; radiances >= 0 and finite. The map takes 32 bytes a texel.
 EnvironmentMap MakeEnvironmentMap(int width, int height, std::span<const Vec3f> texels);
 
-// Of any texel of this row of an image of this size.
+// The solid angle of each texel in a row of an image of this size.
 double TexelSolidAngle(int width, int height, int row);
 
 template <typename Real>
@@ -63,7 +63,7 @@ Imath::Vec3<Real> DirectionFromLatLong(Real u, Real v) {
   return {std::sin(2 * pi * u) * sin, std::cos(pi * v), -std::cos(2 * pi * u) * sin};
 }
 
-// u in [0, 1), v in [0, 1]. Arc tangents: an arc cosine of y has no digits at the poles.
+// u in [0, 1), v in [0, 1]. By arc tangents, because acos(y) loses its digits at the poles.
 template <typename Real>
 LatLong<Real> LatLongFromDirection(const Imath::Vec3<Real>& direction) {
   const Real pi = static_cast<Real>(M_PI);
@@ -81,10 +81,10 @@ const EnvironmentTexel& TexelAt(const EnvironmentMap& map, const Imath::Vec3<Rea
       .texels[static_cast<size_t>(y) * static_cast<size_t>(map.width) + static_cast<size_t>(x)];
 }
 
-// A texel drawn by its luminance and solid angle, and where in it a sample lies.
+// A texel chosen by its luminance times its solid angle, and the sample's position in it.
 struct EnvironmentPick {
   EnvironmentTexel texel;
-  double u;              // of the image
+  double u;              // image coordinate
   double one_minus_cos;  // 1 - |cos(theta)|, as in EnvironmentRow
   double sign;
 };
@@ -95,8 +95,8 @@ inline EnvironmentPick PickTexel(const EnvironmentMap& map, double u0, double u1
   const CdfPick column = PickIndex({map.column_tables.data() + row.index * width, width}, u0);
   const EnvironmentRow& edges = map.rows[row.index];
   return {map.texels[row.index * width + column.index],
-          (column.index + column.rest) / static_cast<double>(width),
-          edges.first + row.rest * (double{edges.last} - edges.first), edges.sign};
+          (column.index + column.remapped) / static_cast<double>(width),
+          edges.first + row.remapped * (double{edges.last} - edges.first), edges.sign};
 }
 
 template <typename Real>
@@ -105,8 +105,8 @@ struct EnvironmentSample {
   EnvironmentTexel texel{0, 0, 0, 0};  // its pdf is the sample's; 0: no sample
 };
 
-// A direction to the environment by importance. None from a black one. The two numbers want 32
-// bits: 24 do not reach dim texels next to a sun.
+// A direction by importance sampling; no sample if the environment is black. u0 and u1 should have
+// 32 random bits: 24 do not reach dim texels next to a sun.
 template <typename Real>
 EnvironmentSample<Real> SampleEnvironment(const EnvironmentMap& map, double u0, double u1) {
   if (map.is_black) return {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_light-inl.h: the triangles of a light that a packet of rays meets. Scalar twin:
-// FindMeetings of mesh_light.h, bit for bit. The rays walk the tree together: a box is opened, and
-// a triangle tried, if any of them asks for it.
+// light/mesh_light-inl.h: the triangles of a mesh light that a vector of rays hits. Scalar twin:
+// FindMeshLightHits of mesh_light.h, bit for bit. The rays traverse the tree together: a box is
+// entered, and a triangle tested, if any of them needs it.
 #if defined(NACRE_LIGHT_MESH_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_MESH_LIGHT_INL_H_
 #undef NACRE_LIGHT_MESH_LIGHT_INL_H_
@@ -19,7 +19,7 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rays from points, relative to the light's origin, in double.
+// Rays, relative to the light's origin, in double. `inverse`: reciprocals of the directions.
 template <class V>
 struct LightRaysV {
   Vec3V<V> point, direction, inverse;
@@ -37,7 +37,7 @@ HWY_INLINE LightRaysV<V> MakeLightRays(D d, const Vec3V<V>& point, const Vec3V<V
 }
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE auto MeetsBox(D d, const MeshLightNode& box, const LightRaysV<V>& rays) {
+HWY_INLINE auto IntersectsBox(D d, const MeshLightNode& box, const LightRaysV<V>& rays) {
   V near = hn::Zero(d), far = hn::Set(d, std::numeric_limits<double>::infinity());
   const auto cut = [&](double low, double high, V point, V inverse) HWY_ATTR {
     const V a = hn::Mul(hn::Sub(hn::Set(d, low), point), inverse);
@@ -51,18 +51,18 @@ HWY_INLINE auto MeetsBox(D d, const MeshLightNode& box, const LightRaysV<V>& ray
   return hn::Le(near, hn::Mul(far, hn::Set(d, kSlabRounding)));
 }
 
-// Where rays meet a triangle: at which multiple of their directions (valid where `met`), and
-// towards which side of it they go: negative, against its front.
+// Hits of rays on a triangle: t in units of the direction, valid where `hit`; and the product of
+// the direction and the triangle's normal, negative where a ray meets its front.
 template <class M, class V>
-struct TriangleMeetingV {
-  M met;
+struct MeshLightHitV {
+  M hit;
   V t, towards;
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE TriangleMeetingV<hn::Mask<D>, V> MeetTriangle(D d, const TriangleLight<double>& t,
-                                                         const Vec3d& cross,
-                                                         const LightRaysV<V>& rays) {
+HWY_INLINE MeshLightHitV<hn::Mask<D>, V> IntersectLightTriangle(D d, const TriangleLight<double>& t,
+                                                                const Vec3d& cross,
+                                                                const LightRaysV<V>& rays) {
   const V zero = hn::Zero(d);
   const Vec3V<V> corner = Sub(SetVec3(d, t.corner), rays.point);
   const Vec3V<V> normal = SetVec3(d, cross);
@@ -74,30 +74,30 @@ HWY_INLINE TriangleMeetingV<hn::Mask<D>, V> MeetTriangle(D d, const TriangleLigh
   const V y = hn::IfThenElse(back, along_x, hn::Neg(along_x));
   const V size = hn::Abs(towards);
   const auto in_angle = hn::And(hn::Ge(x, zero), hn::Ge(y, zero));
-  const auto met = hn::And(hn::And(in_angle, hn::Le(hn::Add(x, y), size)), hn::Gt(size, zero));
-  if (hn::AllFalse(d, met)) return {met, zero, towards};
-  const V t_met = hn::Div(Dot(corner, normal), hn::IfThenElse(met, towards, hn::Set(d, 1.0)));
-  return {hn::And(met, hn::Gt(t_met, zero)), t_met, towards};
+  const auto line_hit = hn::And(hn::And(in_angle, hn::Le(hn::Add(x, y), size)), hn::Gt(size, zero));
+  if (hn::AllFalse(d, line_hit)) return {line_hit, zero, towards};
+  const V t_hit = hn::Div(Dot(corner, normal), hn::IfThenElse(line_hit, towards, hn::Set(d, 1.0)));
+  return {hn::And(line_hit, hn::Gt(t_hit, zero)), t_hit, towards};
 }
 
-// Calls found(triangle, meeting) for the triangles that any of the lanes' rays meets.
+// Calls found(triangle, hit) for the triangles that any lane's ray hits.
 template <class D, class V, class Found>
-HWY_INLINE void ForEachMeeting(D d, const MeshLight& light, const LightRaysV<V>& rays,
-                               const Found& found) {
+HWY_INLINE void ForEachMeshLightHit(D d, const MeshLight& light, const LightRaysV<V>& rays,
+                                    const Found& found) {
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
     const MeshLightNode& node = light.tree[stack[--size]];
-    if (hn::AllFalse(d, MeetsBox(d, node, rays))) continue;
+    if (hn::AllFalse(d, IntersectsBox(d, node, rays))) continue;
     if (node.child != 0) {
       stack[size++] = node.child;
       stack[size++] = node.child + 1;
       continue;
     }
     for (uint32_t i = node.begin; i < node.end; ++i) {
-      const auto meeting = MeetTriangle(d, light.triangles[i], light.crosses[i], rays);
-      if (!hn::AllFalse(d, meeting.met)) found(i, meeting);
+      const auto hit = IntersectLightTriangle(d, light.triangles[i], light.crosses[i], rays);
+      if (!hn::AllFalse(d, hit.hit)) found(i, hit);
     }
   }
 }

@@ -10,7 +10,7 @@ namespace nacre {
 namespace {
 
 constexpr uint32_t kLeafSize = 4;
-constexpr double kBoxMargin = 0x1p-50;  // over the mesh's size: some last digits
+constexpr double kBoxMargin = 0x1p-50;  // relative to the mesh's size: a few roundings
 
 struct Box {
   Vec3d low{std::numeric_limits<double>::infinity()};
@@ -29,9 +29,9 @@ struct Box {
   }
 };
 
-Vec3d Middle(const TriangleLight<double>& t) { return t.corner + (t.edge_x + t.edge_y) / 3; }
+Vec3d Centroid(const TriangleLight<double>& t) { return t.corner + (t.edge_x + t.edge_y) / 3; }
 
-// Halves the triangles at the median along the longest side of their middles' box, until few are
+// Splits the triangles at the median along the longest side of their centroids' box, until few are
 // left. Sorts `order`.
 class TreeBuilder {
  public:
@@ -42,7 +42,7 @@ class TreeBuilder {
   void Build() {
     tree_.emplace_back();
     Split(0, 0, static_cast<uint32_t>(order_.size()));
-    // A ray in the plane of a box's side is in the box: so that it is not asked 0 times infinity.
+    // The margin keeps rays in the plane of a side inside of the box, as SlabInverse requires.
     const Vec3d margin(kBoxMargin * (tree_[0].high - tree_[0].low).length());
     for (MeshLightNode& node : tree_) {
       node.low -= margin;
@@ -52,19 +52,19 @@ class TreeBuilder {
 
  private:
   void Split(size_t node, uint32_t begin, uint32_t end) {
-    Box box, middles;
+    Box box, centroids;
     for (uint32_t i = begin; i < end; ++i) {
       box.Add(triangles_[order_[i]]);
-      middles.Add(Middle(triangles_[order_[i]]));
+      centroids.Add(Centroid(triangles_[order_[i]]));
     }
     tree_[node] = {box.low, box.high, begin, end, 0};
     if (end - begin <= kLeafSize) return;
-    const Vec3d size = middles.high - middles.low;
+    const Vec3d size = centroids.high - centroids.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const uint32_t half = begin + (end - begin) / 2;
     std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
                      [&](uint32_t a, uint32_t b) {
-                       return Middle(triangles_[a])[axis] < Middle(triangles_[b])[axis];
+                       return Centroid(triangles_[a])[axis] < Centroid(triangles_[b])[axis];
                      });
     const auto child = static_cast<uint32_t>(tree_.size());
     tree_[node].child = child;
@@ -78,11 +78,13 @@ class TreeBuilder {
   std::vector<MeshLightNode>& tree_;
 };
 
-// How far corners of a plane may be off it, over the mesh's size: files have floats. A step of that
-// height hides something from points that see the mesh at slopes below it, which get as little.
+// The tolerance of corners from a plane, relative to the mesh's size, because files hold floats. A
+// step of that height hides parts of the mesh only from points that see it at smaller slopes, which
+// get as little light.
 constexpr double kFlat = 1e-7;
 
-// The largest height of any corner over a triangle's plane, and the lowest, over the mesh's size.
+// The largest and the smallest height of any corner over any triangle's plane, relative to the
+// mesh's size.
 struct Heights {
   double highest = 0, lowest = 0;
 };
@@ -105,12 +107,12 @@ Heights FindHeights(const MeshLight& light) {
   return heights;
 }
 
-// 1 / x, with a number for infinity, for which 0 times it is one, too.
+// 1 / x, and a large finite number for x = 0: 0 times it is 0.
 double SlabInverse(double x) { return x == 0 ? kSlabInfinity : 1 / x; }
 
-// Ize 2013, "Robust BVH Ray Traversal": the far end times 1 + 2 gamma(3), so that no box is missed
-// by the rounding of its slabs.
-bool MeetsBox(const MeshLightNode& box, const Vec3d& point, const Vec3d& inverse) {
+// Ize 2013, "Robust BVH Ray Traversal": the far end is multiplied by 1 + 2 gamma(3), so that no box
+// is missed because of rounding.
+bool IntersectsBox(const MeshLightNode& box, const Vec3d& point, const Vec3d& inverse) {
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (int c = 0; c < 3; ++c) {
     const double a = (box.low[c] - point[c]) * inverse[c];
@@ -121,9 +123,9 @@ bool MeetsBox(const MeshLightNode& box, const Vec3d& point, const Vec3d& inverse
   return near <= far * kSlabRounding;
 }
 
-// Where the ray meets the triangle's plane in it (Cramer), edges included; 0 if it does not.
-double MeetTriangle(const TriangleLight<double>& t, const Vec3d& cross, const Vec3d& point,
-                    const Vec3d& direction) {
+// The t at which the ray hits the triangle, edges included, by Cramer's rule; 0 if it misses.
+double IntersectLightTriangle(const TriangleLight<double>& t, const Vec3d& cross,
+                              const Vec3d& point, const Vec3d& direction) {
   const Vec3d corner = t.corner - point;
   const double towards = direction ^ cross;
   if (towards == 0) return 0;
@@ -163,7 +165,7 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
   }
   for (double& probability : light.probabilities) probability /= sum;
   light.by_area = MakeInverseCdf(light.probabilities);
-  if (light.triangles.size() <= kMostClosedTriangles) {
+  if (light.triangles.size() <= kMaxClosedFormTriangles) {
     const Heights heights = FindHeights(light);
     light.is_convex = heights.highest <= kFlat;
     light.is_flat = light.is_convex && heights.lowest >= -kFlat;
@@ -173,24 +175,25 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
   return light;
 }
 
-void FindMeetings(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
-                  std::vector<MeshLightMeeting>* meetings) {
-  meetings->clear();
+void FindMeshLightHits(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
+                       std::vector<MeshLightHit>* hits) {
+  hits->clear();
   const Vec3d inverse(SlabInverse(direction.x), SlabInverse(direction.y), SlabInverse(direction.z));
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;
   while (size > 0) {
     const MeshLightNode& node = light.tree[stack[--size]];
-    if (!MeetsBox(node, point, inverse)) continue;
+    if (!IntersectsBox(node, point, inverse)) continue;
     if (node.child != 0) {
       stack[size++] = node.child;
       stack[size++] = node.child + 1;
       continue;
     }
     for (uint32_t i = node.begin; i < node.end; ++i) {
-      const double t = MeetTriangle(light.triangles[i], light.crosses[i], point, direction);
-      if (t > 0) meetings->push_back({i, t});
+      const double t =
+          IntersectLightTriangle(light.triangles[i], light.crosses[i], point, direction);
+      if (t > 0) hits->push_back({i, t});
     }
   }
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_light.h: triangles as one light. SIMD twin: mesh_light-inl.h. Directions to it are
-// chosen by choosing a triangle, by its area, and then in the triangle (light/triangle_light.h);
-// what is seen along a direction is the nearest triangle.
+// light/mesh_light.h: a triangle mesh as one light. SIMD twin: mesh_light-inl.h. A sample chooses a
+// triangle by area, and then a direction to it (light/triangle_light.h); the radiance is that of
+// the nearest triangle along the direction.
 //
-// A direction's pdf is the sum over all triangles that lie along it, as each could have led to
-// it: so it does not matter which one did, or how many a direction crosses. Half of a closed mesh's
-// triangles face away from the point, and no sample of those is lost.
+// The pdf of a direction is the sum over all triangles that it crosses, because each of them
+// could have been chosen. Samples are therefore valid whichever triangle was chosen, also if it
+// faces away from the point, as half of a closed mesh's triangles do.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@
 
 namespace nacre {
 
-// A box around triangles [begin, end) of a tree's order. Inner boxes have two children, `child` and
-// the one after it.
+// A node of a bounding volume hierarchy: the box of triangles [begin, end). Inner nodes have two
+// children, `child` and the one after it.
 struct MeshLightNode {
   Vec3d low, high;
   uint32_t begin = 0, end = 0;
@@ -32,37 +32,38 @@ struct MeshLight {
   std::vector<double> probabilities;             // area over the sum of all
   std::vector<CdfEntry> by_area;
   std::vector<MeshLightNode> tree;
-  // Whether no front hides another front from any point: no corner is before a triangle's plane.
-  // And whether none is behind one either.
+  // Convex: no corner lies in front of any triangle's plane, so that from no point a front face
+  // hides another one. Flat: no corner lies behind one either.
   bool is_convex = false;
   bool is_flat = false;
   MeshOutline outline;  // of convex solids and polygons; else empty
 };
 
-// In the place of 1 / 0 where a ray lies along a slab of a box.
+// Replaces 1 / 0 where a ray is parallel to a slab of a box, because 0 times infinity is NaN.
 inline constexpr double kSlabInfinity = 1e300;
 inline constexpr double kSlabRounding = 1 + 2 * 3 * 0x1p-52;
 
-// The deepest that a tree's stack gets: a tree of halves is no deeper than its count has bits.
+// The size of the traversal stack: a tree that is split into halves is no deeper than the number of
+// bits of its count.
 inline constexpr size_t kMeshLightStack = 64;
 
-// Meshes of more triangles are never tried for being convex: their irradiance in closed form, a sum
-// over all, takes longer than samples.
-inline constexpr size_t kMostClosedTriangles = 64;
+// Meshes with more triangles are not checked for convexity: summing their irradiance in closed form
+// over all triangles takes longer than sampling.
+inline constexpr size_t kMaxClosedFormTriangles = 64;
 
-// Of corners relative to `origin`. Triangles without an area are left out; at least one has some.
+// The corners become relative to `origin`. Triangles without area are left out; at least one must
+// have area.
 MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32_t> triangles,
                         const Vec3d& origin);
 
-// A triangle that a ray from `point` meets, seen from either side, and at which multiple of the
-// direction's length.
-struct MeshLightMeeting {
+// A hit of a ray on a triangle, from either side.
+struct MeshLightHit {
   uint32_t triangle;
-  double t;  // > 0
+  double t;  // > 0, in units of the direction
 };
 
-// Puts all that the ray meets, in any order, into `meetings`.
-void FindMeetings(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
-                  std::vector<MeshLightMeeting>* meetings);
+// Sets `hits` to all hits of the ray, in any order.
+void FindMeshLightHits(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
+                       std::vector<MeshLightHit>* hits);
 
 }  // namespace nacre

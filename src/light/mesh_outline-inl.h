@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_outline-inl.h: the irradiance of convex meshes on SIMD vectors, by their outlines:
-// the sum of their triangles', without the edges that two of them share. The terms, and why they
-// come in two forms: polygon_irradiance.h.
+// light/mesh_outline-inl.h: the irradiance of convex meshes on SIMD vectors, by their outlines: the
+// sum over the edges of all triangles that face the point, in which edges shared by two of them
+// cancel. polygon_irradiance.h derives the terms of an edge, and why they come in two forms.
 #if defined(NACRE_LIGHT_MESH_OUTLINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_MESH_OUTLINE_INL_H_
 #undef NACRE_LIGHT_MESH_OUTLINE_INL_H_
@@ -19,29 +19,29 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A mesh's corners as points see them: where the first is, and from there the ways to all, in
-// space and on the unit sphere.
+// A mesh's corners relative to shaded points: the first corner, and the offsets from it to all
+// corners, in space and projected to the unit sphere.
 template <class V>
-struct SeenCornersV {
+struct OutlineCornersV {
   Vec3V<V> first;
-  std::array<Vec3V<V>, kMostOutlineCorners> offset, way;
+  std::array<Vec3V<V>, kMaxOutlineCorners> offset, unit_offset;
 };
 
-// What the corners say about a surface: whether the light is cut by its horizon or low over it, so
-// that its irradiance asks for the terms of SectorIrradiance, and whether it is visible at all.
+// The light relative to a surface's horizon: whether it is visible at all, and whether the horizon
+// clips it or it is low over the horizon, so that its irradiance needs SectorIrradiance.
 template <class M>
 struct HorizonV {
-  M visible, special;
+  M visible, needs_sectors;
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE auto FindHorizon(D d, const SeenCornersV<V>& seen, size_t count, const Vec3V<V>& pivot,
-                            const Vec3V<V>& normal) {
+HWY_INLINE auto FindHorizon(D d, const OutlineCornersV<V>& seen, size_t count,
+                            const Vec3V<V>& pivot, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
   V size2 = zero, highest = zero, lowest = zero;
   for (size_t i = 0; i < count; ++i) {
-    const V height = FusedDot(normal, Add(pivot, seen.way[i]));
-    size2 = hn::Max(size2, FusedDot(seen.way[i], seen.way[i]));
+    const V height = FusedDot(normal, Add(pivot, seen.unit_offset[i]));
+    size2 = hn::Max(size2, FusedDot(seen.unit_offset[i], seen.unit_offset[i]));
     highest = hn::Max(highest, height);
     lowest = hn::Min(lowest, height);
   }
@@ -50,24 +50,25 @@ HWY_INLINE auto FindHorizon(D d, const SeenCornersV<V>& seen, size_t count, cons
   return HorizonV<hn::Mask<D>>{hn::Gt(highest, zero), low};
 }
 
-// An edge of the mesh, and where it is one of the outline: from `a` to `b` for points that see its
-// left face, from `b` to `a` for those that see its right one.
+// An edge of the mesh from `a` to `b`, oriented so that the face that the point sees is on its
+// left; and whether it belongs to the silhouette: the point sees one of its faces and not the
+// other.
 template <class M, class V>
-struct BorderV {
-  M on;
+struct SilhouetteEdgeV {
+  M is_silhouette;
   Vec3V<V> a, b;
 };
 
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE auto FindBorder(D d, const OutlineEdge& edge, const V* faces,
-                           const std::array<Vec3V<V>, kMostOutlineCorners>& corners) {
+HWY_INLINE auto FindSilhouetteEdge(D d, const OutlineEdge& edge, const V* faces,
+                                   const std::array<Vec3V<V>, kMaxOutlineCorners>& corners) {
   const V zero = hn::Zero(d);
   const V left = faces[edge.left];
   const V right = edge.right == kNoFace ? zero : faces[edge.right];
   const auto ahead = hn::Gt(left, zero);
-  return BorderV<hn::Mask<D>, V>{hn::Ne(left, right),
-                                 Select(ahead, corners[edge.from], corners[edge.to]),
-                                 Select(ahead, corners[edge.to], corners[edge.from])};
+  return SilhouetteEdgeV<hn::Mask<D>, V>{hn::Ne(left, right),
+                                         Select(ahead, corners[edge.from], corners[edge.to]),
+                                         Select(ahead, corners[edge.to], corners[edge.from])};
 }
 
 template <class M, class V>
@@ -77,34 +78,36 @@ HWY_INLINE EdgeSumsV<V> Select(M mask, const EdgeSumsV<V>& yes, const EdgeSumsV<
           Select(mask, yes.leaves, no.leaves)};
 }
 
-// The general sum, where the horizon cuts the outline of some lanes, or nearly. `orientation` is
-// negative where the outline goes round the light's front.
+// The general sum, needed where the horizon clips the outline of some lanes, or nearly does.
+// `orientation` is negative where the outline runs around the light's front.
 template <class D, class V = hn::Vec<D>, class M>
-HWY_INLINE V SumCutOutline(D d, const MeshOutline& outline, const SeenCornersV<V>& seen,
-                           const V* faces, V orientation, M special, const Vec3V<V>& pivot,
+HWY_INLINE V SumCutOutline(D d, const MeshOutline& outline, const OutlineCornersV<V>& seen,
+                           const V* faces, V orientation, M needs_sectors, const Vec3V<V>& pivot,
                            const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
-  V around = hn::Set(d, 1.0f);
+  V overhead = hn::Set(d, 1.0f);  // 1 where the normal meets the light
   const Vec3V<V> none{zero, zero, zero};
   EdgeSumsV<V> sums{zero, zero, none, none};
   for (const OutlineEdge& edge : outline.edges) {
-    const auto border = FindBorder(d, edge, faces, seen.offset);
-    if (NoneOf(d, border.on)) continue;
+    const auto silhouette = FindSilhouetteEdge(d, edge, faces, seen.offset);
+    if (NoneOf(d, silhouette.is_silhouette)) continue;
     EdgeSumsV<V> more = sums;
-    AddEdge(d, seen.first, pivot, border.a, border.b, normal, &more);
-    sums = Select(border.on, more, sums);
-    const V side = TripleProduct(normal, Add(seen.first, border.a), Sub(border.b, border.a));
+    AddEdge(d, seen.first, pivot, silhouette.a, silhouette.b, normal, &more);
+    sums = Select(silhouette.is_silhouette, more, sums);
+    const V side =
+        TripleProduct(normal, Add(seen.first, silhouette.a), Sub(silhouette.b, silhouette.a));
     const auto inside = hn::Gt(hn::Mul(orientation, side), zero);
-    around = hn::IfThenElse(border.on, hn::IfThenElseZero(inside, around), around);
+    overhead =
+        hn::IfThenElse(silhouette.is_silhouette, hn::IfThenElseZero(inside, overhead), overhead);
   }
   const V closed = hn::Add(sums.chords, EdgeIrradiance(d, pivot, sums.leaves, sums.enters, normal));
-  const auto by_sectors = hn::And(special, hn::Eq(around, zero));
+  const auto by_sectors = hn::And(needs_sectors, hn::Eq(overhead, zero));
   return hn::IfThenElse(by_sectors, sums.sectors, closed);
 }
 
-// faces[i] is 1 where face i of the mesh shines towards the point, and 0 elsewhere.
+// faces[i] is 1 where face i of the mesh emits towards the point, and 0 elsewhere.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V Irradiance(D d, const MeshOutline& outline, const SeenCornersV<V>& seen,
+HWY_INLINE V Irradiance(D d, const MeshOutline& outline, const OutlineCornersV<V>& seen,
                         const V* faces, V orientation, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
   const V half = hn::Set(d, 0.5f);
@@ -113,15 +116,15 @@ HWY_INLINE V Irradiance(D d, const MeshOutline& outline, const SeenCornersV<V>& 
   const auto horizon = FindHorizon(d, seen, outline.corners.size(), pivot, normal);
   if (NoneOf(d, horizon.visible)) return zero;
   V sum = zero;
-  if (NoneOf(d, hn::And(horizon.special, horizon.visible))) {
+  if (NoneOf(d, hn::And(horizon.needs_sectors, horizon.visible))) {
     for (const OutlineEdge& edge : outline.edges) {
-      const auto border = FindBorder(d, edge, faces, seen.way);
-      if (NoneOf(d, border.on)) continue;
-      const V value = EdgeIrradiance(d, pivot, border.a, border.b, normal);
-      sum = hn::Add(sum, hn::IfThenElseZero(border.on, value));
+      const auto silhouette = FindSilhouetteEdge(d, edge, faces, seen.unit_offset);
+      if (NoneOf(d, silhouette.is_silhouette)) continue;
+      const V value = EdgeIrradiance(d, pivot, silhouette.a, silhouette.b, normal);
+      sum = hn::Add(sum, hn::IfThenElseZero(silhouette.is_silhouette, value));
     }
   } else {
-    sum = SumCutOutline(d, outline, seen, faces, orientation, horizon.special, pivot, normal);
+    sum = SumCutOutline(d, outline, seen, faces, orientation, horizon.needs_sectors, pivot, normal);
   }
   return hn::IfThenElseZero(horizon.visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
 }

@@ -11,7 +11,7 @@ namespace {
 
 using Corners = std::array<uint32_t, 3>;
 
-// Corners at one place are one, whatever number files give them.
+// Assigns one index to all vertices at the same position.
 class CornerNumbers {
  public:
   explicit CornerNumbers(std::vector<Vec3d>* corners) : corners_(*corners) {}
@@ -27,7 +27,7 @@ class CornerNumbers {
   std::vector<Vec3d>& corners_;
 };
 
-// Pairs the triangles' edges up. Returns false if one is there twice the same way round.
+// Pairs up the triangles' edges. Returns false if two triangles have an edge in the same direction.
 bool FindEdges(const std::vector<Corners>& faces, std::vector<OutlineEdge>* edges) {
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> left;
   for (size_t i = 0; i < faces.size(); ++i) {
@@ -48,7 +48,7 @@ bool FindEdges(const std::vector<Corners>& faces, std::vector<OutlineEdge>* edge
   return true;
 }
 
-// How many pieces the faces make that edges join.
+// The number of connected components of the faces (union-find).
 size_t CountPieces(const MeshOutline& outline) {
   std::vector<uint32_t> piece(outline.faces.size());
   for (uint32_t i = 0; i < piece.size(); ++i) piece[i] = i;
@@ -66,29 +66,29 @@ size_t CountPieces(const MeshOutline& outline) {
   return pieces;
 }
 
-// Euler's formula: convex faces that close around a ball once, not twice or with a hole.
+// Euler's formula: the faces enclose one ball exactly once, without a hole.
 bool IsSolid(const MeshOutline& outline) {
   const auto closed = [](const OutlineEdge& edge) { return edge.right != kNoFace; };
   return std::all_of(outline.edges.begin(), outline.edges.end(), closed) &&
          outline.corners.size() + outline.faces.size() == outline.edges.size() + 2;
 }
 
-// Whether no corner is to the right of an edge of the border, as seen from the side that all faces
-// are on.
+// Whether all faces have the same side, and no corner lies to the right of a border edge as seen
+// from there.
 bool IsConvexPolygon(const MeshOutline& outline) {
   const Vec3d& up = outline.faces[0].cross;
   for (const OutlineFace& face : outline.faces) {
     if (!((face.cross ^ up) > 0)) return false;
   }
-  // A notch of this part of the polygon's area is the rounding of corners in files.
+  // The tolerance for corners that are rounded in files, relative to the squared edge length.
   constexpr double kRounding = 1e-7;
   for (const OutlineEdge& edge : outline.edges) {
     if (edge.right != kNoFace) continue;
     const Vec3d& from = outline.corners[edge.from];
-    const Vec3d way = outline.corners[edge.to] - from;
+    const Vec3d along = outline.corners[edge.to] - from;
     for (const Vec3d& corner : outline.corners) {
-      const double across = up ^ (way % (corner - from));
-      if (across < -kRounding * up.length() * way.length2()) return false;
+      const double across = up ^ (along % (corner - from));
+      if (across < -kRounding * up.length() * along.length2()) return false;
     }
   }
   return outline.corners.size() + outline.faces.size() == outline.edges.size() + 1;
@@ -112,7 +112,7 @@ MeshOutline MakeMeshOutline(std::span<const Vec3d> positions, std::span<const ui
     outline.faces.push_back({faces.back()[0], cross});
   }
   const bool known = FindEdges(faces, &outline.edges) && CountPieces(outline) == 1 &&
-                     outline.corners.size() <= kMostOutlineCorners &&
+                     outline.corners.size() <= kMaxOutlineCorners &&
                      (is_flat ? IsConvexPolygon(outline) : IsSolid(outline));
   if (!known) return {};
   for (Vec3d& corner : outline.corners) corner -= origin;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_outline.h: meshes that are seen from anywhere as one convex outline: closed convex
-// solids and convex polygons. Their irradiance is a sum over the outline's edges alone, which are
-// those between a triangle that faces the point and one that does not (SIMD:
-// mesh_outline-inl.h). The truth: the sum of the irradiances of the triangles that face it.
+// light/mesh_outline.h: meshes that have one convex outline from every point: closed convex solids
+// and convex polygons. Their irradiance is a sum over the outline's edges, which are the edges
+// between a triangle that faces the point and one that does not (SIMD: mesh_outline-inl.h). It
+// equals the sum of the irradiances of all triangles that face the point.
 #pragma once
 
 #include <array>
@@ -16,29 +16,30 @@ namespace nacre {
 
 inline constexpr uint32_t kNoFace = 0xffffffffu;
 
-// An edge of two triangles: `left` has it from `from` to `to`, and `right` the other way round.
+// An edge shared by two triangles: its direction in `left` is from `from` to `to`, in `right`
+// reversed.
 struct OutlineEdge {
   uint32_t from, to;
   uint32_t left, right;  // right: kNoFace at a polygon's border
 };
 
 struct OutlineFace {
-  uint32_t corner;  // one of its three
-  Vec3d cross;      // to the side that it faces
+  uint32_t corner;  // any of the three
+  Vec3d cross;      // the cross product of two edges, on the side that the face emits to
 };
 
 struct MeshOutline {
-  std::vector<Vec3d> corners;  // each once
+  std::vector<Vec3d> corners;  // without duplicates
   std::vector<OutlineFace> faces;
   std::vector<OutlineEdge> edges;
 };
 
-// As many corners as kMostClosedTriangles triangles that are joined at their edges can have.
-inline constexpr size_t kMostOutlineCorners = 66;
+// The most corners of kMaxClosedFormTriangles triangles that are connected by edges.
+inline constexpr size_t kMaxOutlineCorners = 66;
 
-// Of a mesh whose triangles have no corner before their planes, and, if it is flat, all corners in
-// one plane. Corners are made relative to `origin`. Empty if its outline may be another: open at
-// some edge, or not convex.
+// For a mesh that is convex in the sense of MeshLight::is_convex and, if `is_flat`, flat. Corners
+// become relative to `origin`. Empty if the mesh is open at some edge or not convex, so that its
+// outline may be a different one.
 MeshOutline MakeMeshOutline(std::span<const Vec3d> positions, std::span<const uint32_t> triangles,
                             const Vec3d& origin, bool is_flat);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/polygon_irradiance-inl.h: the irradiance under convex polygons on SIMD vectors. Scalar
-// twin, and the why of it: polygon_irradiance.h.
+// twin, with the derivation: polygon_irradiance.h.
 #if defined(NACRE_LIGHT_POLYGON_IRRADIANCE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_POLYGON_IRRADIANCE_INL_H_
 #undef NACRE_LIGHT_POLYGON_IRRADIANCE_INL_H_
@@ -31,7 +31,8 @@ HWY_INLINE V EdgeIrradiance(D d, const Vec3V<V>& pivot, const Vec3V<V>& to_a, co
   const V t = hn::Div(hn::Min(chord_length, sum_length), larger);
   const V z = hn::Mul(t, t);
   const V remainder = AtanRemainderPolynomial(d, z);
-  // ArcExcess of t, for a short arc its half's tangent; for a long one that of its complement.
+  // t is the tangent of half the arc for a short arc, whose excess is ArcExcess, and that of half
+  // its complement for a long one.
   const V of_short = hn::Mul(z, hn::NegMulAdd(hn::Add(one, z), remainder, one));
   const V complement = hn::NegMulAdd(hn::Mul(t, z), remainder, t);  // the arc tangent of t
   const V angle = hn::NegMulAdd(hn::Set(d, 2.0f), complement, hn::Set(d, kTwoPi / 2));
@@ -41,8 +42,8 @@ HWY_INLINE V EdgeIrradiance(D d, const Vec3V<V>& pivot, const Vec3V<V>& to_a, co
   return hn::IfThenElseZero(hn::Gt(sin, hn::Zero(d)), edge);
 }
 
-// (x - atan x) / x^3 of z = x^2 at two z of at most 1, and the quotient of its and z's differences:
-// nothing cancels.
+// The function (x - atan x) / x^3 of z = x^2 at the first of two z <= 1, and its difference
+// quotient between the two, without cancellation.
 template <class V>
 struct TwoRemaindersV {
   V first, quotient;
@@ -81,15 +82,15 @@ HWY_INLINE V SectorIrradiance(D d, const Vec3V<V>& a, const Vec3V<V>& chord,
   const V iq = hn::Div(one, hn::IfThenElse(is_short, q, one));
   const V ipq = hn::Mul(ip, iq);
   const V p_tan2 = hn::Mul(c2, hn::Mul(ip, ip)), q_tan2 = hn::Mul(m2, hn::Mul(iq, iq));
-  const TwoRemaindersV<V> rest = TwoAtanRemainders(d, p_tan2, q_tan2);
+  const TwoRemaindersV<V> remainders = TwoAtanRemainders(d, p_tan2, q_tan2);
   const V flat = hn::Mul(c2, hn::Mul(heights, ipq));
   const V iq2 = hn::Mul(iq, iq);
   const V cubes =
       hn::NegMulAdd(across2, hn::Mul(iq2, iq), hn::Mul(flat, hn::MulAdd(ip, hn::Add(ip, iq), iq2)));
   const V squares = hn::NegMulAdd(across2, iq2, hn::Mul(flat, hn::Add(ip, iq)));
   const V by_series =
-      hn::Mul(c, hn::NegMulAdd(hn::Mul(q_tan2, iq), hn::Mul(rest.quotient, squares),
-                               hn::NegMulAdd(rest.first, cubes, hn::Mul(heights, ipq))));
+      hn::Mul(c, hn::NegMulAdd(hn::Mul(q_tan2, iq), hn::Mul(remainders.quotient, squares),
+                               hn::NegMulAdd(remainders.first, cubes, hn::Mul(heights, ipq))));
   // By angles.
   const V m = hn::Sqrt(m2);
   const V inverse_sum = InverseIfPositive(d, hn::Add(m, size));
@@ -101,7 +102,8 @@ HWY_INLINE V SectorIrradiance(D d, const Vec3V<V>& a, const Vec3V<V>& chord,
   return hn::IfThenElse(is_short, by_series, hn::IfThenElse(hn::Lt(c, zero), hn::Neg(sum), sum));
 }
 
-// A convex polygon's sums over the part above the horizon, and where it crosses it.
+// Sums over the edges of a convex polygon above the horizon, and the points where it crosses the
+// horizon.
 template <class V>
 struct EdgeSumsV {
   V chords, sectors;
@@ -140,33 +142,36 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
                                const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
   const V half = hn::Set(d, 0.5f);
-  const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point is all rounding
+  const V most = hn::Set(d, kTwoPi / 2);  // a needle next to the point is all rounding error
   const Vec3V<V> pivot = Scale(corner, InverseIfPositive(d, Length(corner)));
-  // Of the sign alone: polygons of 1e-10 of their distance would leave float's range below.
+  // Only the sign is needed. Divided by a power of two because products with the volume of a
+  // polygon of 1e-10 of its distance would leave the range of float below.
   const V triple = TripleProduct(corner, from_corner[1], from_corner[2]);
   const V orientation = hn::Mul(triple, PowerOfTwo(d, hn::Abs(triple)).inverse);
-  std::array<Vec3V<V>, kCount> ways;
-  V size2 = zero, highest = zero, lowest = zero, around = hn::Set(d, 1.0f);
+  std::array<Vec3V<V>, kCount> unit_offsets;
+  V size2 = zero, highest = zero, lowest = zero, overhead = hn::Set(d, 1.0f);
   for (size_t i = 0; i < kCount; ++i) {
     const Vec3V<V> edge = Sub(from_corner[(i + 1) % kCount], from_corner[i]);
-    ways[i] = UnitDifference(d, corner, from_corner[i]);
-    const V height = FusedDot(normal, Add(pivot, ways[i]));
-    size2 = hn::Max(size2, FusedDot(ways[i], ways[i]));
+    unit_offsets[i] = UnitDifference(d, corner, from_corner[i]);
+    const V height = FusedDot(normal, Add(pivot, unit_offsets[i]));
+    size2 = hn::Max(size2, FusedDot(unit_offsets[i], unit_offsets[i]));
     highest = hn::Max(highest, height);
     lowest = hn::Min(lowest, height);
     const V side = TripleProduct(normal, Add(corner, from_corner[i]), edge);
-    around = hn::IfThenElseZero(hn::Gt(hn::Mul(orientation, side), zero), around);
+    overhead = hn::IfThenElseZero(hn::Gt(hn::Mul(orientation, side), zero), overhead);
   }
   const V highest2 = hn::Mul(highest, highest);
   const auto is_low = hn::Lt(hn::Mul(highest2, highest2), size2);
   const auto is_cut = hn::Lt(lowest, zero);
-  const V special = hn::IfThenElse(is_cut, half, hn::IfThenElseZero(is_low, half));
-  const auto is_special = hn::Gt(special, zero);
+  // The union of both masks: hn::Wide has no Or.
+  const V low_or_cut = hn::IfThenElse(is_cut, half, hn::IfThenElseZero(is_low, half));
+  const auto needs_sectors = hn::Gt(low_or_cut, zero);
   const auto visible = hn::And(hn::Gt(hn::Abs(orientation), zero), hn::Gt(highest, zero));
-  if (NoneOf(d, hn::And(is_special, visible))) {  // wholly above the horizon, and far from it
+  if (NoneOf(d, hn::And(needs_sectors, visible))) {  // wholly above the horizon, and far from it
     V sum = zero;
     for (size_t i = 0; i < kCount; ++i) {
-      sum = hn::Add(sum, EdgeIrradiance(d, pivot, ways[i], ways[(i + 1) % kCount], normal));
+      sum = hn::Add(
+          sum, EdgeIrradiance(d, pivot, unit_offsets[i], unit_offsets[(i + 1) % kCount], normal));
     }
     return hn::IfThenElseZero(visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
   }
@@ -176,7 +181,7 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
     AddEdge(d, corner, pivot, from_corner[i], from_corner[(i + 1) % kCount], normal, &sums);
   }
   const V closed = hn::Add(sums.chords, EdgeIrradiance(d, pivot, sums.leaves, sums.enters, normal));
-  const auto by_sectors = hn::And(is_special, hn::Eq(around, zero));
+  const auto by_sectors = hn::And(needs_sectors, hn::Eq(overhead, zero));
   const V sum = hn::IfThenElse(by_sectors, sums.sectors, closed);
   return hn::IfThenElseZero(visible, hn::Min(hn::Mul(half, hn::Abs(sum)), most));
 }
@@ -184,7 +189,7 @@ HWY_INLINE V PolygonIrradiance(D d, const Vec3V<V>& corner,
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Irradiance(D d, const RectangleLightV<V>& given, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
-  const RectangleLightV<V> light = InUnits(d, given).light;
+  const RectangleLightV<V> light = ScaleToUnit(d, given).light;
   const std::array<Vec3V<V>, 4> from_corner{Vec3V<V>{zero, zero, zero}, light.edge_x,
                                             Add(light.edge_x, light.edge_y), light.edge_y};
   return PolygonIrradiance(d, light.corner, from_corner, normal);
@@ -193,7 +198,7 @@ HWY_INLINE V Irradiance(D d, const RectangleLightV<V>& given, const Vec3V<V>& no
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V Irradiance(D d, const TriangleLightV<V>& given, const Vec3V<V>& normal) {
   const V zero = hn::Zero(d);
-  const TriangleLightV<V> light = InUnits(d, given).light;
+  const TriangleLightV<V> light = ScaleToUnit(d, given).light;
   const std::array<Vec3V<V>, 3> from_corner{Vec3V<V>{zero, zero, zero}, light.edge_x, light.edge_y};
   return PolygonIrradiance(d, light.corner, from_corner, normal);
 }

@@ -2,17 +2,18 @@
 // light/polygon_irradiance.h: the irradiance of a surface under convex polygons. SIMD twin:
 // polygon_irradiance-inl.h.
 //
-// Lambert 1760: half the sum over the edges of the polygon above the horizon of the angle that
-// each fills, times the cosine between the normal and the plane through edge and point. In that
-// form a far polygon's terms, of the order of its angular size, cancel to the order of their
-// square, and a strip's along the horizon to that of its height's square. Two rearrangements:
+// Lambert 1760: half the sum, over the edges of the polygon's part above the horizon, of the angle
+// that an edge subtends times the cosine between the normal and the normal of the plane through the
+// edge and the point. In that form the terms of a distant polygon, of the order of its angular
+// size, cancel to the order of its square, and those of a strip along the horizon to the order of
+// the square of its height. Two rearrangements avoid that:
 //
-// By chords, for small polygons: an edge from a to b on the unit sphere gives normal.(a x b) and
-// the excess of its arc over its chord. Chords' parts are the same for a x b and (a - p) x (b - p),
-// summed over a closed polygon, and a - p is small where the polygon is.
+// By chords, for small polygons: an edge from a to b on the unit sphere contributes normal.(a x b)
+// and the excess of its arc over its chord. The sum of the former over a closed polygon does not
+// change if a x b is replaced by (a - p) x (b - p), and a - p is small for a small polygon.
 //
-// By sectors, for polygons along the horizon: an edge gives what lies between it and the horizon,
-// the integral of sin^2 of its elevation over its azimuth, which is small where that is low.
+// By sectors, for polygons along the horizon: an edge contributes the region between it and the
+// horizon, the integral of sin^2 of its elevation over its azimuth, which is small for a low edge.
 #pragma once
 
 #include <algorithm>
@@ -26,9 +27,10 @@
 
 namespace nacre {
 
-// The part of the edge between two points, given by their ways from the pivot on the unit sphere.
-// Twice the irradiance. What the arc has over its chord is (angle - sin(angle)) times the cosine of
-// its plane: for an edge along the horizon right also where its ends are opposite.
+// Twice the irradiance of the edge between two points on the unit sphere, which are given by their
+// offsets from the pivot. The excess of the arc over its chord is (angle - sin(angle)) times the
+// cosine of its plane; for an edge along the horizon that is right also where its ends are
+// opposite.
 template <typename Real>
 Real EdgeIrradiance(const Imath::Vec3<Real>& pivot, const Imath::Vec3<Real>& to_a,
                     const Imath::Vec3<Real>& to_b, const Imath::Vec3<Real>& normal) {
@@ -47,10 +49,11 @@ Real EdgeIrradiance(const Imath::Vec3<Real>& pivot, const Imath::Vec3<Real>& to_
   return (normal ^ (to_a % to_b)) + excess * (normal ^ cross) / sin;
 }
 
-// The integral of sin^2 of the elevation over the azimuth along the edge from a to b, unit vectors
-// not below the horizon. Twice the irradiance. It is the difference between the edge's azimuth and
-// its arc times the cosine of its plane, and both are arc tangents: of c / p, and of |m| / q with
-// m = a x b, c = normal.m and q = a.b = p + the product of the heights.
+// Twice the irradiance of the region between the horizon and the edge from a to b, unit vectors
+// that are not below the horizon: the integral of sin^2 of the elevation over the azimuth. It is
+// the difference between the edge's azimuth and its arc times the cosine of its plane, and both are
+// arc tangents: of c / p, and of |m| / q with m = a x b, c = normal.m and q = a.b = p + the product
+// of the heights.
 template <typename Real>
 Real SectorIrradiance(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& chord,
                       const Imath::Vec3<Real>& normal) {
@@ -60,18 +63,18 @@ Real SectorIrradiance(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& chord
   const Real c = normal ^ (a % chord);
   const Real q = 1 - chord.length2() / 2;
   const Real p = q - heights;
-  // What m has along the horizon.
+  // The squared length of m's component along the horizon.
   const Real across2 = (chord * a_height - a * (b_height - a_height)).length2();
   const Real m2 = c * c + across2;
   if (p > std::abs(c) && q * q > m2) {  // less than an eighth of a turn
-    // Their power series, from which c / p - c / q and so on are taken out.
+    // The power series of both, with differences such as c / p - c / q computed in closed form.
     const Real pq = p * q;
     const Real p_tan2 = c * c / (p * p), q_tan2 = m2 / (q * q);
-    const Real p_rest = AtanRemainder(std::sqrt(p_tan2));
-    const Real q_rest = AtanRemainder(std::sqrt(q_tan2));
+    const Real p_remainder = AtanRemainder(std::sqrt(p_tan2));
+    const Real q_remainder = AtanRemainder(std::sqrt(q_tan2));
     const Real cubes =
         (c * c * heights * (q * q + pq + p * p) - across2 * p * p * p) / (pq * pq * pq);
-    return c * (heights / pq - p_rest * cubes - q_tan2 / q * (p_rest - q_rest));
+    return c * (heights / pq - p_remainder * cubes - q_tan2 / q * (p_remainder - q_remainder));
   }
   const Real m = std::sqrt(m2), size = std::abs(c);
   if (!(m > 0)) return 0;
@@ -86,8 +89,8 @@ struct EdgeSums {
   Real chords = 0, sectors = 0;
 };
 
-// Adds the part above the horizon of the edge between two vertices, given by their ways from the
-// corner; where the edge crosses the horizon it sets the crossing.
+// Adds the part above the horizon of the edge between two vertices, which are given by their
+// offsets from the corner. Sets the point where the edge crosses the horizon, if it does.
 template <typename Real>
 void AddEdge(const Imath::Vec3<Real>& corner, const Imath::Vec3<Real>& pivot,
              const Imath::Vec3<Real>& from, const Imath::Vec3<Real>& to,
@@ -107,7 +110,8 @@ void AddEdge(const Imath::Vec3<Real>& corner, const Imath::Vec3<Real>& pivot,
   if (to_height <= 0) *leaves = to_b;
 }
 
-// A convex polygon: its first vertex, and the ways from there to all its vertices (the first: 0).
+// The irradiance under a convex polygon, given by its first vertex and the offsets from there to
+// all its vertices (that of the first: 0).
 template <typename Real, size_t kCount>
 Real PolygonIrradiance(const Imath::Vec3<Real>& corner,
                        const std::array<Imath::Vec3<Real>, kCount>& from_corner,
@@ -124,19 +128,20 @@ Real PolygonIrradiance(const Imath::Vec3<Real>& corner,
     const Vec& from = from_corner[i];
     const Vec& to = from_corner[(i + 1) % kCount];
     AddEdge(corner, pivot, from, to, normal, &sums, &enters, &leaves);
-    const Vec way = UnitDifference(corner, from);
-    const Real height = normal ^ (pivot + way);
-    size2 = std::max(size2, way.length2());
+    const Vec unit_offset = UnitDifference(corner, from);
+    const Real height = normal ^ (pivot + unit_offset);
+    size2 = std::max(size2, unit_offset.length2());
     highest = std::max(highest, height);
     lowest = std::min(lowest, height);
     overhead = overhead && orientation * (normal ^ ((corner + from) % (to - from))) > 0;
   }
-  // Errors of chords are of the order of size^2, those of sectors of size highest^2. Overhead,
-  // sectors leave out the zenith.
+  // Errors of the sum by chords are of the order of size^2, of that by sectors size highest^2. If
+  // the normal meets the polygon, the sum by sectors misses the zenith.
   const bool low = lowest < 0 || highest * highest * highest * highest < size2;
   const Real twice =
       low && !overhead ? sums.sectors : sums.chords + EdgeIrradiance(pivot, leaves, enters, normal);
-  // A needle next to the point is all rounding: it gets no more than everything.
+  // For a needle next to the point the sum is all rounding error: clamped to that of the
+  // hemisphere.
   return std::min(std::abs(twice) / 2, static_cast<Real>(M_PI));
 }
 

@@ -27,10 +27,10 @@ HWY_INLINE V AttenuationFactor(D d, const AttenuationTerms<T>& a, V distance) {
   return hn::IfThenElseZero(lit, hn::Div(one, hn::IfThenElse(lit, denominator, one)));
 }
 
-// The penumbra's t, in double: next to the cutoff it is the difference of two angles that are
-// nearly equal.
+// The penumbra's t, in double, because next to the cutoff it is the difference of two nearly equal
+// angles.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V PenumbraPlace(D d, const ConeTerms<double>& cone, V one_minus_cos) {
+HWY_INLINE V PenumbraParameter(D d, const ConeTerms<double>& cone, V one_minus_cos) {
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
   const V cutoff = hn::Set(d, cone.cutoff);
   const auto lit = hn::Lt(one_minus_cos, cutoff);
@@ -39,7 +39,7 @@ HWY_INLINE V PenumbraPlace(D d, const ConeTerms<double>& cone, V one_minus_cos) 
   return hn::Min(hn::Max(t, zero), one);
 }
 
-// The factor by t and by 1 - cos and cos of the angle, which were formed in double.
+// The spot's factor, from t and from 1 - cos and cos of the angle, which were computed in double.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SpotFactor(D d, const ConeTerms<double>& cone, V t, V one_minus_cos, V cosine) {
   const auto constant = [&](double value)

@@ -15,10 +15,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+struct RectangleShape;
 template <class V>
-struct RectangleLightV {
-  Vec3V<V> corner, edge_x, edge_y;
-};
+using RectangleLightV = FlatLightV<RectangleShape, V>;
 
 template <class V>
 struct RectangleViewV {
@@ -60,10 +59,10 @@ HWY_INLINE V SolidAngle(D d, const RectangleViewV<V>& view) {
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SolidAngle(D d, const RectangleLightV<V>& light) {
-  return SolidAngle(d, ViewOf(d, InUnits(d, light).light));
+  return SolidAngle(d, ViewOf(d, ScaleToUnit(d, light).light));
 }
 
-// The scalar twin explains the names. Where the view's z is 0 the result means nothing.
+// The scalar twin explains the names. Undefined where view.z is 0.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SampleRectangleX(D d, const RectangleViewV<V>& view, V solid_angle, V part) {
   const V zero = hn::Zero(d);
@@ -111,9 +110,9 @@ HWY_INLINE V SampleRectangleY(D d, const RectangleViewV<V>& view, V x, V part) {
   return hn::Min(hn::Max(y, view.y0), view.y1);
 }
 
-// Of lengths in units, as InUnits gives them.
+// SampleLight for a light that ScaleToUnit has scaled.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE AreaSampleV<V> SampleInUnits(D d, const RectangleLightV<V>& light, V u0, V u1) {
+HWY_INLINE AreaSampleV<V> SampleScaled(D d, const RectangleLightV<V>& light, V u0, V u1) {
   const RectangleViewV<V> view = ViewOf(d, light);
   const V solid_angle = SolidAngle(d, view);
   const auto by_area = hn::Lt(solid_angle, hn::Set(d, kSmallSolidAngle<float>));
@@ -138,14 +137,15 @@ HWY_INLINE AreaSampleV<V> SampleInUnits(D d, const RectangleLightV<V>& light, V 
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE AreaSampleV<V> SampleLight(D d, const RectangleLightV<V>& light, V u0, V u1) {
-  const auto in_units = InUnits(d, light);
-  AreaSampleV<V> sample = SampleInUnits(d, in_units.light, u0, u1);
-  sample.distance = hn::Mul(sample.distance, in_units.unit);
+  const auto scaled = ScaleToUnit(d, light);
+  AreaSampleV<V> sample = SampleScaled(d, scaled.light, u0, u1);
+  sample.distance = hn::Mul(sample.distance, scaled.unit);
   return sample;
 }
 
+// LightPdf, likewise.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V PdfInUnits(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
+HWY_INLINE V PdfScaled(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
   const RectangleViewV<V> view = ViewOf(d, light);
   const V solid_angle = SolidAngle(d, view);
@@ -165,7 +165,7 @@ HWY_INLINE V PdfInUnits(D d, const RectangleLightV<V>& light, const Vec3V<V>& di
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LightPdf(D d, const RectangleLightV<V>& light, const Vec3V<V>& direction) {
-  return PdfInUnits(d, InUnits(d, light).light, direction);
+  return PdfScaled(d, ScaleToUnit(d, light).light, direction);
 }
 
 }  // namespace HWY_NAMESPACE

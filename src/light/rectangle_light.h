@@ -14,13 +14,14 @@
 
 namespace nacre {
 
-// The two edges from one corner, perpendicular. It faces the way of edge_x cross edge_y.
+// A corner and the two perpendicular edges from it. The front is on the side of edge_x cross
+// edge_y.
 template <typename Real>
 struct RectangleLight {
   Imath::Vec3<Real> corner, edge_x, edge_y;
 };
 
-// The rectangle in coordinates of its own axes, the shaded point at the origin.
+// The rectangle in the coordinate system of its axes, with the shaded point at the origin.
 template <typename Real>
 struct RectangleView {
   Imath::Vec3<Real> x_axis, y_axis, normal;
@@ -44,8 +45,8 @@ RectangleView<Real> ViewOf(const RectangleLight<Real>& light) {
   return view;
 }
 
-// The sum of two triangles' (Van Oosterom and Strackee 1983), whose determinants are the same and
-// have no differences. 0 in the rectangle's plane.
+// The sum of the solid angles of two triangles (Van Oosterom and Strackee 1983), whose determinants
+// are equal and contain no differences. 0 in the rectangle's plane.
 template <typename Real>
 Real SolidAngle(const RectangleView<Real>& view) {
   using Vec = Imath::Vec3<Real>;
@@ -67,9 +68,9 @@ Real SolidAngle(const RectangleLight<Real>& light) {
   return SolidAngle(ViewOf(light));
 }
 
-// x such that the rectangle's part from x0 to x fills `part` of its solid angle, `solid_angle`.
-// The names are those of Urena et al., section 4; g2 and g3 are the angles at the corners of x0,
-// k = 2 pi - g2 - g3.
+// The x for which the rectangle's part from x0 to x has the fraction `part` of its solid angle. The
+// names are those of Urena et al., section 4; g2 and g3 are the angles at the corners of x0, and k
+// = 2 pi - g2 - g3.
 template <typename Real>
 Real SampleRectangleX(const RectangleView<Real>& view, Real solid_angle, Real part) {
   const Real x0 = view.x0, y0 = view.y0, y1 = view.y1, z = std::abs(view.z);
@@ -99,7 +100,7 @@ Real SampleRectangleX(const RectangleView<Real>& view, Real solid_angle, Real pa
   return std::clamp(x, x0, view.x1);
 }
 
-// y uniform in the angle that the segment at x fills.
+// y, uniform in the angle that the segment at x subtends.
 template <typename Real>
 Real SampleRectangleY(const RectangleView<Real>& view, Real x, Real part) {
   const Real across = std::hypot(x, view.z);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/sky-inl.h: environments by formula on SIMD vectors. Scalar twin: sky.h.
+// light/sky-inl.h: analytic skies on SIMD vectors. Scalar twin: sky.h.
 #if defined(NACRE_LIGHT_SKY_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_SKY_INL_H_
 #undef NACRE_LIGHT_SKY_INL_H_

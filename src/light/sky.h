@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/sky.h: environments by formula, with the irradiance of an unoccluded surface under them in
-// closed form. One channel each. SIMD twin: sky-inl.h.
+// light/sky.h: analytic skies, with the irradiance of an unoccluded surface in closed form. One
+// colour channel each. SIMD twin: sky-inl.h.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,7 @@
 
 namespace nacre {
 
-// From the horizon linearly in the height of the direction, up to the zenith and down to the
-// ground.
+// Linear in the height of the direction, from the horizon up to the zenith and down to the ground.
 template <typename Real>
 struct GradientSkyTerms {
   Real zenith, horizon, ground;

@@ -15,9 +15,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// For c in (-1, 1); what is made of other c is finite.
+// For c in (-1, 1); finite, but meaningless, for other c.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE V IrradianceOfRisingSphere(D d, V sin, V c) {
+HWY_INLINE V IrradianceOfClippedSphere(D d, V sin, V c) {
   const V one = hn::Set(d, 1.0f);
   const V half = hn::Set(d, 0.5f);
   const V cos = hn::Sqrt(hn::Mul(hn::Sub(one, sin), hn::Add(one, sin)));
@@ -51,9 +51,9 @@ HWY_INLINE V Irradiance(D d, const SphereLightV<V>& light, const Vec3V<V>& norma
   const SphereConeV<V> cone = ConeOf(d, light);
   const V c = hn::Mul(FusedDot(normal, light.centre), InverseIfPositive(d, light.radius));
   const V whole = hn::Mul(hn::Mul(pi, hn::Mul(cone.sin, cone.sin)), hn::Mul(cone.sin, c));
-  const V rising = hn::Max(IrradianceOfRisingSphere(d, cone.sin, c), zero);
+  const V clipped = hn::Max(IrradianceOfClippedSphere(d, cone.sin, c), zero);
   const V outside =
-      hn::IfThenElseZero(hn::Gt(c, hn::Neg(one)), hn::IfThenElse(hn::Ge(c, one), whole, rising));
+      hn::IfThenElseZero(hn::Gt(c, hn::Neg(one)), hn::IfThenElse(hn::Ge(c, one), whole, clipped));
   const V got = hn::IfThenElse(hn::Lt(cone.distance, light.radius), pi, outside);
   return hn::IfThenElseZero(hn::Gt(light.radius, zero), got);
 }

@@ -6,8 +6,8 @@
 // radius, t the angle from the normal to its centre and c = cos(t) / s its centre's height over the
 // horizon in radii, pi s^2 cos(t) if it is all above, else
 //   s^2 cos(t) acos(-cot(t) cot(asin s)) - s k cos(asin s) + atan(k tan(asin s)),  k^2 = 1 - c^2.
-// Its terms are of the order s and cancel to s^3, and next to c = -1 to (1 + c)^2.5 of that: below,
-// what cancels is taken out on paper.
+// Its terms are of the order s and cancel to s^3, and next to c = -1 to (1 + c)^2.5 of that. The
+// forms below are rearranged so that nothing cancels.
 #pragma once
 
 #include <cmath>
@@ -17,9 +17,9 @@
 
 namespace nacre {
 
-// For c in (-1, 1).
+// A sphere that the horizon clips: c in (-1, 1).
 template <typename Real>
-Real IrradianceOfRisingSphere(Real sin, Real c) {
+Real IrradianceOfClippedSphere(Real sin, Real c) {
   const Real cos = std::sqrt((1 - sin) * (1 + sin));
   const Real k = std::sqrt((1 - c) * (1 + c));
   if (cos < static_cast<Real>(0.5)) {  // too near for anything to cancel
@@ -32,7 +32,7 @@ Real IrradianceOfRisingSphere(Real sin, Real c) {
     return sin * sin * sin *
            (c * std::atan2(k, -c * cos) + k_cos * (1 - k_cos * k_cos * from_horizon));
   }
-  // Both arc tangents without their first terms, which cancel against the rest.
+  // The first terms of both arc tangents cancel against the other terms, and are left out.
   const Real size = k * tan;
   return size * size * size * (AtanRemainder(-k / (c * cos)) / (c * c) - from_horizon);
 }
@@ -46,7 +46,7 @@ Real Irradiance(const SphereLight<Real>& light, const Imath::Vec3<Real>& normal)
   if (c <= -1) return 0;
   const Real sin = ConeOf(light).sin;
   if (c >= 1) return pi * sin * sin * sin * c;
-  return IrradianceOfRisingSphere(sin, c);
+  return IrradianceOfClippedSphere(sin, c);
 }
 
 }  // namespace nacre

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // light/sphere_light.h: sampling a sphere as a light. SIMD twin: sphere_light-inl.h.
 //
-// From outside, directions are uniform in the cone that the sphere fills. From inside, where a
-// sphere that emits on both sides surrounds the point, they are uniform all round; cos_light is
-// then negative. On the surface the cone is the half-space towards the centre.
+// From outside, directions are uniform in the cone that the sphere subtends. From inside of a
+// sphere that emits on both sides they are uniform over all directions, and cos_light is negative.
+// On the surface the cone is the half-space towards the centre.
 #pragma once
 
 #include <algorithm>
@@ -86,7 +86,7 @@ AreaSample<Real> SampleLight(const SphereLight<Real>& light, Real u0, Real u1) {
   return sample;
 }
 
-// Directions to the very rim may count as misses: it is a matter of rounding there.
+// Directions to the rim itself may count as misses, by rounding.
 template <typename Real>
 Real LightPdf(const SphereLight<Real>& light, const Imath::Vec3<Real>& direction) {
   const Real solid_angle = SolidAngle(light);

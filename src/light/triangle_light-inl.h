@@ -15,10 +15,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+struct TriangleShape;
 template <class V>
-struct TriangleLightV {
-  Vec3V<V> corner, edge_x, edge_y;
-};
+using TriangleLightV = FlatLightV<TriangleShape, V>;
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE Vec3V<V> UnitDifference(D d, const Vec3V<V>& p, const Vec3V<V>& e) {
@@ -55,7 +54,7 @@ HWY_INLINE SphericalTriangleV<V> SphericalTriangleOf(D d, const TriangleLightV<V
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V SolidAngle(D d, const TriangleLightV<V>& light) {
-  return SphericalTriangleOf(d, InUnits(d, light).light).solid_angle;
+  return SphericalTriangleOf(d, ScaleToUnit(d, light).light).solid_angle;
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -104,8 +103,8 @@ HWY_INLINE AreaSampleV<V> SampleTriangleByArea(D d, const TriangleLightV<V>& lig
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& given, V u0, V u1) {
   const V zero = hn::Zero(d);
-  const auto in_units = InUnits(d, given);
-  const TriangleLightV<V>& light = in_units.light;
+  const auto scaled = ScaleToUnit(d, given);
+  const TriangleLightV<V>& light = scaled.light;
   const SphericalTriangleV<V> t = SphericalTriangleOf(d, light);
   const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);
   const V twice_area = Length(cross);
@@ -118,7 +117,7 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& given, V u0,
   const AreaSampleV<V> by_area = SampleTriangleByArea(d, light, cross, twice_area, u0, u1);
   const auto small = hn::Lt(t.solid_angle, hn::Set(d, kSmallSolidAngle<float>));
   AreaSampleV<V> sample = Select(small, by_area, by_angle);
-  sample.distance = hn::Mul(sample.distance, in_units.unit);
+  sample.distance = hn::Mul(sample.distance, scaled.unit);
   return SampleIf(d, hn::Gt(hn::Min(t.solid_angle, sample.inverse_pdf), zero), sample);
 }
 
@@ -126,7 +125,7 @@ HWY_INLINE AreaSampleV<V> SampleLight(D d, const TriangleLightV<V>& given, V u0,
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V PdfInside(D d, const TriangleLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
-  const TriangleLightV<V> light = InUnits(d, given).light;
+  const TriangleLightV<V> light = ScaleToUnit(d, given).light;
   const V solid_angle = SolidAngle(d, light);
   const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);
   const V towards = FusedDot(direction, cross);
@@ -141,7 +140,7 @@ HWY_INLINE V PdfInside(D d, const TriangleLightV<V>& given, const Vec3V<V>& dire
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V LightPdf(D d, const TriangleLightV<V>& given, const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
-  const TriangleLightV<V> light = InUnits(d, given).light;
+  const TriangleLightV<V> light = ScaleToUnit(d, given).light;
   const V one = hn::Set(d, 1.0f);
   const V solid_angle = SolidAngle(d, light);
   const Vec3V<V> cross = FusedCross(light.edge_x, light.edge_y);

@@ -3,7 +3,7 @@
 //
 // Uniform in solid angle, by Arvo's map (1995, "Stratified Sampling of Spherical Triangles") from
 // the tangent formula of Van Oosterom and Strackee 1983 instead of the corners' angles, and with
-// differences of unit vectors formed from the edges: nothing cancels, however small the triangle.
+// differences of unit vectors computed from the edges: nothing cancels, even for tiny triangles.
 // Below kSmallSolidAngle uniform in area.
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace nacre {
 
-// The vertices corner, corner + edge_x and corner + edge_y. It faces the way of edge_x cross
-// edge_y.
+// The vertices are corner, corner + edge_x and corner + edge_y. The front is on the side of edge_x
+// cross edge_y.
 template <typename Real>
 struct TriangleLight {
   Imath::Vec3<Real> corner, edge_x, edge_y;
 };
 
-// (p + e) / |p + e| - p / |p|, without the cancellation.
+// (p + e) / |p + e| - p / |p|, without cancellation.
 template <typename Real>
 Imath::Vec3<Real> UnitDifference(const Imath::Vec3<Real>& p, const Imath::Vec3<Real>& e) {
   const Imath::Vec3<Real> q = p + e;
@@ -29,7 +29,7 @@ Imath::Vec3<Real> UnitDifference(const Imath::Vec3<Real>& p, const Imath::Vec3<R
   return (e - p * (longer / p_length)) / q_length;
 }
 
-// The triangle on the unit sphere: a and the way from there to b and c.
+// The triangle projected to the unit sphere: vertex a, and the differences b - a and c - a.
 template <typename Real>
 struct SphericalTriangle {
   Imath::Vec3<Real> a, to_b, to_c;
@@ -103,7 +103,7 @@ AreaSample<Real> SampleLight(const TriangleLight<Real>& light, Real u0, Real u1)
   sample.to_light = SampleSphericalTriangle(t, u0, u1);
   const Real towards = sample.to_light ^ cross;
   sample.distance = (light.corner ^ cross) / towards;
-  if (!(sample.distance > 0) || towards == 0) return {};  // all but edge-on, by rounding
+  if (!(sample.distance > 0) || towards == 0) return {};  // edge-on up to rounding
   sample.cos_light = -towards / twice_area;
   sample.inverse_pdf = t.solid_angle;
   return sample;

@@ -49,7 +49,7 @@ void MakeBlockSamples(const PixelSampler* samplers, const Window& cell, std::spa
   for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
     const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
     const PixelSampler& sampler = samplers[units[ray].replicate];
-    PutPixels(sampler, RowsOf(block), &c->block);
+    PreparePixels(sampler, RowsOf(block), &c->block);
     SamplePixels(sampler, c->block, index, 1, s->samples.film.x.data() + ray,
                  s->samples.film.y.data() + ray);
   }

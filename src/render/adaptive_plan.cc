@@ -67,7 +67,7 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
   const auto add_pattern = [&](int samples) {
     auto& pattern = plan.patterns.emplace_back();
     for (size_t r = 0; r < kReplicates; ++r) {
-      const uint64_t key = Combine(plan.patterns.size() * kReplicates + r, scene.image.seed);
+      const uint64_t key = HashCombine(plan.patterns.size() * kReplicates + r, scene.image.seed);
       pattern[r] = MakeReplicateSampler(filter, samples, static_cast<uint32_t>(key));
     }
   };

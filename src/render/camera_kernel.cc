@@ -8,7 +8,7 @@
 #include "hwy/foreach_target.h"
 
 #include "base/geometry-inl.h"
-#include "visibility/film_test.h"
+#include "visibility/projected_sphere_test.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -53,7 +53,7 @@ HWY_EXPORT(MakeCameraRaysT);
 
 void MakeCameraRays(const CameraFrame& frame, const double* film_x, const double* film_y,
                     size_t count, RayBatch* rays) {
-  rays->film = MakeFilmView(frame);
+  rays->view = MakeProjectedTestView(frame);
   HWY_DYNAMIC_DISPATCH(MakeCameraRaysT)(frame, film_x, film_y, count, rays);
 }
 }  // namespace nacre

@@ -10,13 +10,13 @@
 #include "render/interval_kernel.h"
 #include "render/sphere_pictures.h"
 #include "render/tile_work.h"
+#include "visibility/sphere_bins.h"
 
 namespace nacre {
 
-// Blocks are taken together by cells of the intersector's bins.
-inline constexpr int kCellSide = kCellSize;
+// Blocks are grouped by the cells of the intersector's bins (kCellSize).
 inline constexpr size_t kCellBlocks =
-    size_t{kCellSide / kBlockSide} * size_t{kCellSide / kBlockSide};
+    size_t{kCellSize / kBlockSide} * size_t{kCellSize / kBlockSide};
 inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
 
 // Pixels are numbered block by block, row by row within a block.
@@ -75,7 +75,7 @@ struct CellScratch {
 
 // The window of a cell's block.
 inline Window BlockWindow(const Window& cell, size_t block) {
-  constexpr size_t kAcross = kCellSide / kBlockSide;
+  constexpr size_t kAcross = kCellSize / kBlockSide;
   const int x = cell.x0 + static_cast<int>(block % kAcross) * kBlockSide;
   const int y = cell.y0 + static_cast<int>(block / kAcross) * kBlockSide;
   return {x, y, x + kBlockSide, y + kBlockSide};

@@ -28,7 +28,7 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
   ShadowRayBatch& rays = room.shadow_rays;
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
-  rays.end_reach = plan.camera_reach;
+  rays.camera_extent = plan.camera_extent;
   // Without a branch on what is lit, which would go either way from hit to hit.
   const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
   size_t count = 0;
@@ -63,7 +63,7 @@ void ShadeByOne(const DirectBatch& batch, const PlannedPunctualLight& planned, b
                 OutputMode output) {
   DirectRoom& room = batch.room;
   EvaluateLight(planned.light, batch.hits(), batch.surface(), &room.light);
-  if (batch.surface().turned) HideBelowHorizon(batch);
+  if (batch.surface().turned) HideLightsBelowHorizon(batch);
   batch.clock.Charge(Stage::kLight);
   if (shadow_rays) {
     CastShadows(batch, planned);

@@ -84,7 +84,7 @@ struct DirectPlan {
   bool cull_lights = false;            // leave out those that cannot reach a batch
   bool offset_shadow_origins = false;  // some shadow rays do not start at their hits
   bool eye_outside = false;            // no camera ray starts in a sphere
-  double camera_reach = 0;             // ShadowRayBatch::end_reach
+  double camera_extent = 0;            // ShadowRayBatch::camera_extent
   // One light is all that hits reflect: the beauty is the sum that its kernel makes of the parts.
   bool one_light = false;
   OutputMode output = OutputMode::kOverwrite;            // of the first light of a hit

@@ -35,7 +35,7 @@ struct CellPlace {
 };
 
 CellPlace PlaceInCell(uint32_t pixel) {
-  constexpr uint32_t kAcross = kCellSide / kBlockSide;
+  constexpr uint32_t kAcross = kCellSize / kBlockSide;
   constexpr auto kPixels = static_cast<uint32_t>(kBlockPixels);
   const uint32_t block = pixel / kPixels, in_block = pixel % kPixels;
   return {static_cast<int>(block % kAcross * kBlockSide + in_block % kBlockSide),
@@ -43,7 +43,7 @@ CellPlace PlaceInCell(uint32_t pixel) {
 }
 
 uint32_t PixelAt(const CellPlace& place) {
-  constexpr int kAcross = kCellSide / kBlockSide;
+  constexpr int kAcross = kCellSize / kBlockSide;
   const int block = place.row / kBlockSide * kAcross + place.column / kBlockSide;
   const int in_block = place.row % kBlockSide * kBlockSide + place.column % kBlockSide;
   return static_cast<uint32_t>(block * static_cast<int>(kBlockPixels) + in_block);
@@ -77,8 +77,8 @@ PixelRange MeansAround(const CellScratch& c, uint32_t pixel, size_t channel) {
   const CellPlace at = PlaceInCell(pixel);
   PixelRange range{std::numeric_limits<double>::infinity(),
                    -std::numeric_limits<double>::infinity()};
-  for (int row = std::max(at.row - 1, 0); row <= std::min(at.row + 1, kCellSide - 1); ++row) {
-    for (int column = std::max(at.column - 1, 0); column <= std::min(at.column + 1, kCellSide - 1);
+  for (int row = std::max(at.row - 1, 0); row <= std::min(at.row + 1, kCellSize - 1); ++row) {
+    for (int column = std::max(at.column - 1, 0); column <= std::min(at.column + 1, kCellSize - 1);
          ++column) {
       const uint32_t other = PixelAt({column, row});
       if (c.samples[other] == 0) continue;
@@ -121,7 +121,7 @@ struct Pool {
 // All pixels but those at the cell's border, whose neighbours are not known.
 bool IsInner(uint32_t pixel) {
   const CellPlace at = PlaceInCell(pixel);
-  return at.column > 0 && at.row > 0 && at.column + 1 < kCellSide && at.row + 1 < kCellSide;
+  return at.column > 0 && at.row > 0 && at.column + 1 < kCellSize && at.row + 1 < kCellSize;
 }
 
 // Whether what is known beforehand of the pixel matters for it.

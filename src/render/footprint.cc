@@ -41,7 +41,7 @@ FootprintCone ConeOf(const CameraFrame& frame, const Footprint& f) {
 
 bool IsBeside(const FramePlan& plan, const Footprint& f, const FootprintCone& cone,
               const SpherePicture& picture) {
-  const FilmBounds& b = picture.bounds;
+  const ProjectedBounds& b = picture.bounds;
   if (!b.visible || f.x1 < b.x0 || b.x1 < f.x0 || f.y1 < b.y0 || b.y1 < f.y0) return true;
   if (plan.camera.projection != Projection::kPerspective) return false;
   const double cosine = std::clamp(cone.axis.dot(picture.axis), -1.0, 1.0);

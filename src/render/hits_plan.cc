@@ -96,7 +96,8 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
     const Window binned =
         adaptive ? WholeCells({0, 0, scene.image.width, scene.image.height}) : window;
     const bool centers = sampler.centered && !adaptive;
-    plan.binned = plan.intersector->BinForCamera(camera, binned, centers ? kReachOfCenters : reach);
+    plan.binned =
+        plan.intersector->BinForCamera(camera, binned, centers ? kPixelCenterMargin : reach);
     plan.tiles = want_tiles && plan.binned;
   }
   why->items.push_back(

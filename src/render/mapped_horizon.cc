@@ -30,7 +30,7 @@ void AddSpecular(const MaterialRun& run, const Soa3<float>& from, Soa3<float>* t
 
 }  // namespace
 
-void HideBelowHorizon(const DirectBatch& batch) {
+void HideLightsBelowHorizon(const DirectBatch& batch) {
   for (const MaterialRun& run : LitRuns(batch.surfaces)) {
     if (!run.shading->turned) continue;
     HideBelowHorizon(batch.surface(), run.begin, run.end, &batch.room.light);

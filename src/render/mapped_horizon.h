@@ -17,7 +17,7 @@
 namespace nacre {
 
 // Takes room.light from the hits that it reaches from below the horizon.
-void HideBelowHorizon(const DirectBatch& batch);
+void HideLightsBelowHorizon(const DirectBatch& batch);
 
 // Brings directions that were sampled by the run's lobe above the horizon: l' in the place of l.
 void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<float>* to_light);

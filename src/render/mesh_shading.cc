@@ -120,7 +120,7 @@ void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* 
   for (uint32_t i = 0; i < count; ++i) {
     numbers->number[i] = static_cast<uint32_t>(sample);
     numbers->pixel[i] = i;
-    numbers->seeds[i] = Combine(points[i].primitive, points[i].index);
+    numbers->seeds[i] = HashCombine(points[i].primitive, points[i].index);
   }
 }
 

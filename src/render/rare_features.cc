@@ -35,7 +35,7 @@ void AddSpheres(const FramePlan& plan, const Projector& projector, const TileCan
                 std::vector<SmallPicture>* small) {
   for (const auto& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
-      const FilmBounds b = Project(projector, candidate.sphere);
+      const ProjectedBounds b = Project(projector, candidate.sphere);
       const double width = b.x1 - b.x0, height = b.y1 - b.y0;
       if (!b.visible || !(width < kWidestRare && height < kWidestRare)) continue;
       small->push_back(
@@ -113,8 +113,8 @@ void AddHighlights(const FramePlan& plan, const std::vector<Glint>& glints, Tile
 
 // What like pictures have of a cell's pixels, by rows: of the samples, and of the radiance.
 struct Shares {
-  double samples[kCellSide][kCellSide] = {};
-  double radiance[kCellSide][kCellSide] = {};
+  double samples[kCellSize][kCellSize] = {};
+  double radiance[kCellSize][kCellSize] = {};
 };
 
 // Adds the picture's share of the samples of each of the cell's pixels that it is in the reach of.

@@ -38,7 +38,7 @@ struct Candidate {
 };
 
 // The cell and a pixel around it, row by row.
-constexpr int kSideAround = kCellSide + 2;
+constexpr int kSideAround = kCellSize + 2;
 
 Window Around(const Window& cell) { return {cell.x0 - 1, cell.y0 - 1, cell.x1 + 1, cell.y1 + 1}; }
 
@@ -51,11 +51,11 @@ void ForEachShareOf(const PixelFilter& filter, const Window& cell, const Triangl
 
 // Pixels of a cell.
 struct PixelSet {
-  bool of[kCellSide][kCellSide] = {};
+  bool of[kCellSize][kCellSize] = {};
 };
 
 struct SharesOfCell {
-  double of[kCellSide][kCellSide] = {};
+  double of[kCellSize][kCellSize] = {};
 };
 
 // A number for each pixel of a cell and around it: of pieces, the pixel of their centroid or the
@@ -79,8 +79,8 @@ using CoveredArea = NumbersAround<double>;
 // The cell's pixels that are not beside as much of such triangles as beside a large thing's edge.
 PixelSet FindSparse(const CoveredArea& area) {
   PixelSet sparse;
-  for (int row = 0; row < kCellSide; ++row) {
-    for (int column = 0; column < kCellSide; ++column) {
+  for (int row = 0; row < kCellSize; ++row) {
+    for (int column = 0; column < kCellSize; ++column) {
       double sum = 0;
       for (int y = row; y < row + 3; ++y) {
         for (int x = column; x < column + 3; ++x) sum += area.of[y][x];
@@ -140,8 +140,8 @@ std::vector<Candidate> FindCandidates(const FramePlan& plan, const Window& cell)
   });
   const double least = plan.adaptive.max_error * kDarkest / (2 * plan.adaptive.brightest);
   for (const auto& [look, sums] : shares) {
-    for (int row = 0; row < kCellSide; ++row) {
-      for (int column = 0; column < kCellSide; ++column) {
+    for (int row = 0; row < kCellSize; ++row) {
+      for (int column = 0; column < kCellSize; ++column) {
         const double share = sums.of[row][column];
         if (!(share > least && share < kFoundShare)) rare[look].of[row][column] = false;
       }
@@ -176,7 +176,7 @@ void Thin(const Window& cell, std::vector<Candidate>* candidates) {
 void NumberLooks(std::span<const Candidate> candidates, size_t each, SampleNumbers* numbers) {
   numbers->pixel_count = candidates.size();
   for (size_t i = 0; i < candidates.size(); ++i) {
-    numbers->seeds[i] = Combine(candidates[i].piece.primitive, i);
+    numbers->seeds[i] = HashCombine(candidates[i].piece.primitive, i);
     for (size_t k = 0; k < each; ++k) {
       numbers->number[each * i + k] = static_cast<uint32_t>(k);
       numbers->pixel[each * i + k] = static_cast<uint32_t>(i);
@@ -230,7 +230,7 @@ void AddRare(const PixelFilter& filter, const Window& cell, std::span<const Cand
     double share = 0;
     Rgb radiance{0, 0, 0};
   };
-  Sums sums[kCellSide][kCellSide];
+  Sums sums[kCellSize][kCellSize];
   for (const Candidate& candidate : candidates) {
     if (!candidate.radiance) continue;
     ForEachShareOf(filter, cell, candidate.piece, [&](int column, int row, double share) {

@@ -49,10 +49,10 @@ class WorkerPool {
 void RenderCells(const FramePlan& plan, const Window& window, Worker* worker, StageClock* clock,
                  RenderStats* stats) {
   if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
-  const auto first = [](int pixel) { return pixel / kCellSide * kCellSide; };
-  for (int y = first(window.y0); y < window.y1; y += kCellSide) {
-    for (int x = first(window.x0); x < window.x1; x += kCellSide) {
-      const Window cell{x, y, x + kCellSide, y + kCellSide};
+  const auto first = [](int pixel) { return pixel / kCellSize * kCellSize; };
+  for (int y = first(window.y0); y < window.y1; y += kCellSize) {
+    for (int x = first(window.x0); x < window.x1; x += kCellSize) {
+      const Window cell{x, y, x + kCellSize, y + kCellSize};
       RenderCell(plan, cell, Intersect(cell, window), &worker->work, worker->cell.get(),
                  &worker->strip, clock, stats);
     }

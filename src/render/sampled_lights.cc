@@ -47,7 +47,7 @@ struct SamplingStrategies {
 void FaceLight(const Lit& lit, bool may_be_below_horizon) {
   lit.batch.stats.directions_not_finite +=
       ShineAlong(lit.c.directions, lit.surface(), lit.count(), &lit.light());
-  if (may_be_below_horizon) HideBelowHorizon(lit.batch);
+  if (may_be_below_horizon) HideLightsBelowHorizon(lit.batch);
 }
 
 void Shadow(const Lit& lit) {

@@ -58,7 +58,7 @@ void CastSampledShadows(const DirectBatch& batch, const PlannedSampledLight& pla
   rays.light = planned.occluders;
   rays.outward = batch.plan.eye_outside;
   rays.target = planned.primitives;
-  rays.end_reach = batch.plan.camera_reach;
+  rays.camera_extent = batch.plan.camera_extent;
   batch.plan.intersector->Occluded(&rays);
   rays.target = {};
   float* const irradiance = batch.room.light.irradiance.data();

@@ -42,7 +42,7 @@ void ChoosePixels(const SamplingPlan& plan, const Window& tile, const TileSight&
     runs.clear();
     for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
   }
-  PutPixels(plan.sampler, runs, &s->pixels);
+  PreparePixels(plan.sampler, runs, &s->pixels);
   if (s->film.only_spans) {
     NumberRays(tile, runs, plan.samples_per_round, s->film.ray.data());
   } else if (were_only_spans) {

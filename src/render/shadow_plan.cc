@@ -54,8 +54,8 @@ std::string WhyNotBins(const LightBins& bins) {
   constexpr double kCrowd = 2000;
   constexpr size_t kLarge = 32;
   if (bins.overfull) return "the light's cells would hold more than 2^28 spheres";
-  if (bins.meeting > kCrowd) {
-    return fmt::format("{:.0f} spheres meet in a light's cell", bins.meeting);
+  if (bins.mean_occupancy > kCrowd) {
+    return fmt::format("{:.0f} spheres meet in a light's cell", bins.mean_occupancy);
   }
   if (bins.large.size() > kLarge) {
     return fmt::format("{} spheres cover many of a light's cells", bins.large.size());
@@ -87,7 +87,7 @@ std::string WhyTree(const Scene& scene, const RenderSettings& settings, const Hi
 
 std::string DescribeBins(const LightBins& bins) {
   return fmt::format("{} cells, {} entries, {:.1f} meet in one, {} are in every ray's way",
-                     bins.end.size(), bins.entries(), bins.meeting, bins.large.size());
+                     bins.end.size(), bins.entries(), bins.mean_occupancy, bins.large.size());
 }
 
 bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
@@ -175,7 +175,7 @@ PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits,
                                : "no sphere is between another and the light";
   }
   if (settings.general_path || TreeAskedFor(settings.intersector) != nullptr ||
-      lists.longest > kMaxSampledList) {
+      lists.longest > kMaxSampledListLength) {
     light->occluders = kAnyLight;
   } else if (light->shadow_rays) {
     item.reason += fmt::format(", each by {} others at most: no tree", lists.longest);

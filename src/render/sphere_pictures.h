@@ -14,7 +14,7 @@ namespace nacre {
 // A sphere's picture, inside bounds on the film and, seen in perspective, inside a cone.
 struct SpherePicture {
   const TileCandidate* candidate;
-  FilmBounds bounds;
+  ProjectedBounds bounds;
   Vec3d axis;         // unit, towards the centre
   double half_angle;  // of the cone
   bool has_outline;   // false: the camera is inside

@@ -14,18 +14,18 @@ constexpr uint64_t Mix64(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// A hash of two integers in order: Combine(a, b) and Combine(b, a) are unrelated.
+// A hash of two integers in order: HashCombine(a, b) and HashCombine(b, a) are unrelated.
 constexpr uint64_t MixFirst(uint64_t a) {
   return Mix64(a + 0x9e3779b97f4a7c15u);  // the offset keeps (0, 0) from giving 0
 }
-constexpr uint64_t Combine(uint64_t a, uint64_t b) { return Mix64(MixFirst(a) ^ b); }
+constexpr uint64_t HashCombine(uint64_t a, uint64_t b) { return Mix64(MixFirst(a) ^ b); }
 
-// The seed of one pixel: of its absolute coordinates and the user's seed, and of nothing else, so
-// that crops and tiles of an image have the samples of the whole.
+// The seed of a pixel, which depends on nothing but its absolute coordinates and the user's seed,
+// so that crops and tiles of an image have the samples of the whole image.
 constexpr uint64_t PixelSeed(int x, int y, uint32_t seed) {
   const uint64_t pixel =
       static_cast<uint64_t>(static_cast<uint32_t>(y)) << 32 | static_cast<uint32_t>(x);
-  return Combine(seed, pixel);
+  return HashCombine(seed, pixel);
 }
 
 }  // namespace nacre

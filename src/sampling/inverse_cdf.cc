@@ -12,7 +12,7 @@ std::vector<CdfEntry> MakeInverseCdf(std::span<const double> weights) {
   double running = 0;
   for (size_t i = 0; i < count; ++i) {
     running += weights[i];
-    // The sum once more, in the same order: after the last weight above 0 this is 1, exactly.
+    // Summed in the same order as `sum`, so that it is exactly 1 after the last weight above 0.
     table[i].upper =
         sum > 0 ? running / sum : static_cast<double>(i + 1) / static_cast<double>(count);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// sampling/pair_sampler.h: the points that a sample takes besides its place in the pixel: on
-// lights and in lobes.
+// sampling/pair_sampler.h: the 2-D points that a sample needs besides its film position: on lights
+// and in lobes.
 #pragma once
 
 #include <cstddef>
@@ -11,20 +11,20 @@
 
 namespace nacre {
 
-// Each pair is a (0,2)-sequence of its own, scrambled and shuffled independently, so that few
-// samples of a pixel are well distributed over what each pair stands for: later dimensions of the
-// sequence that places the sample in its pixel are so, by pairs, only when there are many more. As
-// there each pixel shifts the digits by random numbers of its own.
+// Each pair of dimensions is a (0,2)-sequence of its own, scrambled and shuffled independently
+// (padding), so that the few samples of a pixel are well distributed in each pair. Pairs of higher
+// dimensions of the pixel sampler's sequence would be well distributed for many samples only. As
+// there, each pixel shifts the digits by random numbers of its own.
 struct PairSampler {
-  size_t samples = 0;                    // a pixel
-  std::vector<uint32_t> u_bits, v_bits;  // pair by pair, of each the points of all samples
+  size_t samples = 0;                    // per pixel
+  std::vector<uint32_t> u_bits, v_bits;  // pair by pair, the points of all samples of each
 };
 
 // samples in [1, 65536].
 PairSampler MakePairSampler(int samples, size_t pairs, uint32_t seed);
 
-// Which sample each entry is: its number among its pixel's, and which of the pixels that is, whose
-// PixelSeeds are `seeds`.
+// Identifies the sample of each entry: its index among the samples of its pixel, and the index of
+// the pixel in `seeds`, which holds the pixels' PixelSeeds.
 struct SampleNumbers {
   explicit SampleNumbers(size_t capacity) : number(capacity), pixel(capacity), seeds(capacity) {}
   AlignedArray<uint32_t> number, pixel;
@@ -32,16 +32,16 @@ struct SampleNumbers {
   AlignedArray<uint64_t> seeds;
 };
 
-// Points in [0, 1)^2: 32 bits after the point, and as floats, which have 24.
+// Points in [0, 1)^2, as 32-bit binary fractions, and as floats, which have 24 bits.
 struct UnitPoints {
   explicit UnitPoints(size_t capacity)
       : u_bits(capacity), v_bits(capacity), u(capacity), v(capacity), shifts(capacity) {}
   AlignedArray<uint32_t> u_bits, v_bits;
   AlignedArray<float> u, v;
-  AlignedArray<uint64_t> shifts;  // the pixels': u's are the low bits, v's the high ones
+  AlignedArray<uint64_t> shifts;  // per pixel: low half for u, high half for v
 };
 
-// The pair's points of the samples entries[0..count).
+// The points of a pair for the samples entries[0..count).
 void SamplePair(const PairSampler& sampler, size_t pair, const SampleNumbers& samples,
                 const uint32_t* entries, size_t count, UnitPoints* points);
 

@@ -28,14 +28,14 @@ double MitchellIntegralTimes6(double t) {
   return t < 1 ? inner(t) : inner(1) + (outer(t) - outer(1));
 }
 
-// Distances from `first`, at t = 0, to `last`, at t = 1, for the part of f between them.
+// The quantiles of the part of f between the distances `first`, at t = 0, and `last`, at t = 1.
 QuantileTable MakeQuantiles(const PixelFilter& filter, double first, double last) {
   const double mass_before = FilterIntegral(filter, first);
   const double mass = FilterIntegral(filter, last) - mass_before;  // negative for n
   QuantileTable quantiles = {first};
   for (int i = 1; i < kQuantileSteps; ++i) {
-    const double rest = 1 - static_cast<double>(i) / kQuantileSteps;
-    const double share = 1 - rest * rest;
+    const double root = 1 - static_cast<double>(i) / kQuantileSteps;
+    const double share = 1 - root * root;
     double low = quantiles.back();
     double high = last;
     while (high - low > 1e-12 * filter.width) {
@@ -51,8 +51,8 @@ QuantileTable MakeQuantiles(const PixelFilter& filter, double first, double last
 
 // u in [0, 1) to a distance, left of the centre for u < 1/2 and right of it from there on.
 double SampleDistance(const QuantileTable& quantiles, double u) {
-  const double rest = 1 - std::abs(2 * u - 1);
-  const double position = (1 - std::sqrt(rest)) * kQuantileSteps;
+  const double outside = 1 - std::abs(2 * u - 1);  // the fraction of the mass that is further out
+  const double position = (1 - std::sqrt(outside)) * kQuantileSteps;
   const auto i = static_cast<size_t>(std::min(position, kQuantileSteps - 1.0));
   const double fraction = position - static_cast<double>(i);
   const double distance = quantiles[i] + fraction * (quantiles[i + 1] - quantiles[i]);
@@ -137,13 +137,13 @@ Vec2d SampleFilter(const FilterSampler& sampler, FilterPart part, const Vec2d& u
   if (sampler.negative.empty()) {
     return {SampleDistance(sampler.positive, u.x), SampleDistance(sampler.positive, u.y)};
   }
-  // u.x chooses a kind of region and is stretched back to [0, 1).
+  // u.x chooses the region, and is remapped to [0, 1).
   const double first_share = FirstRegionShare(sampler, part);
   const bool first = u.x < first_share;
-  const double stretched = first ? u.x / first_share : (u.x - first_share) / (1 - first_share);
+  const double remapped = first ? u.x / first_share : (u.x - first_share) / (1 - first_share);
   const bool x_negative = first == (part == FilterPart::kNegative);
   const bool y_negative = !first;
-  return {SampleDistance(x_negative ? sampler.negative : sampler.positive, stretched),
+  return {SampleDistance(x_negative ? sampler.negative : sampler.positive, remapped),
           SampleDistance(y_negative ? sampler.negative : sampler.positive, u.y)};
 }
 

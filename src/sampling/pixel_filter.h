@@ -32,9 +32,10 @@ double FilterValue(const PixelFilter& filter, double x);
 // The integral of f from 0 to x in [0, width / 2].
 double FilterIntegral(const PixelFilter& filter, double x);
 
-// Distances |x| at equal steps of t, where (1 - t)^2 is the share of a filter part's mass that lies
-// further out: the square keeps the interpolation accurate where the filter fades to 0. Linear
-// between entries; the share is met within 3e-7 (in negative lobes, which begin at 0, 5e-4).
+// The inverse CDF of the distance |x|, at equal steps of t, where (1 - t)^2 is the fraction of a
+// filter part's mass that lies further out: the square keeps the interpolation accurate where the
+// filter fades to 0. Linear between entries; the fraction is met within 3e-7 (in negative lobes,
+// which begin at 0, 5e-4).
 using QuantileTable = std::vector<double>;
 inline constexpr int kQuantileSteps = 1024;
 
@@ -49,15 +50,15 @@ struct FilterSampler {
 
 FilterSampler MakeFilterSampler(const PixelFilter& filter);
 
-// f(x) f(y) is positive where both factors have one sign, and negative elsewhere. The two parts
-// are sampled apart, so that a pixel can give each its exact share.
+// f(x) f(y) is positive where both factors have the same sign, and negative elsewhere. The two
+// parts are sampled separately, so that each gets exactly its share of a pixel's weight.
 enum class FilterPart : uint8_t { kPositive, kNegative };
 
 // The integral of |f(x) f(y)| over a part.
 double PartMass(const FilterSampler& sampler, FilterPart part);
 
-// Each part has two kinds of region: both factors positive and both negative, or only x negative
-// and only y negative. The share of the first kind in the part's mass.
+// Each part consists of two regions: both factors positive and both negative; or f(x) alone
+// negative and f(y) alone negative. Returns the first region's share of the part's mass.
 double FirstRegionShare(const FilterSampler& sampler, FilterPart part);
 
 // An offset from the pixel's centre, in pixels, with the pdf |f(x) f(y)| / PartMass, for a

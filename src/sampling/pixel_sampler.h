@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sampling/pixel_sampler.h: where a pixel's samples lie and what they weigh.
+// sampling/pixel_sampler.h: film positions and weights of a pixel's samples.
 #pragma once
 
 #include <cstdint>
@@ -12,28 +12,29 @@
 
 namespace nacre {
 
-// What all pixels of an image share. One Owen-scrambled point set serves them all; each pixel
-// shifts its binary digits by a random number of its own (Kollig and Keller 2002), which keeps its
-// nets and costs one exclusive or, and makes the errors of pixels independent.
+// Shared by all pixels of an image: one Owen-scrambled point set, whose binary digits each pixel
+// shifts by a random number of its own (Kollig and Keller 2002). That costs one exclusive or, keeps
+// the points' (t,m,s)-nets, and makes the errors of pixels independent.
 struct PixelSampler {
   FilterSampler filter;
   uint32_t seed = 0;
   int samples_per_pixel = 1;
   bool centered = false;  // the only sample is the pixel's centre
-  // Samples [0, positive_count) are of the filter's positive part, the others of the negative
-  // one: fixed counts with fixed weights, so that a constant image is reproduced exactly.
+  // Samples [0, positive_count) are of the filter's positive part, the others of the negative one.
+  // The counts and weights are fixed, so that a constant image is reproduced exactly.
   int positive_count = 1;
   double positive_weight = 1;
   double negative_weight = 0;
-  // The point of each sample, as 32 bits after the point; padded for whole vectors.
+  // The point of each sample, as 32-bit binary fractions; padded for whole vectors.
   std::vector<uint32_t> points_x, points_y;
 };
 
-// samples_per_pixel in [1, 65536]. One alone is the pixel's centre.
+// samples_per_pixel in [1, 65536]. A single sample is the pixel's centre.
 PixelSampler MakePixelSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
 
-// Like it, but one sample alone is random, too, as needed where the results of several samplers of
-// different seeds are compared and averaged. A filter with both signs needs two samples at least.
+// The same, but a single sample is random, too: needed where results of several samplers with
+// different seeds are compared and averaged. A filter with negative lobes needs at least two
+// samples.
 PixelSampler MakeReplicateSampler(const PixelFilter& filter, int samples_per_pixel, uint32_t seed);
 
 // True if every sample weighs 1: for filters without negative lobes.
@@ -45,50 +46,51 @@ struct PixelSample {
 };
 
 // Sample `index` of the pixel in column x and row y of the full image. The mean over a pixel's
-// samples of weight x value estimates the filtered image without bias; the weights have the mean
-// 1.
+// samples of weight x value is an unbiased estimate of the filtered image; the weights have mean 1.
 PixelSample SamplePixel(const PixelSampler& sampler, int x, int y, int index);
 
 // The weight of sample `index` of every pixel.
 double SampleWeight(const PixelSampler& sampler, int index);
 
-// The centres of the pixels, row by row: the places of the only samples of a centred sampler. The
-// arrays are overwritten like those of SamplePixels.
+// The centres of the pixels, row by row: the samples of a centred sampler. The arrays are padded as
+// for SamplePixels.
 void PlaceCenters(const Window& pixels, double* film_x, double* film_y);
 
-// Pixels whose samples are placed together, one behind the other, but for a centred sampler's.
+// Pixels whose samples are placed together. Not for centred samplers.
 struct PixelBatch {
   explicit PixelBatch(size_t capacity)
       : origin_x(capacity), origin_y(capacity), shift_x(capacity), shift_y(capacity) {}
 
   size_t count = 0;
-  // Column and row, less what a sample's bits begin at; and what the point set is shifted by there,
-  // under the exponent that makes such bits a double: pixel_sampler_kernel.cc.
+  // Column and row minus the offset of the doubles that are made of a sample's bits, and the
+  // pixel's digital shift with the exponent of those doubles: kUnitExponent of
+  // pixel_sampler_kernel.cc.
   AlignedArray<double> origin_x, origin_y;
   AlignedArray<uint64_t> shift_x, shift_y;
 };
 
-// Readies the pixels of the runs, at most as many as there is room for.
-void PutPixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels);
+// Fills `pixels` with the pixels of the runs, which must not exceed its capacity.
+void PreparePixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels);
 
-// Samples [first, first + count) of each of the pixels, sample by sample: film positions
-// x + 0.5 + dx and y + 0.5 + dy, to the bit those of SamplePixel. The arrays take
-// pixels.count * count entries, and a vector's worth after them (AlignedArray) may be overwritten.
+// Samples [first, first + count) of each of the pixels, sample by sample: film positions x + 0.5 +
+// dx and y + 0.5 + dy, bit for bit those of SamplePixel. The arrays take pixels.count * count
+// entries, and a vector behind them (AlignedArray) may be overwritten.
 void SamplePixels(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
                   double* film_x, double* film_y);
 
-// What places those of the runs' pixels have among `count` samples of each of the window's pixels,
-// sample by sample, each row by row. All arrays are overwritten like those of SamplePixels.
+// The indices that `count` samples of the runs' pixels have among `count` samples of all pixels of
+// the window, which are numbered sample by sample, and row by row within a sample. The array is
+// padded as for SamplePixels.
 void NumberRays(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray);
 
-// A pixel, by column and row, and which of several samplers places its samples.
+// A pixel, and the index of the sampler that places its samples.
 struct SampledPixel {
   int x, y;
   uint32_t sampler;
 };
 
-// Samples [first, first + count) of each of the pixels, one pixel after the other, likewise. The
-// samplers are of the same filter, and not centred.
+// Samples [first, first + count) of each of the pixels, pixel by pixel. The samplers must have the
+// same filter, and not be centred. The arrays are padded as for SamplePixels.
 void SamplePixelList(const PixelSampler* samplers, std::span<const SampledPixel> pixels, int first,
                      int count, double* film_x, double* film_y);
 

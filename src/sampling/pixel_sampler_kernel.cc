@@ -24,8 +24,8 @@ using DU32 = hn::Rebind<uint32_t, D>;
 using DU64 = hn::Rebind<uint64_t, D>;
 using VU64 = hn::Vec<DU64>;
 
-// The last bit of a double from 2^20 to 2^21 is worth 2^-32: with these bits before them, 32 bits
-// are, as a double, 2^20 + u exactly, where u is their UnitFromBits.
+// The last bit of a double in [2^20, 2^21) is worth 2^-32: combined with this exponent, the 32 bits
+// of u are the double 2^20 + u, exactly.
 inline constexpr uint64_t kUnitExponent = 0x4130000000000000u;
 inline constexpr double kUnitOrigin = 0x1p20;
 
@@ -40,8 +40,8 @@ HWY_INLINE V Distance(const double* HWY_RESTRICT quantiles, V u) {
   const hn::Rebind<int32_t, D> di32;
   const V one = hn::Set(d, 1.0);
   const V side = hn::Sub(hn::Add(u, u), one);
-  const V rest = hn::Sub(one, hn::Abs(side));
-  const V position = hn::Mul(hn::Sub(one, hn::Sqrt(rest)), hn::Set(d, double{kQuantileSteps}));
+  const V outside = hn::Sub(one, hn::Abs(side));
+  const V position = hn::Mul(hn::Sub(one, hn::Sqrt(outside)), hn::Set(d, double{kQuantileSteps}));
   const auto step = hn::DemoteTo(di32, hn::Min(position, hn::Set(d, kQuantileSteps - 1.0)));
   const V fraction = hn::Sub(position, hn::PromoteTo(d, step));
   const auto i = hn::PromoteTo(hn::RebindToSigned<D>(), step);
@@ -51,16 +51,19 @@ HWY_INLINE V Distance(const double* HWY_RESTRICT quantiles, V u) {
   return hn::IfThenElse(hn::Lt(side, hn::Zero(d)), hn::Neg(distance), distance);
 }
 
-// A box as wide as a pixel, whose samples lie at u of it: column - 2^20 + (2^20 + u), rounded once.
+// The box filter of width 1, whose samples lie at column + u: column - 2^20 + (2^20 + u), rounded
+// once.
 struct PixelBox {
-  static HWY_INLINE V Place(V origin, VU64 bits) { return hn::Add(origin, hn::BitCast(D(), bits)); }
+  static HWY_INLINE V Position(V origin, VU64 bits) {
+    return hn::Add(origin, hn::BitCast(D(), bits));
+  }
   HWY_INLINE void operator()(V origin_x, V origin_y, VU64 bits_x, VU64 bits_y, V* x, V* y) const {
-    *x = Place(origin_x, bits_x);
-    *y = Place(origin_y, bits_y);
+    *x = Position(origin_x, bits_x);
+    *y = Position(origin_y, bits_y);
   }
 };
 
-// Samples at a distance from the pixels' centres, which offset(u, v, &dx, &dy) tells.
+// Samples at the offsets from the pixels' centres that offset(u, v, &dx, &dy) computes.
 template <class Offset>
 struct AboutCenter {
   Offset offset;
@@ -91,7 +94,7 @@ struct Positive {
   }
 };
 
-// A part of a filter with both signs.
+// One part of a filter with negative lobes.
 struct Signed {
   const double* first_x;
   const double* second_x;
@@ -104,7 +107,7 @@ struct Signed {
     const auto first = hn::Lt(u, share);
     const V first_u = hn::Div(u, share);
     const V second_u = hn::Div(hn::Sub(u, share), hn::Set(d, 1 - first_share));
-    // Lanes of the other kind look up something harmless, inside the table.
+    // Lanes of the other region look up any entry of the table.
     const V zero = hn::Zero(d);
     *dx = hn::IfThenElse(first, Distance(first_x, hn::IfThenElse(first, first_u, zero)),
                          Distance(second_x, hn::IfThenElse(first, zero, second_u)));
@@ -154,7 +157,7 @@ HWY_INLINE void SampleAll(const PositivePlace& positive, const NegativePlace& ne
   }
 }
 
-// Calls sample(positive, negative) with the filter's two ways to place samples.
+// Calls sample(positive, negative) with functors that place the samples of the filter's two parts.
 template <class Sample>
 HWY_INLINE void WithFilters(const PixelSampler& sampler, const Sample& sample) {
   const FilterSampler& filter = sampler.filter;
@@ -187,8 +190,8 @@ HWY_INLINE hn::Vec<DU64> MixEach(DU64 d, hn::Vec<DU64> x) {
   return hn::Xor(x, hn::ShiftRight<31>(x));
 }
 
-// The halves of PixelSeed of a run's pixels. Whole vectors are stored, here and below: what lies
-// past a run is overwritten by the next one, or is padding.
+// The halves of the PixelSeeds of a run's pixels. Whole vectors are stored, here and below: entries
+// behind a run are overwritten by the next one, or are padding.
 HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uint64_t* shift_y) {
   const DU64 du64;
   const DU32 du32;
@@ -197,7 +200,8 @@ HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uin
   const auto exponent = hn::Set(du64, kUnitExponent);
   const auto row = hn::Set(du64, static_cast<uint64_t>(static_cast<uint32_t>(run.y)) << 32);
   for (int i = 0; i < run.count; i += static_cast<int>(hn::Lanes(du64))) {
-    // Modulo 2^32, as PixelSeed's. Not Iota from there on: that takes the lanes through memory.
+    // Modulo 2^32, as in PixelSeed. Iota with a variable start would be slower: it goes through
+    // memory.
     const auto columns = hn::Add(lane, hn::Set(du32, static_cast<uint32_t>(run.x + i)));
     const auto pixel = hn::Or(row, hn::PromoteTo(du64, columns));
     const auto shift = MixEach(du64, hn::Xor(first, pixel));
@@ -206,12 +210,12 @@ HWY_INLINE void ShiftRun(const PixelRun& run, VU64 first, uint64_t* shift_x, uin
   }
 }
 
-// Columns and rows of a run's pixels, each with `more`.
-HWY_INLINE void PlaceRun(const PixelRun& run, double more, double* HWY_RESTRICT x,
-                         double* HWY_RESTRICT y) {
+// Columns and rows of a run's pixels, each plus `offset`.
+HWY_INLINE void StorePixelsOfRun(const PixelRun& run, double offset, double* HWY_RESTRICT x,
+                                 double* HWY_RESTRICT y) {
   const D d;
-  const V row = hn::Set(d, run.y + more);
-  V column = hn::Add(hn::Iota(d, 0.0), hn::Set(d, run.x + more));
+  const V row = hn::Set(d, run.y + offset);
+  V column = hn::Add(hn::Iota(d, 0.0), hn::Set(d, run.x + offset));
   for (size_t i = 0; i < static_cast<size_t>(run.count); i += hn::Lanes(d)) {
     PrefetchToWrite(x + i);
     PrefetchToWrite(y + i);
@@ -223,21 +227,23 @@ HWY_INLINE void PlaceRun(const PixelRun& run, double more, double* HWY_RESTRICT 
 
 void PlaceCentersT(const Window& pixels, double* film_x, double* film_y) {
   for (int y = pixels.y0; y < pixels.y1; ++y) {
-    PlaceRun({pixels.x0, y, pixels.width()}, 0.5, film_x, film_y);
+    StorePixelsOfRun({pixels.x0, y, pixels.width()}, 0.5, film_x, film_y);
     film_x += pixels.width();
     film_y += pixels.width();
   }
 }
 
-void PutPixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels) {
+void PreparePixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs,
+                    PixelBatch* pixels) {
   const auto first = hn::Set(DU64(), MixFirst(sampler.seed));
-  size_t place = 0;
+  size_t begin = 0;
   for (const PixelRun& run : runs) {
-    ShiftRun(run, first, pixels->shift_x.data() + place, pixels->shift_y.data() + place);
-    PlaceRun(run, -kUnitOrigin, pixels->origin_x.data() + place, pixels->origin_y.data() + place);
-    place += static_cast<size_t>(run.count);
+    ShiftRun(run, first, pixels->shift_x.data() + begin, pixels->shift_y.data() + begin);
+    StorePixelsOfRun(run, -kUnitOrigin, pixels->origin_x.data() + begin,
+                     pixels->origin_y.data() + begin);
+    begin += static_cast<size_t>(run.count);
   }
-  pixels->count = place;
+  pixels->count = begin;
 }
 
 void NumberRaysT(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray) {
@@ -255,7 +261,7 @@ void NumberRaysT(const Window& window, std::span<const PixelRun> runs, int count
   }
 }
 
-// Samples of one pixel and one part of the filter.
+// Samples of one pixel, of one part of the filter.
 template <class Place>
 HWY_INLINE void SampleRun(const Place& place, const PixelSampler& sampler, int x, int y,
                           size_t first, size_t end, double* film_x, double* film_y) {
@@ -302,7 +308,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(PlaceCentersT);
-HWY_EXPORT(PutPixelsT);
+HWY_EXPORT(PreparePixelsT);
 HWY_EXPORT(NumberRaysT);
 HWY_EXPORT(SamplePixelsT);
 HWY_EXPORT(SamplePixelListT);
@@ -310,8 +316,9 @@ void PlaceCenters(const Window& pixels, double* film_x, double* film_y) {
   HWY_DYNAMIC_DISPATCH(PlaceCentersT)(pixels, film_x, film_y);
 }
 
-void PutPixels(const PixelSampler& sampler, std::span<const PixelRun> runs, PixelBatch* pixels) {
-  HWY_DYNAMIC_DISPATCH(PutPixelsT)(sampler, runs, pixels);
+void PreparePixels(const PixelSampler& sampler, std::span<const PixelRun> runs,
+                   PixelBatch* pixels) {
+  HWY_DYNAMIC_DISPATCH(PreparePixelsT)(sampler, runs, pixels);
 }
 
 void NumberRays(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray) {

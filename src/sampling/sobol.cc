@@ -84,7 +84,7 @@ constexpr uint32_t ReverseBits(uint32_t x) {
 uint32_t SobolBits(uint32_t index, uint32_t dimension) {
   uint32_t bits = 0;
   for (uint32_t k = 0; index != 0; index >>= 1, ++k) {
-    bits ^= kMatrices[dimension][k] & (0u - (index & 1u));  // no branch: bits are as good as random
+    bits ^= kMatrices[dimension][k] & (0u - (index & 1u));  // no branch: bits are unpredictable
   }
   return bits;
 }
@@ -102,9 +102,10 @@ uint32_t OwenScramble(uint32_t bits, uint32_t seed) {
 }
 
 Vec2d SobolSample2D(uint32_t index, uint32_t pair, uint64_t seed) {
-  const uint64_t sequence_seed = Combine(seed, pair / kSobolPairs);
-  const uint64_t pair_seed = Combine(sequence_seed, 1 + pair % kSobolPairs);
-  // The order of the first sequence is free; each further one must not follow it.
+  const uint64_t sequence_seed = HashCombine(seed, pair / kSobolPairs);
+  const uint64_t pair_seed = HashCombine(sequence_seed, 1 + pair % kSobolPairs);
+  // The first sequence keeps its order. The others are shuffled, so that they are not correlated
+  // with it.
   const uint32_t shuffled =
       pair < kSobolPairs ? index : OwenScramble(index, static_cast<uint32_t>(sequence_seed));
   const uint32_t dimension = 2 * (pair % kSobolPairs);

@@ -58,8 +58,6 @@ Mesh MakeMesh(const MeshAreaLight& light) {
   return mesh;
 }
 
-double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
 // How far two planes that are one may be apart for rays of the camera: its and their coordinates'
 // roundings in the shape, relative to the camera and in the depth of a hit, some 300 2^-53 of them
 // for shapes without needles.

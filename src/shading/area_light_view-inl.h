@@ -55,7 +55,7 @@ inline double ByArea(const SampledLight& light) {
 
 // The faces of a mesh with an outline, as Irradiance of mesh_outline-inl.h asks for them.
 struct EmittingFaces {
-  AreaLightV shines[kMostClosedTriangles];
+  AreaLightV shines[kMaxClosedFormTriangles];
   AreaLightV orientation;
 };
 
@@ -83,15 +83,15 @@ HWY_INLINE AreaLightV OutlineIrradiance(const SampledLight& light, const HitBatc
                                         const Map& map) {
   const AreaLightTag d;
   const MeshOutline& outline = light.mesh->outline;
-  SeenCornersV<AreaLightV> seen;
-  // In units, as InUnits of other lights.
+  OutlineCornersV<AreaLightV> seen;
+  // Scaled as other lights are by ScaleToUnit.
   const Vec3V<AreaLightV> first = map(Offset(light, hits, outline.corners[0], i));
   const AreaLightV size = hn::Set(d, static_cast<float>(light.radius));
   const AreaLightV unit = PowerOfTwo(d, hn::Max(LargestComponent(first), size)).inverse;
   seen.first = Scale(first, unit);
   for (size_t k = 0; k < outline.corners.size(); ++k) {
     seen.offset[k] = Scale(map(Set3(outline.corners[k] - outline.corners[0])), unit);
-    seen.way[k] = UnitDifference(d, seen.first, seen.offset[k]);
+    seen.unit_offset[k] = UnitDifference(d, seen.first, seen.offset[k]);
   }
   return Irradiance(d, outline, seen, faces.shines, faces.orientation, normal);
 }

@@ -199,7 +199,7 @@ HWY_INLINE FloatV SpotFactorAt(FloatTag d, const ShadingLight& light, const HitB
     const auto inverse = hn::Div(one, hn::Sqrt(hn::IfThenElse(apart, squared, one)));
     const auto off_axis = Sub(Scale(away, inverse), axis);
     const auto angle = hn::Mul(FusedDot(off_axis, off_axis), hn::Set(dd, 0.5));
-    hn::Store(hn::DemoteTo(half, PenumbraPlace(dd, light.cone, angle)), half, t + lane);
+    hn::Store(hn::DemoteTo(half, PenumbraParameter(dd, light.cone, angle)), half, t + lane);
     hn::Store(hn::DemoteTo(half, angle), half, one_minus_cos + lane);
     hn::Store(hn::DemoteTo(half, hn::Sub(one, angle)), half, cosine + lane);
   }

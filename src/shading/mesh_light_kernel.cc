@@ -119,12 +119,12 @@ void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float
     const LightRaysV<VD> rays = RaysAt(light, hits, to_light, i);
     const auto ray = static_cast<uint32_t>(i);
     Nearest nearest{infinity, zero};
-    ForEachMeeting(d, *light.mesh, rays, [&](uint32_t triangle, const auto& meeting) HWY_ATTR {
-      const auto nearer = hn::And(meeting.met, hn::Lt(meeting.t, nearest.t));
+    ForEachMeshLightHit(d, *light.mesh, rays, [&](uint32_t triangle, const auto& meeting) HWY_ATTR {
+      const auto nearer = hn::And(meeting.hit, hn::Lt(meeting.t, nearest.t));
       nearest.t = hn::IfThenElse(nearer, meeting.t, nearest.t);
       nearest.towards = hn::IfThenElse(nearer, meeting.towards, nearest.towards);
       MeshLightHit* to = meetings->Room(hn::Lanes(d));
-      for (uint32_t bits = BitsOf(meeting.met); bits != 0; bits &= bits - 1) {
+      for (uint32_t bits = BitsOf(meeting.hit); bits != 0; bits &= bits - 1) {
         *to++ = {ray + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)), triangle};
         ++meetings->count;
       }
@@ -217,7 +217,7 @@ void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoint
   for (size_t i = 0; i < hits.count; ++i) {
     const CdfPick pick = PickIndex(light.mesh->by_area, points.u_bits[i] * 0x1p-32);
     PutTriangle(light, hits, pick.index, i, i, &scratch.seen);
-    scratch.rest[i] = std::min(static_cast<float>(pick.rest), 1 - 0x1p-24f);
+    scratch.rest[i] = std::min(static_cast<float>(pick.remapped), 1 - 0x1p-24f);
   }
   HWY_DYNAMIC_DISPATCH(SampleTrianglesT)
   (scratch.seen, hits.count, scratch.rest.data(), points.v.data(), &directions->to_light);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/rough_diffuse-inl.h: how rough diffuse surfaces spread light, apart from their colour: of
-// matte materials (rough_matte_kernel.cc) and of bases under a lobe (rough_base_kernel.cc).
+// matte materials (matte_kernel.cc) and of bases under a lobe (rough_base_kernel.cc).
 #if defined(NACRE_SHADING_ROUGH_DIFFUSE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_ROUGH_DIFFUSE_INL_H_
 #undef NACRE_SHADING_ROUGH_DIFFUSE_INL_H_

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// texture/mapping-inl.h: from points on an object to (u, v) on vectors of doubles. Scalar twin:
+// texture/mapping-inl.h: from points on an object to (u, v), on vectors of doubles. Scalar twin:
 // mapping.h.
 #if defined(NACRE_TEXTURE_MAPPING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_TEXTURE_MAPPING_INL_H_
@@ -48,7 +48,7 @@ HWY_INLINE void MapLongitude(D d, const Vec3V<V>& p, V axis2, V* u, Vec3V<V>* du
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V AxisDistance2(D d, const Vec3V<V>& p) {
-  return hn::Max(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)), hn::Set(d, kLeastAxisDistance2));
+  return hn::Max(hn::MulAdd(p.x, p.x, hn::Mul(p.y, p.y)), hn::Set(d, kMinAxisDistance2));
 }
 
 template <class D, class V = hn::Vec<D>>
@@ -95,14 +95,14 @@ HWY_INLINE MappedV<V> MapCube(D d, const Vec3V<V>& p) {
   const V sign = hn::IfThenElse(hn::Lt(major, zero), hn::Neg(one), one);
   const auto any = hn::Gt(largest, zero);
   const V scale = hn::IfThenElseZero(any, hn::Div(half, hn::IfThenElse(any, largest, one)));
-  // s' is -+z, x or +-x; t' is -y, +-z or -y: in each case what its gradient is along.
+  // s' is -+z, x or +-x, and t' is -y, +-z or -y. s_x, s_z, t_y and t_z are their gradients.
   const V s_x = hn::IfThenElseZero(hn::Not(on_x), hn::IfThenElse(on_y, one, sign));
   const V s_z = hn::IfThenElseZero(on_x, hn::Neg(sign));
   const V t_y = hn::IfThenElse(on_y, zero, hn::Neg(one));
   const V t_z = hn::IfThenElseZero(on_y, sign);
   const V s = hn::Mul(hn::MulAdd(p.x, s_x, hn::Mul(p.z, s_z)), scale);
   const V t = hn::Mul(hn::MulAdd(p.y, t_y, hn::Mul(p.z, t_z)), scale);
-  // -sign s / m along the major axis, as s and t fall with m.
+  // s and t decrease with m: by -sign s / m along the major axis.
   const V fall = hn::Neg(hn::Mul(sign, hn::Add(scale, scale)));
   const V fall_s = hn::Mul(fall, s), fall_t = hn::Mul(fall, t);
   const auto gradient = [&](V x, V y, V z, V along) HWY_ATTR {

@@ -2,8 +2,8 @@
 // texture/mapping.h: from points on an object to (u, v), with the gradients of both. SIMD twin:
 // mapping-inl.h.
 //
-// z is up here and v grows as the lesson's angles do: v = theta / pi is 0 at the north pole. Scenes
-// with another axis, and with v up, turn the point before and v after (shading/).
+// Here z is up, and v = theta / pi is 0 at the north pole, as in lessons. For scenes with another
+// axis, or with v upwards, shading/ rotates the point before and flips v after.
 #pragma once
 
 #include <algorithm>
@@ -28,9 +28,9 @@ struct Mapped {
   Imath::Vec3<Real> du, dv;  // gradients
 };
 
-// Below this squared distance from the axis a longitude has no derivative to speak of: squares of
-// it would leave the range of double.
-inline constexpr double kLeastAxisDistance2 = 1e-290;
+// A lower bound of the squared distance from the axis, so that the derivative of the longitude and
+// its squares stay in the range of double.
+inline constexpr double kMinAxisDistance2 = 1e-290;
 
 // phi / 2 pi with phi = atan2(y, x) in [0, 2 pi), and its gradient, which is the same on both sides
 // of the seam. On the axis u is 0 and so is the gradient.
@@ -39,17 +39,17 @@ void MapLongitude(const Imath::Vec3<Real>& p, Real* u, Imath::Vec3<Real>* du) {
   const Real turn = 2 * static_cast<Real>(M_PI);
   const Real phi = std::atan2(p.y, p.x);
   *u = (phi < 0 ? phi + turn : phi) / turn;
-  const Real scale = 1 / (turn * std::max<Real>(p.x * p.x + p.y * p.y, kLeastAxisDistance2));
+  const Real scale = 1 / (turn * std::max<Real>(p.x * p.x + p.y * p.y, kMinAxisDistance2));
   *du = {-p.y * scale, p.x * scale, 0};
 }
 
-// p in any distance from the centre; the centre itself is on the equator. theta = acos(z / |p|),
-// formed without the cancellation that acos has at the poles.
+// p may have any distance from the centre; the centre itself maps to the equator. theta is
+// acos(z / |p|), computed by an arc tangent, which has no cancellation at the poles.
 template <typename Real>
 Mapped<Real> MapSpherical(const Imath::Vec3<Real>& p) {
   Mapped<Real> mapped;
   MapLongitude(p, &mapped.u, &mapped.du);
-  const Real axis2 = std::max<Real>(p.x * p.x + p.y * p.y, kLeastAxisDistance2);
+  const Real axis2 = std::max<Real>(p.x * p.x + p.y * p.y, kMinAxisDistance2);
   const Real axis = std::sqrt(axis2);
   const Real pi = static_cast<Real>(M_PI);
   mapped.v = std::atan2(axis, p.z) / pi;
@@ -83,8 +83,8 @@ int CubeFace(const Imath::Vec3<Real>& p) {
   return p.z < 0 ? 5 : 4;
 }
 
-// OpenGL's s and t on the face that p is on. u = (s' / m + 1) / 2, where m is the largest of the
-// components without sign, and s' and t' are two others with a sign.
+// OpenGL's s and t on the face of p: u = (s' / m + 1) / 2, where m is the largest absolute
+// component, and s' and t' are the two other components with a sign that depends on the face.
 template <typename Real>
 Mapped<Real> MapCube(const Imath::Vec3<Real>& p) {
   using V = Imath::Vec3<Real>;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // texture/sample-inl.h: texture look-ups on SIMD vectors. Scalar twin: sample.h.
 //
-// Coordinates are doubles until the texel is found, so that 65536 texels a side are told apart
-// wherever (u, v) lies; weights and values are floats. All lanes sample one image.
+// Coordinates are doubles until the texel is found, so that 65536 texels a side can be
+// distinguished for any (u, v); weights and values are floats. All lanes sample the same image.
 #if defined(NACRE_TEXTURE_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_TEXTURE_SAMPLE_INL_H_
 #undef NACRE_TEXTURE_SAMPLE_INL_H_
@@ -35,15 +35,16 @@ HWY_INLINE V WrapCoordinate(D d, V u, Wrap wrap) {
     wrapped = hn::Sub(u, hn::Floor(u));
   } else if (wrap == Wrap::kMirror) {
     const V half = hn::Floor(hn::Mul(u, hn::Set(d, 0.5)));
-    const V turned = hn::Sub(u, hn::Add(half, half));
-    wrapped = hn::IfThenElse(hn::Gt(turned, one), hn::Sub(hn::Set(d, 2.0), turned), turned);
+    const V in_period = hn::Sub(u, hn::Add(half, half));
+    wrapped =
+        hn::IfThenElse(hn::Gt(in_period, one), hn::Sub(hn::Set(d, 2.0), in_period), in_period);
   } else {
     wrapped = hn::IfThenElse(hn::Gt(u, one), one, u);
   }
   return hn::IfThenElseZero(hn::Ge(wrapped, zero), wrapped);
 }
 
-// One size of the image in each lane.
+// A mip level in each lane.
 template <class D>
 struct MipLevelV {
   TexelIndex<D> width, height, first;
@@ -78,15 +79,15 @@ HWY_INLINE TapsV<D> FindTaps(D d, V wrapped, TexelIndex<D> size, Wrap wrap) {
   return taps;
 }
 
-// The index of a texel's first channel.
+// The index of the first channel of a texel.
 template <class D>
-HWY_INLINE TexelIndex<D> TexelAt(const MipLevelV<D>& level, TexelIndex<D> x, TexelIndex<D> y,
-                                 TexelIndex<D> channels) {
+HWY_INLINE TexelIndex<D> TexelIndexAt(const MipLevelV<D>& level, TexelIndex<D> x, TexelIndex<D> y,
+                                      TexelIndex<D> channels) {
   return hn::Add(level.first, hn::Mul(hn::Add(hn::Mul(y, level.width), x), channels));
 }
 
-// The four texels of a bilinear look-up and their weights, the same for all channels; of a nearest
-// one, `near_near`.
+// The four texels of a bilinear look-up and their weights, the same for all channels. A nearest
+// look-up reads `near_near` only.
 template <class D>
 struct FootprintV {
   TexelIndex<D> near_near, far_near, near_far, far_far;  // along u, along v
@@ -100,10 +101,10 @@ HWY_INLINE FootprintV<D> FindFootprint(D d, const MipChain& image, const MipLeve
   const auto channels = hn::Set(di, image.channels);
   const TapsV<D> x = FindTaps(d, u, level.width, settings.wrap_u);
   const TapsV<D> y = FindTaps(d, v, level.height, settings.wrap_v);
-  return {TexelAt<D>(level, x.near, y.near, channels),
-          TexelAt<D>(level, x.far, y.near, channels),
-          TexelAt<D>(level, x.near, y.far, channels),
-          TexelAt<D>(level, x.far, y.far, channels),
+  return {TexelIndexAt<D>(level, x.near, y.near, channels),
+          TexelIndexAt<D>(level, x.far, y.near, channels),
+          TexelIndexAt<D>(level, x.near, y.far, channels),
+          TexelIndexAt<D>(level, x.far, y.far, channels),
           x.weight,
           y.weight};
 }
@@ -139,7 +140,7 @@ HWY_INLINE MipLevelV<D> MipLevelAt(D, const MipChain& image, TexelIndex<D> level
           hn::GatherIndex(di, table, hn::Add(at, hn::Add(one, one)))};
 }
 
-// MipLevelOf, of footprints in floats. Its logarithm is right to 2e-7.
+// MipLevelOf for footprints in float. The logarithm has an error of 2e-7.
 template <class D, class V = TexelFloat<D>>
 HWY_INLINE V MipLevelOf(D, const MipChain& image, const TextureFootprint<V>& f) {
   const TexelFloatTag<D> df;
@@ -150,7 +151,7 @@ HWY_INLINE V MipLevelOf(D, const MipChain& image, const TextureFootprint<V>& f) 
     return hn::MulAdd(x, x, hn::Mul(y, y));
   };
   const V a = squared(f.du_dx, f.dv_dx), b = squared(f.du_dy, f.dv_dy);
-  // Not above 2^40, more than any image has texels; so written, NaN is that, too.
+  // Clamped to 2^40, more than any image has texels. In this form NaN becomes that, too.
   const V most = hn::Set(df, 0x1p40f), one = hn::Set(df, 1.0f);
   const auto keep = [&](V x) HWY_ATTR { return hn::IfThenElse(hn::Lt(x, most), x, most); };
   const V longer = hn::Max(hn::Max(keep(a), keep(b)), one);
@@ -158,11 +159,11 @@ HWY_INLINE V MipLevelOf(D, const MipChain& image, const TextureFootprint<V>& f) 
   return hn::Min(hn::Mul(Log2(df, longer), hn::Set(df, 0.5f)), last);
 }
 
-// Calls put(channel, value) for the channels 0 .. count - 1; those that the image lacks are its
-// last one. (u, v) need not be wrapped; mip_level counts for trilinear look-ups only.
-template <class D, class V = hn::Vec<D>, class Put>
+// Calls store(channel, value) for the channels 0 .. count - 1. Channels that the image lacks are
+// copies of its last one. (u, v) need not be wrapped; mip_level is used by trilinear look-ups only.
+template <class D, class V = hn::Vec<D>, class Store>
 HWY_INLINE void SampleImage(D d, const MipChain& image, const SampleSettings& settings,
-                            TexelFloat<D> mip_level, V u, V v, int count, const Put& put) {
+                            TexelFloat<D> mip_level, V u, V v, int count, const Store& store) {
   const TexelFloatTag<D> df;
   const TexelIndexTag<D> di;
   const V wrapped_u = WrapCoordinate(d, u, settings.wrap_u);
@@ -176,11 +177,11 @@ HWY_INLINE void SampleImage(D d, const MipChain& image, const SampleSettings& se
   };
   if (settings.filter == TextureFilter::kNearest) {
     const FootprintV<D> at = find(WholeImage(d, image));
-    for (int c = 0; c < count; ++c) put(c, hn::GatherIndex(df, channel(c), at.near_near));
+    for (int c = 0; c < count; ++c) store(c, hn::GatherIndex(df, channel(c), at.near_near));
   } else if (settings.filter == TextureFilter::kBilinear ||
              hn::AllTrue(df, hn::Le(mip_level, hn::Zero(df)))) {
     const FootprintV<D> at = find(WholeImage(d, image));
-    for (int c = 0; c < count; ++c) put(c, BilinearChannel(d, channel(c), at));
+    for (int c = 0; c < count; ++c) store(c, BilinearChannel(d, channel(c), at));
   } else {
     const auto level = hn::ConvertTo(di, mip_level);
     const auto last = hn::Set(di, static_cast<int32_t>(image.levels.size()) - 1);
@@ -190,7 +191,7 @@ HWY_INLINE void SampleImage(D d, const MipChain& image, const SampleSettings& se
     const auto t = hn::Sub(mip_level, hn::ConvertTo(df, level));
     for (int c = 0; c < count; ++c) {
       const auto a = BilinearChannel(d, channel(c), near);
-      put(c, hn::MulAdd(t, hn::Sub(BilinearChannel(d, channel(c), far), a), a));
+      store(c, hn::MulAdd(t, hn::Sub(BilinearChannel(d, channel(c), far), a), a));
     }
   }
 }

@@ -14,7 +14,7 @@
 
 namespace nacre {
 
-// What lies outside [0, 1].
+// How coordinates outside of [0, 1] are wrapped.
 enum class Wrap : uint8_t { kRepeat, kClamp, kMirror };
 
 enum class TextureFilter : uint8_t {
@@ -29,25 +29,25 @@ struct SampleSettings {
   Wrap wrap_v = Wrap::kRepeat;
 };
 
-// u brought into [0, 1]. 0 for NaN, and for infinities but where they clamp. Whole turns are taken
-// off exactly in any u; what is left of a u of 2^30 has the digits that u itself had.
+// u wrapped to [0, 1]. NaN gives 0, and so do infinities unless they are clamped. Whole periods are
+// subtracted exactly; the result for a u of 2^30 has the digits that u itself had.
 template <typename Real>
 Real WrapCoordinate(Real u, Wrap wrap) {
   Real wrapped = u;
   if (wrap == Wrap::kRepeat) {
     wrapped = u - std::floor(u);
   } else if (wrap == Wrap::kMirror) {
-    const Real turned = u - 2 * std::floor(u / 2);
-    wrapped = turned > 1 ? 2 - turned : turned;
+    const Real in_period = u - 2 * std::floor(u / 2);
+    wrapped = in_period > 1 ? 2 - in_period : in_period;
   } else if (u > 1) {
     wrapped = 1;
   }
   return wrapped >= 0 ? wrapped : 0;
 }
 
-// The texel that a wrapped coordinate lies in, the neighbour on the side of its other half, and
-// that one's weight, at most 1/2. Values are interpolated from the nearer one, so equal texels
-// interpolate to just their value.
+// The two taps of a linear look-up along one axis: the texel that a wrapped coordinate lies in, and
+// its neighbour on the nearer side, with a weight of at most 1/2. Values are interpolated as
+// differences from the nearer texel, so that equal texels give exactly their value.
 template <typename Real>
 struct Taps {
   int near, far;
@@ -93,14 +93,14 @@ Real SampleBilinear(const MipChain& image, size_t level, const SampleSettings& s
   return near + y.weight * (row(y.far) - near);
 }
 
-// How (u, v) changes from one sample's pixel to the next, to the right and downwards.
+// The change of (u, v) from a sample's pixel to the next one, to the right (x) and downwards (y).
 template <typename Real>
 struct TextureFootprint {
   Real du_dx, dv_dx, du_dy, dv_dy;
 };
 
-// The mip level, counted from 0 for the image itself, whose texels are as long as the longer side
-// of the footprint. Footprints without bounds take the last one.
+// The mip level whose texels are as long as the longer side of the footprint; 0 is the image
+// itself. Unbounded footprints get the last level.
 template <typename Real>
 Real MipLevelOf(const MipChain& image, const TextureFootprint<Real>& f) {
   const Real w = static_cast<Real>(image.levels[0].width);
@@ -123,8 +123,9 @@ Real SampleTrilinear(const MipChain& image, const SampleSettings& settings, Real
   return near + (mip_level - static_cast<Real>(level)) * (far - near);
 }
 
-// How fast the first channel grows with u and with v, by central differences over one texel of the
-// level: the slope of a bilinear surface has steps at the texels' centres, this one has none.
+// The derivatives of the first channel with respect to u and v, by central differences over one
+// texel of the level. Unlike the derivatives of a bilinear surface, they have no steps at the texel
+// centres.
 template <typename Real>
 void SampleSlopes(const MipChain& image, const SampleSettings& settings, Real mip_level, Real u,
                   Real v, Real* du, Real* dv) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// texture/sample_kernel.cc: the loop behind sample_kernel.h.
+// texture/sample_kernel.cc: the loops of sample_kernel.h.
 #include "texture/sample_kernel.h"
 
 #undef HWY_TARGET_INCLUDE

@@ -8,7 +8,7 @@
 
 namespace nacre {
 
-// Arrays of points; all are read and written in whole vectors, up to 7 entries past `count`.
+// Arrays of points. All arrays are read and written in whole vectors, up to 7 entries past `count`.
 struct SamplePoints {
   const double* u;
   const double* v;
@@ -20,8 +20,8 @@ struct SamplePoints {
 void SampleTexture(const MipChain& image, const SampleSettings& settings,
                    const SamplePoints& points, int channels, float* const* to);
 
-// to_u[i] and to_v[i] are how fast channel 0 grows with u and with v at point i; see SampleSlopes
-// of sample.h.
+// to_u[i] and to_v[i] are the derivatives of channel 0 with respect to u and v at point i:
+// SampleSlopes of sample.h.
 void SampleSlopes(const MipChain& image, const SampleSettings& settings, const SamplePoints& points,
                   float* to_u, float* to_v);
 

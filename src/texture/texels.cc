@@ -7,8 +7,8 @@
 namespace nacre {
 namespace {
 
-// The texels of one axis of the larger level that a texel of the smaller one covers, and how much
-// of each.
+// The texels of the larger level, along one axis, that a texel of the smaller level covers, and the
+// weight of each.
 struct Cover {
   int first = 0;
   std::vector<double> weights;  // their sum is 1
@@ -17,7 +17,7 @@ struct Cover {
 std::vector<Cover> CoversOf(int large, int small) {
   std::vector<Cover> covers(static_cast<size_t>(small));
   for (int i = 0; i < small; ++i) {
-    // In units of 1 / small of a large texel: whole numbers, so no rounding moves an edge.
+    // In units of 1 / small of a large texel, so that edges are integers and exact.
     const int64_t begin = int64_t{i} * large, end = begin + large;
     Cover& cover = covers[static_cast<size_t>(i)];
     cover.first = static_cast<int>(begin / small);
@@ -31,7 +31,7 @@ std::vector<Cover> CoversOf(int large, int small) {
 }
 
 // Fills `level` from the one before it.
-void Shrink(size_t level, MipChain* chain) {
+void FillLevel(size_t level, MipChain* chain) {
   const MipLevel& from = chain->levels[level - 1];
   const MipLevel& to = chain->levels[level];
   const auto channels = static_cast<size_t>(chain->channels);
@@ -76,7 +76,7 @@ MipChain MakeEmptyMipChain(int width, int height, int channels) {
 }
 
 void FillMipLevels(MipChain* chain) {
-  for (size_t level = 1; level < chain->levels.size(); ++level) Shrink(level, chain);
+  for (size_t level = 1; level < chain->levels.size(); ++level) FillLevel(level, chain);
 }
 
 MipChain MakeMipChain(int width, int height, int channels, std::vector<float> image) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// texture/texels.h: a decoded image as textures are sampled from it: linear floats, with the
-// smaller copies of it (mip levels) that stand for many texels at once.
+// texture/texels.h: a decoded image that textures sample: linear floats, with a mip chain.
 //
-// Floats, whatever the file held: filtering is done in linear light, and a filtered sRGB code of 8
-// bits would need more than 8 bits to hold it.
+// Always floats, because filtering is done in linear light: a filtered mip level of 8-bit sRGB
+// codes needs more than 8 bits.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +12,13 @@
 
 namespace nacre {
 
-// One size of an image.
+// A mip level.
 struct MipLevel {
   int32_t width, height;
   int32_t first;  // index of its first value in MipChain::values
 };
 
-// Rows lie one after the other, row 0 at v = 0 (the bottom of a picture), a texel's channels
-// together.
+// Row by row, row 0 at v = 0 (the bottom of a picture), with interleaved channels.
 struct MipChain {
   int channels = 1;              // 1 to 4
   std::vector<MipLevel> levels;  // the image itself, then half its size (rounded down) each time
@@ -35,17 +33,17 @@ struct MipChain {
   }
 };
 
-// The most values of an image: with all its levels, 4/3 of that, indices stay below 2^31.
+// The most values of an image, so that the indices of all its levels, 4/3 as many, are below 2^31.
 inline constexpr size_t kMaxTexelValues = size_t{1} << 30;
 
-// The image and all of its levels down to 1x1. Each texel of a level is the mean, in double, of the
-// rectangle of the level above that it covers, parts of texels by their area: any size, not powers
-// of two alone, keeps its mean. `image` holds width x height x channels values.
+// The image with all levels down to 1x1. Each texel of a level is the mean, computed in double, of
+// the rectangle that it covers in the level above, with partly covered texels weighted by area:
+// images of any size keep their mean. `image` holds width x height x channels values.
 MipChain MakeMipChain(int width, int height, int channels, std::vector<float> image);
 
-// The same in two steps, for images that are read straight into the chain, which needs no other
-// memory than its own: 16/3 bytes a value. Between the two, the image's values are written to the
-// first ones of `values`.
+// The same in two steps, for images that are decoded directly into the chain, to save memory: it
+// takes 16/3 bytes a value. Between the steps the caller writes the image to the beginning of
+// `values`.
 MipChain MakeEmptyMipChain(int width, int height, int channels);
 void FillMipLevels(MipChain* chain);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/append-inl.h: writes the hits of a group of lanes behind those that a batch has.
+// visibility/append-inl.h: appends the hits of a group of lanes to a batch.
 #if defined(NACRE_VISIBILITY_APPEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_APPEND_INL_H_
 #undef NACRE_VISIBILITY_APPEND_INL_H_
@@ -10,7 +10,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "base/lane_sets.h"
+#include "base/compact_lanes.h"
 #include "base/prefetch.h"
 #include "visibility/camera_packet-inl.h"
 #include "visibility/surface-inl.h"
@@ -24,15 +24,15 @@ namespace hn = hwy::HWY_NAMESPACE;
 inline constexpr int kGroupLanes = static_cast<int>(hn::MaxLanes(CameraDouble()));
 inline constexpr uint32_t kAllOfGroup = (1u << kGroupLanes) - 1;
 
-// Moves the lanes of `bits` of a group to its front, in their order.
-class ToFront {
+// Compacts a vector: moves the lanes in `bits` to its front, in their order.
+class CompactLanes {
   using D32 = hn::Rebind<uint32_t, CameraDouble>;
   using D64 = hn::Rebind<uint64_t, CameraDouble>;
 
  public:
-  HWY_INLINE explicit ToFront(uint32_t bits) {
+  HWY_INLINE explicit CompactLanes(uint32_t bits) {
     const hn::Rebind<uint8_t, CameraDouble> d8;
-    lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kLanesOfSets[bits].lanes));
+    lanes32_ = hn::PromoteTo(D32(), hn::LoadU(d8, kCompactedLanes[bits].lanes));
     lanes64_ = hn::PromoteTo(D64(), lanes32_);
   }
 
@@ -51,11 +51,11 @@ class ToFront {
   hn::Vec<D64> lanes64_;
 };
 
-// Appends hits, group of lanes by group, to those that a batch has. Whole vectors are stored: what
-// lies behind the last hit is overwritten.
+// Appends hits to a batch, one group of lanes at a time. Whole vectors are stored: entries behind
+// the last hit are overwritten.
 class HitWriter {
  public:
-  HWY_INLINE explicit HitWriter(const HitsTo& to)
+  HWY_INLINE explicit HitWriter(const HitOutput& to)
       : to_(to),
         count_(to.hits->count),
         ray_(to.hits->ray.data()),
@@ -64,8 +64,8 @@ class HitWriter {
         normal_(PointersTo(&to.directions->normal)),
         to_view_(PointersTo(&to.directions->to_view)) {}
 
-  // All of a group's hits but their primitives, with which the hits will be counted. `ray`: those
-  // of the lanes; `position` makes the points if they are asked for.
+  // Everything of a group's hits but their primitives: call Primitive or Primitives afterwards,
+  // which count the hits. `ray`: the lanes' ray indices; `position` computes the points, if wanted.
   template <class V, class Position>
   HWY_INLINE void Surfaces(Vec3V<V> normal, Vec3V<V> to_view, const Position& position,
                            uint32_t bits, const uint32_t* ray) const {
@@ -74,41 +74,41 @@ class HitWriter {
     const D32 du;
     const bool all = bits == kAllOfGroup;
     auto rays = hn::LoadU(du, ray);
-    // Before the stores, which so stand here once: of two kinds of them GCC keeps each address in a
-    // mask register, to have it at hand for both.
+    // Compacted before the stores, so that there is one set of stores for both cases: with two sets
+    // GCC keeps their common addresses in mask registers.
     if (!all) {
-      const ToFront to_front(bits);
-      normal = to_front(normal);
-      to_view = to_front(to_view);
-      rays = to_front(rays);
+      const CompactLanes compact(bits);
+      normal = compact(normal);
+      to_view = compact(to_view);
+      rays = compact(rays);
     }
-    Put(df, Demote3(d, normal), normal_);
-    Put(df, Demote3(d, to_view), to_view_);
+    StoreAtEnd(df, Demote3(d, normal), normal_);
+    StoreAtEnd(df, Demote3(d, to_view), to_view_);
     if (to_.positions) {
       const Vec3V<V> at = position();
-      Put(d, all ? at : ToFront(bits)(at), position_);
+      StoreAtEnd(d, all ? at : CompactLanes(bits)(at), position_);
     }
-    if (to_.exact) {
-      Put(d, normal, PointersTo(&to_.hits->normal));
-      Put(d, to_view, PointersTo(&to_.hits->to_view));
+    if (to_.exact_directions) {
+      StoreAtEnd(d, normal, PointersTo(&to_.hits->normal));
+      StoreAtEnd(d, to_view, PointersTo(&to_.hits->to_view));
     }
-    Put(du, rays, ray_);
+    StoreAtEnd(du, rays, ray_);
   }
 
-  // The primitives of lanes that all hit the same, and with them counts the hits.
+  // The primitive that all lanes in `bits` have hit. Counts the hits.
   HWY_INLINE void Primitive(uint32_t primitive, uint32_t bits) {
     const D32 du;
-    Put(du, hn::Set(du, primitive), primitive_);
+    StoreAtEnd(du, hn::Set(du, primitive), primitive_);
     Count(primitive_[0] == primitive, bits);
   }
 
-  // The same of lanes that may hit one each.
+  // The same for lanes that may have hit different primitives.
   HWY_INLINE void Primitives(const uint32_t* primitives, uint32_t bits) {
     const D32 du;
     const auto each = hn::Load(du, primitives);
     const uint32_t first = count_ == 0 ? primitives[std::countr_zero(bits)] : primitive_[0];
     const bool same = (BitsOfMask(du, hn::Ne(each, hn::Set(du, first))) & bits) == 0;
-    Put(du, ToFront(bits)(each), primitive_);
+    StoreAtEnd(du, CompactLanes(bits)(each), primitive_);
     Count(same, bits);
   }
 
@@ -116,16 +116,16 @@ class HitWriter {
   using D32 = hn::Rebind<uint32_t, CameraDouble>;
 
   template <class D, class T = hn::TFromD<D>>
-  HWY_INLINE void Put(D d, hn::Vec<D> value, T* to) const {
+  HWY_INLINE void StoreAtEnd(D d, hn::Vec<D> value, T* to) const {
     PrefetchToWrite(to + count_);
     hn::StoreU(value, d, to + count_);
   }
 
   template <class D, class T>
-  HWY_INLINE void Put(D d, const Vec3V<hn::Vec<D>>& value, const Pointers3<T>& to) const {
-    Put(d, value.x, to.x());
-    Put(d, value.y, to.y());
-    Put(d, value.z, to.z());
+  HWY_INLINE void StoreAtEnd(D d, const Vec3V<hn::Vec<D>>& value, const Pointers3<T>& to) const {
+    StoreAtEnd(d, value.x, to.x());
+    StoreAtEnd(d, value.y, to.y());
+    StoreAtEnd(d, value.z, to.z());
   }
 
   HWY_INLINE void Count(bool same_primitive, uint32_t bits) {
@@ -134,7 +134,7 @@ class HitWriter {
     to_.hits->count = count_;
   }
 
-  const HitsTo to_;
+  const HitOutput to_;
   size_t count_;
   uint32_t* const ray_;
   uint32_t* const primitive_;

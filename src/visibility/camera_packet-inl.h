@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/camera_packet-inl.h: a packet of camera rays on its way through a tile's candidates:
-// float rays that propose, double rays that decide, and the best hit of each lane so far.
+// visibility/camera_packet-inl.h: the state of a packet of camera rays while it is tested against a
+// tile's candidates: rays in float for the conservative test, rays in double for the exact test,
+// and each lane's nearest hit so far. The float test proposes lanes, the exact test decides.
 #if defined(NACRE_VISIBILITY_CAMERA_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_CAMERA_PACKET_INL_H_
 #undef NACRE_VISIBILITY_CAMERA_PACKET_INL_H_
@@ -22,40 +23,42 @@ inline constexpr int kCameraPacket = 16;
 using CameraDouble = hn::CappedTag<double, kCameraPacket>;
 using CameraFloat = hn::CappedTag<float, kCameraPacket>;
 
-// Each ray has a vector of its own, its direction (perspective) or its origin (orthographic):
-// corner + x step_x + y step_y of the frame. The other vector is the same for all.
+// One vector varies from ray to ray, corner + x step_x + y step_y of the frame: the direction if
+// the camera is perspective, the origin if it is orthographic. The other one is the same for all
+// rays.
 struct CameraPacket {
-  uint32_t lanes;        // that hold rays, as bits
-  uint32_t pixel_rows;   // of their cells that the rays may lie in, as bits
-  const double* film_x;  // the packet's piece of the batch
+  uint32_t lanes;        // lanes that hold rays, as bits
+  uint32_t pixel_rows;   // pixel rows of their cells that the rays may lie in, as bits
+  const double* film_x;  // film positions: the packet's part of the batch
   const double* film_y;
   alignas(kVectorBytes) double center_x[kCameraPacket], center_y[kCameraPacket];
-  // In float, for proposals: the own vectors, and the squared length of the directions.
-  alignas(kVectorBytes) float own[3][kCameraPacket];
+  // In float: the varying vectors, and the directions' squared lengths.
+  alignas(kVectorBytes) float varying[3][kCameraPacket];
   alignas(kVectorBytes) float dd[kCameraPacket];
-  // In double, for the groups of lanes that some sphere was proposed for.
+  // In double, filled for those groups of lanes, in `exact`, that any float test proposed.
   uint32_t exact;
-  alignas(kVectorBytes) double exact_own[3][kCameraPacket];
+  alignas(kVectorBytes) double exact_varying[3][kCameraPacket];
   alignas(kVectorBytes) double exact_dd[kCameraPacket];
-  alignas(kVectorBytes) double inverse_length[kCameraPacket];  // of the direction
-  // The best hits so far, of the lanes in `hit`.
+  alignas(kVectorBytes) double inverse_length[kCameraPacket];  // 1 / |direction|
+  // The nearest hits so far, of the lanes in `hit`.
   uint32_t hit;
-  alignas(kVectorBytes) float depth[kCameraPacket];  // no hit beyond this t |direction|^2 counts
+  alignas(kVectorBytes) float depth[kCameraPacket];  // upper bound of t |direction|^2 of the next
   alignas(kVectorBytes) double t[kCameraPacket];
   alignas(kVectorBytes) double normal[3][kCameraPacket];      // on the ray's side
-  alignas(kVectorBytes) double turned_radius[kCameraPacket];  // TurnedRadius
-  // The spheres that the lanes are proposed, then hit; those in `on_film` have a place on the film.
+  alignas(kVectorBytes) double signed_radius[kCameraPacket];  // SignedRadius
+  // The sphere of each lane: the one that it was proposed for, later the one that it hit. Lanes in
+  // `projected` use the projected test.
   alignas(kVectorBytes) uint32_t primitive[kCameraPacket] = {};
   alignas(kVectorBytes) double center[3][kCameraPacket] = {};
   alignas(kVectorBytes) double radius[kCameraPacket] = {};
-  uint32_t on_film = 0;
-  alignas(kVectorBytes) double film_center[3][kCameraPacket] = {};
-  alignas(kVectorBytes) double film_rest[3][kCameraPacket] = {};
-  alignas(kVectorBytes) double film_scale[kCameraPacket] = {};
+  uint32_t projected = 0;
+  alignas(kVectorBytes) double projected_center[3][kCameraPacket] = {};
+  alignas(kVectorBytes) double projected_error[3][kCameraPacket] = {};
+  alignas(kVectorBytes) double projected_scale[kCameraPacket] = {};
 };
 
-// The candidate becomes the sphere of the lanes in `bits`, of the group from `lane` on. Whole
-// vectors are stored: they are read as such soon.
+// Makes the candidate the sphere of the lanes in `bits`, of the group that begins at `lane`. Whole
+// vectors are stored because they are soon loaded as such (store forwarding).
 HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bits,
                           CameraPacket* packet) {
   const auto set = [&](auto d, auto value, auto* to) HWY_ATTR {
@@ -69,16 +72,16 @@ HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bit
   set3(candidate.sphere.center, packet->center);
   set(d, candidate.sphere.radius, packet->radius);
   set(hn::Rebind<uint32_t, CameraDouble>(), candidate.primitive, packet->primitive);
-  packet->on_film &= ~(bits << lane);
-  if (candidate.film == nullptr) return;
-  packet->on_film |= bits << lane;
-  set3(candidate.film->center, packet->film_center);
-  set3(candidate.film->rest, packet->film_rest);
-  set(d, candidate.film->scale, packet->film_scale);
+  packet->projected &= ~(bits << lane);
+  if (candidate.projected == nullptr) return;
+  packet->projected |= bits << lane;
+  set3(candidate.projected->center, packet->projected_center);
+  set3(candidate.projected->rounding_error, packet->projected_error);
+  set(d, candidate.projected->scale, packet->projected_scale);
 }
 
-// The packet's film positions become those from (x, y) on, a pixel apart.
-HWY_INLINE void PlaceInRow(double x, double y, CameraPacket* packet) {
+// Sets the packet's film positions: (x, y) and those to its right, one pixel apart.
+HWY_INLINE void SetPixelCenters(double x, double y, CameraPacket* packet) {
   const CameraDouble d;
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
     hn::Store(hn::Add(hn::Set(d, x), hn::Iota(d, static_cast<double>(i))), d, packet->center_x + i);
@@ -115,38 +118,39 @@ HWY_INLINE void FillFloatRays(const CameraFrame& frame, CameraPacket* packet) {
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
     const auto x = LoadRounded(packet->film_x + i);
     const auto y = LoadRounded(packet->film_y + i);
-    Vec3V<hn::Vec<CameraFloat>> own;
-    own.x = hn::MulAdd(step_y.x, y, hn::MulAdd(step_x.x, x, corner.x));
-    own.y = hn::MulAdd(step_y.y, y, hn::MulAdd(step_x.y, x, corner.y));
-    own.z = hn::MulAdd(step_y.z, y, hn::MulAdd(step_x.z, x, corner.z));
-    Store3(own, d, packet->own[0] + i, packet->own[1] + i, packet->own[2] + i);
-    hn::Store(kPerspective ? FusedDot(own, own) : hn::Set(d, 1.0f), d, packet->dd + i);
+    Vec3V<hn::Vec<CameraFloat>> varying;
+    varying.x = hn::MulAdd(step_y.x, y, hn::MulAdd(step_x.x, x, corner.x));
+    varying.y = hn::MulAdd(step_y.y, y, hn::MulAdd(step_x.y, x, corner.y));
+    varying.z = hn::MulAdd(step_y.z, y, hn::MulAdd(step_x.z, x, corner.z));
+    Store3(varying, d, packet->varying[0] + i, packet->varying[1] + i, packet->varying[2] + i);
+    hn::Store(kPerspective ? FusedDot(varying, varying) : hn::Set(d, 1.0f), d, packet->dd + i);
   }
 }
 
-// The lanes whose float rays pass within the candidate's reach of its centre and, unless the
-// candidate is the only one, do so in front of the camera and before their depth. They include all
-// that hit it truly: GatherTile makes the reach.
+// The float test: the lanes whose ray passes the candidate's centre within its radius bound and,
+// unless the depth is ignored, does so in front of the camera and not beyond the lane's depth. They
+// include all lanes that truly hit the sphere, because the bound covers the rounding (RadiusBound).
 //
 // The distance of the centre from the line is |to_center x direction| / |direction|, so nothing is
-// divided; along the line both other conditions leave a slack of the reach, too.
-template <bool kPerspective, bool kAlone>
+// divided. Along the line, too, both conditions leave a slack of the radius bound.
+template <bool kPerspective, bool kIgnoreDepth>
 HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate& candidate,
                                   const CameraPacket& packet) {
   const CameraFloat d;
   using V = hn::Vec<CameraFloat>;
   const Vec3V<V> center{hn::Set(d, candidate.center[0]), hn::Set(d, candidate.center[1]),
                         hn::Set(d, candidate.center[2])};
-  const V reach2 = hn::Set(d, candidate.reach * candidate.reach);
+  const V radius2 = hn::Set(d, candidate.radius_bound * candidate.radius_bound);
   uint32_t lanes = 0;
   for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
-    const Vec3V<V> own = Load3(d, packet.own[0] + i, packet.own[1] + i, packet.own[2] + i);
-    const Vec3V<V> to_center = kPerspective ? center : Sub(center, own);
-    const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
+    const Vec3V<V> varying =
+        Load3(d, packet.varying[0] + i, packet.varying[1] + i, packet.varying[2] + i);
+    const Vec3V<V> to_center = kPerspective ? center : Sub(center, varying);
+    const Vec3V<V> direction = kPerspective ? varying : SetVec3(d, frame.forward);
     const Vec3V<V> cross = FusedCross(to_center, direction);
-    const V limit = hn::Mul(reach2, hn::Load(d, packet.dd + i));
+    const V limit = hn::Mul(radius2, hn::Load(d, packet.dd + i));
     auto proposed = hn::Le(FusedDot(cross, cross), limit);
-    if constexpr (!kAlone) {
+    if constexpr (!kIgnoreDepth) {
       const V along = FusedDot(to_center, direction);
       const V beyond = hn::Sub(along, hn::Load(d, packet.depth + i));
       const V zero = hn::Zero(d);
@@ -159,10 +163,10 @@ HWY_INLINE uint32_t ProposedLanes(const CameraFrame& frame, const TileCandidate&
   return lanes & packet.lanes;
 }
 
-// The own vectors, in double, of the lanes from `lane` on: by the operations of MakeCameraRays.
+// The varying vectors, in double, of the lanes from `lane` on, by the operations of MakeCameraRays.
 template <class D>
-HWY_INLINE Vec3V<hn::Vec<D>> ExactOwn(D d, const CameraFrame& frame, int lane,
-                                      const CameraPacket& packet) {
+HWY_INLINE Vec3V<hn::Vec<D>> ExactVarying(D d, const CameraFrame& frame, int lane,
+                                          const CameraPacket& packet) {
   const auto x = hn::LoadU(d, packet.film_x + lane);
   const auto y = hn::LoadU(d, packet.film_y + lane);
   return MulAdd3(SetVec3(d, frame.step_y), y,
@@ -173,11 +177,11 @@ HWY_INLINE Vec3V<hn::Vec<D>> ExactOwn(D d, const CameraFrame& frame, int lane,
 template <bool kPerspective, class D>
 HWY_INLINE void FillExactRays(D d, const CameraFrame& frame, int lane, CameraPacket* packet) {
   using V = hn::Vec<D>;
-  const Vec3V<V> own = ExactOwn(d, frame, lane, *packet);
-  const Vec3V<V> direction = kPerspective ? own : SetVec3(d, frame.forward);
+  const Vec3V<V> varying = ExactVarying(d, frame, lane, *packet);
+  const Vec3V<V> direction = kPerspective ? varying : SetVec3(d, frame.forward);
   const V dd = FusedDot(direction, direction);
-  Store3(own, d, packet->exact_own[0] + lane, packet->exact_own[1] + lane,
-         packet->exact_own[2] + lane);
+  Store3(varying, d, packet->exact_varying[0] + lane, packet->exact_varying[1] + lane,
+         packet->exact_varying[2] + lane);
   hn::Store(dd, d, packet->exact_dd + lane);
   hn::Store(InverseLength(d, dd), d, packet->inverse_length + lane);
 }
@@ -186,7 +190,7 @@ template <bool kPerspective, class D>
 HWY_INLINE Vec3V<hn::Vec<D>> ExactDirection(D d, const CameraFrame& frame, int lane,
                                             const CameraPacket& packet) {
   if constexpr (!kPerspective) return SetVec3(d, frame.forward);
-  return LoadLanes(packet.exact_own, lane);
+  return LoadLanes(packet.exact_varying, lane);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/cell_lists.h: sorts items into the lists of the cells that they touch, in parallel.
-// The order within a list is that of the items, whatever the threads.
+// visibility/cell_lists.h: a parallel counting sort of items into the lists of the cells that they
+// overlap. Each list is in the order of the items, for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace nacre {
 
-// Items in pieces, each with its own count for every cell: so many that all threads have work, so
-// few that the counts stay small.
+// The number of pieces that items are split into. Each piece has its own counts of all cells: the
+// pieces are enough to occupy the threads, and few enough to keep the counts small.
 inline size_t CellListPieces(size_t items) { return items < (size_t{1} << 14) ? 1 : 8; }
 
 struct CellListRange {
@@ -26,16 +26,17 @@ inline CellListRange CellListPiece(size_t items, size_t piece) {
   return {items * piece / pieces, items * (piece + 1) / pieces};
 }
 
-// for_cells(item, emit) calls emit(cell) for each cell of the item, each time in the same way; it
-// is called twice. Then end[cell] is where the cell's list ends, allocate(entries) is called once,
-// and place(item, cell, position) for each entry, from several threads. Returns false, with nothing
-// allocated, if there would be more than max_entries, which is below 2^32.
-template <class ForCells, class Allocate, class Place>
+// for_cells(item, emit) calls emit(cell) for each cell of the item; it is called twice, and must
+// emit the same cells both times. end[cell] becomes the end of the cell's list. allocate(entries)
+// is called once, and then store(item, cell, position) for each entry, from several threads.
+// Returns false, with nothing allocated, if there would be more than max_entries, which is below
+// 2^32.
+template <class ForCells, class Allocate, class Store>
 bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
                    const ForCells& for_cells, std::vector<uint32_t>* end, const Allocate& allocate,
-                   const Place& place) {
+                   const Store& store) {
   const size_t pieces = CellListPieces(items);
-  std::vector<std::vector<uint32_t>> next(pieces);  // first counts, then where the next one goes
+  std::vector<std::vector<uint32_t>> next(pieces);  // first the counts, then the next free position
   std::atomic<size_t> entries{0};
   ParallelFor(pieces, threads, [&](size_t piece) {
     std::vector<uint32_t> count(cells);
@@ -61,7 +62,7 @@ bool SortIntoCells(size_t items, size_t cells, size_t max_entries, int threads,
   ParallelFor(pieces, threads, [&](size_t piece) {
     const auto [begin, end_of_piece] = CellListPiece(items, piece);
     for (size_t item = begin; item < end_of_piece; ++item) {
-      for_cells(item, [&](size_t cell) { place(item, cell, next[piece][cell]++); });
+      for_cells(item, [&](size_t cell) { store(item, cell, next[piece][cell]++); });
     }
   });
   return true;

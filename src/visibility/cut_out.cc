@@ -12,7 +12,8 @@ float LeastOf(const std::vector<float>& values) {
   return values.empty() ? 1.0f : *std::min_element(values.begin(), values.end());
 }
 
-// Smaller copies of the image would close the holes of foliage seen from afar, or lose the leaves.
+// Always from the full image: mip levels would close the holes of distant foliage, or lose the
+// leaves.
 double MapOpacity(const CutOut& cut_out, const Vec2d& uv) {
   const SampleSettings& sampling = cut_out.texture.sampling;
   return sampling.filter == TextureFilter::kNearest
@@ -48,12 +49,13 @@ std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh,
   return made;
 }
 
-bool IsThere(const CutOut& cut_out, const std::vector<Vec3d>& positions,
-             const std::array<uint32_t, 3>& corners, const std::array<double, 3>& weights) {
+bool IsSolidAt(const CutOut& cut_out, const std::vector<Vec3d>& positions,
+               const std::array<uint32_t, 3>& corners, const std::array<double, 3>& weights) {
   double opacity = cut_out.opacity;
   if (!cut_out.opacities.empty()) {
-    // As the first corner's and differences to it, because the weights' sum is rounded: between
-    // corners of one opacity this is that opacity to the bit, and so on one side of the cutoff.
+    // Interpolated by differences from the first corner, because the sum of the weights is rounded:
+    // between corners of equal opacity the result is exactly that opacity, and on its side of the
+    // cutoff.
     const auto at = [&](size_t k) {
       return double{cut_out.opacities[corners[k] - cut_out.first_vertex]};
     };
@@ -79,7 +81,7 @@ bool IsThere(const CutOut& cut_out, const std::vector<Vec3d>& positions,
 const CutOut* FindCutOut(const std::vector<CutOut>& cut_outs, uint32_t triangle) {
   const auto after =
       std::upper_bound(cut_outs.begin(), cut_outs.end(), triangle,
-                       [](uint32_t number, const CutOut& holes) { return number < holes.begin; });
+                       [](uint32_t index, const CutOut& holes) { return index < holes.begin; });
   if (after == cut_outs.begin()) return nullptr;
   const CutOut& holes = *(after - 1);
   return triangle < holes.end ? &holes : nullptr;

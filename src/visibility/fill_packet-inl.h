@@ -91,7 +91,7 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
 
 // For the rays' first hits that are nearer than hits->t.
 HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hits, Packet* packet) {
-  packet->film = rays.film;
+  packet->view = rays.view;
   packet->best_t = hits->t.data() + first;
   packet->best_primitive = hits->primitive.data() + first;
   packet->t_max = packet->best_t;
@@ -129,7 +129,7 @@ HWY_INLINE void FillStarts(const ShadowRayBatch& rays, size_t first, Packet* pac
     packet->start_sphere[1][lane] = sphere.center.y;
     packet->start_sphere[2][lane] = sphere.center.z;
     packet->start_sphere[3][lane] = sphere.radius;
-    packet->start_reach[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
+    packet->start_extent[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
   }
 }
 
@@ -138,7 +138,7 @@ HWY_INLINE void FillShadowRays(const ShadowRayBatch& rays, size_t first, Packet*
   packet->t_max = rays.t_max.data() + first;
   packet->outward = rays.outward;
   packet->target = rays.target;
-  packet->end_reach = rays.end_reach;
+  packet->camera_extent = rays.camera_extent;
   FillPacket(rays, first, packet);
   packet->occluded = 0;
   for (int lane = 0; lane < packet->width; ++lane) {

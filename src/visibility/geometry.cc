@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/geometry.cc: takes the primitives from the scene.
+// visibility/geometry.cc: extracts the primitives from the scene.
 #include "visibility/geometry.h"
 
 #include <algorithm>
@@ -49,21 +49,21 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
 
 }  // namespace
 
-std::vector<uint32_t> FirstTwins(const HugeArray<TraceSphere>& spheres,
-                                 const std::vector<uint32_t>& numbers) {
+std::vector<uint32_t> FindFirstCoincident(const HugeArray<TraceSphere>& spheres,
+                                          const std::vector<uint32_t>& indices) {
   const auto key = [&](uint32_t i) {
     const auto& [center, radius] = spheres[i];
     return std::make_tuple(center.x, center.y, center.z, radius, i);
   };
-  std::vector<uint32_t> order = numbers;
+  std::vector<uint32_t> order = indices;
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-  std::vector<uint32_t> twins(numbers.size());
+  std::vector<uint32_t> first_of(indices.size());
   for (size_t i = 0, first = 0; i < order.size(); ++i) {
     if (!Coincide(spheres[order[i]], spheres[order[first]])) first = i;
-    const auto place = std::lower_bound(numbers.begin(), numbers.end(), order[i]);
-    twins[static_cast<size_t>(place - numbers.begin())] = order[first];
+    const auto found = std::lower_bound(indices.begin(), indices.end(), order[i]);
+    first_of[static_cast<size_t>(found - indices.begin())] = order[first];
   }
-  return twins;
+  return first_of;
 }
 
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads) {
@@ -78,7 +78,7 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
     double extent = 0;
     for (size_t i = block * kBlock; i < end; ++i) {
       const Sphere& sphere = scene.spheres[i];
-      // -0 becomes 0: it would do so in some tests and not in others (AddCorrection).
+      // Adding 0 turns -0 into 0: some tests would do so, and others not.
       const TraceSphere traced{sphere.center - camera_position + Vec3d(0), sphere.radius};
       std::construct_at(geometry.spheres.data() + i, traced);
       extent = std::max(extent, traced.center.length() + traced.radius);

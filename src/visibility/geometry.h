@@ -27,21 +27,21 @@ inline bool Coincide(const TraceSphere& a, const TraceSphere& b) {
   return a.center == b.center && a.radius == b.radius;
 }
 
-// For each of these spheres, which are in ascending order, the first of them that it coincides
-// with: itself, as a rule.
-std::vector<uint32_t> FirstTwins(const HugeArray<TraceSphere>& spheres,
-                                 const std::vector<uint32_t>& numbers);
+// For each of these spheres, given by index in ascending order, the first one of them that
+// coincides with it, which is usually itself.
+std::vector<uint32_t> FindFirstCoincident(const HugeArray<TraceSphere>& spheres,
+                                          const std::vector<uint32_t>& indices);
 
 struct TraceGeometry {
   HugeArray<TraceSphere> spheres;  // in scene order
-  ShellTree shells;  // of the spheres, if so many lie within one another that trees of boxes fail
+  ShellTree shells;  // of the spheres; only if many are nested, which trees of boxes cannot cull
 
-  // The vertices of all meshes, one after the other, and their triangles, indexing them.
+  // The vertices of all meshes, mesh after mesh, and the triangles, which index them.
   std::vector<Vec3d> positions;
   std::vector<Vec3d>
       normals;  // one per position, 0 where a mesh has none; empty if no mesh has any
   std::vector<std::array<uint32_t, 3>> triangles;
-  // The holes of meshes, in the order of their triangles: most scenes have none.
+  // Meshes with holes, in the order of their triangles. Most scenes have none.
   std::vector<CutOut> cut_outs;
 
   // No point of any primitive is further than this from the camera.

@@ -95,12 +95,12 @@ bool Intersector::EnterTile(const Window& tile, TileRays rays, TileCandidates* c
 }
 
 void Intersector::HitsInTile(const TileCandidates& candidates, const FilmBatch& film,
-                             const HitsTo& to) const {
+                             const HitOutput& to) const {
   TraceTile(state_->camera, state_->bins, candidates, film, to);
 }
 
 void Intersector::Refine(const RayBatch& rays, const ClosestHits& closest,
-                         const uint32_t* ray_indices, size_t count, const HitsTo& to) const {
+                         const uint32_t* ray_indices, size_t count, const HitOutput& to) const {
   RefineHits({state_->geometry, rays, closest, ray_indices, count}, to);
 }
 
@@ -110,14 +110,14 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
   // Many lights are shared out among the threads; few have all of them, one after the other.
   const bool many = lights.size() >= 8;
   const int inner = many ? 1 : s.settings.threads;
-  const size_t room = kBinRoom / std::max<size_t>(lights.size(), 4);
+  const size_t room = kBinEntryBudget / std::max<size_t>(lights.size(), 4);
   s.occluders.resize(lights.size());
   ParallelFor(lights.size(), many ? s.settings.threads : 1, [&](size_t i) {
     LightOccluders& occluders = s.occluders[i];
     const ShadowLight target = MakeShadowLight(*lights[i], s.camera_position);
     occluders.light = target;
     if (few) occluders.lists = ListOccluders(s.geometry, target, outward);
-    if (few && occluders.lists.longest <= kMaxListed) return;
+    if (few && occluders.lists.longest <= kMaxListLength) return;
     occluders.bins = BinForLight(s.geometry, target, room, inner);
   });
 }

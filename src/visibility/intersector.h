@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/intersector.h: which surface a ray meets first, and whether anything is in its way.
 // Trees find candidates (box_trees.h, shell_tree.h), or bins; our own tests decide every hit, in
-// double (sphere_test.h, film_test.h, triangle_test.h).
+// double (sphere_test.h, projected_sphere_test.h, triangle_test.h).
 //
 // Results depend on the scene, the camera and the ray alone: not on which rays share a batch, on
 // threads, or on the SIMD target. Of primitives at the same t the lowest id is hit.
@@ -86,13 +86,14 @@ class Intersector {
   // (sphere_bins.h): the spheres that its rays may hit, false if none; and the hits of the rays
   // through `film` on spheres, in their order. The same bits as Closest's and Refine's.
   bool EnterTile(const Window& tile, TileRays rays, TileCandidates* candidates) const;
-  void HitsInTile(const TileCandidates& candidates, const FilmBatch& film, const HitsTo& to) const;
+  void HitsInTile(const TileCandidates& candidates, const FilmBatch& film,
+                  const HitOutput& to) const;
 
   // Fills `to` from the rays ray_indices[0..count), in that order, all of which hit something;
   // `closest` is what Closest found for `rays`. Entries from count to the next multiple of
   // kBatchPadding are copies of the last hit.
   void Refine(const RayBatch& rays, const ClosestHits& closest, const uint32_t* ray_indices,
-              size_t count, const HitsTo& to) const;
+              size_t count, const HitOutput& to) const;
 
   // Finds what can come between the spheres and each light, so that shadow rays to it need no tree:
   // ShadowRayBatch::light is then the light's place in `lights`. Triangles are not seen: with any

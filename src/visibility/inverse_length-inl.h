@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/inverse_length-inl.h: 1 / the length of a camera ray's direction.
+// visibility/inverse_length-inl.h: the reciprocal of the length of a camera ray's direction.
 #if defined(NACRE_VISIBILITY_INVERSE_LENGTH_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_INVERSE_LENGTH_INL_H_
 #undef NACRE_VISIBILITY_INVERSE_LENGTH_INL_H_
@@ -14,8 +14,8 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 1 / sqrt(v) to at least 14 bits, for v within float's range. AVX-512 has an instruction for that,
-// several times faster than the root and the quotient.
+// 1 / sqrt(v) to at least 14 bits, for v within the range of float. AVX-512 has an instruction for
+// it, which is several times faster than a square root and a division.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V RoughInverseSqrt(D d, V v) {
 #if HWY_TARGET <= HWY_AVX3
@@ -27,10 +27,10 @@ HWY_INLINE V RoughInverseSqrt(D d, V v) {
 #endif
 }
 
-// 1 / |direction| within 2 ulp, of dd = |direction|^2 of a camera ray, well within float's range. A
-// step of the fourth order takes the first guess g to double's precision:
+// 1 / |direction| within 2 ulp, from dd = |direction|^2 of a camera ray, which is well within the
+// range of float. One step of fourth order refines the estimate g to double precision:
 // 1 / sqrt(dd) = g (1 + e/2 + 3/8 e^2 + 5/16 e^3 + ...) for e = 1 - dd g^2, of which
-// |35/128 e^4| < 2^-53 is left out.
+// |35/128 e^4| < 2^-53 is dropped.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V InverseLength(D d, V dd) {
   const V guess = RoughInverseSqrt(d, dd);

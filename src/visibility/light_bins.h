@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/light_bins.h: spheres binned as a light sees them. Shadow rays are the light's camera
-// rays: each finds what may be in its way in one cell, without a tree.
+// visibility/light_bins.h: spheres binned by their projections towards a light. Shadow rays are
+// like camera rays of the light: each finds all possible occluders in one cell, without a tree.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,14 @@
 
 namespace nacre {
 
-// Cells are numbered block by block, blocks and the cells in one row by row: neighbours are close
-// in memory, and a block's spheres are sorted within the cache.
+// Cells are numbered block by block, and blocks, like the cells of a block, row by row: neighbours
+// are close in memory, and sorting the spheres of a block stays in the cache.
 inline constexpr int kBlockBits = 4;
 inline constexpr int kBlockSize = 1 << kBlockBits;  // cells across
 inline constexpr size_t kBlockCells = size_t{kBlockSize} * kBlockSize;
 
-// Square cells on a plane before the light. Those at the border reach to infinity: all places have
-// a cell.
+// A grid of square cells on a plane in front of the light. Cells at the border extend to infinity,
+// so every point has a cell.
 struct LightGrid {
   double x0 = 0, y0 = 0;
   double inverse_cell = 0;
@@ -50,15 +50,15 @@ struct LightGrid {
   }
 
  private:
-  // 0 also for what is not a number.
-  static int Clamped(double place, int count) {
-    return static_cast<int>(std::min(std::max(0.0, place), count - 0.5));
+  // NaN gives 0, too.
+  static int Clamped(double position, int count) {
+    return static_cast<int>(std::min(std::max(0.0, position), count - 0.5));
   }
 };
 
-// A sphere in a cell. Relative to the light bins' centre and, if the light is directional, in its
-// axes, with z, towards the light, where the sphere ends. The radius bounds the true one and what
-// rounding does to all of this and to a ray that passes by.
+// A sphere in a cell, relative to LightBins::center. If the light is directional, x, y and z are
+// along LightBins::axes, and z is that of the sphere's end towards the light. The radius is an
+// upper bound: it covers the rounding of these numbers and of a ray that passes the sphere.
 struct BinnedSphere {
   float x, y, z, radius;
 };
@@ -66,33 +66,33 @@ struct BinnedSphere {
 struct LightBins {
   bool positional = false;
   Vec3d center{0, 0, 0};  // the light; or some point among the spheres
-  Vec3d axes[3];          // of a directional light: across it, and towards it
+  Vec3d axes[3];          // of a directional light: two across, the third towards it
   LightGrid grids[6];     // one for each face of a cube about the light; if directional, the first
-  // Spheres and rays reach at most this far from the camera, or are not binned: the bins' margins
-  // hold no longer.
-  double max_reach = 0;
+  // Spheres and rays that extend further than this from the camera are not binned: the margins
+  // would be too small for their rounding errors.
+  double max_distance = 0;
 
-  std::vector<uint32_t> end;         // of each cell's list
-  HugeArray<BinnedSphere> binned;    // cell by cell; a vector more may be read
-  HugeArray<uint32_t> spheres;       // their numbers
-  std::vector<uint32_t> large;       // spheres that any ray may meet, in ascending order
-  std::vector<uint32_t> large_twin;  // of each, the first of them that coincides with it
+  std::vector<uint32_t> end;       // where each cell's list ends
+  HugeArray<BinnedSphere> binned;  // cell by cell, padded by a vector
+  HugeArray<uint32_t> spheres;     // their indices
+  std::vector<uint32_t> large;     // spheres that every ray is tested against, in ascending order
+  std::vector<uint32_t> large_first;  // for each of them the first one that coincides with it
 
-  bool overfull = false;  // there would be too many: no cell has any
+  bool overfull = false;  // there would be too many entries, and no sphere is binned
 
   size_t entries() const { return end.empty() ? 0 : end.back(); }
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
-  // How many spheres a ray's cell holds, on average over the spheres' own places.
-  double meeting = 0;
+  // The number of spheres in a ray's cell, averaged over rays to the spheres themselves.
+  double mean_occupancy = 0;
 };
 
-// The face of the cube about the light that a direction goes through: 0 to 5 for +x -x +y -y +z -z;
-// and on it the place, two slopes in [-1, 1].
-struct FacePlace {
+// The point where a direction crosses a cube about the light: the face, 0 to 5 for
+// +x -x +y -y +z -z, and two slopes in [-1, 1].
+struct CubePoint {
   int face;
   double x, y;
 };
-inline FacePlace PlaceOnCube(const Vec3d& direction) {
+inline CubePoint ProjectToCube(const Vec3d& direction) {
   const Vec3d size(std::abs(direction.x), std::abs(direction.y), std::abs(direction.z));
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
   const double z = size[axis];
@@ -100,14 +100,15 @@ inline FacePlace PlaceOnCube(const Vec3d& direction) {
           direction[(axis + 2) % 3] / z};
 }
 
-// Cells become smaller than most spheres where no more than about `room` entries come of it.
-LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t room,
+// Cells are made smaller than most spheres as long as there are no more than about `entry_budget`
+// entries.
+LightBins BinForLight(const TraceGeometry& geometry, const ShadowLight& light, size_t entry_budget,
                       int threads);
 
-// As many entries as are nothing to speak of, for all lights together.
-inline constexpr size_t kBinRoom = size_t{1} << 19;
+// Memory budget, in entries, for the bins of all lights together.
+inline constexpr size_t kBinEntryBudget = size_t{1} << 19;
 
-// Intersector::Occluded for rays to the bins' light from spheres.
+// Intersector::Occluded for rays that start on spheres and go to the light of the bins.
 void OccludedByBins(const TraceGeometry& geometry, const LightBins& bins, ShadowRayBatch* rays);
 
 }  // namespace nacre

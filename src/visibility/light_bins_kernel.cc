@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/light_bins_kernel.cc: each shadow ray against the spheres of its cell, a vector of
-// them at a time, in float; the double test decides those that it proposes.
+// visibility/light_bins_kernel.cc: shadow rays against the spheres of their cells. A conservative
+// float test of a vector of spheres proposes candidates, and the exact test in double decides them.
 #include <algorithm>
 
 #include "visibility/light_bins.h"
@@ -27,7 +27,7 @@ struct OneRay {
   double t_max;
   uint32_t start;
   bool outward;
-  double end_reach;
+  double camera_extent;
 };
 
 HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
@@ -36,11 +36,11 @@ HWY_INLINE OneRay RayAt(const ShadowRayBatch& rays, size_t i) {
           rays.t_max[i],
           rays.primitive[i],
           rays.outward,
-          rays.end_reach};
+          rays.camera_extent};
 }
 
-// OccludedLanes of one ray, which the float test has proposed.
-HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const OneRay& ray) {
+// The exact test of one ray and one sphere.
+HWY_INLINE bool IsOccludedBy(const TraceGeometry& geometry, uint32_t number, const OneRay& ray) {
   const bool own =
       number == ray.start || Coincide(geometry.spheres[number], geometry.spheres[ray.start]);
   if (ray.outward && own) return false;
@@ -51,7 +51,7 @@ HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const
   const auto inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(direction, direction));
   const auto load = [&]() HWY_ATTR {
     return ShadowRaysV<Tag>{SetVec3(d, ray.origin), SetVec3(d, ray.direction), hn::Zero(d),
-                            hn::Set(d, ray.t_max), ray.end_reach};
+                            hn::Set(d, ray.t_max), ray.camera_extent};
   };
   const auto to_center = SetVec3(d, sphere.center - ray.origin);
   const auto radius = hn::Set(d, sphere.radius);
@@ -60,17 +60,18 @@ HWY_INLINE bool IsInTheWay(const TraceGeometry& geometry, uint32_t number, const
   return !hn::AllFalse(d, InTheWay(d, sphere, hit, own_lane, false, hn::Set(d, ray.t_max), load));
 }
 
-// The rays of a batch as cells and the float tests have them, in the coordinates of BinnedSphere.
-struct PlacedRays {
+// The rays of a batch in float, in the coordinates of BinnedSphere, and their cells.
+struct LightSpaceRays {
   static constexpr size_t kSize = kBatchCapacity + kMaxPacketWidth;
-  // Directional: where they start, z rounded down. Else their directions, unit, from the light.
+  // For a directional light the origins, z rounded down; for a positional one the unit directions
+  // from the light.
   alignas(64) float x[kSize], y[kSize], z[kSize];
-  alignas(64) float length[kSize];   // of these, to where they start
-  alignas(64) uint32_t cell[kSize];  // kNoCell: beyond the bins' reach
+  alignas(64) float length[kSize];   // positional: the distance from the light to the origin
+  alignas(64) uint32_t cell[kSize];  // kNoCell: beyond LightBins::max_distance
 };
 
-// Whether rays and spheres, of which one is the same in all lanes, may meet. The spheres' radii
-// cover the roundings here.
+// The conservative test, of one ray against a vector of spheres or a vector of rays against one
+// sphere. The spheres' radii cover the rounding errors here.
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE uint32_t MayMeet(D d, const Vec3V<V>& center, V radius, const Vec3V<V>& ray, V length,
                             bool positional) {
@@ -91,30 +92,29 @@ HWY_INLINE uint32_t MayMeet(D d, const Vec3V<V>& center, V radius, const Vec3V<V
 
 // One ray against the spheres of its cell, a vector of them at a time.
 HWY_INLINE bool OccludedInCell(const TraceGeometry& geometry, const LightBins& bins,
-                               const PlacedRays& placed, size_t i, const OneRay& ray) {
+                               const LightSpaceRays& local, size_t i, const OneRay& ray) {
   const hn::CappedTag<float, kMaxPacketWidth> d;
   using V = hn::Vec<decltype(d)>;
-  const Vec3V<V> direction{hn::Set(d, placed.x[i]), hn::Set(d, placed.y[i]),
-                           hn::Set(d, placed.z[i])};
-  const V length = hn::Set(d, placed.length[i]);
-  const uint32_t end = bins.end[placed.cell[i]];
-  for (uint32_t k = bins.Begin(placed.cell[i]); k < end; k += static_cast<uint32_t>(hn::Lanes(d))) {
-    // The last vector goes on into the next cell: its spheres are as good as any.
+  const Vec3V<V> direction{hn::Set(d, local.x[i]), hn::Set(d, local.y[i]), hn::Set(d, local.z[i])};
+  const V length = hn::Set(d, local.length[i]);
+  const uint32_t end = bins.end[local.cell[i]];
+  for (uint32_t k = bins.Begin(local.cell[i]); k < end; k += static_cast<uint32_t>(hn::Lanes(d))) {
+    // The last vector may extend into the next cell, whose spheres may be tested as well.
     Vec3V<V> center;
     V radius;
     hn::LoadInterleaved4(d, &bins.binned[k].x, center.x, center.y, center.z, radius);
     uint32_t bits = MayMeet(d, center, radius, direction, length, bins.positional);
     for (; bits != 0; bits &= bits - 1) {
       const uint32_t number = bins.spheres[k + static_cast<uint32_t>(__builtin_ctz(bits))];
-      if (IsInTheWay(geometry, number, ray)) return true;
+      if (IsOccludedBy(geometry, number, ray)) return true;
     }
   }
   return false;
 }
 
-// Those of `lanes`, as bits, of the rays from `first` on that the sphere is in the way of.
-HWY_INLINE uint32_t OccludedBySphere(const TraceGeometry& geometry, uint32_t number,
-                                     const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
+// Those of `lanes`, as bits, of the rays from `first` on that the sphere occludes.
+HWY_INLINE uint32_t LanesOccludedBy(const TraceGeometry& geometry, uint32_t number,
+                                    const ShadowRayBatch& rays, size_t first, uint32_t lanes) {
   const hn::ScalableTag<double> d;
   const TraceSphere& sphere = geometry.spheres[number];
   uint32_t own = 0;
@@ -141,28 +141,29 @@ HWY_INLINE uint32_t OccludedBySphere(const TraceGeometry& geometry, uint32_t num
 
 // Rays [begin, end), which share a cell, against its spheres, a vector of rays at a time.
 HWY_INLINE void TestRun(const TraceGeometry& geometry, const LightBins& bins,
-                        const PlacedRays& placed, size_t begin, size_t end, ShadowRayBatch* rays) {
+                        const LightSpaceRays& local, size_t begin, size_t end,
+                        ShadowRayBatch* rays) {
   const hn::CappedTag<float, kMaxPacketWidth> d;
   using V = hn::Vec<decltype(d)>;
-  const uint32_t cell = placed.cell[begin];
+  const uint32_t cell = local.cell[begin];
   const size_t step = hn::Lanes(d);
   for (size_t first = begin; first < end; first += step) {
     uint32_t left = 0;
     for (size_t lane = 0; lane < std::min(step, end - first); ++lane) {
       left |= static_cast<uint32_t>(rays->occluded[first + lane] == 0) << lane;
     }
-    const uint32_t asked = left;
-    const Vec3V<V> direction = LoadU3(d, placed.x + first, placed.y + first, placed.z + first);
-    const V length = hn::LoadU(d, placed.length + first);
+    const uint32_t tested = left;
+    const Vec3V<V> direction = LoadU3(d, local.x + first, local.y + first, local.z + first);
+    const V length = hn::LoadU(d, local.length + first);
     for (uint32_t k = bins.Begin(cell); k < bins.end[cell] && left != 0; ++k) {
       const BinnedSphere& sphere = bins.binned[k];
       const Vec3V<V> center{hn::Set(d, sphere.x), hn::Set(d, sphere.y), hn::Set(d, sphere.z)};
       const uint32_t bits =
           left & MayMeet(d, center, hn::Set(d, sphere.radius), direction, length, bins.positional);
       if (bits == 0) continue;
-      left &= ~OccludedBySphere(geometry, bins.spheres[k], *rays, first, bits);
+      left &= ~LanesOccludedBy(geometry, bins.spheres[k], *rays, first, bits);
     }
-    for (uint32_t hit = asked & ~left; hit != 0; hit &= hit - 1) {
+    for (uint32_t hit = tested & ~left; hit != 0; hit &= hit - 1) {
       rays->occluded[first + static_cast<size_t>(__builtin_ctz(hit))] = 1;
     }
   }
@@ -170,18 +171,13 @@ HWY_INLINE void TestRun(const TraceGeometry& geometry, const LightBins& bins,
 
 HWY_INLINE bool OccludedByAny(const TraceGeometry& geometry, const OneRay& ray) {
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
-    if (IsInTheWay(geometry, i, ray)) return true;
+    if (IsOccludedBy(geometry, i, ray)) return true;
   }
   return false;
 }
 
 using RayTag = hn::ScalableTag<double>;
 using RayV = hn::Vec<RayTag>;
-
-HWY_INLINE Vec3V<RayV> Set3(const Vec3d& v) {
-  const RayTag d;
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
 
 HWY_INLINE void StoreRounded(RayV v, float* to) {
   const hn::Rebind<float, RayTag> df;
@@ -192,8 +188,8 @@ HWY_INLINE void StoreRounded(RayV v, float* to) {
 HWY_INLINE void StoreCells(const LightGrid& grid, RayV x, RayV y, uint32_t* cells) {
   const RayTag d;
   const hn::Rebind<int32_t, RayTag> di;
-  const auto clamped = [&](RayV place, double begin, int count) HWY_ATTR {
-    const RayV at = hn::Mul(hn::Sub(place, hn::Set(d, begin)), hn::Set(d, grid.inverse_cell));
+  const auto clamped = [&](RayV position, double begin, int count) HWY_ATTR {
+    const RayV at = hn::Mul(hn::Sub(position, hn::Set(d, begin)), hn::Set(d, grid.inverse_cell));
     return hn::DemoteTo(di, hn::Min(hn::Max(at, hn::Zero(d)), hn::Set(d, count - 0.5)));
   };
   const auto column = clamped(x, grid.x0, grid.columns);
@@ -208,25 +204,25 @@ HWY_INLINE void StoreCells(const LightGrid& grid, RayV x, RayV y, uint32_t* cell
   hn::StoreU(cell, di, reinterpret_cast<int32_t*>(cells));
 }
 
-// The rays to a directional light from number i on.
-HWY_INLINE void PlaceAlong(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
-                           PlacedRays* placed) {
+// Transforms a vector of rays, from ray i on, that go to a directional light.
+HWY_INLINE void ToDirectionalLightSpace(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
+                                        LightSpaceRays* local) {
   const RayTag d;
   const Vec3V<RayV> origin =
       Load3(d, rays.origin.x.data() + i, rays.origin.y.data() + i, rays.origin.z.data() + i);
-  const Vec3V<RayV> offset = Sub(origin, Set3(bins.center));
-  const RayV x = Dot(offset, Set3(bins.axes[0]));
-  const RayV y = Dot(offset, Set3(bins.axes[1]));
-  const RayV z = Dot(offset, Set3(bins.axes[2]));
-  StoreCells(bins.grids[0], x, y, placed->cell + i);
-  StoreRounded(x, placed->x + i);
-  StoreRounded(y, placed->y + i);
-  StoreRounded(hn::Sub(z, hn::Mul(hn::Abs(z), hn::Set(d, 1e-6))), placed->z + i);
+  const Vec3V<RayV> offset = Sub(origin, SetVec3(d, bins.center));
+  const RayV x = Dot(offset, SetVec3(d, bins.axes[0]));
+  const RayV y = Dot(offset, SetVec3(d, bins.axes[1]));
+  const RayV z = Dot(offset, SetVec3(d, bins.axes[2]));
+  StoreCells(bins.grids[0], x, y, local->cell + i);
+  StoreRounded(x, local->x + i);
+  StoreRounded(y, local->y + i);
+  StoreRounded(hn::Sub(z, hn::Mul(hn::Abs(z), hn::Set(d, 1e-6))), local->z + i);
 }
 
-// The same to a light at a point.
-HWY_INLINE void PlaceFrom(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
-                          PlacedRays* placed) {
+// The same for a positional light.
+HWY_INLINE void ToPointLightSpace(const LightBins& bins, const ShadowRayBatch& rays, size_t i,
+                                  LightSpaceRays* local) {
   const RayTag d;
   const RayV zero = hn::Zero(d);
   const RayV one = hn::Set(d, 1.0);
@@ -235,11 +231,11 @@ HWY_INLINE void PlaceFrom(const LightBins& bins, const ShadowRayBatch& rays, siz
   const Vec3V<RayV> from_light = Sub(Vec3V<RayV>{zero, zero, zero}, to_light);
   const RayV length = hn::Sqrt(Dot(from_light, from_light));
   const Vec3V<RayV> unit = Scale(from_light, hn::Div(one, length));
-  StoreRounded(unit.x, placed->x + i);
-  StoreRounded(unit.y, placed->y + i);
-  StoreRounded(unit.z, placed->z + i);
-  StoreRounded(length, placed->length + i);
-  // PlaceOnCube on vectors.
+  StoreRounded(unit.x, local->x + i);
+  StoreRounded(unit.y, local->y + i);
+  StoreRounded(unit.z, local->z + i);
+  StoreRounded(length, local->length + i);
+  // ProjectToCube on vectors.
   const Vec3V<RayV> size{hn::Abs(unit.x), hn::Abs(unit.y), hn::Abs(unit.z)};
   const auto on_x = hn::And(hn::Ge(size.x, size.y), hn::Ge(size.x, size.z));
   const auto on_y = hn::AndNot(on_x, hn::Ge(size.y, size.z));
@@ -252,52 +248,54 @@ HWY_INLINE void PlaceFrom(const LightBins& bins, const ShadowRayBatch& rays, siz
   if (hn::AllTrue(d, hn::Eq(face, hn::Set(d, static_cast<double>(first_face))))) {
     const RayV inverse = hn::Div(one, hn::Abs(main));
     StoreCells(bins.grids[first_face], hn::Mul(choose(unit.y, unit.z, unit.x), inverse),
-               hn::Mul(choose(unit.z, unit.x, unit.y), inverse), placed->cell + i);
+               hn::Mul(choose(unit.z, unit.x, unit.y), inverse), local->cell + i);
     return;
   }
   for (size_t k = i; k < i + hn::Lanes(d); ++k) {
-    const FacePlace place =
-        PlaceOnCube({-rays.direction.x[k], -rays.direction.y[k], -rays.direction.z[k]});
-    placed->cell[k] = static_cast<uint32_t>(bins.grids[place.face].Cell(place.x, place.y));
+    const CubePoint point =
+        ProjectToCube({-rays.direction.x[k], -rays.direction.y[k], -rays.direction.z[k]});
+    local->cell[k] = static_cast<uint32_t>(bins.grids[point.face].Cell(point.x, point.y));
   }
 }
 
-HWY_INLINE void PlaceRays(const LightBins& bins, const ShadowRayBatch& rays, PlacedRays* placed) {
+HWY_INLINE void ToLightSpace(const LightBins& bins, const ShadowRayBatch& rays,
+                             LightSpaceRays* local) {
   for (size_t i = 0; i < rays.count; i += hn::Lanes(RayTag())) {
-    bins.positional ? PlaceFrom(bins, rays, i, placed) : PlaceAlong(bins, rays, i, placed);
+    bins.positional ? ToPointLightSpace(bins, rays, i, local)
+                    : ToDirectionalLightSpace(bins, rays, i, local);
   }
-  const double reach2 = bins.max_reach * bins.max_reach;
+  const double max_distance2 = bins.max_distance * bins.max_distance;
   const AlignedArray<double>&x = rays.origin.x, &y = rays.origin.y, &z = rays.origin.z;
   for (size_t i = 0; i < rays.count; ++i) {
-    __builtin_prefetch(bins.end.data() + placed->cell[i]);
-    const bool within = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] <= reach2;
-    placed->cell[i] = within ? placed->cell[i] : kNoCell;
+    __builtin_prefetch(bins.end.data() + local->cell[i]);
+    const bool within = x[i] * x[i] + y[i] * y[i] + z[i] * z[i] <= max_distance2;
+    local->cell[i] = within ? local->cell[i] : kNoCell;
   }
 }
 
-// Sets `occluded` for the rays that the large spheres are in the way of, and only for these.
+// Sets `occluded` to whether a large sphere occludes the ray.
 HWY_INLINE void TestLarge(const TraceGeometry& geometry, const LightBins& bins,
                           ShadowRayBatch* rays) {
   const hn::ScalableTag<double> d;
   const size_t step = hn::Lanes(d);
   const std::vector<uint32_t>& large = bins.large;
-  const auto twin_of = [&](uint32_t sphere) {
+  const auto first_coincident = [&](uint32_t sphere) {
     const auto found = std::lower_bound(large.begin(), large.end(), sphere);
     const bool is_large = found != large.end() && *found == sphere;
-    return is_large ? bins.large_twin[static_cast<size_t>(found - large.begin())] : kNoPrimitive;
+    return is_large ? bins.large_first[static_cast<size_t>(found - large.begin())] : kNoPrimitive;
   };
   for (size_t first = 0; first < rays->count; first += step) {
     const size_t count = std::min(step, rays->count - first);
-    uint32_t twins[kMaxPacketWidth];
+    uint32_t starts[kMaxPacketWidth];
     for (size_t lane = 0; lane < count; ++lane)
-      twins[lane] = twin_of(rays->primitive[first + lane]);
+      starts[lane] = first_coincident(rays->primitive[first + lane]);
     const auto load = [&]() HWY_ATTR { return LoadShadowRays(d, *rays, first); };
     const auto loaded = load();
     uint32_t left = (1u << count) - 1;
     for (size_t i = 0; i < large.size() && left != 0; ++i) {
       uint32_t own = 0;
       for (size_t lane = 0; lane < count; ++lane) {
-        own |= static_cast<uint32_t>(twins[lane] == bins.large_twin[i]) << lane;
+        own |= static_cast<uint32_t>(starts[lane] == bins.large_first[i]) << lane;
       }
       left &= ~BitsOfMask(
           d, OccludedLanes(d, geometry.spheres[large[i]], loaded, MaskOfBits(d, left, 0),
@@ -318,24 +316,24 @@ HWY_INLINE void Prefetch(const LightBins& bins, uint32_t cell) {
 }
 
 void OccludedByBinsT(const TraceGeometry& geometry, const LightBins& bins, ShadowRayBatch* rays) {
-  PlacedRays placed;
-  PlaceRays(bins, *rays, &placed);
+  LightSpaceRays local;
+  ToLightSpace(bins, *rays, &local);
   TestLarge(geometry, bins, rays);
   constexpr size_t kAhead = 4;
-  constexpr size_t kRun = 6;  // so many rays that share a cell are worth a vector
+  constexpr size_t kRun = 6;  // runs at least as long are tested as vectors of rays
   for (size_t i = 0, end = 0; i < rays->count; i = end) {
-    const uint32_t cell = placed.cell[i];
-    for (end = i + 1; end < rays->count && placed.cell[end] == cell;) ++end;
-    if (end + kAhead <= rays->count) Prefetch(bins, placed.cell[end + kAhead - 1]);
+    const uint32_t cell = local.cell[i];
+    for (end = i + 1; end < rays->count && local.cell[end] == cell;) ++end;
+    if (end + kAhead <= rays->count) Prefetch(bins, local.cell[end + kAhead - 1]);
     if (cell != kNoCell && end - i >= kRun) {
-      TestRun(geometry, bins, placed, i, end, rays);
+      TestRun(geometry, bins, local, i, end, rays);
       continue;
     }
     for (size_t k = i; k < end; ++k) {
       if (rays->occluded[k] != 0) continue;
       const OneRay ray = RayAt(*rays, k);
       const bool occluded = cell == kNoCell ? OccludedByAny(geometry, ray)
-                                            : OccludedInCell(geometry, bins, placed, k, ray);
+                                            : OccludedInCell(geometry, bins, local, k, ray);
       rays->occluded[k] = occluded ? 1 : 0;
     }
   }

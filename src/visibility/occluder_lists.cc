@@ -8,41 +8,44 @@
 namespace nacre {
 namespace {
 
-// A surface counts as lit by float directions: where the true n.l is above this, in any case.
+// Shading tests n.l > 0 in float: it is true nowhere that the exact n.l is below this.
 constexpr double kGrazing = -2e-6;
 
-// A sphere as it is seen against the light. Radii are margins larger than they are.
-struct Seen {
+// A sphere in the coordinates of a light, with its radius enlarged by BoundMargin.
+struct SphereFromLight {
   double radius;
-  double lit;  // how far lit points lie behind the centre (away from a directional light), or
-               // from a light at a point, at most
-  // Of a light at a point:
-  bool around_light;    // the light may be in the sphere
+  // An upper bound of the distance of lit points: for a directional light from the centre, measured
+  // away from the light; for a positional light from the light.
+  double lit_extent;
+  // Positional lights only:
+  bool around_light;    // the light may be inside of the sphere
   Vec3d direction;      // unit, from the light to the centre
   double distance;      // of the centre
   double sine, cosine;  // of the angle between the centre and the silhouette
 };
 
-Seen SeeAlong(const TraceSphere& sphere, bool outward) {
+SphereFromLight FromDirectionalLight(const TraceSphere& sphere, bool outward) {
   const double margin = BoundMargin(sphere.radius, sphere.center.length());
-  Seen seen{};
+  SphereFromLight seen{};
   seen.radius = sphere.radius + margin;
-  seen.lit = margin + (outward ? -kGrazing * sphere.radius : sphere.radius);
+  seen.lit_extent = margin + (outward ? -kGrazing * sphere.radius : sphere.radius);
   return seen;
 }
 
-Seen SeeFrom(const Vec3d& light, const TraceSphere& sphere, bool outward) {
+SphereFromLight FromPositionalLight(const Vec3d& light, const TraceSphere& sphere, bool outward) {
   const Vec3d offset = sphere.center - light;
   const double margin = BoundMargin(sphere.radius, sphere.center.length() + light.length());
-  Seen seen{};
+  SphereFromLight seen{};
   seen.radius = sphere.radius + margin;
   seen.distance = offset.length();
   seen.around_light = seen.distance <= seen.radius;
-  // The tangents' length squared; with n.l = g < 0 still lit, points are 2 r |g| beyond it.
+  // The squared length of the tangents from the light. Points down to n.l = g < 0 count as lit, and
+  // lie at most 2 r |g| further away.
   const double tangent2 =
       (seen.distance - sphere.radius + 2 * margin) * (seen.distance + sphere.radius);
-  seen.lit = outward ? std::sqrt(std::max(tangent2, 0.0)) - 2 * kGrazing * sphere.radius + margin
-                     : seen.distance + seen.radius;
+  seen.lit_extent = outward
+                        ? std::sqrt(std::max(tangent2, 0.0)) - 2 * kGrazing * sphere.radius + margin
+                        : seen.distance + seen.radius;
   if (seen.around_light) return seen;
   seen.direction = offset / seen.distance;
   seen.sine = seen.radius / seen.distance;
@@ -50,29 +53,32 @@ Seen SeeFrom(const Vec3d& light, const TraceSphere& sphere, bool outward) {
   return seen;
 }
 
-// Whether the blocker reaches over the lowest lit points within the cylinder about the sphere.
-bool MayBlockAlong(const TraceSphere& blocker, const Seen& seen_blocker, const TraceSphere& sphere,
-                   const Seen& seen, const Vec3d& to_light) {
+// Whether the blocker may shadow lit points of the sphere from a directional light: it overlaps the
+// cylinder about the sphere and extends further towards the light than the farthest lit points.
+bool MayBlockAlong(const TraceSphere& blocker, const SphereFromLight& seen_blocker,
+                   const TraceSphere& sphere, const SphereFromLight& seen, const Vec3d& to_light) {
   const Vec3d offset = blocker.center - sphere.center;
   const double along = offset.dot(to_light);
-  if (along + seen_blocker.radius + seen.lit < 0) return false;
+  if (along + seen_blocker.radius + seen.lit_extent < 0) return false;
   const Vec3d across = offset - to_light * along;
   const double radii = seen_blocker.radius + seen.radius;
   return across.dot(across) <= radii * radii;
 }
 
-// Whether the blocker reaches nearer to the light than the furthest lit points within the cone
-// about the sphere. Cosines err by a few 2^-53.
-bool MayBlockFrom(const Seen& blocker, const Seen& sphere) {
-  if (blocker.distance - blocker.radius > sphere.lit) return false;
+// Whether the blocker may shadow lit points of the sphere from a positional light: it overlaps the
+// cone about the sphere and comes nearer to the light than the farthest lit points. Cosines err by
+// a few 2^-53.
+bool MayBlockFrom(const SphereFromLight& blocker, const SphereFromLight& sphere) {
+  if (blocker.distance - blocker.radius > sphere.lit_extent) return false;
   if (blocker.around_light || sphere.around_light) return true;
   return blocker.direction.dot(sphere.direction) >
          blocker.cosine * sphere.cosine - blocker.sine * sphere.sine - 1e-12;
 }
 
-// Whether the blocker reaches into the hull of the sphere and the ball: into the sphere about some
-// point between their centres whose radius is in between theirs. Its distance from there, less the
-// radii, is smallest where the slope of the distance is that of the radius.
+// Whether the blocker overlaps the convex hull of the sphere and the ball: the union of the spheres
+// about the points between their centres, whose radii are interpolated. The gap between the
+// blocker's centre and such a sphere is smallest where the slope of the distance equals that of the
+// radius.
 bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const LightBall& ball) {
   const Vec3d axis = ball.center - sphere.center;
   const Vec3d offset = blocker.center - sphere.center;
@@ -89,41 +95,41 @@ bool MayBlockBall(const TraceSphere& blocker, const TraceSphere& sphere, const L
         foot + height * widening / length2 / std::sqrt(1 - widening * widening / length2);
     if (t > 0 && t < 1) least = std::min(least, gap(t));
   }
-  const double reach = sphere.center.length() + ball.center.length() + ball.radius;
+  const double extent = sphere.center.length() + ball.center.length() + ball.radius;
   return least <= blocker.radius +
-                      BoundMargin(blocker.radius + sphere.radius, reach + blocker.center.length());
+                      BoundMargin(blocker.radius + sphere.radius, extent + blocker.center.length());
 }
 
-// Whether the blocker reaches into what the ball sweeps on its way to a directional light.
+// Whether the blocker overlaps the volume that the ball sweeps towards a directional light.
 bool MayBlockBallAlong(const TraceSphere& blocker, const TraceSphere& ball, const Vec3d& to_light) {
   const Vec3d offset = blocker.center - ball.center;
   const double along = offset.dot(to_light);
   const double radii = blocker.radius + ball.radius;
-  const double reach = radii + BoundMargin(radii, blocker.center.length() + ball.center.length());
-  return along + reach >= 0 && (offset - to_light * along).length() <= reach;
+  const double bound = radii + BoundMargin(radii, blocker.center.length() + ball.center.length());
+  return along + bound >= 0 && (offset - to_light * along).length() <= bound;
 }
 
-// Centre and point are rounded by 2^-24 of themselves a coordinate, and so is their difference,
-// which is no longer than the two together: 4 2^-24 of that at most. Nothing is sure of spheres
-// that coincide: rays start on them. Squares below 1e-34 and above 1e37 are too near to where
-// floats end.
-OccluderProposal Propose(const TraceSphere& sphere, const TraceSphere& from) {
+// Each coordinate of the centre and of the point is rounded by 2^-24 of itself, and so is their
+// difference, which is no longer than the two together: 4 2^-24 of that at most. Spheres that
+// coincide are always left to the exact test, because rays start on them. Squares below 1e-34 and
+// above 1e37 are too near to the limits of float.
+FloatOccluder MakeFloatOccluder(const TraceSphere& sphere, const TraceSphere& from) {
   const Vec3d offset = sphere.center - from.center;
-  const double reach = offset.length() + from.radius;
-  const double error = 5 * kFloatUnit * reach;
+  const double extent = offset.length() + from.radius;
+  const double error = 5 * kFloatUnit * extent;
   const double outer = sphere.radius + error;
   const double inner = std::max(sphere.radius - error, 0.0);
-  const bool unsure = Coincide(sphere, from) || reach * reach > 1e37;
+  const bool unsure = Coincide(sphere, from) || extent * extent > 1e37;
   constexpr double kMore = 1 + 1e-6, kLess = 1 - 1e-6, kLeast = 1e-34;
-  OccluderProposal proposal;
-  for (int c = 0; c < 3; ++c) proposal.center[c] = static_cast<float>(offset[c]);
-  proposal.outer2 = unsure ? std::numeric_limits<float>::infinity()
+  FloatOccluder occluder;
+  for (int c = 0; c < 3; ++c) occluder.center[c] = static_cast<float>(offset[c]);
+  occluder.outer2 = unsure ? std::numeric_limits<float>::infinity()
                            : static_cast<float>(outer * outer * kMore + kLeast);
-  proposal.inner2 = unsure ? 0 : static_cast<float>(inner * inner * kLess - kLeast);
-  return proposal;
+  occluder.inner2 = unsure ? 0 : static_cast<float>(inner * inner * kLess - kLeast);
+  return occluder;
 }
 
-// The list of every sphere, of those spheres j for which may_block(i, j).
+// For every sphere i the list of those spheres j for which may_block(i, j).
 template <class MayBlock>
 OccluderLists MakeLists(const HugeArray<TraceSphere>& spheres, const MayBlock& may_block) {
   const size_t count = spheres.size();
@@ -133,7 +139,7 @@ OccluderLists MakeLists(const HugeArray<TraceSphere>& spheres, const MayBlock& m
     for (size_t j = 0; j < count; ++j) {
       if (!may_block(i, j)) continue;
       lists.spheres.push_back(static_cast<uint32_t>(j));
-      lists.proposals.push_back(Propose(spheres[j], spheres[i]));
+      lists.floats.push_back(MakeFloatOccluder(spheres[j], spheres[i]));
     }
     lists.end.push_back(static_cast<uint32_t>(lists.spheres.size()));
     lists.longest = std::max<size_t>(lists.longest, lists.end[i] - lists.Begin(i));
@@ -156,16 +162,16 @@ OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
 
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward) {
   const HugeArray<TraceSphere>& spheres = geometry.spheres;
-  std::vector<Seen> seen;
+  std::vector<SphereFromLight> seen;
   seen.reserve(spheres.size());
   for (const TraceSphere& sphere : spheres) {
-    seen.push_back(light.positional ? SeeFrom(light.place, sphere, outward)
-                                    : SeeAlong(sphere, outward));
+    seen.push_back(light.positional ? FromPositionalLight(light.position, sphere, outward)
+                                    : FromDirectionalLight(sphere, outward));
   }
   return MakeLists(spheres, [&](size_t i, size_t j) {
     const bool may = light.positional
                          ? MayBlockFrom(seen[j], seen[i])
-                         : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.place);
+                         : MayBlockAlong(spheres[j], seen[j], spheres[i], seen[i], light.to_light);
     return may && !(outward && Coincide(spheres[i], spheres[j]));
   });
 }
@@ -174,8 +180,8 @@ bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const 
                uint32_t start, const TraceSphere& ball) {
   for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
     const TraceSphere& blocker = geometry.spheres[lists.spheres[i]];
-    const bool may = light.positional ? MayBlockBall(blocker, ball, {light.place, 0})
-                                      : MayBlockBallAlong(blocker, ball, light.place);
+    const bool may = light.positional ? MayBlockBall(blocker, ball, {light.position, 0})
+                                      : MayBlockBallAlong(blocker, ball, light.to_light);
     if (may) return true;
   }
   return false;

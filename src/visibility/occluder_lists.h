@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/occluder_lists.h: for each sphere of a small scene those that can come between it and
-// a light, so that its shadow rays need no tree, or need not be asked at all.
+// visibility/occluder_lists.h: for each sphere of a small scene the list of spheres that can shadow
+// it from a light. Its shadow rays then need no tree, and none are traced if the list is empty.
 #pragma once
 
 #include <cstddef>
@@ -15,51 +15,53 @@
 
 namespace nacre {
 
-// Pairs of spheres are tested, so this is for few: beyond, bins are faster (light_bins.h).
+// All pairs of spheres are tested, so this is for small scenes: with more spheres, bins are faster
+// (light_bins.h).
 inline constexpr size_t kMaxListedSpheres = 256;
-inline constexpr size_t kMaxListed = 8;        // longer lists take rays longer than bins do
-inline constexpr size_t kMaxSampledList = 64;  // and these, of rays all over, longer than a tree
+inline constexpr size_t kMaxListLength =
+    8;  // rays to punctual lights test longer lists slower than bins
+inline constexpr size_t kMaxSampledListLength = 64;  // rays to area lights: slower than a tree
 
-// A listed sphere as floats tell of it, relative to the centre of the sphere whose list it is in: a
-// line whose squared distance from its centre is above `outer2` misses it, and below `inner2` meets
-// it, whatever the rounding of such centres and of points on that sphere.
-struct OccluderProposal {
+// A listed sphere in float, relative to the centre of the sphere whose list it is in. A line whose
+// squared distance from `center` is above `outer2` misses it, and one below `inner2` hits it,
+// whatever the rounding of the centres and of points on the list's sphere.
+struct FloatOccluder {
   float center[3];
   float outer2, inner2;
 };
 
 struct OccluderLists {
-  std::vector<uint32_t> end;      // of each sphere's list
-  std::vector<uint32_t> spheres;  // those that may hide the light from it, in ascending order
-  std::vector<OccluderProposal> proposals;  // of these
+  std::vector<uint32_t> end;          // where each sphere's list ends
+  std::vector<uint32_t> spheres;      // possible occluders of each sphere, in ascending order
+  std::vector<FloatOccluder> floats;  // the same spheres in float
 
   size_t longest = 0;
 
   uint32_t Begin(size_t sphere) const { return sphere == 0 ? 0 : end[sphere - 1]; }
 };
 
-// The list of a sphere holds every sphere that the exact test could find in the way of a shadow
-// ray from any of its points that face the light. `outward`: such rays surely leave the sphere
-// outward (ShadowRayBatch), and it is then not in its own list, nor are those that coincide with
-// it. Triangles are not seen.
+// The list of a sphere holds every sphere that the exact test could find to occlude a shadow ray
+// from any of its points that face the light. `outward`: such rays surely leave the sphere outward
+// (ShadowRayBatch); it is then not in its own list, nor are spheres that coincide with it.
+// Triangles are ignored.
 OccluderLists ListOccluders(const TraceGeometry& geometry, const ShadowLight& light, bool outward);
 
-// The same for a light that lies anywhere in a ball, or without one for a sky. `target`: spheres
-// that are the light itself. The ball is relative to the camera.
+// The same for a light inside of a ball, which is relative to the camera; without a ball, for light
+// from all directions. `target`: spheres that are the light itself.
 OccluderLists ListOccludersOfBall(const TraceGeometry& geometry,
                                   const std::optional<LightBall>& ball,
                                   const PrimitiveRange& target, bool outward);
 
-// Whether any sphere of its list can come between a batch's hits, all on one sphere and with their
-// positions, and the light that ListOccluders was asked about.
+// Whether any sphere of its list can shadow a batch of hits, which all lie on one sphere and have
+// their positions, from the light that the lists were made for.
 bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
                const HitBatch& hits);
 
-// The same of points of sphere `start` that lie in `ball`.
+// The same for the points of sphere `start` that lie in `ball`.
 bool MayShadow(const TraceGeometry& geometry, const OccluderLists& lists, const ShadowLight& light,
                uint32_t start, const TraceSphere& ball);
 
-// Intersector::Occluded for rays to the lists' light from spheres.
+// Intersector::Occluded for rays that start on spheres and go to the light of the lists.
 void OccludedByLists(const TraceGeometry& geometry, const OccluderLists& lists,
                      ShadowRayBatch* rays);
 

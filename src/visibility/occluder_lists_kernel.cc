@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/occluder_lists_kernel.cc: vectors of shadow rays from one sphere against its list.
-// Floats tell of most of them; the rest are decided in double.
+// visibility/occluder_lists_kernel.cc: vectors of shadow rays from one sphere against its list of
+// possible occluders. Most rays are decided in float, the others in double.
 #include "visibility/occluder_lists.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -22,12 +22,12 @@ using V = hn::Vec<D>;
 using F = hn::ScalableTag<float>;
 using VF = hn::Vec<F>;
 
-// The rays of a block that start on one sphere, in float.
+// A vector of rays that start on one sphere, in float.
 struct FloatRays {
   Vec3V<VF> to_own;     // from the origin to that sphere's centre
   Vec3V<VF> direction;  // unit
   VF length;            // of the ray, up to t_max
-  uint32_t asked;       // bits: those that do not end where they start
+  uint32_t active;      // bits: lanes with t_max > 0
 };
 
 HWY_INLINE Vec3V<VF> SubtractAndRound3(const Vec3d& minuend, const Soa3<double>& from,
@@ -37,7 +37,7 @@ HWY_INLINE Vec3V<VF> SubtractAndRound3(const Vec3d& minuend, const Soa3<double>&
           SubtractAndRound(F(), minuend.z, from.z.data() + first)};
 }
 
-// Directions whose squares floats cannot tell are NaN, of which nothing is sure.
+// Directions whose squares leave the range of float become NaN, and are left to the exact test.
 HWY_INLINE FloatRays LoadFloatRays(const ShadowRayBatch& rays, size_t first, const Vec3d& own) {
   const F d;
   FloatRays loaded;
@@ -50,17 +50,18 @@ HWY_INLINE FloatRays LoadFloatRays(const ShadowRayBatch& rays, size_t first, con
   loaded.direction = Scale(back, hn::Neg(scale));
   const VF t_max = hn::Neg(SubtractAndRound(d, 0, rays.t_max.data() + first));
   loaded.length = hn::Mul(t_max, hn::Mul(length2, scale));
-  loaded.asked = BitsOfMask(d, hn::Gt(t_max, hn::Zero(d)));
+  loaded.active = BitsOfMask(d, hn::Gt(t_max, hn::Zero(d)));
   return loaded;
 }
 
-// Where rays are from a sphere's centre.
+// Rays relative to a sphere's centre.
 struct Approach {
-  VF distance2;  // of the origin
-  VF along;      // how far along the ray it comes closest; behind the origin where < 0
+  VF distance2;  // squared distance of the origin from the centre
+  VF along;      // distance along the ray to the point nearest to the centre; negative behind the
+                 // origin
 };
 
-HWY_INLINE Approach FindApproach(const OccluderProposal& sphere, const FloatRays& rays) {
+HWY_INLINE Approach FindApproach(const FloatOccluder& sphere, const FloatRays& rays) {
   const F d;
   const Vec3V<VF> to_center{hn::Add(hn::Set(d, sphere.center[0]), rays.to_own.x),
                             hn::Add(hn::Set(d, sphere.center[1]), rays.to_own.y),
@@ -68,23 +69,24 @@ HWY_INLINE Approach FindApproach(const OccluderProposal& sphere, const FloatRays
   return {FusedDot(to_center, to_center), FusedDot(to_center, rays.direction)};
 }
 
-// Sums, products and the direction's own rounding make the squared distance from the line err by
-// less than 32 2^-24 of that of the centres. Rays that start outside of a sphere and come near its
-// centre slope towards it by far more than that. Of a direction that is NaN comparisons are false,
-// and nothing is sure.
+// Sums, products and the rounding of the direction make the squared distance of the line err by
+// less than 32 2^-24 of that of the centres. Rays that start outside of a sphere and approach its
+// centre point towards it by far more than that. With a NaN direction both comparisons below are
+// false, so that the exact test decides.
 constexpr float kSlack = 2e-6f;
 
-// The rays whose nearest point, the origin for those that leave, is surely outside of the sphere.
-HWY_INLINE hn::Mask<F> Missed(const OccluderProposal& sphere, const Approach& approach) {
+// The rays that surely miss the sphere: their nearest point, which is the origin for rays that move
+// away, is outside.
+HWY_INLINE hn::Mask<F> SurelyMiss(const FloatOccluder& sphere, const Approach& approach) {
   const F d;
   const VF ahead = hn::Max(approach.along, hn::Zero(d));
   const VF distance2 = hn::Mul(approach.distance2, hn::Set(d, 1 - kSlack));
   return hn::Gt(hn::NegMulAdd(ahead, approach.along, distance2), hn::Set(d, sphere.outer2));
 }
 
-// The rays that start outside of the sphere and surely meet it before they end.
-HWY_INLINE hn::Mask<F> Met(const OccluderProposal& sphere, const Approach& approach,
-                           const VF& length) {
+// The rays that start outside of the sphere and surely hit it before they end.
+HWY_INLINE hn::Mask<F> SurelyHit(const FloatOccluder& sphere, const Approach& approach,
+                                 const VF& length) {
   const F d;
   const VF along = approach.along;
   const VF along2 = hn::Mul(along, along);
@@ -97,8 +99,8 @@ HWY_INLINE hn::Mask<F> Met(const OccluderProposal& sphere, const Approach& appro
   return hn::And(hn::And(outside, near), hn::And(ahead, before_end));
 }
 
-// Those of the block's rays `pending`, as bits, that a sphere of the list is in the way of, which
-// the exact test decides.
+// Those of the rays `pending`, as bits, that the exact test finds to be occluded by a sphere of the
+// list. `own`: the sphere that they start on.
 HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere& own,
                                     const ShadowRayBatch& rays, size_t first, uint32_t pending) {
   const D d;
@@ -115,43 +117,42 @@ HWY_INLINE uint32_t OccludedExactly(const TraceSphere& sphere, const TraceSphere
   return occluded;
 }
 
-// The spheres of a list that rays are asked about.
+// The spheres of a list that a run of rays is tested against.
 struct ListPart {
-  const uint32_t* entries;  // numbers of OccluderLists::spheres and proposals
+  const uint32_t* entries;  // indices of OccluderLists::spheres and floats
   size_t count;
 };
 
-// Of the part, those that any of the rays `pending` may meet. Kept without a branch: which they are
-// follows no pattern.
+// Collects those spheres of the part that any of the rays `pending` may hit; returns their number.
+// Without a branch, because no branch predictor would find a pattern.
 HWY_INLINE size_t FindNear(const OccluderLists& lists, const ListPart& part, const FloatRays& rays,
                            uint32_t pending, uint32_t* near) {
   size_t count = 0;
   for (size_t k = 0; k < part.count; ++k) {
-    const OccluderProposal& proposal = lists.proposals[part.entries[k]];
-    const uint32_t missed = BitsOfMask(F(), Missed(proposal, FindApproach(proposal, rays)));
+    const FloatOccluder& occluder = lists.floats[part.entries[k]];
+    const uint32_t missed = BitsOfMask(F(), SurelyMiss(occluder, FindApproach(occluder, rays)));
     near[count] = part.entries[k];
     count += (pending & ~missed) != 0 ? 1 : 0;
   }
   return count;
 }
 
-// The rays `pending` of a block, which all start on sphere `start`, that something is in the way
-// of.
+// Those of the rays `pending`, which all start on sphere `start`, that are occluded.
 HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const OccluderLists& lists,
                                    const ListPart& part, uint32_t start, const ShadowRayBatch& rays,
                                    size_t first, uint32_t pending) {
   const F d;
   const TraceSphere& own = geometry.spheres[start];
   const FloatRays floats = LoadFloatRays(rays, first, own.center);
-  pending &= floats.asked;
+  pending &= floats.active;
   uint32_t occluded = 0;
   uint32_t near[kMaxListedSpheres];
   const size_t count = FindNear(lists, part, floats, pending, near);
   for (size_t k = 0; k < count && pending != 0; ++k) {
-    const OccluderProposal& proposal = lists.proposals[near[k]];
-    const Approach approach = FindApproach(proposal, floats);
-    uint32_t blocked = BitsOfMask(d, Met(proposal, approach, floats.length)) & pending;
-    const uint32_t open = pending & ~(blocked | BitsOfMask(d, Missed(proposal, approach)));
+    const FloatOccluder& occluder = lists.floats[near[k]];
+    const Approach approach = FindApproach(occluder, floats);
+    uint32_t blocked = BitsOfMask(d, SurelyHit(occluder, approach, floats.length)) & pending;
+    const uint32_t open = pending & ~(blocked | BitsOfMask(d, SurelyMiss(occluder, approach)));
     if (open != 0) {
       const TraceSphere& sphere = geometry.spheres[lists.spheres[near[k]]];
       blocked |= OccludedExactly(sphere, own, rays, first, open);
@@ -162,11 +163,11 @@ HWY_INLINE uint32_t OccludedByList(const TraceGeometry& geometry, const Occluder
   return occluded;
 }
 
-struct Range {
+struct MinMax {
   double low, high;
 };
 
-HWY_INLINE Range RangeOf(const double* values, size_t first, size_t end) {
+HWY_INLINE MinMax MinMaxOf(const double* values, size_t first, size_t end) {
   const D d;
   const size_t lanes = hn::Lanes(d);
   V low = hn::Set(d, values[first]), high = low;
@@ -176,7 +177,7 @@ HWY_INLINE Range RangeOf(const double* values, size_t first, size_t end) {
     low = hn::Min(low, v);
     high = hn::Max(high, v);
   }
-  Range range{hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
+  MinMax range{hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high))};
   for (; i < end; ++i) {
     range.low = std::min(range.low, values[i]);
     range.high = std::max(range.high, values[i]);
@@ -184,21 +185,23 @@ HWY_INLINE Range RangeOf(const double* values, size_t first, size_t end) {
   return range;
 }
 
-// Rays that leave outward stay above the plane that touches the sphere where they start, but for
-// what their directions' rounding makes of grazing ones (2e-6): spheres below the planes of all
-// their origins are left out. Returns the rest of the list of sphere `start`.
+// Rays that leave outward stay above the tangent plane at their origin, except for grazing ones,
+// whose directions are rounded (2e-6). Spheres below the tangent planes of all origins are
+// therefore skipped. Returns the number of the other entries of the list of sphere `start`.
 HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& lists,
                             uint32_t start, const ShadowRayBatch& rays, size_t first, size_t end,
                             uint32_t* entries) {
   const TraceSphere& own = geometry.spheres[start];
-  const Range box[3] = {RangeOf(rays.origin.x.data(), first, end),
-                        RangeOf(rays.origin.y.data(), first, end),
-                        RangeOf(rays.origin.z.data(), first, end)};
+  const MinMax box[3] = {MinMaxOf(rays.origin.x.data(), first, end),
+                         MinMaxOf(rays.origin.y.data(), first, end),
+                         MinMaxOf(rays.origin.z.data(), first, end)};
   size_t count = 0;
   for (uint32_t i = lists.Begin(start); i < lists.end[start]; ++i) {
     const TraceSphere& sphere = geometry.spheres[lists.spheres[i]];
     const Vec3d offset = sphere.center - own.center;
-    double highest = 0;  // of the centre over the planes through the own centre
+    // An upper bound of the centre's height over planes through own.center parallel to the tangent
+    // planes, times own.radius.
+    double highest = 0;
     for (int c = 0; c < 3; ++c) {
       highest += std::max(offset[c] * (box[c].low - own.center[c]),
                           offset[c] * (box[c].high - own.center[c]));
@@ -211,11 +214,11 @@ HWY_INLINE size_t FindAbove(const TraceGeometry& geometry, const OccluderLists& 
   return count;
 }
 
-// A ball that holds all positions of a batch.
+// A ball that contains all positions of a batch.
 TraceSphere BoundPositionsT(const HitBatch& hits) {
-  const Range x = RangeOf(hits.position.x.data(), 0, hits.count);
-  const Range y = RangeOf(hits.position.y.data(), 0, hits.count);
-  const Range z = RangeOf(hits.position.z.data(), 0, hits.count);
+  const MinMax x = MinMaxOf(hits.position.x.data(), 0, hits.count);
+  const MinMax y = MinMaxOf(hits.position.y.data(), 0, hits.count);
+  const MinMax z = MinMaxOf(hits.position.z.data(), 0, hits.count);
   const Vec3d low(x.low, y.low, z.low), high(x.high, y.high, z.high);
   return {(low + high) / 2, (high - low).length() / 2 * (1 + 1e-9)};
 }
@@ -226,7 +229,7 @@ HWY_INLINE void StoreOccluded(uint32_t occluded, size_t first, size_t count, Sha
   }
 }
 
-// Rays [first, end), all from one sphere.
+// Rays [first, end), which all start on one sphere.
 HWY_INLINE void OccludedOfRun(const TraceGeometry& geometry, const OccluderLists& lists,
                               size_t first, size_t end, ShadowRayBatch* rays) {
   const size_t step = hn::Lanes(F());

@@ -22,9 +22,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Masks and bits, of 16 lanes at most, go to each other through memory, and are never loaded wider
-// than they were stored: such a load waits until the stores have left their buffer. The first byte
-// has the lowest lanes.
+// Masks of at most 16 lanes are converted to bits, and back, through memory. They are never loaded
+// wider than they were stored: such a load cannot be forwarded from the store buffer, and stalls.
+// The first byte has the lowest lanes.
 static_assert(std::endian::native == std::endian::little);
 
 template <class D>

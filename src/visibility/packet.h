@@ -30,7 +30,7 @@ struct Packet {
   int width = 0;       // 4, 8 or 16
   uint32_t lanes = 0;  // one bit a lane that holds a ray whose answer is open
   const TraceGeometry* geometry = nullptr;
-  FilmView film;  // the batch's
+  ProjectedTestView view;  // the batch's
   FloatRays floats{};
 
   const double* origin_x;
@@ -57,13 +57,13 @@ struct Packet {
   // Occlusion queries.
   bool outward = false;                         // ShadowRayBatch's
   PrimitiveRange target;                        // likewise
-  double end_reach = 0;                         // likewise
+  double camera_extent = 0;                     // likewise
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
-  // If that is a sphere, its centre and radius, by which the ray also leaves the spheres that
-  // coincide with it; else NaN.
+  // If that is a sphere, its centre and radius, so that spheres that coincide with it are
+  // recognised; else NaN.
   alignas(64) double start_sphere[4][kMaxPacketWidth];
-  alignas(64) double start_reach[kMaxPacketWidth];  // bounds that primitive's coordinates
-  uint32_t occluded = 0;                            // one bit a lane
+  alignas(64) double start_extent[kMaxPacketWidth];  // upper bound of that primitive's coordinates
+  uint32_t occluded = 0;                             // one bit a lane
 };
 
 }  // namespace nacre

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/pixel_spans.h: which pixels of a tile's rows each sphere's outline reaches. Where
-// outlines do not overlap, a ray need be asked nothing but one sphere's exact test.
+// visibility/pixel_spans.h: the pixels that each sphere's outline covers in each row of a tile.
+// Where outlines do not overlap, a ray needs the exact test of one sphere only.
 #pragma once
 
 #include "visibility/tile_kernel.h"
 
 namespace nacre {
 
-// Finds the spans of the candidates' tile, of at most kCellSize rows, where there are none yet.
+// Fills candidates->spans, which must be empty. The tile has at most kCellSize rows.
 void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/pixel_spans_kernel.cc: the outlines' spans in all rows of a tile at once.
+// visibility/pixel_spans_kernel.cc: the spans of outlines, for all rows of a tile at once.
 #include <algorithm>
 #include <limits>
 
@@ -19,39 +19,42 @@
 namespace nacre {
 namespace {
 
-// Beyond these, most spans overlap.
+// With more outlines in a tile, most spans overlap.
 constexpr size_t kMaxOutlines = 32;
 
-// Beyond this coordinate, in pixels, an ellipse is left to be any row: that of a sphere that nearly
-// touches the plane of the camera ends so far away that its near end is lost in roundings.
+// An ellipse that extends beyond this coordinate, in pixels, is replaced by whole rows. The outline
+// of a sphere that nearly touches the camera's plane is so large that its near end has no digits
+// left.
 constexpr double kFarthest = 1e6;
 
-// What floats may be off by, of the sum of an outline's distance from the tile, half its size and
-// 32 pixels: 16 roundings. The most that one side of FindSpans adds up is 8: of x, those of the
-// middle, the lean and the chord, whose own are a root's and a product's; of y, those of the
-// middle, of the row's edge and of t, with the turn's that t is compared with.
+// The error bound of floats, relative to the sum of an outline's distance from the tile, half its
+// size and 32 pixels: 16 roundings. No side in ComputeSpans has more than 8: in x those of the
+// middle, the lean and the chord, which has a root and a product; in y those of the middle, of the
+// row's edge and of t, and that of the extreme that t is compared with.
 constexpr double kFloatSlack = 16 * 0x1p-24;
 
-// Spheres as they are seen on the film, in pixels from the tile's top left corner: each an ellipse,
-// x = middle + lean t -+ half_chord sqrt(1 - t^2) with t = (y - middle_y) inverse_half_height from
-// -1 to 1. Its rightmost point is at t = turn, its leftmost at -turn. What is no ellipse is a strip
-// that covers all. Of each middle there are two, so far apart that roundings lie between them.
+// The outlines of spheres in the image, in pixels from the tile's top left corner. Each is an
+// ellipse, x = middle + lean t -+ half_chord sqrt(1 - t^2) with t = (y - middle_y)
+// inverse_half_height from -1 to 1. Its rightmost point is at t = extreme, its leftmost at
+// -extreme. An outline that is no ellipse becomes an infinite strip. Each middle is stored twice,
+// moved to either side by the bound of the rounding errors.
 struct Outlines {
   size_t count = 0;
-  alignas(kVectorBytes) double sphere[4][kMaxOutlines];  // centre and radius; the rest follows
+  alignas(
+      kVectorBytes) double sphere[4][kMaxOutlines];  // centre and radius: ComputeOutlines' input
   alignas(kVectorBytes) float left[kMaxOutlines], right[kMaxOutlines];
   alignas(kVectorBytes) float left_middle[kMaxOutlines], right_middle[kMaxOutlines];
   alignas(kVectorBytes) float upper_middle[kMaxOutlines], lower_middle[kMaxOutlines];
   alignas(kVectorBytes) float inverse_half_height[kMaxOutlines], half_chord[kMaxOutlines];
-  alignas(kVectorBytes) float lean[kMaxOutlines], turn[kMaxOutlines];
+  alignas(kVectorBytes) float lean[kMaxOutlines], extreme[kMaxOutlines];
 };
 
-// The pixels of a tile's row that an outline reaches, from begin() to end(), counted from the
-// tile's left edge, and the outline's number: in one word, so that words are sorted as spans are.
+// The pixels of a tile's row that an outline covers, [begin(), end()) from the tile's left edge,
+// and the outline's index, packed into one word so that sorting words sorts spans by their begin.
 struct RowSpan {
   uint32_t bits;
 
-  static constexpr uint32_t kNone = ~0u;  // it reaches none
+  static constexpr uint32_t kNone = ~0u;  // the outline does not cover any
   static constexpr int kOutlineBits = 5, kPixelBits = 12, kBeginBits = kOutlineBits + kPixelBits;
   static_assert(kMaxOutlines <= 1 << kOutlineBits);
   static_assert(kBatchCapacity < 1 << kPixelBits);  // no tile has as many pixels
@@ -62,7 +65,7 @@ struct RowSpan {
   bool operator<(const RowSpan& other) const { return bits < other.bits; }
 };
 
-// Those of an outline in each of a tile's rows.
+// The RowSpan of an outline in each of a tile's rows.
 struct OutlineSpans {
   alignas(64) uint32_t rows[kCellSize];
 };
@@ -77,19 +80,19 @@ namespace HWY_NAMESPACE {
 namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// What the sphere's outline reaches along one axis: its middle and half its size, in pixels.
+// The extent of an outline along one axis: its middle and half its size, in pixels.
 template <class V>
 struct ExtentV {
   V middle, half;
 };
 
-// By slopes u = x / z, v = y / z the outline is (x u + y v + z)^2 = (|c|^2 - r^2) (u^2 + v^2 + 1):
-// an ellipse about z (x, y) / (z^2 - r^2), with half its width squared, the skew and half its
-// height squared for the entries of the inverse of its matrix.
+// In slopes u = x / z, v = y / z the outline is (x u + y v + z)^2 = (|c|^2 - r^2) (u^2 + v^2 + 1):
+// an ellipse about z (x, y) / (z^2 - r^2). The entries of the inverse of its matrix are the square
+// of half its width, the skew, and the square of half its height.
 //
-// With a margin all around: half the width and half the height grow by as much, about the same
-// middle and with the same skew, so what was the outline lies inside.
-void FindOutlines(const Projector& projector, const Window& tile, Outlines* o) {
+// A margin is added to half the width and to half the height, and the middle and the skew are kept:
+// the larger ellipse contains the outline.
+void ComputeOutlines(const Projector& projector, const Window& tile, Outlines* o) {
   const hn::CappedTag<double, kMaxOutlines> d;
   const hn::Rebind<float, decltype(d)> df;
   using V = hn::Vec<decltype(d)>;
@@ -112,8 +115,8 @@ void FindOutlines(const Projector& projector, const Window& tile, Outlines* o) {
     const auto across = extent(x, projector.middle_x), along = extent(y, projector.middle_y);
     const V farthest = hn::Max(hn::Add(hn::Abs(across.middle), across.half),
                                hn::Add(hn::Abs(along.middle), along.half));
-    const V margin =
-        hn::MulAdd(hn::Set(d, kMarginOfPlace), farthest, hn::Set(d, FilmMargin(projector, 0)));
+    const V margin = hn::MulAdd(hn::Set(d, kRelativeProjectionMargin), farthest,
+                                hn::Set(d, ProjectionMargin(projector, 0)));
     const V half_width = hn::Add(across.half, margin), half_height = hn::Add(along.half, margin);
     const V inverse_half_height = hn::Div(one, half_height);
     const V skew = hn::Mul(hn::Mul(x, y), hn::Mul(hn::Mul(radius, scale), hn::Mul(radius, scale)));
@@ -144,12 +147,14 @@ void FindOutlines(const Projector& projector, const Window& tile, Outlines* o) {
     store(inverse_half_height, 0, o->inverse_half_height);
     store(hn::Sqrt(hn::Max(chord2, zero)), 0, o->half_chord);
     store(lean, 0, o->lean);
-    store(hn::Div(lean, half_width), 0, o->turn);
+    store(hn::Div(lean, half_width), 0, o->extreme);
   }
 }
 
-// Samples lie up to `reach` outside their pixels. `width`: the tile's.
-void FindSpans(const Outlines& o, size_t i, float reach, int width, OutlineSpans* spans) {
+// The spans of outline i. Samples lie up to `sample_margin` outside of their pixels. `width`: the
+// tile's.
+void ComputeSpans(const Outlines& o, size_t i, float sample_margin, int width,
+                  OutlineSpans* spans) {
   const hn::CappedTag<float, kCellSize> d;
   const hn::Rebind<int32_t, decltype(d)> di;
   const hn::Rebind<uint32_t, decltype(d)> du;
@@ -158,14 +163,14 @@ void FindSpans(const Outlines& o, size_t i, float reach, int width, OutlineSpans
   const auto outline = hn::Set(du, static_cast<uint32_t>(i)), none = hn::Set(du, RowSpan::kNone);
   const auto left_middle = hn::Set(d, o.left_middle[i]);
   const auto right_middle = hn::Set(d, o.right_middle[i]);
-  const auto upper_middle = hn::Set(d, o.upper_middle[i] + reach);
-  const auto lower_middle = hn::Set(d, o.lower_middle[i] - (1 + reach));
+  const auto upper_middle = hn::Set(d, o.upper_middle[i] + sample_margin);
+  const auto lower_middle = hn::Set(d, o.lower_middle[i] - (1 + sample_margin));
   const auto half_chord = hn::Set(d, o.half_chord[i]), lean = hn::Set(d, o.lean[i]);
-  const auto turn = hn::Set(d, o.turn[i]);
+  const auto extreme = hn::Set(d, o.extreme[i]);
   const auto inverse = hn::Set(d, o.inverse_half_height[i]);
   for (int row = 0; row < kCellSize; row += static_cast<int>(hn::Lanes(d))) {
     const auto y = hn::Iota(d, static_cast<float>(row));
-    // The outline from the row's upper edge to its lower one.
+    // The part of the outline between the row's upper and lower edge.
     const auto upper = hn::Mul(hn::Sub(y, upper_middle), inverse);
     const auto lower = hn::Mul(hn::Sub(y, lower_middle), inverse);
     const auto met = hn::And(hn::Lt(upper, one), hn::Gt(lower, minus_one));
@@ -175,33 +180,34 @@ void FindSpans(const Outlines& o, size_t i, float reach, int width, OutlineSpans
       return hn::Mul(half_chord, hn::Sqrt(hn::Max(squared, zero)));
     };
     const auto low_chord = chord(low), high_chord = chord(high);
-    const auto turns_at = [&](auto t) HWY_ATTR { return hn::And(hn::Le(low, t), hn::Le(t, high)); };
+    const auto contains = [&](auto t) HWY_ATTR { return hn::And(hn::Le(low, t), hn::Le(t, high)); };
     const auto right_at = [&](auto t, auto half)
                               HWY_ATTR { return hn::Add(hn::MulAdd(lean, t, right_middle), half); };
     const auto left_at = [&](auto t, auto half)
                              HWY_ATTR { return hn::Sub(hn::MulAdd(lean, t, left_middle), half); };
     const auto right =
-        hn::IfThenElse(turns_at(turn), hn::Set(d, o.right[i]),
+        hn::IfThenElse(contains(extreme), hn::Set(d, o.right[i]),
                        hn::Max(right_at(low, low_chord), right_at(high, high_chord)));
-    const auto left = hn::IfThenElse(turns_at(hn::Neg(turn)), hn::Set(d, o.left[i]),
+    const auto left = hn::IfThenElse(contains(hn::Neg(extreme)), hn::Set(d, o.left[i]),
                                      hn::Min(left_at(low, low_chord), left_at(high, high_chord)));
     const auto pixel = [&](auto x) HWY_ATTR {
       const auto inside = hn::Min(hn::Max(x, zero), columns);
       return hn::BitCast(du, hn::ConvertTo(di, inside));  // rounded down: none is below 0
     };
-    const auto begin = pixel(hn::Sub(left, hn::Set(d, reach)));
-    const auto end = pixel(hn::IfThenElse(met, hn::Add(right, hn::Set(d, reach + 1)), zero));
+    const auto begin = pixel(hn::Sub(left, hn::Set(d, sample_margin)));
+    const auto end =
+        pixel(hn::IfThenElse(met, hn::Add(right, hn::Set(d, sample_margin + 1)), zero));
     const auto bits = hn::Or(hn::ShiftLeft<RowSpan::kBeginBits>(begin),
                              hn::Or(hn::ShiftLeft<RowSpan::kOutlineBits>(end), outline));
     hn::StoreU(hn::IfThenElse(hn::Lt(begin, end), bits, none), du, spans->rows + row);
   }
 }
 
-void FindOutlineSpansT(const Projector& projector, double reach, const Window& tile,
+void FindOutlineSpansT(const Projector& projector, double sample_margin, const Window& tile,
                        Outlines* outlines, OutlineSpans* spans) {
-  FindOutlines(projector, tile, outlines);
+  ComputeOutlines(projector, tile, outlines);
   for (size_t i = 0; i < outlines->count; ++i) {
-    FindSpans(*outlines, i, static_cast<float>(reach), tile.width(), spans + i);
+    ComputeSpans(*outlines, i, static_cast<float>(sample_margin), tile.width(), spans + i);
   }
 }
 
@@ -216,13 +222,14 @@ HWY_EXPORT(FindOutlineSpansT);
 
 namespace {
 
-// Those that overlap become one. `first`: the row's first pixel.
-void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint32_t first,
-            std::vector<PixelSpan>* spans) {
+// Appends a row's spans; those that overlap are merged. `in_front`: the outlines' candidates where
+// they lie in front of the camera, else null. `first`: the row's first pixel.
+void AppendSpansOfRow(RowSpan* row, size_t count, const TileCandidate* const* in_front,
+                      uint32_t first, std::vector<PixelSpan>* spans) {
   if (!std::is_sorted(row, row + count)) std::sort(row, row + count);
   for (size_t i = 0; i < count;) {
     const RowSpan& span = row[i++];
-    const TileCandidate* only = alone[span.outline()];
+    const TileCandidate* only = in_front[span.outline()];
     uint32_t end = span.end();
     for (; i < count && row[i].begin() < end; ++i) {
       end = std::max(end, row[i].end());
@@ -232,39 +239,40 @@ void PutRow(RowSpan* row, size_t count, const TileCandidate* const* alone, uint3
   }
 }
 
-// Of a tile's only outline, without a branch for the rows that it does not reach.
-void PutRows(const OutlineSpans& outline, const TileCandidate* alone, const Window& tile,
-             std::vector<PixelSpan>* spans) {
+// Writes the spans of a tile's only outline, without a branch for the rows that it does not cover.
+void AppendSpansOfOutline(const OutlineSpans& outline, const TileCandidate* candidate,
+                          const Window& tile, std::vector<PixelSpan>* spans) {
   const auto width = static_cast<uint32_t>(tile.width());
   spans->resize(static_cast<size_t>(tile.height()));
   size_t count = 0;
   for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
     const RowSpan span{outline.rows[y]};
-    (*spans)[count] = {y * width + span.begin(), span.end() - span.begin(), alone};
+    (*spans)[count] = {y * width + span.begin(), span.end() - span.begin(), candidate};
     count += span.bits != RowSpan::kNone ? 1 : 0;
   }
   spans->resize(count);
 }
 
-void PutWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
+void AppendWholeRows(const Window& tile, std::vector<PixelSpan>* spans) {
   const auto width = static_cast<uint32_t>(tile.width());
   for (uint32_t y = 0; y < static_cast<uint32_t>(tile.height()); ++y) {
     spans->push_back({y * width, width, nullptr});
   }
 }
 
-// The tile's spheres, each once. `alone`: those in front of the camera.
-void PutSpheres(const TileCandidates& candidates, Outlines* outlines, const TileCandidate** alone) {
+// Collects the tile's spheres, each once. `in_front`: as for AppendSpansOfRow.
+void GatherSpheres(const TileCandidates& candidates, Outlines* outlines,
+                   const TileCandidate** in_front) {
   for (const std::vector<TileCandidate>& cell : candidates.cells) {
     for (const TileCandidate& candidate : cell) {
       if (candidate.in_cell_before) continue;
       const size_t i = outlines->count++;
       for (int c = 0; c < 3; ++c) outlines->sphere[c][i] = candidate.sphere.center[c];
       outlines->sphere[3][i] = candidate.sphere.radius;
-      alone[i] = candidate.in_front ? &candidate : nullptr;
+      in_front[i] = candidate.in_front ? &candidate : nullptr;
     }
   }
-  // Whole vectors are worked on.
+  // Whole vectors are computed: the lanes behind the last sphere repeat the first one.
   for (size_t i = outlines->count; i % (kVectorBytes / sizeof(double)) != 0; ++i) {
     for (auto& values : outlines->sphere) values[i] = values[0];
   }
@@ -275,15 +283,17 @@ void PutSpheres(const TileCandidates& candidates, Outlines* outlines, const Tile
 void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   const Window& tile = candidates->tile;
   if (!bins.projector.perspective || candidates->spheres > kMaxOutlines) {
-    return PutWholeRows(tile, &candidates->spans);
+    return AppendWholeRows(tile, &candidates->spans);
   }
   Outlines outlines;
-  const TileCandidate* alone[kMaxOutlines];
+  const TileCandidate* in_front[kMaxOutlines];
   OutlineSpans of_outline[kMaxOutlines];
-  PutSpheres(*candidates, &outlines, alone);
-  HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)(bins.projector, bins.reach, tile, &outlines, of_outline);
-  candidates->alone = outlines.count == 1 ? alone[0] : nullptr;
-  if (outlines.count == 1) return PutRows(of_outline[0], alone[0], tile, &candidates->spans);
+  GatherSpheres(*candidates, &outlines, in_front);
+  HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)
+  (bins.projector, bins.sample_margin, tile, &outlines, of_outline);
+  candidates->single_sphere = outlines.count == 1 ? in_front[0] : nullptr;
+  if (outlines.count == 1)
+    return AppendSpansOfOutline(of_outline[0], in_front[0], tile, &candidates->spans);
   RowSpan row[kMaxOutlines];
   for (int y = 0; y < tile.height(); ++y) {
     size_t in_row = 0;
@@ -291,7 +301,8 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
       row[in_row] = {of_outline[i].rows[y]};
       in_row += row[in_row].bits != RowSpan::kNone ? 1 : 0;
     }
-    PutRow(row, in_row, alone, static_cast<uint32_t>(y * tile.width()), &candidates->spans);
+    AppendSpansOfRow(row, in_row, in_front, static_cast<uint32_t>(y * tile.width()),
+                     &candidates->spans);
   }
 }
 }  // namespace nacre

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/refine_kernel.cc: repeats the exact test for each hit, which gives its point and its
-// normal in double.
+// visibility/refine_kernel.cc: repeats the exact test for each hit to get its point and normal in
+// double.
 #include "visibility/refine_kernel.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 #include "base/geometry-inl.h"
 #include "hit/shading_normal-inl.h"
-#include "visibility/film_test-inl.h"
 #include "visibility/inverse_length-inl.h"
+#include "visibility/projected_sphere_test-inl.h"
 #include "visibility/sphere_test-inl.h"
 #include "visibility/surface-inl.h"
 #include "visibility/triangle_test-inl.h"
@@ -27,8 +27,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 
-// Hits that are gathered before any is computed: loading vectors from what was just stored by
-// scalars stalls.
+// The number of hits that are gathered before any is computed: loading a vector right after its
+// lanes were stored one by one would stall.
 constexpr size_t kBlock = 4 * kBatchPadding;
 
 struct alignas(64) Block3 {
@@ -42,63 +42,65 @@ struct alignas(64) Block3 {
   Vec3V<V> Load(size_t i) const { return Load3(D(), x + i, y + i, z + i); }
 };
 
-// Entries with a triangle hold some earlier sphere too, or none, and those with a sphere some
-// triangle: what is computed from either is not used.
+// The primitives of a block of hits. Entries of triangles hold stale spheres, too, and entries of
+// spheres stale triangles; results computed from these are not used.
 struct Gathered {
   Block3 origin, direction;
   Block3 center = {};
   alignas(64) double radius[kBlock] = {};
-  alignas(64) double on_film[kBlock] = {};  // 1 or 0
-  Block3 film_center = {}, film_rest = {};
-  alignas(64) double film_scale[kBlock] = {};
+  alignas(64) double is_projected[kBlock] = {};  // 1 or 0
+  Block3 projected_center = {}, projected_error = {};
+  alignas(64) double projected_scale[kBlock] = {};
   Block3 corner[3] = {}, corner_normal[3] = {};
-  alignas(64) double is_triangle[kBlock];                              // 1 or 0
-  bool any_sphere = false, any_on_film = false, any_anywhere = false;  // of the spheres
+  alignas(64) double is_triangle[kBlock];  // 1 or 0
+  bool any_sphere = false;
+  bool any_projected = false, any_general = false;  // spheres, by the test that they use
   bool any_triangle = false;
 };
 
 struct Surface {
   Vec3V<V> position;
   Vec3V<V> normal;   // unit, on the ray's side
-  Vec3V<V> to_view;  // likewise, and above the normal's horizon
+  Vec3V<V> to_view;  // unit, above the normal's horizon
 };
 
-// A vector of rays, and what their hits are made of.
+// A vector of rays, with derived terms.
 struct RefineRays {
   Vec3V<V> origin, direction;
-  V dd, inverse_dd, inverse_length;  // of the directions
+  V dd, inverse_dd, inverse_length;  // |direction|^2, its reciprocal, 1 / |direction|
   Vec3V<V> to_view;
 };
 
-HWY_INLINE Vec3V<V> NormalOnFilm(const Gathered& in, size_t i, const RefineRays& rays) {
+HWY_INLINE Vec3V<V> RefineProjectedNormal(const Gathered& in, size_t i, const RefineRays& rays) {
   const D d;
-  const FilmSphereV<V> film{in.film_center.Load(i), in.film_rest.Load(i),
-                            hn::Load(d, in.film_scale + i)};
-  const auto hit = TestOnFilm(d, film, Negated(rays.direction), rays.dd);
-  return FilmNormal(hit.offset, BackToHit(hn::Sqrt(hit.discriminant), hit.back), rays.to_view,
-                    rays.inverse_length);
+  const ProjectedSphereV<V> sphere{in.projected_center.Load(i), in.projected_error.Load(i),
+                                   hn::Load(d, in.projected_scale + i)};
+  const auto hit = TestProjected(d, sphere, Negated(rays.direction), rays.dd);
+  return ProjectedNormal(hit.offset, BackToHit(hn::Sqrt(hit.discriminant), hit.back), rays.to_view,
+                         rays.inverse_length);
 }
 
 HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const RefineRays& rays) {
   const D d;
   const Vec3V<V> center = in.center.Load(i);
   const V radius = hn::Load(d, in.radius + i);
-  V turned = radius;
+  V signed_radius = radius;
   Vec3V<V> normal;
-  if (in.any_anywhere) {
+  if (in.any_general) {
     const auto hit =
         TestSphere(d, Sub(center, rays.origin), rays.direction, rays.inverse_dd, radius);
     const V root = hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root));
-    turned = TurnedRadius(radius, root);
-    normal = SphereNormal(d, ScaledCenterToHit(rays.direction, root, hit.moment), rays.dd, turned);
+    signed_radius = SignedRadius(radius, root);
+    normal = SphereNormal(d, ScaledCenterToHit(rays.direction, root, hit.moment), rays.dd,
+                          signed_radius);
   }
-  if (in.any_on_film) {
-    const Vec3V<V> film_normal = NormalOnFilm(in, i, rays);
-    const auto on_film = hn::Gt(hn::Load(d, in.on_film + i), hn::Zero(d));
-    turned = hn::IfThenElse(on_film, radius, turned);
-    normal = in.any_anywhere ? Select(on_film, film_normal, normal) : film_normal;
+  if (in.any_projected) {
+    const Vec3V<V> projected_normal = RefineProjectedNormal(in, i, rays);
+    const auto projected = hn::Gt(hn::Load(d, in.is_projected + i), hn::Zero(d));
+    signed_radius = hn::IfThenElse(projected, radius, signed_radius);
+    normal = in.any_general ? Select(projected, projected_normal, normal) : projected_normal;
   }
-  return {SpherePosition(center, normal, turned), normal, rays.to_view};
+  return {SpherePosition(center, normal, signed_radius), normal, rays.to_view};
 }
 
 HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V<V>& weights) {
@@ -106,9 +108,10 @@ HWY_INLINE Vec3V<V> Interpolate(const Block3 (&corner)[3], size_t i, const Vec3V
              Scale(corner[2].Load(i), weights.z));
 }
 
-HWY_INLINE Vec3V<V> Normalized(const Vec3V<V>& v) {
+// A unit vector. v is scaled to about 1 first, so that squares of the products of very short edges
+// do not become denormal.
+HWY_INLINE Vec3V<V> ScaledAndNormalized(const Vec3V<V>& v) {
   const D d;
-  // Brought near 1 first, so that the squares of the smallest edges' products stay normal numbers.
   const V largest = hn::Max(hn::Max(hn::Abs(v.x), hn::Abs(v.y)), hn::Abs(v.z));
   const Vec3V<V> scaled = Scale(v, hn::Div(hn::Set(d, 1.0), largest));
   return Scale(scaled, hn::Div(hn::Set(d, 1.0), hn::Sqrt(Dot(scaled, scaled))));
@@ -121,16 +124,16 @@ HWY_INLINE Surface RefineTriangle(const Gathered& in, size_t i, const RefineRays
   const Vec3V<V> a = in.corner[0].Load(i), b = in.corner[1].Load(i), c = in.corner[2].Load(i);
   const auto hit = TestTriangle(d, Sub(a, origin), Sub(b, origin), Sub(c, origin), direction,
                                 rays.inverse_dd, MakeShear(d, direction));
-  // The face normal on the ray's side, whatever the winding; then the shading normal on its side.
+  // The face normal on the ray's side, for either winding, and the shading normal on the same side.
   const Vec3V<V> face = Cross(Sub(b, a), Sub(c, a));
   const auto back = hn::Gt(Dot(face, direction), zero);
   const Vec3V<V> face_normal = Select(back, Sub(Vec3V<V>{zero, zero, zero}, face), face);
   const Vec3V<V> vertex_normal = Interpolate(in.corner_normal, i, hit.weights);
   const V side = Dot(vertex_normal, face_normal);
   const Vec3V<V> facing = Scale(vertex_normal, hn::CopySign(hn::Set(d, 1.0), side));
-  // 0 where the mesh has no normals, or where they cancel.
+  // The interpolated normal is 0 where the mesh has no normals, or where they cancel.
   const auto none = hn::Eq(SumOfAbs(vertex_normal), zero);
-  const Vec3V<V> normal = Normalized(Select(none, face_normal, facing));
+  const Vec3V<V> normal = ScaledAndNormalized(Select(none, face_normal, facing));
   const Vec3V<V> to_view = Select(none, rays.to_view, GrazingView(d, normal, rays.to_view));
   return {Interpolate(in.corner, i, hit.weights), normal, to_view};
 }
@@ -147,29 +150,29 @@ HWY_INLINE void GatherTriangle(const TraceGeometry& geometry, uint32_t triangle,
   }
 }
 
-HWY_INLINE void GatherSphere(const TraceSphere& sphere, const FilmView& view, size_t i,
+HWY_INLINE void GatherSphere(const TraceSphere& sphere, const ProjectedTestView& view, size_t i,
                              Gathered* to) {
   to->any_sphere = true;
   to->is_triangle[i] = 0;
   to->center.Set(i, sphere.center);
   to->radius[i] = sphere.radius;
-  const bool on_film = HasFilmPlace(sphere, view);
-  to->on_film[i] = on_film ? 1 : 0;
-  (on_film ? to->any_on_film : to->any_anywhere) = true;
-  if (!on_film) return;
-  const FilmSphere film = MakeFilmSphere(sphere, view.forward);
-  to->film_center.Set(i, film.center);
-  to->film_rest.Set(i, film.rest);
-  to->film_scale[i] = film.scale;
+  const bool projected = UsesProjectedTest(sphere, view);
+  to->is_projected[i] = projected ? 1 : 0;
+  (projected ? to->any_projected : to->any_general) = true;
+  if (!projected) return;
+  const ProjectedSphere projection = MakeProjectedSphere(sphere, view.forward);
+  to->projected_center.Set(i, projection.center);
+  to->projected_error.Set(i, projection.rounding_error);
+  to->projected_scale[i] = projection.scale;
 }
 
-// Gathers `size` hits from `first` on; past the last one, the last one again.
+// Gathers `size` hits from `first` on. Entries behind the last hit repeat it.
 HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, Gathered* to,
                        HitBatch* hits) {
   const TraceGeometry& geometry = request.geometry;
   const auto& [origin, direction] = std::tie(request.rays.origin, request.rays.direction);
   const uint32_t sphere_count = geometry.SphereCount();
-  to->any_sphere = to->any_on_film = to->any_anywhere = to->any_triangle = false;
+  to->any_sphere = to->any_projected = to->any_general = to->any_triangle = false;
   for (size_t i = 0; i < size; ++i) {
     const uint32_t ray = request.ray_indices[std::min(first + i, request.count - 1)];
     const uint32_t primitive = request.closest.primitive[ray];
@@ -178,14 +181,14 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
     hits->ray[first + i] = ray;
     hits->primitive[first + i] = primitive;
     if (primitive < sphere_count) {
-      GatherSphere(geometry.spheres[primitive], request.rays.film, i, to);
+      GatherSphere(geometry.spheres[primitive], request.rays.view, i, to);
     } else {
       GatherTriangle(geometry, primitive - sphere_count, i, to);
     }
   }
 }
 
-HWY_INLINE void StoreHits(const Surface& surface, size_t first, const HitsTo& to) {
+HWY_INLINE void StoreHits(const Surface& surface, size_t first, const HitOutput& to) {
   const D d;
   const hn::Rebind<float, D> df;
   HitBatch& hits = *to.hits;
@@ -196,13 +199,13 @@ HWY_INLINE void StoreHits(const Surface& surface, size_t first, const HitsTo& to
   if (to.positions) store(d, surface.position, hits.position);
   store(df, Demote3(d, surface.normal), rounded.normal);
   store(df, Demote3(d, surface.to_view), rounded.to_view);
-  if (!to.exact) return;
+  if (!to.exact_directions) return;
   store(d, surface.normal, hits.normal);
   store(d, surface.to_view, hits.to_view);
 }
 
-// The vector of hits gathered at i, to be stored at hits[first].
-HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const HitsTo& to) {
+// Computes the vector of hits that was gathered at i, and stores it at hits[first].
+HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const HitOutput& to) {
   const D d;
   RefineRays rays;
   rays.origin = in.origin.Load(i);
@@ -226,7 +229,7 @@ HWY_INLINE void RefineVector(const Gathered& in, size_t i, size_t first, const H
   }
 }
 
-void Refine(const RefineRequest& request, const HitsTo& to) {
+void Refine(const RefineRequest& request, const HitOutput& to) {
   Gathered in;
   to.hits->count = request.count;
   to.hits->one_primitive = false;
@@ -239,11 +242,12 @@ void Refine(const RefineRequest& request, const HitsTo& to) {
 }
 
 double Depth(const TraceSphere& sphere, const Vec3d& origin, const Vec3d& direction,
-             const FilmView& view) {
+             const ProjectedTestView& view) {
   const D d;
   const Vec3V<V> along = SetVec3(d, direction);
-  if (HasFilmPlace(sphere, view)) {
-    return hn::GetLane(DepthOnFilm(d, MakeFilmSphere(sphere, view.forward), sphere, along).t);
+  if (UsesProjectedTest(sphere, view)) {
+    return hn::GetLane(
+        TestProjectedDepth(d, MakeProjectedSphere(sphere, view.forward), sphere, along).t);
   }
   const V inverse_dd = hn::Div(hn::Set(d, 1.0), FusedDot(along, along));
   const auto hit = TestSphere(d, SetVec3(d, sphere.center - origin), along, inverse_dd,
@@ -264,7 +268,7 @@ HWY_EXPORT(Refine);
 HWY_EXPORT(Depth);
 HWY_EXPORT(ProductsHere);
 
-void RefineHits(const RefineRequest& request, const HitsTo& to) {
+void RefineHits(const RefineRequest& request, const HitOutput& to) {
   HWY_DYNAMIC_DISPATCH(Refine)(request, to);
 }
 
@@ -272,7 +276,7 @@ double DepthOn(const TraceSphere& sphere, const RayBatch& rays, size_t ray) {
   const auto at = [&](const Soa3<double>& soa) {
     return Vec3d(soa.x[ray], soa.y[ray], soa.z[ray]);
   };
-  return HWY_DYNAMIC_DISPATCH(Depth)(sphere, at(rays.origin), at(rays.direction), rays.film);
+  return HWY_DYNAMIC_DISPATCH(Depth)(sphere, at(rays.origin), at(rays.direction), rays.view);
 }
 
 Products TargetProducts() { return HWY_DYNAMIC_DISPATCH(ProductsHere)(); }

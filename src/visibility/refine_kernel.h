@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/refine_kernel.h: from closest hits to points and normals to shade.
+// visibility/refine_kernel.h: from closest hits to the points and normals that are shaded.
 #pragma once
 
 #include "hit/batch.h"
@@ -17,12 +17,12 @@ struct RefineRequest {
   size_t count;
 };
 
-void RefineHits(const RefineRequest& request, const HitsTo& to);
+void RefineHits(const RefineRequest& request, const HitOutput& to);
 
 // The t of a camera ray on a sphere that it hits, as Closest finds it.
 double DepthOn(const TraceSphere& sphere, const RayBatch& rays, size_t ray);
 
-// What the active target makes of products: for the scalar twins of the hit tests.
+// Whether the active target fuses products, for the scalar twins of the hit tests.
 Products TargetProducts();
 
 }  // namespace nacre

@@ -7,13 +7,13 @@ namespace nacre {
 
 ShadowLight MakeShadowLight(const Light& light, const Vec3d& camera_position) {
   if (const auto* point = std::get_if<PointLight>(&light.kind)) {
-    return {true, point->position - camera_position};
+    return {.positional = true, .position = point->position - camera_position};
   }
   if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
-    return {true, spot->position - camera_position};
+    return {.positional = true, .position = spot->position - camera_position};
   }
   const auto& sun = std::get<DirectionalLight>(light.kind);
-  return {false, -sun.direction_of_travel.normalized()};
+  return {.to_light = -sun.direction_of_travel.normalized()};
 }
 
 }  // namespace nacre

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/shell_kernel.cc: walks packets of rays through the tree of shells (shell_tree.h); what
-// decides hits in its leaves is what decides them elsewhere.
+// visibility/shell_kernel.cc: traverses the tree of shells (shell_tree.h) with packets of rays.
+// Hits in its leaves are decided by the same tests as elsewhere.
 #include "visibility/shell_kernel.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using ShellV = hn::Vec<ShellTag>;
 struct ShellRays {
   Vec3V<ShellV> origin, direction;
   ShellV inverse_dd, t_max;
-  ShellV reach;  // the sum of the origin's coordinates
+  ShellV origin_sum;  // |origin|_1
 };
 
 HWY_INLINE ShellRays LoadShellRays(const Packet& packet, int lane) {
@@ -35,19 +35,20 @@ HWY_INLINE ShellRays LoadShellRays(const Packet& packet, int lane) {
   rays.direction = Direction(d, packet, lane);
   rays.inverse_dd = hn::Load(d, packet.inverse_dd + lane);
   rays.t_max = hn::Load(d, packet.t_max + lane);
-  rays.reach = SumOfAbs(rays.origin);
+  rays.origin_sum = SumOfAbs(rays.origin);
   return rays;
 }
 
-// Where rays are first in a shell: infinity for those that are not, at any t in [0, t_max].
+// The least t at which rays may be in a shell; infinity if they are not in it at any t in [0,
+// t_max].
 //
-// Twice the margin: once for what the radii err by, and as moving a sphere outward by that moves
-// where rays enter it by no less, once for what the way along the ray does.
+// The margin counts twice: once for the error of the radii, and once for the error of t, because
+// moving a sphere outward by a distance moves the point where a ray enters by at least as much.
 HWY_INLINE ShellV EnterShell(const Shell& shell, const ShellRays& rays) {
   const ShellTag d;
   const auto zero = hn::Zero(d);
   const Vec3V<ShellV> center = SetVec3(d, shell.center);
-  const ShellV sum = hn::Add(rays.reach, hn::Add(SumOfAbs(center), hn::Set(d, shell.outer)));
+  const ShellV sum = hn::Add(rays.origin_sum, hn::Add(SumOfAbs(center), hn::Set(d, shell.outer)));
   const ShellV margin = hn::Mul(sum, hn::Set(d, 2 * kShellMargin));
   const ShellV outer = hn::Add(hn::Set(d, shell.outer), margin);
   const ShellV inner = hn::Max(hn::Sub(hn::Set(d, shell.inner), margin), zero);
@@ -71,14 +72,14 @@ HWY_INLINE ShellV EnterShell(const Shell& shell, const ShellRays& rays) {
   return hn::IfThenElse(enters, first, hn::Set(d, std::numeric_limits<double>::infinity()));
 }
 
-// A node and the lanes whose rays may meet spheres of it, from `nearest` on.
+// A node and the lanes whose rays may hit its spheres, at t >= nearest.
 struct ShellVisit {
   const ShellNode* node;
   uint32_t lanes = 0;
   double nearest = 0;
 };
 
-// Finds out who of `lanes` visits nodes that follow one another.
+// Fills `visits` for consecutive nodes: which of `lanes` enter their shells, and where.
 template <int kNodes>
 HWY_INLINE void VisitNodes(const Packet& packet, uint32_t lanes, const ShellNode* nodes,
                            ShellVisit (&visits)[kNodes]) {
@@ -91,11 +92,11 @@ HWY_INLINE void VisitNodes(const Packet& packet, uint32_t lanes, const ShellNode
     nearest[i] = infinity;
   }
   for (int lane = 0; lane < packet.width; lane += step) {
-    const auto asked = MaskOfBits(d, lanes, lane);
-    if (hn::AllFalse(d, asked)) continue;
+    const auto active = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, active)) continue;
     const ShellRays rays = LoadShellRays(packet, lane);
     for (int i = 0; i < kNodes; ++i) {
-      const ShellV first = hn::IfThenElse(asked, EnterShell(nodes[i].shell, rays), infinity);
+      const ShellV first = hn::IfThenElse(active, EnterShell(nodes[i].shell, rays), infinity);
       nearest[i] = hn::Min(nearest[i], first);
       visits[i].lanes |= BitsOfMask(d, hn::Lt(first, infinity)) << lane;
     }
@@ -113,8 +114,8 @@ HWY_INLINE double LargestLimit(const Packet& packet, uint32_t lanes) {
   return largest;
 }
 
-// Calls test(member, lanes) for the spheres that the lanes' rays may hit within their limits,
-// nearest shells first. Limits may shrink, and lanes be occluded, meanwhile.
+// Calls test(member, lanes) for the spheres that the lanes' rays may hit at t <= t_max, nearest
+// shells first. `test` may reduce t_max, and mark lanes as occluded.
 template <class Test>
 HWY_INLINE void WalkShells(const ShellTree& tree, uint32_t lanes, const Packet& packet,
                            const Test& test) {

@@ -12,24 +12,24 @@
 namespace nacre {
 namespace {
 
-// Linear tests of fewer nested spheres do not take long enough to matter. (Where the sample's
-// groups cut through others, of up to eight times as many.)
+// With fewer nested spheres, testing all of them takes too little time to matter. (If the splits of
+// AreNested happen to divide a nested group, up to eight times as many may go unnoticed.)
 constexpr size_t kFewestNested = 128;
-// So many spheres tell whether there are any; and so many of these have to.
+// The size of the sample that decides, and the least number of nested spheres in it.
 constexpr size_t kNestedSample = 4096;
 constexpr size_t kFewestSampled = 8;
 
 constexpr size_t kLeafSpheres = 4;
-// Spheres are parted in the middle of their widest dimension, which tells a few that lie apart from
-// the rest at once; below this depth into halves, so that the depth has a bound.
+// Groups are split in the middle of their widest dimension, which separates outliers at once. Below
+// this depth they are split into equal halves, so that the depth is bounded.
 constexpr int kMaxMiddleSplits = 60;
 static_assert(kMaxMiddleSplits + 32 < kMaxShellDepth);
 
-// A sphere as a point of four dimensions: in a group that is small in all of them spheres have
+// A sphere as a point in four dimensions: the spheres of a group that is small in all of them have
 // nearly the same surface.
 struct SpherePoint {
   double at[4];  // x, y, z, radius
-  uint32_t number;
+  uint32_t index;
 };
 
 Vec3d CenterOf(const SpherePoint& point) { return {point.at[0], point.at[1], point.at[2]}; }
@@ -46,12 +46,12 @@ struct PointBounds {
   }
 };
 
-SpherePoint PointOf(const HugeArray<TraceSphere>& spheres, size_t number) {
-  const auto& [center, radius] = spheres[number];
-  return {{center.x, center.y, center.z, radius}, static_cast<uint32_t>(number)};
+SpherePoint PointOf(const HugeArray<TraceSphere>& spheres, size_t index) {
+  const auto& [center, radius] = spheres[index];
+  return {{center.x, center.y, center.z, radius}, static_cast<uint32_t>(index)};
 }
 
-PointBounds BoundsOf(std::span<const SpherePoint> points) {
+PointBounds PointBoundsOf(std::span<const SpherePoint> points) {
   PointBounds bounds;
   std::fill_n(bounds.low, 4, std::numeric_limits<double>::infinity());
   std::fill_n(bounds.high, 4, -std::numeric_limits<double>::infinity());
@@ -80,9 +80,9 @@ Shell ShellOf(std::span<const SpherePoint> points, const PointBounds& bounds) {
   return shell;
 }
 
-// Sorts the points into two groups along a dimension, neither of which is empty; returns the size
-// of the first.
-size_t Split(std::span<SpherePoint> points, int i, double middle, int depth) {
+// Partitions the points along dimension i into two groups, neither of which is empty; returns the
+// size of the first.
+size_t SplitGroup(std::span<SpherePoint> points, int i, double middle, int depth) {
   if (depth < kMaxMiddleSplits) {
     const auto end = std::partition(points.begin(), points.end(),
                                     [&](const SpherePoint& p) { return p.at[i] <= middle; });
@@ -96,18 +96,18 @@ size_t Split(std::span<SpherePoint> points, int i, double middle, int depth) {
   return half;
 }
 
-// Whether so many of the points are a group of spheres that all hold one place. Groups are first of
-// about the same radius, so that a small sphere does not tell large ones apart.
+// Whether at least `fewest` of the spheres contain a common point. Groups are split by radius
+// first, so that a small sphere does not hide that large ones are nested.
 bool HasNested(std::span<SpherePoint> points, size_t fewest, int depth) {
   if (points.size() < fewest) return false;
-  const PointBounds bounds = BoundsOf(points);
+  const PointBounds bounds = PointBoundsOf(points);
   const Shell shell = ShellOf(points, bounds);
   if (shell.inner > 0) return true;
   const bool by_radius = bounds.high[3] > 2 * bounds.low[3];
   const int i = by_radius ? 3 : bounds.Widest(3);
   const double middle =
       by_radius ? std::sqrt(bounds.low[3]) * std::sqrt(bounds.high[3]) : MiddleOf(bounds, i);
-  const size_t first = Split(points, i, middle, depth);
+  const size_t first = SplitGroup(points, i, middle, depth);
   return HasNested(points.first(first), fewest, depth + 1) ||
          HasNested(points.subspan(first), fewest, depth + 1);
 }
@@ -116,16 +116,16 @@ void AddMembers(std::span<const SpherePoint> points, bool coincide, ShellTree* t
   for (const SpherePoint& point : points) {
     if (coincide && &point != points.data()) {
       ShellMember& member = tree->members.back();
-      member.lowest = std::min(member.lowest, point.number);
-      member.highest = std::max(member.highest, point.number);
+      member.lowest = std::min(member.lowest, point.index);
+      member.highest = std::max(member.highest, point.index);
     } else {
-      tree->members.push_back({point.number, point.number});
+      tree->members.push_back({point.index, point.index});
     }
   }
 }
 
 void FillNode(std::span<SpherePoint> points, size_t node, int depth, ShellTree* tree) {
-  const PointBounds bounds = BoundsOf(points);
+  const PointBounds bounds = PointBoundsOf(points);
   const int widest = bounds.Widest();
   const bool coincide = bounds.low[widest] == bounds.high[widest];
   const bool leaf = coincide || points.size() <= kLeafSpheres;
@@ -137,7 +137,7 @@ void FillNode(std::span<SpherePoint> points, size_t node, int depth, ShellTree* 
     return;
   }
   tree->nodes.resize(first + 2);
-  const size_t size = Split(points, widest, MiddleOf(bounds, widest), depth);
+  const size_t size = SplitGroup(points, widest, MiddleOf(bounds, widest), depth);
   FillNode(points.first(size), first, depth + 1, tree);
   FillNode(points.subspan(size), first + 1, depth + 1, tree);
 }
@@ -151,9 +151,9 @@ bool AreNested(const HugeArray<TraceSphere>& spheres) {
   const size_t size = std::min(count, kNestedSample);
   sample.reserve(size);
   for (size_t i = 0; i < size; ++i) {
-    // Steps of the golden ratio: in the order of a scene files's spheres there may be any period.
-    const uint64_t place = size == count ? i : ((i * 0x9e3779b97f4a7c15u >> 32) * count) >> 32;
-    sample.push_back(PointOf(spheres, place));
+    // Indices in steps of the golden ratio, as the order of spheres in a scene may have any period.
+    const uint64_t index = size == count ? i : ((i * 0x9e3779b97f4a7c15u >> 32) * count) >> 32;
+    sample.push_back(PointOf(spheres, index));
   }
   return HasNested(sample, std::max(kFewestNested * size / count, kFewestSampled), 0);
 }

@@ -2,12 +2,13 @@
 // visibility/shell_tree.h: a bounding volume hierarchy for spheres that lie within one another.
 //
 // A tree of boxes cannot cull these: the boxes of a thousand nested, coincident or nearly
-// coincident spheres all hold the same space, and a ray through it has to be tested against every
-// one. But all that a ray can hit of a sphere is its surface. The surfaces of a group of spheres
-// lie in a shell, the space between two concentric balls, and shells of spheres of about the same
-// centre and radius are thin: a ray that has hit one sphere stops before the others' shells, a ray
-// that leaves them does not meet any, and one that starts inside them all crosses a hole first.
-// Nothing is assumed of where rays start and go to: the tree only leaves out tests that would miss.
+// coincident spheres all contain the same space, and a ray through it would have to be tested
+// against every one. But a ray can only hit the surface of a sphere. The surfaces of a group of
+// spheres lie in a shell, the space between two concentric balls, and shells of spheres of about
+// the same centre and radius are thin: a ray that has hit one sphere stops before the shells of
+// others, a ray that leaves the spheres enters no shell, and one that starts inside all of them
+// crosses a hole first. The tree only skips tests that would miss, and makes no assumption about
+// where rays start or end.
 #pragma once
 
 #include <cstdint>
@@ -20,36 +21,36 @@ namespace nacre {
 
 struct TraceSphere;
 
-// Holds all surface points p of some spheres: inner <= |p - center| <= outer, but for rounding.
+// Contains all surface points p of some spheres: inner <= |p - center| <= outer, up to rounding.
 struct Shell {
   Vec3d center{0, 0, 0};
-  double inner = 0;  // not above 0: there is no hole
+  double inner = 0;  // 0 or negative: there is no hole
   double outer = 0;
 };
 
-// How much thicker a shell has to be taken when a ray is tested against it, as a share of the sum
-// of all coordinates involved: those of the ray's origin, the shell's centre and its radius.
+// The margin of a shell when a ray is tested against it, relative to the sum of all coordinates
+// involved: those of the ray's origin, of the shell's centre and its radius.
 //
-// The exact tests of a sphere (sphere_test.h, film_test.h) and the shell's own test err like a
-// change of the radii and of the way along the ray by a few 2^-53 of that sum; this is a few
-// thousand times as much. What is nearer together than this is not told apart by the tree, but
-// tested exactly.
+// The errors of the exact sphere tests (sphere_test.h, projected_sphere_test.h) and of the shell's
+// own test are equivalent to a change of the radii and of the distance along the ray by a few 2^-53
+// of that sum; this is a few thousand times as much. Surfaces that are nearer together than this
+// are not separated by the tree, but tested exactly.
 inline constexpr double kShellMargin = 1e-12;
 
 struct ShellNode {
   Shell shell;
-  uint32_t first = 0;  // the first of two child nodes, which are neighbours; or of a leaf's members
-  uint32_t count = 0;  // of a leaf's members; 0: the node has children
+  uint32_t first = 0;  // the first of two adjacent child nodes, or of a leaf's members
+  uint32_t count = 0;  // number of a leaf's members; 0: the node has children
 };
 
-// Spheres that coincide, by the lowest and the highest of their numbers. Closest hits are those of
-// the lowest; shadow rays ask both, for those that have a light's own number do not block it, and
-// such numbers follow one another.
+// A group of spheres that coincide, given by the lowest and the highest of their indices. Closest
+// hits are those of the lowest. Shadow rays check both, because spheres that are the light itself
+// do not occlude it; the indices of such spheres are consecutive.
 struct ShellMember {
   uint32_t lowest = 0, highest = 0;
 };
 
-inline constexpr int kMaxShellDepth = 96;  // of nodes above one another
+inline constexpr int kMaxShellDepth = 96;
 
 struct ShellTree {
   std::vector<ShellNode> nodes;  // the root is the first; empty: there is no tree
@@ -58,8 +59,8 @@ struct ShellTree {
   bool empty() const { return nodes.empty(); }
 };
 
-// Whether so many of the spheres hold one place together that a shell tree is worth it: it takes
-// longer than Embree's tree or bins where spheres lie side by side. Looks at a sample.
+// Whether so many of the spheres contain a common point that a shell tree pays off: where spheres
+// lie side by side it is slower than Embree's tree or bins. Decided by a sample.
 bool AreNested(const HugeArray<TraceSphere>& spheres);
 
 // Takes O(n log n) on one thread.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/slopes.h: how a disc is seen from a point in its plane: what a sphere's outline comes
-// to along either axis of a film.
+// visibility/slopes.h: the interval of slopes under which a disc is seen from a point in its plane:
+// the extent of a sphere's projection along one film axis.
 #pragma once
 
 #include <cmath>
@@ -12,9 +12,9 @@ struct Interval {
   double low, high;
 };
 
-// The slopes x / z under which a disc of this radius about (x, z), z > -radius, is seen from the
-// origin in front of it, z > 0: between the tangents, x z -+ r sqrt(x^2 + z^2 - r^2) over
-// z^2 - r^2. A disc that reaches behind the origin has one tangent or none in front.
+// The slopes x / z, for z > 0, under which a disc of this radius about (x, z), z > -radius, is seen
+// from the origin: between the tangents, x z -+ r sqrt(x^2 + z^2 - r^2) over z^2 - r^2. A disc that
+// extends behind the origin has at most one tangent in front of it.
 inline Interval Slopes(double x, double z, double radius) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double product = (z - radius) * (z + radius);

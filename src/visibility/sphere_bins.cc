@@ -11,18 +11,19 @@
 namespace nacre {
 namespace {
 
-// Places from first to last; none if first > last.
-struct PlaceRange {
+// Indices from first to last; empty if first > last.
+struct IndexRange {
   uint16_t first, last;
 };
 
-// Of cells across and of pixels down; of the latter are 65536 at most.
+// The columns of cells and the rows of pixels that a sphere may cover. A picture has at most 65536
+// rows.
 struct SphereBox {
-  PlaceRange columns, rows;
+  IndexRange columns, rows;
 };
 
-// Places of `size` pixels, `count` in all from `begin` on, that the pixels [low, high] lie in.
-PlaceRange PlacesOf(double low, double high, int begin, int size, int count) {
+// The intervals of `size` pixels that [low, high] overlaps, of `count` that begin at pixel `begin`.
+IndexRange IndicesOf(double low, double high, int begin, int size, int count) {
   const double first = std::max((low - begin) / size, 0.0);
   const double last = std::min((high - begin) / size, count - 1.0);
   if (!(last >= 0 && first < count)) return {1, 0};
@@ -30,7 +31,7 @@ PlaceRange PlacesOf(double low, double high, int begin, int size, int count) {
 }
 
 // A cell's pixel rows that lie in the range, as bits.
-uint16_t RowsOfCell(const PlaceRange& rows, size_t cell_row) {
+uint16_t RowsOfCell(const IndexRange& rows, size_t cell_row) {
   const int cell_begin = static_cast<int>(cell_row) * kCellSize;
   const int first = std::max(rows.first - cell_begin, 0);
   const int last = std::min(rows.last - cell_begin, kCellSize - 1);
@@ -51,17 +52,17 @@ Projector MakeProjector(const CameraFrame& frame) {
   return p;
 }
 
-// A thousandth of a pixel, and a billionth of the distance on the film. Under a telephoto lens,
-// whose pixels are that small, what rounds directions of length 1 counts, too.
-double FilmMargin(const Projector& projector, double at) {
-  return 1e-3 + kMarginOfPlace * std::abs(at) + 1e-15 * projector.inverse_pixel;
+// A thousandth of a pixel and a billionth of the film coordinate. The last term is the rounding of
+// directions of length 1, which matters for telephoto lenses, whose pixels are that small.
+double ProjectionMargin(const Projector& projector, double at) {
+  return 1e-3 + kRelativeProjectionMargin * std::abs(at) + 1e-15 * projector.inverse_pixel;
 }
 
-FilmBounds Project(const Projector& p, const TraceSphere& sphere) {
+ProjectedBounds Project(const Projector& p, const TraceSphere& sphere) {
   const double x = sphere.center.dot(p.right);
   const double y = sphere.center.dot(p.down);
   const double z = sphere.center.dot(p.forward);
-  FilmBounds bounds{};
+  ProjectedBounds bounds{};
   bounds.visible = z + sphere.radius > 0;
   if (!bounds.visible) return bounds;
   Interval across{x - sphere.radius, x + sphere.radius};
@@ -74,18 +75,18 @@ FilmBounds Project(const Projector& p, const TraceSphere& sphere) {
   bounds.x1 = across.high * p.inverse_pixel + p.middle_x;
   bounds.y0 = along.low * p.inverse_pixel + p.middle_y;
   bounds.y1 = along.high * p.inverse_pixel + p.middle_y;
-  bounds.x0 -= FilmMargin(p, bounds.x0);
-  bounds.x1 += FilmMargin(p, bounds.x1);
-  bounds.y0 -= FilmMargin(p, bounds.y0);
-  bounds.y1 += FilmMargin(p, bounds.y1);
+  bounds.x0 -= ProjectionMargin(p, bounds.x0);
+  bounds.x1 += ProjectionMargin(p, bounds.x1);
+  bounds.y0 -= ProjectionMargin(p, bounds.y0);
+  bounds.y1 += ProjectionMargin(p, bounds.y1);
   return bounds;
 }
 
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
-                double reach, size_t max_entries, int threads, SphereBins* bins) {
+                double sample_margin, size_t max_entries, int threads, SphereBins* bins) {
   *bins = {};
   bins->window = window;
-  bins->reach = reach;
+  bins->sample_margin = sample_margin;
   bins->columns = (window.width() + kCellSize - 1) / kCellSize;
   bins->rows = (window.height() + kCellSize - 1) / kCellSize;
   bins->projector = MakeProjector(frame);
@@ -93,9 +94,11 @@ bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const W
   ParallelFor(CellListPieces(boxes.size()), threads, [&](size_t piece) {
     const auto [begin, end] = CellListPiece(boxes.size(), piece);
     for (size_t i = begin; i < end; ++i) {
-      const FilmBounds b = Project(bins->projector, geometry.spheres[i]);
-      boxes[i] = {PlacesOf(b.x0 - reach, b.x1 + reach, window.x0, kCellSize, bins->columns),
-                  PlacesOf(b.y0 - reach, b.y1 + reach, window.y0, 1, window.height())};
+      const ProjectedBounds b = Project(bins->projector, geometry.spheres[i]);
+      boxes[i] = {
+          IndicesOf(b.x0 - sample_margin, b.x1 + sample_margin, window.x0, kCellSize,
+                    bins->columns),
+          IndicesOf(b.y0 - sample_margin, b.y1 + sample_margin, window.y0, 1, window.height())};
       if (!b.visible) boxes[i].rows = {1, 0};
     }
   });

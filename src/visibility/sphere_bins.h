@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_bins.h: spheres binned to square cells of the image by bounds of their
-// projections, so that camera rays find their candidates without a tree. For camera rays alone this
-// is many times faster than one, and there is nothing to build.
+// projections, so that camera rays find their candidates without a tree. For camera rays this is
+// many times faster than a tree, and no tree need be built.
 #pragma once
 
 #include <cstdint>
@@ -14,41 +14,43 @@
 
 namespace nacre {
 
-// Cells are as high as the strips that a picture is rendered in.
+// The side of a cell in pixels: cells are as high as the strips that a picture is rendered in.
 inline constexpr int kCellSize = 16;
 
-// A camera as spheres are projected by it.
+// A camera's projection from camera space to pixels.
 struct Projector {
   bool perspective;
   Vec3d right, down, forward;  // unit axes
   double inverse_pixel;        // pixels per slope; orthographic: per length
-  double middle_x, middle_y;   // where `forward` through the camera meets the film, in pixels
+  double middle_x, middle_y;   // where the axis `forward` crosses the film, in pixels
 };
 
 Projector MakeProjector(const CameraFrame& frame);
 
-// A sphere's bounds on the film, in pixels; infinite where it reaches beside or behind the camera.
-struct FilmBounds {
+// Bounds of a sphere's projection, in pixels; infinite where the sphere extends behind the camera.
+struct ProjectedBounds {
   double x0, x1, y0, y1;
   bool visible;  // false: no camera ray can hit the sphere; the bounds are undefined
 };
 
-// With a margin at each side: for a box that the outline is in.
-FilmBounds Project(const Projector& projector, const TraceSphere& sphere);
+// With a margin on each side, so that the box surely contains the outline.
+ProjectedBounds Project(const Projector& projector, const TraceSphere& sphere);
 
-// More than all roundings of bounds and rays come to at this coordinate of the film.
-double FilmMargin(const Projector& projector, double at);
-inline constexpr double kMarginOfPlace = 1e-9;  // what grows with the coordinate
+// An upper bound of the rounding errors of bounds and rays at this film coordinate.
+double ProjectionMargin(const Projector& projector, double at);
+inline constexpr double kRelativeProjectionMargin =
+    1e-9;  // the part proportional to the coordinate
 
 // For each cell the spheres that any of its camera rays could hit, in ascending order.
 struct SphereBins {
   Projector projector;        // of their camera
   Window window;              // the pixels that are binned
-  double reach = 0;           // of their samples
+  double sample_margin = 0;   // how far outside of its pixel a sample may lie, in pixels
   int columns = 0, rows = 0;  // of cells, from the window's corner
-  std::vector<uint32_t> end;  // of each cell's spheres, row by row
+  std::vector<uint32_t> end;  // where each cell's list in `spheres` ends, row by row
   HugeArray<uint32_t> spheres;
-  HugeArray<uint16_t> pixel_rows;  // of the cell that the sphere's outline reaches, as bits
+  HugeArray<uint16_t>
+      pixel_rows;  // pixel rows of the cell that the sphere's outline covers, as bits
 
   size_t Cell(int column, int row) const {
     return static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column);
@@ -56,13 +58,13 @@ struct SphereBins {
   uint32_t Begin(size_t cell) const { return cell == 0 ? 0 : end[cell - 1]; }
 };
 
-// Half a pixel within its border.
-inline constexpr double kReachOfCenters = -0.5;
+// The sample margin of samples that are all pixel centres: half a pixel inside the border.
+inline constexpr double kPixelCenterMargin = -0.5;
 
-// `reach`: how far a pixel's samples may lie outside it, in pixels; kReachOfCenters if they are all
-// its centre. Fails, with empty bins, if there would be more than `max_entries` in all: many
-// spheres that cover much of the picture.
+// `sample_margin`: how far outside of its pixel a sample may lie, in pixels. Fails, with empty
+// bins, if there would be more than `max_entries` in all: many spheres that cover much of the
+// picture.
 bool BinSpheres(const TraceGeometry& geometry, const CameraFrame& frame, const Window& window,
-                double reach, size_t max_entries, int threads, SphereBins* bins);
+                double sample_margin, size_t max_entries, int threads, SphereBins* bins);
 
 }  // namespace nacre

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/sphere_packet-inl.h: a packet against one sphere: the float test that proposes lanes,
-// and the double test that decides them.
+// visibility/sphere_packet-inl.h: a packet against one sphere: the conservative float test that
+// proposes lanes, and the exact test in double that decides them.
 #if defined(NACRE_VISIBILITY_SPHERE_PACKET_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
 #undef NACRE_VISIBILITY_SPHERE_PACKET_INL_H_
@@ -9,9 +9,9 @@
 #endif
 
 #include "base/geometry-inl.h"
-#include "visibility/film_test-inl.h"
 #include "visibility/occlusion-inl.h"
 #include "visibility/packet-inl.h"
+#include "visibility/projected_sphere_test-inl.h"
 #include "visibility/sphere_test-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -49,8 +49,8 @@ HWY_INLINE uint32_t ProposedLanes(D d, const Packet& packet, const TraceSphere& 
     const Vec3V<V> to_center = Sub(center, origin);
     const V closest = hn::Mul(Dot(to_center, direction), hn::Load(d, packet.ray_inverse_dd + i));
     const Vec3V<V> perpendicular = Sub(to_center, Scale(direction, closest));
-    const V reach = hn::Add(radius, error);
-    const V discriminant = hn::Sub(hn::Mul(reach, reach), Dot(perpendicular, perpendicular));
+    const V bound = hn::Add(radius, error);
+    const V discriminant = hn::Sub(hn::Mul(bound, bound), Dot(perpendicular, perpendicular));
     const V half_chord = hn::Mul(hn::Sqrt(hn::Max(discriminant, hn::Zero(d))),
                                  hn::Load(d, packet.ray_inverse_length + i));
     const V margin = hn::Add(half_chord, hn::Add(error, error));
@@ -64,26 +64,26 @@ HWY_INLINE uint32_t ProposedLanes(D d, const Packet& packet, const TraceSphere& 
 
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE SphereHitV<D> TestLanes(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
-  const Vec3V<V> center{hn::Set(d, sphere.center.x), hn::Set(d, sphere.center.y),
-                        hn::Set(d, sphere.center.z)};
-  return TestSphere(d, Sub(center, Origin(d, packet, lane)), Direction(d, packet, lane),
-                    hn::Load(d, packet.inverse_dd + lane), hn::Set(d, sphere.radius));
+  return TestSphere(d, Sub(SetVec3(d, sphere.center), Origin(d, packet, lane)),
+                    Direction(d, packet, lane), hn::Load(d, packet.inverse_dd + lane),
+                    hn::Set(d, sphere.radius));
 }
 
-// Tests the proposed ones of `lanes`, as bits, and keeps the hits that come before the best so far.
+// Tests `lanes`, as bits, and records the hits that are nearer than the nearest so far.
 HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, uint32_t lanes,
                                Packet* packet) {
   lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
   if (lanes == 0) return;
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
-  const bool on_film = HasFilmPlace(sphere, packet->film);
-  const FilmSphere film = on_film ? MakeFilmSphere(sphere, packet->film.forward) : FilmSphere{};
+  const bool projected = UsesProjectedTest(sphere, packet->view);
+  const ProjectedSphere projection =
+      projected ? MakeProjectedSphere(sphere, packet->view.forward) : ProjectedSphere{};
   for (int lane = 0; lane < packet->width; lane += step) {
     const auto proposed = MaskOfBits(d, lanes, lane);
     if (hn::AllFalse(d, proposed)) continue;
-    if (on_film) {
-      const auto hit = DepthOnFilm(d, film, sphere, Direction(d, *packet, lane));
+    if (projected) {
+      const auto hit = TestProjectedDepth(d, projection, sphere, Direction(d, *packet, lane));
       RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
     } else {
       const auto hit = TestLanes(d, *packet, lane, sphere);
@@ -102,7 +102,7 @@ HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const Trace
                  hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
 }
 
-// Marks those of `lanes`, as bits, that the sphere is in the way of.
+// Marks those of `lanes`, as bits, that the sphere occludes.
 HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* packet) {
   lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
   if (lanes == 0) return;

@@ -26,7 +26,7 @@ struct SphereHitV {
   Vec3V<V> moment;
 };
 
-// The ray's whole line meets the sphere if this is not below 0. dd is |direction|^2, and moment
+// The line of the ray meets the sphere if this is not negative. dd is |direction|^2, and moment
 // to_center x direction.
 template <class V>
 HWY_INLINE V Discriminant(V radius2, V dd, const Vec3V<V>& moment) {
@@ -46,7 +46,7 @@ HWY_INLINE SphereHitV<D> TestSphere(D d, const Vec3V<V>& to_center, const Vec3V<
   result.closest = closest;
   result.root = hn::Sqrt(hn::Max(discriminant, zero));
   result.moment = moment;
-  // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
+  // Both by one comparison, because in the middle of a sphere `closest` may be 0 of either sign.
   const auto ahead = hn::Gt(closest, zero);
   const V half_chord = hn::Mul(result.root, inverse_dd);
   const V larger = hn::Add(closest, hn::IfThenElse(ahead, half_chord, hn::Neg(half_chord)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/sphere_test.h: the ray-sphere test that decides every hit. SIMD twin:
 // sphere_test-inl.h, the same operations in the same order: in double both give the same bits, if
-// the twin is told what the target makes of products.
+// this one is told whether the target fuses products.
 #pragma once
 
 #include <cmath>
@@ -17,21 +17,22 @@ struct SphereHit {
   bool hit = false;     // there is a root t > 0
   bool inside = false;  // the ray starts inside: t is the far root
   Real t = 0;           // the first root > 0
-  Real root = 0;  // of the discriminant: half the distance between the roots, by |direction|^2
-  // Set for rays that miss too:
+  Real root = 0;  // sqrt(discriminant): half the distance between the roots, times |direction|^2
+  // Set for rays that miss, too:
   Real closest = 0;                   // where the ray is nearest to the centre
   Imath::Vec3<Real> moment{0, 0, 0};  // to_center x direction
 };
 
 // The first point of the ray t direction, t > 0, on the sphere of this radius about to_center.
 //
-// A line's moment about a point is as long as its direction times its distance from the point, so
-// the discriminant is radius^2 |direction|^2 - |moment|^2: that of Haines et al. 2019 (Ray Tracing
-// Gems ch. 7) by |direction|^2. The distance to the sphere enters it through the products of the
-// moment alone, which cancel against each other, and whose rounding is therefore made good. What
-// remains is a few roundings of the radius at any distance; and neither a division nor the closest
-// point stands before the root, which the hit waits for. Squares must not leave double's range:
-// radius |direction| lies within 1e-150 and 1e150 for all that a scene may hold.
+// The length of a line's moment about a point is the length of its direction times its distance
+// from the point, so the discriminant is radius^2 |direction|^2 - |moment|^2: that of Haines et al.
+// 2019 (Ray Tracing Gems ch. 7) times |direction|^2. The distance to the sphere enters it only
+// through the products of the moment, which cancel against each other; their rounding errors are
+// therefore compensated. What remains is an error of a few roundings of the radius at any distance.
+// And neither a division nor the closest point precedes the square root, on which the hit depends.
+// Squares must stay in the range of double: radius |direction| lies within 1e-150 and 1e150 for all
+// scenes that are accepted.
 //
 // The roots come from their sum and their product, (|to_center|^2 - radius^2) / |direction|^2,
 // so the one near the origin does not cancel: a sphere of radius 1e6 under the eye is right.
@@ -51,7 +52,7 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
   if (!(discriminant >= 0 && radius > 0)) return result;
   result.root = std::sqrt(discriminant);
   const Real half_chord = result.root * inverse_dd;
-  // Both by the same sign: closest may be 0 with either, in the middle of a sphere.
+  // Both by one comparison, because in the middle of a sphere `closest` may be 0 of either sign.
   const Real larger = closest > 0 ? closest + half_chord : closest - half_chord;
   const Real product = (Dot(to_center, to_center, products) - radius2) * inverse_dd;
   const Real smaller = product / larger;
@@ -63,10 +64,10 @@ SphereHit<Real> TestSphere(const Imath::Vec3<Real>& to_center, const Imath::Vec3
   return result;
 }
 
-// From the sphere's centre to the hit, by |direction|^2, without forming the hit point, whose
-// rounding error would grow with its distance. moment x direction leads to the point of the line
-// that is nearest to the centre, root direction from there to the hit; they are perpendicular, so
-// nothing cancels.
+// The vector from the sphere's centre to the hit, times |direction|^2, without forming the hit
+// point, whose rounding error would grow with its distance. moment x direction leads to the point
+// of the line that is nearest to the centre, and root direction from there to the hit; they are
+// perpendicular, so nothing cancels.
 template <typename Real>
 Imath::Vec3<Real> ScaledCenterToHit(const SphereHit<Real>& hit, const Imath::Vec3<Real>& direction,
                                     Products products = Products::kFused) {

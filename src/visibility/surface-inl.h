@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/surface-inl.h: the point, the normal and the view direction of a hit, the same bits
-// whichever way it was found.
+// visibility/surface-inl.h: the point, the normal and the view direction of a hit, with the same
+// bits for every tracing method.
 #if defined(NACRE_VISIBILITY_SURFACE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_SURFACE_INL_H_
 #undef NACRE_VISIBILITY_SURFACE_INL_H_
@@ -15,35 +15,35 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A sphere's radius, negative where `root`, negative where the ray starts outside, is not: normals
-// then point inward.
+// The radius with the sign of -root, where `root` is negative for rays that start outside of the
+// sphere. It is negative for rays that start inside: their normals point inward.
 template <class V>
-HWY_INLINE V TurnedRadius(V radius, V root) {
+HWY_INLINE V SignedRadius(V radius, V root) {
   return hn::CopySign(radius, hn::Neg(root));
 }
 
-// From a sphere's centre to the hit, by |direction|^2: the point on the ray, whose rounding grows
-// with its distance, is never formed; scalar twin: ScaledCenterToHit. `root` is negative where the
-// ray starts outside. Of a ray turned round, moment and root change their signs, no bit else but a
-// 0's.
+// The vector from a sphere's centre to the hit, times |direction|^2, without forming the point on
+// the ray, whose rounding grows with its distance. Scalar twin: ScaledCenterToHit. `root` is
+// negative where the ray starts outside. For the reversed direction moment and root change their
+// signs, and no other bit changes, but the sign of zeros.
 template <class V>
 HWY_INLINE Vec3V<V> ScaledCenterToHit(const Vec3V<V>& direction, V root, const Vec3V<V>& moment) {
   return MulAdd3(direction, root, FusedCross(moment, direction));
 }
 
-// Of that, and dd = |direction|^2. Unit, on the ray's side.
+// The unit normal on the ray's side, from the vector of ScaledCenterToHit and dd = |direction|^2.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE Vec3V<V> SphereNormal(D d, const Vec3V<V>& to_hit, V dd, V turned_radius) {
-  return Scale(to_hit, hn::Div(hn::Set(d, 1.0), hn::Mul(dd, turned_radius)));
+HWY_INLINE Vec3V<V> SphereNormal(D d, const Vec3V<V>& to_hit, V dd, V signed_radius) {
+  return Scale(to_hit, hn::Div(hn::Set(d, 1.0), hn::Mul(dd, signed_radius)));
 }
 
 template <class V>
 HWY_INLINE Vec3V<V> SpherePosition(const Vec3V<V>& center, const Vec3V<V>& normal,
-                                   V turned_radius) {
-  return MulAdd3(normal, turned_radius, center);
+                                   V signed_radius) {
+  return MulAdd3(normal, signed_radius, center);
 }
 
-// Minus the direction, made a unit vector.
+// The negated direction as a unit vector.
 template <class V>
 HWY_INLINE Vec3V<V> ToView(const Vec3V<V>& direction, V inverse_length) {
   return Scale(direction, hn::Neg(inverse_length));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/tile_kernel.cc: traces a tile packet by packet and writes its hits.
+// visibility/tile_kernel.cc: traces the camera rays of a tile, in packets or as rays with a single
+// sphere, and writes their hits.
 #include "visibility/tile_kernel.h"
 
 #include <algorithm>
@@ -11,10 +12,10 @@
 #define HWY_TARGET_INCLUDE "visibility/tile_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "visibility/alone-inl.h"
-#include "visibility/many-inl.h"
+#include "visibility/multi_sphere-inl.h"
 #include "visibility/pixel_spans.h"
 #include "visibility/refine_kernel.h"
+#include "visibility/single_sphere-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -24,7 +25,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 template <bool kPerspective>
 HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
-                           const uint32_t* rays, const HitsTo& to) {
+                           const uint32_t* rays, const HitOutput& to) {
   const CameraDouble d;
   const int step = static_cast<int>(hn::Lanes(d));
   HitWriter writer(to);
@@ -34,7 +35,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const auto direction = ExactDirection<kPerspective>(d, frame, lane, packet);
     const auto inverse_length = hn::Load(d, packet.inverse_length + lane);
     const auto normal = LoadLanes(packet.normal, lane);
-    const auto radius = hn::Load(d, packet.turned_radius + lane);
+    const auto radius = hn::Load(d, packet.signed_radius + lane);
     const auto position = [&]() HWY_ATTR {
       return SpherePosition(LoadLanes(packet.center, lane), normal, radius);
     };
@@ -43,7 +44,7 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
   }
 }
 
-// The entries past the last hit, up to a whole vector, become copies of it.
+// Fills the entries behind the last hit, up to a whole vector, with copies of it.
 template <class T>
 void PadArray(size_t count, AlignedArray<T>* array) {
   std::fill(array->begin() + count, array->begin() + RoundUp(count, kBatchPadding),
@@ -57,31 +58,31 @@ void PadSoa(size_t count, Soa3<T>* soa) {
   PadArray(count, &soa->z);
 }
 
-void PadHits(const HitsTo& to) {
+void PadHits(const HitOutput& to) {
   const size_t count = to.hits->count;
   if (count == 0) return;
   if (to.positions) PadSoa(count, &to.hits->position);
   PadSoa(count, &to.directions->normal);
   PadSoa(count, &to.directions->to_view);
-  if (!to.exact) return;
+  if (!to.exact_directions) return;
   PadSoa(count, &to.hits->normal);
   PadSoa(count, &to.hits->to_view);
 }
 
-// The cell's only candidate, if it lies in front of perspective rays; or null.
+// The cell's only candidate, if it lies in front of a perspective camera; else null.
 template <bool kPerspective>
-HWY_INLINE const TileCandidate* AloneIn(const std::vector<TileCandidate>& cell) {
+HWY_INLINE const TileCandidate* SingleSphereIn(const std::vector<TileCandidate>& cell) {
   return kPerspective && cell.size() == 1 && cell[0].in_front ? &cell[0] : nullptr;
 }
 
-// The rays of a row's columns from x to x_end, whichever sphere they hit. `begin_ray`: the batch's
-// first of them; `packet` knows which of the cells' pixel rows it is. In a tile of one cell any
-// rays that follow one another are as good as a row's, of all pixel rows.
+// Traces the rays of the columns [x, x_end) of a pixel row, which may hit any spheres. `begin_ray`:
+// the index of the first ray in the batch. packet->pixel_rows is the row within the cells. In a
+// tile of one cell any consecutive rays may be passed, with all bits of pixel_rows set.
 template <bool kPerspective>
 HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
                            const TileCandidates& candidates, const FilmBatch& film,
                            size_t begin_ray, int x, int x_end, CameraPacket* packet,
-                           const HitsTo& to) {
+                           const HitOutput& to) {
   const int left = candidates.tile.x0 - bins.window.x0;
   const auto cell_at = [&](int column) {
     return candidates.cells.data() + ((left + column) / kCellSize - candidates.first_column);
@@ -95,7 +96,7 @@ HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
     packet->lanes = (1u << width) - 1;
     if (film.centers) {
       const int row = static_cast<int>(first) / candidates.tile.width();
-      PlaceInRow(candidates.tile.x0 + x + 0.5, candidates.tile.y0 + row + 0.5, packet);
+      SetPixelCenters(candidates.tile.x0 + x + 0.5, candidates.tile.y0 + row + 0.5, packet);
     } else {
       packet->film_x = film.x.data() + first;
       packet->film_y = film.y.data() + first;
@@ -109,14 +110,14 @@ HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
 template <bool kPerspective>
 HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
-                             AloneBlock* block, const HitsTo& to) {
+                             SingleSphereBlock* block, const HitOutput& to) {
   const size_t pixels = candidates.tile.pixel_count();
-  if (kPerspective && candidates.alone != nullptr && !film.centers) {
+  if (kPerspective && candidates.single_sphere != nullptr && !film.centers) {
     size_t in_spans = 0;
     for (const PixelSpan& span : candidates.spans) in_spans += span.count;
-    if (film.only_spans || in_spans == pixels) {  // sample by sample, all lie one behind the other
+    if (film.only_spans || in_spans == pixels) {  // the rays of all spans are consecutive
       const auto rays = static_cast<uint32_t>(film.count / pixels * in_spans);
-      PutRays(frame, film, {candidates.alone, 0, rays}, block, to);
+      AddSingleSphereRays(frame, film, {candidates.single_sphere, 0, rays}, block, to);
       return TraceBlock(frame, film, block, to);
     }
   }
@@ -131,10 +132,10 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
       next += span.count;
       const auto x = static_cast<int>(span.first % width);
       const uint32_t row = span.first / width;
-      if (kPerspective && span.alone != nullptr) {
-        const AloneRays rays{span.alone, begin, span.count, tile.x0 + x + 0.5,
-                             tile.y0 + static_cast<int>(row) + 0.5};
-        PutRays(frame, film, rays, block, to);
+      if (kPerspective && span.single_sphere != nullptr) {
+        const SingleSphereRays rays{span.single_sphere, begin, span.count, tile.x0 + x + 0.5,
+                                    tile.y0 + static_cast<int>(row) + 0.5};
+        AddSingleSphereRays(frame, film, rays, block, to);
         continue;
       }
       TraceBlock(frame, film, block, to);
@@ -149,11 +150,11 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
 
 template <bool kPerspective>
 HWY_INLINE void TraceAny(const CameraFrame& frame, const SphereBins& bins,
-                         const TileCandidates& candidates, const FilmBatch& film, AloneBlock* block,
-                         const HitsTo& to) {
-  const TileCandidate* const alone = AloneIn<kPerspective>(candidates.cells[0]);
+                         const TileCandidates& candidates, const FilmBatch& film,
+                         SingleSphereBlock* block, const HitOutput& to) {
+  const TileCandidate* const single = SingleSphereIn<kPerspective>(candidates.cells[0]);
   CameraPacket packet;
-  if (alone != nullptr) return TraceAlone(frame, *alone, film, &packet, block, to);
+  if (single != nullptr) return TraceSingleSphere(frame, *single, film, &packet, block, to);
   const size_t width = kCameraPacket;
   packet.pixel_rows = ~0u;
   for (size_t first = 0; first < film.count; first += width) {
@@ -165,8 +166,8 @@ HWY_INLINE void TraceAny(const CameraFrame& frame, const SphereBins& bins,
 template <bool kPerspective>
 HWY_INLINE void TraceRays(const CameraFrame& frame, const SphereBins& bins,
                           const TileCandidates& candidates, const FilmBatch& film,
-                          const HitsTo& to) {
-  AloneBlock block;
+                          const HitOutput& to) {
+  SingleSphereBlock block;
   if (candidates.rays == TileRays::kSamples) {
     TraceSamples<kPerspective>(frame, bins, candidates, film, &block, to);
   } else {
@@ -175,7 +176,7 @@ HWY_INLINE void TraceRays(const CameraFrame& frame, const SphereBins& bins,
 }
 
 void TraceTileT(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
-                const FilmBatch& film, const HitsTo& to) {
+                const FilmBatch& film, const HitOutput& to) {
   to.hits->count = 0;
   to.hits->one_primitive = true;
   if (frame.projection == Projection::kPerspective) {
@@ -196,9 +197,10 @@ namespace nacre {
 namespace {
 
 // A float not below v >= 0.
-float RoundUp(double v) { return static_cast<float>(v) * (1 + 0x1p-22f); }
+float UpperFloat(double v) { return static_cast<float>(v) * (1 + 0x1p-22f); }
 
-// A float not above the sphere's nearest distance: along the view where all rays go that way.
+// A lower bound, in float, of the distance from the camera at which rays meet the sphere; for an
+// orthographic camera, of the depth.
 float NearBound(const TraceSphere& sphere, double eye_distance, const CameraFrame& frame) {
   const double distance = frame.projection == Projection::kPerspective
                               ? eye_distance
@@ -207,28 +209,29 @@ float NearBound(const TraceSphere& sphere, double eye_distance, const CameraFram
   return static_cast<float>(std::max(near, 0.0)) * (1 - 0x1p-22f);
 }
 
-double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
-// Bounds the coordinates of the rays' own vectors, and every sum on the way to them. Film positions
-// lie within the window but for the pixel filter's reach, far less than 64 pixels.
-double OwnBound(const CameraFrame& frame, const Window& window) {
+// An upper bound of the coordinates of the rays' varying vectors, and of every sum in computing
+// them. Film positions lie within the window extended by the pixel filter's radius, far less than
+// 64 pixels.
+double VaryingBound(const CameraFrame& frame, const Window& window) {
   return SumOfAbs(frame.corner) + SumOfAbs(frame.step_x) * (window.x1 + 64) +
          SumOfAbs(frame.step_y) * (window.y1 + 64);
 }
 
-// The float rays' own vectors err by 8 u `own` at most: two roundings of the factors and two of the
-// sums. |direction| is at least 1, so the cross product with the centre, over that length, errs by
-// (8 u own + 8 u) |center|, and the dot product no more. An orthographic ray's origin errs by
-// 8 u own itself, and its difference from the centre and the cross product by 16 u of both.
-float Reach(const TraceSphere& sphere, const CameraFrame& frame, double own) {
+// The varying vectors in float err by 8 u `varying` at most: two roundings of the factors and two
+// of the sums. |direction| is at least 1, so the cross product with the centre, over that length,
+// errs by (8 u varying + 8 u) |center|, and the dot product no more. An orthographic ray's origin
+// errs by 8 u varying itself, and its difference from the centre and the cross product by 16 u of
+// both.
+float RadiusBound(const TraceSphere& sphere, const CameraFrame& frame, double varying) {
   const double center = SumOfAbs(sphere.center);
-  const double error = frame.projection == Projection::kPerspective ? center * (8 * own + 16)
-                                                                    : 8 * own + 16 * (center + own);
-  return RoundUp(sphere.radius + kFloatUnit * error);
+  const double error = frame.projection == Projection::kPerspective
+                           ? center * (8 * varying + 16)
+                           : 8 * varying + 16 * (center + varying);
+  return UpperFloat(sphere.radius + kFloatUnit * error);
 }
 
 TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint16_t pixel_rows,
-                            const CameraFrame& frame, double own, Products products) {
+                            const CameraFrame& frame, double varying, Products products) {
   TileCandidate candidate;
   candidate.sphere = sphere;
   candidate.radius2 = sphere.radius * sphere.radius;
@@ -236,12 +239,12 @@ TileCandidate MakeCandidate(const TraceSphere& sphere, uint32_t primitive, uint1
   candidate.pixel_rows = pixel_rows;
   const double distance2 = Dot(sphere.center, sphere.center, products);
   const double distance = std::sqrt(distance2);
-  // The sign of the product of TestSphere's roots.
+  // The sign of the product of the roots of TestSphere.
   candidate.around_camera = !(distance2 - candidate.radius2 > 0);
   candidate.in_front = IsInFront(sphere, frame.forward);
   candidate.near = NearBound(sphere, distance, frame);
   for (int c = 0; c < 3; ++c) candidate.center[c] = static_cast<float>(sphere.center[c]);
-  candidate.reach = Reach(sphere, frame, own);
+  candidate.radius_bound = RadiusBound(sphere, frame, varying);
   return candidate;
 }
 
@@ -261,16 +264,16 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   for (std::vector<TileCandidate>& cell : candidates->cells) cell.clear();
   candidates->spheres = 0;
   candidates->spans.clear();
-  candidates->alone = nullptr;
-  // A row's cells follow one another.
+  candidates->single_sphere = nullptr;
+  // The cells of a row are consecutive.
   const uint32_t entries = bins.end[bins.Cell(last, row)] - bins.Begin(bins.Cell(first, row));
   if (entries == 0) return false;
-  candidates->film.clear();
-  candidates->film.reserve(entries);
-  const double own = OwnBound(frame, bins.window);
-  const FilmView view = MakeFilmView(frame);
+  candidates->projected.clear();
+  candidates->projected.reserve(entries);
+  const double varying = VaryingBound(frame, bins.window);
+  const ProjectedTestView view = MakeProjectedTestView(frame);
   const Products products = TargetProducts();
-  // The cell to the left, as far as it has been compared, and what was made of it.
+  // The spheres of the cell to the left that have not been compared yet, and their candidates.
   uint32_t before = 0, before_end = 0;
   const TileCandidate* made = nullptr;
   for (int column = first; column <= last; ++column) {
@@ -280,15 +283,16 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
       const uint32_t sphere = bins.spheres[i];
       while (before < before_end && bins.spheres[before] < sphere) ++before, ++made;
       if (before < before_end && bins.spheres[before] == sphere) {
-        cell.push_back(*made);  // the cells are of one row: it reaches the same pixel rows
+        cell.push_back(*made);  // in the same row of cells, so its pixel rows are the same
         cell.back().in_cell_before = true;
         continue;
       }
-      cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame, own,
-                                   products));
-      if (HasFilmPlace(geometry.spheres[sphere], view)) {
-        candidates->film.push_back(MakeFilmSphere(geometry.spheres[sphere], view.forward));
-        cell.back().film = &candidates->film.back();
+      cell.push_back(MakeCandidate(geometry.spheres[sphere], sphere, bins.pixel_rows[i], frame,
+                                   varying, products));
+      if (UsesProjectedTest(geometry.spheres[sphere], view)) {
+        candidates->projected.push_back(
+            MakeProjectedSphere(geometry.spheres[sphere], view.forward));
+        cell.back().projected = &candidates->projected.back();
       }
       ++candidates->spheres;
     }
@@ -305,7 +309,7 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
 }
 
 void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
-               const FilmBatch& film, const HitsTo& to) {
+               const FilmBatch& film, const HitOutput& to) {
   HWY_DYNAMIC_DISPATCH(TraceTileT)(frame, bins, candidates, film, to);
 }
 }  // namespace nacre

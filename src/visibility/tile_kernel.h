@@ -1,54 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/tile_kernel.h: camera rays of a tile against the spheres binned to its cells: from
-// film positions to hits ready for shading, without a stop on the way.
+// film positions to hits ready for shading in one call.
 #pragma once
 
 #include <vector>
 
 #include "hit/batch.h"
-#include "visibility/film_test.h"
+#include "visibility/projected_sphere_test.h"
 #include "visibility/sphere_bins.h"
 
 namespace nacre {
 
-// A sphere that a tile's rays may hit.
+// A sphere that rays of a tile may hit.
 struct TileCandidate {
   TraceSphere sphere;
   double radius2;
-  const FilmSphere* film = nullptr;  // if HasFilmPlace
+  const ProjectedSphere* projected = nullptr;  // if UsesProjectedTest
   uint32_t primitive;
-  uint16_t pixel_rows;          // of its cell that its outline reaches, as bits
-  bool in_cell_before = false;  // it is in the tile's cell to the left, too
-  bool around_camera;           // the camera is inside
+  uint16_t pixel_rows;          // pixel rows of its cell that its outline covers, as bits
+  bool in_cell_before = false;  // it is also in the tile's cell to the left
+  bool around_camera;           // the camera is inside of it
   bool in_front;                // no perspective ray's line meets it behind the camera
-  // For proposals, in float: no ray meets the sphere nearer to the camera than `near`, and rays
-  // that hit it come within `reach` of `center`: radius and rounding errors.
+  // For the conservative test in float: no ray meets the sphere nearer to the camera than `near`,
+  // and rays that hit it pass `center` within `radius_bound`, the radius plus the rounding errors.
   float near;
   float center[3];
-  float reach;
+  float radius_bound;
 };
 
-// Pixels of a row of a tile that rays may hit something in.
+// Consecutive pixels of a row of a tile whose rays may hit something.
 struct PixelSpan {
-  uint32_t first, count;       // counted row by row
-  const TileCandidate* alone;  // the only sphere that they may hit, in front; null: any
+  uint32_t first, count;  // pixels of the tile are numbered row by row
+  // The only sphere that their rays may hit, if it is in front of the camera; null: any spheres.
+  const TileCandidate* single_sphere;
 };
 
-// Which rays come of a tile: whole samples of its pixels, row by row, or any in any order, where
-// the tile lies in one cell.
+// The rays that a tile is traced with: one sample of each of its pixels after the other, each row
+// by row; or any rays in any order, which requires that the tile lies in one cell.
 enum class TileRays : uint8_t { kSamples, kAny };
 
-// The candidates of each of a tile's cells, from left to right, nearest first. One for each worker,
-// reused from tile to tile.
+// The candidates of each of a tile's cells, the cells from left to right, the candidates nearest
+// first. Each worker has one and reuses it for all its tiles.
 struct TileCandidates {
   Window tile;
   TileRays rays = TileRays::kSamples;
-  int first_column = 0;  // of cells
-  size_t spheres = 0;    // in all, each counted once
+  int first_column = 0;  // column of the first cell
+  size_t spheres = 0;    // number of spheres, each counted once
   std::vector<std::vector<TileCandidate>> cells;
-  std::vector<FilmSphere> film;          // what they point to
-  std::vector<PixelSpan> spans;          // of samples: in the order of the pixels
-  const TileCandidate* alone = nullptr;  // the spans', if the tile has one sphere
+  std::vector<ProjectedSphere> projected;        // what TileCandidate::projected points to
+  std::vector<PixelSpan> spans;                  // for kSamples, in the order of the pixels
+  const TileCandidate* single_sphere = nullptr;  // that of all spans, if the tile has one sphere
 };
 
 // Fills `candidates` for a tile that lies within one row of cells; false if there are none.
@@ -57,6 +58,6 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
 
 // The first hits of the camera rays through `film`, in the order of the rays.
 void TraceTile(const CameraFrame& frame, const SphereBins& bins, const TileCandidates& candidates,
-               const FilmBatch& film, const HitsTo& to);
+               const FilmBatch& film, const HitOutput& to);
 
 }  // namespace nacre

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/triangle_test.h: the watertight ray-triangle test that decides every hit. SIMD twin:
 // triangle_test-inl.h, the same operations in the same order: in double both give the same bits, if
-// the twin is told what the target makes of the products in |direction|^2, which spheres need, too.
-// Elsewhere products are rounded on every target: the signs of edges must not depend on which of
-// two is fused.
+// this one is told whether the target fuses the products in |direction|^2, which spheres need, too.
+// All other products are rounded on every target, because the signs of edge functions must not
+// depend on which product of a difference is fused.
 #pragma once
 
 #include <cmath>
@@ -46,7 +46,7 @@ struct TriangleHit {
 // seen from either side.
 //
 // Watertight: a vertex projects to the same point for all triangles that share it, so the
-// projected mesh is a closed one that was merely moved by rounding, and the signs of the edge
+// projection of a closed mesh is closed, and only moved by rounding; and the signs of the edge
 // functions are exact (DifferenceOfProducts). Edges and vertices belong to all their triangles.
 template <typename Real>
 TriangleHit<Real> TestTriangle(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& b,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // visibility/two_product-inl.h: products without rounding error on SIMD vectors. Scalar twin:
-// visibility/two_product.h. What is exact has the same bits on every target, with a fused
+// visibility/two_product.h. Exact results have the same bits on every target, with fused
 // multiply-add or without.
 #if defined(NACRE_VISIBILITY_TWO_PRODUCT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_VISIBILITY_TWO_PRODUCT_INL_H_
@@ -29,8 +29,8 @@ HWY_INLINE TwoProductV<V> TwoProduct(D /*d*/, V a, V b) {
   return {product, hn::MulSub(a, b, product)};
 }
 #else
-// The upper half of a's digits (Veltkamp 1968): products of two halves are exact. (By the name of
-// UpperHalf, Highway's own would be called for vectors of one lane.)
+// The upper half of a's digits (Veltkamp 1968): products of two halves are exact. (Not called
+// UpperHalf, because for vectors of one lane Highway's function of that name would be called.)
 template <class D, class V = hn::Vec<D>>
 HWY_INLINE V UpperDigits(D d, V a) {
   static_assert(sizeof(hn::TFromD<D>) == sizeof(double), "the split is double's");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/two_product.h: products without rounding error, and whether those that are added are
-// rounded first. SIMD twin: two_product-inl.h.
+// visibility/two_product.h: products without rounding error, and products that are fused with a sum
+// or not, as on the active target. SIMD twin: two_product-inl.h.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace nacre {
 
-// What a target makes of a product that is added to something.
+// Whether a target rounds a product before it is added to something.
 enum class Products {
-  kFused,    // it is not rounded: targets with an instruction for both operations
+  kFused,    // not rounded: targets with fused multiply-add
   kRounded,  // SSE4 and plain C++
 };
 
@@ -21,7 +21,7 @@ Real MulAdd(Real a, Real b, Real c, Products products) {
   return products == Products::kFused ? std::fma(a, b, c) : a * b + c;
 }
 
-// FusedDot's twin (base/vec3-inl.h).
+// Scalar twin of FusedDot (base/vec3-inl.h).
 template <typename Real>
 Real Dot(const Imath::Vec3<Real>& a, const Imath::Vec3<Real>& b, Products products) {
   return MulAdd(a.z, b.z, MulAdd(a.y, b.y, a.x * b.x, products), products);
@@ -52,7 +52,7 @@ Real DifferenceOfProducts(Real a, Real b, Real c, Real d) {
 }
 
 // a b - c d within 1.5 ulp where the target fuses (Kahan's algorithm; Jeannerod, Louvet and Muller
-// 2013), as DifferenceOfProducts elsewhere: what the rounding of one product loses is added again.
+// 2013), else by DifferenceOfProducts: the rounding error of one product is computed and added.
 template <typename Real>
 Real AccurateDifference(Real a, Real b, Real c, Real d, Products products) {
   if (products == Products::kRounded) return DifferenceOfProducts(a, b, c, d);

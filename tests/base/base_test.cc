@@ -67,7 +67,8 @@ TEST_CASE("a parallel loop stops at an exception") {
   const auto body = [&](size_t i) {
     ++begun;
     if (i == 0) {
-      // Until another worker is in its loop, which is what must be stopped. There may be none.
+      // Waits until another worker has started, which then must be stopped. There may be no other
+      // worker.
       for (int wait = 0; begun < 2 && wait < 200; ++wait) Sleep();
       throw Error(ExitCode::kInternal, "", "stop");
     }
@@ -112,7 +113,7 @@ TEST_CASE("denormals are flushed in workers and only there") {
   });
   CHECK(flushed == 64);
   CHECK(tiny * 1e-10 != 0);
-  // Operands count as 0 too.
+  // Denormal operands count as 0, too.
   volatile double denormal = std::numeric_limits<double>::denorm_min();
   std::atomic<int> read_as_zero{0};
   ParallelFor(64, 2, [&](size_t) {

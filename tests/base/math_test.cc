@@ -40,7 +40,7 @@ TEST_CASE("log2(1 - x) is right to 2e-7 of itself, however small x is") {
       const double exact = x < 0.25f ? std::log1p(-double{x}) / M_LN2 : std::log2(double{c});
       CHECK(RelativeError(EvaluateLog2OneMinus(x, c), exact) <= 2e-7);
     }
-    // Cosines near 0, and each end of the pieces that tables cut an octave into.
+    // Cosines near 0, and the ends of the table's intervals in an octave.
     for (int i = 0; i <= 100 * 32; ++i) {
       const double end = std::ldexp(1 + (i % 32) / 32.0, -i / 32 - 1);
       for (const double c : {end * (1 - 0x1p-24), end}) {
@@ -71,8 +71,8 @@ double UlpError(float got, double exact) {
   return std::abs(got - exact) / std::ldexp(1.0, std::ilogb(exact) - 23);
 }
 
-// Operations on a significand's bits repeat with every octave, those of roots with every second:
-// 64 000 of two octaves' 2^24 floats, and one of every octave.
+// Results depend on the significand only, those of roots also on whether the exponent is odd: 64
+// 000 of the 2^24 floats of two octaves are tested, and one of every octave.
 std::vector<float> NormalFloats() {
   std::vector<float> x;
   for (int i = 0; i < 64000; ++i) x.push_back(static_cast<float>(1 + 3 * (i + 0.37) / 64000));

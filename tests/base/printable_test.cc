@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/base/printable_test.cc: what a stranger's text may do to a terminal: nothing.
+// tests/base/printable_test.cc: untrusted text cannot control a terminal.
 #include "base/printable.h"
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace nacre {
 namespace {
 
-TEST_CASE("text that means no harm stays as it is") {
+TEST_CASE("harmless text stays as it is") {
   for (const char* text :
        {"", "red plastic", "Überzug, größer als ½ µm", "漆器 漢字 かな 한국어", "C:\\new\\table",
         "\"quoted\" 'so'", "שלום עולם", "مرحبا", "👩‍🎨 \xc2\xa0 \xe3\x80\x80",
@@ -20,7 +20,7 @@ TEST_CASE("text that means no harm stays as it is") {
   }
 }
 
-TEST_CASE("what acts on a terminal is spelled out") {
+TEST_CASE("control characters are escaped") {
   using namespace std::string_literals;
   CHECK(Printable("\x1b[31mred\x1b[0m") == "\\u001b[31mred\\u001b[0m");
   CHECK(Printable("a\nb\rc\td\be\af\0g"s) == "a\\nb\\rc\\td\\u0008e\\u0007f\\u0000g");
@@ -34,7 +34,7 @@ TEST_CASE("what acts on a terminal is spelled out") {
   CHECK(PrintableLines("a\n\tb\r\x1b") == "a\n\tb\\r\\u001b");
 }
 
-TEST_CASE("of all characters those that act are spelled out, and no others") {
+TEST_CASE("of all characters the control characters are escaped, and no others") {
   const auto encode = [](uint32_t code) {
     const auto byte = [](uint32_t value) { return static_cast<char>(value); };
     if (code < 0x80) return std::string{byte(code)};
@@ -61,7 +61,7 @@ TEST_CASE("of all characters those that act are spelled out, and no others") {
   CHECK(spelled == 32 + 33 + 5 + 4 + 2);
 }
 
-TEST_CASE("bytes that are not UTF-8 are spelled out one by one") {
+TEST_CASE("bytes that are not UTF-8 are escaped one by one") {
   CHECK(Printable("gr\xfc\xdf") == "gr\\xfc\\xdf");       // Latin-1
   CHECK(Printable("\xc0\x9b") == "\\xc0\\x9b");           // overlong
   CHECK(Printable("\xe0\x80\x8a") == "\\xe0\\x80\\x8a");  // overlong line feed

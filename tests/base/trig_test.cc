@@ -25,7 +25,8 @@ TEST_CASE("sine and cosine of turns are right to 3e-7 of themselves") {
     for (int i = -kSteps; i <= kSteps; ++i) {
       const auto u = static_cast<float>(1.3 * i / kSteps);
       CAPTURE(u);
-      // Reduced exactly, so that the library's 2 pi has no say next to the roots.
+      // Reduced exactly, so that the rounding of the library's 2 pi does not matter next to the
+      // zeros.
       const double reduced = double{u} - std::round(double{u});
       const double quarter = reduced - std::copysign(0.25, reduced);
       CHECK(Close(EvaluateSinTurns(u), std::sin(2 * M_PI * reduced), 3e-7));
@@ -40,7 +41,7 @@ TEST_CASE("sine and cosine of turns are right to 3e-7 of themselves") {
   });
 }
 
-TEST_CASE("the rest of the arc tangent and what is built of it keep their relative errors") {
+TEST_CASE("the remainder of the arc tangent and functions of it keep their relative errors") {
   ForEachTarget([](Target) {
     for (int i = -kSteps; i <= kSteps; ++i) {
       const auto x = static_cast<float>(std::exp2(15.0 * i / kSteps));
@@ -61,7 +62,7 @@ TEST_CASE("in double, too, and across the seam of series and formula") {
   for (int i = -kSteps; i <= kSteps; ++i) {
     const double x = std::exp2(15.0 * i / kSteps);
     CAPTURE(x);
-    // (x - atan x) / x^3 in long double loses 2 log2(1 / x) of its 64 bits.
+    // (x - atan x) / x^3 loses 2 log2(1 / x) of the 64 bits of a long double.
     if (x > 1e-2) {
       const auto wide = static_cast<long double>(x);
       const long double exact = (wide - std::atan(wide)) / (wide * wide * wide);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/brdf/albedo_test.cc: the run-time albedos against the quadratures that they were fitted to,
-// on every target, and white furnaces: what a lobe reflects and what compensation adds is all there
-// was.
+// on every target, and white furnaces: a lobe and its compensation together reflect all light.
 #include "brdf/albedo.h"
 
 #include <algorithm>
@@ -116,7 +115,8 @@ TEST_CASE("SIMD albedos are their scalar twins on every target, in range everywh
       const FresnelAlbedoFit fit = MakeDielectricAlbedoFit(form, roughness, kEta);
       ForEachTarget([&](Target) {
         const std::vector<AlbedoOutput> outputs = EvaluateAlbedos(fit, cosines);
-        // The polynomials' coefficients sum to less than 50: so many roundings of 1 in float.
+        // The polynomials' coefficients sum to less than 50, so the error is at most 50 roundings
+        // of 1.
         constexpr double kRounding = 50 * 0x1p-24;
         double worst = 0;
         bool in_range = true;
@@ -140,7 +140,7 @@ TEST_CASE("SIMD albedos are their scalar twins on every target, in range everywh
   }
 }
 
-// D6 of the plan: conductors 1 +- 1e-3, white dielectrics in [.999, 1.0001].
+// Conductors must reflect 1 +- 1e-3, white dielectrics between .999 and 1.0001.
 TEST_CASE("white furnace: conductors, either compensation") {
   for (const Shadowing form : kForms) {
     for (const double roughness : FurnaceRoughnesses()) {

@@ -23,7 +23,7 @@ Vec3d RandomUpper(std::mt19937* random) {
   return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// Directions with n = +z turned into a general position, so that no component is special.
+// Directions rotated from n = +z into a general position, so that no component is special.
 struct Frame {
   Vec3d x, y, z;
   Vec3d Apply(const Vec3d& v) const { return x * v.x + y * v.y + z * v.z; }
@@ -66,10 +66,10 @@ void Raise(double* maximum, double got, double reference) {
   *maximum = std::max(*maximum, std::abs(got / reference - 1));
 }
 
-// What the relative error of Phong's lobe c^n may be. c = 1 - |r - v|^2 / 2 is off by |r - v| times
-// what r - v is off by: by 10 u, u = 2^-24, as the normal's length is off by u, which r has four
-// times, the rounding of n.l by 2 u, which it has twice, and its own components by 2 u. Then there
-// are Log2's relative error of 2e-7, Exp2's of 1e-7 and the roundings around them.
+// The bound of the relative error of Phong's lobe c^n. The error of c = 1 - |r - v|^2 / 2 is |r -
+// v| times that of r - v, which is 10 u, u = 2^-24: the normal's length is off by u, which enters r
+// four times, n.l by 2 u, which enters it twice, and the components of r by 2 u. To this come
+// Log2's relative error of 2e-7, Exp2's of 1e-7 and the roundings around them.
 double PhongBound(const Vec3d& n, const Vec3d& l, const Vec3d& v, double shininess) {
   const double off = (Mirrored(l, n) - v).length();
   const double c = 1 - off * off / 2;

@@ -248,7 +248,7 @@ TEST_CASE("sheen over white reflects no more than all light") {
     }
   }
   CHECK(most >= 1);
-  // What the smaller of both sides' rests loses where grazing light meets other viewers.
+  // The loss by taking the smaller of both scales, where grazing light meets other view directions.
   CHECK(least >= 0.85);
 }
 

@@ -74,7 +74,7 @@ TEST_CASE("Any count and alignment gives the same pixels and nothing beyond", "[
     for (size_t count = 0; count <= 300; ++count) {
       const size_t offset = count % 5;
       std::vector<uint8_t> some(3 * count + 64, 0xa5);
-      // The planes end with the pixels, for the address sanitizer to see a read beyond.
+      // The planes have no padding, so that the address sanitizer finds reads beyond their ends.
       const std::vector<float> r(planes[0].begin(),
                                  planes[0].begin() + std::ptrdiff_t(offset + count));
       const std::vector<float> g(planes[1].begin(),
@@ -93,8 +93,8 @@ TEST_CASE("Any count and alignment gives the same pixels and nothing beyond", "[
 }
 
 TEST_CASE("Pixels that repeat those before them are encoded as any others", "[color]") {
-  // Stretches of 128 pixels, each like the one before, or but for one channel; first of one colour,
-  // then with a pattern. NaN pixels are counted each time.
+  // Chunks of 128 pixels, each equal to the one before or different in one channel; first of one
+  // colour, then with a pattern. NaN pixels are counted each time.
   const float colors[][3] = {{0.2f, 0.2f, 0.2f}, {0.2f, 0.2f, 0.2f}, {0.2f, 0.2f, 0.7f},
                              {0.2f, 0.2f, 0.7f}, {0.2f, 0.9f, 0.7f}, {0.5f, 0.9f, 0.7f},
                              {0.5f, 0.9f, 0.7f}, {kNan, 0.9f, 0.7f}, {kNan, 0.9f, 0.7f},
@@ -125,7 +125,7 @@ TEST_CASE("Pixels that repeat those before them are encoded as any others", "[co
 }
 
 TEST_CASE("a pixel that breaks a repetition is seen wherever it is", "[color]") {
-  // Two stretches of 128 pixels, alike but for one value.
+  // Two chunks of 128 pixels that differ in one value.
   ForEachTarget([&](Target) {
     size_t missed = 0;
     for (size_t i = 128; i < 256; ++i) {

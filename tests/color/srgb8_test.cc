@@ -38,7 +38,7 @@ std::vector<uint8_t> EncodeGreys(const std::vector<float>& greys) {
   return codes;
 }
 
-// Floats that a slip in the table would show on: both ends of every bucket, floats at random
+// Floats that would show an error in the table: both ends of every bucket, floats of random
 // octaves, and special values.
 std::vector<float> TestFloats() {
   std::vector<float> floats = {0.0f, -0.0f, -1.0f, 1.0f, 2.0f, 1e30f, kInf, -kInf, 1e-45f, 1e-20f};

@@ -166,7 +166,7 @@ TEST_CASE("SIMD operators are monotone on greys and stay in [0, 1]", "[color]") 
         if (i > 0) largest_drop = std::max(largest_drop, out.g[i - 1] - out.g[i]);
       }
       CHECK(outside == 0);
-      // Just below white the outputs are nearer to one another than the error that each may have.
+      // Just below white the differences of the outputs are smaller than their errors.
       const bool rational = tone != ToneOperator::kNeutral && tone != ToneOperator::kAgx;
       CHECK(largest_drop <= (rational ? 0 : 2 * Tolerance(tone, 1)));
       CHECK(out.g.back() >= 1 - Tolerance(tone, 1));

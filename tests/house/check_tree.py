@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the tree itself: scripts run, no file is huge, each source file says what it is.
+"""Checks the tree itself: scripts run, no file is huge, each source file says what it is, and the
+files that comments and READMEs name exist.
 
 Long files are listed, not refused.
 """
@@ -18,6 +19,14 @@ SOURCE_FOLDERS = ("src", "tests", "bench")
 SCRIPT_FOLDERS = ("scripts", ".ci")
 CODE_SUFFIXES = (".h", ".cc", ".py", ".js", ".cmake", ".sh")
 LICENSE_TAG = "SPDX-License-Identifier: " + "Apache-2.0"
+# A source file or page that a text names, with or without folders. Not what a word goes on with
+# (-inl.h), nor patterns ({a,b}_c.h, *.h).
+NAMED_FILE = re.compile(r"(?<![\w./<{}*-])(?:\.\./)*(\w[\w./-]*\.(?:h|cc|py|md))(?![\w/*(])")
+PRODUCT = re.compile(r"\w\.h")  # n.h and v.h: of the normal or the view direction and the half vector
+# Files of others, and those that the program or its user writes.
+NO_FILES_OF_OURS = ("AgX.py", "answer.md", "sysexits.h")
+COMMENT = {"//": re.compile(r"(?:^|\s)//(.*)"), "#": re.compile(r"(?:^|\s)# (.*)")}
+FENCE = re.compile(r"^```.*?^```$", re.M | re.S)
 
 
 def list_files(root):
@@ -97,6 +106,38 @@ def check_first_line(root, name):
         yield f"{name}:1: the first line does not say what the file is"
 
 
+def texts_of(root, name):
+    """(line number, text) of a file's comments; of a README all lines but its fenced blocks."""
+    path = root / name
+    cpp = path.suffix in (".h", ".cc")
+    if not cpp and path.name not in ("README.md", "CMakeLists.txt") and (
+            path.suffix not in CODE_SUFFIXES and path.parts[-2] != "scripts"):
+        return
+    text = path.read_text(encoding="utf-8", errors="replace")
+    if path.name == "README.md":
+        text = FENCE.sub(lambda block: "\n" * block.group().count("\n"), text)
+    comment = COMMENT["//" if cpp or path.suffix == ".js" else "#"]
+    for number, line in enumerate(text.split("\n"), 1):
+        found = comment.search(line)
+        if path.name == "README.md":
+            yield number, line
+        elif found:
+            yield number, found.group(1)
+
+
+def check_named_files(root, names):
+    """Every source file and page that a comment or a README names is there, in some folder."""
+    ends = {"/".join(parts[i:]) for parts in (name.split("/") for name in names)
+            for i in range(len(parts))}
+    for name in names:
+        for number, text in texts_of(root, name):
+            for named in NAMED_FILE.findall(text):
+                if PRODUCT.fullmatch(named) or named in NO_FILES_OF_OURS or "NAME" in named:
+                    continue
+                if named not in ends:
+                    yield f"{name}:{number}: names {named}, which is not there"
+
+
 def long_files(root, names):
     """(lines, name) of source files longer than this house likes, longest first."""
     found = []
@@ -115,7 +156,7 @@ def check(root):
     faults = [fault for name in names for check_file in (check_size, check_script, check_license,
                                                      check_first_line)
               for fault in check_file(root, name)]
-    return faults, names
+    return faults + list(check_named_files(root, names)), names
 
 
 def main():

@@ -54,6 +54,26 @@ class CheckTree(unittest.TestCase):
         self.write("big", "x" * (check_tree.MAX_BYTES + 1))
         self.assert_one_fault("big: ")
 
+    def test_named_files_exist(self):
+        for comment in ("base/error.h", "error.h, error.cc", "src/base/error.h.", "n.h over v.h",
+                        "NAME.h and NAME-inl.h", "NAME-inl.h", "{a,b}_c.h", "sysexits.h",
+                        "a.handle"):
+            with self.subTest(comment=comment):
+                self.write("src/base/one.h", f"{LICENSE}// One: {comment}\n")
+                self.assertEqual(self.faults(), [])
+        for comment in ("base/gone.h", "gone-inl.h", "scene/error.h", "(gone.cc)", "`gone.py`."):
+            with self.subTest(comment=comment):
+                self.write("src/base/one.h", f"{LICENSE}// One: {comment}\n")
+                self.assert_one_fault("src/base/one.h:2: names ")
+        self.write("src/base/one.h", f"{LICENSE}// One.\nint x;  // as gone.h has it\n")
+        self.assert_one_fault("src/base/one.h:3: names gone.h")
+        self.write("src/base/one.h", f'{LICENSE}// One.\n#include "gone.h"\n')
+        self.assertEqual(self.faults(), [])
+        self.write("README.md", "See `base/error.h`.\n```\ngone.cc\n```\nAnd gone.md.\n")
+        self.assert_one_fault("README.md:5: names gone.md")
+        self.write("README.md", "See [this](gone.md).\n")
+        self.assert_one_fault("README.md:1: names gone.md")
+
     def test_size_limit_is_inclusive(self):
         self.write("data.bin", "x" * check_tree.MAX_BYTES)
         self.assertEqual(self.faults(), [])

@@ -44,7 +44,7 @@ class Draws {
   std::uniform_real_distribution<float> unit_{0, 0x1.fffffep-1f};
 };
 
-// What may be said of any answer; prints the query that breaks it.
+// Checks what holds for every result; prints the query if it does not.
 template <class Light>
 void CheckInRange(const LightQuery<Light>& query, const LightAnswer& answer) {
   const AreaSample<float>& s = answer.sample;
@@ -52,7 +52,7 @@ void CheckInRange(const LightQuery<Light>& query, const LightAnswer& answer) {
                       std::isfinite(s.inverse_pdf) && std::isfinite(s.cos_light) &&
                       std::isfinite(answer.pdf) && std::isfinite(answer.irradiance);
   const bool is_unit = s.inverse_pdf == 0 || std::abs(s.to_light.length() - 1) <= 1e-5f;
-  // The cosine at a triangle whose area is the rest of a rounding has few digits.
+  // If a triangle's area is all rounding error, the cosine has few digits.
   const bool in_range = s.inverse_pdf >= 0 && s.distance >= 0 && answer.pdf >= 0 &&
                         std::abs(s.cos_light) <= 1.001f && answer.irradiance >= 0 &&
                         answer.irradiance <= 3.1416f;

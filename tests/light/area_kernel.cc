@@ -18,7 +18,7 @@ using D = ShadeTag<float>;
 using V = hn::Vec<D>;
 constexpr size_t kMaxLanes = 32;
 
-// One vector of what `member` gives for each of up to a vector of queries, the last one repeated.
+// A vector of the member `member` of up to a vector of queries; the last query is repeated.
 template <class Query, class Member>
 V Column(const std::vector<Query>& queries, size_t first, Member member) {
   alignas(64) float lanes[kMaxLanes];

@@ -11,7 +11,7 @@
 
 namespace nacre {
 
-// All that a light can be asked.
+// The inputs of all functions of a light.
 template <class Light>
 struct LightQuery {
   Light light;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/light/area_sample_test.cc: samples of area lights in double: solid angles against the
-// table, uniformity by chi-squared against solid angles of parts, pdfs that belong to their
-// samples, and the places where there is nothing to sample.
+// table, uniformity by chi-squared against the solid angles of parts, pdfs that match the samples,
+// and positions where there is nothing to sample.
 #include "light/area_sample.h"
 
 #include <cmath>
@@ -51,8 +51,8 @@ TEST_CASE("solid angles match the table", "[table]") {
   CHECK(rows > 0);
 }
 
-// Parts of a light whose solid angles tell where samples belong: where a point lies, and how
-// probable each part is. Parts of spheres: equal ones in cosine and azimuth.
+// A partition of a light: the part that a point lies in, and the probability of each part by its
+// solid angle. Spheres are divided equally in cosine and azimuth.
 constexpr int kGrid = 6;
 
 struct Parts {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/light/area_shapes.h: area lights in all the places that are hard on their mathematics.
+// tests/light/area_shapes.h: area lights in positions that are numerically hard.
 #pragma once
 
 #include <vector>
@@ -20,14 +20,14 @@ inline Vec3d Turn(const Vec3d& v) {
 inline std::vector<SphereLight<double>> SphereLights() {
   return {{Turn({1, 2, 3}), 0.5},
           {Turn({0, 0, 2000}), 1},        // 8e-7 sr
-          {Turn({0, 0, 1}), 0.999999},    // all but touching
+          {Turn({0, 0, 1}), 0.999999},    // nearly touching
           {Turn({0, 0.5, 1}), 3},         // from inside
           {Turn({0, 0, -1e-3}), 10},      // next to the centre
           {{0, 0, -5}, 1},                // down the axis where bases break
           {Turn({3e5, 1e5, 2e5}), 1e4}};  // large numbers
 }
 
-// Faces: towards, from afar, nearby, edge-on, off to a side, long and thin.
+// Rectangles that face the point, that are distant, nearby, edge-on, to one side, long and thin.
 inline std::vector<RectangleLight<double>> RectangleLights() {
   const auto make = [](const Vec3d& corner, double width, double height) {
     return RectangleLight<double>{Turn(corner), Turn({width, 0, 0}), Turn({0, height, 0})};
@@ -41,7 +41,7 @@ inline std::vector<RectangleLight<double>> RectangleLights() {
           make({1, 2, -3}, 0.05, 3),            // another
           make({0, 0, 1}, 1, 1),                // a corner overhead
           make({-8, -7, 2}, 3, 4),              // both coordinates negative
-          make({0.1, 0.1, 1}, 0.011, 0.0101)};  // just over the seam
+          make({0.1, 0.1, 1}, 0.011, 0.0101)};  // just above kSmallSolidAngle
 }
 
 inline std::vector<TriangleLight<double>> TriangleLights() {

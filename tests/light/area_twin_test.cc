@@ -13,7 +13,7 @@
 namespace nacre {
 namespace {
 
-// What float may be off by.
+// The tolerances for float.
 struct Tolerances {
   double direction;  // angle
   double distance;   // of the size of offset and light
@@ -36,7 +36,7 @@ std::vector<LightAnswer> RandomAnswers(const Light& light,
   std::mt19937 random(5);
   std::uniform_real_distribution<float> unit(0, 1);
   for (int i = 0; i < 1000; ++i) {
-    // Not the very rim, where rounding decides what hits.
+    // Not at the rim itself, where rounding decides what hits.
     queries->push_back({light, 0.999f * unit(random), 0.999f * unit(random), {0, 0, 1}});
   }
   std::vector<LightAnswer> answers = AskLights(*queries);
@@ -46,8 +46,8 @@ std::vector<LightAnswer> RandomAnswers(const Light& light,
   return AskLights(*queries);
 }
 
-// The pdf of a sample is its own: 1e-6, or what a direction's rounding does to the distance
-// and cosine of a light seen edge-on.
+// The pdf at a sample's direction is that of the sample, to 1e-6 or to the effect that rounding the
+// direction has on the distance and the cosine of a light seen edge-on.
 bool IsConsistent(const LightAnswer& answer) {
   if (answer.sample.inverse_pdf == 0) return true;
   const double tolerance = 1e-6 + 16 * 0x1p-24 / std::abs(double{answer.sample.cos_light});
@@ -157,9 +157,9 @@ SphereLight<float> Scaled(const SphereLight<float>& light, float by) {
   return {light.centre * by, light.radius * by};
 }
 
-// What light a light gives depends on the proportions alone. Lengths of a scene are between 1e-15
-// and 1e15, the cubes of either of which no float holds. By powers of two nothing is rounded: all
-// bits are the same.
+// Solid angles and irradiances depend on proportions only. Lengths of a scene are between 1e-15 and
+// 1e15, whose cubes are out of the range of float. Scaling by powers of two is exact, so all bits
+// must be equal.
 template <class Light>
 void CheckScales(const std::vector<Light>& lights) {
   for (size_t i = 0; i < lights.size(); ++i) {

@@ -88,7 +88,7 @@ TEST_CASE("samples follow the pdf: texels by their share, directions evenly with
       probabilities.push_back(map.texels[i].pdf *
                               TexelSolidAngle(width, height, static_cast<int>(i / columns)));
     }
-    // Halves of texels by solid angle: of the sun's, which has enough samples.
+    // The two halves, by solid angle, of the sun's texel, which has enough samples.
     double sun = 0, upper = 0, left = 0;
     std::mt19937 random(4);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -129,7 +129,7 @@ TEST_CASE("the mean of radiance over pdf is the integral of radiance") {
         SampleEnvironment<double>(map, (i % kSteps + 0.5) / kSteps, (i / kSteps + 0.5) / kSteps);
     mean += sample.texel.green / double{sample.texel.pdf} / (1.0 * kSteps * kSteps);
   }
-  // Of 1500 steps each row, and in it each column, gets its share within 2: a few of 1500.
+  // Of 1500 steps each row, and each column of it, gets its share within 2 steps.
   CHECK(mean == Approx(integral).epsilon(2e-3));
 }
 
@@ -168,7 +168,8 @@ TEST_CASE("SIMD environments agree with their double twins on every target") {
     for (size_t i = 0; i < directions.size(); ++i) {
       others += texels[i].pdf != TexelAt(map, Vec3d(directions[i])).pdf;
     }
-    // Float's latitude and longitude are off by 1e-4 texels: so many lie across a border, or two.
+    // Latitude and longitude in float have errors of 1e-4 texels: that fraction lies in a
+    // neighbouring texel.
     CHECK(others <= 5 + directions.size() / 1000);
     const std::vector<EnvironmentSample<float>> samples = SampleEnvironments(map, bits0, bits1);
     double worst = 0;

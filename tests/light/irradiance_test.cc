@@ -66,7 +66,7 @@ TEST_CASE("irradiance matches the table", "[table]") {
   CHECK(rows > 0);
 }
 
-// The mean of cos / pdf over samples on a grid: the same integral, from the other end.
+// The mean of cos / pdf over samples on a grid: the same integral by sampling.
 template <class Light>
 double SampledIrradiance(const Light& light, const Vec3d& normal, int steps) {
   double sum = 0;
@@ -143,7 +143,8 @@ Light Moved(Light light, const Vec3d& by) {
   return light;
 }
 
-// What a rounding of each component of the normal and of the light's place does to the irradiance.
+// The change of the irradiance by one rounding of each component of the normal and of the light's
+// position.
 template <class Light>
 double OneRounding(const Light& light, const Vec3d& normal) {
   const double u = 0x1p-24, far = SomePoint(light).length() + SizeOf(light);
@@ -156,7 +157,7 @@ double OneRounding(const Light& light, const Vec3d& normal) {
   return sum;
 }
 
-// Length over width: edges along a strip cancel but for its width's part.
+// Length over width, by which the edges along a strip cancel.
 double AspectOf(const SphereLight<double>&) { return 1; }
 double AspectOf(const DiskLight<double>&) { return 1; }
 template <class Light>
@@ -164,8 +165,9 @@ double AspectOf(const Light& light) {
   return SizeOf(light) * SizeOf(light) / (light.edge_x % light.edge_y).length();
 }
 
-// Whether the twins agree to 1e-5, or to 8 roundings of their inputs where those do more: just
-// above the horizon, and next to a light; and 4 roundings by the length of a strip.
+// Whether the twins agree to 1e-5, or within the effect of 8 roundings of their inputs where that
+// is more: just above the horizon, and next to a light; and 4 roundings times the length of a
+// strip.
 template <class Light>
 void CheckTwins(const std::vector<Light>& lights) {
   for (const Light& light : lights) {

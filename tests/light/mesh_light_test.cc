@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/light/mesh_light_test.cc: triangles as one light: how they are chosen, which a ray meets,
-// and whether they hide one another.
+// tests/light/mesh_light_test.cc: triangles as one light: how they are chosen, which ones a ray
+// hits, and whether they hide one another.
 #include "light/mesh_light.h"
 
 #include <algorithm>
@@ -60,33 +60,33 @@ TEST_CASE("triangles are as probable as they are large, and those without an are
   CHECK(light.triangles[0].corner == Vec3d(-7, -8, -9));
 }
 
-TEST_CASE("a ray meets the triangles that it meets one by one") {
+TEST_CASE("a ray hits the triangles that it hits one by one") {
   for (const size_t count : {1u, 5u, 300u}) {
     const MeshLight light = Heap(count).Make();
     std::mt19937 random(6);
     std::uniform_real_distribution<double> uniform(-1, 1);
     size_t met = 0;
-    std::vector<MeshLightMeeting> meetings;
+    std::vector<MeshLightHit> hits;
     for (int i = 0; i < 2000; ++i) {
       const Vec3d point = Vec3d{uniform(random), uniform(random), uniform(random)} * 2;
       Vec3d direction{uniform(random), uniform(random), uniform(random)};
       if (i % 3 == 0) direction = Vec3d(0, 0, i % 2 == 0 ? 1 : -1);
       direction.normalize();
-      FindMeetings(light, point, direction, &meetings);
+      FindMeshLightHits(light, point, direction, &hits);
       std::vector<bool> found(light.triangles.size());
-      for (const MeshLightMeeting& meeting : meetings) {
-        REQUIRE(!found[meeting.triangle]);
-        found[meeting.triangle] = true;
-        const TriangleLight<double>& t = light.triangles[meeting.triangle];
+      for (const MeshLightHit& hit : hits) {
+        REQUIRE(!found[hit.triangle]);
+        found[hit.triangle] = true;
+        const TriangleLight<double>& t = light.triangles[hit.triangle];
         const Vec3d normal = (t.edge_x % t.edge_y).normalized();
-        REQUIRE(std::abs(normal ^ (point + direction * meeting.t - t.corner)) <= 1e-12);
+        REQUIRE(std::abs(normal ^ (point + direction * hit.t - t.corner)) <= 1e-12);
       }
       for (size_t k = 0; k < light.triangles.size(); ++k) {
         TriangleLight<double> seen = light.triangles[k];
         seen.corner -= point;
         REQUIRE(found[k] == (LightPdf(seen, direction) > 0));
       }
-      met += meetings.size();
+      met += hits.size();
     }
     CHECK(met > count);
   }
@@ -94,10 +94,10 @@ TEST_CASE("a ray meets the triangles that it meets one by one") {
 
 TEST_CASE("rays along the sides of boxes meet what lies in them") {
   const MeshLight cube = Cube().Make();
-  std::vector<MeshLightMeeting> meetings;
+  std::vector<MeshLightHit> hits;
   const auto count = [&](const Vec3d& point, const Vec3d& direction) {
-    FindMeetings(cube, point, direction, &meetings);
-    return meetings.size();
+    FindMeshLightHits(cube, point, direction, &hits);
+    return hits.size();
   };
   CHECK(count({0.3, 0.2, -5}, {0, 0, 1}) == 2);
   CHECK(count({0.3, 0.2, 5}, {0, 0, 1}) == 0);
@@ -127,7 +127,7 @@ TEST_CASE("meshes of which no front hides another are known") {
   Triangles ridge = quad;
   ridge.positions[3].z -= 1e-3;
   CHECK(shape(ridge) == std::pair(true, false));
-  CHECK(shape(Heap(kMostClosedTriangles + 1)) == std::pair(false, false));
+  CHECK(shape(Heap(kMaxClosedFormTriangles + 1)) == std::pair(false, false));
 }
 
 }  // namespace

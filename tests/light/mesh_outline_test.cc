@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/light/mesh_outline_test.cc: which meshes are known to be seen as one convex outline.
+// tests/light/mesh_outline_test.cc: which meshes are recognised to have one convex outline.
 #include "light/mesh_outline.h"
 
 #include "catch.h"
@@ -57,7 +57,7 @@ TEST_CASE("corners at one place are one, and triangles without an area none") {
   CHECK(outline.edges.size() == 5);
 }
 
-TEST_CASE("other meshes have no outline of theirs") {
+TEST_CASE("other meshes have no outline") {
   const auto none = [](const Triangles& mesh) { return mesh.Make().edges.empty(); };
   Triangles open = Cube();
   open.indices.resize(open.indices.size() - 3);

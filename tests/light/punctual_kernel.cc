@@ -27,7 +27,7 @@ void EvaluateSpotT(const std::vector<ConeTerms<double>>& cones,
   const hn::ScalableTag<double> dd;
   for (size_t i = 0; i < cones.size(); ++i) {
     const double x = one_minus_cosines[i];
-    const double t = hn::GetLane(PenumbraPlace(dd, cones[i], hn::Set(dd, x)));
+    const double t = hn::GetLane(PenumbraParameter(dd, cones[i], hn::Set(dd, x)));
     const auto set = [&](double value) HWY_ATTR { return hn::Set(d, static_cast<float>(value)); };
     (*out)[i] = hn::GetLane(SpotFactor(d, cones[i], set(t), set(x), set(1 - x)));
   }

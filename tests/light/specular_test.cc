@@ -51,8 +51,8 @@ double Estimate(const Scene& scene, const Light& light, uint64_t seed) {
   return sum / kSamples;
 }
 
-// Within 4 standard deviations of the mean of all patterns, and these are small. Returns the
-// relative standard deviation.
+// Checks that the mean of all patterns is within 4 standard deviations of the reference, and that
+// these are small. Returns the relative standard deviation.
 template <class Light>
 double CheckRow(const Scene& scene, const Light& light, double reference) {
   double sum = 0, squares = 0;
@@ -63,7 +63,7 @@ double CheckRow(const Scene& scene, const Light& light, double reference) {
   }
   const double mean = sum / kPatterns;
   const double variance = (squares / kPatterns - mean * mean) / (kPatterns - 1);
-  // A sum of squares less its mean's square loses what lies below 1e-8 of it.
+  // A sum of squares minus the square of its mean has a relative resolution of 1e-8.
   const double sigma = std::sqrt(std::max(variance, 0.0)) + 1e-8 * reference;
   CAPTURE(mean, reference, sigma);
   CHECK(std::abs(mean - reference) <= 4 * sigma);

@@ -535,10 +535,10 @@ std::vector<bool> ToldIn(const FramePlan& plan) {
   const auto cell_scratch = std::make_unique<CellScratch>();
   Strip strip;
   StageClock clock(nullptr);
-  for (int y0 = 0; y0 < kSide; y0 += kCellSide) {
-    StartStrip(plan.film, {0, y0, kSide, y0 + kCellSide}, &strip);
-    for (int x0 = 0; x0 < kSide; x0 += kCellSide) {
-      const Window cell{x0, y0, x0 + kCellSide, y0 + kCellSide};
+  for (int y0 = 0; y0 < kSide; y0 += kCellSize) {
+    StartStrip(plan.film, {0, y0, kSide, y0 + kCellSize}, &strip);
+    for (int x0 = 0; x0 < kSide; x0 += kCellSize) {
+      const Window cell{x0, y0, x0 + kCellSize, y0 + kCellSize};
       RenderStats stats;
       RenderCell(plan, cell, cell, &work, cell_scratch.get(), &strip, &clock, &stats);
       for (const uint32_t pixel : cell_scratch->active) {

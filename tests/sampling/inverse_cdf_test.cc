@@ -61,13 +61,13 @@ TEST_CASE("a number falls to the index in whose part it lies, wherever that is",
       const double lower = pick.index > 0 ? table[pick.index - 1].upper : 0;
       const bool inside = u >= lower && u < table[pick.index].upper;
       const bool rest =
-          pick.rest >= 0 && pick.rest < 1 &&
-          std::abs(lower + pick.rest * (table[pick.index].upper - lower) - u) <= 0x1p-50;
+          pick.remapped >= 0 && pick.remapped < 1 &&
+          std::abs(lower + pick.remapped * (table[pick.index].upper - lower) - u) <= 0x1p-50;
       if (!inside || !rest || weights[pick.index] == 0) ++wrong;
     };
     for (int i = 0; i < 20000; ++i) check(unit(random));
     for (const double u : {0.0, 0x1p-53, 0.5, 1 - 0x1p-53}) check(u);
-    // The very ends of the parts.
+    // The ends of the parts.
     for (size_t i = 0; i < std::min<size_t>(table.size(), 1000); ++i) {
       if (table[i].upper < 1) check(table[i].upper);
       if (table[i].upper > 0) check(std::nextafter(table[i].upper, 0));
@@ -76,8 +76,9 @@ TEST_CASE("a number falls to the index in whose part it lies, wherever that is",
   }
 }
 
-TEST_CASE("evenly spread numbers stay evenly spread", "[sampling]") {
-  // Of n numbers, one in each n-th of the interval, an index of probability p gets n p within 2.
+TEST_CASE("stratified numbers stay stratified", "[sampling]") {
+  // Of n numbers, one in each n-th of the interval, an index of probability p gets n p numbers,
+  // within 2.
   const std::vector<double> weights{5, 1, 0, 2, 0.01, 1.99};
   const std::vector<CdfEntry> table = MakeInverseCdf(weights);
   constexpr int kCount = 4096;
@@ -88,7 +89,7 @@ TEST_CASE("evenly spread numbers stay evenly spread", "[sampling]") {
   }
 }
 
-TEST_CASE("no weight at all is even probabilities", "[sampling]") {
+TEST_CASE("without any weight all probabilities are equal", "[sampling]") {
   const std::vector<CdfEntry> table = MakeInverseCdf(std::vector<double>{0, 0, 0, 0});
   for (uint32_t i = 0; i < 4; ++i) CHECK(PickIndex(table, 0.25 * i + 0.1).index == i);
 }

@@ -8,8 +8,7 @@ namespace nacre {
 namespace {
 
 TEST_CASE("pairs of points are a net of every pixel") {
-  // 16 points of a (0,2)-sequence, or of any two dimensions of one that is scrambled: each
-  // sixteenth of either axis holds one.
+  // Of 16 points of a scrambled (0,2)-sequence each sixteenth of either axis holds one.
   const PairSampler sampler = MakePairSampler(16, 9, 7);
   SampleNumbers numbers(16);
   AlignedArray<uint32_t> entries(16);
@@ -33,7 +32,7 @@ TEST_CASE("pairs of points are a net of every pixel") {
       }
       CHECK(in_u == 0xffffu);
       CHECK(in_v == 0xffffu);
-      // A pixel's shifts of its pairs differ.
+      // The shifts of a pixel differ from pair to pair.
       const uint32_t shift = points.u_bits[0] ^ sampler.u_bits[pair * 16];
       CHECK(shift != last_shift);
       last_shift = shift;

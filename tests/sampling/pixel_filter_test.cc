@@ -19,8 +19,8 @@ TEST_CASE("Filters integrate to 1, and FilterIntegral is their integral", "[samp
   for (const PixelFilter& filter : kFilters) {
     CAPTURE(static_cast<int>(filter.kind), filter.width);
     CHECK(std::abs(FilterIntegral(filter, filter.width / 2) - 0.5) <= 1e-15);
-    // Simpson's rule, whose error with these steps is below 1e-12 between the knots of Mitchell's
-    // pieces, which steps of width / 4 meet.
+    // Simpson's rule with these steps has an error below 1e-12; the knots of Mitchell's pieces are
+    // ends of steps of width / 4.
     constexpr int kSteps = 400;
     const double h = filter.width / 2 / kSteps;
     double sum = 0;

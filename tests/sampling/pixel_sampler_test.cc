@@ -76,7 +76,7 @@ TEST_CASE("Samples have the filter as their signed density", "[sampling]") {
   }
 }
 
-// A smooth image, and its filtered value by the midpoint rule.
+// A smooth image, and its filtered value, by the midpoint rule.
 double Picture(double x, double y) { return 1 + std::cos(0.9 * x + 0.3) * std::sin(1.7 * y + 1); }
 
 double Filtered(const PixelFilter& filter) {
@@ -133,14 +133,14 @@ size_t CountPixels(const std::vector<PixelRun>& runs) {
   return count;
 }
 
-// Samples of the runs' pixels, in arrays exactly as large as promised, for the address sanitizer.
+// Samples of the runs' pixels, in arrays exactly as large as documented, for the address sanitizer.
 struct Placed {
   Placed(const PixelSampler& sampler, const Window& window, const std::vector<PixelRun>& runs,
          int first, int count)
       : size(CountPixels(runs) * static_cast<size_t>(count)), x(size), y(size), number(size) {
     NumberRays(window, runs, count, number.data());
     PixelBatch batch(CountPixels(runs));
-    PutPixels(sampler, runs, &batch);
+    PreparePixels(sampler, runs, &batch);
     CHECK(batch.count == CountPixels(runs));
     SamplePixels(sampler, batch, first, count, x.data(), y.data());
   }
@@ -246,8 +246,8 @@ TEST_CASE("Samples depend on pixel, index and seed only", "[sampling]") {
 }
 
 TEST_CASE("Sampling beats random pixels", "[sampling]") {
-  // The error of 64 stratified samples of a smooth picture, against the 1 / 8 of its deviation
-  // that independent samples have.
+  // The error of 64 stratified samples of a smooth picture. That of independent samples would be 1
+  // / 8 of the standard deviation of one.
   const PixelFilter filter{FilterKind::kBox, 1};
   const PixelSampler sampler = MakePixelSampler(filter, 64, 0);
   const double exact = Filtered(filter);

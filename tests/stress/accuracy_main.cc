@@ -14,8 +14,8 @@
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "shading/highlight.h"
-#include "visibility/film_test.h"
 #include "visibility/intersector.h"
+#include "visibility/projected_sphere_test.h"
 #include "visibility/quad_hits.h"
 
 namespace nacre {
@@ -75,7 +75,7 @@ void PrintHits() {
       HitDirections rounded;
       rays.count = kBatchCapacity;
       // As rays of a camera whose pixels are fine enough.
-      rays.film = {center.normalized(), kFarthestOnFilm};
+      rays.view = {center.normalized(), kMaxProjectedScale};
       for (size_t i = 0; i < kBatchCapacity; ++i) {
         const double x = uniform(random);
         const double y = uniform(random);

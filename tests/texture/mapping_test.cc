@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/texture/mapping_test.cc: mappings against tables/mappings.json, their gradients against
-// differences, and the SIMD twins against the scalar ones.
+// finite differences, and the SIMD twins against the scalar ones.
 #include "texture/mapping.h"
 
 #include <random>
@@ -65,7 +65,7 @@ TEST_CASE("mappings match the table", "[table]") {
   }
 }
 
-// Longitudes are the same a turn apart.
+// Longitudes are periodic.
 double Turned(double difference) { return difference - std::round(difference); }
 
 TEST_CASE("gradients are those of the mapping") {

@@ -96,7 +96,7 @@ TEST_CASE("coordinates that are no numbers, or not near 0, have a defined texel"
     CHECK(WrapCoordinate(kNan, wrap) == 0);
     CHECK(WrapCoordinate(-kInfinity, wrap) == 0);
     CHECK(WrapCoordinate(kInfinity, wrap) == (wrap == Wrap::kClamp ? 1 : 0));
-    // 2^30 is a whole, even number of turns, and exact in double.
+    // 2^30 is an even number of periods, and exact in double.
     const double huge = 0x1p30;
     CHECK(WrapCoordinate(huge + 0.25, wrap) == (wrap == Wrap::kClamp ? 1 : 0.25));
     CHECK(WrapCoordinate(-huge + 0.25, wrap) == (wrap == Wrap::kClamp ? 0 : 0.25));
@@ -105,7 +105,7 @@ TEST_CASE("coordinates that are no numbers, or not near 0, have a defined texel"
   CHECK(WrapCoordinate(1.0, Wrap::kMirror) == 1);
   CHECK(WrapCoordinate(1.25, Wrap::kMirror) == 0.75);
   CHECK(WrapCoordinate(-0.25, Wrap::kMirror) == 0.25);
-  // So near to 0 from below that it wraps to 1 itself: the last texel, not one past it.
+  // Just below 0, so that it wraps to 1 itself: the last texel, not the one behind it.
   CHECK(FindTaps(WrapCoordinate(-1e-20, Wrap::kRepeat), 4, Wrap::kRepeat).near == 3);
 }
 
@@ -206,7 +206,7 @@ TEST_CASE("mip levels keep the mean of any size") {
             Approx(sum / (size[0] * size[1])).epsilon(3e-7));
     }
   }
-  // Three texels over two: thirds of the middle one count on both sides.
+  // Three texels become two: half of the middle one counts for either side.
   const MipChain thirds = MakeMipChain(3, 2, 1, {1, 2, 4, 1, 2, 4});
   CHECK(thirds.levels[1].width == 1);
   const MipChain five = MakeMipChain(5, 1, 1, {1, 2, 3, 4, 5});

@@ -36,7 +36,7 @@ void AddChecker(Scene* scene) {
   scene->textures.push_back(texture);
 }
 
-// Spheres, a mesh without holes and two with them, of random triangles in [-1, 1]^3.
+// Spheres, a mesh without holes and two with holes, made of random triangles in [-1, 1]^3.
 Scene RandomScene(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> in(-1, 1);
@@ -123,7 +123,7 @@ TEST_CASE("what cuts nothing away costs nothing") {
   Scene scene = RandomScene(3);
   const auto count = [&] { return MakeTraceGeometry(scene, Vec3d(0)).cut_outs.size(); };
   CHECK(count() == 2);
-  scene.materials[1].opacity_cutoff = 0;  // all is there
+  scene.materials[1].opacity_cutoff = 0;  // no holes
   CHECK(count() == 0);
   scene.materials[1].opacity_map = {};
   scene.materials[1].opacity_cutoff = 0.5;
@@ -139,7 +139,7 @@ TEST_CASE("what cuts nothing away costs nothing") {
   CHECK(FindCutOut(geometry.cut_outs, 40) == nullptr);
 }
 
-// Weights as triangle tests give them: in [0, 1], with a sum of 1 but for rounding.
+// Weights as triangle tests compute them: in [0, 1], with a sum of 1 up to rounding.
 std::vector<std::array<double, 3>> RoundedWeights(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> in(0, 1);
@@ -152,7 +152,7 @@ std::vector<std::array<double, 3>> RoundedWeights(unsigned seed) {
   return weights;
 }
 
-// Two triangles, (0, 1, 2) with the opacities that are given and (3, 4, 5) with none.
+// Two triangles, (0, 1, 2) with the given opacities and (3, 4, 5) without.
 std::optional<CutOut> CutByVertices(const std::array<float, 3>& opacities, double cutoff) {
   Scene scene = RandomScene(4);
   scene.materials[1].opacity_map = {};
@@ -171,7 +171,7 @@ TEST_CASE("a triangle whose corners have the cutoff's opacity has no holes") {
     REQUIRE(made.has_value());
     size_t holes = 0;
     for (const auto& weights : RoundedWeights(1)) {
-      holes += IsThere(*made, {}, {0, 1, 2}, weights) ? 0 : 1;
+      holes += IsSolidAt(*made, {}, {0, 1, 2}, weights) ? 0 : 1;
     }
     CAPTURE(opacity);
     CHECK(holes == 0);
@@ -185,7 +185,7 @@ TEST_CASE("a triangle whose corners are below the cutoff, by the least, is not t
     REQUIRE(made.has_value());
     size_t there = 0;
     for (const auto& weights : RoundedWeights(2)) {
-      there += IsThere(*made, {}, {0, 1, 2}, weights) ? 1 : 0;
+      there += IsSolidAt(*made, {}, {0, 1, 2}, weights) ? 1 : 0;
     }
     CAPTURE(opacity);
     CHECK(there == 0);
@@ -202,7 +202,7 @@ TEST_CASE("between corners above and below the cutoff holes begin where the opac
     for (const auto& weights : RoundedWeights(3)) {
       const double opacity = 0.25 + 0.75 * weights[k];
       if (std::abs(opacity - 0.5) < 1e-15) continue;  // roundings of products and sums
-      CHECK(IsThere(*made, {}, {0, 1, 2}, weights) == (opacity > 0.5));
+      CHECK(IsSolidAt(*made, {}, {0, 1, 2}, weights) == (opacity > 0.5));
     }
   }
 }

@@ -34,7 +34,7 @@ TEST_CASE(
   Random random(52);
   ForEachTarget([&](Target) {
     for (int i = 0; i < 2000; ++i) {
-      // c e agrees with a b to some 30 digits of 53: plain products leave 23 at the most.
+      // c e agrees with a b to about 30 bits of 53: plain products keep at most 23.
       const double a = random.Uniform(1, 2), b = random.Uniform(1, 2), c = random.Uniform(1, 2);
       const double e = a * b / c * (1 + random.Uniform(-1, 1) * 0x1p-30);
       const double scalar = AccurateDifference(a, b, c, e, TargetProducts());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/intersector_test.cc: closest hits against brute force, and what they must not
-// depend on.
+// tests/visibility/intersector_test.cc: closest hits against brute force, and that they do not
+// depend on batches, packets and targets.
 #include "visibility/intersector.h"
 
 #include "base/error.h"
@@ -12,8 +12,8 @@
 namespace nacre {
 namespace {
 
-// Checks that the intersector finds what brute force finds, to the bit, on every target, and with
-// spheres in shells whatever they are like.
+// Checks that the intersector's hits equal those of brute force, bit for bit, on every target, with
+// spheres in shells as well, whatever they are like.
 void CheckClosest(const Scene& scene, const Vec3d& eye, const std::vector<Ray>& rays) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   ForEachTarget([&](Target) {
@@ -69,7 +69,7 @@ TEST_CASE("far spheres, and tiny and huge ones in one scene") {
         MakeSphere(random.Direction() * distance, distance * random.Magnitude(1e-7, 0.2)));
   }
   std::vector<Ray> rays = RaysAllAround(&random, 2000);
-  // Aimed at each sphere, so that the small ones are met.
+  // Aimed at each sphere, so that the small ones are hit.
   for (const Sphere& sphere : scene.spheres) {
     rays.push_back({Vec3d(0), sphere.center + random.Direction() * sphere.radius * 0.7});
   }
@@ -262,8 +262,8 @@ TEST_CASE("directions along the axes and in their planes") {
   CheckClosest(scene, Vec3d(0, 0, -3), rays);
 }
 
-// The middle column of a camera's rays points almost along an axis, to one side or the other by
-// rounding alone, and shares packets with rays that lean to the same side.
+// The middle column of a camera's rays points almost along an axis: only rounding decides to which
+// side of it. It shares packets with rays that point to the same side.
 TEST_CASE("directions almost along the axes, among others") {
   Random random(26);
   const double tiny[] = {0.0,    -0.0,    0x1p-80, -0x1p-80, 0x1p-59, -0x1p-59,
@@ -320,7 +320,7 @@ TEST_CASE("padding repeats the last hit") {
   ClosestHits closest;
   HitBatch hits;
   HitDirections rounded;
-  const HitsTo to{&hits, &rounded, true, true};
+  const HitOutput to{&hits, &rounded, true, true};
   rays.count = 20;
   for (size_t i = 0; i < rays.count; ++i) {
     SetRay({Vec3d(0), Vec3d(random.Uniform(-0.1, 0.1), 0, -1)}, i, &rays);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/mesh_test.cc: triangles: watertight, ordered, and not shadowing themselves.
+// tests/visibility/mesh_test.cc: triangles: watertight, the first of equal hits, no self-shadowing.
 #include <array>
 #include <map>
 #include <set>
@@ -48,7 +48,7 @@ Scene SceneOf(std::initializer_list<Mesh> meshes) {
   return scene;
 }
 
-// Rays from `origin` exactly at vertices, edges and their neighbourhoods.
+// Rays from `origin` that aim exactly at vertices and edges, and next to them.
 std::vector<Ray> RaysAtSeams(const Mesh& mesh, const Vec3d& origin, size_t count, Random* random) {
   std::vector<Ray> rays;
   while (rays.size() < count) {
@@ -140,12 +140,13 @@ TEST_CASE("refined triangle hits lie on the triangle, with the normal on the ray
         REQUIRE((surface.position - rays[i].direction * hit.t).length() < 20 * 64 * 0x1p-53);
         const Vec3d radial = object == 1 ? (surface.position - Vec3d(0, 0, -4)).normalized()
                                          : -surface.position.normalized();
-        // Interpolated normals are radial; the level-3 faces turn from it by less than their size.
+        // Interpolated normals are radial; those of level-3 faces deviate by less than the faces'
+        // size.
         REQUIRE((surface.normal - radial).length() < (object == 1 ? 0.02 : 0.1));
       }
       CHECK(objects == std::set<uint32_t>{0, 1, 2});
     });
-    // Again with the winding turned round: nothing may change.
+    // Again with reversed winding: nothing may change.
     for (Mesh& mesh : scene.meshes) {
       for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
         std::swap(mesh.triangles[i], mesh.triangles[i + 1]);

@@ -9,8 +9,8 @@ namespace nacre {
 namespace {
 
 TEST_CASE("the near root of a huge sphere keeps its digits") {
-  // One unit above a sphere of radius 1e6. All of these numbers and the roots' product are exact in
-  // double, so the only digits to lose are those of the roots' difference, six of sixteen.
+  // One unit above a sphere of radius 1e6. All of these numbers and the product of the roots are
+  // exact in double; only a difference of the roots would lose digits, six of sixteen.
   const double radius = 1e6;
   const Vec3d to_center(0, -(radius + 1), 0);
   for (const Vec3d& direction : {Vec3d(3, -4, 0), Vec3d(0, -5, 12), Vec3d(1, -2, 2)}) {

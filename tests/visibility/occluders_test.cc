@@ -23,13 +23,14 @@ Light SunAlong(const Vec3d& direction) {
   return light;
 }
 
-// Shadow rays from those of the surfaces that face the light.
+// Shadow rays from those surfaces that face the light.
 std::vector<ShadowRay> RaysTo(const Light& light, const Vec3d& eye,
                               const std::vector<Surface>& surfaces) {
   const ShadowLight target = MakeShadowLight(light, eye);
   std::vector<ShadowRay> rays;
   for (const Surface& surface : surfaces) {
-    const Vec3d direction = target.positional ? target.place - surface.position : target.place;
+    const Vec3d direction =
+        target.positional ? target.position - surface.position : target.to_light;
     if (surface.normal.dot(direction) <= 0) continue;
     rays.push_back(
         {{surface.position, direction}, target.positional ? 1 : kInfinity, surface.primitive});
@@ -37,8 +38,8 @@ std::vector<ShadowRay> RaysTo(const Light& light, const Vec3d& eye,
   return rays;
 }
 
-// Batches of up to `most` rays from one sphere: where nothing may be in their way, nothing is.
-// Returns how many have that said of them.
+// Checks batches of up to `most` rays from one sphere: where MayOcclude is false, no ray is
+// occluded. Returns the number of such batches.
 size_t CheckBatches(const Intersector& intersector, const std::vector<ShadowRay>& rays,
                     const std::vector<bool>& occluded, size_t most) {
   size_t clear = 0;
@@ -63,8 +64,8 @@ size_t CheckBatches(const Intersector& intersector, const std::vector<ShadowRay>
   return clear;
 }
 
-// What stands in the way of each ray: by the tree, and by what was found for the light. Returns how
-// many batches of them were known to have nothing in their way.
+// Checks that the tree and the light's occluders give the same occlusion for each ray. Returns the
+// number of batches for which MayOcclude is false.
 size_t CheckLight(const Scene& scene, const Light& light, const Vec3d& eye, bool outward,
                   const std::vector<Surface>& surfaces) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
@@ -102,8 +103,8 @@ bool IsOutside(const Scene& scene, const Vec3d& eye) {
   });
 }
 
-// Lights of all kinds, near, far, in and on the scene's spheres, for what is seen of it. Returns
-// how much that is, and adds to `clear` what CheckLight returns.
+// Checks lights of all kinds, near, far, inside and on the scene's spheres, for the visible
+// surfaces. Returns the number of surfaces, and adds to `clear` what CheckLight returns.
 size_t CheckLights(const Scene& scene, const Vec3d& eye, Random* random,
                    const std::vector<Ray>& rays, size_t* clear = nullptr) {
   const auto surfaces = TraceSurfaces(Intersector(scene, eye), rays);
@@ -146,8 +147,8 @@ TEST_CASE("occluders are brute force's") {
   CHECK(clear > 1000);
 }
 
-// The ball of a batch's points moves along a cylinder towards the sun, which a blocker reaches into or
-// does not: beside it, behind it, and around its beginning.
+// The ball of a batch's points sweeps a cylinder towards the sun, which a blocker overlaps or
+// misses: beside it, behind it, and around its beginning.
 TEST_CASE("a ball is in the shadow of what reaches into its way to the sun, and of nothing else") {
   Random random(44);
   for (int round = 0; round < 200; ++round) {
@@ -226,7 +227,7 @@ TEST_CASE("occluders far from the eye") {
   }
 }
 
-// The walls are lit where they are further from the lamp than their tangents, which there are not.
+// From inside a sphere there are no tangents: all of the walls may be lit.
 TEST_CASE("occluders in a room, with the eye and the lamp in it") {
   Random random(46);
   for (const int count : {30, 300}) {
@@ -244,13 +245,14 @@ TEST_CASE("occluders in a room, with the eye and the lamp in it") {
   }
 }
 
-// What the bins' choice of frame and cells must not fall over.
+// Hard cases for the bins' choice of frame and cells.
 TEST_CASE("occluders of crowds that are hard to bin") {
   Random random(44);
   std::vector<Scene> scenes(6);
   for (int i = 0; i < 600; ++i) {
     const Vec3d inside = random.InBox(Vec3d(-1, -1, -6), Vec3d(1, 1, -4));
-    // A crowd in a wide space; all on one spot, or nearly; a plane; a line; all in one.
+    // A cluster in a wide space; all at one point, or nearly; a plane; a line; all of these
+    // together.
     scenes[0].spheres.push_back(MakeSphere(i % 100 == 0 ? inside * 1e6 : inside, 0.03));
     scenes[1].spheres.push_back(MakeSphere({0.5, 0.5, -5}, 1));
     scenes[2].spheres.push_back(MakeSphere({inside.x, -1, inside.z}, 0.1));
@@ -285,8 +287,8 @@ TEST_CASE("bins do not depend on the threads that make them") {
     CHECK(one.large == two.large);
     CHECK(one.large.size() >= 8);
     CHECK(std::equal(one.spheres.begin(), one.spheres.end(), two.spheres.begin()));
-    // What they are for.
-    CHECK(one.meeting < 500);
+    // The purpose of bins: few spheres per cell.
+    CHECK(one.mean_occupancy < 500);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/pixel_spans_test.cc: no sample outside a sphere's span may hit it.
+// tests/visibility/pixel_spans_test.cc: no sample outside of a sphere's spans hits it.
 #include "visibility/pixel_spans.h"
 
 #include <cmath>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
 
-// A perspective camera in the origin whose view, `tangent` high to either side of its middle, leans
-// any way.
+// A perspective camera at the origin with a random orientation; `tangent` is that of half its
+// vertical field of view.
 CameraFrame RandomFrame(Random* random, double tangent) {
   CameraFrame frame;
   frame.projection = Projection::kPerspective;
@@ -32,7 +32,8 @@ Vec3d Through(const CameraFrame& frame, double x, double y) {
   return frame.corner + frame.step_x * x + frame.step_y * y;
 }
 
-// About a point of the film or near it, from a hundredth of a pixel to the whole film in size.
+// A sphere that projects to a point on or near the film, of a size from a hundredth of a pixel to
+// the whole film.
 Sphere RandomSphere(const CameraFrame& frame, double tangent, Random* random) {
   const double distance = random->Magnitude(1e-3, 1e6);
   const double x = random->Uniform(-10, kWidth + 10);
@@ -46,7 +47,7 @@ bool Hits(const Sphere& sphere, const Vec3d& direction) {
 }
 
 // Checks every pixel's samples against the spans of its tile; returns how many pixels these have.
-size_t CheckSpans(const CameraFrame& frame, const Scene& scene, double reach, const Window& tile,
+size_t CheckSpans(const CameraFrame& frame, const Scene& scene, double margin, const Window& tile,
                   const TileCandidates& candidates) {
   std::vector<const PixelSpan*> of_pixel(tile.pixel_count());
   size_t pixels = 0;
@@ -61,13 +62,13 @@ size_t CheckSpans(const CameraFrame& frame, const Scene& scene, double reach, co
     const double x = tile.x0 + static_cast<double>(i % kWidth);
     const double y = tile.y0 + static_cast<double>(i / kWidth);
     const PixelSpan* const span = of_pixel[i];
-    if (span != nullptr && span->alone == nullptr) continue;
+    if (span != nullptr && span->single_sphere == nullptr) continue;
     for (int k = 0; k < 25; ++k) {
       const double right = k % 5 / 4.0, down = k / 5 / 4.0;  // from 0 to 1
-      const Vec3d direction =
-          Through(frame, x - reach + right * (1 + 2 * reach), y - reach + down * (1 + 2 * reach));
+      const Vec3d direction = Through(frame, x - margin + right * (1 + 2 * margin),
+                                      y - margin + down * (1 + 2 * margin));
       for (uint32_t s = 0; s < scene.spheres.size(); ++s) {
-        const bool allowed = span != nullptr && span->alone->primitive == s;
+        const bool allowed = span != nullptr && span->single_sphere->primitive == s;
         wrong += !allowed && Hits(scene.spheres[s], direction) ? 1 : 0;
       }
     }
@@ -76,17 +77,17 @@ size_t CheckSpans(const CameraFrame& frame, const Scene& scene, double reach, co
   return pixels;
 }
 
-// Spheres before a camera that leans any way; returns how many pixels have spans.
+// Spheres in front of a camera with a random orientation; returns the number of pixels in spans.
 size_t CheckRandomSpheres(double tangent, int round, Random* random) {
   const CameraFrame frame = RandomFrame(random, tangent);
-  constexpr double kReaches[] = {0, 1.5, kReachOfCenters};
-  const double reach = kReaches[round % 3];
+  constexpr double kMargins[] = {0, 1.5, kPixelCenterMargin};
+  const double margin = kMargins[round % 3];
   Scene scene;
   for (int i = 0; i < 1 + round % 11; ++i) {
     scene.spheres.push_back(RandomSphere(frame, tangent, random));
   }
   Intersector intersector(scene, Vec3d(0), {.tree = false});
-  REQUIRE(intersector.BinForCamera(frame, {0, 0, kWidth, kHeight}, reach));
+  REQUIRE(intersector.BinForCamera(frame, {0, 0, kWidth, kHeight}, margin));
   CAPTURE(round, tangent);
   size_t pixels = 0;
   ForEachTarget([&](Target) {
@@ -94,7 +95,7 @@ size_t CheckRandomSpheres(double tangent, int round, Random* random) {
       const Window tile{0, y, kWidth, y + kCellSize};
       TileCandidates candidates;
       intersector.EnterTile(tile, TileRays::kSamples, &candidates);
-      pixels += CheckSpans(frame, scene, reach, tile, candidates);
+      pixels += CheckSpans(frame, scene, margin, tile, candidates);
     }
   });
   return pixels;
@@ -106,20 +107,20 @@ TEST_CASE("no sample outside a sphere's span hits it") {
   for (int round = 0; round < 80; ++round) {
     pixels += CheckRandomSpheres(random.Magnitude(1e-6, 10), round, &random);
   }
-  CHECK(pixels > 10000);  // not in vain
+  CHECK(pixels > 10000);  // enough to matter
 }
 
-// Its pixels are a few, or a few thousand, roundings of a direction of length 1 wide.
+// The pixels' width is a few, or a few thousand, rounding errors of a direction of length 1.
 TEST_CASE("nor under a lens of a billionth of a degree and less") {
   Random random(23);
   size_t pixels = 0;
   for (int round = 0; round < 40; ++round) {
     pixels += CheckRandomSpheres(random.Magnitude(1e-14, 1e-11), round, &random);
   }
-  CHECK(pixels > 10000);  // not in vain
+  CHECK(pixels > 10000);  // enough to matter
 }
 
-// Its outline's near end is in the picture, its far one up to a billion pixels away.
+// The near end of its outline is in the picture, the far end up to a billion pixels away.
 TEST_CASE("a sphere that nearly touches the camera's plane has whole spans") {
   constexpr int kSide = 4000;
   CameraFrame frame;
@@ -147,9 +148,9 @@ TEST_CASE("a sphere that nearly touches the camera's plane has whole spans") {
   }
 }
 
-// Of a sphere before the camera a span has no more than the pixels that the outline reaches, which
-// in the middle of a row's height is missed by less than one at either end, but for the rows at its
-// top and bottom.
+// The spans of a sphere in front of the camera hold only pixels that the outline covers. Compared
+// with the outline at the middle of a row's height they extend by less than a pixel at either end,
+// except in the rows at its top and bottom.
 TEST_CASE("a sphere's spans are no wider than its outline") {
   Random random(22);
   for (int round = 0; round < 40; ++round) {
@@ -158,13 +159,13 @@ TEST_CASE("a sphere's spans are no wider than its outline") {
     Scene scene;
     scene.spheres = {MakeSphere(Through(frame, 30.3, 24.2) * 5, 1.1)};
     Intersector intersector(scene, Vec3d(0), {.tree = false});
-    const double reach = centers ? kReachOfCenters : 0;
-    REQUIRE(intersector.BinForCamera(frame, {0, 0, kWidth, kHeight}, reach));
+    const double margin = centers ? kPixelCenterMargin : 0;
+    REQUIRE(intersector.BinForCamera(frame, {0, 0, kWidth, kHeight}, margin));
     for (int y = 0; y < kHeight; y += kCellSize) {
       TileCandidates candidates;
       intersector.EnterTile({0, y, kWidth, y + kCellSize}, TileRays::kSamples, &candidates);
       for (const PixelSpan& span : candidates.spans) {
-        REQUIRE(span.alone != nullptr);
+        REQUIRE(span.single_sphere != nullptr);
         const auto row = y + static_cast<int>(span.first / kWidth);
         uint32_t hit = 0;
         for (uint32_t i = 0; i < span.count; ++i) {
@@ -177,7 +178,7 @@ TEST_CASE("a sphere's spans are no wider than its outline") {
           hit += any ? 1 : 0;
         }
         CAPTURE(row, span.count, hit);
-        // Corners that the 64 places miss; the outline's margin.
+        // Allows for corners between the 64 points, and for the outline's margin.
         CHECK(span.count <= hit + (centers ? 1 : 2));
       }
     }

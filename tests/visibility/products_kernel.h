@@ -4,8 +4,8 @@
 
 namespace nacre {
 
-// AccurateDifference of a b - c e on the active target, in the first of as many lanes as there are,
-// and in a vector of one.
+// AccurateDifference of a b - c e on the active target, in the first lane of a full vector and in a
+// vector of one lane.
 struct Differences {
   double of_many, of_one;
 };

@@ -19,7 +19,8 @@ inline Quad Dot(const Quad (&a)[3], const Quad (&b)[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// The textbook test in 113 bits: for doubles within 1e7 of each other more than exact enough.
+// The textbook test in 113 bits, which is accurate enough for doubles whose magnitudes differ by up
+// to 1e7.
 struct QuadHit {
   bool hit = false;
   double t = 0;

@@ -50,9 +50,10 @@ void CheckRow(const TableRow& row, const Hit& hit) {
                               kHalfUlpDouble));
 }
 
-// Both roots, and where the sphere is hit. Inputs are exact in double, so that what is left are
-// nacre's own roundings: those of the discriminant, a few of radius^2 |direction|^2, weigh by the
-// inverse of the cosine of incidence, whose square the discriminant is. 64 of them, as of the rest.
+// Both roots, and the hit point. The inputs are exact in double, so that all errors are nacre's own
+// roundings: those of the discriminant, a few of radius^2 |direction|^2, are divided by the cosine
+// of incidence, whose square the discriminant is. 64 of them are allowed, and as many of the
+// others.
 void CheckPoint(const TableRow& row, const SphereHit<double>& hit) {
   INFO(row.id << " " << row.family);
   const auto& reference = row.reference;
@@ -63,7 +64,7 @@ void CheckPoint(const TableRow& row, const SphereHit<double>& hit) {
   const double discriminant = TableNumber(reference["disc4"]);
   const double scale = direction.length2() * row.sphere.radius * row.sphere.radius;
   CHECK(std::abs(hit.root * hit.root - discriminant) <= 64 * kHalfUlpDouble * scale);
-  // The root farther from the origin, which is no difference.
+  // The root farther from the origin, which does not cancel.
   const bool ahead = hit.closest > 0;
   const double far = ahead ? hit.closest + half_chord : hit.closest - half_chord;
   const double far_reference = TableNumber(reference[ahead ? "t1" : "t0"]);
@@ -82,7 +83,8 @@ void CheckPoint(const TableRow& row, const SphereHit<double>& hit) {
   CHECK(std::abs(-(normal ^ direction) / direction.length() - cosine) <= tolerance + 1e-11);
 }
 
-// A ray from the origin past a sphere of radius 1 at this distance, missing its centre by offset.
+// A ray from the origin and a sphere of radius 1 at this distance, whose centre it misses by
+// offset.
 Ray RayPast(Random* random, const Vec3d& center, double offset) {
   const Vec3d across = center.cross(random->Direction()).normalized();
   const double distance = center.length();
@@ -115,9 +117,8 @@ TEST_CASE("the intersector passes the table, with the scalar test's bits", "[tab
   });
 }
 
-// The normal's error comes from a few roundings of radius^2 |direction|^2 - |moment|^2: 8 u of it,
-// where the worst was searched for, whose square root, 3e-8, is what it can reach where the ray
-// only just touches.
+// The normal's error comes from a few roundings of radius^2 |direction|^2 - |moment|^2: the worst
+// that was found is 8 u, whose square root, 3e-8, is the error for grazing rays.
 TEST_CASE("hits are right at any distance, grazing ones too") {
   const Products products = GENERATE(Products::kFused, Products::kRounded);
   constexpr double kMaxNormalError = 3e-8;
@@ -198,12 +199,12 @@ TEST_CASE("refined hits are the scalar test's, on every target") {
       const auto hit = TestSphere(center, direction, radius, TargetProducts());
       const Vec3d to_hit = ScaledCenterToHit(hit, direction, TargetProducts());
       const double dd = Dot(direction, direction, TargetProducts());
-      const double turned_radius = hit.inside ? -radius : radius;
+      const double signed_radius = hit.inside ? -radius : radius;
       REQUIRE(hit.hit);
-      REQUIRE(surface.normal == to_hit * (1 / (dd * turned_radius)));
+      REQUIRE(surface.normal == to_hit * (1 / (dd * signed_radius)));
       for (int c = 0; c < 3; ++c) {
         REQUIRE(surface.position[c] ==
-                MulAdd(surface.normal[c], turned_radius, center[c], TargetProducts()));
+                MulAdd(surface.normal[c], signed_radius, center[c], TargetProducts()));
       }
       REQUIRE(surface.normal.dot(direction) <= 0);
       REQUIRE(std::abs(surface.normal.length() - 1) < 8 * kHalfUlpDouble);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/rays.h: rays one by one in place of batches, and the brute-force oracle: the
+// tests/visibility/rays.h: single rays instead of batches, and the brute-force reference: the
 // scalar twins of the hit tests on every primitive.
 #pragma once
 
@@ -76,7 +76,7 @@ inline std::vector<Hit> Trace(const Intersector& intersector, const std::vector<
   return hits;
 }
 
-// The surfaces that the rays which hit anything hit, in order.
+// The surfaces that are hit, in the order of their rays.
 inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
                                           const std::vector<Ray>& rays) {
   std::vector<Surface> surfaces;
@@ -99,16 +99,16 @@ inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
   return surfaces;
 }
 
-// `light`, `outward`, `end_reach`: ShadowRayBatch's.
+// `light`, `outward`, `camera_extent`: ShadowRayBatch's.
 inline std::vector<bool> TraceShadows(const Intersector& intersector,
                                       const std::vector<ShadowRay>& rays,
                                       uint32_t light = kAnyLight, bool outward = false,
-                                      double end_reach = 0) {
+                                      double camera_extent = 0) {
   std::vector<bool> occluded;
   ShadowRayBatch batch;
   batch.light = light;
   batch.outward = outward;
-  batch.end_reach = end_reach;
+  batch.camera_extent = camera_extent;
   for (size_t first = 0; first < rays.size(); first += kBatchCapacity) {
     batch.count = std::min(kBatchCapacity, rays.size() - first);
     for (size_t i = 0; i < batch.count; ++i) {
@@ -122,7 +122,7 @@ inline std::vector<bool> TraceShadows(const Intersector& intersector,
   return occluded;
 }
 
-// By the active target's products, as all that follow.
+// With the active target's products, like all functions below.
 inline TriangleHit<double> TestTriangle(const TraceGeometry& geometry, size_t triangle,
                                         const Ray& ray) {
   const auto& v = geometry.triangles[triangle];
@@ -148,18 +148,16 @@ inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
   return best;
 }
 
-inline double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
-
 // Whether the ray ends on the surface within rounding: EndsOnSphere of visibility/occlusion-inl.h
 // and EndsOnPlane of embree/triangle_kernel.cc, which derive the bounds.
 inline bool EndsOnSphere(const TraceSphere& sphere, const ShadowRay& shadow) {
   if (std::isinf(shadow.t_max)) return false;
   const Vec3d to_end = shadow.ray.direction * shadow.t_max;
   const Vec3d to_center = sphere.center - shadow.ray.origin, from_end = to_center - to_end;
-  const double reach =
+  const double extent =
       SumOfAbs(shadow.ray.origin) + SumOfAbs(to_end) + sphere.radius + SumOfAbs(to_center);
   return std::abs(from_end.dot(from_end) - sphere.radius * sphere.radius) <=
-         32 * 0x1p-53 * reach * (SumOfAbs(from_end) + sphere.radius);
+         32 * 0x1p-53 * extent * (SumOfAbs(from_end) + sphere.radius);
 }
 inline bool EndsOnPlane(const TraceGeometry& geometry, size_t triangle, const ShadowRay& shadow) {
   if (std::isinf(shadow.t_max)) return false;
@@ -168,13 +166,14 @@ inline bool EndsOnPlane(const TraceGeometry& geometry, size_t triangle, const Sh
   const Vec3d e1 = geometry.positions[v[1]] - a, e2 = geometry.positions[v[2]] - a;
   const Vec3d to_end = shadow.ray.direction * shadow.t_max;
   const Vec3d from_end = a - shadow.ray.origin - to_end;
-  const double reach = SumOfAbs(shadow.ray.origin) + SumOfAbs(to_end) + SumOfAbs(from_end) +
-                       SumOfAbs(e1) + SumOfAbs(e2);
-  return std::abs(from_end.dot(e1.cross(e2))) <= 64 * 0x1p-53 * SumOfAbs(e1) * SumOfAbs(e2) * reach;
+  const double extent = SumOfAbs(shadow.ray.origin) + SumOfAbs(to_end) + SumOfAbs(from_end) +
+                        SumOfAbs(e1) + SumOfAbs(e2);
+  return std::abs(from_end.dot(e1.cross(e2))) <=
+         64 * 0x1p-53 * SumOfAbs(e1) * SumOfAbs(e2) * extent;
 }
 
-// Occlusion by spheres, and by triangles further off than `gap` (in t), that the ray does not end
-// on. One that it ends on has one root there, and may have another before.
+// Occlusion by spheres and by triangles at t > `gap`, except by those that the ray ends on. A
+// sphere that it ends on has one root there, and may have another one before.
 inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& shadow,
                                double gap = 0, bool outward = false) {
   const auto& [ray, t_max, start] = shadow;
@@ -199,7 +198,7 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
   return false;
 }
 
-// ---- Random things ------------------------------------------------------------------------------
+// ---- Random inputs ------------------------------------------------------------------------------
 
 class Random {
  public:
@@ -229,7 +228,7 @@ class Random {
 
 inline Sphere MakeSphere(const Vec3d& center, double radius) { return {center, radius, {}}; }
 
-// `count` spheres about a centre before the camera, some of them around it.
+// `count` spheres about a centre in front of the camera, some of which contain it.
 inline Scene RandomSpheres(Random* random, size_t count) {
   Scene scene;
   const double size = std::cbrt(1.0 / static_cast<double>(count));

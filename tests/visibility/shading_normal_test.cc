@@ -22,7 +22,8 @@ Vec3d RandomUnit(std::mt19937* random) {
 
 Vec3d OnSideOf(const Vec3d& v, const Vec3d& side) { return v.dot(side) < 0 ? -v : v; }
 
-// Shading normals and viewers anywhere above the surface; half of the viewers graze it.
+// Random shading normals and view directions above the surface; half of the view directions are
+// grazing.
 std::vector<BendQuery> Queries() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0, 1);
@@ -50,8 +51,8 @@ TEST_CASE("a shading normal faces its viewer, and its mirror direction leaves th
     // Roundings of unit vectors.
     CHECK(n.dot(q.to_view) >= -1e-15);
     CHECK(n.dot(q.surface) >= -1e-15);
-    // The half vector of directions along the surface, one of them 1e-7 above it, may be as short:
-    // the same roundings over 1e-7.
+    // The half vector of directions along the surface, one of them 1e-7 above it, may be as short
+    // as that: the same rounding errors divided by 1e-7.
     CHECK(Mirrored(q.to_view, n).dot(q.surface) >= -1e-8);
     const bool was_usable =
         q.normal.dot(q.to_view) >= 0 && Mirrored(q.to_view, q.normal).dot(q.surface) >= 0;
@@ -67,15 +68,15 @@ TEST_CASE("a viewer behind an interpolated normal grazes the surface that it is 
   for (const BendQuery& q : Queries()) {
     const Vec3d v = GrazingView(q.normal, q.to_view);
     CHECK(std::abs(v.length() - 1) <= 2e-15);
-    if (q.normal.dot(q.to_view) >= kLeastViewCosine) {
+    if (q.normal.dot(q.to_view) >= kMinViewCosine) {
       CHECK(v == q.to_view);
       continue;
     }
     ++behind;
     // The cosine survives the rounding of both vectors, and the azimuth stays.
     CHECK(Vec3f(v).dot(Vec3f(q.normal)) > 0);
-    CHECK(v.dot(q.normal) >= kLeastViewCosine - 1e-15);
-    CHECK(v.dot(q.normal) * q.normal.cross(q.to_view).length() <= kLeastViewCosine + 1e-15);
+    CHECK(v.dot(q.normal) >= kMinViewCosine - 1e-15);
+    CHECK(v.dot(q.normal) * q.normal.cross(q.to_view).length() <= kMinViewCosine + 1e-15);
     CHECK(std::abs(v.dot(q.normal.cross(q.to_view))) <= 1e-14);
   }
   CHECK(behind > 4000);
@@ -84,7 +85,7 @@ TEST_CASE("a viewer behind an interpolated normal grazes the surface that it is 
 }
 
 TEST_CASE("bending a normal is continuous where it begins") {
-  // The mirror direction goes from above the surface to below it as the normal leans away.
+  // As the normal leans away, the mirror direction passes from above the surface to below it.
   const Vec3d surface(0, 0, 1), to_view = Vec3d(1, 0, 0.3).normalized();
   const double view = std::atan2(to_view.x, to_view.z);  // from the surface's normal
   // It lies in the surface where the normal is halfway between viewer and horizon.
@@ -94,10 +95,10 @@ TEST_CASE("bending a normal is continuous where it begins") {
   };
   CHECK((at(edge + 1e-9) - at(edge - 1e-9)).length() <= 2e-9);
   CHECK((at(edge - 0.3) - at(edge)).length() <= 1e-15);  // leaning further changes nothing
-  // A viewer straight above, and a normal in the surface: as far as it leans.
+  // A view direction straight above, and a normal in the surface.
   const Vec3d straight = BendNormal(Vec3d(0, 1, 0), surface, surface);
   CHECK((straight - Vec3d(0, 1, 1).normalized()).length() <= 1e-15);
-  // One in the surface's own plane sees nothing but what is there.
+  // A view direction in the surface's own plane.
   const Vec3d none = BendNormal(Vec3d(-1, 0, 1e-17), surface, Vec3d(1, 0, 0));
   CHECK(std::isfinite(none.x + none.y + none.z));
   CHECK(none.dot(Vec3d(1, 0, 0)) >= 0);
@@ -112,7 +113,7 @@ TEST_CASE("bent normals are those of the scalar twin on every target") {
     for (size_t i = 0; i < bent.size(); ++i) {
       const BendQuery& q = queries[i];
       const Vec3d expected = BendNormal(q.normal, q.surface, q.to_view);
-      // What is rounded differently counts by one over the viewer's height above the surface.
+      // Differences in rounding are divided by the view direction's height above the surface.
       const double height = q.to_view.dot(q.surface);
       worst = std::max(worst, (bent[i] - expected).length() * height);
     }

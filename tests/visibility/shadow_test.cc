@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/shadow_test.cc: occlusion against brute force, and where others fail.
+// tests/visibility/shadow_test.cc: occlusion against brute force, and in cases that other tracers
+// get wrong.
 #include "catch.h"
 #include "targets.h"
 #include "visibility/rays.h"
@@ -9,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Shadow rays from what camera rays hit, to a light, or in a direction where there is none.
+// Shadow rays from the hits of camera rays, to a light or in a direction without one.
 std::vector<ShadowRay> ShadowRays(const std::vector<Surface>& surfaces, const Vec3d* light,
                                   const Vec3d& to_light) {
   std::vector<ShadowRay> rays;
@@ -59,7 +60,7 @@ TEST_CASE("a convex body does not shadow itself") {
       std::vector<ShadowRay> shadows;
       for (const Surface& surface : TraceSurfaces(Intersector(scene, Vec3d(0)), rays)) {
         Vec3d direction = random.Direction();
-        // The position's rounding may turn the tangent plane by so much.
+        // The rounding of the position may tilt the tangent plane by as much.
         if (surface.normal.dot(direction) < 4e-16 * distance) direction = -direction;
         shadows.push_back({{surface.position, direction}, kInfinity, 0});
       }
@@ -180,7 +181,7 @@ TEST_CASE("a surface that a light lies on is not in its way") {
       for (int i = 0; i < 200; ++i) {
         Vec3d out = random.Direction();
         if (out.dot(normal) > 0) out = -out;
-        // Not next to the tangent plane: what is hidden there is the digits' to say.
+        // Not next to the tangent plane, where rounding decides what is hidden.
         out = (out - normal * 0.05).normalized();
         const Vec3d way = out * random.Magnitude(0.1, 100);
         const Vec3d from = light - eye + way;
@@ -217,7 +218,7 @@ TEST_CASE("a light on the wall of a hollow sphere lights all of it") {
   });
 }
 
-// What is near the surface, but not on it, is told from it.
+// A light near the surface, but not on it, is distinguished from one on it.
 TEST_CASE("a light 1e-9 behind a surface is hidden by it") {
   Random random(39);
   Scene scene;

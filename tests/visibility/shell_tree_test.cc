@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/shell_tree_test.cc: spheres within one another: the tree of shells leaves out no
-// test that could hit, whatever the rays and however near together the spheres.
+// tests/visibility/shell_tree_test.cc: nested spheres: the tree of shells skips no test that could
+// hit, for any rays and for spheres however near together.
 #include "visibility/shell_tree.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNested = 300;  // more than are tested one by one
 
-// Spheres with much of their insides in common, of about the same radius or of any.
+// Spheres that overlap largely, of about the same radius or of any.
 struct NestedScene {
   const char* name;
   std::function<Sphere(int, Random*)> sphere;  // about the origin, of radius 1 or less
@@ -85,7 +85,7 @@ std::vector<Vec3d> EyesAround(const Scene& scene, const Vec3d& center, double ra
           some.center + random->Direction() * some.radius};
 }
 
-// Rays that aim at all of them, past them, and at the rims of some.
+// Rays that aim at all spheres, past them, and at the silhouettes of some.
 std::vector<Ray> RaysAmong(const Scene& scene, const Vec3d& eye, size_t count, Random* random) {
   std::vector<Ray> rays(count);
   for (size_t i = 0; i < count; ++i) {
@@ -123,7 +123,7 @@ TEST_CASE("closest hits among spheres within one another are brute force's") {
   }
 }
 
-// From all that the spheres have of surfaces, hidden ones too, with the eye elsewhere.
+// Shadow rays from all of the spheres' surfaces, hidden ones too, with the eye elsewhere.
 TEST_CASE("shadow rays among spheres within one another are brute force's") {
   const double radius = GENERATE(1.0, 1e-9, 1e9);
   for (const NestedScene& kind : NestedScenes()) {
@@ -189,7 +189,7 @@ HugeArray<TraceSphere> SpheresOf(const Scene& scene) {
   return std::move(MakeTraceGeometry(scene, Vec3d(0)).spheres);
 }
 
-// Checks the nodes below one, and marks its members; returns how many levels there are.
+// Checks a node and those below it, and marks their members; returns the number of levels.
 int CheckNode(const HugeArray<TraceSphere>& spheres, const ShellTree& tree, const ShellNode& node,
               std::vector<uint8_t>* found) {
   if (node.count == 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/sky_occluders_test.cc: shadow rays all over by lists, whose floats must leave to
-// doubles whatever they cannot be sure of, against brute force.
+// tests/visibility/sky_occluders_test.cc: shadow rays in all directions by lists, whose float test
+// must leave uncertain rays to the double test, against brute force.
 #include "catch.h"
 #include "targets.h"
 #include "visibility/rays.h"
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// From a sphere past the rim of another: by a touch to either side of it, or by far.
+// A ray from a sphere past the silhouette of another one: barely to either side of it, or by far.
 Vec3d TowardsRim(const Sphere& sphere, const Vec3d& from, Random* random) {
   const Vec3d to_center = sphere.center - from;
   const double distance2 = to_center.dot(to_center);
@@ -24,8 +24,8 @@ Vec3d TowardsRim(const Sphere& sphere, const Vec3d& from, Random* random) {
   return foot + side * (past * sphere.radius);
 }
 
-// Rays from points on every sphere towards every sphere's rim, to a sky or to a point short of
-// the sphere, in it or beyond.
+// Rays from points on every sphere towards every sphere's silhouette, to infinity or to a point
+// before the sphere, inside of it or beyond.
 std::vector<ShadowRay> RaysToRims(const Scene& scene, const Vec3d& eye, Random* random) {
   std::vector<ShadowRay> rays;
   for (uint32_t i = 0; i < scene.spheres.size(); ++i) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// visibility/many-inl.h: a packet of camera rays against the spheres of its cells, of which each
-// may hit several.
+// visibility/multi_sphere-inl.h: a packet of camera rays against the spheres of its cells, of which
+// each ray may hit several.
 //
-// Most rays are proposed one sphere at most, for spheres rarely lie one behind the other's edge:
-// the exact test need be asked once for them, each lane about a sphere of its own, however many
-// spheres the packet has. The others are traced sphere by sphere, nearest first.
-#if defined(NACRE_VISIBILITY_MANY_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef NACRE_VISIBILITY_MANY_INL_H_
-#undef NACRE_VISIBILITY_MANY_INL_H_
+// Spheres rarely overlap in the image along a ray, so most rays pass the float test of one sphere
+// at most. One exact test, in which each lane has its own sphere, is enough for these, however many
+// spheres the packet meets. The other rays are tested sphere by sphere, nearest first.
+#if defined(NACRE_VISIBILITY_MULTI_SPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_VISIBILITY_MULTI_SPHERE_INL_H_
+#undef NACRE_VISIBILITY_MULTI_SPHERE_INL_H_
 #else
-#define NACRE_VISIBILITY_MANY_INL_H_
+#define NACRE_VISIBILITY_MULTI_SPHERE_INL_H_
 #endif
 
 #include <limits>
@@ -39,8 +39,8 @@ HWY_INLINE float SmallestLength(const CameraPacket& packet) {
   return std::sqrt(hn::GetLane(hn::MinOfLanes(d, smallest))) * (1 - 0x1p-20f);
 }
 
-// Candidates come nearest first: those beyond every lane's hit end it. t |direction| of a hit is
-// its distance from the camera, and t |direction|^2 its depth.
+// Candidates are sorted nearest first, so the loop ends at the first one beyond every lane's hit.
+// A hit's distance from the camera is t |direction|, and its depth here t |direction|^2.
 template <bool kPerspective>
 HWY_INLINE void TraceCell(const CameraFrame& frame, const std::vector<TileCandidate>& candidates,
                           CameraPacket* packet) {
@@ -49,25 +49,25 @@ HWY_INLINE void TraceCell(const CameraFrame& frame, const std::vector<TileCandid
   for (const TileCandidate& candidate : candidates) {
     if (candidate.near * length > depth) return;
     if ((candidate.pixel_rows & packet->pixel_rows) == 0) continue;
-    if (TestOneOfMany<kPerspective>(frame, candidate, packet)) depth = LargestDepth(*packet);
+    if (TestCandidate<kPerspective>(frame, candidate, packet)) depth = LargestDepth(*packet);
   }
 }
 
-// Lanes by what they are proposed.
+// Lanes, as bits, by the number of spheres whose float test they pass.
 struct Proposals {
-  uint32_t one = 0;   // a single sphere, the packet's
-  uint32_t many = 0;  // several
+  uint32_t single = 0;  // one, which is stored in the packet
+  uint32_t several = 0;
 };
 
-// Beyond so many lanes with several spheres, the packet is better off without asking first.
-inline constexpr int kFewLanes = 4;
+// With more lanes than these in Proposals::several, testing all lanes sphere by sphere is faster.
+inline constexpr int kMaxSeveralLanes = 4;
 
 template <bool kPerspective>
 HWY_INLINE Proposals ProposeSpheres(const CameraFrame& frame,
                                     const std::vector<TileCandidate>* begin,
                                     const std::vector<TileCandidate>* end, CameraPacket* packet) {
   const int step = static_cast<int>(hn::Lanes(CameraDouble()));
-  uint32_t any = 0, many = 0;
+  uint32_t any = 0, several = 0;
   for (; begin != end; ++begin) {
     for (const TileCandidate& candidate : *begin) {
       if ((candidate.pixel_rows & packet->pixel_rows) == 0) continue;
@@ -76,20 +76,20 @@ HWY_INLINE Proposals ProposeSpheres(const CameraFrame& frame,
         const uint32_t fresh = (lanes & ~any) >> lane & ((1u << step) - 1);
         if (fresh != 0) SetSphere(candidate, lane, fresh, packet);
       }
-      // Not where the same sphere comes from the next cell.
-      for (uint32_t again = lanes & any & ~many; again != 0; again &= again - 1) {
+      // A sphere that is listed in two cells is the same sphere again.
+      for (uint32_t again = lanes & any & ~several; again != 0; again &= again - 1) {
         const int lane = __builtin_ctz(again);
-        if (packet->primitive[lane] != candidate.primitive) many |= 1u << lane;
+        if (packet->primitive[lane] != candidate.primitive) several |= 1u << lane;
       }
       any |= lanes;
-      if (__builtin_popcount(many) > kFewLanes) return {0, packet->lanes};
+      if (__builtin_popcount(several) > kMaxSeveralLanes) return {0, packet->lanes};
     }
   }
-  return {any & ~many, many};
+  return {any & ~several, several};
 }
 
-// No hit counts in any other lane.
-HWY_INLINE void LeaveLanes(uint32_t lanes, CameraPacket* packet) {
+// Restricts the packet to these lanes: in the others no hit is near enough to count.
+HWY_INLINE void KeepLanes(uint32_t lanes, CameraPacket* packet) {
   const CameraFloat d;
   const float infinity = std::numeric_limits<float>::infinity();
   packet->lanes = lanes;
@@ -107,11 +107,11 @@ HWY_INLINE void TracePacket(const CameraFrame& frame, const std::vector<TileCand
   FillFloatRays<kPerspective>(frame, packet);
   packet->hit = 0;
   packet->exact = 0;
-  LeaveLanes(packet->lanes, packet);
+  KeepLanes(packet->lanes, packet);
   const Proposals proposals = ProposeSpheres<kPerspective>(frame, begin, end, packet);
-  if (proposals.one != 0) TestProposed<kPerspective>(frame, proposals.one, packet);
-  if (proposals.many == 0) return;
-  LeaveLanes(proposals.many, packet);
+  if (proposals.single != 0) TestProposed<kPerspective>(frame, proposals.single, packet);
+  if (proposals.several == 0) return;
+  KeepLanes(proposals.several, packet);
   std::fill_n(packet->t, kCameraPacket, std::numeric_limits<double>::infinity());
   for (; begin != end; ++begin) TraceCell<kPerspective>(frame, *begin, packet);
 }

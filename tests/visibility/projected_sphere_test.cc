@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/visibility/film_place_test.cc: spheres that rays are tested against by their place on the
-// film.
+// tests/visibility/projected_sphere_test.cc: the ray-sphere test in the film plane, against
+// quadruple precision, and in all kernels that use it.
+#include "visibility/projected_sphere_test.h"
+
 #include <cmath>
 #include <limits>
 
 #include "catch.h"
 #include "tables.h"
 #include "targets.h"
-#include "visibility/film_test.h"
 #include "visibility/quad_hits.h"
 #include "visibility/rays.h"
 
@@ -16,8 +17,8 @@ namespace {
 
 constexpr int kFilmWidth = 256, kFilmHeight = kCellSize;
 
-// A perspective camera in the origin whose view reaches `tangent` to either side of its middle at
-// its corners, and leans any way.
+// A perspective camera at the origin with a random orientation; `tangent` is that of the angle
+// between its axis and its corners.
 CameraFrame FrameOf(double tangent, Random* random) {
   CameraFrame frame;
   frame.projection = Projection::kPerspective;
@@ -30,16 +31,17 @@ CameraFrame FrameOf(double tangent, Random* random) {
   return frame;
 }
 
-// Through a point of the film, most of them near its corners.
+// The direction through a random point of the film; most points are near its corners.
 Vec3d DirectionThrough(const CameraFrame& frame, Random* random) {
-  const auto place = [&](int size) {
+  const auto coordinate = [&](int size) {
     const double v = random->Uniform(-1, 1);
     return size * (1 - std::copysign(1 - v * v, v)) / 2;
   };
-  return frame.corner + frame.step_x * place(kFilmWidth) + frame.step_y * place(kFilmHeight);
+  return frame.corner + frame.step_x * coordinate(kFilmWidth) +
+         frame.step_y * coordinate(kFilmHeight);
 }
 
-// A sphere of radius 1 so far away whose centre the ray misses by `offset`.
+// A sphere of radius 1 at a distance, whose centre the ray misses by `offset`.
 TraceSphere SphereBeside(const Vec3d& direction, double distance, double offset, Random* random) {
   const Vec3d along = direction.normalized();
   const Vec3d across = along.cross(random->Direction()).normalized();
@@ -47,10 +49,10 @@ TraceSphere SphereBeside(const Vec3d& direction, double distance, double offset,
 }
 
 // The bounds of the test of TestSphere (ray_sphere_test.cc), and two more. The discriminant may err
-// by 8 u of |direction|^2, of which the square of a rounded root takes 1.5; where a ray only just
-// touches, the normal errs by its square root, 3e-8. A normal's length errs by what its direction
-// to the viewer does, and by its own roundings: 8, as where hits are refined.
-TEST_CASE("hits by the place on the film are right at any distance, grazing ones too") {
+// by 8 u of |direction|^2, of which the square of a rounded root takes 1.5; for grazing rays the
+// error of the normal is its square root, 3e-8. The error of a normal's length is that of the
+// direction to the viewer plus its own roundings: 8, as where hits are refined.
+TEST_CASE("hits by the projected test are right at any distance, grazing ones too") {
   const Products products = GENERATE(Products::kFused, Products::kRounded);
   const double tangent = GENERATE(1e-3, 0.3, 1.0);
   constexpr double kMaxNormalError = 3e-8;
@@ -70,19 +72,21 @@ TEST_CASE("hits by the place on the film are right at any distance, grazing ones
       const TraceSphere sphere = SphereBeside(direction, distance, offset, &random);
       if (!IsInFront(sphere, frame.forward)) continue;
       const QuadHit expected = TestInQuad(Vec3d(0), direction, sphere);
-      const FilmHit hit = TestOnFilm(MakeFilmSphere(sphere, frame.forward), direction, products);
+      const ProjectedHit hit =
+          TestProjected(MakeProjectedSphere(sphere, frame.forward), direction, products);
       wrong += hit.hit != expected.hit;
       if (!hit.hit || !expected.hit) continue;
       worst_discriminant =
           std::max(worst_discriminant,
                    std::abs(hit.root * hit.root / direction.length2() - expected.discriminant));
       const double inverse_length = 1 / direction.length();
-      const Vec3d normal = FilmNormal(hit, -direction * inverse_length, inverse_length, products);
+      const Vec3d normal =
+          ProjectedNormal(hit, -direction * inverse_length, inverse_length, products);
       const double error = AngleTo(expected.normal, normal);
       worst_normal = std::max(worst_normal, error);
       if (offset < 0.7) worst_steep = std::max(worst_steep, error);
       worst_length = std::max(worst_length, std::abs(normal.length() - 1));
-      const double depth = FilmDepth(hit, sphere, direction, products);
+      const double depth = ProjectedDepth(hit, sphere, direction, products);
       worst_depth = std::max(worst_depth, std::abs(depth - expected.t) / expected.t);
     }
     CAPTURE(static_cast<int>(products), tangent, distance, worst_depth);
@@ -92,38 +96,39 @@ TEST_CASE("hits by the place on the film are right at any distance, grazing ones
     CHECK(worst_normal <= kMaxNormalError);
     CHECK(worst_steep <= kMaxSteepError);
     CHECK(worst_length <= 8 * kHalfUlpDouble);
-    // Where the chord is short its own error, relative to the radius, shows in the depth; and near
+    // The depth's error is, for a short chord, that of the chord, relative to the radius; and near
     // the sphere's front, that of |centre|^2 - radius^2.
     CHECK(worst_depth <= kMaxDepthError + kMaxNormalError / distance);
   }
 }
 
-TEST_CASE("a place on the film have large spheres in front, in views that are not wide") {
+TEST_CASE(
+    "the projected test is for large spheres in front of the camera, in views that are not wide") {
   Random random(2);
   const CameraFrame frame = FrameOf(0.5, &random);
-  const FilmView view = MakeFilmView(frame);
+  const ProjectedTestView view = MakeProjectedTestView(frame);
   const double pixel = frame.step_x.length();
   const auto sphere_at = [&](double depth, double radius) {
     return TraceSphere{frame.forward * depth, radius};
   };
-  CHECK(HasFilmPlace(sphere_at(10, 10 * 8.01 * pixel), view));
-  CHECK_FALSE(HasFilmPlace(sphere_at(10, 10 * 7.99 * pixel), view));
-  CHECK(HasFilmPlace(sphere_at(10, 9.999), view));
-  CHECK_FALSE(HasFilmPlace(sphere_at(10, 10), view));  // touches the plane of the eye
-  CHECK_FALSE(HasFilmPlace(sphere_at(-10, 1), view));  // behind
-  CHECK_FALSE(HasFilmPlace(sphere_at(0, 100), view));  // around
-  CHECK_FALSE(HasFilmPlace(sphere_at(10, 9), FilmView()));
+  CHECK(UsesProjectedTest(sphere_at(10, 10 * 8.01 * pixel), view));
+  CHECK_FALSE(UsesProjectedTest(sphere_at(10, 10 * 7.99 * pixel), view));
+  CHECK(UsesProjectedTest(sphere_at(10, 9.999), view));
+  CHECK_FALSE(UsesProjectedTest(sphere_at(10, 10), view));  // touches the plane of the eye
+  CHECK_FALSE(UsesProjectedTest(sphere_at(-10, 1), view));  // behind
+  CHECK_FALSE(UsesProjectedTest(sphere_at(0, 100), view));  // around
+  CHECK_FALSE(UsesProjectedTest(sphere_at(10, 9), ProjectedTestView()));
   for (const double tangent : {0.999, 1.001}) {
     const CameraFrame wide = FrameOf(tangent, &random);
-    CHECK(HasFilmPlace({wide.forward * 10, 9}, MakeFilmView(wide)) == (tangent < 1));
+    CHECK(UsesProjectedTest({wide.forward * 10, 9}, MakeProjectedTestView(wide)) == (tangent < 1));
   }
   CameraFrame orthographic = frame;
   orthographic.projection = Projection::kOrthographic;
-  CHECK_FALSE(HasFilmPlace(sphere_at(10, 9), MakeFilmView(orthographic)));
+  CHECK_FALSE(UsesProjectedTest(sphere_at(10, 9), MakeProjectedTestView(orthographic)));
   // From a telescope even the farthest has many pixels.
   const CameraFrame narrow = FrameOf(1e-6, &random);
-  CHECK(HasFilmPlace({narrow.forward * 0x1p21, 1}, MakeFilmView(narrow)));
-  CHECK_FALSE(HasFilmPlace({narrow.forward * 0x1p23, 1}, MakeFilmView(narrow)));
+  CHECK(UsesProjectedTest({narrow.forward * 0x1p21, 1}, MakeProjectedTestView(narrow)));
+  CHECK_FALSE(UsesProjectedTest({narrow.forward * 0x1p23, 1}, MakeProjectedTestView(narrow)));
 }
 
 // By the operations of MakeCameraRays.
@@ -144,17 +149,19 @@ struct Nearest {
 };
 
 // By the scalar twins.
-Nearest NearestOf(const TraceGeometry& geometry, const FilmView& view, const Vec3d& direction) {
+Nearest NearestOf(const TraceGeometry& geometry, const ProjectedTestView& view,
+                  const Vec3d& direction) {
   const Products products = TargetProducts();
   Nearest nearest;
   for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
     const TraceSphere& sphere = geometry.spheres[i];
-    if (HasFilmPlace(sphere, view)) {
-      const FilmHit hit = TestOnFilm(MakeFilmSphere(sphere, view.forward), direction, products);
-      const double t = FilmDepth(hit, sphere, direction, products);
+    if (UsesProjectedTest(sphere, view)) {
+      const ProjectedHit hit =
+          TestProjected(MakeProjectedSphere(sphere, view.forward), direction, products);
+      const double t = ProjectedDepth(hit, sphere, direction, products);
       if (!hit.hit || !(t < nearest.t)) continue;
       const double inverse_length = 1 / direction.length();
-      nearest = {i, t, FilmNormal(hit, -direction * inverse_length, inverse_length, products)};
+      nearest = {i, t, ProjectedNormal(hit, -direction * inverse_length, inverse_length, products)};
     } else {
       const auto hit = TestSphere(sphere.center, direction, sphere.radius, products);
       if (!hit.hit || !(hit.t < nearest.t)) continue;
@@ -164,7 +171,7 @@ Nearest NearestOf(const TraceGeometry& geometry, const FilmView& view, const Vec
   return nearest;
 }
 
-// What rays may hit: a single sphere, one or several of a few, or one of many within one another.
+// What rays may hit: a single sphere, one or several of a few, or one of many nested spheres.
 enum class Before { kSingle, kSeveral, kNested };
 
 Scene NestedBefore(const CameraFrame& frame, Random* random) {
@@ -195,8 +202,8 @@ Scene SpheresBefore(const CameraFrame& frame, Before what, Random* random) {
   return scene;
 }
 
-// The kernels' inverse length, within 2 ulp, counts twice in their normals, of as many as 2 radii
-// along the ray.
+// The kernels' inverse length, within 2 ulp, enters their normals twice, by up to 2 radii along the
+// ray.
 constexpr double kNormalSlack = 2 * 2 * 2 * 2 * kHalfUlpDouble;
 
 // The film's left half, in one batch.
@@ -232,7 +239,7 @@ TEST_CASE("tiles hit what the scalar twins hit, on every target") {
     int hits_on_film = 0;
     for (int round = 0; round < 40; ++round) {
       const CameraFrame frame = FrameOf(random.Magnitude(1e-3, 1), &random);
-      const FilmView view = MakeFilmView(frame);
+      const ProjectedTestView view = MakeProjectedTestView(frame);
       const Scene scene = SpheresBefore(frame, what, &random);
       const TraceGeometry geometry = MakeTraceGeometry(scene, Vec3d(0));
       Intersector intersector(scene, Vec3d(0), {.tree = false});
@@ -246,7 +253,7 @@ TEST_CASE("tiles hit what the scalar twins hit, on every target") {
         if (!hit) continue;
         REQUIRE(hits.primitive[next] == expected.primitive);
         REQUIRE((At(hits.normal, next) - expected.normal).length() <= kNormalSlack);
-        hits_on_film += HasFilmPlace(geometry.spheres[expected.primitive], view) ? 1 : 0;
+        hits_on_film += UsesProjectedTest(geometry.spheres[expected.primitive], view) ? 1 : 0;
         ++next;
       }
       REQUIRE(next == hits.count);
@@ -255,7 +262,7 @@ TEST_CASE("tiles hit what the scalar twins hit, on every target") {
   });
 }
 
-// In double: pictures in float would not tell the two tests apart.
+// In double, because pictures in float would not show a difference between the two tests.
 TEST_CASE("camera rays by Embree have all bits of the tiles' hits, on every target") {
   const Before what = GENERATE(Before::kSeveral, Before::kSingle, Before::kNested);
   ForEachTarget([&](Target) {
@@ -272,7 +279,7 @@ TEST_CASE("camera rays by Embree have all bits of the tiles' hits, on every targ
       HitTile(frame, film, &intersector, &by_tiles);
       RayBatch rays;
       rays.count = film.count;
-      rays.film = MakeFilmView(frame);
+      rays.view = MakeProjectedTestView(frame);
       for (size_t i = 0; i < film.count; ++i) {
         SetRay({Vec3d(0), DirectionAt(frame, film.x[i], film.y[i])}, i, &rays);
       }

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// visibility/single_sphere-inl.h: camera rays against the only sphere that they may hit, which lies
+// in front of the camera. Most rays of most pictures take this path.
+//
+// From a film position to a hit leads one long chain of dependent operations, with a square root in
+// it, longer than a processor's out-of-order window. Rays are therefore collected in blocks, which
+// are processed in two passes: each pass interleaves the shorter chains of several vectors.
+#if defined(NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_
+#undef NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_
+#else
+#define NACRE_VISIBILITY_SINGLE_SPHERE_INL_H_
+#endif
+
+#include "visibility/append-inl.h"
+#include "visibility/projected_sphere_test-inl.h"
+#include "visibility/sphere_test-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace nacre {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+inline constexpr int kSingleSphereBlock = 8 * kCameraPacket;
+
+// Consecutive rays of a batch that can hit one sphere only.
+struct SingleSphereRays {
+  const TileCandidate* candidate;
+  uint32_t first, count;
+  double x = 0, y = 0;  // film position of the first ray, where FilmBatch::centers is set
+};
+
+// Groups of lanes between the two passes. The rays of a group are consecutive in a batch and can
+// hit one sphere only.
+struct SingleSphereBlock {
+  int groups = 0;
+  uint32_t ray[kSingleSphereBlock];   // index in the batch of a group's first ray
+  uint32_t bits[kSingleSphereBlock];  // lanes to be tested; after TestRays those that hit
+  const TileCandidate* candidate[kSingleSphereBlock];
+  double x[kSingleSphereBlock], y[kSingleSphereBlock];  // film position of the first ray (centers)
+  // Packets of the last block, as bits, all of whose rays hit: those of the next block at the same
+  // position probably do so, too (ProposeGroups).
+  uint32_t likely = 0;
+  bool projected = false;  // all spheres of the block use the projected test, or none does
+  alignas(kVectorBytes) double backward[3][kSingleSphereBlock];  // the negated ray directions
+  alignas(kVectorBytes) double inverse_length[kSingleSphereBlock];
+  // Terms of a hit's normal. For the projected test: BackToHit in `root`, and the offset in
+  // `moment`. For the general test: the root and the moment of TestSphere, and |direction|^2 in
+  // `dd`.
+  alignas(kVectorBytes) double root[kSingleSphereBlock];
+  alignas(kVectorBytes) double moment[3][kSingleSphereBlock];
+  alignas(kVectorBytes) double dd[kSingleSphereBlock];
+};
+
+HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadGroup(const double (&from)[3][kSingleSphereBlock],
+                                                  int first) {
+  return Load3(CameraDouble(), from[0] + first, from[1] + first, from[2] + first);
+}
+
+HWY_INLINE void StoreGroup(const Vec3V<hn::Vec<CameraDouble>>& v, int first,
+                           double (&to)[3][kSingleSphereBlock]) {
+  Store3(v, CameraDouble(), to[0] + first, to[1] + first, to[2] + first);
+}
+
+// The first pass: the exact test of the groups' rays, which leaves in `bits` the lanes that hit.
+// Directions are negated, which changes no other bit, because hits keep the direction to the
+// viewer. The depth is not needed, and a line that meets a sphere in front of the camera is a ray
+// that hits it: that saves a division. The square root (NaN in lanes that miss) is computed in this
+// pass, where its unit works in parallel with the multipliers. This function and AppendBlock are
+// not inlined so that the code around them takes none of their registers.
+template <bool kProjected>
+HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& film,
+                                    SingleSphereBlock* block) {
+  const CameraDouble d;
+  const auto corner = SetVec3(d, -frame.corner);
+  const auto step_x = SetVec3(d, -frame.step_x);
+  const auto step_y = SetVec3(d, -frame.step_y);
+  const auto lanes = hn::Iota(d, 0);
+  for (int g = 0; g < block->groups; ++g) {
+    const int first = g * kGroupLanes;
+    const TileCandidate& candidate = *block->candidate[g];
+    hn::Vec<CameraDouble> x, y;
+    if (film.centers) {
+      x = hn::Add(hn::Set(d, block->x[g]), lanes);
+      y = hn::Set(d, block->y[g]);
+    } else {
+      x = hn::LoadU(d, film.x.data() + block->ray[g]);
+      y = hn::LoadU(d, film.y.data() + block->ray[g]);
+    }
+    // The operations of MakeCameraRays.
+    const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
+    const auto dd = FusedDot(backward, backward);
+    StoreGroup(backward, first, block->backward);
+    hn::Store(InverseLength(d, dd), d, block->inverse_length + first);
+    hn::Vec<CameraDouble> discriminant;
+    if constexpr (kProjected) {
+      const auto hit = TestProjected(d, SetProjectedSphere(d, *candidate.projected), backward, dd);
+      discriminant = hit.discriminant;
+      StoreGroup(hit.offset, first, block->moment);
+      hn::Store(BackToHit(hn::Sqrt(discriminant), hit.back), d, block->root + first);
+    } else {
+      const auto moment = AccurateCross(d, SetVec3(d, candidate.sphere.center), backward);
+      discriminant = Discriminant(hn::Set(d, candidate.radius2), dd, moment);
+      hn::Store(dd, d, block->dd + first);
+      StoreGroup(moment, first, block->moment);
+      hn::Store(hn::Sqrt(discriminant), d, block->root + first);
+    }
+    block->bits[g] &= BitsOfMask(d, hn::Ge(discriminant, hn::Zero(d)));
+  }
+}
+
+// The second pass: appends the hits to `to`. The rays start outside of the spheres, so the normals
+// point outward.
+template <bool kProjected>
+HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const FilmBatch& film,
+                                       const HitOutput& to) {
+  const CameraDouble d;
+  HitWriter writer(to);
+  const uint32_t* HWY_RESTRICT const ray = film.ray.data();
+  for (int g = 0; g < block.groups; ++g) {
+    const uint32_t bits = block.bits[g];
+    if (bits == 0) continue;
+    const int first = g * kGroupLanes;
+    const TileCandidate& candidate = *block.candidate[g];
+    const auto backward = LoadGroup(block.backward, first);
+    const auto inverse_length = hn::Load(d, block.inverse_length + first);
+    const auto radius = hn::Set(d, candidate.sphere.radius);
+    const auto to_view = Scale(backward, inverse_length);
+    const auto root = hn::Load(d, block.root + first);
+    const auto moment = LoadGroup(block.moment, first);
+    Vec3V<hn::Vec<CameraDouble>> normal;
+    if constexpr (kProjected) {
+      normal = ProjectedNormal(moment, root, to_view, inverse_length);
+    } else {
+      const auto to_hit = ScaledCenterToHit(backward, root, moment);
+      normal = SphereNormal(d, to_hit, hn::Load(d, block.dd + first), radius);
+    }
+    const auto position = [&]() HWY_ATTR {
+      return SpherePosition(SetVec3(d, candidate.sphere.center), normal, radius);
+    };
+    writer.Surfaces(normal, to_view, position, bits, ray + block.ray[g]);
+    writer.Primitive(candidate.primitive, bits);
+  }
+}
+
+HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film,
+                         SingleSphereBlock* block) {
+  if (block->projected) return TestRays<true>(frame, film, block);
+  TestRays<false>(frame, film, block);
+}
+
+HWY_INLINE void AppendBlock(const SingleSphereBlock& block, const FilmBatch& film,
+                            const HitOutput& to) {
+  if (block.projected) return AppendBlock<true>(block, film, to);
+  AppendBlock<false>(block, film, to);
+}
+
+// Appends the hits of the block's groups, and empties it.
+HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film,
+                           SingleSphereBlock* block, const HitOutput& to) {
+  if (block->groups == 0) return;
+  TestRays(frame, film, block);
+  AppendBlock(*block, film, to);
+  block->groups = 0;
+}
+
+// Adds the rays to the block, and traces the block whenever it is full.
+HWY_INLINE void AddSingleSphereRays(const CameraFrame& frame, const FilmBatch& film,
+                                    const SingleSphereRays& rays, SingleSphereBlock* block,
+                                    const HitOutput& to) {
+  const bool projected = rays.candidate->projected != nullptr;
+  if (block->projected != projected) {
+    TraceBlock(frame, film, block, to);
+    block->projected = projected;
+  }
+  for (uint32_t i = 0; i < rays.count; i += kGroupLanes) {
+    const int g = block->groups++;
+    const uint32_t left = rays.count - i;
+    block->ray[g] = rays.first + i;
+    block->bits[g] = left >= kGroupLanes ? kAllOfGroup : (1u << left) - 1;
+    block->candidate[g] = rays.candidate;
+    block->x[g] = rays.x + i;
+    block->y[g] = rays.y;
+    if (block->groups * kGroupLanes == kSingleSphereBlock) TraceBlock(frame, film, block, to);
+  }
+}
+
+// Fills the block with those groups of up to kSingleSphereBlock rays, in any order, that pass the
+// float test. Likely packets skip the float test: the exact test decides anyway.
+HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate,
+                              const FilmBatch& film, size_t first, size_t rays,
+                              CameraPacket* packet, SingleSphereBlock* block) {
+  for (size_t i = 0; i < rays; i += kCameraPacket) {
+    const size_t left = rays - i;
+    packet->lanes = left >= kCameraPacket ? 0xffffu : (1u << left) - 1;
+    uint32_t lanes = packet->lanes;
+    if ((block->likely >> (i / kCameraPacket) & 1) == 0) {
+      packet->film_x = film.x.data() + first + i;
+      packet->film_y = film.y.data() + first + i;
+      FillFloatRays<true>(frame, packet);
+      lanes = ProposedLanes<true, true>(frame, candidate, *packet);
+    }
+    for (int lane = 0; lane < kCameraPacket; lane += kGroupLanes) {
+      const uint32_t bits = lanes >> lane & kAllOfGroup;
+      const int g = block->groups;
+      block->ray[g] = static_cast<uint32_t>(first + i) + static_cast<uint32_t>(lane);
+      block->bits[g] = bits;
+      block->candidate[g] = &candidate;
+      block->groups += bits != 0 ? 1 : 0;
+    }
+  }
+}
+
+// Finds the packets that hit with all their lanes, after TestRays. `first`: the block's first ray.
+HWY_INLINE void FindLikely(size_t first, SingleSphereBlock* block) {
+  uint32_t hit[kSingleSphereBlock / kCameraPacket] = {};
+  for (int g = 0; g < block->groups; ++g) {
+    const size_t ray = block->ray[g] - first;
+    hit[ray / kCameraPacket] |= block->bits[g] << (ray % kCameraPacket);
+  }
+  block->likely = 0;
+  for (int p = 0; p < kSingleSphereBlock / kCameraPacket; ++p) {
+    block->likely |= static_cast<uint32_t>(hit[p] == 0xffff) << p;
+  }
+}
+
+// Appends the hits of a batch of perspective rays, in any order, on a candidate in front of the
+// camera.
+HWY_INLINE void TraceSingleSphere(const CameraFrame& frame, const TileCandidate& candidate,
+                                  const FilmBatch& film, CameraPacket* packet,
+                                  SingleSphereBlock* block, const HitOutput& to) {
+  block->projected = candidate.projected != nullptr;
+  for (size_t i = 0; i < film.count; i += kSingleSphereBlock) {
+    const size_t count = std::min<size_t>(kSingleSphereBlock, film.count - i);
+    ProposeGroups(frame, candidate, film, i, count, packet, block);
+    TestRays(frame, film, block);
+    FindLikely(i, block);
+    AppendBlock(*block, film, to);
+    block->groups = 0;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nacre
+HWY_AFTER_NAMESPACE();
+#endif
