@@ -219,6 +219,40 @@ struct AddLightKind {
   }
 };
 
+void AddShapes(const Scene& scene, Hasher* hash) {
+  hash->Word(scene.spheres.size());
+  for (const Sphere& sphere : scene.spheres) {
+    hash->Add(sphere.center);
+    hash->Add(sphere.radius);
+    hash->Add(sphere.material);
+  }
+  hash->Word(scene.meshes.size());
+  for (const Mesh& mesh : scene.meshes) {
+    hash->Word(mesh.positions.size());
+    hash->Word(mesh.normals.size());
+    hash->Word(mesh.uvs.size());
+    hash->Word(mesh.second_uvs.size());
+    hash->Word(mesh.colors.size());
+    hash->Word(mesh.tangents.size());
+    hash->Word(mesh.opacities.size());
+    hash->Word(mesh.triangles.size());
+    hash->Word(static_cast<uint64_t>(mesh.interpolation));
+    hash->Word(mesh.smooth_terminator);
+    for (const Vec3d& position : mesh.positions) hash->Add(position);
+    for (const Vec3d& normal : mesh.normals) hash->Add(normal);
+    for (const Vec2d& uv : mesh.uvs) hash->Add(uv);
+    for (const Vec2d& uv : mesh.second_uvs) hash->Add(uv);
+    for (const Vec3f& color : mesh.colors) hash->Add(Vec3d(color));
+    for (const float opacity : mesh.opacities) hash->Add(double{opacity});
+    for (const Tangent& tangent : mesh.tangents) {
+      hash->Add(tangent.direction);
+      hash->Add(tangent.sign);
+    }
+    for (const uint32_t index : mesh.triangles) hash->Word(index);
+    hash->Add(mesh.material);
+  }
+}
+
 }  // namespace
 
 uint64_t HashScene(const Scene& scene) {
@@ -242,37 +276,13 @@ uint64_t HashScene(const Scene& scene) {
     hash.Word(light.shadows);
     std::visit(AddLightKind{&hash}, light.kind);
   }
-  hash.Word(scene.spheres.size());
-  for (const Sphere& sphere : scene.spheres) {
-    hash.Add(sphere.center);
-    hash.Add(sphere.radius);
-    hash.Add(sphere.material);
-  }
-  hash.Word(scene.meshes.size());
-  for (const Mesh& mesh : scene.meshes) {
-    hash.Word(mesh.positions.size());
-    hash.Word(mesh.normals.size());
-    hash.Word(mesh.uvs.size());
-    hash.Word(mesh.second_uvs.size());
-    hash.Word(mesh.colors.size());
-    hash.Word(mesh.tangents.size());
-    hash.Word(mesh.opacities.size());
-    hash.Word(mesh.triangles.size());
-    hash.Word(static_cast<uint64_t>(mesh.interpolation));
-    hash.Word(mesh.smooth_terminator);
-    for (const Vec3d& position : mesh.positions) hash.Add(position);
-    for (const Vec3d& normal : mesh.normals) hash.Add(normal);
-    for (const Vec2d& uv : mesh.uvs) hash.Add(uv);
-    for (const Vec2d& uv : mesh.second_uvs) hash.Add(uv);
-    for (const Vec3f& color : mesh.colors) hash.Add(Vec3d(color));
-    for (const float opacity : mesh.opacities) hash.Add(double{opacity});
-    for (const Tangent& tangent : mesh.tangents) {
-      hash.Add(tangent.direction);
-      hash.Add(tangent.sign);
-    }
-    for (const uint32_t index : mesh.triangles) hash.Word(index);
-    hash.Add(mesh.material);
-  }
+  AddShapes(scene, &hash);
+  return hash.state();
+}
+
+uint64_t HashShapes(const Scene& scene) {
+  Hasher hash;
+  AddShapes(scene, &hash);
   return hash.state();
 }
 

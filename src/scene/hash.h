@@ -13,4 +13,7 @@ namespace nacre {
 // materials do not count, sample count and image size do.
 uint64_t HashScene(const Scene& scene);
 
+// Likewise of the spheres and meshes alone.
+uint64_t HashShapes(const Scene& scene);
+
 }  // namespace nacre

@@ -16,6 +16,8 @@ namespace nacre {
 
 // In validate_shapes.cc, validate_lights.cc and validate_textures.cc.
 void ValidateShapes(const Scene& scene, FaultList* faults);
+void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults);
+void ValidatePrimitives(const Scene& scene, FaultList* faults);
 void ValidateLights(const Scene& scene, FaultList* faults);
 void ValidateTextures(const Scene& scene, FaultList* faults);
 void ValidateMaps(const Scene& scene, const Material& material, const std::string& where,
@@ -145,15 +147,22 @@ bool IsLayerName(const std::string& name) {
   });
 }
 
-std::vector<Fault> Validate(const Scene& scene) {
+std::vector<Fault> Validate(const Scene& scene) { return Validate(scene, SceneParts::All()); }
+
+std::vector<Fault> Validate(const Scene& scene, SceneParts parts) {
+  constexpr SceneParts kMaterials = ScenePart::kMaterials | ScenePart::kTextures;
   FaultList faults;
-  ValidateCamera(scene.camera, &faults);
-  ValidateImage(scene.image, &faults);
-  CheckColor(scene.background, limits::kRadiance, "/background", &faults);
-  ValidateMaterials(scene, &faults);
-  ValidateTextures(scene, &faults);
-  ValidateLights(scene, &faults);
-  ValidateShapes(scene, &faults);
+  if (parts.Has(ScenePart::kCamera)) ValidateCamera(scene.camera, &faults);
+  if (parts.Has(ScenePart::kImage)) ValidateImage(scene.image, &faults);
+  if (parts.Has(ScenePart::kBackground)) {
+    CheckColor(scene.background, limits::kRadiance, "/background", &faults);
+  }
+  if (parts.HasAny(kMaterials)) ValidateMaterials(scene, &faults);
+  if (parts.HasAny(kMaterials | ScenePart::kShapes)) ValidateTextures(scene, &faults);
+  if (parts.Has(ScenePart::kLights)) ValidateLights(scene, &faults);
+  if (parts.Has(ScenePart::kShapes)) ValidateShapes(scene, &faults);
+  if (parts.HasAny(kMaterials | ScenePart::kShapes)) ValidateMaterialsOfShapes(scene, &faults);
+  if (parts.HasAny(ScenePart::kShapes | ScenePart::kLights)) ValidatePrimitives(scene, &faults);
   return faults.All();
 }
 

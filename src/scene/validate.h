@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/fault_list.h"
+#include "scene/parts.h"
 #include "scene/scene.h"
 
 namespace nacre {
@@ -20,6 +21,10 @@ namespace nacre {
 // direction, meshes with indices out of range or without any area. A triangle of zero area among
 // others is no fault: nothing hits it.
 std::vector<Fault> Validate(const Scene& scene);
+
+// Those of these parts, the others being without any: what is wrong with a scene of which only they
+// have changed.
+std::vector<Fault> Validate(const Scene& scene, SceneParts parts);
 
 // The faults of one sphere or mesh; `where` is their place.
 void ValidateSphere(const Sphere& sphere, size_t material_count, const std::string& where,

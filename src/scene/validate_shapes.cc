@@ -179,14 +179,21 @@ void ValidateShapes(const Scene& scene, FaultList* faults) {
     if (IsSound(scene.spheres[i], material_count)) continue;  // no text made for a million others
     ValidateSphere(scene.spheres[i], material_count, fmt::format("/spheres/{}", i), faults);
   }
-  if (std::any_of(scene.materials.begin(), scene.materials.end(), CutsHoles)) {
-    for (size_t i = 0; i < scene.spheres.size(); ++i) RefuseHoles(scene, i, faults);
-  }
-  uint64_t primitives = scene.spheres.size();
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     ValidateMesh(scene.meshes[i], material_count, fmt::format("/meshes/{}", i), faults);
-    primitives += scene.meshes[i].triangles.size() / 3;
   }
+}
+
+// Which of their materials shapes cannot have.
+void ValidateMaterialsOfShapes(const Scene& scene, FaultList* faults) {
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), CutsHoles)) return;
+  for (size_t i = 0; i < scene.spheres.size(); ++i) RefuseHoles(scene, i, faults);
+}
+
+// How many there are, those of lights as well.
+void ValidatePrimitives(const Scene& scene, FaultList* faults) {
+  uint64_t primitives = scene.spheres.size();
+  for (const Mesh& mesh : scene.meshes) primitives += mesh.triangles.size() / 3;
   for (const Light& light : scene.lights) {
     const auto* area = std::get_if<MeshAreaLight>(&light.kind);
     if (area != nullptr && area->mesh != nullptr) primitives += area->mesh->triangles.size() / 3;

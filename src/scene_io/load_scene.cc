@@ -3,144 +3,33 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "base/path.h"
-#include "base/version.h"
 #include "scene/validate.h"
 #include "scene_io/gltf.h"
 #include "scene_io/model_scene.h"
 #include "scene_io/obj.h"
-#include "scene_io/overrides.h"
 #include "scene_io/ply.h"
-#include "scene_io/readers.h"
+#include "scene_io/read_scene.h"
 #include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
 
 constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
-constexpr int kFormat = 1;  // the version of scene files
-
-// What is wrong with a version that this program does not read, and the way to one that it does.
-Fault JudgeVersion(const Json& version, const std::string& where) {
-  const std::string reads = fmt::format("nacre {} reads version {}", kVersion, kFormat);
-  if (!version.is_number()) return {where, "the version is not a number", reads};
-  if (version > kFormat) {
-    return {
-        where,
-        fmt::format("version {} of the scene format is newer than this program", JsonText(version)),
-        fmt::format("{}: take a newer nacre, or write the scene as version {}", reads, kFormat)};
-  }
-  // Version 1 is the first: nothing older is to be translated.
-  return {where, fmt::format("there is no version {} of the scene format", JsonText(version)),
-          fmt::format("{}: write \"nacre\": {}; `nacre schema` prints what it may hold", reads,
-                      kFormat)};
-}
-
-std::string VersionHint() {
-  return fmt::format("\"nacre\": {}, the version of the format", kFormat);
-}
-
-// Before overrides, which would blame the command line.
-void CheckIsObject(const Json& root, const std::string& file) {
-  if (root.is_object()) return;
-  throw Error(ExitCode::kBadInput, file, "not a scene: no object",
-              "a scene begins {" + VersionHint());
-}
-
-// Throws if the rest of the file cannot mean anything to this program.
-void CheckVersion(const Json& root, const std::string& file) {
-  CheckIsObject(root, file);  // an override may have replaced all of it
-  const auto version = root.find("nacre");
-  if (version == root.end()) {
-    throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"",
-                "add " + VersionHint());
-  }
-  if (version->is_number() && *version == kFormat) return;
-  throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
-}
-
-void ReadRoot(const Json& root, FaultList* faults, SceneContext* context) {
-  JsonObject object({root, JsonPath{}, faults});
-  Scene* const scene = context->scene;
-  const auto member = [&](std::string_view name, auto&& read) {
-    if (const Json* json = object.Find(name)) {
-      read(JsonValue{*json, object.path().Member(name), faults});
-    }
-  };
-  std::string schema;
-  object.Text("$schema", &schema);  // for editors
-  object.Find("nacre");
-  member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
-  member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
-  member("textures", [&](const JsonValue& value) { ReadTextures(value, context); });
-  member("materials", [&](const JsonValue& value) { ReadMaterials(value, context); });
-  member("lights", [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
-  member("shapes", [&](const JsonValue& value) { ReadShapes(value, context); });
-  object.Color("background", limits::kRadiance, &scene->background);
-  object.RefuseOthers();
-}
-
-// The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
-std::string PartOf(const std::string& pointer) {
-  if (pointer.starts_with("/spheres") || pointer.starts_with("/meshes")) return "/shapes";
-  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/") ||
-                        pointer.starts_with("/textures/");
-  const size_t first_end = pointer.find('/', 1);
-  return pointer.substr(0, is_named ? pointer.find('/', first_end + 1) : first_end);
-}
-
-// Adds what Validate() finds in parts that could be read: elsewhere it would judge the defaults
-// that stand in for what could not.
-void AddValidation(const Scene& scene, FaultList* faults) {
-  std::set<std::string> faulty_parts;
-  for (const Fault& fault : faults->kept()) faulty_parts.insert(PartOf(fault.where));
-  if (faulty_parts.contains("/materials")) faulty_parts.insert("/shapes");  // they name them
-  for (const Fault& fault : Validate(scene)) {
-    const bool is_remainder = fault.where.empty();  // "and 7 more": of which parts?
-    if (is_remainder && !faulty_parts.empty()) continue;
-    if (!faulty_parts.contains(PartOf(fault.where))) {
-      faults->Add(fault.where, fault.what, fault.hint);
-    }
-  }
-}
 
 }  // namespace
 
 Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
   FaultList faults;
-  Json root = ParseJson(text, file, &faults, options.on_progress);
-  CheckIsObject(root, file);
-  try {
-    ApplyOptionsToFile(options, &root);
-  } catch (const Error&) {
-    // The fault may be the file's: "image": [] has no place for --size. Then that is told.
-    LoadOptions file_alone = options;
-    file_alone.overrides.clear();
-    file_alone.on_warning = nullptr;
-    if (!options.overrides.empty()) LoadSceneText(text, file, folder, file_alone);
-    throw;
-  }
-  CheckVersion(root, file);
-
+  const Json root = ParseScene({text, file, folder}, options, &faults);
   Scene scene;
-  SceneContext context;
-  context.folder = folder;
-  context.references = RulesOf(options);
-  context.threads = options.threads;
-  context.scene = &scene;
-  context.on_warning = options.on_warning;
-  SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
-  context.budget = &budget;
-  TexelBudget texels(text.size());
-  context.texels = &texels;
-  ReadRoot(root, &faults, &context);
-  AddValidation(scene, &faults);
+  ReadScene(root, SceneParts::All(), {.folder = folder, .bytes = text.size(), .options = &options},
+            &faults, &scene);
   ThrowFaults(faults, file);
   return scene;
 }
@@ -151,14 +40,11 @@ namespace {
 Scene LoadModel(const std::filesystem::path& path, const LoadOptions& options) {
   const std::string file = path.string();
   bool has_camera = false;
-  Scene scene = HasExtension(file, ".obj")   ? ReadObjScene(path, options)
-                : HasExtension(file, ".ply") ? ReadPlyScene(path, options)
-                                             : ReadGltf(path, options, &has_camera);
-  CompleteModelScene(options, file, has_camera, &scene);
-  std::vector<Fault> faults = Validate(scene);
-  if (faults.empty()) return scene;
-  for (Fault& fault : faults) fault.where = PlaceInFile(file, fault.where);
-  throw Error(ExitCode::kBadInput, std::move(faults));
+  Scene scene = ReadModel(path, options, &has_camera);
+  const ModelOverrides overrides = OverridesOf(options);
+  CompleteModelScene({&overrides, &options, file, has_camera, nullptr}, SceneParts::All(), &scene);
+  ThrowFaultsIn(scene, SceneParts::All(), file);
+  return scene;
 }
 
 }  // namespace
@@ -207,10 +93,28 @@ void RefuseOtherModels(const std::filesystem::path& path) {
   }
 }
 
+Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera) {
+  const std::string file = path.string();
+  if (HasExtension(file, ".obj")) return ReadObjScene(path, options);
+  if (HasExtension(file, ".ply")) return ReadPlyScene(path, options);
+  return ReadGltf(path, options, has_camera);
+}
+
+void ThrowFaultsIn(const Scene& scene, SceneParts parts, const std::string& file) {
+  std::vector<Fault> faults = Validate(scene, parts);
+  if (faults.empty()) return;
+  for (Fault& fault : faults) fault.where = PlaceInFile(file, fault.where);
+  throw Error(ExitCode::kBadInput, std::move(faults));
+}
+
+std::string ReadSceneText(const std::filesystem::path& path) {
+  return ReadTextFile(path, kMaxSceneBytes);
+}
+
 Scene LoadScene(const std::filesystem::path& path, const LoadOptions& options) {
   RefuseOtherModels(path);
   if (IsModelFile(path)) return LoadModel(path, options);
-  const std::string text = ReadTextFile(path, kMaxSceneBytes);
+  const std::string text = ReadSceneText(path);
   return LoadSceneText(text, path.string(), path.parent_path(), options);
 }
 

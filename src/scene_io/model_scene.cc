@@ -244,47 +244,73 @@ void AddStudioLights(Scene* scene) {
   scene->background = Rgb(0.18);
 }
 
-void CompleteModelScene(const LoadOptions& options, const std::string& file, bool has_camera,
-                        Scene* scene) {
-  Json root = Json::object();
-  ApplyOptions(options, &root);
+void AddOverride(const std::string& pointer, const std::string& json, ModelOverrides* overrides) {
+  ApplyOverride(pointer, json, &overrides->root);
+  // A value for all of "lights" leaves none of the others, as in a scene file.
+  if (pointer == "/lights") overrides->own_lights = true;
+}
+
+ModelOverrides OverridesOf(const LoadOptions& options) {
+  ModelOverrides overrides;
+  LoadOptions environment;
+  environment.environment = options.environment;
+  ApplyOptions(environment, &overrides.root);
+  overrides.own_lights = !options.environment.empty();
+  for (const auto& [pointer, json] : options.overrides) AddOverride(pointer, json, &overrides);
+  return overrides;
+}
+
+bool CompleteModelScene(const ModelCompletion& how, SceneParts parts, Scene* scene) {
+  const Json& root = how.overrides->root;
   FaultList faults;
   Overrides overrides(root, &faults);
-  overrides.Member("image", [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+  const auto member = [&](std::string_view name, ScenePart part, const auto& read) {
+    overrides.Member(name, [&](const JsonValue& value) {
+      if (parts.Has(part)) read(value);
+    });
+  };
+  member("image", ScenePart::kImage,
+         [&](const JsonValue& value) { ReadImage(value, &scene->image); });
   // The kind and field of view of the camera decide how far away it must be.
-  overrides.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
-  if (!has_camera) {
+  member("camera", ScenePart::kCamera,
+         [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
+  if (!how.has_camera && parts.Has(ScenePart::kCamera)) {
     FrameScene(scene);
     FaultList told_already;
     Overrides again(root, &told_already);
     again.Member("camera", [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
   }
-  // A value for all of "lights" leaves none of the others, as in a scene file.
-  const bool own_lights =
-      !options.environment.empty() ||
-      std::any_of(options.overrides.begin(), options.overrides.end(),
-                  [](const auto& override) { return override.first == "/lights"; });
-  if (own_lights) scene->lights.clear();
-  if (!own_lights && scene->lights.empty() && faults.count() == 0) AddStudioLights(scene);
+  if (parts.Has(ScenePart::kLights)) {
+    if (how.overrides->own_lights) scene->lights.clear();
+    const bool needs_light = !how.overrides->own_lights && scene->lights.empty();
+    if (needs_light && faults.count() == 0) AddStudioLights(scene);
+  }
   SceneContext context;
-  context.folder = std::filesystem::path(file).parent_path();
-  context.references = RulesOf(options);
+  context.folder = std::filesystem::path(how.file).parent_path();
+  context.references = RulesOf(*how.options);
   context.scene = scene;
-  context.on_warning = options.on_warning;
-  SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
+  context.on_warning = how.options->on_warning;
+  context.kept = how.kept;
+  SceneBudget budget(how.options->max_primitives.value_or(kDefaultMaxPrimitives));
   context.budget = &budget;
   TexelBudget texels(0, TexelValuesOf(*scene));
   context.texels = &texels;
   for (uint32_t i = 0; i < scene->materials.size(); ++i) {  // a split may name them
     context.materials.try_emplace(scene->materials[i].name, MaterialId{i});
   }
-  overrides.Member("lights", [&](const JsonValue& value) { SetLights(value, context, scene); });
-  overrides.Member("textures", [&](const JsonValue& value) { ReadTextures(value, &context); });
-  overrides.Member("materials", [&](const JsonValue& value) { SetMaterials(value, &context); });
-  CompleteCoordinates(scene);  // new maps may need them
-  overrides.root().Color("background", limits::kRadiance, &scene->background);
+  member("lights", ScenePart::kLights,
+         [&](const JsonValue& value) { SetLights(value, context, scene); });
+  member("textures", ScenePart::kTextures,
+         [&](const JsonValue& value) { ReadTextures(value, &context); });
+  member("materials", ScenePart::kMaterials,
+         [&](const JsonValue& value) { SetMaterials(value, &context); });
+  // New maps may need them.
+  const bool new_coordinates = parts.Has(ScenePart::kMaterials) && CompleteCoordinates(scene);
+  member("background", ScenePart::kBackground,
+         [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
   overrides.root().RefuseOthers();
-  ThrowFaults(faults, file);
+  ThrowFaults(faults, how.file);
+  return new_coordinates;
 }
 
 }  // namespace nacre

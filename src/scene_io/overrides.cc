@@ -71,6 +71,7 @@ constexpr std::array<NamedPart, 3> kNamedParts = {{{"materials", "material", "mo
 
 std::vector<std::string> NamesIn(const Json& root, const char* part) {
   std::vector<std::string> names;
+  if (!root.is_object()) return names;
   const auto found = root.find(part);
   if (found == root.end() || !found->is_object()) return names;
   for (const auto& [name, value] : found->items()) names.push_back(name);
@@ -112,13 +113,61 @@ Json* Step(const std::string& pointer, const std::string& token, Json* parent) {
 }  // namespace
 
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root) {
+  ReplaceValue(pointer, text, root);
+}
+
+Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json* root) {
   Json value = ParseValue(pointer, text);
+  Replaced replaced;
+  bool made = false;  // from here on nothing was there
   Json* place = root;
-  for (const std::string& token : Split(pointer)) {
-    if (place->is_null()) *place = Json::object();
-    place = Step(pointer, token, place);
+  try {
+    for (const std::string& token : Split(pointer)) {
+      if (!made && place->is_null()) {
+        replaced.value = nullptr;
+        made = true;
+      } else if (!made) {
+        replaced.path.push_back(token);
+        made = place->is_object() && !place->contains(token);
+      }
+      if (place->is_null()) *place = Json::object();
+      place = Step(pointer, token, place);
+    }
+  } catch (const Error&) {
+    if (made) PutBack(std::move(replaced), root);
+    throw;
   }
+  if (!made) replaced.value = std::move(*place);
   *place = std::move(value);
+  return replaced;
+}
+
+void PutBack(Replaced replaced, Json* root) {
+  Json* place = root;
+  for (size_t i = 0; i < replaced.path.size(); ++i) {
+    const std::string& token = replaced.path[i];
+    if (i + 1 == replaced.path.size() && !replaced.value) {
+      place->erase(token);
+      return;
+    }
+    place = place->is_array() ? &place->at(std::stoul(token)) : &place->at(token);
+  }
+  *place = *std::move(replaced.value);
+}
+
+Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root) {
+  std::array<std::vector<std::string>, kNamedParts.size()> names;
+  for (size_t i = 0; i < names.size(); ++i) names[i] = NamesIn(*root, kNamedParts[i].part);
+  Replaced replaced = ReplaceValue(pointer, text, root);
+  try {
+    for (size_t i = 0; i < names.size() && root->is_object(); ++i) {
+      CheckEntryExists(pointer, kNamedParts[i], names[i], *root);
+    }
+  } catch (const Error&) {
+    PutBack(std::move(replaced), root);
+    throw;
+  }
+  return replaced;
 }
 
 void ApplyOptions(const LoadOptions& options, Json* root) {

@@ -3,7 +3,9 @@
 // "--environment").
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "scene_io/json_text.h"
 #include "scene_io/load_scene.h"
@@ -14,6 +16,20 @@ namespace nacre {
 // Puts the value that `text` is JSON for where `pointer` points. Objects on the way that are
 // missing are made; places in arrays must exist. Throws Error (kUsage) if that cannot be done.
 void ApplyOverride(const std::string& pointer, const std::string& text, Json* root);
+
+// What an override has replaced.
+struct Replaced {
+  std::vector<std::string> path;  // names and indices from the root on
+  std::optional<Json> value;      // none: there was no such member
+};
+// The same, and returns what was there.
+Replaced ReplaceValue(const std::string& pointer, const std::string& text, Json* root);
+// Puts it back, right after ReplaceValue.
+void PutBack(Replaced replaced, Json* root);
+
+// ReplaceValue in the tree of a whole scene file: throws also for an entry that is not there, as
+// ApplyOptionsToFile does. The tree is then as before.
+Replaced ReplaceInFile(const std::string& pointer, const std::string& text, Json* root);
 
 // Puts the options' environment into the tree in the place of all lights, then their overrides.
 // Throws Error: kBadInput for an environment that is no file, kUsage as ApplyOverride does.

@@ -130,9 +130,17 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
   }
   try {
     const auto path = ResolveReference(context.folder, file, context.references);
+    std::string key;
+    if (context.kept != nullptr) {
+      key = fmt::format("{}|{}|{}", KeyOfFile(path), reading.part, reading.clamp_negative);
+      const auto kept = context.kept->skies.find(key);
+      if (kept != context.kept->skies.end()) sky->picture = kept->second.lock();
+      if (sky->picture != nullptr) return;
+    }
     size_t clamped = 0;
     float lowest = 0;
     sky->picture = MakePicture(path.string(), file, reading, &clamped, &lowest);
+    if (context.kept != nullptr) context.kept->skies[key] = sky->picture;
     if (clamped > 0 && context.on_warning) {
       context.on_warning(
           fmt::format("{}: {} samples below 0, down to {}, count as 0", file, clamped, lowest));

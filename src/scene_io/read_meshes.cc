@@ -212,6 +212,18 @@ void AddSphereMesh(const SphereMesh& sphere, const Mesh& settings, SceneContext*
   context->scene->meshes.push_back(std::move(mesh));
 }
 
+// What a light's mesh is made from: the values of its members, and its file as it is now.
+std::string KeyOfLightMesh(std::initializer_list<const Json*> members,
+                           const SceneContext& context) {
+  std::string key;
+  for (const Json* const json : members) key += (json != nullptr ? JsonText(*json) : "") + "|";
+  const Json* const file = *members.begin();
+  if (file != nullptr && file->is_string()) {
+    key += KeyOfFile(context.folder / file->get<std::string>());
+  }
+  return key;
+}
+
 }  // namespace
 
 bool ReadDisplacement(JsonObject* shape, bool is_sphere, SceneContext* context,
@@ -270,12 +282,22 @@ std::shared_ptr<const Mesh> ReadLightMesh(JsonObject* light, const SceneContext&
           .AddFault("is for meshes in files", "a sphere has \"center\" and \"radius\"");
     }
   }
-  std::optional<Mesh> mesh = file != nullptr ? ReadMeshFile(value("file", file), transform, context)
-                             : icosphere != nullptr
-                                 ? ReadFaces<Icosphere>(value("icosphere", icosphere), context)
-                                 : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere), context);
-  if (!mesh) return nullptr;
-  return std::make_shared<const Mesh>(std::move(*mesh));
+  const auto read = [&] {
+    return file != nullptr        ? ReadMeshFile(value("file", file), transform, context)
+           : icosphere != nullptr ? ReadFaces<Icosphere>(value("icosphere", icosphere), context)
+                                  : ReadFaces<UvSphere>(value("uv_sphere", uv_sphere), context);
+  };
+  const auto make = [&](std::optional<Mesh> mesh) -> std::shared_ptr<const Mesh> {
+    if (!mesh) return nullptr;
+    return std::make_shared<const Mesh>(std::move(*mesh));
+  };
+  if (context.kept == nullptr) return make(read());
+  std::weak_ptr<const Mesh>& kept =
+      context.kept
+          ->light_meshes[KeyOfLightMesh({file, icosphere, uv_sphere, transform_json}, context)];
+  std::shared_ptr<const Mesh> mesh = kept.lock();
+  if (mesh == nullptr) kept = mesh = make(read());
+  return mesh;
 }
 
 void ReadIcosphere(JsonObject* shape, SceneContext* context) {

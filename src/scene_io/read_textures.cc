@@ -70,6 +70,34 @@ void ReadMapping(const JsonValue& value, Texture* texture) {
   object.RefuseOthers();
 }
 
+// The image of a file, which is read unless it was kept. `how`: of its path and reading.
+ImageId AddImage(const std::filesystem::path& path, const std::string& file,
+                 const TextureReading& reading, const std::string& how, SceneContext* context) {
+  std::vector<SceneImage>& images = context->scene->images;
+  const ImageId id{static_cast<uint32_t>(images.size())};
+  std::string key;
+  if (context->kept != nullptr) {
+    key = how + KeyOfFile(path);
+    const auto kept = context->kept->images.find(key);
+    if (kept != context->kept->images.end()) {
+      if (auto texels = kept->second.texels.lock()) {
+        images.push_back(kept->second.image);
+        images.back().file = file;
+        images.back().texels = std::move(texels);
+        return id;
+      }
+    }
+  }
+  context->texels->AddFile(path);
+  AddTextureImage(path, file, reading, context->texels, context->scene);
+  if (context->kept != nullptr) {
+    KeptFiles::Image kept{images.back(), images.back().texels};
+    kept.image.texels = nullptr;
+    context->kept->images[key] = std::move(kept);
+  }
+  return id;
+}
+
 // The image of the texture, decoded so; read once.
 ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneContext* context) {
   const auto path = ResolveReference(context->folder, source.file, context->references);
@@ -80,8 +108,7 @@ ImageId FindImage(const TextureSource& source, TextureEncoding encoding, SceneCo
                           (reading.trust_encoding ? "!" : "?") + source.part;
   const auto known = context->images.find(key);
   if (known != context->images.end()) return known->second;
-  context->texels->AddFile(path);
-  const ImageId id = AddTextureImage(path, source.file, reading, context->texels, context->scene);
+  const ImageId id = AddImage(path, source.file, reading, key, context);
   context->images.emplace(key, id);
   return id;
 }

@@ -18,6 +18,7 @@
 #include "scene/material_parameters.h"
 #include "scene/scene.h"
 #include "scene_io/json_reader.h"
+#include "scene_io/kept_files.h"
 #include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
 #include "scene_io/texture_image.h"
@@ -52,6 +53,7 @@ struct SceneContext {
   std::unordered_map<std::string, TextureSource> textures;
   std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
+  KeptFiles* kept = nullptr;  // of a scene that is read again; else null
 };
 
 // The object "lights"; `context` says where their pictures are.

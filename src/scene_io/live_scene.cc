@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/live_scene.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "scene/hash.h"
+#include "scene_io/overrides.h"
+#include "scene_io/read_scene.h"
+
+namespace nacre {
+namespace {
+
+constexpr SceneParts kMaterialParts = ScenePart::kMaterials | ScenePart::kTextures;
+
+void SwapParts(SceneParts parts, Scene* a, Scene* b) {
+  if (parts.Has(ScenePart::kCamera)) std::swap(a->camera, b->camera);
+  if (parts.Has(ScenePart::kImage)) std::swap(a->image, b->image);
+  if (parts.Has(ScenePart::kBackground)) std::swap(a->background, b->background);
+  if (parts.Has(ScenePart::kTextures)) {
+    std::swap(a->images, b->images);
+    std::swap(a->textures, b->textures);
+  }
+  if (parts.Has(ScenePart::kMaterials)) std::swap(a->materials, b->materials);
+  if (parts.Has(ScenePart::kLights)) std::swap(a->lights, b->lights);
+  if (parts.Has(ScenePart::kShapes)) {
+    std::swap(a->spheres, b->spheres);
+    std::swap(a->meshes, b->meshes);
+    std::swap(a->labels, b->labels);
+  }
+}
+
+// The parts that a member of the file says directly. Of unknown members none: their reader
+// complains of them.
+SceneParts PartsOf(const std::string& pointer) {
+  struct Member {
+    std::string_view name;
+    SceneParts parts;
+  };
+  constexpr std::array<Member, 7> kMembers = {{{"camera", ScenePart::kCamera},
+                                               {"image", ScenePart::kImage},
+                                               {"background", ScenePart::kBackground},
+                                               {"textures", kMaterialParts},
+                                               {"materials", kMaterialParts},
+                                               {"lights", ScenePart::kLights},
+                                               {"shapes", kMaterialParts | ScenePart::kShapes}}};
+  if (pointer.empty()) return SceneParts::All();
+  const std::string_view name = std::string_view(pointer).substr(1, pointer.find('/', 1) - 1);
+  const auto found = std::find_if(kMembers.begin(), kMembers.end(),
+                                  [&](const Member& member) { return member.name == name; });
+  return found != kMembers.end() ? found->parts : SceneParts();
+}
+
+// Whether materials [0, count) of a scene are still those of the same names: shapes know them by
+// their places.
+bool KeepPlaces(const std::vector<Material>& before, const std::vector<Material>& now) {
+  const auto same = [](const Material& a, const Material& b) { return a.name == b.name; };
+  return now.size() >= before.size() && std::equal(before.begin(), before.end(), now.begin(), same);
+}
+
+}  // namespace
+
+LiveScene::LiveScene(std::string_view text, std::string file, std::filesystem::path folder,
+                     LoadOptions options, std::function<void(Scene*)> complete)
+    : options_(std::move(options)),
+      file_(std::move(file)),
+      folder_(std::move(folder)),
+      bytes_(text.size()),
+      complete_(std::move(complete)) {
+  FaultList faults;
+  root_ = ParseScene({text, file_, folder_}, options_, &faults);
+  ThrowFaults(faults, file_);
+  options_.overrides.clear();  // they are in the tree
+  ReadAgain(SceneParts::All());
+}
+
+LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options)
+    : options_(std::move(options)), file_(path.string()), folder_(path.parent_path()) {
+  RefuseOtherModels(path);
+  if (!IsModelFile(path)) {
+    *this = LiveScene(ReadSceneText(path), file_, folder_, std::move(options_));
+    return;
+  }
+  model_.emplace();
+  model_->scene = ReadModel(path, options_, &model_->has_camera);
+  ModelOverrides overrides = OverridesOf(options_);
+  root_ = std::move(overrides.root);
+  model_->own_lights = overrides.own_lights;
+  SwapParts(ScenePart::kShapes, &scene_, &model_->scene);
+  CompleteModel(SceneParts::All());
+}
+
+SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
+  Replaced replaced =
+      model_ ? ReplaceValue(pointer, json, &root_) : ReplaceInFile(pointer, json, &root_);
+  const bool own_lights = model_ && model_->own_lights;
+  try {
+    if (!model_) return ReadAgain(PartsOf(pointer));
+    if (pointer == "/lights") model_->own_lights = true;
+    return CompleteModel(PartsOf(pointer));
+  } catch (...) {
+    if (model_) model_->own_lights = own_lights;
+    PutBack(std::move(replaced), &root_);
+    throw;
+  }
+}
+
+SceneParts LiveScene::ReadAgain(SceneParts touched) {
+  CheckVersion(root_, file_);
+  SceneParts parts = touched;
+  const bool with_shapes = shapes_bring_materials_ && parts.Has(ScenePart::kMaterials);
+  if (with_shapes) parts |= ScenePart::kShapes;
+  const SceneParts others = SceneParts::All().Without(parts);
+  Scene next;
+  SwapParts(others, &scene_, &next);
+  bool moved = false;
+  try {
+    FaultList faults;
+    const ReadMembers read =
+        ReadScene(root_, parts, {folder_, bytes_, &options_, &kept_}, &faults, &next);
+    ThrowFaults(faults, file_);
+    const bool has_shapes = parts.Has(ScenePart::kShapes);
+    moved = parts.Has(ScenePart::kMaterials) && !has_shapes &&
+            !KeepPlaces(scene_.materials, next.materials);
+    if (has_shapes) {
+      if (complete_) complete_(&next);
+      shapes_bring_materials_ =
+          next.materials.size() > read.materials || next.textures.size() > read.textures;
+    }
+  } catch (...) {
+    SwapParts(others, &scene_, &next);
+    throw;
+  }
+  if (moved) {
+    SwapParts(others, &scene_, &next);
+    return ReadAgain(touched | ScenePart::kShapes);
+  }
+  std::swap(scene_, next);
+  DropUnheld(&kept_);
+  if (!parts.Has(ScenePart::kShapes)) return parts;
+  const uint64_t hash = HashShapes(scene_);
+  // Read along with materials, they are mostly what they were.
+  const bool same = with_shapes && hash == shapes_hash_;
+  shapes_hash_ = hash;
+  return same ? parts.Without(ScenePart::kShapes) : parts;
+}
+
+SceneParts LiveScene::CompleteModel(SceneParts touched) {
+  SceneParts parts = touched;
+  if (parts.Has(ScenePart::kImage)) parts |= ScenePart::kCamera;
+  if (parts.HasAny(ScenePart::kCamera | ScenePart::kLights)) {
+    parts |= ScenePart::kLights | ScenePart::kBackground;
+  }
+  // Shapes are the file's, but for coordinates that maps may need.
+  parts = parts.Without(ScenePart::kShapes);
+  const SceneParts others = SceneParts::All().Without(parts);
+  Scene next = model_->scene;
+  SwapParts(others, &scene_, &next);
+  const ModelOverrides overrides{root_, model_->own_lights};
+  bool new_coordinates = false;
+  try {
+    new_coordinates = CompleteModelScene({&overrides, &options_, file_, model_->has_camera, &kept_},
+                                         parts, &next);
+    ThrowFaultsIn(next, touched == SceneParts::All() ? touched : parts, file_);
+  } catch (...) {
+    SwapParts(others, &scene_, &next);
+    throw;
+  }
+  std::swap(scene_, next);
+  DropUnheld(&kept_);
+  return new_coordinates ? parts | ScenePart::kShapes : parts;
+}
+
+}  // namespace nacre

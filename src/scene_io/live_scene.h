@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene_io/live_scene.h: a scene that changes while it is open. A change reads again what it
+// touches, and the scene is then that of LoadScene with all changes as overrides.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scene/parts.h"
+#include "scene/scene.h"
+#include "scene_io/json_text.h"
+#include "scene_io/kept_files.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+
+class LiveScene {
+ public:
+  // Reads a scene file or a model. Throws as LoadScene does.
+  LiveScene(const std::filesystem::path& path, LoadOptions options);
+
+  // The text of a scene file, with LoadSceneText's arguments. `complete`, if any, adds shapes that
+  // no text holds, whenever shapes have been read; what it throws comes out.
+  LiveScene(std::string_view text, std::string file, std::filesystem::path folder,
+            LoadOptions options, std::function<void(Scene*)> complete = {});
+
+  const Scene& scene() const { return scene_; }
+
+  // Puts the value that `json` is JSON for where `pointer` points, as LoadOptions::overrides, and
+  // returns which parts of the scene may have other values now. Throws Error as LoadScene does: the
+  // scene is then the one before.
+  SceneParts Set(const std::string& pointer, const std::string& json);
+
+ private:
+  // What a model's file holds, before the camera, lights and overrides that it is given.
+  struct Model {
+    Scene scene;  // all but spheres and meshes, which LiveScene::scene_ has
+    bool has_camera = false;
+    bool own_lights = false;  // overrides replace all of its lights
+  };
+
+  SceneParts ReadAgain(SceneParts touched);
+  SceneParts CompleteModel(SceneParts touched);
+
+  LoadOptions options_;
+  std::string file_;
+  std::filesystem::path folder_;
+  uint64_t bytes_ = 0;
+  std::function<void(Scene*)> complete_;
+  std::optional<Model> model_;  // none: a scene file
+  Json root_;                   // of a scene file; of a model, what overrides have put there
+  Scene scene_;
+  bool shapes_bring_materials_ = false;  // or textures: these are read again with those
+  uint64_t shapes_hash_ = 0;
+  KeptFiles kept_;
+};
+
+}  // namespace nacre

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/read_scene.h"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "scene/validate.h"
+#include "scene_io/overrides.h"
+#include "scene_io/readers.h"
+#include "scene_io/scene_budget.h"
+
+namespace nacre {
+namespace {
+
+constexpr int kFormat = 1;  // the version of scene files
+
+// What is wrong with a version that this program does not read, and the way to one that it does.
+Fault JudgeVersion(const Json& version, const std::string& where) {
+  const std::string reads = fmt::format("nacre {} reads version {}", kVersion, kFormat);
+  if (!version.is_number()) return {where, "the version is not a number", reads};
+  if (version > kFormat) {
+    return {
+        where,
+        fmt::format("version {} of the scene format is newer than this program", JsonText(version)),
+        fmt::format("{}: take a newer nacre, or write the scene as version {}", reads, kFormat)};
+  }
+  // Version 1 is the first: nothing older is to be translated.
+  return {where, fmt::format("there is no version {} of the scene format", JsonText(version)),
+          fmt::format("{}: write \"nacre\": {}; `nacre schema` prints what it may hold", reads,
+                      kFormat)};
+}
+
+std::string VersionHint() {
+  return fmt::format("\"nacre\": {}, the version of the format", kFormat);
+}
+
+// Before overrides, which would blame the command line.
+void CheckIsObject(const Json& root, const std::string& file) {
+  if (root.is_object()) return;
+  throw Error(ExitCode::kBadInput, file, "not a scene: no object",
+              "a scene begins {" + VersionHint());
+}
+
+// Members of the file that are other parts are known, and that is all.
+void ReadRoot(const Json& root, SceneParts parts, FaultList* faults, SceneContext* context,
+              ReadMembers* read) {
+  JsonObject object({root, JsonPath{}, faults});
+  Scene* const scene = context->scene;
+  const auto member = [&](std::string_view name, ScenePart part, const auto& read_member) {
+    const Json* const json = object.Find(name);
+    if (json == nullptr || !parts.Has(part)) return;
+    read_member(JsonValue{*json, object.path().Member(name), faults});
+  };
+  std::string schema;
+  object.Text("$schema", &schema);  // for editors
+  object.Find("nacre");
+  member("camera", ScenePart::kCamera,
+         [&](const JsonValue& value) { ReadCamera(value, &scene->camera); });
+  member("image", ScenePart::kImage,
+         [&](const JsonValue& value) { ReadImage(value, &scene->image); });
+  member("textures", ScenePart::kTextures,
+         [&](const JsonValue& value) { ReadTextures(value, context); });
+  member("materials", ScenePart::kMaterials,
+         [&](const JsonValue& value) { ReadMaterials(value, context); });
+  *read = {scene->materials.size(), scene->textures.size()};
+  member("lights", ScenePart::kLights,
+         [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
+  member("shapes", ScenePart::kShapes, [&](const JsonValue& value) { ReadShapes(value, context); });
+  member("background", ScenePart::kBackground,
+         [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
+  object.RefuseOthers();
+}
+
+// The part of a scene that a pointer is in: "/camera", "/lights/key", "/shapes".
+std::string PartOf(const std::string& pointer) {
+  if (pointer.starts_with("/spheres") || pointer.starts_with("/meshes")) return "/shapes";
+  const bool is_named = pointer.starts_with("/materials/") || pointer.starts_with("/lights/") ||
+                        pointer.starts_with("/textures/");
+  const size_t first_end = pointer.find('/', 1);
+  return pointer.substr(0, is_named ? pointer.find('/', first_end + 1) : first_end);
+}
+
+// Adds what Validate() finds in parts that could be read: elsewhere it would judge the defaults
+// that stand in for what could not.
+void AddValidation(const Scene& scene, SceneParts parts, FaultList* faults) {
+  std::set<std::string> faulty_parts;
+  for (const Fault& fault : faults->kept()) faulty_parts.insert(PartOf(fault.where));
+  if (faulty_parts.contains("/materials")) faulty_parts.insert("/shapes");  // they name them
+  for (const Fault& fault : Validate(scene, parts)) {
+    const bool is_remainder = fault.where.empty();  // "and 7 more": of which parts?
+    if (is_remainder && !faulty_parts.empty()) continue;
+    if (!faulty_parts.contains(PartOf(fault.where))) {
+      faults->Add(fault.where, fault.what, fault.hint);
+    }
+  }
+}
+
+}  // namespace
+
+Json ParseScene(const SceneSource& source, const LoadOptions& options, FaultList* faults) {
+  const std::string& file = source.file;
+  Json root = ParseJson(source.text, file, faults, options.on_progress);
+  CheckIsObject(root, file);
+  try {
+    ApplyOptionsToFile(options, &root);
+  } catch (const Error&) {
+    // The fault may be the file's: "image": [] has no place for --size. Then that is told.
+    LoadOptions file_alone = options;
+    file_alone.overrides.clear();
+    file_alone.on_warning = nullptr;
+    if (!options.overrides.empty()) LoadSceneText(source.text, file, source.folder, file_alone);
+    throw;
+  }
+  CheckVersion(root, file);
+  return root;
+}
+
+void CheckVersion(const Json& root, const std::string& file) {
+  CheckIsObject(root, file);  // an override may have replaced all of it
+  const auto version = root.find("nacre");
+  if (version == root.end()) {
+    throw Error(ExitCode::kBadInput, file, "not a scene: missing key \"nacre\"",
+                "add " + VersionHint());
+  }
+  if (version->is_number() && *version == kFormat) return;
+  throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
+}
+
+ReadMembers ReadScene(const Json& root, SceneParts parts, const SceneReading& reading,
+                      FaultList* faults, Scene* scene) {
+  const LoadOptions& options = *reading.options;
+  SceneContext context;
+  context.folder = reading.folder;
+  context.references = RulesOf(options);
+  context.threads = options.threads;
+  context.scene = scene;
+  context.on_warning = options.on_warning;
+  context.kept = reading.kept;
+  SceneBudget budget(options.max_primitives.value_or(kDefaultMaxPrimitives));
+  context.budget = &budget;
+  TexelBudget texels(reading.bytes);
+  context.texels = &texels;
+  ReadMembers read;
+  ReadRoot(root, parts, faults, &context, &read);
+  AddValidation(*scene, parts, faults);
+  return read;
+}
+
+}  // namespace nacre

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene_io/read_scene.h: the tree of a scene file made into a scene: all of it, or the parts that
+// have changed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "scene/parts.h"
+#include "scene/scene.h"
+#include "scene_io/json_text.h"
+#include "scene_io/kept_files.h"
+#include "scene_io/load_scene.h"
+
+namespace nacre {
+
+// Where a scene comes from: LoadSceneText's arguments.
+struct SceneSource {
+  std::string_view text;
+  std::string file;
+  std::filesystem::path folder;
+};
+
+// The tree, with the options' overrides made. Throws Error as LoadSceneText does for text that is
+// no scene; what is merely wrong in it is added to `faults`.
+Json ParseScene(const SceneSource& source, const LoadOptions& options, FaultList* faults);
+
+// Throws Error unless the tree is that of a scene file of a version that is read.
+void CheckVersion(const Json& root, const std::string& file);
+
+struct SceneReading {
+  std::filesystem::path folder;  // of the scene file
+  uint64_t bytes = 0;            // of its text, which its images may be large in proportion to
+  const LoadOptions* options = nullptr;
+  KeptFiles* kept = nullptr;  // files read before; null: none
+};
+
+// The text of a scene file, up to 1 GiB.
+std::string ReadSceneText(const std::filesystem::path& path);
+
+// A model as its file has it. `has_camera` is set where that may be so, of glTF.
+Scene ReadModel(const std::filesystem::path& path, const LoadOptions& options, bool* has_camera);
+
+// Throws Error with what is wrong in these parts of a model's scene.
+void ThrowFaultsIn(const Scene& scene, SceneParts parts, const std::string& file);
+
+// What was read of the file that other parts refer to.
+struct ReadMembers {
+  size_t materials = 0;  // made of the member "materials"; those of shapes follow
+  size_t textures = 0;   // that these name
+};
+
+// Reads these parts, of which `scene` has none, and checks them. The rest of the scene is there.
+// Shapes want materials, and materials textures. Adds to `faults` what is wrong.
+ReadMembers ReadScene(const Json& root, SceneParts parts, const SceneReading& reading,
+                      FaultList* faults, Scene* scene);
+
+}  // namespace nacre

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene that was changed step by step is the one that all changes make as overrides.
+#include "scene_io/live_scene.h"
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "scene/hash.h"
+
+namespace nacre {
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(NACRE_SOURCE_DIR) / "scenes";
+
+struct Change {
+  std::string pointer;
+  std::string json;
+};
+
+// Names and places count as well: layers and shapes go by them.
+std::string Describe(const Scene& scene) {
+  std::string text = std::to_string(HashScene(scene));
+  for (const Material& material : scene.materials) text += " " + material.name;
+  for (const Texture& texture : scene.textures) text += " " + texture.name;
+  for (const Label& label : scene.labels) text += " " + label.text;
+  return text;
+}
+
+// Puts random changes, some of which are wrong, and holds each state to a scene that is read anew.
+void CheckChanges(const std::string& file, const std::vector<Change>& changes, int count) {
+  const std::filesystem::path path = kScenes / file;
+  LiveScene live(path, {});
+  LoadOptions fresh;
+  REQUIRE(Describe(live.scene()) == Describe(LoadScene(path, fresh)));
+  std::minstd_rand random(7);
+  int refused = 0;
+  for (int i = 0; i < count; ++i) {
+    const Change& change = changes[random() % changes.size()];
+    CAPTURE(file, i, change.pointer, change.json);
+    const std::string before = Describe(live.scene());
+    fresh.overrides.emplace_back(change.pointer, change.json);
+    bool is_right = true;
+    try {
+      live.Set(change.pointer, change.json);
+    } catch (const Error&) {
+      is_right = false;
+    }
+    if (!is_right) {
+      ++refused;
+      REQUIRE(Describe(live.scene()) == before);
+      REQUIRE_THROWS_AS(LoadScene(path, fresh), Error);
+      fresh.overrides.pop_back();
+      continue;
+    }
+    REQUIRE(Describe(live.scene()) == Describe(LoadScene(path, fresh)));
+  }
+  CHECK(refused > 0);
+  CHECK(refused < count / 2);
+}
+
+TEST_CASE("Changes of scene files, right and wrong, are those that overrides make",
+          "[live_scene]") {
+  const std::vector<Change> common = {{"/image/spp", "3"},
+                                      {"/image/width", "64"},
+                                      {"/image/width", "-1"},
+                                      {"/camera/fov_y_deg", "25"},
+                                      {"/camera/position", "[0, 1, 9]"},
+                                      {"/camera/look_at", "[0, 0.1, 0]"},
+                                      {"/camera", "[]"},
+                                      {"/background", "[0.1, 0.2, 0.3]"},
+                                      {"/background", "0"},
+                                      {"/nonsense", "0"},
+                                      {"/lights/extra", R"({"type": "directional",
+                                       "direction_of_travel": [1, -1, 0], "irradiance": 2})"},
+                                      {"/lights/extra/irradiance", "[1, 0, 2]"},
+                                      {"/lights/extra/irradiance", "-1"}};
+  const auto with = [&](std::vector<Change> more) {
+    more.insert(more.end(), common.begin(), common.end());
+    return more;
+  };
+  const std::string extra = R"({"model": "phong", "color": [0.1, 0.2, 0.3], "shininess": 20})";
+  CheckChanges("first_scene.json",
+               with({{"/materials/red/roughness", "0.1"},
+                     {"/materials/red/roughness", "0.7"},
+                     {"/materials/red/roughness", "7"},
+                     {"/materials/red/base_color", "[0, 1, 0]"},
+                     {"/materials/read/roughness", "0.1"},
+                     {"/materials/extra", extra},
+                     {"/materials/extra/shininess", "40"},
+                     {"/materials", R"({"floor": {"model": "lambert"}, "red": )" + extra + "}"},
+                     {"/shapes/0/material", "\"floor\""},
+                     {"/shapes/0/material", "\"red\""},
+                     {"/shapes/0/material", "\"extra\""},
+                     {"/shapes/0/material", R"({"model": "lambert", "albedo": 0.25})"},
+                     {"/shapes/0/radius", "0.5"},
+                     {"/shapes/7/radius", "0.5"},
+                     {"/lights/key/intensity", "10"}}),
+               250);
+  // Materials that shapes make of those of the file.
+  CheckChanges("material_grid.json",
+               with({{"/shapes/0/material/base_color", "[0.2, 0.3, 0.9]"},
+                     {"/shapes/0/radius", "0.3"},
+                     {"/shapes/0/radius", "-3"}}),
+               60);
+  CheckChanges("textures.json",
+               with({{"/materials/knot/roughness", "0.9"},
+                     {"/materials/knot/base_color_map", "\"globe\""},
+                     {"/materials/knot/base_color_map", "\"tiles\""},
+                     {"/materials/knot/base_color_map", "\"none\""},
+                     {"/materials/floor/normal_map", "null"},
+                     {"/materials/floor/normal_map", R"({"texture": "tiles_normal", "scale": 2})"},
+                     {"/textures/boxed/scale", "5"},
+                     {"/textures/extra", R"({"file": "textures/waves.png"})"},
+                     {"/textures/tiles/file", "\"textures/none.png\""},
+                     {"/shapes/3/transform/scale", "0.5"},
+                     {"/shapes/0/displacement", R"({"texture": "waves", "distance": 0.01,
+                       "segments": 16})"}}),
+               60);
+  CheckChanges("skies.json",
+               with({{"/lights/sky/rotate_deg", "30"},
+                     {"/lights/sky", R"({"type": "environment", "image": "textures/evening.exr"})"},
+                     {"/materials/metal/metallic", "0.5"},
+                     {"/shapes/0/columns/to", "0.5"}}),
+               40);
+  CheckChanges("mesh_lights.json",
+               with({{"/lights/knot/radiance", "3"},
+                     {"/lights/knot/transform/scale", "0.2"},
+                     {"/lights/knot/transform/scale", "0"},
+                     {"/lights/die/icosphere/subdivisions", "1"}}),
+               60);
+}
+
+TEST_CASE("Changes of models are those that overrides make", "[live_scene]") {
+  const std::vector<Change> changes = {{"/image/width", "64"},
+                                       {"/image/width", "200"},
+                                       {"/camera/fov_y_deg", "25"},
+                                       {"/camera/position", "[3, 2, 9]"},
+                                       {"/background", "0.3"},
+                                       {"/background", "-0.3"},
+                                       {"/nonsense", "0"},
+                                       {"/shapes/0/radius", "1"},
+                                       {"/lights/extra", R"({"type": "directional",
+                                        "direction_of_travel": [1, -1, 0], "irradiance": 2})"},
+                                       {"/lights/extra/irradiance", "-1"},
+                                       {"/lights/key/shadows", "false"},
+                                       {"/textures/waves", R"({"file": "../textures/waves.png"})"},
+                                       {"/materials/none/roughness", "1"}};
+  const auto with = [&](std::vector<Change> more) {
+    more.insert(more.end(), changes.begin(), changes.end());
+    return more;
+  };
+  CheckChanges("meshes/torus_knot.obj", with({{"/lights", "{}"}}), 60);
+  CheckChanges("models/pawns.glb", changes, 40);
+}
+
+TEST_CASE("Pictures of a scene that changes are read once", "[live_scene]") {
+  LiveScene live(kScenes / "textures.json", {});
+  const auto texels = live.scene().images.front().texels;
+  CHECK(live.Set("/materials/knot/roughness", "0.9") ==
+        (ScenePart::kMaterials | ScenePart::kTextures));
+  CHECK(live.scene().images.front().texels == texels);
+  CHECK(live.Set("/camera/fov_y_deg", "20") == SceneParts(ScenePart::kCamera));
+}
+
+TEST_CASE("A grid's materials change without its shapes", "[live_scene]") {
+  LiveScene live(kScenes / "material_grid.json", {});
+  CHECK_FALSE(live.Set("/shapes/0/material/base_color", "[0, 0, 1]").Has(ScenePart::kShapes));
+  CHECK(live.Set("/shapes/0/radius", "0.3").Has(ScenePart::kShapes));
+}
+
+}  // namespace
+}  // namespace nacre
