@@ -64,7 +64,8 @@ std::string DescribeShapes(const Scene& scene) {
 }  // namespace
 
 HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
-                  const CameraFrame& camera, const PixelSampler& sampler, Explanation* why) {
+                  const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
+                  Explanation* why) {
   HitsPlan plan;
   plan.primitives = NumberPrimitives(scene);
   plan.camera = camera;
@@ -76,17 +77,28 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const auto tell = [&](double done) {
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
-  plan.eye_outside = EyeIsOutside(scene, settings.threads);
-  plan.intersector = std::make_shared<Intersector>(
-      scene, scene.camera.position,
-      IntersectorSettings{.threads = settings.threads, .embree = false});
+  // What is kept of the shapes is by the eye; the view is by the picture as well.
+  const ViewKey shapes{prepared->shapes_made, {}, {}};
+  const auto view = [&](std::vector<double> numbers) {
+    return ViewKey{prepared->shapes_made,
+                   prepared->versions.Of(ScenePart::kCamera | ScenePart::kImage),
+                   std::move(numbers)};
+  };
+  plan.eye_outside =
+      prepared->eye_outside.Get(view({}), [&] { return EyeIsOutside(scene, settings.threads); });
+  plan.intersector = prepared->intersector.Get(shapes, [&] {
+    return std::make_shared<Intersector>(
+        scene, scene.camera.position,
+        IntersectorSettings{.threads = settings.threads, .embree = false});
+  });
   const bool nested = plan.intersector->SpheresAreNested();
   const bool want_tiles =
       settings.intersector != IntersectorChoice::kEmbree && !scene.spheres.empty() && !nested;
   tell(0.15);
   const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   const bool adaptive = settings.max_error > 0;
-  plan.mesh_windows = FindMeshWindows(scene, camera, reach);
+  plan.mesh_windows =
+      prepared->mesh_windows.Get(view({}), [&] { return FindMeshWindows(scene, camera, reach); });
   plan.tile_rays = adaptive ? TileRays::kAny : TileRays::kSamples;
   // Footprints and outlines are looked for in the bins, whoever traces: the bits must not depend on
   // that, nor on the crop, whose bins may fit where the frame's do not.
@@ -94,7 +106,11 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
     const Window binned =
         adaptive ? WholeCells({0, 0, scene.image.width, scene.image.height}) : window;
     const bool centers = sampler.centered && !adaptive;
-    plan.binned = plan.intersector->BinForCamera(camera, binned, centers ? kReachOfCenters : reach);
+    const double bin_reach = centers ? kReachOfCenters : reach;
+    plan.binned = prepared->camera_bins.Get(
+        view({static_cast<double>(binned.x0), static_cast<double>(binned.y0),
+              static_cast<double>(binned.x1), static_cast<double>(binned.y1), bin_reach}),
+        [&] { return plan.intersector->BinForCamera(camera, binned, bin_reach); });
     plan.tiles = want_tiles && plan.binned;
   }
   why->items.push_back(
