@@ -100,7 +100,8 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   PinTarget(target);
   const FlushDenormals flush;
   const Scene scene = MakeScene(material);
-  const TextureScene textures = PrepareTextures(scene, MakeFrame(), 1);
+  KeptTables tables;
+  const TextureScene textures = PrepareTextures(scene, MakeFrame(), 1, 0, &tables);
   const ShadingMaterial prepared = PrepareMaterial(scene.materials[0], {0, 0, 0});
   HitBatch hits = MakeHits();
   Surface surface;

@@ -258,6 +258,48 @@ struct RenderStats {
 NACRE_API Image Render(const Scene& scene, const RenderSettings& settings = {},
                        RenderStats* stats = nullptr);
 
+// ---- Sessions -----------------------------------------------------------------------------------
+
+// Thrown by what Session::Cancel has ended.
+class NACRE_API Cancelled : public std::exception {
+ public:
+  ~Cancelled() override;
+  const char* what() const noexcept override;
+};
+
+// A scene that is rendered again and again while it changes. What a change does not touch is not
+// read or made again: files, trees, tables of lights. Pictures have the bits that Render would give
+// them. One call at a time; Cancel alone may come from any thread.
+class NACRE_API Session {
+ public:
+  // Of a copy of the scene. Throws Error as Scene::Check does.
+  explicit Session(const Scene& scene);
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+  ~Session();
+
+  // As Scene::Set, but checked at once: throws Error with what is wrong, and the scene is then the
+  // one before.
+  void Set(const std::string& pointer, const Value& value);
+
+  // Throws Error as Render does, and Cancelled.
+  Image Render(const RenderSettings& settings = {}, RenderStats* stats = nullptr);
+
+  // The same picture, but the means of the first 1, 2, 4, ... samples are shown on the way, and it
+  // itself last, with the number of samples. Under max_error there is no other. What `show` throws
+  // ends it.
+  Image RenderProgressively(const RenderSettings& settings,
+                            const std::function<void(const Image&, int samples)>& show,
+                            RenderStats* stats = nullptr);
+
+  // Ends a render that runs, within some milliseconds, or else the next one as it begins.
+  void Cancel();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 // ---- Comparing ----------------------------------------------------------------------------------
 
 struct CompareSettings {

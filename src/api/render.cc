@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/render.cc: renders of the public API.
-#include "render/render.h"
+#include "api/render_impl.h"
 
 #include <chrono>
 #include <variant>
@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "output/metadata.h"
 #include "api/scene_impl.h"
+#include "output/metadata.h"
 #include "scene/limits.h"
 
 namespace nacre::v0 {
@@ -24,6 +24,8 @@ void Require(bool is_right, const char* setting, const std::string& range) {
 void RequireWithin(double value, const Range& range, const char* setting) {
   Require(value == 0 || range.Contains(value), setting, "0 or " + Describe(range));
 }
+
+}  // namespace
 
 nacre::RenderSettings ToOwn(const RenderSettings& settings) {
   RequireWithin(settings.width, limits::kImageSide, "width");
@@ -45,19 +47,21 @@ nacre::RenderSettings ToOwn(const RenderSettings& settings) {
   return own;
 }
 
-// The scene with the settings' own size, samples and seed; the same one if it has them.
-std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene> scene,
-                                             const RenderSettings& settings) {
-  nacre::ImageSettings image = scene->image;
+nacre::ImageSettings Adjusted(nacre::ImageSettings image, const RenderSettings& settings) {
   if (settings.width > 0) image.width = settings.width;
   if (settings.height > 0) image.height = settings.height;
   if (settings.samples > 0) image.spp = settings.samples;
   if (settings.seed) image.seed = *settings.seed;
-  const nacre::ImageSettings& old = scene->image;
-  if (image.width == old.width && image.height == old.height && image.spp == old.spp &&
-      image.seed == old.seed) {
-    return scene;
-  }
+  return image;
+}
+
+namespace {
+
+// The scene with the settings' own size, samples and seed; the same one if it has them.
+std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene> scene,
+                                             const RenderSettings& settings) {
+  const nacre::ImageSettings image = Adjusted(scene->image, settings);
+  if (image == scene->image) return scene;
   auto copy = std::make_shared<nacre::Scene>(*scene);
   copy->image = image;
   return copy;
@@ -81,6 +85,22 @@ void AddMetadata(const nacre::ExrHeader& header, Image* image) {
 
 }  // namespace
 
+Image Finish(const FramePlan& plan, nacre::Image rendered, const nacre::RenderStats& counted,
+             double plan_seconds, RenderStats* stats) {
+  // In files, colours and normals are of half floats.
+  const std::vector<ChannelSpec> in_files = StripChannels(plan.film.layers, PixelType::kHalf);
+  for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
+  Image image = ToPublic(std::move(rendered));
+  nacre::ExrHeader header = MakeExrHeader(plan, false);
+  header.attributes[kRenderTimeAttribute] = static_cast<float>(counted.render_seconds);
+  AddMetadata(header, &image);
+  if (stats != nullptr) {
+    *stats = {counted.camera_rays,    counted.shadow_rays, plan_seconds,
+              counted.render_seconds, counted.threads,     plan.why.notes};
+  }
+  return image;
+}
+
 Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {
   return AtBorder([&] {
     const nacre::RenderSettings own = ToOwn(settings);
@@ -90,18 +110,7 @@ Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* st
     const std::chrono::duration<double> plan_time = std::chrono::steady_clock::now() - start;
     nacre::RenderStats counted;
     nacre::Image rendered = RenderImage(plan, own, &counted);
-    // In files, colours and normals are of half floats.
-    const std::vector<ChannelSpec> in_files = StripChannels(plan.film.layers, PixelType::kHalf);
-    for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
-    Image image = ToPublic(std::move(rendered));
-    nacre::ExrHeader header = MakeExrHeader(plan, false);
-    header.attributes[kRenderTimeAttribute] = static_cast<float>(counted.render_seconds);
-    AddMetadata(header, &image);
-    if (stats != nullptr) {
-      *stats = {counted.camera_rays,    counted.shadow_rays, plan_time.count(),
-                counted.render_seconds, counted.threads,     plan.why.notes};
-    }
-    return image;
+    return Finish(plan, std::move(rendered), counted, plan_time.count(), stats);
   });
 }
 

@@ -2,6 +2,7 @@
 #include "api/scene_impl.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "scene/fault_list.h"
 #include "scene/validate.h"
@@ -28,21 +29,27 @@ std::string WithShapes(const Scene::Impl::Source& source) {
   return JsonText(root);
 }
 
-nacre::Scene Read(const Scene::Impl::Source& source) {
+LoadOptions OptionsOf(const Scene::Impl::Source& source) {
   LoadOptions options;
   options.overrides = source.overrides;
   options.allow_paths = source.allow_paths;
   // A program may ask for what a stranger's file may not.
   if (source.allow_paths) options.max_primitives = limits::kMaxPrimitivesMade;
-  if (!source.model_path.empty()) {
-    if (source.shapes.empty()) return LoadScene(source.model_path, options);
-    throw nacre::Error(ExitCode::kUsage, source.model_path, "a model takes no shapes as parameters",
-                       "AddSphere and AddMesh work; or name the model in a mesh of a scene");
-  }
-  if (source.shapes.empty()) {
-    return LoadSceneText(source.text, source.file, source.folder, options);
-  }
-  return LoadSceneText(WithShapes(source), source.file, source.folder, options);
+  return options;
+}
+
+// The text of the source's scene file. Throws if it is a model that text cannot add to.
+std::string TextOf(const Scene::Impl::Source& source) {
+  if (source.shapes.empty()) return source.text;
+  if (source.model_path.empty()) return WithShapes(source);
+  throw nacre::Error(ExitCode::kUsage, source.model_path, "a model takes no shapes as parameters",
+                     "AddSphere and AddMesh work; or name the model in a mesh of a scene");
+}
+
+nacre::Scene Read(const Scene::Impl::Source& source) {
+  const std::string text = TextOf(source);
+  if (!source.model_path.empty()) return LoadScene(source.model_path, OptionsOf(source));
+  return LoadSceneText(text, source.file, source.folder, OptionsOf(source));
 }
 
 // The scene's materials of these names.
@@ -82,6 +89,16 @@ void Append(const Scene::Impl::Source& source, nacre::Scene* scene) {
 }
 
 }  // namespace
+
+nacre::LiveScene Scene::Impl::MakeLive(const Source& source) {
+  std::function<void(nacre::Scene*)> append;
+  if (!source.spheres.empty() || !source.meshes.empty()) {
+    append = [source](nacre::Scene* scene) { Append(source, scene); };
+  }
+  const std::string text = TextOf(source);
+  if (!source.model_path.empty()) return {source.model_path, OptionsOf(source), append};
+  return {text, source.file, source.folder, OptionsOf(source), append};
+}
 
 std::shared_ptr<const nacre::Scene> Scene::Impl::Made() const {
   const std::lock_guard lock(mutex_);

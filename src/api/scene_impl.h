@@ -11,6 +11,7 @@
 
 #include "api/border.h"
 #include "scene/scene.h"
+#include "scene_io/live_scene.h"
 
 namespace nacre::v0 {
 
@@ -30,6 +31,9 @@ struct Scene::Impl {
     std::vector<nacre::Mesh> meshes;     // likewise
   };
   Source source;
+
+  // The scene as one that changes. Throws nacre::Error.
+  static nacre::LiveScene MakeLive(const Source& source);
 
   // The scene, checked; made when first asked for. Any thread. Throws nacre::Error.
   std::shared_ptr<const nacre::Scene> Made() const;

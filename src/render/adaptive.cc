@@ -354,7 +354,7 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
     clock->Charge(Stage::kFilm);
     return;
   }
-  StartTile(plan.film, cell, &s.film);
+  StartTile(plan.film, cell, kBatchCapacity, &s.film);
   std::fill_n(c.samples, kCellPixels, 0u);
   clock->Charge(Stage::kFilm);
   // All that the frame has: pixels tell of one another, whatever part is rendered.

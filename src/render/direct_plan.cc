@@ -82,13 +82,13 @@ bool MayBeInView(const Scene& scene, const LightBall& ball) {
 
 void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
                        const std::vector<Layer>& layers, const SceneWithLights* shown,
-                       DirectPlan* plan, Explanation* why) {
+                       KeptTables* tables, DirectPlan* plan, Explanation* why) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (IsPunctual(light) || std::holds_alternative<AmbientLight>(light.kind)) continue;
     PlannedSampledLight planned;
     planned.index = i;
-    planned.light = PrepareSampledLight(light, scene.camera.position);
+    planned.light = PrepareSampledLight(light, scene.camera.position, tables);
     planned.shadow_rays = scene.image.shadows && light.shadows;
     planned.layer = LightLayer(layers, i);
     if (shown != nullptr) planned.primitives = shown->primitives[i];
@@ -101,6 +101,8 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
                              : "sampled"});
     plan->sampled_lights.push_back(std::move(planned));
   }
+  DropUnused(&tables->skies);
+  DropUnused(&tables->mesh_lights);
   if (plan->sampled_lights.empty()) return;
   // Coats are surfaces of their own, and their samples independent of those of what is below.
   const bool coats =
@@ -159,7 +161,7 @@ bool LieOnSpheres(const Scene& scene, const DirectPlan& plan) {
 
 }  // namespace
 
-std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene) {
+std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedScene* prepared) {
   const auto casts = [](const Light& light) {
     return light.shadows && !std::holds_alternative<AmbientLight>(light.kind);
   };
@@ -171,13 +173,28 @@ std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene) {
     const bool blocks_others = scene.image.shadows && casting > (casts(light) ? 1 : 0);
     shown.push_back(ball && (blocks_others || MayBeInView(scene, *ball)));
   }
-  if (std::find(shown.begin(), shown.end(), true) == shown.end()) return nullptr;
-  return std::make_shared<SceneWithLights>(AddLightShapes(scene, shown));
+  const bool any = std::find(shown.begin(), shown.end(), true) != shown.end();
+  ShapesKey key{prepared->versions.Of(ScenePart::kShapes), {}, scene.camera.position, 0};
+  if (any) {
+    key = {prepared->versions.Of(ScenePart::kShapes | ScenePart::kLights), shown,
+           scene.camera.position, scene.materials.size()};
+  }
+  if (prepared->with_lights.IsUpToDate(key)) {
+    const std::shared_ptr<SceneWithLights>& with = prepared->with_lights.value;
+    if (with) UpdateAllButShapes(scene, with.get());
+    return with;
+  }
+  return prepared->with_lights.Get(key, [&]() -> std::shared_ptr<SceneWithLights> {
+    ++prepared->shapes_made;
+    prepared->tables.tangents.clear();
+    if (!any) return nullptr;
+    return std::make_shared<SceneWithLights>(AddLightShapes(scene, shown));
+  });
 }
 
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,
-                      bool unit_weights, Explanation* why) {
+                      bool unit_weights, PreparedScene* prepared, Explanation* why) {
   DirectPlan plan;
   plan.background = scene.background;
   const Vec3d& eye = scene.camera.position;
@@ -187,7 +204,7 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
         return layer.kind == LayerKind::kLight;
       }));
   PlanPunctualLights(scene, settings, layers, &plan, why);
-  PlanSampledLights(scene, settings, layers, shown, &plan, why);
+  PlanSampledLights(scene, settings, layers, shown, &prepared->tables, &plan, why);
   PlanParts(scene, settings, layers, unit_weights, &plan, why);
   return plan;
 }

@@ -12,6 +12,7 @@
 #include "render/hits_plan.h"
 #include "render/layers.h"
 #include "render/light_cull.h"
+#include "render/prepared_scene.h"
 #include "render/settings.h"
 #include "sampling/pair_sampler.h"
 #include "scene/light_shapes.h"
@@ -93,12 +94,12 @@ struct DirectPlan {
 
 // The scene with the shapes of its visible lights, or null if none of them can be seen or be in the
 // way of other light.
-std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene);
+std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedScene* prepared);
 
 // Everything but shadows and what the hits' places decide. `shown`: ShowLights' scene, or null.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,
-                      bool unit_weights, Explanation* why);
+                      bool unit_weights, PreparedScene* prepared, Explanation* why);
 
 // Then finds out where far lights are from the normals of hits on spheres.
 void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,

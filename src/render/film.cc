@@ -87,23 +87,23 @@ void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip) {
   GiveRoom(window.pixel_count(), &strip->ids);
 }
 
-void StartTile(const FilmPlan& plan, const Window& tile, TileFilm* film) {
+void StartTile(const FilmPlan& plan, const Window& tile, size_t room, TileFilm* film) {
   film->window = tile;
   const auto count = [&](ChannelKind kind) {
     return static_cast<size_t>(std::count(plan.channels.begin(), plan.channels.end(), kind));
   };
   while (film->sums.size() < count(ChannelKind::kAveraged)) {
-    film->sums.emplace_back(kBatchCapacity);
+    film->sums.emplace_back(room);
   }
   const size_t pixels = tile.pixel_count();
   for (AlignedArray<double>& sums : film->sums) std::fill_n(sums.data(), pixels, 0.0);
   while (film->nearest.size() < count(ChannelKind::kNearest)) {
-    film->nearest.emplace_back(kBatchCapacity);
+    film->nearest.emplace_back(room);
   }
-  while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(kBatchCapacity);
+  while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(room);
   if (film->nearest.empty() && film->ids.empty()) return;
   if (film->nearest_distance.size() == 0) {
-    film->nearest_distance = AlignedArray<double>(kBatchCapacity);
+    film->nearest_distance = AlignedArray<double>(room);
   }
   std::fill_n(film->nearest_distance.data(), pixels, std::numeric_limits<double>::infinity());
   for (AlignedArray<float>& channel : film->nearest) std::fill_n(channel.data(), pixels, 0.0f);

@@ -81,8 +81,9 @@ void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip);
 // Whether some layers show one sample of a pixel, not an average.
 bool ShowsNearest(const FilmPlan& plan);
 
-// Empties the tile's channels. `tile` has at most kBatchCapacity pixels.
-void StartTile(const FilmPlan& plan, const Window& tile, TileFilm* film);
+// Empties the tile's channels. `room`: the most pixels that tiles of this film have, at most
+// kBatchCapacity.
+void StartTile(const FilmPlan& plan, const Window& tile, size_t room, TileFilm* film);
 
 // What a layer shows where nothing is hit: a colour of floats.
 Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan);

@@ -97,9 +97,14 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
 
 }  // namespace
 
-FramePlan MakePlan(const Scene& given, const RenderSettings& settings) {
+FramePlan MakePlan(const Scene& scene, const RenderSettings& settings) {
+  PreparedScene prepared;
+  return MakePlan(scene, settings, &prepared);
+}
+
+FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedScene* prepared) {
   FramePlan plan;
-  plan.with_lights = ShowLights(given);
+  plan.with_lights = ShowLights(given, prepared);
   const Scene& scene = plan.with_lights ? plan.with_lights->scene : given;
   plan.scene = &scene;
   plan.frame = {0, 0, scene.image.width, scene.image.height};
@@ -110,13 +115,15 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings) {
   const bool unit_weights = HasUnitWeights(sampler);
 
   PlanLayers(scene, settings, &plan.film, why);
-  plan.direct =
-      PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), unit_weights, why);
-  plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, why);
-  const bool tree_for_shadows = PlanShadows(scene, settings, plan.hits, &plan.direct, why);
+  plan.direct = PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), unit_weights,
+                           prepared, why);
+  plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, prepared, why);
+  const bool tree_for_shadows =
+      PlanShadows(scene, settings, plan.hits, prepared, &plan.direct, why);
   if (settings.on_plan_progress) settings.on_plan_progress(0.8);
   BuildTrees(tree_for_shadows, &plan.hits, why);
-  plan.surfaces = PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), why);
+  plan.surfaces =
+      PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);
   plan.sampling = PlanSampling(
       scene, settings, std::move(sampler),
       {!plan.direct.sampled_lights.empty(), plan.surfaces.textured, WhyAllPlaces(plan, settings)},

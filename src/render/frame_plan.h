@@ -11,6 +11,7 @@
 #include "render/explanation.h"
 #include "render/film.h"
 #include "render/hits_plan.h"
+#include "render/prepared_scene.h"
 #include "render/samples.h"
 #include "render/settings.h"
 #include "render/stats.h"
@@ -38,6 +39,10 @@ struct FramePlan {
 // `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error (usage) for a layer
 // or region that the scene does not have.
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings);
+
+// The same bits from pieces that were made for a plan before, of which none may be rendered any
+// more. `prepared` has been told of all changes of the scene since.
+FramePlan MakePlan(const Scene& scene, const RenderSettings& settings, PreparedScene* prepared);
 
 // The plan as text: each item, used or skipped, and why; with `stats`, each stage's share.
 std::string ExplainPlan(const FramePlan& plan, const RenderStats* stats);

@@ -64,7 +64,8 @@ std::string DescribeShapes(const Scene& scene) {
 }  // namespace
 
 HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
-                  const CameraFrame& camera, const PixelSampler& sampler, Explanation* why) {
+                  const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
+                  Explanation* why) {
   HitsPlan plan;
   plan.primitives = NumberPrimitives(scene);
   plan.camera = camera;
@@ -76,19 +77,30 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const auto tell = [&](double done) {
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
-  plan.eye_outside = EyeIsOutside(scene, settings.threads);
-  plan.intersector = std::make_shared<Intersector>(
-      scene, scene.camera.position,
-      IntersectorSettings{.threads = settings.threads,
-                          .tree = false,
-                          .shells = settings.intersector == IntersectorChoice::kShells});
+  // What is kept of the shapes is by the eye; the view is by the picture as well.
+  const auto view = [&](uint64_t made, std::vector<double> numbers) {
+    return ViewKey{made, prepared->versions.Of(ScenePart::kCamera | ScenePart::kImage),
+                   std::move(numbers)};
+  };
+  const ViewKey of_shapes = view(prepared->shapes_made, {});
+  plan.eye_outside =
+      prepared->eye_outside.Get(of_shapes, [&] { return EyeIsOutside(scene, settings.threads); });
+  const bool shells = settings.intersector == IntersectorChoice::kShells;
+  plan.intersector =
+      prepared->intersector.Get({prepared->shapes_made, {}, {shells ? 1.0 : 0.0}}, [&] {
+        ++prepared->intersectors_made;
+        return std::make_shared<Intersector>(
+            scene, scene.camera.position,
+            IntersectorSettings{.threads = settings.threads, .tree = false, .shells = shells});
+      });
   const bool nested = plan.intersector->SpheresAreNested();
   const char* const tree_asked_for = TreeAskedFor(settings.intersector);
   const bool want_tiles = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;
   tell(0.15);
   const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   const bool adaptive = settings.max_error > 0;
-  plan.mesh_windows = FindMeshWindows(scene, camera, reach);
+  plan.mesh_windows =
+      prepared->mesh_windows.Get(of_shapes, [&] { return FindMeshWindows(scene, camera, reach); });
   plan.tile_rays = adaptive ? TileRays::kAny : TileRays::kSamples;
   // Footprints and outlines are looked for in the bins, whoever traces: the bits must not depend on
   // that, nor on the crop, whose bins may fit where the frame's do not.
@@ -96,8 +108,13 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
     const Window binned =
         adaptive ? WholeCells({0, 0, scene.image.width, scene.image.height}) : window;
     const bool centers = sampler.centered && !adaptive;
-    plan.binned =
-        plan.intersector->BinForCamera(camera, binned, centers ? kPixelCenterMargin : reach);
+    const double margin = centers ? kPixelCenterMargin : reach;
+    const ViewKey bins =
+        view(prepared->intersectors_made,
+             {static_cast<double>(binned.x0), static_cast<double>(binned.y0),
+              static_cast<double>(binned.x1), static_cast<double>(binned.y1), margin});
+    plan.binned = prepared->camera_bins.Get(
+        bins, [&] { return plan.intersector->BinForCamera(camera, binned, margin); });
     plan.tiles = want_tiles && plan.binned;
   }
   why->items.push_back(

@@ -10,6 +10,7 @@
 #include "base/image.h"
 #include "hit/camera_frame.h"
 #include "render/explanation.h"
+#include "render/prepared_scene.h"
 #include "render/settings.h"
 #include "sampling/pixel_sampler.h"
 #include "scene/primitives.h"
@@ -40,7 +41,8 @@ inline constexpr char kNestedSpheres[] =
 // The intersector, with the camera's bins and no tree. `window`: the pixels to render of a frame of
 // the scene's size.
 HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
-                  const CameraFrame& camera, const PixelSampler& sampler, Explanation* why);
+                  const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
+                  Explanation* why);
 
 // Then builds the trees that camera rays need, or shadow rays.
 void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why);

@@ -76,6 +76,23 @@ void RenderStrip(const FramePlan& plan, const Window& window, bool time_stages, 
   }
 }
 
+size_t TilesOfRow(const FramePlan& plan) {
+  return static_cast<size_t>((plan.window.width() - 1) / plan.sampling.tile_width + 1);
+}
+
+// Strip by strip, from left to right.
+std::vector<Window> TilesOf(const FramePlan& plan) {
+  const Window& window = plan.window;
+  std::vector<Window> tiles;
+  for (int y = window.y0; y < window.y1; y += kStripRows) {
+    for (int x = window.x0; x < window.x1; x += plan.sampling.tile_width) {
+      tiles.push_back({x, y, std::min(x + plan.sampling.tile_width, window.x1),
+                       std::min(y + kStripRows, window.y1)});
+    }
+  }
+  return tiles;
+}
+
 }  // namespace
 
 RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink) {
@@ -92,6 +109,7 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
     const Window rows{window.x0, y0, window.x1, std::min(y0 + kStripRows, window.y1)};
     RenderStats stats;
     std::unique_ptr<Worker> worker = pool.Take();
+    worker->work.cancel = settings.cancel;
     RenderStrip(plan, rows, settings.time_stages, worker.get(), &stats);
     const auto output_start = std::chrono::steady_clock::now();
     sink(worker->strip);
@@ -109,26 +127,75 @@ RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const 
   return total;
 }
 
-Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats) {
+RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
+                       FrameFilm* film, const StripSink& sink) {
+  const auto start = std::chrono::steady_clock::now();
+  const Window& window = plan.window;
+  const std::vector<Window> tiles = TilesOf(plan);
+  const bool is_first = film->samples == 0;
+  if (is_first) film->tiles.resize(tiles.size());
+  // What the film is after so many samples.
+  FilmPlan so_far = plan.film;
+  so_far.spp = end;
+  so_far.weight = 0;
+  for (int i = 0; i < end; ++i) so_far.weight += SampleWeight(plan.sampling.sampler, i);
+  const size_t per_strip = TilesOfRow(plan);
+  RenderStats total;
+  total.threads = ThreadCount(settings.threads);
+  WorkerPool pool;
+  std::mutex mutex;
+  ParallelFor(tiles.size() / per_strip, settings.threads, [&](size_t i) {
+    std::unique_ptr<Worker> worker = pool.Take();
+    worker->work.cancel = settings.cancel;
+    RenderStats stats;
+    StageClock clock(settings.time_stages ? &stats : nullptr);
+    const Window& first = tiles[i * per_strip];
+    StartStrip(plan.film, {window.x0, first.y0, window.x1, first.y1}, &worker->strip);
+    for (size_t t = i * per_strip; t < (i + 1) * per_strip; ++t) {
+      TileFilm& of_tile = film->tiles[t];
+      if (is_first) StartTile(plan.film, tiles[t], tiles[t].pixel_count(), &of_tile);
+      AddSamples(plan, tiles[t], film->samples, end, &worker->work, &of_tile, &clock, &stats);
+      ResolveTile(so_far, of_tile, &worker->strip);
+    }
+    sink(worker->strip);
+    pool.Give(std::move(worker));
+    const std::lock_guard lock(mutex);
+    total.Add(stats);
+  });
+  film->samples = end;
+  total.pixel_samples.Add(static_cast<uint32_t>(end), window.pixel_count());
+  total.render_seconds = SecondsSince(start);
+  return total;
+}
+
+Image EmptyImage(const FramePlan& plan) {
   Image image;
   image.display = plan.frame;
   image.data = plan.window;
   for (const ChannelSpec& spec : StripChannels(plan.film.layers, PixelType::kFloat)) {
     image.channels.push_back({spec.name, spec.type, std::vector<float>(plan.window.pixel_count())});
   }
-  const RenderStats rendered = Render(plan, settings, [&](const Strip& strip) {
-    const size_t offset = static_cast<size_t>(strip.window.y0 - plan.window.y0) *
-                          static_cast<size_t>(plan.window.width());
-    const size_t pixels = strip.window.pixel_count();
-    auto channel = image.channels.begin();
-    for (const AlignedArray<float>& plane : strip.colors) {
-      std::copy_n(plane.data(), pixels, (channel++)->samples.data() + offset);
-    }
-    for (const AlignedArray<uint32_t>& plane : strip.ids) {
-      std::transform(plane.data(), plane.data() + pixels, (channel++)->samples.data() + offset,
-                     [](uint32_t id) { return static_cast<float>(id); });
-    }
-  });
+  return image;
+}
+
+void PutStrip(const Strip& strip, Image* image) {
+  const size_t offset = static_cast<size_t>(strip.window.y0 - image->data.y0) *
+                        static_cast<size_t>(image->data.width());
+  const size_t pixels = strip.window.pixel_count();
+  auto channel = image->channels.begin();
+  for (const AlignedArray<float>& plane : strip.colors) {
+    std::copy_n(plane.data(), pixels, (channel++)->samples.data() + offset);
+  }
+  for (const AlignedArray<uint32_t>& plane : strip.ids) {
+    std::transform(plane.data(), plane.data() + pixels, (channel++)->samples.data() + offset,
+                   [](uint32_t id) { return static_cast<float>(id); });
+  }
+}
+
+Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats) {
+  Image image = EmptyImage(plan);
+  const RenderStats rendered =
+      Render(plan, settings, [&](const Strip& strip) { PutStrip(strip, &image); });
   if (stats != nullptr) *stats = rendered;
   return image;
 }

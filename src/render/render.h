@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "render/film.h"
 #include "render/frame_plan.h"
@@ -18,6 +19,22 @@ using StripSink = std::function<void(const Strip&)>;
 // that choose another estimate (max_error, closed forms) only: not on threads, tiles, crop or the
 // layers asked for. Exceptions of the sink and of settings.on_progress end it.
 RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink);
+
+// The film of a frame between passes.
+struct FrameFilm {
+  std::vector<TileFilm> tiles;
+  int samples = 0;  // of each pixel, so far
+};
+
+// Adds samples [film->samples, end) of each pixel, end at most the plan's, and hands strips of the
+// mean so far to the sink. After all passes the picture has the bits of Render's. Not for adaptive
+// sampling. A film whose pass has thrown is of no use any more.
+RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
+                       FrameFilm* film, const StripSink& sink);
+
+// Black, with the plan's channels; and the place of a strip in it.
+Image EmptyImage(const FramePlan& plan);
+void PutStrip(const Strip& strip, Image* image);
 
 // The whole picture in memory, channels as StripChannels has them, all in float. For tests,
 // comparisons and labels; `stats` may be null.

@@ -2,6 +2,7 @@
 // render/settings.h: what a render is asked for beyond its scene.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -21,6 +22,9 @@ std::vector<std::string> IntersectorNames();
 IntersectorChoice ParseIntersector(const std::string& name);
 // Why all rays go through a tree, if they do so whatever the scene; or null.
 const char* TreeAskedFor(IntersectorChoice choice);
+
+// Thrown by a render that RenderSettings::cancel has ended.
+struct Cancelled {};
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
 struct FrameBand {
@@ -54,6 +58,8 @@ struct RenderSettings {
   // Measure how long each stage takes (RenderStats::stage_seconds): some per cent of small frames'
   // time. Output is measured always.
   bool time_stages = false;
+  // Set from any thread, ends the render: Cancelled is thrown within some milliseconds. Null: never.
+  const std::atomic<bool>* cancel = nullptr;
   // Called after every strip, from any thread, one call at a time, with the share done in (0, 1].
   // Throwing from it stops the render.
   std::function<void(double)> on_progress;

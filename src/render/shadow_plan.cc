@@ -90,8 +90,14 @@ std::string DescribeBins(const LightBins& bins) {
                      bins.end.size(), bins.entries(), bins.mean_occupancy, bins.large.size());
 }
 
+// Counts the lights whose occluders the intersector knows.
+struct KnownLights {
+  bool found = false;  // all of them, for a plan before
+  uint32_t count = 0;
+};
+
 bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                         DirectPlan* plan, Explanation* why) {
+                         KnownLights* known, DirectPlan* plan, Explanation* why) {
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
   const std::string why_tree = WhyTree(scene, settings, hits, *plan);
   // A tree that is asked for is asked about the same rays as the others.
@@ -103,7 +109,8 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
       light.occluders = static_cast<uint32_t>(lights.size());
       lights.push_back(&scene.lights[light.index]);
     }
-    hits.intersector->FindOccluders(lights, hits.eye_outside);
+    if (!known->found) hits.intersector->FindOccluders(lights, hits.eye_outside);
+    known->count = static_cast<uint32_t>(lights.size());
   }
   size_t listed = 0, binned = 0, left = 0;
   std::vector<PlanItem> items;
@@ -156,12 +163,14 @@ LightBall BallAround(const SampledLight& light) {
 
 // Finds who asks for the light's shadow rays, and why, among few spheres. Which of them can be
 // shadowed decides what is reflected in closed form, so all intersectors are told the same.
-PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits,
+PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits, KnownLights* known,
                     PlannedSampledLight* light) {
   const std::optional<LightBall> ball =
       IsSky(light->light) ? std::nullopt : std::optional(BallAround(light->light));
-  light->occluders =
-      hits.intersector->FindOccludersOfBall(ball, light->primitives, hits.eye_outside);
+  light->occluders = known->count++;
+  if (!known->found) {
+    hits.intersector->FindOccludersOfBall(ball, light->primitives, hits.eye_outside);
+  }
   const OccluderLists& lists = hits.intersector->Occluders(light->occluders).lists;
   light->shadowed = FindShadowed(lists);
   light->trace_all = settings.general_path;
@@ -185,7 +194,7 @@ PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits,
 }
 
 bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                        DirectPlan* plan, Explanation* why) {
+                        KnownLights* known, DirectPlan* plan, Explanation* why) {
   const bool few = scene.spheres.size() <= kMaxListedSpheres && scene.meshes.empty();
   bool tree = false;
   for (PlannedSampledLight& light : plan->sampled_lights) {
@@ -194,7 +203,7 @@ bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, cons
       item.used = false;
       item.reason = scene.image.shadows ? "the light casts none" : "the scene turns shadows off";
     } else if (few) {
-      item = PlanListed(settings, hits, &light);
+      item = PlanListed(settings, hits, known, &light);
     }
     item.what = fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name);
     why->items.push_back(std::move(item));
@@ -206,14 +215,24 @@ bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, cons
 }  // namespace
 
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                 DirectPlan* plan, Explanation* why) {
+                 PreparedScene* prepared, DirectPlan* plan, Explanation* why) {
   plan->primitives = hits.primitives;
   plan->camera = hits.camera;
   plan->intersector = hits.intersector;
   if (hits.intersector == nullptr) return false;
   plan->eye_outside = hits.eye_outside;
-  const bool tree_for_punctual = PlanPunctualShadows(scene, settings, hits, plan, why);
-  const bool tree_for_sampled = PlanSampledShadows(scene, settings, hits, plan, why);
+  const ViewKey key{
+      prepared->shapes_made,
+      prepared->versions.Of(ScenePart::kLights | ScenePart::kCamera | ScenePart::kImage),
+      {static_cast<double>(settings.intersector), settings.general_path ? 1.0 : 0.0}};
+  KnownLights known{prepared->lights.IsUpToDate(key), 0};
+  if (!known.found) {
+    prepared->lights.Forget();  // until all are found
+    hits.intersector->ForgetOccluders();
+  }
+  const bool tree_for_punctual = PlanPunctualShadows(scene, settings, hits, &known, plan, why);
+  const bool tree_for_sampled = PlanSampledShadows(scene, settings, hits, &known, plan, why);
+  prepared->lights.Set(key, {});
   return tree_for_punctual || tree_for_sampled;
 }
 

@@ -11,6 +11,6 @@ namespace nacre {
 // which spheres, and by what means, and has the intersector find the lights' occluders. Returns
 // whether any are left for a tree, which must then be built.
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
-                 DirectPlan* plan, Explanation* why);
+                 PreparedScene* prepared, DirectPlan* plan, Explanation* why);
 
 }  // namespace nacre

@@ -193,7 +193,7 @@ void LookUpMaps(const SurfacePlan& plan, Surfaces* s) {
 }
 
 void PlanTextures(const Scene& scene, const RenderSettings& settings, const CameraFrame& camera,
-                  SurfacePlan* plan, Explanation* why) {
+                  KeptTables* tables, SurfacePlan* plan, Explanation* why) {
   const std::vector<bool> used = FindUsedMaterials(scene);
   size_t count = 0;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -209,7 +209,7 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
   // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
   const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
   const double footprint = std::max(1 / std::sqrt(samples), 0.125);
-  plan->textures = PrepareTextures(scene, camera, footprint, settings.threads);
+  plan->textures = PrepareTextures(scene, camera, footprint, settings.threads, tables);
   size_t bytes = 0;
   for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
   why->items.push_back(
@@ -222,7 +222,8 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
 }  // namespace
 
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
-                         const CameraFrame& camera, const Rgb& ambient, Explanation* why) {
+                         const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,
+                         Explanation* why) {
   SurfacePlan plan;
   plan.primitives = NumberPrimitives(scene);
   plan.frame_width = scene.image.width;
@@ -248,7 +249,7 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
       {"coats", plan.coated,
        plan.coated ? "hits with one are shaded once more, by the coat" : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
-  PlanTextures(scene, settings, camera, &plan, why);
+  PlanTextures(scene, settings, camera, tables, &plan, why);
   return plan;
 }
 

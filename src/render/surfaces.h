@@ -33,7 +33,8 @@ struct SurfacePlan {
 
 // `ambient`: the sum of the scene's ambient lights.
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
-                         const CameraFrame& camera, const Rgb& ambient, Explanation* why);
+                         const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,
+                         Explanation* why);
 
 // Whether some material has a lobe too narrow for float, or maps: its hits keep their directions in
 // double.

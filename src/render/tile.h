@@ -11,4 +11,9 @@ namespace nacre {
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats);
 
+// Adds samples [first, end) of the pixels of `tile` to its film, which StartTile has emptied before
+// the first of them. Not for plans whose film has one sample.
+void AddSamples(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
+                TileFilm* film, StageClock* clock, RenderStats* stats);
+
 }  // namespace nacre

@@ -3,6 +3,8 @@
 // that all samples take.
 #pragma once
 
+#include <atomic>
+
 #include "render/direct.h"
 #include "render/film.h"
 #include "render/film_layers.h"
@@ -28,9 +30,10 @@ struct TileWork {
   DirectRoom direct_room;
   TileFilm film;  // AddToFilm
   LayerRoom layer_room;
+  const std::atomic<bool>* cancel = nullptr;  // RenderSettings::cancel
 };
 
-// From work->samples, whose tile FindSight has seen, to their radiance.
+// From work->samples, whose tile FindSight has seen, to their radiance. Throws Cancelled.
 void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, RenderStats* stats);
 
 // What the film takes of the work.

@@ -24,6 +24,7 @@ enum class FilterKind : uint8_t { kBox, kGaussian, kBlackmanHarris, kMitchell };
 struct PixelFilter {
   FilterKind kind = FilterKind::kBox;
   double width = 1;  // full support in pixels, in (0, 16]
+  friend bool operator==(const PixelFilter&, const PixelFilter&) = default;
 };
 
 // f(x), x in pixels from the pixel's centre; its integral is 1.

@@ -27,6 +27,7 @@ struct ImageSettings {
   PixelFilter filter;
   uint32_t seed = 0;    // of the sample pattern
   bool shadows = true;  // false: no light casts any
+  friend bool operator==(const ImageSettings&, const ImageSettings&) = default;
 };
 
 }  // namespace nacre

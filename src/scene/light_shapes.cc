@@ -178,4 +178,15 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
   return result;
 }
 
+void UpdateAllButShapes(const Scene& scene, SceneWithLights* with) {
+  Scene& to = with->scene;
+  to.camera = scene.camera;
+  to.image = scene.image;
+  to.images = scene.images;
+  to.textures = scene.textures;
+  std::copy(scene.materials.begin(), scene.materials.end(), to.materials.begin());
+  to.lights = scene.lights;
+  to.background = scene.background;
+}
+
 }  // namespace nacre

@@ -3,9 +3,13 @@
 // names the parts that it is made of, and is made again when one of them changes.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace nacre {
+
+inline constexpr size_t kSceneParts = 7;
 
 enum class ScenePart : uint8_t {
   kCamera,
@@ -48,5 +52,30 @@ class SceneParts {
 };
 
 constexpr SceneParts operator|(ScenePart a, ScenePart b) { return SceneParts(a) | SceneParts(b); }
+
+// How often each part has changed. What was made of some parts is still right while their numbers
+// are the same.
+class PartVersions {
+ public:
+  void Change(SceneParts parts) {
+    for (size_t i = 0; i < kSceneParts; ++i) {
+      if (parts.Has(static_cast<ScenePart>(i))) ++numbers_[i];
+    }
+  }
+
+  // Those of these parts; all others are 0.
+  PartVersions Of(SceneParts parts) const {
+    PartVersions some;
+    for (size_t i = 0; i < kSceneParts; ++i) {
+      if (parts.Has(static_cast<ScenePart>(i))) some.numbers_[i] = numbers_[i];
+    }
+    return some;
+  }
+
+  friend bool operator==(const PartVersions&, const PartVersions&) = default;
+
+ private:
+  std::array<uint64_t, kSceneParts> numbers_{};
+};
 
 }  // namespace nacre

@@ -75,11 +75,16 @@ LiveScene::LiveScene(std::string_view text, std::string file, std::filesystem::p
   ReadAgain(SceneParts::All());
 }
 
-LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options)
-    : options_(std::move(options)), file_(path.string()), folder_(path.parent_path()) {
+LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
+                     std::function<void(Scene*)> complete)
+    : options_(std::move(options)),
+      file_(path.string()),
+      folder_(path.parent_path()),
+      complete_(std::move(complete)) {
   RefuseOtherModels(path);
   if (!IsModelFile(path)) {
-    *this = LiveScene(ReadSceneText(path), file_, folder_, std::move(options_));
+    *this = LiveScene(ReadSceneText(path), file_, folder_, std::move(options_),
+                      std::move(complete_));
     return;
   }
   model_.emplace();
@@ -89,6 +94,7 @@ LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options)
   model_->own_lights = overrides.own_lights;
   SwapParts(ScenePart::kShapes, &scene_, &model_->scene);
   CompleteModel(SceneParts::All());
+  if (complete_) complete_(&scene_);
 }
 
 SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
@@ -137,6 +143,7 @@ SceneParts LiveScene::ReadAgain(SceneParts touched) {
     return ReadAgain(touched | ScenePart::kShapes);
   }
   std::swap(scene_, next);
+  if (parts.Has(ScenePart::kImage)) own_image_ = scene_.image;
   DropUnheld(&kept_);
   if (!parts.Has(ScenePart::kShapes)) return parts;
   const uint64_t hash = HashShapes(scene_);
@@ -168,6 +175,7 @@ SceneParts LiveScene::CompleteModel(SceneParts touched) {
     throw;
   }
   std::swap(scene_, next);
+  if (parts.Has(ScenePart::kImage)) own_image_ = scene_.image;
   DropUnheld(&kept_);
   return new_coordinates ? parts | ScenePart::kShapes : parts;
 }

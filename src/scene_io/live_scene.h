@@ -20,11 +20,12 @@ namespace nacre {
 
 class LiveScene {
  public:
-  // Reads a scene file or a model. Throws as LoadScene does.
-  LiveScene(const std::filesystem::path& path, LoadOptions options);
+  // Reads a scene file or a model. Throws as LoadScene does. `complete`, if any, adds shapes that no
+  // file holds, whenever shapes have been read; what it throws comes out.
+  LiveScene(const std::filesystem::path& path, LoadOptions options,
+            std::function<void(Scene*)> complete = {});
 
-  // The text of a scene file, with LoadSceneText's arguments. `complete`, if any, adds shapes that
-  // no text holds, whenever shapes have been read; what it throws comes out.
+  // The text of a scene file, with LoadSceneText's arguments.
   LiveScene(std::string_view text, std::string file, std::filesystem::path folder,
             LoadOptions options, std::function<void(Scene*)> complete = {});
 
@@ -34,6 +35,11 @@ class LiveScene {
   // returns which parts of the scene may have other values now. Throws Error as LoadScene does: the
   // scene is then the one before.
   SceneParts Set(const std::string& pointer, const std::string& json);
+
+  // Renders it with other settings than its own, until the next change of those. Nothing else
+  // follows: a model's camera stays.
+  void UseImage(const ImageSettings& image) { scene_.image = image; }
+  const ImageSettings& own_image() const { return own_image_; }
 
  private:
   // What a model's file holds, before the camera, lights and overrides that it is given.
@@ -54,6 +60,7 @@ class LiveScene {
   std::optional<Model> model_;  // none: a scene file
   Json root_;                   // of a scene file; of a model, what overrides have put there
   Scene scene_;
+  ImageSettings own_image_;  // of the file with its changes
   bool shapes_bring_materials_ = false;  // or textures: these are read again with those
   uint64_t shapes_hash_ = 0;
   KeptFiles kept_;

@@ -32,15 +32,18 @@ void Prepare(const RectangleAreaLight& rectangle, const Vec3d& camera, SampledLi
   light->two_sided = rectangle.two_sided;
 }
 
-void Prepare(const MeshAreaLight& area, const Vec3d& camera, SampledLight* light) {
+void Prepare(const MeshAreaLight& area, const Vec3d& camera, KeptTables* kept,
+             SampledLight* light) {
   const LightBall ball = BallAround(area.mesh->positions);
   light->form = SampledForm::kMesh;
   light->color = area.radiance;
   light->place = ball.center - camera;
   light->radius = ball.radius;
   light->two_sided = area.two_sided;
-  light->mesh = std::make_shared<MeshLight>(
-      MakeMeshLight(area.mesh->positions, area.mesh->triangles, ball.center));
+  light->mesh = TableOf(
+      area.mesh,
+      [&] { return MakeMeshLight(area.mesh->positions, area.mesh->triangles, ball.center); },
+      &kept->mesh_lights);
 }
 
 void Prepare(const DiskAreaLight& disk, const Vec3d& camera, SampledLight* light) {
@@ -57,16 +60,15 @@ Vec3d Turn(const Vec3d& v, double cosine, double sine) {
   return {v.x * cosine + v.z * sine, v.y, v.z * cosine - v.x * sine};
 }
 
-std::shared_ptr<const EnvironmentMap> MakeMap(const SkyPicture& picture) {
+EnvironmentMap MakeMap(const SkyPicture& picture) {
   // Looked at in place: a copy would take as much memory as the picture.
   static_assert(sizeof(Vec3f) == 3 * sizeof(float));
   const std::span texels(reinterpret_cast<const Vec3f*>(picture.rgb.data()),
                          picture.rgb.size() / 3);
-  return std::make_shared<EnvironmentMap>(
-      MakeEnvironmentMap(picture.width, picture.height, texels));
+  return MakeEnvironmentMap(picture.width, picture.height, texels);
 }
 
-void Prepare(const EnvironmentLight& environment, SampledLight* light) {
+void Prepare(const EnvironmentLight& environment, KeptTables* kept, SampledLight* light) {
   ShadingSky& to = light->sky;
   const double angle = environment.rotate_deg * M_PI / 180;
   to.cos_rotation = std::cos(angle);
@@ -96,7 +98,8 @@ void Prepare(const EnvironmentLight& environment, SampledLight* light) {
                  [&](const PictureSky& sky) {
                    light->form = SampledForm::kPictureSky;
                    light->color = sky.scale;
-                   to.picture = MakeMap(*sky.picture);
+                   to.picture = TableOf(
+                       sky.picture, [&] { return MakeMap(*sky.picture); }, &kept->skies);
                  }},
       environment.sky);
 }
@@ -151,15 +154,17 @@ void SkyRadiance(const SampledLight& light, const Soa3<double>& directions, size
   scale(color.z, &radiance->z);
 }
 
-SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position) {
+SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position,
+                                 KeptTables* kept) {
   SampledLight prepared;
   std::visit(
-      Overloaded{[&](const EnvironmentLight& environment) { Prepare(environment, &prepared); },
-                 [&](const SphereAreaLight& area) { Prepare(area, camera_position, &prepared); },
-                 [&](const RectangleAreaLight& area) { Prepare(area, camera_position, &prepared); },
-                 [&](const DiskAreaLight& area) { Prepare(area, camera_position, &prepared); },
-                 [&](const MeshAreaLight& area) { Prepare(area, camera_position, &prepared); },
-                 [](const auto&) {}},
+      Overloaded{
+          [&](const EnvironmentLight& environment) { Prepare(environment, kept, &prepared); },
+          [&](const SphereAreaLight& area) { Prepare(area, camera_position, &prepared); },
+          [&](const RectangleAreaLight& area) { Prepare(area, camera_position, &prepared); },
+          [&](const DiskAreaLight& area) { Prepare(area, camera_position, &prepared); },
+          [&](const MeshAreaLight& area) { Prepare(area, camera_position, kept, &prepared); },
+          [](const auto&) {}},
       light.kind);
   return prepared;
 }

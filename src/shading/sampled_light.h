@@ -17,6 +17,7 @@
 #include "light/sky.h"
 #include "sampling/pair_sampler.h"
 #include "scene/light.h"
+#include "shading/kept_tables.h"
 #include "shading/shade.h"
 
 namespace nacre {
@@ -54,8 +55,9 @@ struct SampledLight {
   ShadingSky sky;
 };
 
-// `light` is neither ambient nor punctual.
-SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position);
+// `light` is neither ambient nor punctual. Its tables are looked for in `kept`, and left there.
+SampledLight PrepareSampledLight(const Light& light, const Vec3d& camera_position,
+                                 KeptTables* kept);
 
 inline bool IsSky(const SampledLight& light) { return light.form >= SampledForm::kConstantSky; }
 

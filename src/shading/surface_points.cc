@@ -124,7 +124,7 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
     const auto own = std::find_if(of_mesh.begin(), of_mesh.end(),
                                   [&](const MapTangents& t) { return t.texture == number; });
     if (own == of_mesh.end()) continue;
-    const CornerTangents& made = run.scene.tangents[own->tangents];
+    const CornerTangents& made = *run.scene.tangents[own->tangents];
     const auto [g1, g2] = GradientsOf(corners);
     const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
     const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);

@@ -22,7 +22,7 @@ bool SameCoordinates(const Texture& a, const Texture& b) {
 
 // The tangents of each normal map on each mesh. Textures that rotate coordinates alike share them,
 // however they scale them.
-void PrepareTangents(int threads, TextureScene* prepared) {
+void PrepareTangents(int threads, KeptTables* kept, TextureScene* prepared) {
   const Scene& scene = *prepared->scene;
   struct Made {
     bool second_uvs;
@@ -48,10 +48,19 @@ void PrepareTangents(int threads, TextureScene* prepared) {
     const auto index = static_cast<uint32_t>(prepared->tangents.size());
     of_mesh.push_back({map.index, index});
     made.push_back({second, rows, index});
-    prepared->tangents.push_back(
+    const auto before =
+        std::find_if(kept->tangents.begin(), kept->tangents.end(), [&](const KeptTangents& other) {
+          return other.mesh == number && other.second_uvs == second && other.rows == rows;
+        });
+    if (before != kept->tangents.end()) {
+      prepared->tangents.push_back(before->tangents);
+      return;
+    }
+    prepared->tangents.push_back(std::make_shared<const CornerTangents>(
         !mesh.tangents.empty() && HasSmoothNormals(mesh)
             ? RotateTangents(mesh, rows)
-            : MakeTangents(mesh, second ? mesh.second_uvs : mesh.uvs, rows, threads));
+            : MakeTangents(mesh, second ? mesh.second_uvs : mesh.uvs, rows, threads)));
+    kept->tangents.push_back({number, second, rows, prepared->tangents.back()});
   };
   const auto prepare = [&](MaterialId id, size_t number) {
     const Material& material = scene.materials[id.index];
@@ -161,7 +170,10 @@ class RunTexturer {
 }  // namespace
 
 TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
-                             int threads) {
+                             int threads, KeptTables* kept) {
+  // Those that no plan uses any more, as of a rotation that a slider has passed.
+  std::erase_if(kept->tangents,
+                [](const KeptTangents& entry) { return entry.tangents.use_count() == 1; });
   TextureScene prepared;
   prepared.scene = &scene;
   prepared.camera = camera;
@@ -190,7 +202,7 @@ TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, doub
     while (!SameCoordinates(scene.textures[to.coordinates], texture)) ++to.coordinates;
   }
   prepared.primitives = NumberPrimitives(scene);
-  PrepareTangents(threads, &prepared);
+  PrepareTangents(threads, kept, &prepared);
   return prepared;
 }
 

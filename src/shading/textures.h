@@ -14,6 +14,7 @@
 #include "scene/primitives.h"
 #include "scene/scene.h"
 #include "scene/tangents.h"
+#include "shading/kept_tables.h"
 #include "shading/material.h"
 #include "shading/shade.h"
 
@@ -49,13 +50,14 @@ struct TextureScene {
   double footprint = 1;
   std::vector<PreparedTexture> textures;  // one per texture of the scene
   PrimitiveNumbers primitives;
-  std::vector<CornerTangents> tangents;
+  std::vector<std::shared_ptr<const CornerTangents>> tangents;
   std::vector<std::vector<MapTangents>> mesh_tangents;  // by mesh; empty if no mesh has any
 };
 
-// `threads` as in ParallelFor.
+// `threads` as in ParallelFor. Tangents are looked for in `kept`, which is of the same meshes, and
+// left there.
 TextureScene PrepareTextures(const Scene& scene, const CameraFrame& camera, double footprint,
-                             int threads = 0);
+                             int threads, KeptTables* kept);
 
 // Of the hits of one batch that lie on materials with maps. Large: one per worker, and only if the
 // plan has such materials.

@@ -122,12 +122,13 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
   });
 }
 
-uint32_t Intersector::FindOccludersOfBall(const std::optional<LightBall>& ball,
-                                          const PrimitiveRange& target, bool outward) {
+void Intersector::FindOccludersOfBall(const std::optional<LightBall>& ball,
+                                      const PrimitiveRange& target, bool outward) {
   State& s = *state_;
   s.occluders.push_back({{}, {}, ListOccludersOfBall(s.geometry, ball, target, outward)});
-  return static_cast<uint32_t>(s.occluders.size() - 1);
 }
+
+void Intersector::ForgetOccluders() { state_->occluders.clear(); }
 
 const LightOccluders& Intersector::Occluders(uint32_t light) const {
   return state_->occluders[light];

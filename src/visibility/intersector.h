@@ -101,9 +101,12 @@ class Intersector {
   void FindOccluders(const std::vector<const Light*>& lights, bool outward);
 
   // Likewise, after FindOccluders, what can come between the spheres and a light with an extent
-  // (occluder_lists.h), of at most kMaxListedSpheres spheres. Returns the light's place.
-  uint32_t FindOccludersOfBall(const std::optional<LightBall>& ball, const PrimitiveRange& target,
-                               bool outward);
+  // (occluder_lists.h), of at most kMaxListedSpheres spheres: the next place.
+  void FindOccludersOfBall(const std::optional<LightBall>& ball, const PrimitiveRange& target,
+                           bool outward);
+
+  // Begins with the first light again.
+  void ForgetOccluders();
 
   // What was found for a light. The reference holds until the next FindOccluders.
   const LightOccluders& Occluders(uint32_t light) const;

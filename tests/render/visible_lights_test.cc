@@ -93,7 +93,8 @@ TEST_CASE("a light in view is shown, and one well out of view is not") {
       light.center = Vec3d(uniform(-12, 14), uniform(-8, 8), uniform(-6, 14));
       light.radius = uniform(0.05, 1);
       scene.lights = {Named("lamp", light)};
-      const bool is_shown = ShowLights(scene) != nullptr;
+      PreparedScene prepared;
+      const bool is_shown = ShowLights(scene, &prepared) != nullptr;
       CAPTURE(light.center.x, light.center.y, light.center.z, light.radius);
       const bool is_met = IsMet(scene, light);
       if (is_met) REQUIRE(is_shown);

@@ -20,7 +20,8 @@ SampledLight Prepare(const Mesh& mesh, bool two_sided = false) {
   Light light;
   light.kind = MeshAreaLight{
       .mesh = std::make_shared<const Mesh>(mesh), .radiance = Rgb(1), .two_sided = two_sided};
-  return PrepareSampledLight(light, Vec3d(0, 0, 0));
+  KeptTables none;
+  return PrepareSampledLight(light, Vec3d(0, 0, 0), &none);
 }
 
 // Hits in one place.
@@ -239,7 +240,8 @@ TEST_CASE("the irradiance of a convex mesh is the sum of its fronts'") {
 SampledLight Prepared(decltype(Light::kind) kind) {
   Light light;
   light.kind = std::move(kind);
-  return PrepareSampledLight(light, Vec3d(0, 0, 0));
+  KeptTables none;
+  return PrepareSampledLight(light, Vec3d(0, 0, 0), &none);
 }
 
 // Of shadow rays, whose directions are rounded to float: they end on the light nevertheless, and

@@ -49,7 +49,8 @@ void CheckSky(const Scene& scene, const Vec3d& eye, Random* random) {
   const std::vector<ShadowRay> rays = RaysToRims(scene, eye, random);
   ForEachTarget([&](Target) {
     Intersector intersector(scene, eye, {.threads = 1, .tree = false});
-    const uint32_t sky = intersector.FindOccludersOfBall(std::nullopt, {}, false);
+    intersector.FindOccludersOfBall(std::nullopt, {}, false);
+    const uint32_t sky = 0;
     const std::vector<bool> found = TraceShadows(intersector, rays, sky, false);
     size_t occluded = 0;
     for (size_t i = 0; i < rays.size(); ++i) {

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// tests/api/session_test.cc: sessions of the public API against renders of scenes.
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "catch.h"
+#include "nacre.h"
+
+namespace {
+
+nacre::Scene FirstScene() {
+  return nacre::Scene::FromFile(NACRE_SOURCE_DIR "/scenes/first_scene.json");
+}
+
+nacre::RenderSettings Small() {
+  nacre::RenderSettings settings;
+  settings.width = 40;
+  settings.height = 30;
+  settings.samples = 6;
+  settings.threads = 2;
+  settings.layers = {"all"};
+  return settings;
+}
+
+void CheckEqual(const nacre::Image& a, const nacre::Image& b) {
+  REQUIRE(a.channels.size() == b.channels.size());
+  for (size_t i = 0; i < a.channels.size(); ++i) {
+    INFO(a.channels[i].name);
+    REQUIRE(a.channels[i].samples == b.channels[i].samples);
+  }
+}
+
+TEST_CASE("a session's pictures are those of its scene, change by change and back") {
+  nacre::Scene scene = FirstScene();
+  nacre::Session session(scene);
+  CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
+  const nacre::Image before = session.Render(Small());
+  const auto change = [&](const char* pointer, const nacre::Value& value) {
+    INFO(pointer);
+    scene.Set(pointer, value);
+    session.Set(pointer, value);
+    CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
+  };
+  change("/materials/red/roughness", 0.1);
+  change("/lights/key/intensity", 20);
+  change("/shapes/0/radius", 0.5);
+  change("/camera/fov_y_deg", 50);
+  change("/image/spp", 3);
+  change("/materials/red/roughness", 0.3);
+  change("/lights/key/intensity", 140);
+  change("/shapes/0/radius", 1);
+  change("/camera/fov_y_deg", 32);
+  CheckEqual(session.Render(Small()), before);
+  // Settings of one render are not those of the next.
+  nacre::RenderSettings settings;
+  settings.width = 16;
+  settings.height = 12;
+  CHECK(session.Render(settings).width() == 16);
+  session.Set("/image/height", 9);
+  session.Set("/image/width", 12);
+  CHECK(session.Render().width() == 12);
+}
+
+TEST_CASE("a session refuses what is wrong, and keeps its scene") {
+  nacre::Session session(FirstScene());
+  const nacre::Image before = session.Render(Small());
+  try {
+    session.Set("/materials/red/roughness", 3);
+    FAIL("a roughness of 3");
+  } catch (const nacre::Error& error) {
+    CHECK(error.faults().at(0).where.find("/materials/red/roughness") != std::string::npos);
+  }
+  CHECK_THROWS_AS(session.Set("/materials/read/roughness", 0.3), nacre::Error);
+  CHECK_THROWS_AS(session.Set("nothing", 0.3), nacre::Error);
+  CheckEqual(session.Render(Small()), before);
+}
+
+TEST_CASE("sessions of scenes with shapes from code") {
+  nacre::Scene scene;
+  scene.AddMaterial("grey", {{"model", "lambert"}, {"albedo", 0.5}});
+  scene.AddLight("key", {{"type", "point"}, {"position", {3, 4, 5}}, {"intensity", 100}});
+  scene.AddSphere({0, 0, 0}, 1, "grey");
+  scene.AddShape({{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.3},
+                  {"material", "grey"}});
+  nacre::Session session(scene);
+  CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
+  for (nacre::Session* const s : {&session}) {
+    s->Set("/materials/grey/albedo", 0.2);
+    s->Set("/shapes/0/radius", 0.6);
+  }
+  scene.Set("/materials/grey/albedo", 0.2);
+  // In the scene, shapes of parameters come behind overrides: the same by another way.
+  nacre::Scene other;
+  other.AddMaterial("grey", {{"model", "lambert"}, {"albedo", 0.2}});
+  other.AddLight("key", {{"type", "point"}, {"position", {3, 4, 5}}, {"intensity", 100}});
+  other.AddShape({{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.6},
+                  {"material", "grey"}});
+  other.AddSphere({0, 0, 0}, 1, "grey");
+  CheckEqual(session.Render(Small()), nacre::Render(other, Small()));
+}
+
+TEST_CASE("passes show more and more samples, and end in the picture of all") {
+  for (const char* const filter : {"box", "mitchell"}) {
+    nacre::Scene scene = FirstScene();
+    scene.Set("/image/filter", {{"type", filter}, {"width", filter[0] == 'b' ? 1 : 4}});
+    nacre::Session session(scene);
+    std::vector<int> shown;
+    nacre::Image last;
+    const nacre::Image whole =
+        session.RenderProgressively(Small(), [&](const nacre::Image& image, int samples) {
+          shown.push_back(samples);
+          last = image;
+        });
+    CHECK(shown == std::vector<int>{1, 2, 4, 6});
+    CheckEqual(whole, nacre::Render(scene, Small()));
+    CheckEqual(last, whole);
+  }
+}
+
+TEST_CASE("a render is cancelled from another thread, and the session lives on") {
+  nacre::Session session(FirstScene());
+  nacre::RenderSettings large = Small();
+  large.samples = 65536;
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    session.Cancel();
+  });
+  CHECK_THROWS_AS(session.Render(large), nacre::Cancelled);
+  other.join();
+  CheckEqual(session.Render(Small()), nacre::Render(FirstScene(), Small()));
+}
+
+}  // namespace

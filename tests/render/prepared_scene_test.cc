@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of scenes that change, made with what was kept of the pictures before, have the bits of
+// pictures that keep nothing.
+#include "render/prepared_scene.h"
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "catch.h"
+#include "render/render.h"
+#include "scene_io/live_scene.h"
+
+namespace nacre {
+namespace {
+
+const std::filesystem::path kScenes = std::filesystem::path(NACRE_SOURCE_DIR) / "scenes";
+
+struct Change {
+  std::string pointer;
+  std::vector<std::string> values;
+};
+
+// What is asked for changes as well.
+RenderSettings RandomSettings(std::minstd_rand* random) {
+  RenderSettings settings;
+  settings.threads = 1 + static_cast<int>((*random)() % 2);
+  const auto one_in = [&](unsigned n) { return (*random)() % n == 0; };
+  if (one_in(4)) settings.layers = {"all"};
+  if (one_in(5)) settings.region = {7, 5, 31, 20};
+  if (one_in(6)) settings.intersector = IntersectorChoice::kEmbree;
+  if (one_in(6)) settings.intersector = IntersectorChoice::kTiles;
+  if (one_in(6)) settings.max_error = 0.2;
+  settings.max_samples = 16;
+  return settings;
+}
+
+void CheckChanges(const std::string& file, const std::vector<Change>& changes, int count) {
+  LoadOptions options;
+  options.overrides = {{"/image/width", "40"}, {"/image/height", "24"}, {"/image/spp", "2"}};
+  LiveScene live(kScenes / file, options);
+  PreparedScene prepared;
+  std::minstd_rand random(3);
+  for (int i = 0; i < count; ++i) {
+    const Change& change = changes[random() % changes.size()];
+    const std::string& value = change.values[random() % change.values.size()];
+    CAPTURE(file, i, change.pointer, value);
+    prepared.versions.Change(live.Set(change.pointer, value));
+    const RenderSettings settings = RandomSettings(&random);
+    const Image kept = RenderImage(MakePlan(live.scene(), settings, &prepared), settings);
+    const Image fresh = RenderImage(MakePlan(live.scene(), settings), settings);
+    REQUIRE(kept.channels.size() == fresh.channels.size());
+    for (size_t c = 0; c < kept.channels.size(); ++c) {
+      CAPTURE(kept.channels[c].name);
+      REQUIRE(kept.channels[c].samples == fresh.channels[c].samples);
+    }
+  }
+}
+
+const std::vector<Change> kOfEveryScene = {
+    {"/camera/fov_y_deg", {"20", "27", "35"}},
+    {"/camera/position", {"[0, 1, 9]", "[1, 2, 11]", "[-3, 0.5, 8]"}},
+    {"/camera/look_at", {"[0, 0.4, 0]", "[0, 0, 0]"}},
+    {"/image/width", {"40", "56"}},
+    {"/image/spp", {"1", "2", "3"}},
+    {"/image/shadows", {"true", "false"}},
+    {"/image/filter", {R"({"type": "box"})", R"({"type": "gaussian", "width": 3})"}},
+    {"/background", {"0", "[0.1, 0.2, 0.3]"}},
+    {"/lights/more",
+     {R"({"type": "point", "position": [3, 4, 5], "intensity": 30})",
+      R"({"type": "point", "position": [-3, 4, 5], "intensity": 0})",
+      R"({"type": "sphere", "center": [-1, 3, 2], "radius": 0.4, "radiance": 9})",
+      R"({"type": "rectangle", "center": [0, 4, 2], "facing": [0, -1, 0],
+                          "width": 1, "height": 2, "radiance": 5})"}},
+    {"/lights/other",
+     {R"({"type": "ambient", "radiance": 0.2})",
+      R"({"type": "directional", "direction_of_travel": [1, -1, -1],
+                           "irradiance": 1, "shadows": false})"}}};
+
+std::vector<Change> With(std::vector<Change> more) {
+  more.insert(more.end(), kOfEveryScene.begin(), kOfEveryScene.end());
+  return more;
+}
+
+TEST_CASE("Pictures of changed scenes have the bits of new ones", "[prepared_scene]") {
+  CheckChanges("first_scene.json",
+               With({{"/materials/red/roughness", {"0", "0.05", "0.4"}},
+                     {"/materials/red/coat", {"0", "1"}},
+                     {"/materials/extra", {R"({"model": "phong", "shininess": 30})"}},
+                     {"/shapes/0/radius", {"1", "0.7"}},
+                     {"/shapes/0/material", {"\"floor\"", "\"red\""}}}),
+               150);
+  CheckChanges("material_grid.json",
+               With({{"/shapes/0/material/base_color", {"[0.2, 0.3, 0.9]", "0.5"}},
+                     {"/shapes/0/radius", {"0.3", "0.4"}},
+                     {"/shapes/0/rows/count", {"2", "5"}}}),
+               80);
+  CheckChanges("textures.json",
+               With({{"/materials/knot/roughness", {"0.3", "0.9"}},
+                     {"/materials/knot/normal_map", {"\"tiles_normal\"", "null"}},
+                     {"/textures/boxed/scale", {"5", "1"}},
+                     {"/textures/tiles_normal/rotate_deg", {"0", "30"}},
+                     {"/shapes/3/transform/scale", {"0.5", "0.9"}}}),
+               60);
+  CheckChanges("skies.json",
+               With({{"/lights/sky",
+                      {R"({"type": "environment", "image": "textures/evening.exr"})",
+                       R"({"type": "environment", "radiance": 0.5})"}},
+                     {"/lights/sky/rotate_deg", {"0", "30"}},
+                     {"/materials/metal/metallic", {"0", "1"}}}),
+               60);
+  CheckChanges("mesh_lights.json",
+               With({{"/lights/knot/radiance", {"3", "9"}},
+                     {"/lights/knot/visible", {"true", "false"}},
+                     {"/lights/die/icosphere/subdivisions", {"0", "1"}},
+                     {"/materials/clay/roughness", {"0.1", "0.9"}}}),
+               40);
+  CheckChanges("models/pawns.glb", kOfEveryScene, 30);
+}
+
+TEST_CASE("A material's change makes nothing again but what it is made of", "[prepared_scene]") {
+  LiveScene live(kScenes / "mesh_lights.json", {{{"/image/width", "64"}}});
+  PreparedScene prepared;
+  const auto plan = [&] { return MakePlan(live.scene(), {}, &prepared); };
+  const auto change = [&](const char* pointer, const char* value) {
+    prepared.versions.Change(live.Set(pointer, value));
+  };
+  FramePlan before = plan();
+  const auto map = before.direct.sampled_lights[0].light.mesh;
+  change("/materials/clay/roughness", "0.3");
+  FramePlan after = plan();
+  CHECK(after.hits.intersector == before.hits.intersector);
+  CHECK(after.direct.sampled_lights[0].light.mesh == map);
+  change("/lights/knot/radiance", "3");
+  after = plan();
+  CHECK(after.direct.sampled_lights[0].light.mesh == map);
+  change("/camera/fov_y_deg", "30");
+  CHECK(plan().hits.intersector == after.hits.intersector);
+  change("/camera/position", "[0, 2, 12]");
+  CHECK(plan().hits.intersector != after.hits.intersector);
+}
+
+}  // namespace
+}  // namespace nacre
