@@ -14,8 +14,9 @@ namespace {
 
 constexpr int kColumns = static_cast<int>(kFlipColumns);
 constexpr int kBlockRows = static_cast<int>(kFlipBlockRows);
-// Rows of a tile: the filters look at a tenth as many beside them.
-constexpr int kTileRows = 256;
+// Rows of a tile: its samples stay in L2 for all exposures, and the filters look at a sixth as many
+// rows beside it.
+constexpr int kTileRows = 128;
 
 struct Tile {
   int x0, y0, y1;

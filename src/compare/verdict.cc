@@ -41,23 +41,24 @@ class RowExcess {
   RowExcess(const ImagePair& pair, const Tolerances& tolerances)
       : pair_(pair),
         tolerances_(tolerances),
-        marks_(ExcessBytes(static_cast<size_t>(pair.window.width()))) {}
+        width_(static_cast<size_t>(pair.window.width())),
+        marks_((ExcessBytes(width_) + sizeof(uint64_t) - 1) / sizeof(uint64_t)) {}
 
   void Add(int y, Excess* excess) {
-    std::fill(marks_.begin(), marks_.end(), uint8_t{0});
+    std::fill(marks_.begin(), marks_.end(), uint64_t{0});
     bool finite = true;
     double largest = 0;
     for (const LayerPair& layer : pair_.layers) {
       for (const ChannelPair& channel : layer.channels) {
         finite = finite && MarkExcess(channel.got + pair_.GotIndex(pair_.window.x0, y),
                                       channel.reference + pair_.ReferenceIndex(pair_.window.x0, y),
-                                      marks_.size(), tolerances_.max_abs, tolerances_.max_rel,
-                                      marks_.data(), &largest);
+                                      width_, tolerances_.max_abs, tolerances_.max_rel,
+                                      reinterpret_cast<uint8_t*>(marks_.data()), &largest);
       }
     }
     if (finite) {
-      for (const uint8_t mark : marks_) {
-        excess->pixels += static_cast<size_t>(std::popcount(mark));
+      for (const uint64_t marks : marks_) {
+        excess->pixels += static_cast<size_t>(std::popcount(marks));
       }
     }
     if (!finite || largest > excess->worst) AddSamples(y, /*count=*/!finite, excess);
@@ -87,7 +88,8 @@ class RowExcess {
 
   const ImagePair& pair_;
   const Tolerances& tolerances_;
-  std::vector<uint8_t> marks_;
+  size_t width_;
+  std::vector<uint64_t> marks_;  // eight of MarkExcess' each
 };
 
 Excess FindExcess(const ImagePair& pair, const Tolerances& tolerances) {
