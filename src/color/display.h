@@ -62,6 +62,13 @@ Imath::Color3<Real> DisplayLight(const DisplaySettings& settings, Imath::Color3<
 size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const float* g,
                      const float* b, size_t count, uint8_t* rgb8);
 
+// Turns `count` pixels, given as three planes of any alignment and without padding, into linear
+// display light in place, with the errors that EncodeDisplay states. NaN becomes anything.
+void ShowLight(const DisplaySettings& settings, size_t count, float* r, float* g, float* b);
+
+// Turns sRGB values, clamped to [0, 1], into linear light in place, within 6e-7.
+void DecodeSrgb(size_t count, float* values);
+
 // The picture that a display shows of the image's channels R, G and B, or of those of a layer.
 Rgb8Picture ShowImage(const Image& image, const DisplaySettings& settings,
                       const std::string& layer = {});

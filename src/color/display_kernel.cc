@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// color/display_kernel.cc: EncodeDisplay of color/display.h.
+// color/display_kernel.cc: EncodeDisplay, ShowLight and DecodeSrgb of color/display.h.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "color/display_kernel.cc"
 #include "hwy/foreach_target.h"
@@ -11,6 +11,7 @@
 #include "color/display.h"
 #include "color/srgb8-inl.h"
 #include "color/tone-inl.h"
+#include "color/transfer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -27,26 +28,40 @@ struct Chunk {
   alignas(HWY_MAX_BYTES) float b[kChunk];
 };
 
-// Display light of a chunk's pixels into `light`; r is NaN where the pixel has any NaN. The planes
-// may be those of `light` itself.
+struct Planes {
+  float *r, *g, *b;
+
+  Planes operator+(size_t i) const { return {r + i, g + i, b + i}; }
+};
+
+// Display light of a vector of pixels, of any alignment, into `light`, which may be where they are;
+// r is NaN where the pixel has any NaN.
 template <class D, class Tone>
-HWY_INLINE void ToneChunk(D d, const Tone& tone, float scale, const float* r, const float* g,
-                          const float* b, Chunk* light) {
+HWY_INLINE void ToneVector(D d, const Tone& tone, float scale, const float* r, const float* g,
+                           const float* b, const Planes& light) {
   using V = hn::Vec<D>;
   const V zero = hn::Zero(d);
   const V exposure = hn::Set(d, scale);
+  V red = hn::LoadU(d, r);
+  V green = hn::LoadU(d, g);
+  V blue = hn::LoadU(d, b);
+  const auto nan = hn::Or(hn::Or(hn::IsNaN(red), hn::IsNaN(green)), hn::IsNaN(blue));
+  red = hn::Mul(hn::Max(red, zero), exposure);
+  green = hn::Mul(hn::Max(green, zero), exposure);
+  blue = hn::Mul(hn::Max(blue, zero), exposure);
+  tone(d, red, green, blue);
+  hn::StoreU(hn::IfThenElse(nan, hn::NaN(d), red), d, light.r);
+  hn::StoreU(green, d, light.g);
+  hn::StoreU(blue, d, light.b);
+}
+
+// Display light of a chunk's pixels into `light`, likewise.
+template <class D, class Tone>
+HWY_INLINE void ToneChunk(D d, const Tone& tone, float scale, const float* r, const float* g,
+                          const float* b, Chunk* light) {
+  const Planes to = {light->r, light->g, light->b};
   for (size_t i = 0; i < kChunk; i += hn::Lanes(d)) {
-    V red = hn::LoadU(d, r + i);
-    V green = hn::LoadU(d, g + i);
-    V blue = hn::LoadU(d, b + i);
-    const auto nan = hn::Or(hn::Or(hn::IsNaN(red), hn::IsNaN(green)), hn::IsNaN(blue));
-    red = hn::Mul(hn::Max(red, zero), exposure);
-    green = hn::Mul(hn::Max(green, zero), exposure);
-    blue = hn::Mul(hn::Max(blue, zero), exposure);
-    tone(d, red, green, blue);
-    hn::Store(hn::IfThenElse(nan, hn::NaN(d), red), d, light->r + i);
-    hn::Store(green, d, light->g + i);
-    hn::Store(blue, d, light->b + i);
+    ToneVector(d, tone, scale, r + i, g + i, b + i, to + i);
   }
 }
 
@@ -111,26 +126,66 @@ HWY_INLINE size_t EncodePixels(const Tone& tone, float scale, const float* r, co
   return nan_count;
 }
 
+// Calls work(tone, scale) with the operator and the factor of the radiance.
+template <class Work>
+HWY_INLINE auto WithTone(const DisplaySettings& settings, const Work& work) {
+  const float scale = static_cast<float>(std::exp2(settings.exposure_ev));
+  switch (settings.tone) {
+    case ToneOperator::kReinhard:
+      return work(ReinhardTone(), scale);
+    case ToneOperator::kReinhardExtended:
+      return work(ReinhardExtendedTone(settings.white), scale);
+    case ToneOperator::kAces:
+      return work(AcesTone(), scale);
+    case ToneOperator::kAgx:
+      return work(AgxTone(), scale);
+    case ToneOperator::kNone:
+      return work(NoneTone(), scale);
+    case ToneOperator::kNeutral:
+      break;
+  }
+  return work(NeutralTone(), scale);
+}
+
 size_t EncodeDisplayT(const DisplaySettings& settings, const float* r, const float* g,
                       const float* b, size_t count, uint8_t* rgb8) {
-  const float scale = static_cast<float>(std::exp2(settings.exposure_ev));
-  const auto encode = [&](const auto& tone)
-                          HWY_ATTR { return EncodePixels(tone, scale, r, g, b, count, rgb8); };
-  switch (settings.tone) {
-    case ToneOperator::kNeutral:
-      return encode(NeutralTone());
-    case ToneOperator::kReinhard:
-      return encode(ReinhardTone());
-    case ToneOperator::kReinhardExtended:
-      return encode(ReinhardExtendedTone(settings.white));
-    case ToneOperator::kAces:
-      return encode(AcesTone());
-    case ToneOperator::kAgx:
-      return encode(AgxTone());
-    case ToneOperator::kNone:
-      return encode(NoneTone());
-  }
-  return 0;
+  return WithTone(settings, [&](const auto& tone, float scale) HWY_ATTR {
+    return EncodePixels(tone, scale, r, g, b, count, rgb8);
+  });
+}
+
+void ShowLightT(const DisplaySettings& settings, size_t count, float* r, float* g, float* b) {
+  const hn::ScalableTag<float> d;
+  WithTone(settings, [&](const auto& tone, float scale) HWY_ATTR {
+    const size_t lanes = hn::Lanes(d);
+    size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+      ToneVector(d, tone, scale, r + i, g + i, b + i, {r + i, g + i, b + i});
+    }
+    if (i == count) return;
+    float rest[3][HWY_MAX_BYTES / sizeof(float)] = {};
+    float* const planes[] = {r, g, b};
+    const size_t bytes = (count - i) * sizeof(float);
+    for (size_t c = 0; c < 3; ++c) std::memcpy(rest[c], planes[c] + i, bytes);
+    ToneVector(d, tone, scale, rest[0], rest[1], rest[2], {rest[0], rest[1], rest[2]});
+    for (size_t c = 0; c < 3; ++c) std::memcpy(planes[c] + i, rest[c], bytes);
+  });
+}
+
+void DecodeSrgbT(size_t count, float* values) {
+  const hn::ScalableTag<float> d;
+  const size_t lanes = hn::Lanes(d);
+  const auto decode = [&](float* at) HWY_ATTR {
+    const auto encoded = hn::Min(hn::Max(hn::LoadU(d, at), hn::Zero(d)), hn::Set(d, 1.0f));
+    hn::StoreU(SrgbEotf(d, encoded), d, at);
+  };
+  size_t i = 0;
+  for (; i + lanes <= count; i += lanes) decode(values + i);
+  if (i == count) return;
+  float rest[HWY_MAX_BYTES / sizeof(float)] = {};
+  std::memcpy(rest, values + i, (count - i) * sizeof(float));
+  decode(rest);
+  std::memcpy(values + i, rest, (count - i) * sizeof(float));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -140,9 +195,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(EncodeDisplayT);
+HWY_EXPORT(ShowLightT);
+HWY_EXPORT(DecodeSrgbT);
+
 size_t EncodeDisplay(const DisplaySettings& settings, const float* r, const float* g,
                      const float* b, size_t count, uint8_t* rgb8) {
   return HWY_DYNAMIC_DISPATCH(EncodeDisplayT)(settings, r, g, b, count, rgb8);
 }
+
+void ShowLight(const DisplaySettings& settings, size_t count, float* r, float* g, float* b) {
+  HWY_DYNAMIC_DISPATCH(ShowLightT)(settings, count, r, g, b);
+}
+
+void DecodeSrgb(size_t count, float* values) { HWY_DYNAMIC_DISPATCH(DecodeSrgbT)(count, values); }
+
 }  // namespace nacre
 #endif

@@ -2,202 +2,141 @@
 #include "compare/flip.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <cstring>
+#include <vector>
 
+#include "base/aligned.h"
 #include "base/parallel.h"
-#include "compare/flip_color.h"
+#include "compare/flip_rows.h"
 
 namespace nacre {
 namespace {
 
-using flip::Triple;
-constexpr double kPi = std::numbers::pi;
+constexpr int kColumns = static_cast<int>(kFlipColumns);
+constexpr int kBlockRows = static_cast<int>(kFlipBlockRows);
+// Rows of a tile: its samples stay in L2 for all exposures, and the filters look at a sixth as many
+// rows beside it.
+constexpr int kTileRows = 128;
 
-// Contrast sensitivity in space, with the constants of table 1: sums of a sqrt(pi / b) exp(-pi^2
-// z^2 / b) at z degrees. Those of Y and of red against green have one term, blue against yellow
-// two.
-struct Sensitivity {
-  double a1, b1, a2, b2;
-};
-constexpr Sensitivity kSensitivity[] = {
-    {1, 0.0047, 0, 1}, {1, 0.0053, 0, 1}, {34.1, 0.04, 13.5, 0.025}};
-constexpr double kWidestB = 0.04;
-
-// The exponent of colour differences, and the share of the largest one, kShareOfMax,
-// that the lower kShareOfRange of the scale is for.
-constexpr double kColorExponent = 0.7;
-constexpr double kShareOfMax = 0.4;
-constexpr double kShareOfRange = 0.95;
-// The width of the features that are seen, in degrees, and the exponent.
-constexpr double kFeatureWidth = 0.082;
-constexpr double kFeatureExponent = 0.5;
-
-// One dimension of exp(-pi^2 z^2 / b): a Gaussian of sigma^2 = b / (2 pi^2).
-Kernel SensitivityKernel(double b, double pixels_per_degree, int radius) {
-  return GaussianKernel(std::sqrt(b / (2 * kPi * kPi)) * pixels_per_degree, radius);
-}
-
-// The filters are scaled to the sum of 1 over the square window, of which each term has a share.
-double ShareOfFirst(const Sensitivity& s, double pixels_per_degree, int radius) {
-  const auto volume = [&](double a, double b) {
-    double sum = 0;
-    for (int x = -radius; x <= radius; ++x) {
-      const double z = x / pixels_per_degree;
-      sum += std::exp(-kPi * kPi * z * z / b);
-    }
-    return a * std::sqrt(kPi / b) * sum * sum;
-  };
-  const double first = volume(s.a1, s.b1);
-  return first / (first + volume(s.a2, s.b2));
-}
-
-// Three sigmas of the widest, for all.
-int SensitivityRadius(double pixels_per_degree) {
-  return static_cast<int>(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * pixels_per_degree));
-}
-
-Plane FilterSensitivity(const Plane& plane, const Sensitivity& s, double pixels_per_degree) {
-  const int radius = SensitivityRadius(pixels_per_degree);
-  const Kernel first = SensitivityKernel(s.b1, pixels_per_degree, radius);
-  Plane out = Filter(plane, first, first);
-  if (s.a2 == 0) return out;
-  const double share = ShareOfFirst(s, pixels_per_degree, radius);
-  const Kernel second = SensitivityKernel(s.b2, pixels_per_degree, radius);
-  const Plane other = Filter(plane, second, second);
-  for (size_t i = 0; i < out.size(); ++i)
-    out.values[i] = std::lerp(other.values[i], out.values[i], share);
-  return out;
-}
-
-Planes Map(const Planes& in, Triple (*function)(const Triple&)) {
-  Planes out = in;
-  ParallelFor(static_cast<size_t>(in[0].height), 0, [&](size_t row) {
-    const int y = static_cast<int>(row);
-    for (int x = 0; x < in[0].width; ++x) {
-      const Triple to = function({in[0].at(x, y), in[1].at(x, y), in[2].at(x, y)});
-      for (size_t c = 0; c < 3; ++c) out[c].at(x, y) = to[c];
-    }
-  });
-  return out;
-}
-
-// The colours as they are seen: what is too fine is gone, and what no display shows is clipped.
-Triple SeenColor(const Triple& ycc) {
-  Triple rgb = flip::RgbFromYcc(ycc);
-  for (double& value : rgb) value = std::clamp(value, 0.0, 1.0);
-  return flip::HuntLabFromRgb(rgb);
-}
-
-Planes SeenColors(const Planes& ycc, double pixels_per_degree) {
-  Planes filtered;
-  for (size_t c = 0; c < 3; ++c) {
-    filtered[c] = FilterSensitivity(ycc[c], kSensitivity[c], pixels_per_degree);
-  }
-  return Map(filtered, SeenColor);
-}
-
-// Two pieces of a line over HyAB^0.7, to [0, 1]. The largest distance is that of green and blue.
-double ColorError(const Triple& a, const Triple& b) {
-  static const double largest =
-      std::pow(flip::HyabDistance(flip::HuntLabFromRgb({0, 1, 0}), flip::HuntLabFromRgb({0, 0, 1})),
-               kColorExponent);
-  const double error = std::pow(flip::HyabDistance(a, b), kColorExponent);
-  const double knee = kShareOfMax * largest;
-  if (error < knee) return kShareOfRange / knee * error;
-  return kShareOfRange + (error - knee) / (largest - knee) * (1 - kShareOfRange);
-}
-
-// Scales positive weights to the sum of 1, negative ones to -1.
-Kernel Balance(Kernel kernel) {
-  double positive = 0, negative = 0;
-  for (const double weight : kernel) (weight > 0 ? positive : negative) += std::abs(weight);
-  for (double& weight : kernel) weight /= weight > 0 ? positive : negative;
-  return kernel;
-}
-
-// The size of the gradient (edges) and of the second derivatives (points)
-// of a Gaussian, each scaled so that a step or a dot in [0, 1] gives at most 1.
-struct Features {
-  Plane edges, points;
+struct Tile {
+  int x0, y0, y1;
 };
 
-Plane Norm(const Plane& luminance, const Kernel& derivative, const Kernel& smooth) {
-  Plane norm = Filter(luminance, derivative, smooth);
-  const Plane down = Filter(luminance, smooth, derivative);
-  for (size_t i = 0; i < norm.size(); ++i) {
-    norm.values[i] = std::hypot(norm.values[i], down.values[i]);
+// The tiles of a picture are worked out each by itself, from the top down. Filtered rows of both
+// pictures are kept for as long as blocks below look at them, in a ring.
+class TileWork {
+ public:
+  TileWork(const PictureView& reference, const PictureView& test, const FlipWeights& weights,
+           const Tile& tile)
+      : reference_(reference),
+        test_(test),
+        weights_(weights),
+        tile_(tile),
+        radius_(static_cast<int>(weights.radius)),
+        line_(FlipLineRoom(weights.radius)),
+        slots_(2 * weights.radius + kFlipBlockRows),
+        light_(3 * line_),
+        ring_(2 * slots_ * kFlipRow),
+        block_(kFlipScratch + kFlipBlockRows * kFlipColumns) {
+    for (std::vector<const float*>& rows : rows_) rows.resize(slots_);
+    CountUnequalRows();
   }
-  return norm;
-}
 
-double FeatureSigma(double pixels_per_degree) { return 0.5 * kFeatureWidth * pixels_per_degree; }
-
-int FeatureRadius(double pixels_per_degree) {
-  return static_cast<int>(std::ceil(3 * FeatureSigma(pixels_per_degree)));
-}
-
-Features FindFeatures(const Plane& y, double pixels_per_degree) {
-  const double sigma = FeatureSigma(pixels_per_degree);
-  const int radius = FeatureRadius(pixels_per_degree);
-  const Kernel smooth = GaussianKernel(sigma, radius);
-  Kernel edge = smooth, point = smooth;
-  for (int x = -radius; x <= radius; ++x) {
-    const auto i = static_cast<size_t>(x + radius);
-    edge[i] *= -x;
-    point[i] *= x * x / (sigma * sigma) - 1;
+  // Raises the map's pixels of the tile to FLIP where that is more.
+  void Raise(const ShowPair& show, Plane* map) {
+    next_ = 0;
+    for (int y = tile_.y0; y < tile_.y1; y += kBlockRows) {
+      const int top = std::max(y - radius_, 0);
+      const int end = std::min(y + kBlockRows + radius_, reference_.height);
+      if (show.alike && UnequalRows(top, end) == 0) continue;
+      for (int row = std::max(top, next_); row < end; ++row) FilterRow(show, row);
+      next_ = end;
+      for (size_t i = 0; i < slots_; ++i) {
+        const int row = std::clamp(y - radius_ + static_cast<int>(i), 0, reference_.height - 1);
+        rows_[0][i] = Slot(0, row);
+        rows_[1][i] = Slot(1, row);
+      }
+      float* const flip = block_.data() + kFlipScratch;
+      FlipBlock(weights_, rows_[0].data(), rows_[1].data(), block_.data(), flip);
+      const int width = std::min(kColumns, map->width - tile_.x0);
+      for (int row = y; row < std::min(y + kBlockRows, tile_.y1); ++row) {
+        const float* const from = flip + (row - y) * kColumns;
+        float* const to = &map->at(tile_.x0, row);
+        for (int x = 0; x < width; ++x) to[x] = std::max(to[x], from[x]);
+      }
+    }
   }
-  Plane luminance = y;
-  for (double& value : luminance.values) value = (value + 16) / 116;
-  return {Norm(luminance, Balance(edge), smooth), Norm(luminance, Balance(point), smooth)};
-}
 
-// (max(|edges|, |points|) / sqrt 2)^0.5, of the differences.
-double FeatureError(const Features& a, const Features& b, size_t i) {
-  const double edges = std::abs(a.edges.values[i] - b.edges.values[i]);
-  const double points = std::abs(a.points.values[i] - b.points.values[i]);
-  return std::pow(std::max(edges, points) / std::numbers::sqrt2, kFeatureExponent);
-}
-
-Planes RowsOf(const Planes& planes, int first, int end) {
-  return {nacre::RowsOf(planes[0], first, end), nacre::RowsOf(planes[1], first, end),
-          nacre::RowsOf(planes[2], first, end)};
-}
-
-// Of a picture, or of some rows of one.
-Plane FlipRows(const Planes& reference, const Planes& test, double pixels_per_degree) {
-  const Planes ycc_reference = Map(reference, flip::YccFromRgb);
-  const Planes ycc_test = Map(test, flip::YccFromRgb);
-  const Features features_reference = FindFeatures(ycc_reference[0], pixels_per_degree);
-  const Features features_test = FindFeatures(ycc_test[0], pixels_per_degree);
-  const Planes seen_reference = SeenColors(ycc_reference, pixels_per_degree);
-  const Planes seen_test = SeenColors(ycc_test, pixels_per_degree);
-  Plane map(reference[0].width, reference[0].height);
-  for (size_t i = 0; i < map.size(); ++i) {
-    const auto at = [i](const Planes& p) -> Triple {
-      return {p[0].values[i], p[1].values[i], p[2].values[i]};
-    };
-    const double color = ColorError(at(seen_reference), at(seen_test));
-    // The final difference: colour^(1 - feature).
-    map.values[i] = std::pow(color, 1 - FeatureError(features_reference, features_test, i));
+ private:
+  // Rows [first, end) whose samples, of all columns that the filters look at, are not the same bits
+  // in both pictures.
+  int UnequalRows(int first, int end) const {
+    return unequal_[static_cast<size_t>(end - unequal_first_)] -
+           unequal_[static_cast<size_t>(first - unequal_first_)];
   }
-  return map;
-}
+
+  void CountUnequalRows() {
+    unequal_first_ = std::max(tile_.y0 - radius_, 0);
+    const int end = std::min(tile_.y1 + kBlockRows + radius_, reference_.height);
+    const int x0 = std::max(tile_.x0 - radius_, 0);
+    const int x1 = std::min(tile_.x0 + kColumns + radius_, reference_.width);
+    const size_t bytes = static_cast<size_t>(x1 - x0) * sizeof(float);
+    unequal_.push_back(0);
+    for (int y = unequal_first_; y < end; ++y) {
+      bool unequal = false;
+      for (size_t c = 0; c < 3 && !unequal; ++c) {
+        const auto row = static_cast<size_t>(y);
+        unequal = std::memcmp(reference_.rgb[c] + row * reference_.stride + x0,
+                              test_.rgb[c] + row * test_.stride + x0, bytes) != 0;
+      }
+      unequal_.push_back(unequal_.back() + (unequal ? 1 : 0));
+    }
+  }
+
+  float* Slot(size_t picture, int row) {
+    const size_t slot = static_cast<size_t>(row) % slots_;
+    return ring_.data() + (picture * slots_ + slot) * kFlipRow;
+  }
+
+  void FilterRow(const ShowPair& show, int row) {
+    const std::array<float*, 3> light = {light_.data(), light_.data() + line_,
+                                         light_.data() + 2 * line_};
+    const int count = kColumns + 2 * radius_;
+    ReadLight(reference_, show.reference, tile_.x0 - radius_, row, count, light);
+    FilterFlipRow(weights_, light, Slot(0, row));
+    ReadLight(test_, show.test, tile_.x0 - radius_, row, count, light);
+    FilterFlipRow(weights_, light, Slot(1, row));
+  }
+
+  const PictureView& reference_;
+  const PictureView& test_;
+  const FlipWeights& weights_;
+  Tile tile_;
+  int radius_;
+  size_t line_, slots_;
+  AlignedArray<float> light_, ring_, block_;
+  std::vector<const float*> rows_[2];
+  int next_ = 0;  // the first row that has not been filtered
+  std::vector<int> unequal_;
+  int unequal_first_ = 0;
+};
 
 }  // namespace
 
-Plane FlipMap(const Planes& reference, const Planes& test, double pixels_per_degree) {
-  const int height = reference[0].height;
-  const int radius =
-      std::max(SensitivityRadius(pixels_per_degree), FeatureRadius(pixels_per_degree));
-  Plane map(reference[0].width, height);
-  for (const Band& band : BandsOf(height, radius)) {
-    const Plane rows = FlipRows(RowsOf(reference, band.input_first, band.input_end),
-                                RowsOf(test, band.input_first, band.input_end), pixels_per_degree);
-    for (int y = band.first; y < band.end; ++y) {
-      for (int x = 0; x < map.width; ++x) map.at(x, y) = rows.at(x, y - band.input_first);
+Plane FlipMap(const PictureView& reference, const PictureView& test,
+              std::span<const ShowPair> shows, double pixels_per_degree) {
+  const FlipWeights weights = MakeFlipWeights(pixels_per_degree);
+  std::vector<Tile> tiles;
+  for (int y = 0; y < reference.height; y += kTileRows) {
+    for (int x = 0; x < reference.width; x += kColumns) {
+      tiles.push_back({x, y, std::min(y + kTileRows, reference.height)});
     }
   }
+  Plane map(reference.width, reference.height);
+  ParallelFor(tiles.size(), 0, [&](size_t i) {
+    TileWork work(reference, test, weights, tiles[i]);
+    for (const ShowPair& show : shows) work.Raise(show, &map);
+  });
   return map;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare/flip_color.h: the colour spaces of FLIP (Andersson et al. 2020, its colour pipeline), in
-// double.
+// compare/flip_color.h: the colour spaces and differences of FLIP (Andersson et al. 2020), in
+// double. SIMD twin: flip_color-inl.h.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace nacre::flip {
 
@@ -73,9 +75,47 @@ inline Triple HuntLabFromRgb(const Triple& rgb) {
           0.01 * lightness * 200 * (f[1] - f[2])};
 }
 
+// What is seen of filtered colours: what no display shows is clipped.
+inline Triple SeenColor(const Triple& ycc) {
+  Triple rgb = RgbFromYcc(ycc);
+  for (double& value : rgb) value = std::clamp(value, 0.0, 1.0);
+  return HuntLabFromRgb(rgb);
+}
+
 // Abasi et al. 2020, for large differences: |dL| + sqrt(da^2 + db^2).
 inline double HyabDistance(const Triple& a, const Triple& b) {
   return std::abs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]);
+}
+
+// The exponent of colour differences, and the share of the largest one, kShareOfMax,
+// that the lower kShareOfRange of the scale is for.
+inline constexpr double kColorExponent = 0.7;
+inline constexpr double kShareOfMax = 0.4;
+inline constexpr double kShareOfRange = 0.95;
+
+// The largest HyAB^0.7, that of green and blue.
+inline double LargestDifference() {
+  return std::pow(HyabDistance(HuntLabFromRgb({0, 1, 0}), HuntLabFromRgb({0, 0, 1})),
+                  kColorExponent);
+}
+
+// Two pieces of a line over HyAB^0.7, to [0, 1]. `largest`: LargestDifference().
+inline double ColorError(double distance, double largest) {
+  const double error = std::pow(distance, kColorExponent);
+  const double knee = kShareOfMax * largest;
+  if (error < knee) return kShareOfRange / knee * error;
+  return kShareOfRange + (error - knee) / (largest - knee) * (1 - kShareOfRange);
+}
+
+// Of the differences of edges and of points, both of the size of gradients in [0, 1]: the larger
+// one over sqrt 2, to the power of 0.5.
+inline double FeatureError(double edges, double points) {
+  return std::sqrt(std::max(std::abs(edges), std::abs(points)) / std::numbers::sqrt2);
+}
+
+// The final difference.
+inline double Flip(double color_error, double feature_error) {
+  return std::pow(color_error, 1 - feature_error);
 }
 
 }  // namespace nacre::flip

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "color/display.h"
 #include "color/luminance.h"
-#include "color/tone.h"
 
 namespace nacre {
 namespace {
@@ -22,38 +22,41 @@ double RadianceShownAs(double light) {
   return (-b + std::sqrt(b * b - 4 * a * c)) / (2 * a) / kPreExposure;
 }
 
-double Median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*std::max_element(values.begin(), middle) + *middle) / 2;
+double Median(std::vector<double>* values) {
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
+  std::nth_element(values->begin(), middle, values->end());
+  if (values->size() % 2 == 1) return *middle;
+  return (*std::max_element(values->begin(), middle) + *middle) / 2;
 }
 
-Planes Show(const Planes& radiance, double exposure) {
-  Planes shown = radiance;
-  for (Plane& plane : shown) {
-    for (double& value : plane.values) {
-      value = ToneAces(kPreExposure * std::exp2(exposure) * value);
-    }
-  }
-  return shown;
+ShowPair ShowAt(double exposure) {
+  // Float's range: references of denormals alone would ask for more.
+  const double stops = std::clamp(exposure + std::log2(kPreExposure), -126.0, 127.0);
+  const DisplaySettings display{.tone = ToneOperator::kAces, .exposure_ev = stops};
+  const ShowFunction show = [display](size_t count, float* r, float* g, float* b) {
+    ShowLight(display, count, r, g, b);
+  };
+  return {show, show, /*alike=*/true};
 }
 
 }  // namespace
 
-ExposureRange FlipExposures(const Planes& reference) {
+ExposureRange FlipExposures(const PictureView& reference) {
   std::vector<double> luminances;
-  luminances.reserve(reference[0].size());
-  for (size_t i = 0; i < reference[0].size(); ++i) {
-    luminances.push_back(Luminance<double>(
-        {reference[0].values[i], reference[1].values[i], reference[2].values[i]}));
+  luminances.reserve(static_cast<size_t>(reference.width) * static_cast<size_t>(reference.height));
+  for (int y = 0; y < reference.height; ++y) {
+    const size_t row = static_cast<size_t>(y) * reference.stride;
+    for (size_t i = row; i < row + static_cast<size_t>(reference.width); ++i) {
+      const auto at = [&](size_t c) { return std::max(double{reference.rgb[c][i]}, 0.0); };
+      luminances.push_back(Luminance<double>({at(0), at(1), at(2)}));
+    }
   }
   const double brightest = *std::max_element(luminances.begin(), luminances.end());
   if (brightest == 0) return {};
-  double median = Median(luminances);
+  double median = Median(&luminances);
   if (median == 0) {
     std::erase(luminances, 0.0);
-    median = Median(luminances);
+    median = Median(&luminances);
   }
   const double radiance = RadianceShownAs(kShown);
   ExposureRange range;
@@ -63,21 +66,12 @@ ExposureRange FlipExposures(const Planes& reference) {
   return range;
 }
 
-HdrFlip HdrFlipMap(const Planes& reference, const Planes& test, const ExposureRange& range,
-                   double pixels_per_degree) {
+Plane HdrFlipMap(const PictureView& reference, const PictureView& test, const ExposureRange& range,
+                 double pixels_per_degree) {
   const double step = range.count > 1 ? (range.stop - range.start) / (range.count - 1) : 0;
-  HdrFlip out{Plane(reference[0].width, reference[0].height),
-              Plane(reference[0].width, reference[0].height, range.start)};
-  for (int i = 0; i < range.count; ++i) {
-    const double exposure = range.start + i * step;
-    const Plane error = FlipMap(Show(reference, exposure), Show(test, exposure), pixels_per_degree);
-    for (size_t p = 0; p < error.size(); ++p) {
-      if (error.values[p] <= out.error.values[p]) continue;
-      out.error.values[p] = error.values[p];
-      out.exposure.values[p] = exposure;
-    }
-  }
-  return out;
+  std::vector<ShowPair> shows;
+  for (int i = 0; i < range.count; ++i) shows.push_back(ShowAt(range.start + i * step));
+  return FlipMap(reference, test, shows, pixels_per_degree);
 }
 
 }  // namespace nacre

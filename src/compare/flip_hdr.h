@@ -17,17 +17,13 @@ struct ExposureRange {
 // white, at `stop` its median is, and there are as many exposures as stops between, at least 2.
 //
 // Where more than half of the reference is black, as behind a lone object, the paper's `stop` is
-// infinite; the median is then that of the rest. All black: 0 and 0, one exposure.
-ExposureRange FlipExposures(const Planes& reference);
+// infinite; the median is then that of the rest. All black: 0 and 0, one exposure. Negative
+// radiance counts as 0.
+ExposureRange FlipExposures(const PictureView& reference);
 
-struct HdrFlip {
-  Plane error;     // the largest FLIP of each pixel over the exposures
-  Plane exposure;  // the first exposure that shows it, in stops
-};
-
-// Linear radiance, not negative and finite. Each exposure is shown through their tone curve,
-// Narkowicz's ACES at 0.6 of the radiance.
-HdrFlip HdrFlipMap(const Planes& reference, const Planes& test, const ExposureRange& range,
-                   double pixels_per_degree);
+// The largest FLIP of each pixel over the exposures, of linear radiance. Each exposure is shown
+// through the paper's tone curve, Narkowicz's ACES at 0.6 of the radiance.
+Plane HdrFlipMap(const PictureView& reference, const PictureView& test, const ExposureRange& range,
+                 double pixels_per_degree);
 
 }  // namespace nacre

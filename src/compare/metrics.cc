@@ -5,116 +5,121 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <utility>
+
+#include "base/float_mode.h"
+#include "base/parallel.h"
+#include "compare/metrics_rows.h"
 
 namespace nacre {
 namespace {
 
-// Running sums over the samples of a layer.
-class Accumulator {
- public:
-  // `samples`: as many as there will be.
-  Accumulator(std::string layer, size_t samples) : kept_(samples - RankOf999(samples)) {
-    metrics_.layer = std::move(layer);
-    largest_relative_.reserve(kept_);
-  }
+// The index, in ascending order, of the value that 99.9 % of `count` values do not exceed.
+size_t RankOf999(size_t count) {
+  return count == 0 ? 0 : static_cast<size_t>(std::ceil(0.999 * static_cast<double>(count))) - 1;
+}
 
-  void Add(float got, float reference, int x, int y, const std::string& channel) {
-    ++metrics_.samples;
-    const double error = SampleError(got, reference);
-    if (error > largest_) {
-      largest_ = error;
-      metrics_.max_abs_at = {x, y, channel, got, reference};
-    }
-    if (std::isinf(error)) {
-      ++metrics_.nonfinite_mismatches;
-      return;
-    }
-    if (!std::isfinite(reference)) return;  // the same in both images
-    ++finite_;
-    const double softened = SoftenedError(error, reference);
-    squares_ += error * error;
-    softened_squares_ += softened * softened;
-    sum_got_ += got;
-    sum_reference_ += reference;
-    metrics_.max_abs = std::max(metrics_.max_abs, error);
-    metrics_.psnr_peak = std::max(metrics_.psnr_peak, std::abs(static_cast<double>(reference)));
-    AddRelative(error, reference);
-  }
+// Some rows of one channel.
+struct BandErrors {
+  explicit BandErrors(size_t kept) : relative(kept) {}
 
-  LayerMetrics Finish() {
-    if (finite_ == 0) return metrics_;
-    const auto count = static_cast<double>(finite_);
-    metrics_.rmse = std::sqrt(squares_ / count);
-    metrics_.rel_mse = softened_squares_ / count;
-    if (metrics_.rmse > 0) {
-      metrics_.psnr_db = 20 * std::log10(metrics_.psnr_peak / metrics_.rmse);
-    }
-    metrics_.mean_got = sum_got_ / count;
-    metrics_.mean_reference = sum_reference_ / count;
-    if (relative_count_ > 0) {
-      // Ascending. Of fewer samples fewer are above the rank.
-      std::sort_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
-      std::reverse(largest_relative_.begin(), largest_relative_.end());
-      const size_t above = relative_count_ - RankOf999(relative_count_);
-      metrics_.p999_rel = largest_relative_[largest_relative_.size() - above];
-    }
-    return metrics_;
-  }
-
- private:
-  // The index, in ascending order, of the value that 99.9 % of `count` values do not exceed.
-  static size_t RankOf999(size_t count) {
-    return count == 0 ? 0 : static_cast<size_t>(std::ceil(0.999 * static_cast<double>(count))) - 1;
-  }
-
-  void AddRelative(double error, float reference) {
-    if (reference == 0) {
-      metrics_.zero_mismatches += error > 0;
-      return;
-    }
-    ++relative_count_;
-    const double relative = RelativeError(error, reference);
-    metrics_.max_rel = std::max(metrics_.max_rel, relative);
-    // Kept as floats, of which there may be thousands; references may be denormals.
-    constexpr double kMost = std::numeric_limits<float>::max();
-    Keep(static_cast<float>(std::min(relative, kMost)));
-  }
-
-  // A heap with the smallest of the kept errors on top: one in a thousand is kept, not all, which
-  // would take as much memory as an image.
-  void Keep(float relative) {
-    if (largest_relative_.size() == kept_) {
-      if (relative <= largest_relative_.front()) return;
-      std::pop_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
-      largest_relative_.pop_back();
-    }
-    largest_relative_.push_back(relative);
-    std::push_heap(largest_relative_.begin(), largest_relative_.end(), std::greater<>());
-  }
-
-  LayerMetrics metrics_;
-  size_t finite_ = 0;
-  double largest_ = 0;
-  double squares_ = 0, softened_squares_ = 0, sum_got_ = 0, sum_reference_ = 0;
-  size_t kept_, relative_count_ = 0;
-  std::vector<float> largest_relative_;
+  ErrorSums sums;
+  size_t nonfinite_mismatches = 0;
+  double largest = 0;  // infinite for a sample that is not finite in one image only
+  DifferenceSite largest_at;
+  LargestErrors relative;
 };
+
+// Of a row in which something is not finite.
+void AddSample(float got, float reference, BandErrors* band) {
+  const double error = SampleError(got, reference);
+  band->nonfinite_mismatches += std::isinf(error);
+  if (std::isinf(error) || !std::isfinite(reference)) return;  // or the same in both images
+  band->sums.Add({.finite = 1,
+                  .relative = reference == 0 ? size_t{0} : size_t{1},
+                  .zero_mismatches = reference == 0 && error > 0 ? size_t{1} : size_t{0},
+                  .squares = error * error,
+                  .softened_squares = SoftenedSquare(error, reference),
+                  .sum_got = got,
+                  .sum_reference = reference,
+                  .largest = error,
+                  .peak = std::abs(reference),
+                  .largest_relative = reference == 0 ? 0 : RelativeError(error, reference)});
+  if (reference != 0) band->relative.Add(RelativeToFloat(RelativeError(error, reference)));
+}
+
+void AddRow(const float* got, const float* reference, int width, int x0, int y,
+            const std::string& channel, BandErrors* band) {
+  ErrorSums sums;
+  const bool finite = SumRow(got, reference, static_cast<size_t>(width), &sums, &band->relative);
+  band->sums.Add(sums);
+  if (finite && sums.largest <= band->largest) return;
+  for (int x = 0; x < width; ++x) {
+    if (!finite) AddSample(got[x], reference[x], band);
+    const double error = SampleError(got[x], reference[x]);
+    if (error <= band->largest) continue;
+    band->largest = error;
+    band->largest_at = {x0 + x, y, channel, got[x], reference[x]};
+  }
+}
+
+// What 99.9 % of `count` relative errors have at most. `largest`: more of them than one in a
+// thousand, but for those that are 0.
+double Quantile999(size_t count, std::vector<float>* largest) {
+  const size_t above = count - RankOf999(count);  // itself among them
+  if (count == 0 || largest->size() < above) return 0;
+  const auto place = largest->begin() + static_cast<std::ptrdiff_t>(above - 1);
+  std::nth_element(largest->begin(), place, largest->end(), std::greater<>());
+  return *place;
+}
 
 }  // namespace
 
 LayerMetrics CompareLayer(const ImagePair& pair, const LayerPair& layer) {
+  constexpr int kBandRows = 64;
   const Window& window = pair.window;
-  Accumulator accumulator(layer.layer, layer.channels.size() * window.pixel_count());
-  for (const ChannelPair& channel : layer.channels) {
-    for (int y = window.y0; y < window.y1; ++y) {
-      for (int x = window.x0; x < window.x1; ++x) {
-        accumulator.Add(channel.got[pair.GotIndex(x, y)],
-                        channel.reference[pair.ReferenceIndex(x, y)], x, y, channel.name);
-      }
+  const auto bands = static_cast<size_t>((window.height() + kBandRows - 1) / kBandRows);
+  LayerMetrics metrics;
+  metrics.layer = layer.layer;
+  metrics.samples = layer.channels.size() * window.pixel_count();
+  const size_t kept = metrics.samples - RankOf999(metrics.samples);
+  std::vector<BandErrors> errors(layer.channels.size() * bands, BandErrors(kept));
+  ParallelFor(errors.size(), 0, [&](size_t i) {
+    const DefaultFloatMode keep_denormals;
+    const ChannelPair& channel = layer.channels[i / bands];
+    const int first = window.y0 + static_cast<int>(i % bands) * kBandRows;
+    for (int y = first; y < std::min(first + kBandRows, window.y1); ++y) {
+      AddRow(channel.got + pair.GotIndex(window.x0, y),
+             channel.reference + pair.ReferenceIndex(window.x0, y), window.width(), window.x0, y,
+             channel.name, &errors[i]);
     }
+  });
+  ErrorSums sums;
+  double largest = 0;
+  std::vector<float> relative;
+  for (const BandErrors& band : errors) {  // in order: of equal errors the first
+    sums.Add(band.sums);
+    metrics.nonfinite_mismatches += band.nonfinite_mismatches;
+    const std::vector<float>& of_band = band.relative.errors();
+    relative.insert(relative.end(), of_band.begin(), of_band.end());
+    if (band.largest <= largest) continue;
+    largest = band.largest;
+    metrics.max_abs_at = band.largest_at;
   }
-  return accumulator.Finish();
+  if (sums.finite == 0) return metrics;
+  const auto count = static_cast<double>(sums.finite);
+  metrics.rmse = std::sqrt(sums.squares / count);
+  metrics.rel_mse = sums.softened_squares / count;
+  metrics.max_abs = sums.largest;
+  metrics.psnr_peak = sums.peak;
+  if (metrics.rmse > 0) {
+    metrics.psnr_db = 20 * std::log10(metrics.psnr_peak / metrics.rmse);
+  }
+  metrics.mean_got = sums.sum_got / count;
+  metrics.mean_reference = sums.sum_reference / count;
+  metrics.max_rel = sums.largest_relative;
+  metrics.p999_rel = Quantile999(sums.relative, &relative);
+  metrics.zero_mismatches = sums.zero_mismatches;
+  return metrics;
 }
 
 }  // namespace nacre

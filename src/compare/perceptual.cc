@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "color/luminance.h"
-#include "color/transfer.h"
+#include "color/display.h"
 #include "compare/ssim.h"
 
 namespace nacre {
@@ -19,13 +18,6 @@ bool IsDisplayReferred(const Image& image) {
   const auto transfer = image.metadata.find("transfer");
   return transfer != image.metadata.end() && transfer->second == "display";
 }
-
-// The samples of both images as they are: radiance, or the codes of a display.
-struct Colors {
-  Planes got, reference;
-  size_t nonfinite = 0;  // pixels, of either
-  int nonfinite_x = 0, nonfinite_y = 0;
-};
 
 // The channel of the layer that ends in R, G or B; null if it has none.
 const ChannelPair* FindColor(const LayerPair& layer, char color) {
@@ -41,79 +33,74 @@ bool IsColor(const LayerPair& layer) {
   return FindColor(layer, 'R') && FindColor(layer, 'G') && FindColor(layer, 'B');
 }
 
+// The colours of both images, as they are: radiance, or the values of a display.
+struct Colors {
+  PictureView got, reference;
+};
+
 Colors GetColors(const ImagePair& pair, const LayerPair& layer) {
-  const Window& window = pair.window;
   Colors colors;
-  const ChannelPair* const channels[] = {FindColor(layer, 'R'), FindColor(layer, 'G'),
-                                         FindColor(layer, 'B')};
-  colors.got.fill(Plane(window.width(), window.height()));
-  colors.reference = colors.got;
-  for (int y = window.y0; y < window.y1; ++y) {
-    for (int x = window.x0; x < window.x1; ++x) {
-      bool finite = true;
-      for (size_t c = 0; c < 3; ++c) {
-        const float got = channels[c]->got[pair.GotIndex(x, y)];
-        const float reference = channels[c]->reference[pair.ReferenceIndex(x, y)];
-        finite = finite && std::isfinite(got) && std::isfinite(reference);
-        colors.got[c].at(x - window.x0, y - window.y0) = std::max(got, 0.0f);
-        colors.reference[c].at(x - window.x0, y - window.y0) = std::max(reference, 0.0f);
-      }
-      if (finite) continue;
-      if (colors.nonfinite++ == 0) {
-        colors.nonfinite_x = x;
-        colors.nonfinite_y = y;
-      }
-    }
+  colors.got = {pair.window.width(), pair.window.height(), {}, pair.got_stride};
+  colors.reference = {pair.window.width(), pair.window.height(), {}, pair.reference_stride};
+  constexpr char kNames[] = {'R', 'G', 'B'};
+  for (size_t c = 0; c < 3; ++c) {
+    const ChannelPair* const channel = FindColor(layer, kNames[c]);
+    colors.got.rgb[c] = channel->got;
+    colors.reference.rgb[c] = channel->reference;
   }
   return colors;
 }
 
+// Pixels that are not finite in one of the pictures, and the first of them.
+struct NonfinitePixels {
+  size_t count = 0;
+  int x = 0, y = 0;
+};
+
+NonfinitePixels FindNonfinite(const Colors& colors) {
+  NonfinitePixels found;
+  const auto is_finite = [](const PictureView& picture, int x, int y) {
+    const size_t i = static_cast<size_t>(y) * picture.stride + static_cast<size_t>(x);
+    return std::isfinite(picture.rgb[0][i]) && std::isfinite(picture.rgb[1][i]) &&
+           std::isfinite(picture.rgb[2][i]);
+  };
+  for (int y = 0; y < colors.got.height; ++y) {
+    for (int x = 0; x < colors.got.width; ++x) {
+      if (is_finite(colors.got, x, y) && is_finite(colors.reference, x, y)) continue;
+      if (found.count++ == 0) {
+        found.x = x;
+        found.y = y;
+      }
+    }
+  }
+  return found;
+}
+
 // Linear display light in [0, 1].
-Planes Show(const Planes& in, bool display_referred, const DisplaySettings& display) {
-  Planes out = in;
-  for (size_t i = 0; i < in[0].size(); ++i) {
-    const Imath::Color3<double> rgb(in[0].values[i], in[1].values[i], in[2].values[i]);
-    const Imath::Color3<double> light =
-        display_referred
-            ? Imath::Color3<double>(SrgbEotf(std::min(rgb.x, 1.0)), SrgbEotf(std::min(rgb.y, 1.0)),
-                                    SrgbEotf(std::min(rgb.z, 1.0)))
-            : DisplayLight(display, rgb);
-    for (size_t c = 0; c < 3; ++c) out[c].values[i] = light[static_cast<int>(c)];
+ShowFunction MakeShow(bool display_referred, const DisplaySettings& display) {
+  if (display_referred) {
+    return [](size_t count, float* r, float* g, float* b) {
+      for (float* channel : {r, g, b}) DecodeSrgb(count, channel);
+    };
   }
-  return out;
+  return
+      [display](size_t count, float* r, float* g, float* b) { ShowLight(display, count, r, g, b); };
 }
 
-// The grey that a display is given for the luminance: the greys of 8-bit pictures, which SSIM was
-// made for, are encoded too.
-Plane Greys(const Planes& light) {
-  Plane grey = light[0];
-  for (size_t i = 0; i < grey.size(); ++i) {
-    grey.values[i] =
-        SrgbOetf(Luminance<double>({light[0].values[i], light[1].values[i], light[2].values[i]}));
-  }
-  return grey;
-}
-
-double Mean(const Plane& plane) {
-  return std::accumulate(plane.values.begin(), plane.values.end(), 0.0) /
-         static_cast<double>(plane.size());
-}
-
-double Largest(const Plane& plane) {
-  return *std::max_element(plane.values.begin(), plane.values.end());
-}
-
-void MeasureShown(const Planes& got, const Planes& reference, const PerceptualOptions& what,
+void MeasureShown(const Colors& colors, const ShowPair& show, const PerceptualOptions& what,
                   PerceptualMetrics* metrics) {
   constexpr int kSide = 2 * kSsimRadius + 1;
-  if (what.ssim && std::min(got[0].width, got[0].height) < kSide) {
+  const int width = colors.got.width, height = colors.got.height;
+  if (what.ssim && std::min(width, height) < kSide) {
     metrics->notes.push_back(fmt::format("no SSIM: {}x{} is smaller than its window of {}x{}",
-                                         got[0].width, got[0].height, kSide, kSide));
+                                         width, height, kSide, kSide));
   } else if (what.ssim) {
-    metrics->ssim = Ssim(Greys(got), Greys(reference));
+    metrics->ssim = Ssim(width, height, ShownGreys(colors.got, show.test),
+                         ShownGreys(colors.reference, show.reference));
   }
   if (!what.flip) return;
-  metrics->flip_map = FlipMap(reference, got, what.pixels_per_degree);
+  metrics->flip_map =
+      FlipMap(colors.reference, colors.got, std::span(&show, 1), what.pixels_per_degree);
   metrics->flip_mean = Mean(metrics->flip_map);
   metrics->flip_max = Largest(metrics->flip_map);
 }
@@ -130,10 +117,9 @@ void MeasureHdr(const Colors& colors, const PerceptualOptions& what, PerceptualM
     return;
   }
   metrics->exposures = range;
-  HdrFlip flip = HdrFlipMap(colors.reference, colors.got, range, what.pixels_per_degree);
-  metrics->hdr_flip_mean = Mean(flip.error);
-  metrics->hdr_flip_max = Largest(flip.error);
-  metrics->hdr_flip_map = std::move(flip.error);
+  metrics->hdr_flip_map = HdrFlipMap(colors.reference, colors.got, range, what.pixels_per_degree);
+  metrics->hdr_flip_mean = Mean(metrics->hdr_flip_map);
+  metrics->hdr_flip_max = Largest(metrics->hdr_flip_map);
 }
 
 }  // namespace
@@ -150,14 +136,16 @@ std::vector<PerceptualMetrics> MeasurePerceptual(const Image& got, const Image& 
     PerceptualMetrics& metrics = all.emplace_back();
     metrics.layer = layer.layer;
     const Colors colors = GetColors(pair, layer);
-    if (colors.nonfinite > 0) {
+    if (const NonfinitePixels nonfinite = FindNonfinite(colors); nonfinite.count > 0) {
       metrics.notes.push_back(
           fmt::format("no SSIM or FLIP: {} pixels are not finite, the first at ({}, {})",
-                      colors.nonfinite, colors.nonfinite_x, colors.nonfinite_y));
+                      nonfinite.count, pair.window.x0 + nonfinite.x, pair.window.y0 + nonfinite.y));
       continue;
     }
-    MeasureShown(Show(colors.got, got_display, what.display),
-                 Show(colors.reference, reference_display, what.display), what, &metrics);
+    const ShowPair show = {MakeShow(reference_display, what.display),
+                           MakeShow(got_display, what.display),
+                           /*alike=*/got_display == reference_display};
+    MeasureShown(colors, show, what, &metrics);
     if (!what.hdr_flip) continue;
     if (got_display || reference_display) {
       metrics.notes.emplace_back(

@@ -2,57 +2,57 @@
 #include "compare/ssim.h"
 
 #include <algorithm>
-#include <numeric>
+#include <vector>
+
+#include "base/aligned.h"
+#include "base/parallel.h"
+#include "compare/ssim_rows.h"
 
 namespace nacre {
 namespace {
 
-Plane Product(const Plane& a, const Plane& b) {
-  Plane product = a;
-  for (size_t i = 0; i < a.size(); ++i) product.values[i] *= b.values[i];
-  return product;
-}
-
-// Eqs. 14 to 16: weighted means, and variances and covariance as E[ab] - E[a] E[b].
-double SsimAt(double mean_a, double mean_b, double aa, double bb, double ab) {
-  const double variance_a = aa - mean_a * mean_a;
-  const double variance_b = bb - mean_b * mean_b;
-  const double covariance = ab - mean_a * mean_b;
-  return (2 * mean_a * mean_b + kSsimC1) * (2 * covariance + kSsimC2) /
-         ((mean_a * mean_a + mean_b * mean_b + kSsimC1) * (variance_a + variance_b + kSsimC2));
-}
+// Rows of windows that are worked on together: the windows look at ten more.
+constexpr int kBandRows = 64;
 
 }  // namespace
 
-Plane SsimMap(const Plane& a, const Plane& b) {
-  const Kernel window = GaussianKernel(kSsimSigma, kSsimRadius);
-  const auto mean = [&](const Plane& plane) { return Filter(plane, window, window); };
-  Plane map(a.width - 2 * kSsimRadius, a.height - 2 * kSsimRadius);
-  for (const Band& band : BandsOf(a.height, kSsimRadius)) {
-    const Plane rows_a = RowsOf(a, band.input_first, band.input_end);
-    const Plane rows_b = RowsOf(b, band.input_first, band.input_end);
-    const Plane mean_a = mean(rows_a);
-    const Plane mean_b = mean(rows_b);
-    const Plane aa = mean(Product(rows_a, rows_a));
-    const Plane bb = mean(Product(rows_b, rows_b));
-    const Plane ab = mean(Product(rows_a, rows_b));
-    const int end = std::min(band.end, a.height - kSsimRadius);
-    for (int row = std::max(band.first, kSsimRadius); row < end; ++row) {
-      const int v = row - band.input_first;
-      for (int x = 0; x < map.width; ++x) {
-        const int u = x + kSsimRadius;
-        map.at(x, row - kSsimRadius) =
-            SsimAt(mean_a.at(u, v), mean_b.at(u, v), aa.at(u, v), bb.at(u, v), ab.at(u, v));
-      }
-    }
-  }
-  return map;
+GreyRows ShownGreys(const PictureView& picture, const ShowFunction& show) {
+  return [&picture, &show](int y, float* greys) {
+    const auto width = static_cast<size_t>(picture.width);
+    AlignedArray<float> light[3];
+    for (AlignedArray<float>& channel : light) channel = AlignedArray<float>(width);
+    ReadLight(picture, show, 0, y, picture.width,
+              {light[0].data(), light[1].data(), light[2].data()});
+    EncodeGreys(width, light[0].data(), light[1].data(), light[2].data(), greys);
+  };
 }
 
-double Ssim(const Plane& a, const Plane& b) {
-  const Plane map = SsimMap(a, b);
-  return std::accumulate(map.values.begin(), map.values.end(), 0.0) /
-         static_cast<double>(map.size());
+double Ssim(int width, int height, const GreyRows& a, const GreyRows& b) {
+  const Kernel window = GaussianKernel(kSsimSigma, kSsimRadius);
+  const auto columns = static_cast<size_t>(width);
+  const size_t padded = RoundUp(columns, kBatchPadding);
+  const int window_rows = height - 2 * kSsimRadius;
+  std::vector<double> sums(static_cast<size_t>((window_rows + kBandRows - 1) / kBandRows));
+  ParallelFor(sums.size(), 0, [&](size_t band) {
+    const int first = static_cast<int>(band) * kBandRows;
+    const int rows = std::min(kBandRows, window_rows - first);
+    const auto inputs = static_cast<size_t>(rows + 2 * kSsimRadius);
+    AlignedArray<float> greys_a(inputs * padded), greys_b(inputs * padded);
+    std::vector<const float*> rows_a, rows_b;
+    for (size_t i = 0; i < inputs; ++i) {
+      a(first + static_cast<int>(i), &greys_a[i * padded]);
+      b(first + static_cast<int>(i), &greys_b[i * padded]);
+      rows_a.push_back(&greys_a[i * padded]);
+      rows_b.push_back(&greys_b[i * padded]);
+    }
+    AlignedArray<double> scratch(SsimScratch(columns));
+    for (size_t row = 0; row < static_cast<size_t>(rows); ++row) {
+      sums[band] += SsimRowSum(window, columns, &rows_a[row], &rows_b[row], scratch.data());
+    }
+  });
+  double sum = 0;
+  for (const double of_band : sums) sum += of_band;
+  return sum / (static_cast<double>(width - 2 * kSsimRadius) * window_rows);
 }
 
 }  // namespace nacre

@@ -2,7 +2,10 @@
 // compare/ssim.h: the structural similarity of two grey pictures.
 #pragma once
 
-#include "compare/plane.h"
+#include <cstddef>
+#include <functional>
+
+#include "compare/picture_view.h"
 
 namespace nacre {
 
@@ -13,11 +16,16 @@ inline constexpr double kSsimSigma = 1.5;
 inline constexpr double kSsimC1 = 0.01 * 0.01;
 inline constexpr double kSsimC2 = 0.03 * 0.03;
 
-// Their eq. 13 at every pixel whose window lies within the picture, which so loses kSsimRadius on
-// each side: theirs is not defined beyond. Both must have one size, of at least 11x11.
-Plane SsimMap(const Plane& a, const Plane& b);
+// Writes the greys of row `y`. Any thread.
+using GreyRows = std::function<void(int y, float* greys)>;
 
-// The mean of the map, eq. 17. 1 for equal pictures, and at most that.
-double Ssim(const Plane& a, const Plane& b);
+// The grey that a display is given for the luminance of the light: the greys of 8-bit pictures,
+// which SSIM was made for, are encoded too. Keeps references to its arguments.
+GreyRows ShownGreys(const PictureView& picture, const ShowFunction& show);
+
+// The mean of their eq. 13, summed in double, over every pixel whose window lies within the
+// picture: theirs is not defined beyond. 1 for equal pictures, and at most that. Both have one
+// size, of at least 11x11.
+double Ssim(int width, int height, const GreyRows& a, const GreyRows& b);
 
 }  // namespace nacre

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compare/verdict.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "base/float_mode.h"
+#include "base/parallel.h"
+#include "compare/metrics_rows.h"
 
 namespace nacre {
 namespace {
@@ -15,36 +22,92 @@ bool Exceeds(float got, float reference, const Tolerances& tolerances) {
   return error > tolerances.max_abs + tolerances.max_rel * std::abs(static_cast<double>(reference));
 }
 
-// The first sample with the largest SoftenedError of those beyond their tolerance, over all layers.
+// The first sample with the largest SoftenedSquare of those beyond their tolerance, by rows, pixels
+// and layers. 0 / 0 of infinite samples counts as infinite.
 struct Excess {
   size_t pixels = 0;
   double worst = 0;
   DifferenceSite worst_at;
 };
 
-Excess FindExcess(const ImagePair& pair, const Tolerances& tolerances) {
-  Excess excess;
-  const Window& window = pair.window;
-  for (int y = window.y0; y < window.y1; ++y) {
-    for (int x = window.x0; x < window.x1; ++x) {
+double ExcessOf(float got, float reference) {
+  const double square = SoftenedSquare(SampleError(got, reference), reference);
+  return std::isnan(square) ? HUGE_VAL : square;
+}
+
+// What the samples of row `y` are compared by.
+class RowExcess {
+ public:
+  RowExcess(const ImagePair& pair, const Tolerances& tolerances)
+      : pair_(pair),
+        tolerances_(tolerances),
+        width_(static_cast<size_t>(pair.window.width())),
+        marks_((ExcessBytes(width_) + sizeof(uint64_t) - 1) / sizeof(uint64_t)) {}
+
+  void Add(int y, Excess* excess) {
+    std::fill(marks_.begin(), marks_.end(), uint64_t{0});
+    bool finite = true;
+    double largest = 0;
+    for (const LayerPair& layer : pair_.layers) {
+      for (const ChannelPair& channel : layer.channels) {
+        finite = finite && MarkExcess(channel.got + pair_.GotIndex(pair_.window.x0, y),
+                                      channel.reference + pair_.ReferenceIndex(pair_.window.x0, y),
+                                      width_, tolerances_.max_abs, tolerances_.max_rel,
+                                      reinterpret_cast<uint8_t*>(marks_.data()), &largest);
+      }
+    }
+    if (finite) {
+      for (const uint64_t marks : marks_) {
+        excess->pixels += static_cast<size_t>(std::popcount(marks));
+      }
+    }
+    if (!finite || largest > excess->worst) AddSamples(y, /*count=*/!finite, excess);
+  }
+
+ private:
+  // One by one: for rows in which something is not finite, or to find the worst sample.
+  void AddSamples(int y, bool count, Excess* excess) {
+    for (int x = pair_.window.x0; x < pair_.window.x1; ++x) {
       bool exceeds = false;
-      for (const LayerPair& layer : pair.layers) {
+      for (const LayerPair& layer : pair_.layers) {
         for (const ChannelPair& channel : layer.channels) {
-          const float got = channel.got[pair.GotIndex(x, y)];
-          const float reference = channel.reference[pair.ReferenceIndex(x, y)];
-          if (!Exceeds(got, reference, tolerances)) continue;
+          const float got = channel.got[pair_.GotIndex(x, y)];
+          const float reference = channel.reference[pair_.ReferenceIndex(x, y)];
+          if (!Exceeds(got, reference, tolerances_)) continue;
           exceeds = true;
-          const double softened = SoftenedError(SampleError(got, reference), reference);
-          // An infinite reference makes inf / inf.
-          const double size = std::isnan(softened) ? HUGE_VAL : softened;
-          if (size > excess.worst) {
-            excess.worst = size;
-            excess.worst_at = {x, y, channel.name, got, reference};
+          const double size = ExcessOf(got, reference);
+          if (size > excess->worst) {
+            excess->worst = size;
+            excess->worst_at = {x, y, channel.name, got, reference};
           }
         }
       }
-      excess.pixels += exceeds;
+      excess->pixels += exceeds && count;
     }
+  }
+
+  const ImagePair& pair_;
+  const Tolerances& tolerances_;
+  size_t width_;
+  std::vector<uint64_t> marks_;  // eight of MarkExcess' each
+};
+
+Excess FindExcess(const ImagePair& pair, const Tolerances& tolerances) {
+  constexpr int kBandRows = 64;
+  const Window& window = pair.window;
+  std::vector<Excess> bands(static_cast<size_t>((window.height() + kBandRows - 1) / kBandRows));
+  ParallelFor(bands.size(), 0, [&](size_t i) {
+    const DefaultFloatMode keep_denormals;
+    RowExcess row(pair, tolerances);
+    const int first = window.y0 + static_cast<int>(i) * kBandRows;
+    for (int y = first; y < std::min(first + kBandRows, window.y1); ++y) row.Add(y, &bands[i]);
+  });
+  Excess excess;
+  for (Excess& band : bands) {
+    excess.pixels += band.pixels;
+    if (band.worst <= excess.worst) continue;
+    excess.worst = band.worst;
+    excess.worst_at = std::move(band.worst_at);
   }
   return excess;
 }

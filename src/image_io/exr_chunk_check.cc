@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <span>
 #include <vector>
 
 #include <fmt/format.h>
+#include <isa-l/igzip_lib.h>
 #include <openexr.h>
 #include <zlib.h>
 
@@ -95,6 +97,36 @@ uint64_t DecodedSize(int compression, std::span<const uint8_t> packed, uint64_t 
   }
 }
 
+// Inflates a chunk, faster than zlib. False if it is not whole, which InflatedSize tells in words.
+bool InflateWhole(std::span<const uint8_t> packed, std::span<uint8_t> unpacked) {
+  inflate_state state;
+  isal_inflate_init(&state);
+  state.crc_flag = ISAL_ZLIB;
+  state.next_in = const_cast<uint8_t*>(packed.data());  // only read
+  state.avail_in = static_cast<uint32_t>(packed.size());
+  state.next_out = unpacked.data();
+  state.avail_out = static_cast<uint32_t>(unpacked.size());
+  return isal_inflate_stateless(&state) == ISAL_DECOMP_OK && state.total_out == unpacked.size();
+}
+
+// Undoes SplitAndPredict (image_io/zip.h). `bytes` holds 2 * words.size().
+void JoinPredicted(std::span<const uint8_t> bytes, std::span<uint16_t> words) {
+  constexpr uint32_t kOffset = 128;  // modulo 256 the same up and down
+  const size_t count = words.size();
+  const uint8_t* const even = bytes.data();
+  const uint8_t* const odd = even + count;
+  // The odd bytes go on where the even ones end: with their sum both run side by side.
+  uint32_t sum = 0;
+  for (size_t i = 0; i < count; ++i) sum += even[i];
+  uint32_t low = kOffset;
+  uint32_t high = kOffset + sum + static_cast<uint32_t>(count % 2) * kOffset;
+  for (size_t i = 0; i < count; ++i) {
+    low += even[i] + kOffset;
+    high += odd[i] + kOffset;
+    words[i] = static_cast<uint16_t>((low & 0xff) | (high & 0xff) << 8);
+  }
+}
+
 void CheckChunk(const std::string& path, const ChunkFile& file, int part,
                 const exr_chunk_info_t& chunk, const std::string& name) {
   if (chunk.packed_size > chunk.unpacked_size) {
@@ -116,6 +148,45 @@ void CheckChunk(const std::string& path, const ChunkFile& file, int part,
             fmt::format("{} holds {} bytes of samples, not {}", name, size, chunk.unpacked_size));
 }
 
+// A part's chunks of lines.
+struct Lines {
+  int64_t first = 0, rows_per_chunk = 1, height = 0;
+
+  int64_t chunk_count() const { return (height + rows_per_chunk - 1) / rows_per_chunk; }
+};
+
+// Calls check(chunk, name) for each chunk of lines, in parallel.
+void ForEachChunk(
+    const ChunkFile& file, int part, const Lines& lines,
+    const std::function<void(const exr_chunk_info_t& chunk, const std::string& name)>& check) {
+  ParallelFor(static_cast<size_t>(lines.chunk_count()), 0, [&](size_t i) {
+    const int64_t y = lines.first + static_cast<int64_t>(i) * lines.rows_per_chunk;
+    const std::string name = fmt::format("the chunk of row {}", y);
+    exr_chunk_info_t chunk{};
+    file.Check(exr_read_scanline_chunk_info(file.get(), part, static_cast<int>(y), &chunk), name);
+    check(chunk, name);
+  });
+}
+
+// Every chunk has 8 bytes in the file's table of them.
+void CheckTable(const std::string& path, uint64_t file_bytes, int64_t columns, int64_t rows) {
+  if (static_cast<double>(columns) * static_cast<double>(rows) * 8 >
+      static_cast<double>(file_bytes)) {
+    FailChunk(path, "it is too short for its table of chunks");
+  }
+}
+
+Lines CheckLines(const std::string& path, const ChunkFile& file, int part, uint64_t file_bytes,
+                 const exr_attr_box2i_t& box, uint64_t channels) {
+  int32_t rows = 1;
+  file.Check(exr_get_scanlines_per_chunk(file.get(), part, &rows), "lines");
+  const Lines lines = {box.min.y, std::max(rows, 1), int64_t{box.max.y} - box.min.y + 1};
+  CheckSampleCount(path + ": chunks", file_bytes, int64_t{box.max.x} - box.min.x + 1,
+                   std::min(lines.rows_per_chunk, lines.height), channels);
+  CheckTable(path, file_bytes, 1, lines.chunk_count());
+  return lines;
+}
+
 }  // namespace
 
 void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
@@ -129,13 +200,6 @@ void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
   const auto channel_count = static_cast<uint64_t>(channels->num_channels);
   const int64_t width = int64_t{box.max.x} - box.min.x + 1;
   const int64_t height = int64_t{box.max.y} - box.min.y + 1;
-  // Every chunk has 8 bytes in the file's table of them.
-  const auto check_table = [&](int64_t columns, int64_t rows) {
-    if (static_cast<double>(columns) * static_cast<double>(rows) * 8 >
-        static_cast<double>(file_bytes)) {
-      FailChunk(path, "it is too short for its table of chunks");
-    }
-  };
   if (storage == EXR_STORAGE_TILED) {
     uint32_t tile_width = 0, tile_height = 0;
     exr_tile_level_mode_t levels{};
@@ -149,7 +213,7 @@ void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
                      tile_height, channel_count);
     const int64_t columns = (width + tile_width - 1) / tile_width;
     const int64_t rows = (height + tile_height - 1) / tile_height;
-    check_table(columns, rows);
+    CheckTable(path, file_bytes, columns, rows);
     ParallelFor(static_cast<size_t>(columns * rows), 0, [&](size_t i) {
       const int x = static_cast<int>(static_cast<int64_t>(i) % columns);
       const int y = static_cast<int>(static_cast<int64_t>(i) / columns);
@@ -160,20 +224,46 @@ void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes) {
     });
     return;
   }
-  int32_t lines = 1;
-  file.Check(exr_get_scanlines_per_chunk(file.get(), part, &lines), "lines");
-  lines = std::max(lines, 1);
-  CheckSampleCount(path + ": chunks", file_bytes, width, std::min<int64_t>(lines, height),
-                   channel_count);
-  const int64_t chunk_count = (height + lines - 1) / lines;
-  check_table(1, chunk_count);
-  ParallelFor(static_cast<size_t>(chunk_count), 0, [&](size_t i) {
-    const int64_t y = box.min.y + static_cast<int64_t>(i) * lines;
-    const std::string name = fmt::format("the chunk of row {}", y);
-    exr_chunk_info_t chunk{};
-    file.Check(exr_read_scanline_chunk_info(file.get(), part, static_cast<int>(y), &chunk), name);
-    CheckChunk(path, file, part, chunk, name);
+  ForEachChunk(file, part, CheckLines(path, file, part, file_bytes, box, channel_count),
+               [&](const exr_chunk_info_t& chunk, const std::string& name) {
+                 CheckChunk(path, file, part, chunk, name);
+               });
+}
+
+bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
+                    const std::function<void(const ExrChunkRows&)>& use) {
+  const ChunkFile file(path);
+  exr_storage_t storage = EXR_STORAGE_SCANLINE;
+  exr_compression_t compression = EXR_COMPRESSION_NONE;
+  exr_attr_box2i_t box{};
+  const exr_attr_chlist_t* channels = nullptr;
+  file.Check(exr_get_storage(file.get(), part, &storage), "a part");
+  file.Check(exr_get_compression(file.get(), part, &compression), "a compression");
+  const bool is_deflated =
+      compression == EXR_COMPRESSION_ZIP || compression == EXR_COMPRESSION_ZIPS;
+  if (storage != EXR_STORAGE_SCANLINE || !is_deflated) return false;
+  file.Check(exr_get_data_window(file.get(), part, &box), "a data window");
+  file.Check(exr_get_channels(file.get(), part, &channels), "channels");
+  const Lines lines =
+      CheckLines(path, file, part, file_bytes, box, static_cast<uint64_t>(channels->num_channels));
+  ForEachChunk(file, part, lines, [&](const exr_chunk_info_t& chunk, const std::string& name) {
+    if (chunk.packed_size > chunk.unpacked_size) CheckChunk(path, file, part, chunk, name);
+    std::vector<uint8_t> packed(chunk.packed_size);
+    file.Check(exr_read_chunk(file.get(), part, &chunk, packed.data()), name);
+    std::vector<uint16_t> words(chunk.unpacked_size / 2);
+    if (packed.size() == chunk.unpacked_size) {  // stored: deflate made it no shorter
+      std::memcpy(words.data(), packed.data(), packed.size());
+    } else {
+      std::vector<uint8_t> bytes(chunk.unpacked_size);
+      if (!InflateWhole(packed, bytes)) {
+        CheckChunk(path, file, part, chunk, name);
+        FailChunk(path, name + " is damaged");
+      }
+      JoinPredicted(bytes, words);
+    }
+    use({chunk.start_y, chunk.height, words});
   });
+  return true;
 }
 
 }  // namespace nacre

@@ -5,6 +5,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 
 namespace nacre {
@@ -13,5 +15,17 @@ namespace nacre {
 // chunks that are missing, that reach beyond the file, or whose samples are not as many as the
 // header says; for chunks and rows of tiles of more samples than CheckSampleCount allows.
 void CheckExrChunks(const std::string& path, int part, uint64_t file_bytes);
+
+// The samples of some rows as they stand in the file: row after row, channel after channel.
+struct ExrChunkRows {
+  int y = 0, rows = 0;
+  std::span<const uint16_t> words;
+};
+
+// Checks the chunks likewise of a part of lines that nothing but deflate compresses, and calls
+// use() with what each holds, from any thread: inflated once, in parallel. Returns false for a part
+// of another kind, of which nothing is checked.
+bool DecodeExrLines(const std::string& path, int part, uint64_t file_bytes,
+                    const std::function<void(const ExrChunkRows&)>& use);
 
 }  // namespace nacre

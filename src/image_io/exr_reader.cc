@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include <Imath/half.h>
 #include <OpenEXR/ImfBoxAttribute.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
@@ -184,12 +186,63 @@ struct WantedChannel {
   SampleTarget target;
 };
 
+// Copies the samples [first, first + count) of a row of a channel.
+void CopySamples(Imf::PixelType type, const uint16_t* row, size_t first, size_t count, float* to,
+                 ptrdiff_t step) {
+  for (size_t x = first; x < first + count; ++x, to += step) {
+    if (type == Imf::HALF) {
+      *to = imath_half_to_float(row[x]);
+    } else if (type == Imf::UINT) {
+      uint32_t id;
+      std::memcpy(&id, row + 2 * x, sizeof(id));
+      *to = static_cast<float>(id);
+    } else {
+      std::memcpy(to, row + 2 * x, sizeof(*to));
+    }
+  }
+}
+
+// A part whose chunks hold lines that are deflated alone: ours, and those of most others. False:
+// it is none of them.
+bool ReadLines(const std::string& path, uint64_t file_bytes, const Imf::Header& header, int index,
+               const Window& region, const std::vector<WantedChannel>& wanted) {
+  const Window data = ToWindow(header.dataWindow());
+  const Window common = Intersect(data, region);
+  const auto width = static_cast<size_t>(data.width());
+  size_t row_words = 0;
+  for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+    row_words += width * (it.channel().type == Imf::HALF ? 1 : 2);
+  }
+  return DecodeExrLines(path, index, file_bytes, [&](const ExrChunkRows& chunk) {
+    if (chunk.words.size() != row_words * static_cast<size_t>(chunk.rows)) {
+      Fail(path, "cannot be read as EXR: its channels are not told the same way twice");
+    }
+    const uint16_t* row = chunk.words.data();
+    for (int y = chunk.y; y < chunk.y + chunk.rows; ++y) {
+      for (auto it = header.channels().begin(); it != header.channels().end(); ++it) {
+        const Imf::PixelType type = it.channel().type;
+        for (const WantedChannel& channel : wanted) {
+          if (y < common.y0 || y >= common.y1 || channel.name != it.name()) continue;
+          const SampleTarget& target = channel.target;
+          CopySamples(type, row, static_cast<size_t>(common.x0 - data.x0),
+                      static_cast<size_t>(common.width()),
+                      target.first + (y - region.y0) * target.step_y +
+                          (common.x0 - region.x0) * target.step_x,
+                      target.step_x);
+        }
+        row += width * (type == Imf::HALF ? 1 : 2);
+      }
+    }
+  });
+}
+
 void ReadPart(const std::string& path, uint64_t file_bytes, Imf::MultiPartInputFile& file,
               int index, const Window& region, const std::vector<WantedChannel>& wanted) {
   const Imf::Header& header = file.header(index);
   const Window data = ToWindow(header.dataWindow());
   const Window common = Intersect(data, region);
   if (common.empty()) return;
+  if (ReadLines(path, file_bytes, header, index, region, wanted)) return;
   CheckExrChunks(path, index, file_bytes);
   const auto width = static_cast<size_t>(data.width());
   const int band = std::min(BandRows(header), data.height());

@@ -58,10 +58,9 @@ struct ShapesKey {
   friend bool operator==(const ShapesKey&, const ShapesKey&) = default;
 };
 
-// Of what depends on the shapes and more parts of the scene. `made`: how often the shapes, as
-// above, were made.
+// Of what depends on the shapes and more parts of the scene.
 struct ViewKey {
-  uint64_t made = 0;
+  uint64_t made = 0;  // how often the shapes, as above, were made; or the intersector
   PartVersions parts;
   std::vector<double> numbers;  // of the settings
   friend bool operator==(const ViewKey&, const ViewKey&) = default;
@@ -76,6 +75,7 @@ struct PreparedScene {
 
   // The trees' coordinates are relative to the camera. Bins and lists are in the intersector.
   Kept<ViewKey, std::shared_ptr<Intersector>> intersector;
+  uint64_t intersectors_made = 0;
   Kept<ViewKey, bool> eye_outside;
   Kept<ViewKey, std::vector<Window>> mesh_windows;
   Kept<ViewKey, bool> camera_bins;       // what BinForCamera has returned

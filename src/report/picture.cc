@@ -199,9 +199,8 @@ Json PackImage(const Image& image, const std::string& name, const Packing& packi
 
 Json PackMap(const Plane& map, const Window& window, const std::string& kind,
              const std::string& layer, const Packing& packing, Page* page) {
-  const std::vector<float> samples(map.values.begin(), map.values.end());
   std::vector<uint8_t> bytes;
-  const std::vector<float> shown = Shrink(samples, window, packing.factor, /*is_id=*/false);
+  const std::vector<float> shown = Shrink(map.values, window, packing.factor, /*is_id=*/false);
   bytes.reserve(shown.size());
   for (const float value : shown) {
     bytes.push_back(static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))));

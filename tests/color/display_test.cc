@@ -2,6 +2,7 @@
 // tests/color/display_test.cc: EncodeDisplay: codes, tails, alignment, NaN and infinities.
 #include "color/display.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -59,6 +60,61 @@ TEST_CASE("Codes are those of the double twin, within display.h's error", "[colo
       }
       CAPTURE(ToneOperatorName(tone));
       CHECK(wrong == 0);
+    }
+  });
+}
+
+TEST_CASE("Light is that of the double twin, for any count", "[color]") {
+  const size_t count = 1003;
+  std::mt19937 engine(4);
+  std::uniform_real_distribution<float> log2_value(-16, 8);
+  std::vector<float> planes[3];
+  for (auto& plane : planes) {
+    for (size_t i = 0; i < count; ++i)
+      plane.push_back(i % 7 == 0 ? -1 : std::exp2(log2_value(engine)));
+  }
+  ForEachTarget([&](Target) {
+    for (const ToneOperator tone : kAllTones) {
+      CAPTURE(ToneOperatorName(tone));
+      const DisplaySettings settings = {.tone = tone, .exposure_ev = 0.7};
+      const bool is_agx = tone == ToneOperator::kAgx;
+      for (const size_t shown : {count, size_t{5}}) {
+        // Planes that end with the pixels, for the address sanitizer to see an access beyond.
+        std::vector<float> light[3];
+        for (size_t c = 0; c < 3; ++c) {
+          light[c].assign(planes[c].begin(), planes[c].begin() + std::ptrdiff_t(shown));
+        }
+        ShowLight(settings, shown, light[0].data(), light[1].data(), light[2].data());
+        size_t wrong = 0;
+        for (size_t i = 0; i < shown; ++i) {
+          const Color exact =
+              DisplayLight(settings, Color(planes[0][i], planes[1][i], planes[2][i]));
+          for (size_t c = 0; c < 3; ++c) {
+            const double value = exact[static_cast<int>(c)];
+            const double allowed =
+                is_agx ? std::max(4e-6 * value, 1e-6) : std::max(1e-6 * value, 1e-7);
+            wrong += !(std::abs(light[c][i] - value) <= allowed);
+          }
+        }
+        CHECK(wrong == 0);
+      }
+    }
+  });
+}
+
+TEST_CASE("sRGB is decoded as by its double twin", "[color]") {
+  ForEachTarget([&](Target) {
+    for (const size_t count : {size_t{1}, size_t{37}, size_t{1003}}) {
+      std::vector<float> encoded(count), light(count);
+      for (size_t i = 0; i < count; ++i) {
+        encoded[i] = 1.2f * static_cast<float>(i) / static_cast<float>(count) - 0.1f;
+      }
+      light = encoded;
+      DecodeSrgb(count, light.data());
+      for (size_t i = 0; i < count; ++i) {
+        const double exact = SrgbEotf(std::clamp(double{encoded[i]}, 0.0, 1.0));
+        REQUIRE(std::abs(light[i] - exact) <= 6e-7);
+      }
     }
   });
 }

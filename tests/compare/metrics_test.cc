@@ -3,12 +3,15 @@
 // known.
 #include "compare/metrics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "catch.h"
 #include "compare/test_images.h"
 #include "compare/verdict.h"
+#include "targets.h"
 
 namespace nacre {
 namespace {
@@ -91,6 +94,74 @@ TEST_CASE("Relative errors are relative, however dark the reference", "[compare]
   CHECK(Judge(got, reference, tolerances).exceeding_pixels == 1);
   SampleAt(got, "Y", 4, 0) = 1e38f;  // beyond float's range of its reference
   CHECK(CompareImages(got, reference).at(0).max_rel == Approx(1e38 / 0x1p-140).epsilon(1e-7));
+}
+
+TEST_CASE("The figures of large images are plain sums on every target", "[compare]") {
+  // More errors than are kept for the quantile; rows that end within a vector; several bands. Some
+  // samples are equal, some references 0; a row has what is not finite.
+  const int width = 331, height = 401;
+  Image reference = MakeImage({0, 0, width, height}, {"R", "G"}, 0);
+  Image got = reference;
+  uint32_t state = 1;
+  const auto draw = [&state] {
+    state = state * 1664525 + 1013904223;
+    return static_cast<float>(state >> 8) * 0x1p-24f;
+  };
+  for (size_t c = 0; c < 2; ++c) {
+    for (size_t i = 0; i < got.channels[c].samples.size(); ++i) {
+      const float kind = draw();
+      reference.channels[c].samples[i] = kind < 0.1f ? 0 : draw() - 0.3f;
+      const float noise = draw();
+      got.channels[c].samples[i] =
+          reference.channels[c].samples[i] + (kind < 0.3f ? 0 : 1e-3f * noise * noise);
+    }
+  }
+  SampleAt(got, "R", 7, 100) = SampleAt(reference, "R", 7, 100) = kInf;
+  SampleAt(got, "G", 300, 290) += 3;
+  double squares = 0, softened = 0, sum = 0, max_rel = 0;
+  size_t zero_mismatches = 0, pixels = 0;
+  std::vector<double> relative;
+  const double limit = 2e-4;
+  for (size_t i = 0; i < got.channels[0].samples.size(); ++i) {
+    bool exceeds = false;
+    for (size_t c = 0; c < 2; ++c) {
+      const double g = got.channels[c].samples[i], r = reference.channels[c].samples[i];
+      if (std::isinf(r)) continue;
+      const double error = std::abs(g - r);
+      exceeds = exceeds || error > limit;
+      squares += error * error;
+      softened += error * error / (r * r + 1e-4);
+      sum += g;
+      if (r == 0) {
+        zero_mismatches += error > 0;
+        continue;
+      }
+      relative.push_back(error / std::abs(r));
+      max_rel = std::max(max_rel, relative.back());
+    }
+    pixels += exceeds;
+  }
+  std::sort(relative.begin(), relative.end());
+  const auto rank =
+      static_cast<size_t>(std::ceil(0.999 * static_cast<double>(relative.size()))) - 1;
+  const double count = 2.0 * width * height - 1;
+  ForEachTarget([&](Target) {
+    const LayerMetrics m = CompareImages(got, reference).at(0);
+    // 1e5 roundings of double, mostly against each other.
+    CHECK(m.rmse == Approx(std::sqrt(squares / count)).epsilon(1e-12));
+    CHECK(m.rel_mse == Approx(softened / count).epsilon(1e-12));
+    CHECK(m.mean_got == Approx(sum / count).epsilon(1e-12));
+    CHECK(m.max_rel == max_rel);
+    CHECK(m.p999_rel == static_cast<float>(relative[rank]));
+    CHECK(m.zero_mismatches == zero_mismatches);
+    CHECK((m.max_abs_at.x == 300 && m.max_abs_at.y == 290 && m.max_abs_at.channel == "G"));
+    CHECK(m.nonfinite_mismatches == 0);
+    Tolerances tolerances;
+    tolerances.max_abs = limit;
+    const Verdict verdict = Judge(got, reference, tolerances);
+    CHECK(verdict.exceeding_pixels == pixels);
+    CHECK(verdict.reason.find("worst G at (300, 290)") != std::string::npos);
+  });
 }
 
 TEST_CASE("Metrics know NaN and infinity", "[compare]") {

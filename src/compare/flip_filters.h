@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// compare/flip_filters.h: the filters of FLIP (Andersson et al. 2020), in double.
+#pragma once
+
+#include "compare/plane.h"
+
+namespace nacre {
+
+// One dimension of each; all are separable. Those of contrast sensitivity have the sum of 1 and
+// make of the opponent colours what is seen of them: that of blue against yellow is
+// first_share * blue_yellow[0] + (1 - first_share) * blue_yellow[1].
+//
+// `edge` and `point` are the first and second derivative of the Gaussian `smooth`, scaled so that a
+// step or a dot in [0, 1] gives at most 1; each is taken across with `smooth` down, and the other
+// way round.
+struct FlipFilters {
+  Kernel luminance, red_green;
+  Kernel blue_yellow[2];
+  double first_share = 1;
+  Kernel smooth, edge, point;
+};
+
+FlipFilters MakeFlipFilters(double pixels_per_degree);
+
+// Pixels on each side that the widest of them looks at.
+int RadiusOf(const FlipFilters& filters);
+
+}  // namespace nacre
