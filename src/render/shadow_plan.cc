@@ -222,7 +222,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsP
   if (hits.intersector == nullptr) return false;
   plan->eye_outside = hits.eye_outside;
   const ViewKey key{
-      prepared->shapes_made,
+      prepared->intersectors_made,
       prepared->versions.Of(ScenePart::kLights | ScenePart::kCamera | ScenePart::kImage),
       {static_cast<double>(settings.intersector), settings.general_path ? 1.0 : 0.0}};
   KnownLights known{prepared->lights.IsUpToDate(key), 0};

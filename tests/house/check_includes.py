@@ -56,7 +56,7 @@ RENDER_ORDER = """
     settings stats stage_clock explanation layers camera camera_kernel frame_window white_level plan_notes
     film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel light_cull mesh_windows
     outline_coverage sphere_pictures
-    hits_plan tile_sight samples hits surfaces
+    prepared_scene hits_plan tile_sight samples hits surfaces
     direct_plan highlights mesh_glints shadow_plan brightest_object direct_batch
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers
