@@ -111,7 +111,7 @@ HWY_INLINE uint32_t BitsOf(M mask) {
 }
 
 void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float>& to_light,
-               float* distance, double* end, MeshLightHits* meetings) {
+               float* distance, double* end, CrossedTriangles* meetings) {
   const DD d;
   const VD zero = hn::Zero(d), infinity = hn::Set(d, std::numeric_limits<double>::infinity());
   meetings->count = 0;
@@ -123,7 +123,7 @@ void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float
       const auto nearer = hn::And(meeting.hit, hn::Lt(meeting.t, nearest.t));
       nearest.t = hn::IfThenElse(nearer, meeting.t, nearest.t);
       nearest.towards = hn::IfThenElse(nearer, meeting.towards, nearest.towards);
-      MeshLightHit* to = meetings->Room(hn::Lanes(d));
+      CrossedTriangle* to = meetings->Room(hn::Lanes(d));
       for (uint32_t bits = BitsOf(meeting.hit); bits != 0; bits &= bits - 1) {
         *to++ = {ray + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)), triangle};
         ++meetings->count;
@@ -226,7 +226,7 @@ void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoint
 
 void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
   MakeScratch(directions);
-  MeshLightHits& meetings = directions->mesh->meetings;
+  CrossedTriangles& meetings = directions->mesh->meetings;
   meetings.count = 0;
   HWY_DYNAMIC_DISPATCH(MeetMeshT)
   (light, hits, directions->to_light, directions->distance.data(), directions->mesh->end.data(),
@@ -234,7 +234,7 @@ void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* 
   std::fill_n(directions->pdf.data(), hits.count, 0.0f);
   PdfSum sum(light, hits, directions);
   for (size_t i = 0; i < meetings.count; ++i) {
-    const MeshLightHit& meeting = meetings.entries[i];
+    const CrossedTriangle& meeting = meetings.entries[i];
     const bool seen = meeting.hit < hits.count && directions->distance[meeting.hit] > 0;
     if (seen) sum.Add(meeting.hit, meeting.triangle);
   }

@@ -14,16 +14,16 @@ struct TriangleBatch {
 };
 
 // A triangle that the ray from a hit meets, whether it is the nearest or not.
-struct MeshLightHit {
+struct CrossedTriangle {
   uint32_t hit, triangle;
 };
 
-struct MeshLightHits {
-  std::vector<MeshLightHit> entries;
+struct CrossedTriangles {
+  std::vector<CrossedTriangle> entries;
   size_t count = 0;
 
   // The place for so many more.
-  MeshLightHit* Room(size_t more) {
+  CrossedTriangle* Room(size_t more) {
     if (count + more > entries.size()) entries.resize(2 * (count + more) + kBatchCapacity);
     return entries.data() + count;
   }
@@ -34,7 +34,7 @@ struct MeshLightHits {
 struct MeshLightScratch {
   TriangleBatch seen;
   AlignedArray<float> rest{kBatchCapacity};  // what is left of the numbers that chose triangles
-  MeshLightHits meetings;
+  CrossedTriangles meetings;
   AlignedArray<double> end{kBatchCapacity};  // the nearest, in units of the direction
   // Of triangles in `seen`, on their way into the pdf of directions.
   Soa3<float> to_light;

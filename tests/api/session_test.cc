@@ -81,8 +81,8 @@ TEST_CASE("sessions of scenes with shapes from code") {
   scene.AddMaterial("grey", {{"model", "lambert"}, {"albedo", 0.5}});
   scene.AddLight("key", {{"type", "point"}, {"position", {3, 4, 5}}, {"intensity", 100}});
   scene.AddSphere({0, 0, 0}, 1, "grey");
-  scene.AddShape({{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.3},
-                  {"material", "grey"}});
+  scene.AddShape(
+      {{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.3}, {"material", "grey"}});
   nacre::Session session(scene);
   CheckEqual(session.Render(Small()), nacre::Render(scene, Small()));
   for (nacre::Session* const s : {&session}) {
@@ -94,8 +94,8 @@ TEST_CASE("sessions of scenes with shapes from code") {
   nacre::Scene other;
   other.AddMaterial("grey", {{"model", "lambert"}, {"albedo", 0.2}});
   other.AddLight("key", {{"type", "point"}, {"position", {3, 4, 5}}, {"intensity", 100}});
-  other.AddShape({{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.6},
-                  {"material", "grey"}});
+  other.AddShape(
+      {{"type", "sphere"}, {"center", {1, 1, 0}}, {"radius", 0.6}, {"material", "grey"}});
   other.AddSphere({0, 0, 0}, 1, "grey");
   CheckEqual(session.Render(Small()), nacre::Render(other, Small()));
 }
@@ -103,7 +103,8 @@ TEST_CASE("sessions of scenes with shapes from code") {
 TEST_CASE("passes show more and more samples, and end in the picture of all") {
   for (const char* const filter : {"box", "mitchell"}) {
     nacre::Scene scene = FirstScene();
-    scene.Set("/image/filter", {{"type", filter}, {"width", filter[0] == 'b' ? 1 : 4}});
+    scene.Set("/image/filter",
+              nacre::Parameters{{"type", filter}, {"width", filter[0] == 'b' ? 1 : 4}});
     nacre::Session session(scene);
     std::vector<int> shown;
     nacre::Image last;

@@ -48,8 +48,8 @@ void CheckChanges(const std::string& file, const std::vector<Change>& changes, i
     CAPTURE(file, i, change.pointer, value);
     prepared.versions.Change(live.Set(change.pointer, value));
     const RenderSettings settings = RandomSettings(&random);
-    const Image kept = RenderImage(MakePlan(live.scene(), settings, &prepared), settings);
-    const Image fresh = RenderImage(MakePlan(live.scene(), settings), settings);
+    const Image kept = RenderImage(MakePlan(live.scene(), settings, &prepared), settings, nullptr);
+    const Image fresh = RenderImage(MakePlan(live.scene(), settings), settings, nullptr);
     REQUIRE(kept.channels.size() == fresh.channels.size());
     for (size_t c = 0; c < kept.channels.size(); ++c) {
       CAPTURE(kept.channels[c].name);
