@@ -167,7 +167,7 @@ TEST_CASE("a ball is in the shadow of what reaches into its way to the sun, and 
       lists.end = {1, 1};  // the first sphere's list has the second one
       lists.spheres = {1};
       lists.longest = 1;
-      return MayShadow(geometry, lists, {false, to_light}, 0, {center, ball});
+      return MayShadow(geometry, lists, {false, Vec3d(0), to_light}, 0, {center, ball});
     };
     constexpr double kJust = 1e-6;
     for (const double along : {0.0, 0.5 * radii, 2.0, 100.0}) {
