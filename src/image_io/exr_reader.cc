@@ -326,7 +326,7 @@ int ChoosePart(const std::string& path, const std::vector<ImagePart>& parts,
   const std::string nearest = NearestName(name, names);
   const size_t shown = std::min(names.size(), kMost);
   const std::string list =
-      fmt::format("its parts: {}{}", fmt::join(names.begin(), names.begin() + shown, ", "),
+      fmt::format("its parts: {}{}", fmt::join(names.data(), names.data() + shown, ", "),
                   shown < names.size() ? ", ..." : "");
   Fail(path, "has no part \"" + name + "\"",
        names.empty()     ? "its only part has no name: leave that out"
