@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scene/hash.h"
+#include "scene_io/model_scene.h"
 #include "scene_io/overrides.h"
 #include "scene_io/read_scene.h"
 
@@ -83,8 +84,8 @@ LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
       complete_(std::move(complete)) {
   RefuseOtherModels(path);
   if (!IsModelFile(path)) {
-    *this = LiveScene(ReadSceneText(path), file_, folder_, std::move(options_),
-                      std::move(complete_));
+    *this =
+        LiveScene(ReadSceneText(path), file_, folder_, std::move(options_), std::move(complete_));
     return;
   }
   model_.emplace();

@@ -18,10 +18,17 @@
 
 namespace nacre {
 
+// What a model's file holds, before the camera, lights and overrides that it is given.
+struct ModelAsRead {
+  Scene scene;  // all but spheres and meshes, which LiveScene has
+  bool has_camera = false;
+  bool own_lights = false;  // overrides replace all of its lights
+};
+
 class LiveScene {
  public:
-  // Reads a scene file or a model. Throws as LoadScene does. `complete`, if any, adds shapes that no
-  // file holds, whenever shapes have been read; what it throws comes out.
+  // Reads a scene file or a model. Throws as LoadScene does. `complete`, if any, adds shapes that
+  // no file holds, whenever shapes have been read; what it throws comes out.
   LiveScene(const std::filesystem::path& path, LoadOptions options,
             std::function<void(Scene*)> complete = {});
 
@@ -42,13 +49,6 @@ class LiveScene {
   const ImageSettings& own_image() const { return own_image_; }
 
  private:
-  // What a model's file holds, before the camera, lights and overrides that it is given.
-  struct Model {
-    Scene scene;  // all but spheres and meshes, which LiveScene::scene_ has
-    bool has_camera = false;
-    bool own_lights = false;  // overrides replace all of its lights
-  };
-
   SceneParts ReadAgain(SceneParts touched);
   SceneParts CompleteModel(SceneParts touched);
 
@@ -57,10 +57,10 @@ class LiveScene {
   std::filesystem::path folder_;
   uint64_t bytes_ = 0;
   std::function<void(Scene*)> complete_;
-  std::optional<Model> model_;  // none: a scene file
-  Json root_;                   // of a scene file; of a model, what overrides have put there
+  std::optional<ModelAsRead> model_;  // none: a scene file
+  Json root_;                         // of a scene file; of a model, what overrides have put there
   Scene scene_;
-  ImageSettings own_image_;  // of the file with its changes
+  ImageSettings own_image_;              // of the file with its changes
   bool shapes_bring_materials_ = false;  // or textures: these are read again with those
   uint64_t shapes_hash_ = 0;
   KeptFiles kept_;
