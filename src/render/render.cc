@@ -144,7 +144,9 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
   total.threads = ThreadCount(settings.threads);
   WorkerPool pool;
   std::mutex mutex;
-  ParallelFor(tiles.size() / per_strip, settings.threads, [&](size_t i) {
+  const size_t strips = tiles.size() / per_strip;
+  size_t done = 0;
+  ParallelFor(strips, settings.threads, [&](size_t i) {
     std::unique_ptr<Worker> worker = pool.Take();
     worker->work.cancel = settings.cancel;
     RenderStats stats;
@@ -161,6 +163,11 @@ RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, in
     pool.Give(std::move(worker));
     const std::lock_guard lock(mutex);
     total.Add(stats);
+    ++done;
+    // Of the samples of all passes.
+    const double of_pass = static_cast<double>(done) / static_cast<double>(strips);
+    const double samples = film->samples + (end - film->samples) * of_pass;
+    if (settings.on_progress) settings.on_progress(samples / plan.film.spp);
   });
   film->samples = end;
   total.pixel_samples.Add(static_cast<uint32_t>(end), window.pixel_count());

@@ -27,7 +27,8 @@ struct FrameFilm {
 };
 
 // Adds samples [film->samples, end) of each pixel, end at most the plan's, and hands strips of the
-// mean so far to the sink. After all passes the picture has the bits of Render's. Not for adaptive
+// mean so far to the sink. settings.on_progress is told the share of the plan's samples. After all
+// passes the picture has the bits of Render's. Not for adaptive
 // sampling. A film whose pass has thrown is of no use any more.
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
                        FrameFilm* film, const StripSink& sink);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/api/session_test.cc: sessions of the public API against renders of scenes.
-#include <atomic>
+#include <algorithm>
 #include <chrono>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "catch.h"
 #include "nacre.h"
@@ -129,6 +131,22 @@ TEST_CASE("a render is cancelled from another thread, and the session lives on")
   });
   CHECK_THROWS_AS(session.Render(large), nacre::Cancelled);
   other.join();
+  CheckEqual(session.Render(Small()), nacre::Render(FirstScene(), Small()));
+}
+
+TEST_CASE("passes tell how far all of them have come, and end where that throws") {
+  nacre::Session session(FirstScene());
+  nacre::RenderSettings settings = Small();
+  std::vector<double> shares;
+  settings.on_progress = [&](double share) { shares.push_back(share); };
+  const auto ignore = [](const nacre::Image&, int) {};
+  session.RenderProgressively(settings, ignore);
+  REQUIRE(shares.size() == 8);  // four passes of two strips
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
+  CHECK(shares.front() > 0);
+  CHECK(shares.back() == 1);
+  settings.on_progress = [](double) { throw std::string("enough"); };
+  CHECK_THROWS_AS(session.RenderProgressively(settings, ignore), std::string);
   CheckEqual(session.Render(Small()), nacre::Render(FirstScene(), Small()));
 }
 
