@@ -179,6 +179,12 @@ std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedSc
     key = {prepared->versions.Of(ScenePart::kShapes | ScenePart::kLights), shown,
            scene.camera.position, scene.materials.size()};
   }
+  // They lie in the world: a camera that moves does not change them.
+  const PartVersions meshes = prepared->versions.Of(ScenePart::kShapes);
+  if (meshes != prepared->meshes_of_tangents) {
+    prepared->tables.tangents.clear();
+    prepared->meshes_of_tangents = meshes;
+  }
   if (prepared->with_lights.IsUpToDate(key)) {
     const std::shared_ptr<SceneWithLights>& with = prepared->with_lights.value;
     if (with) UpdateAllButShapes(scene, with.get());
@@ -186,7 +192,6 @@ std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedSc
   }
   return prepared->with_lights.Get(key, [&]() -> std::shared_ptr<SceneWithLights> {
     ++prepared->shapes_made;
-    prepared->tables.tangents.clear();
     if (!any) return nullptr;
     return std::make_shared<SceneWithLights>(AddLightShapes(scene, shown));
   });

@@ -82,6 +82,7 @@ struct PreparedScene {
   Kept<ViewKey, std::monostate> lights;  // whose occluders the intersector has found
 
   KeptTables tables;
+  PartVersions meshes_of_tangents;  // the versions that tables.tangents are of
 };
 
 }  // namespace nacre

@@ -141,5 +141,25 @@ TEST_CASE("A material's change makes nothing again but what it is made of", "[pr
   CHECK(plan().hits.intersector != after.hits.intersector);
 }
 
+TEST_CASE("Tangents stay where the camera moves, and go with their mesh", "[prepared_scene]") {
+  LiveScene live(kScenes / "textures.json", {{{"/image/width", "64"}}});
+  PreparedScene prepared;
+  const auto change = [&](const char* pointer, const char* value) {
+    prepared.versions.Change(live.Set(pointer, value));
+    return MakePlan(live.scene(), {}, &prepared);
+  };
+  // On the mesh's own coordinates.
+  change("/shapes/3", R"({"type": "uv_sphere", "center": [3.4, 1.2, -0.4], "radius": 1,
+                          "segments": 16, "rings": 8, "material": "knot"})");
+  change("/textures/tiles_normal/mapping", "\"uv\"");
+  const FramePlan mapped = change("/materials/knot/normal_map", "\"tiles_normal\"");
+  REQUIRE(mapped.surfaces.textures.tangents.size() == 1);
+  const auto tangents = mapped.surfaces.textures.tangents[0];
+  const FramePlan moved = change("/camera/position", "[0, 2, 12]");
+  CHECK(moved.surfaces.textures.tangents[0] == tangents);
+  const FramePlan scaled = change("/shapes/3/radius", "0.5");
+  CHECK(scaled.surfaces.textures.tangents[0] != tangents);
+}
+
 }  // namespace
 }  // namespace nacre
