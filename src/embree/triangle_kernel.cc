@@ -65,30 +65,6 @@ HWY_INLINE const CutOut* HolesOf(const TraceGeometry& geometry, uint32_t triangl
   return geometry.cut_outs.empty() ? nullptr : FindCutOut(geometry.cut_outs, triangle);
 }
 
-void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
-  EmbreePacket& embree = PacketOf(args->context);
-  Packet& packet = embree.packet;
-  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
-  const Corners corners = CornersOf(geometry, args->primID);
-  const uint32_t lanes = ActiveLanes(embree, args->valid, args->rayhit, args->N);
-  const CutOut* const holes = HolesOf(geometry, args->primID);
-  const hn::ScalableTag<double> d;
-  const int step = static_cast<int>(hn::Lanes(d));
-  for (int lane = 0; lane < packet.width; lane += step) {
-    const auto active = MaskOfBits(d, lanes, lane);
-    if (hn::AllFalse(d, active)) continue;
-    const auto hit = TestLanes(d, packet, lane, corners);
-    auto met = hn::And(active, hit.hit);
-    if (holes != nullptr) {
-      met = hn::And(met, hn::Le(hit.t, hn::Load(d, packet.best_t + lane)));
-      if (hn::AllFalse(d, met)) continue;
-      met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
-    }
-    RecordClosest(d, &packet, lane, met, hit.t, geometry.SphereCount() + args->primID);
-  }
-  ReturnDepths(embree, args->valid, args->rayhit, args->N);
-}
-
 constexpr double kUnit = 0x1p-53;
 
 // A triangle's plane, for distances of points from it.
@@ -123,6 +99,35 @@ HWY_INLINE hn::Mask<D> StartsOnPlane(D d, const Packet& packet, int lane, const 
                                      const Plane& plane) {
   const V extent = hn::Add(hn::Load(d, packet.start_extent + lane), SumOfAbs(to_a));
   return WithinOfPlane(d, plane, to_a, hn::Mul(hn::Set(d, 16 * kUnit), extent));
+}
+
+void IntersectTriangle(const RTCIntersectFunctionNArguments* args) {
+  EmbreePacket& embree = PacketOf(args->context);
+  Packet& packet = embree.packet;
+  const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
+  const Corners corners = CornersOf(geometry, args->primID);
+  const uint32_t primitive = geometry.SphereCount() + args->primID;
+  const uint32_t lanes = ActiveLanes(embree, args->valid, args->rayhit, args->N);
+  const CutOut* const holes = HolesOf(geometry, args->primID);
+  const hn::ScalableTag<double> d;
+  const int step = static_cast<int>(hn::Lanes(d));
+  for (int lane = 0; lane < packet.width; lane += step) {
+    const auto active = MaskOfBits(d, lanes, lane);
+    if (hn::AllFalse(d, active)) continue;
+    const auto hit = TestLanes(d, packet, lane, corners);
+    auto met = hn::And(active, hit.hit);
+    if (holes != nullptr) {
+      met = hn::And(met, hn::Le(hit.t, hn::Load(d, packet.best_t + lane)));
+      if (hn::AllFalse(d, met)) continue;
+      met = OutsideHoles(d, geometry, *holes, args->primID, hit.weights, met);
+    }
+    if (packet.from_surfaces) {
+      const auto to_a = Sub(SetVec3(d, corners.a), Origin(d, packet, lane));
+      met = hn::AndNot(StartsOnPlane(d, packet, lane, to_a, PlaneOf(corners)), met);
+    }
+    RecordClosest(d, &packet, lane, met, hit.t, primitive);
+  }
+  ReturnDepths(embree, args->valid, args->rayhit, args->N);
 }
 
 // The lanes whose end lies on the plane within the rounding error: the light lies on this surface.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: camera rays,
-// their closest hits, shaded hits and shadow rays. Data only: render and visibility write them, and
+// hit/batch.h: the batches that flow through the renderer, as structure-of-arrays: rays, their
+// closest hits, shaded hits and shadow rays. Data only: render and visibility write them, and
 // shading reads them.
 //
 // All positions are doubles relative to the camera's position ("camera space without rotation"):
@@ -85,12 +85,18 @@ struct FilmBatch {
   AlignedArray<uint32_t> ray{kBatchCapacity};
 };
 
-// Camera rays: points origin + t direction, t > 0. Directions are not normalised.
+// Rays: points origin + t direction, t > 0. Directions are not normalised.
 struct RayBatch {
   size_t count = 0;
   Soa3<double> origin;  // 0 for a perspective camera
   Soa3<double> direction;
-  ProjectedTestView view;  // their camera's; the default for other rays
+  ProjectedTestView view;  // the camera's for camera rays; the default for others
+  // Whether the rays leave surfaces: `start` is where each does, kNoPrimitive for those that do
+  // not. A ray meets the sphere that it starts on, or one that coincides with it, only on the far
+  // side, and only where it goes inward; it meets no triangle whose plane it starts on. Origins
+  // need no offset. If false, as for camera rays, `start` is not read.
+  bool from_surfaces = false;
+  AlignedArray<uint32_t> start{kBatchCapacity};
 };
 
 // For each ray of a RayBatch, the closest hit.

@@ -89,15 +89,6 @@ HWY_INLINE void FillPacket(const Batch& batch, size_t first, Packet* packet) {
   packet->lanes = (1u << std::min(left, packet->width)) - 1;
 }
 
-// For the rays' first hits that are nearer than hits->t.
-HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hits, Packet* packet) {
-  packet->view = rays.view;
-  packet->best_t = hits->t.data() + first;
-  packet->best_primitive = hits->primitive.data() + first;
-  packet->t_max = packet->best_t;
-  FillPacket(rays, first, packet);
-}
-
 // Bounds the coordinates that a point on the primitive was computed from.
 HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
   const auto sum_of_abs = [](const Vec3d& v) {
@@ -115,13 +106,13 @@ HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
   return reach;
 }
 
-HWY_INLINE void FillStarts(const ShadowRayBatch& rays, size_t first, Packet* packet) {
+// `starts`: the primitives that the batch's rays start on.
+HWY_INLINE void FillStarts(const AlignedArray<uint32_t>& starts, size_t first, Packet* packet) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const TraceGeometry& geometry = *packet->geometry;
   for (int lane = 0; lane < packet->width; ++lane) {
     const bool holds_ray = (packet->lanes >> lane & 1) != 0;
-    const uint32_t start =
-        holds_ray ? rays.primitive[first + static_cast<size_t>(lane)] : kNoPrimitive;
+    const uint32_t start = holds_ray ? starts[first + static_cast<size_t>(lane)] : kNoPrimitive;
     packet->start[lane] = start;
     const bool on_sphere = start < geometry.SphereCount();
     const TraceSphere sphere = on_sphere ? geometry.spheres[start] : TraceSphere{Vec3d(kNan), kNan};
@@ -131,6 +122,17 @@ HWY_INLINE void FillStarts(const ShadowRayBatch& rays, size_t first, Packet* pac
     packet->start_sphere[3][lane] = sphere.radius;
     packet->start_extent[lane] = geometry.triangles.empty() ? 0 : Reach(geometry, start);
   }
+}
+
+// For the rays' first hits that are nearer than hits->t.
+HWY_INLINE void FillClosest(const RayBatch& rays, size_t first, ClosestHits* hits, Packet* packet) {
+  packet->view = rays.view;
+  packet->best_t = hits->t.data() + first;
+  packet->best_primitive = hits->primitive.data() + first;
+  packet->t_max = packet->best_t;
+  FillPacket(rays, first, packet);
+  packet->from_surfaces = rays.from_surfaces;
+  if (rays.from_surfaces) FillStarts(rays.start, first, packet);
 }
 
 // For shadow rays; those that are known to be occluded are not asked about.
@@ -146,7 +148,8 @@ HWY_INLINE void FillShadowRays(const ShadowRayBatch& rays, size_t first, Packet*
     packet->occluded |= static_cast<uint32_t>(occluded) << lane;
   }
   packet->lanes &= ~packet->occluded;
-  FillStarts(rays, first, packet);
+  packet->from_surfaces = true;
+  FillStarts(rays.primitive, first, packet);
 }
 
 HWY_INLINE void StoreOccluded(const Packet& packet, size_t first, ShadowRayBatch* rays) {

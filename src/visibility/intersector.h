@@ -67,7 +67,8 @@ class Intersector {
   void BuildTriangleTree();
 
   // The first hit with t > 0 of each ray; kNoPrimitive and t = infinity where there is none.
-  // Inside a sphere that is its far side. Fills whole vectors past rays.count with misses.
+  // Inside a sphere that is its far side. Where the ray starts on a surface, that surface is no
+  // hit (RayBatch::from_surfaces). Fills whole vectors past rays.count with misses.
   void Closest(const RayBatch& rays, ClosestHits* hits) const;
 
   // The first hit on a triangle with t > 0 nearer than hits->t of each ray; where there is none,

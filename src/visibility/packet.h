@@ -54,16 +54,19 @@ struct Packet {
   double* best_t = nullptr;
   uint32_t* best_primitive = nullptr;
 
-  // Occlusion queries.
-  bool outward = false;                         // ShadowRayBatch's
-  PrimitiveRange target;                        // likewise
-  double camera_extent = 0;                     // likewise
+  // Where rays start: of shadow rays, and of a RayBatch if its rays leave surfaces.
+  bool from_surfaces = false;
   alignas(64) uint32_t start[kMaxPacketWidth];  // primitive that the ray starts on
   // If that is a sphere, its centre and radius, so that spheres that coincide with it are
   // recognised; else NaN.
   alignas(64) double start_sphere[4][kMaxPacketWidth];
   alignas(64) double start_extent[kMaxPacketWidth];  // upper bound of that primitive's coordinates
-  uint32_t occluded = 0;                             // one bit a lane
+
+  // Occlusion queries.
+  bool outward = false;      // ShadowRayBatch's
+  PrimitiveRange target;     // likewise
+  double camera_extent = 0;  // likewise
+  uint32_t occluded = 0;     // one bit a lane
 };
 
 }  // namespace nacre

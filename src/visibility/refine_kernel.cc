@@ -48,6 +48,7 @@ struct Gathered {
   Block3 origin, direction;
   Block3 center = {};
   alignas(64) double radius[kBlock] = {};
+  alignas(64) double is_start[kBlock] = {};      // 1: the ray starts on this sphere; else 0
   alignas(64) double is_projected[kBlock] = {};  // 1 or 0
   Block3 projected_center = {}, projected_error = {};
   alignas(64) double projected_scale[kBlock] = {};
@@ -89,7 +90,10 @@ HWY_INLINE Surface RefineSphere(const Gathered& in, size_t i, const RefineRays& 
   if (in.any_general) {
     const auto hit =
         TestSphere(d, Sub(center, rays.origin), rays.direction, rays.inverse_dd, radius);
-    const V root = hn::IfThenElse(hit.inside, hit.root, hn::Neg(hit.root));
+    // A ray that starts on the sphere hits its far side, whatever the rounding of its origin.
+    const auto is_start = hn::Gt(hn::Load(d, in.is_start + i), hn::Zero(d));
+    const auto inside = hn::Or(hit.inside, is_start);
+    const V root = hn::IfThenElse(inside, hit.root, hn::Neg(hit.root));
     signed_radius = SignedRadius(radius, root);
     normal = SphereNormal(d, ScaledCenterToHit(rays.direction, root, hit.moment), rays.dd,
                           signed_radius);
@@ -150,6 +154,14 @@ HWY_INLINE void GatherTriangle(const TraceGeometry& geometry, uint32_t triangle,
   }
 }
 
+// Whether the ray starts on the sphere, or on one that coincides with it.
+HWY_INLINE bool IsStart(const TraceGeometry& geometry, const RayBatch& rays, uint32_t ray,
+                        const TraceSphere& sphere) {
+  if (!rays.from_surfaces || rays.start[ray] >= geometry.SphereCount()) return false;
+  const TraceSphere& start = geometry.spheres[rays.start[ray]];
+  return start.center == sphere.center && start.radius == sphere.radius;
+}
+
 HWY_INLINE void GatherSphere(const TraceSphere& sphere, const ProjectedTestView& view, size_t i,
                              Gathered* to) {
   to->any_sphere = true;
@@ -181,7 +193,9 @@ HWY_INLINE void Gather(const RefineRequest& request, size_t first, size_t size, 
     hits->ray[first + i] = ray;
     hits->primitive[first + i] = primitive;
     if (primitive < sphere_count) {
-      GatherSphere(geometry.spheres[primitive], request.rays.view, i, to);
+      const TraceSphere& sphere = geometry.spheres[primitive];
+      GatherSphere(sphere, request.rays.view, i, to);
+      to->is_start[i] = IsStart(geometry, request.rays, ray, sphere) ? 1 : 0;
     } else {
       GatherTriangle(geometry, primitive - sphere_count, i, to);
     }

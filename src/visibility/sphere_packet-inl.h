@@ -69,6 +69,30 @@ HWY_INLINE SphereHitV<D> TestLanes(D d, const Packet& packet, int lane, const Tr
                     hn::Set(d, sphere.radius));
 }
 
+// The lanes whose ray starts on this sphere, or on one that coincides with it.
+template <class D>
+HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
+  const auto same = [&](int i, double value) HWY_ATTR {
+    return hn::Eq(hn::Load(d, packet.start_sphere[i] + lane), hn::Set(d, value));
+  };
+  return hn::And(hn::And(same(0, sphere.center.x), same(1, sphere.center.y)),
+                 hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
+}
+
+// The general test of rays that leave surfaces: of those that start on this sphere one root is 0,
+// whatever the rounding of their origin, and the other twice the distance to the closest approach.
+template <class D>
+HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t primitive,
+                                   const SphereHitV<D>& hit, hn::Mask<D> proposed, int lane,
+                                   Packet* packet) {
+  const auto is_start = StartsOn(d, *packet, lane, sphere);
+  const auto far = hn::Add(hit.closest, hit.closest);
+  const auto met =
+      hn::Or(hn::And(is_start, hn::Gt(far, hn::Zero(d))), hn::AndNot(is_start, hit.hit));
+  RecordClosest(d, packet, lane, hn::And(proposed, met), hn::IfThenElse(is_start, far, hit.t),
+                primitive);
+}
+
 // Tests `lanes`, as bits, and records the hits that are nearer than the nearest so far.
 HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, uint32_t lanes,
                                Packet* packet) {
@@ -87,19 +111,13 @@ HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, ui
       RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
     } else {
       const auto hit = TestLanes(d, *packet, lane, sphere);
-      RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
+      if (packet->from_surfaces) {
+        RecordFromSurfaces(d, sphere, primitive, hit, proposed, lane, packet);
+      } else {
+        RecordClosest(d, packet, lane, hn::And(proposed, hit.hit), hit.t, primitive);
+      }
     }
   }
-}
-
-// The lanes whose ray starts on this sphere, or on one that coincides with it.
-template <class D>
-HWY_INLINE hn::Mask<D> StartsOn(D d, const Packet& packet, int lane, const TraceSphere& sphere) {
-  const auto same = [&](int i, double value) HWY_ATTR {
-    return hn::Eq(hn::Load(d, packet.start_sphere[i] + lane), hn::Set(d, value));
-  };
-  return hn::And(hn::And(same(0, sphere.center.x), same(1, sphere.center.y)),
-                 hn::And(same(2, sphere.center.z), same(3, sphere.radius)));
 }
 
 // Marks those of `lanes`, as bits, that the sphere occludes.

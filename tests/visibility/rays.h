@@ -148,6 +148,47 @@ inline Hit BruteForce(const TraceGeometry& geometry, const Ray& ray) {
   return best;
 }
 
+// Whether the ray starts on the triangle's plane within rounding: StartsOnPlane of
+// embree/triangle_kernel.cc, which derives the bound. `start`: the primitive that it starts on.
+inline bool StartsOnPlane(const TraceGeometry& geometry, size_t triangle, const Ray& ray,
+                          uint32_t start) {
+  double extent = 0;
+  if (start < geometry.SphereCount()) {
+    extent = SumOfAbs(geometry.spheres[start].center) + geometry.spheres[start].radius;
+  } else if (start != kNoPrimitive) {
+    for (const uint32_t vertex : geometry.triangles[start - geometry.SphereCount()]) {
+      extent = std::max(extent, SumOfAbs(geometry.positions[vertex]));
+    }
+  }
+  const auto& v = geometry.triangles[triangle];
+  const Vec3d a = geometry.positions[v[0]], to_a = a - ray.origin;
+  const Vec3d e1 = geometry.positions[v[1]] - a, e2 = geometry.positions[v[2]] - a;
+  return std::abs(to_a.dot(e1.cross(e2))) <=
+         16 * 0x1p-53 * SumOfAbs(e1) * SumOfAbs(e2) * (extent + SumOfAbs(to_a));
+}
+
+// Of a ray that leaves a surface: RayBatch::from_surfaces.
+inline Hit BruteForceFrom(const TraceGeometry& geometry, const Ray& ray, uint32_t start) {
+  Hit best;
+  for (uint32_t i = 0; i < geometry.SphereCount(); ++i) {
+    const TraceSphere& sphere = geometry.spheres[i];
+    const auto hit =
+        TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
+    const bool own = start < geometry.SphereCount() &&
+                     geometry.spheres[start].center == sphere.center &&
+                     geometry.spheres[start].radius == sphere.radius;
+    const double t = own ? 2 * hit.closest : hit.t;
+    if ((own ? t > 0 : hit.hit) && t < best.t) best = {i, t};
+  }
+  for (size_t i = 0; i < geometry.triangles.size(); ++i) {
+    const auto primitive = geometry.SphereCount() + static_cast<uint32_t>(i);
+    const auto hit = TestTriangle(geometry, i, ray);
+    const bool met = hit.hit && primitive != start && hit.t < best.t;
+    if (met && !StartsOnPlane(geometry, i, ray, start)) best = {primitive, hit.t};
+  }
+  return best;
+}
+
 // Whether the ray ends on the surface within rounding: EndsOnSphere of visibility/occlusion-inl.h
 // and EndsOnPlane of embree/triangle_kernel.cc, which derive the bounds.
 inline bool EndsOnSphere(const TraceSphere& sphere, const ShadowRay& shadow) {
