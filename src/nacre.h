@@ -230,6 +230,28 @@ struct WriteSettings {
 NACRE_API void Write(const Image& image, const std::string& path,
                      const WriteSettings& settings = {});
 
+// ---- Pictures for a display ---------------------------------------------------------------------
+
+struct ToneMapSettings {
+  std::string layer;                // "diffuse", "light.key"; empty: the channels R, G and B
+  std::string tonemap = "neutral";  // or reinhard, reinhard_extended, aces, agx, none
+  double exposure = 0;              // in stops, -60 to 60
+};
+
+// What a display shows: sRGB codes, row by row from the top, R, G, B and A of a pixel side by side.
+struct Picture {
+  int width = 0, height = 0;
+  std::vector<uint8_t> rgba;  // A is 255
+};
+
+// The codes that Write puts into PNG files. Pixels that hold a NaN are magenta.
+NACRE_API Picture ToneMap(const Image& image, const ToneMapSettings& settings = {});
+
+// The bytes of a PNG file, and of a JPEG file with quality 1 to 100 and colours at full resolution.
+// Neither keeps A.
+NACRE_API std::vector<uint8_t> EncodePng(const Picture& picture);
+NACRE_API std::vector<uint8_t> EncodeJpeg(const Picture& picture, int quality = 90);
+
 // ---- Rendering ----------------------------------------------------------------------------------
 
 struct RenderSettings {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/render.cc: renders of the public API.
-#include "api/render_impl.h"
-
 #include <chrono>
 #include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "api/render_impl.h"
 #include "api/scene_impl.h"
 #include "output/metadata.h"
 #include "scene/limits.h"

@@ -37,9 +37,8 @@ Cancelled::~Cancelled() = default;
 const char* Cancelled::what() const noexcept { return "cancelled"; }
 
 Session::Session(const Scene& scene)
-    : impl_(AtBorder([&] {
-        return std::make_unique<Impl>(Scene::Impl::MakeLive(scene.impl().source));
-      })) {}
+    : impl_(AtBorder(
+          [&] { return std::make_unique<Impl>(Scene::Impl::MakeLive(scene.impl().source)); })) {}
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 Session::~Session() = default;

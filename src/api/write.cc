@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/write.cc: images of the public API to EXR and PNG files.
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <locale>
 #include <set>
 #include <sstream>
 #include <system_error>
 
-#include "api/border.h"
+#include "api/shown.h"
 #include "base/path.h"
 #include "base/version.h"
-#include "color/display.h"
 #include "image_io/exr_checksum.h"
 #include "image_io/exr_writer.h"
 #include "image_io/png_writer.h"
@@ -98,42 +95,18 @@ void WriteExr(const Image& image, const std::string& path, const WriteSettings& 
   writer.Finish();
 }
 
-// Values that are a display's already.
-void RoundToCodes(const std::array<const float*, 3>& rgb, size_t count, uint8_t* rgb8) {
-  for (size_t i = 0; i < count; ++i) {
-    for (size_t c = 0; c < 3; ++c) {
-      const float value = std::min(std::max(rgb[c][i], 0.0f), 1.0f);
-      rgb8[3 * i + c] = static_cast<uint8_t>(std::lround(255 * value));
-    }
-  }
-}
-
 void WritePng(const Image& image, const std::string& path, const WriteSettings& settings) {
-  if (!(std::abs(settings.exposure) <= 60)) {
-    throw nacre::Error(ExitCode::kUsage, "exposure", "is not within -60 to 60 stops");
-  }
-  const nacre::DisplaySettings display{.tone = ParseToneOperator(settings.tonemap),
-                                       .exposure_ev = settings.exposure};
-  const auto transfer = image.metadata.find("transfer");
-  const bool displayed = transfer != image.metadata.end() && transfer->second == "display";
-  std::array<const float*, 3> rgb{};
-  for (size_t c = 0; c < 3; ++c) {
-    rgb[c] = RequireChannel(image, std::string(1, "RGB"[c]), "a PNG file").samples.data();
-  }
+  const Shown shown(image,
+                    {.layer = "", .tonemap = settings.tonemap, .exposure = settings.exposure},
+                    "a PNG file");
   PngHeader header;
   header.width = image.width();
   header.height = image.height();
   header.text = {{"Software", std::string("nacre ") + kVersion},
-                 {"nacre:tonemap", displayed ? "none" : settings.tonemap}};
+                 {"nacre:tonemap", shown.displayed ? "none" : settings.tonemap}};
   PngWriter writer(path, header, {.small = settings.small});
-  writer.WriteAll([&](size_t first, size_t count, uint8_t* rgb8) {
-    const std::array<const float*, 3> from = {rgb[0] + first, rgb[1] + first, rgb[2] + first};
-    if (displayed) {
-      RoundToCodes(from, count, rgb8);
-    } else {
-      EncodeDisplay(display, from[0], from[1], from[2], count, rgb8);
-    }
-  });
+  writer.WriteAll(
+      [&](size_t first, size_t count, uint8_t* rgb8) { EncodePixels(shown, first, count, rgb8); });
   writer.Finish();
 }
 

@@ -2,6 +2,7 @@
 #include "cli/outputs.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -28,6 +29,13 @@ StripView ViewOf(const Strip& strip) {
 }
 
 }  // namespace
+
+std::vector<std::string> FilesAmong(const std::vector<std::string>& outputs) {
+  std::vector<std::string> files;
+  std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(files),
+               [](const std::string& output) { return output != kNullOutput; });
+  return files;
+}
 
 void CheckPicturePaths(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
@@ -96,7 +104,7 @@ Outputs::Outputs(const RenderOptions& options, const FramePlan& plan,
   png_header.text = {{"Software", std::get<std::string>(header.attributes.at("Software"))},
                      {"nacre:shadowing", ShadowingForms(*plan.scene)},
                      {"nacre:tonemap", options.tonemap}};
-  for (const std::string& path : options.outputs) {
+  for (const std::string& path : FilesAmong(options.outputs)) {
     if (IsExr(path)) {
       exr_.push_back(std::make_unique<ExrWriter>(path, header, exr_options));
     } else {

@@ -18,6 +18,12 @@
 
 namespace nacre {
 
+// The output that is no file: the picture is rendered, for timing, and written nowhere.
+inline constexpr char kNullOutput[] = "null:";
+
+// The outputs that are files.
+std::vector<std::string> FilesAmong(const std::vector<std::string>& outputs);
+
 // Throws Error for a path that cannot be written (kCannotWrite) or whose extension is neither
 // .exr nor .png (kUsage): before any work is done for it.
 void CheckPicturePaths(const std::vector<std::string>& paths);

@@ -57,7 +57,10 @@ void WarnAboutSamples(const OutputCounts& counts, const RenderStats& stats) {
 void Summarize(const RenderOptions& options, const FramePlan& plan, const RenderStats& stats,
                const JobTimes& times) {
   std::string files;
-  for (const std::string& path : options.outputs) files += (files.empty() ? "" : ", ") + path;
+  for (const std::string& path : FilesAmong(options.outputs)) {
+    files += (files.empty() ? "" : ", ") + path;
+  }
+  if (files.empty()) files = "no file";
   const PixelSampleCounts& counts = stats.pixel_samples;
   const std::string samples =
       plan.adaptive.max_error > 0
@@ -81,8 +84,8 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   LoadOptions load_options = MakeLoadOptions(options);
   RenderSettings settings = MakeRenderSettings(options);
   ApplyTarget(options.target);
-  CheckPicturePaths(options.outputs);
-  std::vector<std::string> paths = options.outputs;
+  std::vector<std::string> paths = FilesAmong(options.outputs);
+  CheckPicturePaths(paths);
   if (!options.stats.empty()) {
     CheckTextOutput(options.stats);
     if (options.stats != "-") paths.push_back(options.stats);

@@ -216,8 +216,10 @@ void FindIdleOptions(const CLI::App& command, RenderOptions* o) {
 
 void AddRenderOptions(CLI::App* command, RenderOptions* o) {
   command
-      ->add_option("-o,--output", o->outputs,
-                   "File to write, repeatable: .exr (linear, HDR) or .png (tone-mapped sRGB)")
+      ->add_option(
+          "-o,--output", o->outputs,
+          "File to write, repeatable: .exr (linear, HDR) or .png (tone-mapped sRGB); null: "
+          "writes none, for timing")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);

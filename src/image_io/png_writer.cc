@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -119,19 +120,32 @@ void FilterStrip(const uint8_t* rgb8, size_t rows, size_t row_bytes, uint8_t* ou
 }  // namespace
 
 struct PngWriter::State {
-  State(const std::string& path_in, const PngHeader& header_in, const PngOptions& options_in)
+  State(const std::string& path_in, Bytes* memory_in, const PngHeader& header_in,
+        const PngOptions& options_in)
       : path(path_in),
         header(header_in),
         options(options_in),
-        file(path_in),
+        memory(memory_in),
         in_order([this](size_t, const PngStrip& strip) {
           Append(strip.chunk);
           adler = static_cast<uint32_t>(
               adler32_combine(adler, strip.adler, static_cast<z_off_t>(strip.filtered_size)));
-        }) {}
+        }) {
+    // A strip's bytes, deflated, must fit a chunk's length of 31 bits.
+    constexpr int kMaxWidth = std::numeric_limits<int32_t>::max() / (kStripRows * 4);
+    if (header.width < 1 || header.height < 1 || header.width > kMaxWidth) {
+      throw Error(ExitCode::kInternal, path, "a picture of this size cannot be written as PNG");
+    }
+    if (memory == nullptr) file.emplace(path);
+    Append(MakeHeader(header));
+  }
 
   void Append(std::span<const uint8_t> bytes) {
-    file.Write(size, bytes);
+    if (memory != nullptr) {
+      memory->insert(memory->end(), bytes.begin(), bytes.end());
+      return;
+    }
+    file->Write(size, bytes);
     size += bytes.size();
   }
   size_t strip_count() const { return static_cast<size_t>(StripCount(header.height)); }
@@ -140,8 +154,9 @@ struct PngWriter::State {
   const std::string path;
   const PngHeader header;
   const PngOptions options;
-  OutputFile file;
-  uint64_t size = 0;  // of what has been written
+  Bytes* const memory;             // where the bytes go, or null:
+  std::optional<OutputFile> file;  // they go there
+  uint64_t size = 0;               // of what has been written
   uint32_t adler = 1;
   InOrder<PngStrip> in_order;
 };
@@ -164,15 +179,12 @@ PngStrip PngWriter::State::MakeStrip(size_t index, size_t rows, const uint8_t* r
           filtered_size};
 }
 
-PngWriter::PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options) {
-  // A strip's bytes, deflated, must fit a chunk's length of 31 bits.
-  constexpr int kMaxWidth = std::numeric_limits<int32_t>::max() / (kStripRows * 4);
-  if (header.width < 1 || header.height < 1 || header.width > kMaxWidth) {
-    throw Error(ExitCode::kInternal, path, "a picture of this size cannot be written as PNG");
-  }
-  state_ = std::make_unique<State>(path, header, options);
-  state_->Append(MakeHeader(header));
-}
+PngWriter::PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options)
+    : state_(std::make_unique<State>(path, nullptr, header, options)) {}
+
+PngWriter::PngWriter(std::vector<uint8_t>* bytes, const PngHeader& header,
+                     const PngOptions& options)
+    : state_(std::make_unique<State>("PNG", bytes, header, options)) {}
 
 PngWriter::~PngWriter() = default;
 
@@ -219,15 +231,29 @@ void PngWriter::Finish(const PngText& text) {
   for (const auto& [keyword, value] : text) AppendTextChunk(keyword, value, &end);
   AppendChunk("IEND", {}, &end);
   state_->Append(end);
-  state_->file.Commit(state_->options.sync);
+  if (state_->file) state_->file->Commit(state_->options.sync);
 }
 
+namespace {
+
+PngHeader HeaderOf(const Rgb8Picture& picture) {
+  return {picture.width, picture.height, {{"Software", std::string("nacre ") + kVersion}}};
+}
+
+}  // namespace
+
 void WritePng(const std::string& path, const Rgb8Picture& picture, const PngOptions& options) {
-  PngWriter writer(
-      path, {picture.width, picture.height, {{"Software", std::string("nacre ") + kVersion}}},
-      options);
+  PngWriter writer(path, HeaderOf(picture), options);
   writer.WriteAll(picture.rgb8);
   writer.Finish();
+}
+
+std::vector<uint8_t> EncodePng(const Rgb8Picture& picture, const PngOptions& options) {
+  std::vector<uint8_t> bytes;
+  PngWriter writer(&bytes, HeaderOf(picture), options);
+  writer.WriteAll(picture.rgb8);
+  writer.Finish();
+  return bytes;
 }
 
 }  // namespace nacre

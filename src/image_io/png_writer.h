@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/picture.h"
 #include "base/strip.h"
@@ -38,6 +39,8 @@ class PngWriter {
  public:
   // Opens the file and writes its header: call before rendering.
   PngWriter(const std::string& path, const PngHeader& header, const PngOptions& options = {});
+  // The same bytes to the end of `bytes`, and to no file.
+  PngWriter(std::vector<uint8_t>* bytes, const PngHeader& header, const PngOptions& options = {});
   // Without Finish, nothing remains of the file.
   ~PngWriter();
 
@@ -61,5 +64,9 @@ class PngWriter {
 
 // A file of the picture that says what made it.
 void WritePng(const std::string& path, const Rgb8Picture& picture, const PngOptions& options = {});
+
+// The bytes of that file. Throws Error (kInternal) for a picture without pixels, or one that is
+// wider than PNG allows.
+std::vector<uint8_t> EncodePng(const Rgb8Picture& picture, const PngOptions& options = {});
 
 }  // namespace nacre

@@ -57,6 +57,16 @@ class OptionsTest(unittest.TestCase):
         self.check_works('pair', '--layout', 'difference', *page, *taken)
         self.check_works('convert', 'phong', *page, *taken)
 
+    def test_null_writes_no_file(self):
+        stats = self.out / 'stats.json'
+        result = self.check_works('render', FIRST_SCENE, '-o', 'null:', *SMALL, '--stats', stats)
+        self.assertIn('no file: 64x36', result.stderr)
+        self.assertEqual([path.name for path in self.out.iterdir()], ['stats.json'])
+        self.assertGreater(json.loads(stats.read_text())['time_ms']['render'], 0)
+        self.check_works('render', FIRST_SCENE, '-o', 'null:', '-o', self.out / 'a.png', *SMALL)
+        self.assertTrue((self.out / 'a.png').exists())
+        self.check_works('grid', '-o', 'null:', *SMALL)
+
     def test_convert_without_a_picture_takes_no_options_of_pictures(self):
         for option in (['--spp', '4'], ['--light', 'studio'], ['--size', '9x9'], ['--labels'],
                        ['--tonemap', 'aces'], *self.OF_FILES):
