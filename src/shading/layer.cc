@@ -2,7 +2,6 @@
 #include "shading/layer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "shading/hit_parameters.h"
 
@@ -17,6 +16,12 @@ LayerReflection TermsOf(const SheenModel& sheen, const Angles<double>& a) {
                  CharlieAlbedo(sheen.charlie, a.n_dot_l));
   const double lobe = CharlieLobe(sheen.charlie, a) * a.n_dot_l * scale.lobe;
   return {sheen.color * lobe, scale.below};
+}
+
+LayerReflection AlbedoOf(const SheenModel& sheen, double n_dot_v) {
+  const double albedo = CharlieAlbedo(sheen.charlie, n_dot_v);
+  const SheenScale<double> scale = ScaleSheen(LargestChannel(sheen.color), albedo, albedo);
+  return {sheen.color * (albedo * scale.lobe), scale.below};
 }
 
 SheenModel ModelAtHit(const SheenModel&, const HitTextures& textures, size_t i) {
@@ -59,10 +64,8 @@ LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& ang
   return std::visit([&](const auto& model) { return TermsOf(model, angles); }, layer);
 }
 
-double LeftOfMirror(const LayerModel& layer, double n_dot_v) {
-  const double sin = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
-  const Vec3d to_view(sin, 0, n_dot_v), to_light(-sin, 0, n_dot_v);
-  return EvaluateLayer(layer, ComputeAngles(Vec3d(0, 0, 1), to_light, to_view)).below;
+LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v) {
+  return std::visit([&](const auto& model) { return AlbedoOf(model, n_dot_v); }, layer);
 }
 
 }  // namespace nacre

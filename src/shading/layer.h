@@ -41,7 +41,9 @@ struct LayerReflection {
 };
 LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles);
 
-// What a layer leaves of the reflection of a perfect mirror below it, seen from n.v.
-double LeftOfMirror(const LayerModel& layer, double n_dot_v);
+// Seen from n.v: the directional albedo of the layer, and what it leaves of light that comes and
+// goes at the same angle, as by a mirror. It stands for light from everywhere as well, so that a
+// white surface reflects all of it.
+LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v);
 
 }  // namespace nacre
