@@ -24,6 +24,14 @@ LayerReflection AlbedoOf(const SheenModel& sheen, double n_dot_v) {
   return {sheen.color * (albedo * scale.lobe), scale.below};
 }
 
+Vec3d SampleOf(const SheenModel& sheen, const Vec3d& normal, double u0, double u1) {
+  return SampleCharlie(normal, sheen.charlie.roughness, u0, u1);
+}
+
+double PdfOf(const SheenModel& sheen, double n_dot_l) {
+  return CharliePdf(n_dot_l, sheen.charlie.roughness);
+}
+
 SheenModel ModelAtHit(const SheenModel&, const HitTextures& textures, size_t i) {
   return {ColorOfHit(textures, MappedNumber::kSheenColor, i),
           MakeCharlie(NumbersOf(textures, MappedNumber::kSheenRoughness)[i])};
@@ -66,6 +74,14 @@ LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& ang
 
 LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v) {
   return std::visit([&](const auto& model) { return AlbedoOf(model, n_dot_v); }, layer);
+}
+
+Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1) {
+  return std::visit([&](const auto& model) { return SampleOf(model, normal, u0, u1); }, layer);
+}
+
+double LayerPdf(const LayerModel& layer, double n_dot_l) {
+  return std::visit([&](const auto& model) { return PdfOf(model, n_dot_l); }, layer);
 }
 
 }  // namespace nacre

@@ -46,4 +46,9 @@ LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& ang
 // white surface reflects all of it.
 LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v);
 
+// A direction to light for the layer's own reflection, by u0 and u1 in [0, 1), and the pdf, per
+// solid angle, of such a direction at n.l.
+Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1);
+double LayerPdf(const LayerModel& layer, double n_dot_l);
+
 }  // namespace nacre
