@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/basis.h"
 #include "base/vec.h"
 #include "brdf/ggx.h"
 
@@ -178,6 +179,37 @@ template <typename Real>
 SheenScale<Real> ScaleSheen(Real largest_channel, Real albedo_v, Real albedo_l) {
   const Real share = largest_channel * std::max(albedo_v, albedo_l);
   return {share > 1 ? 1 / share : Real(1), share < 1 ? 1 - share : Real(0)};
+}
+
+// Directions to light for the lobe: any azimuth, and n.l with the pdf 2 w (1 + w)^2 n.l / (n.l +
+// w)^3, w = roughness: as D V n.l they gather about n.l = w / 2 and thin out above. The square root
+// of u0 is (1 + w) n.l / (n.l + w), so all of them are above the surface. The lobe's half vectors
+// lie near the horizon, about which v is mirrored to below the surface more often than not, and
+// cosine-weighted directions miss the horizon. Standard deviation of one sample over its mean,
+// D V n.l over the pdf, by quadrature, at n.v = 0.1 and 0.6:
+//
+//   roughness   this sampler   cosine-weighted   uniform      half vectors of D
+//   0.1         1.1    2.3     5.7    14         2.1    4.3   1.0    37
+//   0.3         0.68   1.1     1.9    2.2        0.90   1.3   0.79   2.0
+//   0.5         0.47   0.73    1.2    1.1        0.55   0.81  0.82   1.4
+//   1           0.23   0.36    0.71   0.50       0.30   0.48  0.90   1.1
+template <typename Real>
+Imath::Vec3<Real> SampleCharlie(const Imath::Vec3<Real>& normal, Real roughness, Real u0, Real u1) {
+  const Real root = std::sqrt(u0);
+  const Real one_minus_root = (1 - u0) / (1 + root);  // n.l near 1 is made of it
+  const Real n_dot_l = roughness * root / (roughness + one_minus_root);
+  const Real sin = std::sqrt((1 - n_dot_l) * (1 + n_dot_l));
+  const Real phi = 2 * static_cast<Real>(M_PI) * u1;
+  return BasisAbout(normal).ToWorld({sin * std::cos(phi), sin * std::sin(phi), n_dot_l});
+}
+
+// Per solid angle; integrates to 1 over the hemisphere. 0 for a roughness of 0, which has no lobe.
+template <typename Real>
+Real CharliePdf(Real n_dot_l, Real roughness) {
+  if (!(n_dot_l > 0)) return 0;
+  const Real inverse = 1 / (n_dot_l + roughness);
+  const Real squared = (1 + roughness) * (1 + roughness);
+  return roughness * inverse * squared * (n_dot_l * inverse) * inverse / static_cast<Real>(M_PI);
 }
 
 }  // namespace nacre

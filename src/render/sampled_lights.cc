@@ -37,8 +37,10 @@ struct Components {
 // The strategies that are combined by multiple importance sampling (the balance heuristic): the pdf
 // of a component's directions is the sum of theirs.
 struct SamplingStrategies {
-  bool light;   // SampleLight
-  bool cosine;  // SampleCosine, for the diffuse part; SampleLobe always is, for the specular part
+  bool light;  // SampleLight
+  // SampleCosine or SampleUnderLayers, for the diffuse part; SampleLobe always is, for the specular
+  // part.
+  bool cosine;
 };
 
 // Lets a unit light shine on the hits that face it along the directions and do not miss it. What
@@ -92,6 +94,12 @@ void WeighDiffuse(const Lit& lit, const SamplingStrategies& strategies) {
   const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
   FindDiffusePdf({strategies.light, strategies.cosine}, lit.c.directions, lit.surface(), flat,
                  lit.count(), lit.c.pdf.data());
+  for (const MaterialRun& run : lit.runs()) {
+    if (!strategies.cosine || run.shading->layers.empty()) continue;
+    UnderLayersPdf(*run.shading, lit.RangeOf(run), lit.c.directions.to_light, lit.c.pdf.data());
+    if (!strategies.light) continue;
+    for (size_t i = run.begin; i < run.end; ++i) lit.c.pdf[i] += lit.c.directions.pdf[i];
+  }
   WeighByPdf(lit);
 }
 
@@ -181,6 +189,11 @@ void AddByCosine(const Lit& lit) {
   ChoosePoints(lit, 1);
   SampleCosine(lit.surface(), lit.count(), lit.c.points.u.data(), lit.c.points.v.data(),
                &lit.c.directions.to_light);
+  for (const MaterialRun& run : lit.runs()) {
+    if (run.shading->layers.empty()) continue;
+    SampleUnderLayers(*run.shading, lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
+                      &lit.c.directions.to_light);
+  }
   FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
   FaceLight(lit, true);
   AddDirections(lit, {HasSampler(lit.planned.light), true}, {true, false});

@@ -286,9 +286,20 @@ void DimBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
   to->z[j] *= by.z[i];
 }
 
+// The same, and adds what the coat reflects of ambient light: its albedo times the radiance.
+void CoverAmbient(const Soa3<float>& left, size_t i, size_t j, const Rgb& radiance,
+                  Soa3<float>* to) {
+  const auto cover = [&](const AlignedArray<float>& by, double of, AlignedArray<float>* channel) {
+    (*channel)[j] = static_cast<float>(by[i] * double{(*channel)[j]} + (1 - double{by[i]}) * of);
+  };
+  cover(left.x, radiance.x, &to->x);
+  cover(left.y, radiance.y, &to->y);
+  cover(left.z, radiance.z, &to->z);
+}
+
 // Attenuates the emission and the reflected ambient light of hits below coats, which no light's
-// radiance holds.
-void DimLayers(Surfaces* s) {
+// radiance holds, and adds the coats' own reflection of ambient light.
+void CoverLayers(Surfaces* s) {
   if (!AnyCoat(*s)) return;
   const CoatedHits& coats = *s->coats;
   for (const MaterialRun& run : LitRuns(*s)) {
@@ -296,7 +307,8 @@ void DimLayers(Surfaces* s) {
     for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
       const size_t below = coats.below[i];
       if (below < run.begin || below >= run.end) continue;
-      DimBy(coats.surfaces.surface.base, i, below, &s->textures->ambient);
+      CoverAmbient(coats.surfaces.surface.base, i, below, run.shading->ambient_radiance,
+                   &s->textures->ambient);
       DimBy(coats.surfaces.surface.base, i, below, &s->textures->emission);
     }
   }
@@ -324,7 +336,7 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
   coats.lit_runs = coats.runs.size();
   coats.lit = coats.hits.count;
   PrepareRuns(plan, &coats);
-  DimLayers(&s);
+  CoverLayers(&s);
 }
 
 }  // namespace nacre

@@ -36,14 +36,16 @@ struct ImageKey {
   MtlImage MtlMaterial::*member;
 };
 constexpr std::array kImageKeys = {
-    ImageKey{"map_ka", &MtlMaterial::map_ka}, ImageKey{"map_kd", &MtlMaterial::map_kd},
-    ImageKey{"map_ks", &MtlMaterial::map_ks}, ImageKey{"map_ns", &MtlMaterial::map_ns},
-    ImageKey{"map_ke", &MtlMaterial::map_ke}, ImageKey{"map_emissive", &MtlMaterial::map_ke},
-    ImageKey{"map_d", &MtlMaterial::map_d},   ImageKey{"map_tr", &MtlMaterial::map_d},
-    ImageKey{"map_pr", &MtlMaterial::map_pr}, ImageKey{"map_pm", &MtlMaterial::map_pm},
-    ImageKey{"norm", &MtlMaterial::norm},     ImageKey{"map_kn", &MtlMaterial::norm},
-    ImageKey{"bump", &MtlMaterial::bump},     ImageKey{"map_bump", &MtlMaterial::bump},
-    ImageKey{"disp", &MtlMaterial::disp},     ImageKey{"map_disp", &MtlMaterial::disp}};
+    ImageKey{"map_ka", &MtlMaterial::map_ka},   ImageKey{"map_kd", &MtlMaterial::map_kd},
+    ImageKey{"map_ks", &MtlMaterial::map_ks},   ImageKey{"map_ns", &MtlMaterial::map_ns},
+    ImageKey{"map_ke", &MtlMaterial::map_ke},   ImageKey{"map_emissive", &MtlMaterial::map_ke},
+    ImageKey{"map_d", &MtlMaterial::map_d},     ImageKey{"map_tr", &MtlMaterial::map_d},
+    ImageKey{"map_pr", &MtlMaterial::map_pr},   ImageKey{"map_pm", &MtlMaterial::map_pm},
+    ImageKey{"map_ps", &MtlMaterial::map_ps},   ImageKey{"map_pc", &MtlMaterial::map_pc},
+    ImageKey{"map_pcr", &MtlMaterial::map_pcr}, ImageKey{"norm", &MtlMaterial::norm},
+    ImageKey{"map_kn", &MtlMaterial::norm},     ImageKey{"bump", &MtlMaterial::bump},
+    ImageKey{"map_bump", &MtlMaterial::bump},   ImageKey{"disp", &MtlMaterial::disp},
+    ImageKey{"map_disp", &MtlMaterial::disp}};
 
 // What is left out, with a warning; numbers only if they are not 0.
 struct NotShown {
@@ -51,23 +53,18 @@ struct NotShown {
   std::string_view warning;
 };
 constexpr std::array kNumbersNotShown = {
-    NotShown{"ps", "sheen (Ps) is not shown"},
-    NotShown{"pc", "clear coats (Pc, Pcr) are not shown"},
     NotShown{"aniso", "anisotropy (aniso, anisor) is not shown"}};
 constexpr std::array kImagesNotShown = {
     NotShown{"refl", "reflection images (refl) are not shown"},
     NotShown{"map_refl", "reflection images (refl) are not shown"},
     NotShown{"decal", "decals are not shown"},
-    NotShown{"map_ps", "images of sheen (map_Ps) are not shown"},
-    NotShown{"map_pc", "images of clear coats (map_Pc, map_Pcr) are not shown"},
-    NotShown{"map_pcr", "images of clear coats (map_Pc, map_Pcr) are not shown"},
     NotShown{"map_rma", "images of several channels (map_RMA, map_ORM) are not shown"},
     NotShown{"map_orm", "images of several channels (map_RMA, map_ORM) are not shown"}};
 
 // Left out without a warning: transmission, about which illum and d warn already; filters and
-// sampling; the roughness of clear coats and the angle of anisotropy, which are not shown either.
-constexpr std::array<std::string_view, 8> kSilent = {"kt",  "tf",     "km",      "sharpness",
-                                                     "pcr", "anisor", "map_aat", "interpolatemode"};
+// sampling; the angle of anisotropy, which is not shown either.
+constexpr std::array<std::string_view, 7> kSilent = {
+    "kt", "tf", "km", "sharpness", "anisor", "map_aat", "interpolatemode"};
 
 std::string LowerCase(std::string_view text) {
   std::string lower(text);
@@ -152,6 +149,12 @@ class MtlFileReader {
       material->pr = Clamped(keyword, Number(keyword, line), limits::kUnit);
     } else if (keyword == "pm") {
       material->pm = Clamped(keyword, Number(keyword, line), limits::kUnit);
+    } else if (keyword == "ps") {
+      material->ps = Clamped(keyword, Number(keyword, line), limits::kUnit);
+    } else if (keyword == "pc") {
+      material->pc = Clamped(keyword, Number(keyword, line), limits::kUnit);
+    } else if (keyword == "pcr") {
+      material->pcr = Clamped(keyword, Number(keyword, line), limits::kUnit);
     } else {
       return false;
     }

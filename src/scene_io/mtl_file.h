@@ -31,7 +31,10 @@ struct MtlMaterial {
   double ni = 1;                 // index of refraction
   int illum = 2;                 // 0: the colour; 1: no highlight; 2: all; above: what is not shown
   std::optional<double> pr, pm;  // roughness and metallic
-  MtlImage map_ka, map_kd, map_ks, map_ns, map_ke, map_d, map_pr, map_pm, norm, bump, disp;
+  double ps = 0;                 // strength of the sheen
+  double pc = 0, pcr = 0;        // strength and roughness of the clear coat
+  MtlImage map_ka, map_kd, map_ks, map_ns, map_ke, map_d, norm, bump, disp;
+  MtlImage map_pr, map_pm, map_ps, map_pc, map_pcr;
 };
 
 // Numbers are in the ranges of nacre's materials (scene/limits.h): those of the file that are not

@@ -54,6 +54,12 @@ MetallicRoughnessMaterial MakeMetallicRoughness(const MtlMaterial& source) {
   return result;
 }
 
+// Whether it has a sheen or a clear coat.
+bool HasLayers(const MtlMaterial& source) {
+  return source.ps > 0 || source.pc > 0 || !source.map_ps.file.empty() ||
+         !source.map_pc.file.empty() || !source.map_pcr.file.empty();
+}
+
 class ObjMaterials {
  public:
   ObjMaterials(const std::filesystem::path& obj, const LoadOptions& options, Scene* scene)
@@ -179,6 +185,13 @@ class ObjMaterials {
   Material MakeMaterial(const MtlMaterial& source) {
     Material result;
     result.emission = source.ke;
+    const bool has_roughness =
+        source.pr || source.pm || !source.map_pr.file.empty() || !source.map_pm.file.empty();
+    if (HasLayers(source) && (source.illum == 0 || !has_roughness)) {
+      Warn(
+          "sheen and clear coats (Ps, Pc) are shown only of materials with a roughness or a "
+          "metallic (Pr, Pm)");
+    }
     if (source.opacity < 1) Warn("transparency is not shown: all materials are opaque");
     if (source.illum > 2) Warn("reflections and refraction (illum above 2) are not shown");
     AddCommonMaps(source, &result);
@@ -189,11 +202,12 @@ class ObjMaterials {
       AddConstantColor(source, kd, diffuse, &result);
       return result;
     }
-    if (source.pr || source.pm || !source.map_pr.file.empty() || !source.map_pm.file.empty()) {
+    if (has_roughness) {
       MetallicRoughnessMaterial model = MakeMetallicRoughness(source);
       model.base_color = kd;
       model.base_color_map = diffuse;
       model.metallic_roughness_map = AddMetallicRoughness(source);
+      AddLayers(source, &model);
       if (!source.map_ks.file.empty() || !source.map_ns.file.empty()) {
         Warn("images of highlights (map_Ks, map_Ns) are not shown beside roughness and metallic");
       }
@@ -207,6 +221,23 @@ class ObjMaterials {
     model.shininess_map = AddTexture(source.map_ns, TextureEncoding::kLinear);
     result.model = model;
     return result;
+  }
+
+  // The format's sheen is a strength without colour or roughness: it is white, and of the roughness
+  // that Blender's material has by default.
+  void AddLayers(const MtlMaterial& source, MetallicRoughnessMaterial* model) {
+    // Exporters that write a map often leave its factor at 0.
+    const auto factor = [](double number, TextureId map) {
+      return map.valid() && number == 0 ? 1 : number;
+    };
+    model->sheen_color_map = AddTexture(source.map_ps, TextureEncoding::kLinear);
+    model->sheen_color = Rgb(factor(source.ps, model->sheen_color_map));
+    if (!IsBlack(model->sheen_color)) model->sheen_roughness = 0.5;
+    model->coat_map = AddTexture(source.map_pc, TextureEncoding::kLinear);
+    model->coat = factor(source.pc, model->coat_map);
+    if (model->coat == 0) return;
+    model->coat_roughness_map = AddTexture(source.map_pcr, TextureEncoding::kLinear);
+    model->coat_roughness = factor(source.pcr, model->coat_roughness_map);
   }
 
   // illum 0: the diffuse colour and its image, lit by nothing. Whether highlights and normals have

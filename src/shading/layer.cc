@@ -2,7 +2,6 @@
 #include "shading/layer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "shading/hit_parameters.h"
 
@@ -17,6 +16,20 @@ LayerReflection TermsOf(const SheenModel& sheen, const Angles<double>& a) {
                  CharlieAlbedo(sheen.charlie, a.n_dot_l));
   const double lobe = CharlieLobe(sheen.charlie, a) * a.n_dot_l * scale.lobe;
   return {sheen.color * lobe, scale.below};
+}
+
+LayerReflection AlbedoOf(const SheenModel& sheen, double n_dot_v) {
+  const double albedo = CharlieAlbedo(sheen.charlie, n_dot_v);
+  const SheenScale<double> scale = ScaleSheen(LargestChannel(sheen.color), albedo, albedo);
+  return {sheen.color * (albedo * scale.lobe), scale.below};
+}
+
+Vec3d SampleOf(const SheenModel& sheen, const Vec3d& normal, double u0, double u1) {
+  return SampleCharlie(normal, sheen.charlie.roughness, u0, u1);
+}
+
+double PdfOf(const SheenModel& sheen, double n_dot_l) {
+  return CharliePdf(n_dot_l, sheen.charlie.roughness);
 }
 
 SheenModel ModelAtHit(const SheenModel&, const HitTextures& textures, size_t i) {
@@ -59,10 +72,16 @@ LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& ang
   return std::visit([&](const auto& model) { return TermsOf(model, angles); }, layer);
 }
 
-double LeftOfMirror(const LayerModel& layer, double n_dot_v) {
-  const double sin = std::sqrt((1 - n_dot_v) * (1 + n_dot_v));
-  const Vec3d to_view(sin, 0, n_dot_v), to_light(-sin, 0, n_dot_v);
-  return EvaluateLayer(layer, ComputeAngles(Vec3d(0, 0, 1), to_light, to_view)).below;
+LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v) {
+  return std::visit([&](const auto& model) { return AlbedoOf(model, n_dot_v); }, layer);
+}
+
+Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1) {
+  return std::visit([&](const auto& model) { return SampleOf(model, normal, u0, u1); }, layer);
+}
+
+double LayerPdf(const LayerModel& layer, double n_dot_l) {
+  return std::visit([&](const auto& model) { return PdfOf(model, n_dot_l); }, layer);
 }
 
 }  // namespace nacre

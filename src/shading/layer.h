@@ -41,7 +41,14 @@ struct LayerReflection {
 };
 LayerReflection EvaluateLayer(const LayerModel& layer, const Angles<double>& angles);
 
-// What a layer leaves of the reflection of a perfect mirror below it, seen from n.v.
-double LeftOfMirror(const LayerModel& layer, double n_dot_v);
+// Seen from n.v: the directional albedo of the layer, and what it leaves of light that comes and
+// goes at the same angle, as by a mirror. It stands for light from everywhere as well, so that a
+// white surface reflects all of it.
+LayerReflection LayerAlbedo(const LayerModel& layer, double n_dot_v);
+
+// A direction to light for the layer's own reflection, by u0 and u1 in [0, 1), and the pdf, per
+// solid angle, of such a direction at n.l.
+Vec3d SampleLayer(const LayerModel& layer, const Vec3d& normal, double u0, double u1);
+double LayerPdf(const LayerModel& layer, double n_dot_l);
 
 }  // namespace nacre

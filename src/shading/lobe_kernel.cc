@@ -337,7 +337,7 @@ double LeftByLayers(const ShadingMaterial& material, const LobeRange& range, siz
   const HitTextures* const maps = MapsOf(material, range);
   double left = 1;
   for (const LayerModel& layer : material.layers) {
-    left *= LeftOfMirror(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer, n_dot_v);
+    left *= LayerAlbedo(maps != nullptr ? LayerAtHit(layer, *maps, i) : layer, n_dot_v).below;
   }
   return left;
 }

@@ -31,6 +31,15 @@ struct LobeRange {
   const HitTextures* textures = nullptr;  // of materials with maps
 };
 
+// Of materials with layers, in the place of SampleCosine: the diffuse component has the layers' own
+// reflection, which may lie where the cosine law has few directions. From the top down each layer
+// is sampled as often as its share of the albedo is, and the cosine law otherwise.
+void SampleUnderLayers(const ShadingMaterial& material, const LobeRange& range, const float* u,
+                       const float* v, Soa3<float>* to_light);
+// The pdf with which it chooses the directions.
+void UnderLayersPdf(const ShadingMaterial& material, const LobeRange& range,
+                    const Soa3<float>& to_light, float* pdf);
+
 // Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe,
 // shared out between it and the lobe of Kulla and Conty's compensation, of which PrepareRun must
 // have run; the lobe itself of the Phong family. Directions below the surface reflect nothing.

@@ -308,8 +308,10 @@ ShadingMaterial PrepareMaterial(const Material& material, const Rgb& ambient_rad
   SkipBlackBase(&prepared);
   FinishModel(&prepared);
   prepared.coat = PrepareCoat(material);
-  if (prepared.coat && !(IsBlack(prepared.ambient) && IsBlack(prepared.emission))) {
-    // What is left of them depends on the hit.
+  // What coats and layers reflect of ambient light, and what coats leave of emission, depends on
+  // the hit.
+  const bool covered = prepared.coat || !prepared.layers.empty();
+  if ((covered && !IsBlack(ambient_radiance)) || (prepared.coat && !IsBlack(prepared.emission))) {
     prepared.mapped = true;
     prepared.textured = &material;
   }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "scene/texture_mapping.h"
+#include "shading/hit_parameters.h"
 #include "shading/texture_kernels.h"
 
 namespace nacre {
@@ -107,6 +108,7 @@ class RunTexturer {
       MultiplyByVertexColors(model, MappedNumber::kEmission);
     }
     FinishNumbers(run_, t_);
+    if (!IsBlack(run_.material.ambient_radiance)) CoverAmbient();
   }
 
  private:
@@ -158,6 +160,26 @@ class RunTexturer {
     SampleSlopes(*texture.image, texture.sampling, Points(), t_->texels.x.data() + i,
                  t_->texels.y.data() + i);
     TurnNormalsBySlopes(run_, map.distance, *t_, hits_, surface_);
+  }
+
+  // Each layer reflects its albedo of ambient light, and attenuates what is reflected below it.
+  void CoverAmbient() {
+    const ShadingMaterial& material = run_.material;
+    const Soa3<float>&n = surface_->normal, &v = surface_->to_view;
+    for (const LayerModel& layer : material.layers) {
+      for (size_t i = run_.begin; i < run_.end; ++i) {
+        const double n_dot_v =
+            double{n.x[i]} * v.x[i] + double{n.y[i]} * v.y[i] + double{n.z[i]} * v.z[i];
+        const LayerReflection albedo =
+            LayerAlbedo(material.mapped_model ? LayerAtHit(layer, *t_, i) : layer,
+                        std::clamp(n_dot_v, 0.0, 1.0));
+        for (int c = 0; c < 3; ++c) {
+          float& ambient = Channel(t_->ambient, c)[i];
+          ambient = static_cast<float>(albedo.below * ambient +
+                                       albedo.lobe[c] * material.ambient_radiance[c]);
+        }
+      }
+    }
   }
 
   const TexturedRun& run_;

@@ -177,7 +177,7 @@ Rgb ShareWithLayers(const ShadingMaterial& material, const Rgb& share, ShareOf w
     });
   };
   double left = 1;  // of a mirror
-  for (const LayerModel& layer : material.layers) left *= LeftOfMirror(layer, cosine);
+  for (const LayerModel& layer : material.layers) left *= LayerAlbedo(layer, cosine).below;
   Rgb all;
   for (int c = 0; c < 3; ++c) {
     all[c] = integrate(c, whole, [](const Reflection& r) { return r.Sum(); });

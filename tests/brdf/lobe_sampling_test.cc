@@ -8,6 +8,7 @@
 #include <random>
 
 #include "brdf/lobe_kernel.h"
+#include "brdf/sheen.h"
 #include "catch.h"
 #include "chi_squared.h"
 #include "tables.h"
@@ -43,6 +44,12 @@ std::vector<LobeUnderTest> LobesUnderTest() {
         {"Kulla and Conty " + std::to_string(spread),
          [=](double u0, double u1) { return SampleKullaConty(kNormal, spread, u0, u1); },
          [=](const Vec3d& l) { return KullaContyPdf(kNormal ^ l, spread); }, kNormal, 1, 200});
+  }
+  for (const double roughness : {0.05, 0.3, 1.0}) {
+    lobes.push_back(
+        {"Charlie " + std::to_string(roughness),
+         [=](double u0, double u1) { return SampleCharlie(kNormal, roughness, u0, u1); },
+         [=](const Vec3d& l) { return CharliePdf(kNormal ^ l, roughness); }, kNormal, 1, 200});
   }
   for (const double n_dot_v : {1.0, 0.6, 0.05, 0.0}) {
     const Vec3d v = ViewAt(n_dot_v);

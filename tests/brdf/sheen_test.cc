@@ -212,6 +212,7 @@ TEST_CASE("the limit of sheen at roughness 0 is none") {
     CHECK(scale.below == 1);
     CHECK(scale.lobe == 1);
   }
+  CHECK(CharliePdf(0.3, 0.0) == 0);
 }
 
 // What is reflected of uniform light: by the sheen, and by a white surface below.
@@ -259,6 +260,33 @@ TEST_CASE("where sheen of this colour would not exceed the light, it is unscaled
   const SheenScale<double> more = ScaleSheen(1.0, 0.6, 1.25);
   CHECK(more.lobe == Approx(0.8).epsilon(1e-15));
   CHECK(more.below == 0);
+}
+
+TEST_CASE("Charlie's samples are above the surface and give its albedo with little variance") {
+  // What the header's table promises, at n.v = 0.1 and 0.6.
+  const struct {
+    double roughness, deviation[2];
+  } kPromises[] = {{0.1, {1.15, 2.35}}, {0.3, {0.7, 1.1}}, {0.5, {0.5, 0.75}}, {1, {0.25, 0.38}}};
+  constexpr int kSteps = 400;
+  for (const auto& promise : kPromises) {
+    for (int at = 0; at < 2; ++at) {
+      const double roughness = promise.roughness, n_dot_v = at == 0 ? 0.1 : 0.6;
+      CAPTURE(roughness, n_dot_v);
+      const Vec3d v = DirectionAt(n_dot_v, 0.4);
+      double sum = 0, squares = 0;
+      for (int i = 0; i < kSteps * kSteps; ++i) {
+        const double u0 = (i / kSteps + 0.5) / kSteps, u1 = (i % kSteps + 0.5) / kSteps;
+        const Vec3d l = SampleCharlie(kNormal, roughness, u0, u1);
+        if (!(l.z > 0)) FAIL("below");
+        const double weight = Lobe(roughness, l, v) * l.z / CharliePdf(l.z, roughness);
+        sum += weight;
+        squares += weight * weight;
+      }
+      const double mean = sum / (kSteps * kSteps), square = squares / (kSteps * kSteps);
+      CHECK(mean == Approx(Albedo(MakeRings(roughness, n_dot_v))).epsilon(1e-3));
+      CHECK(std::sqrt(square / (mean * mean) - 1) <= promise.deviation[at]);
+    }
+  }
 }
 
 double RelativeError(double got, double want) { return std::abs(got - want) / want; }

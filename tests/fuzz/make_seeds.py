@@ -96,7 +96,8 @@ def meshes():
           'usemtl n\ns off\nf 1 2 3 4\nl 1 2\np 1\n'
           '\n# mtl\nnewmtl m\nKa 0 0 0\nKd 1 0.5 0.5\nKs 1 1 1\nNs 20\nillum 2\nd 1\n'
           'map_Kd -s 2 2 2 -o 0.1 0 0 -clamp on texture.png\nnorm texture.png\nKe 1 1 1\nNi 1.5\n'
-          'newmtl n\nillum 0\nTr 0.5\nmap_Ns -mm 0 1 -bm 2 -imfchan r texture.png\nPr 0.1\nPm 1\n')
+          'newmtl n\nillum 0\nTr 0.5\nmap_Ns -mm 0 1 -bm 2 -imfchan r texture.png\nPr 0.1\nPm 1\n'
+          'newmtl o\nPr 0.5\nPs 0.5\nPc 1\nPcr 0.1\nmap_Ps texture.png\nmap_Pc texture.png\nmap_Pcr texture.png\n')
     write('obj', 'bare', 'v 0 0 0\nv 1 0 0\nv 0 1e0 0.5\nvt 0.5\nvw 1 0 1\nt x 1/1/1 1 2 a\nf 1/1 2/1 3/1\n')
     head = ('ply\nformat {} 1.0\ncomment x\nelement vertex 4\nproperty float x\nproperty float y\n'
             'property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n'

@@ -205,6 +205,41 @@ TEST_CASE("a coat dims what a material emits, by what it reflects") {
   CHECK(std::abs(image.Find("B")->samples[middle] / (1 * left) - 1) < 1e-4);
 }
 
+TEST_CASE("coats and sheen reflect of ambient light what they reflect of a white sky") {
+  MetallicRoughnessMaterial bare;
+  bare.specular = 0;  // under ambient light a dielectric reflects by its colour alone
+  std::vector<MetallicRoughnessMaterial> covered(3, bare);
+  covered[0].coat = covered[2].coat = 1;
+  covered[0].coat_roughness = covered[2].coat_roughness = 0.4;
+  covered[1].sheen_color = covered[2].sheen_color = Rgb(1);
+  covered[1].sheen_roughness = covered[2].sheen_roughness = 0.6;
+  for (MetallicRoughnessMaterial model : covered) {
+    CAPTURE(model.coat, model.sheen_color.x);
+    for (const double base : {0.0, 1.0}) {
+      model.base_color = Rgb(base);
+      Scene scene = OrthographicSphere(model, 64);
+      scene.lights = {WhiteSky()};
+      const Mean of_sky = MeanRed(RenderImage(scene, {}));
+      scene.lights = {Named("ambient", AmbientLight{.radiance = Rgb(1)})};
+      const Image image = RenderImage(scene, {});
+      const Mean mean = MeanRed(image);
+      CAPTURE(base, of_sky.value, of_sky.error, mean.value);
+      // 1.6e-3: the error of Charlie's albedo (brdf/sheen.h). 2e-4: of two albedos (brdf/albedo.h).
+      const double fits = 1.6e-3 + 2e-4;
+      if (base == 0) {
+        CHECK(mean.value > 0.03);
+        CHECK(std::abs(of_sky.value - mean.value) <= 4 * of_sky.error + fits);
+      } else {
+        CHECK(std::abs(mean.value - 1) <= 1e-6);
+      }
+      // Maps of 1 change nothing.
+      auto& mapped = std::get<MetallicRoughnessMaterial>(scene.materials[0].model);
+      mapped.coat_map = mapped.sheen_color_map = AddConstant(&scene, Rgb(1));
+      CHECK(SameBits(image.Find("R")->samples, RenderImage(scene, {}).Find("R")->samples));
+    }
+  }
+}
+
 TEST_CASE("the normal map of the base is not the coat's, nor the coat's the base's") {
   MetallicRoughnessMaterial model;
   model.base_color = Rgb(0);

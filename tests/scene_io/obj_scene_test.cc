@@ -111,15 +111,27 @@ TEST_CASE("every image of a material library is shown, or told once") {
       }
     }
   }
-  for (const std::string told :
-       {"bump", "map_Bump", "map_bump -bm 0.3", "disp", "map_disp", "refl",
-        "refl -type sphere -mm 0 1", "map_refl", "decal", "map_d", "map_Tr", "map_Ka", "map_Ps",
-        "map_Pc", "map_Pcr", "map_RMA", "map_ORM", "map_opacity"}) {
+  for (const std::string told : {"bump", "map_Bump", "map_bump -bm 0.3", "disp", "map_disp", "refl",
+                                 "refl -type sphere -mm 0 1", "map_refl", "decal", "map_d",
+                                 "map_Tr", "map_Ka", "map_RMA", "map_ORM", "map_opacity"}) {
     for (const std::string reading : {"", "Pr .5\n", "illum 0\n"}) {
       CAPTURE(told, reading);
       const auto [scene, warnings] = load(reading + told + " t.ppm\n" + told + " t.ppm\nd .5\n");
       const bool transparent = told == "map_d" || told == "map_Tr";
       CHECK(warnings.size() == (transparent ? 1 : 2));  // d is told as well
+    }
+  }
+  for (const std::string layer : {"map_Ps", "map_Pc", "Pc .5\nmap_Pcr"}) {
+    CAPTURE(layer);
+    const std::string statement = layer + " t.ppm\n";
+    const auto [scene, warnings] = load("Pr .5\n" + statement);
+    CHECK(warnings.empty());
+    CHECK(scene.textures.size() == 1);
+    for (const std::string reading : {"", "Pr .5\nillum 0\n"}) {
+      const auto [classic, told] = load(reading + statement + statement);
+      REQUIRE(told.size() == 1);
+      CHECK(Contains(told[0], "sheen and clear coats (Ps, Pc) are shown only of"));
+      CHECK(classic.textures.empty());
     }
   }
   CHECK(load("map_Ns -imfchan g t.ppm\n").warnings.size() == 1);
@@ -193,7 +205,7 @@ TEST_CASE("materials with a roughness or a metallic are metallic-roughness") {
       "newmtl red\nKd 0.5 0.25 1\nPr 0.3\nPm 0.75\nNi 1.5\nKe 0 1 0\n"
       "newmtl blue\nKd 1 1 1\nNs 6\nPm 1\nPs 0.5\nPc 1\nPcr 0.2\n";
   const auto [scene, warnings] = Load(kCorner, mtl);
-  CHECK(warnings.size() == 2);  // sheen, and the clear coat
+  CHECK(warnings.empty());
   const auto& red = std::get<MetallicRoughnessMaterial>(scene.materials.at(0).model);
   CHECK(red.base_color == Rgb(0.5, 0.25, 1));
   CHECK(red.roughness == 0.3);
@@ -221,6 +233,54 @@ TEST_CASE("materials with a roughness or a metallic are metallic-roughness") {
   const auto& both = std::get<MetallicRoughnessMaterial>(mapped.materials.at(0).model);
   CHECK(both.roughness == 1);
   CHECK(both.metallic == 1);
+}
+
+TEST_CASE("sheen and clear coats of material libraries are those of metallic-roughness") {
+  const auto [scene, warnings] =
+      Load(kCorner,
+           "newmtl red\nPr 0.4\nPs 0.5\nnewmtl blue\nPm 0\nPc 0.75\nPcr 0.2\nnewmtl none\nPr 1\n");
+  CHECK(warnings.empty());
+  const auto model = [](const Scene& of, size_t material) {
+    return std::get<MetallicRoughnessMaterial>(of.materials.at(material).model);
+  };
+  CHECK(model(scene, 0).sheen_color == Rgb(0.5));
+  CHECK(model(scene, 0).sheen_roughness == 0.5);
+  CHECK(model(scene, 0).coat == 0);
+  CHECK(model(scene, 1).coat == 0.75);
+  CHECK(model(scene, 1).coat_roughness == 0.2);
+  CHECK(model(scene, 1).sheen_color == Rgb(0));
+  CHECK(model(scene, 2).coat == 0);
+  CHECK(model(scene, 2).sheen_color == Rgb(0));
+  // Of the Phong family, and where colours are constant, they are told.
+  for (const char* mtl :
+       {"newmtl red\nPs 0.5\n", "newmtl red\nPc 0.5\n", "newmtl red\nillum 0\nPr 0.5\nPc 0.5\n"}) {
+    CAPTURE(mtl);
+    const std::vector<std::string> told = Load(kOneRed, mtl).warnings;
+    REQUIRE(told.size() == 1);
+    CHECK(Contains(told[0], "sheen and clear coats (Ps, Pc) are shown only of"));
+  }
+  CHECK(Load(kOneRed, "newmtl red\nPs 0\nPc 0\nPcr 0.03\n").warnings.empty());
+  // Images multiply the numbers, of which 0 counts as none; they are data.
+  const ModelFolder folder;
+  folder.Write("grey.ppm", "P6\n1 1\n255\n" + std::string(3, '\x33'));
+  const std::string maps = "map_Ps grey.ppm\nmap_Pc grey.ppm\nmap_Pcr grey.ppm\n";
+  folder.Write("a.mtl", "newmtl red\nPr 1\nPs 0\n" + maps +
+                            "newmtl blue\nPr 1\nPs 0.5\nPc 0.25\nPcr 0.75\n" + maps);
+  const Scene mapped = LoadScene(folder.Write("m.obj", kCorner));
+  const auto texel = [&](TextureId texture) {
+    const ImageId image = mapped.textures.at(texture.index).image;
+    return mapped.images.at(image.index).texels->Value(0, 0, 0, 0);
+  };
+  const MetallicRoughnessMaterial red = model(mapped, 0), blue = model(mapped, 1);
+  CHECK(red.sheen_color == Rgb(1));
+  CHECK(red.coat == 1);
+  CHECK(red.coat_roughness == 1);
+  CHECK(blue.sheen_color == Rgb(0.5));
+  CHECK(blue.coat == 0.25);
+  CHECK(blue.coat_roughness == 0.75);
+  CHECK(texel(red.sheen_color_map) == 0.2f);
+  CHECK(texel(red.coat_map) == 0.2f);
+  CHECK(texel(blue.coat_roughness_map) == 0.2f);
 }
 
 TEST_CASE("colours of vertices are shown") {

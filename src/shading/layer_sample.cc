@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// shading/layer_sample.cc: directions to light for the diffuse component of materials with layers:
+// of each layer's own sampler and of the cosine law, in the shares of what they reflect.
+#include <algorithm>
+#include <cmath>
+
+#include "brdf/lobe_sampling.h"
+#include "shading/hit_parameters.h"
+#include "shading/lobe_sample.h"
+
+namespace nacre {
+namespace {
+
+double LargestOf(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
+
+Vec3d DirectionAt(const Soa3<float>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
+
+// A hit of the material, and how likely a layer is sampled rather than what lies below it.
+class LayersOfHit {
+ public:
+  LayersOfHit(const ShadingMaterial& material, const LobeRange& range, size_t i)
+      : material_(material),
+        maps_(material.mapped_model ? range.textures : nullptr),
+        i_(i),
+        normal_(DirectionAt(range.surface.normal, i)),
+        n_dot_v_(std::clamp(normal_.dot(DirectionAt(range.surface.to_view, i)), 0.0, 1.0)),
+        base_(LargestOf(maps_ != nullptr ? Rgb(DirectionAt(maps_->albedo, i)) : material.albedo)) {}
+
+  Vec3d Sample(double u0, double u1) const {
+    for (size_t k = material_.layers.size(); k-- > 0;) {
+      const LayerModel layer = Layer(k);
+      const double share = Share(layer);
+      if (u0 < share) return SampleLayer(layer, normal_, u0 / share, u1);
+      u0 = (u0 - share) / (1 - share);  // what chose it is used again
+    }
+    // In polar coordinates as layers are, not by SampleCosine: the direction is a continuous
+    // function of the point then, which keeps the strata of Sobol points.
+    const double sin = std::sqrt(std::clamp(u0, 0.0, 1.0)), phi = 2 * M_PI * u1;
+    return BasisAbout(normal_).ToWorld(
+        {sin * std::cos(phi), sin * std::sin(phi), std::sqrt(std::max(1 - sin * sin, 0.0))});
+  }
+
+  double Pdf(const Vec3d& to_light) const {
+    const double n_dot_l = normal_.dot(to_light);
+    double pdf = 0, left = 1;
+    for (size_t k = material_.layers.size(); k-- > 0;) {
+      const LayerModel layer = Layer(k);
+      const double share = Share(layer);
+      pdf += left * share * LayerPdf(layer, n_dot_l);
+      left *= 1 - share;
+    }
+    return pdf + left * CosinePdf(n_dot_l);
+  }
+
+ private:
+  LayerModel Layer(size_t k) const {
+    return maps_ != nullptr ? LayerAtHit(material_.layers[k], *maps_, i_) : material_.layers[k];
+  }
+
+  // Of the albedo of the layer and of the base as the layer shows it, the layer's.
+  double Share(const LayerModel& layer) const {
+    const LayerReflection albedo = LayerAlbedo(layer, n_dot_v_);
+    const double lobe = LargestOf(albedo.lobe), sum = lobe + albedo.below * base_;
+    return sum > 0 ? lobe / sum : 0;
+  }
+
+  const ShadingMaterial& material_;
+  const HitTextures* maps_;
+  size_t i_;
+  Vec3d normal_;
+  double n_dot_v_, base_;
+};
+
+}  // namespace
+
+void SampleUnderLayers(const ShadingMaterial& material, const LobeRange& range, const float* u,
+                       const float* v, Soa3<float>* to_light) {
+  for (size_t i = range.begin; i < range.end; ++i) {
+    const Vec3f l(LayersOfHit(material, range, i).Sample(u[i], v[i]));
+    to_light->x[i] = l.x;
+    to_light->y[i] = l.y;
+    to_light->z[i] = l.z;
+  }
+}
+
+void UnderLayersPdf(const ShadingMaterial& material, const LobeRange& range,
+                    const Soa3<float>& to_light, float* pdf) {
+  for (size_t i = range.begin; i < range.end; ++i) {
+    pdf[i] = static_cast<float>(LayersOfHit(material, range, i).Pdf(DirectionAt(to_light, i)));
+  }
+}
+
+}  // namespace nacre
