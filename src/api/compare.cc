@@ -26,7 +26,7 @@ LayerMetrics ToPublic(const nacre::LayerMetrics& own) {
   return metrics;
 }
 
-void AddPerceptual(const PerceptualMetrics& own, std::vector<LayerMetrics>* layers) {
+void CopyPerceptual(const PerceptualMetrics& own, std::vector<LayerMetrics>* layers) {
   for (LayerMetrics& layer : *layers) {
     if (layer.layer != own.layer) continue;
     layer.ssim = own.ssim;
@@ -74,7 +74,7 @@ Comparison Compare(const Image& image, const Image& reference, const CompareSett
     }
     if (settings.perceptual) {
       for (const PerceptualMetrics& layer : MeasurePerceptual(got, expected, {}, options)) {
-        AddPerceptual(layer, &comparison.layers);
+        CopyPerceptual(layer, &comparison.layers);
       }
     }
     return comparison;

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // api/render.cc: renders of the public API.
 #include <chrono>
-#include <variant>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "api/render_impl.h"
 #include "api/scene_impl.h"
@@ -64,22 +60,6 @@ std::shared_ptr<const nacre::Scene> Adjusted(std::shared_ptr<const nacre::Scene>
   auto copy = std::make_shared<nacre::Scene>(*scene);
   copy->image = image;
   return copy;
-}
-
-// As readers of EXR files tell them.
-void AddMetadata(const nacre::ExrHeader& header, Image* image) {
-  const auto text = [](const auto& value) { return fmt::format("{}", value); };
-  for (const auto& [name, attribute] : header.attributes) {
-    image->metadata[name] = std::visit(text, attribute);
-  }
-  const auto add_matrix = [&](const char* name, const std::optional<Imath::M44f>& matrix) {
-    if (!matrix) return;
-    const float* const first = &(*matrix)[0][0];
-    image->metadata[name] = fmt::format("{}", fmt::join(first, first + 16, " "));
-  };
-  add_matrix("worldToCamera", header.world_to_camera);
-  add_matrix("worldToNDC", header.world_to_ndc);
-  image->metadata["transfer"] = "linear";
 }
 
 }  // namespace

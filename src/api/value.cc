@@ -20,7 +20,7 @@ std::string Quoted(const std::string& text) {
 }
 
 template <class List, class ToText>
-std::string Joined(char open, const List& list, char close, const ToText& to_text) {
+std::string JoinJson(char open, const List& list, char close, const ToText& to_text) {
   std::string text(1, open);
   for (const auto& element : list) {
     if (text.size() > 1) text += ',';
@@ -44,14 +44,14 @@ std::string Value::ToJson(bool truth) { return truth ? "true" : "false"; }
 
 Value::Value(double x, double y, double z) : Value(Vec3{x, y, z}) {}
 Value::Value(const Vec3& xyz)
-    : json_(Joined('[', xyz, ']', [](double number) { return ToJson(number); })) {}
+    : json_(JoinJson('[', xyz, ']', [](double number) { return ToJson(number); })) {}
 Value::Value(const char* text) : json_(Quoted(text)) {}
 Value::Value(const std::string& text) : json_(Quoted(text)) {}
 Value::Value(const std::vector<double>& list)
-    : json_(Joined('[', list, ']', [](double number) { return ToJson(number); })) {}
-Value::Value(const std::vector<std::string>& list) : json_(Joined('[', list, ']', Quoted)) {}
+    : json_(JoinJson('[', list, ']', [](double number) { return ToJson(number); })) {}
+Value::Value(const std::vector<std::string>& list) : json_(JoinJson('[', list, ']', Quoted)) {}
 Value::Value(const Parameters& object)
-    : json_(Joined('{', object, '}', [](const Parameter& parameter) {
+    : json_(JoinJson('{', object, '}', [](const Parameter& parameter) {
         return Quoted(parameter.name) + ':' + parameter.value.json();
       })) {}
 

@@ -37,6 +37,11 @@ inline Window Intersect(const Window& a, const Window& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
+// The smallest window that holds both, neither of which is empty.
+inline Window BoundingWindow(const Window& a, const Window& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
 // `count` pixels of row y, from column x on.
 struct PixelRun {
   int x, y, count;

@@ -2,6 +2,7 @@
 // base/vec.h: the vector types, Imath's, under short names.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Imath/ImathColor.h>
@@ -22,5 +23,13 @@ inline double SumOfAbs(const Vec3d& v) { return std::abs(v.x) + std::abs(v.y) + 
 using Rgb = Imath::Color3<double>;
 
 inline bool IsBlack(const Rgb& color) { return color.x == 0 && color.y == 0 && color.z == 0; }
+
+inline double LargestChannel(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
+
+// The colour whose channel c is of_channel(c).
+template <class OfChannel>
+Rgb MakeRgb(const OfChannel& of_channel) {
+  return {of_channel(0), of_channel(1), of_channel(2)};
+}
 
 }  // namespace nacre

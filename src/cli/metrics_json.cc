@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void AddPerceptual(const PerceptualMetrics& metrics, Json* json) {
+void AddPerceptualJson(const PerceptualMetrics& metrics, Json* json) {
   if (metrics.ssim) (*json)["ssim"] = *metrics.ssim;
   if (metrics.flip_mean) {
     (*json)["flip"] = {{"mean", *metrics.flip_mean}, {"max", *metrics.flip_max}};
@@ -49,7 +49,7 @@ Json MetricsJson(const std::vector<LayerMetrics>& layers,
                  {"mean_reference", m.mean_reference},
                  {"nonfinite_mismatches", m.nonfinite_mismatches}};
     for (const PerceptualMetrics& p : perceptual) {
-      if (p.layer == m.layer) AddPerceptual(p, &json);
+      if (p.layer == m.layer) AddPerceptualJson(p, &json);
     }
     all.push_back(json);
   }

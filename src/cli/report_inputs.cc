@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/path.h"
+#include "base/seconds_since.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/stats_json.h"
@@ -26,10 +27,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr uint64_t kMaxJsonBytes = uint64_t{1} << 30;  // as for scenes
 
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 // The path without its folder: what a page that is passed on should show.
 std::string NameOf(const std::string& path) { return fs::path(path).filename().string(); }
 
@@ -40,13 +37,6 @@ void TakeFileTypes(const FramePlan& plan, Image* image) {
       if (channel.name == spec.name) channel.type = spec.type;
     }
   }
-}
-
-void AddMetadata(const FramePlan& plan, Image* image) {
-  for (const auto& [name, value] : MakeExrHeader(plan, /*reproducible=*/true).attributes) {
-    image->metadata[name] = std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-  }
-  image->metadata["transfer"] = "linear";
 }
 
 }  // namespace
@@ -100,7 +90,7 @@ ReportPicture RenderPicture(const std::string& path, const RenderOptions& option
   stats.plan_seconds = plan_seconds;
   times.total_seconds = SecondsSince(start);
   TakeFileTypes(plan, &picture.image);
-  AddMetadata(plan, &picture.image);
+  AddMetadata(MakeExrHeader(plan, /*reproducible=*/true), &picture.image);
   picture.stats = Json::parse(StatsJson(plan, stats, times, {}));
   picture.stats->erase("samples_not_as_computed");  // no file was written
   return picture;

@@ -22,11 +22,11 @@ struct ReleaseScene {
 };
 using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
-// How far the float ray strays from the true one, at or before points within `reach` of the
+// How far the float ray strays from the true one, at or before points within `max_distance` of the
 // camera: its origin by u |o| and its direction by u |p - o|, with |o| at most the extent. Twice
 // that, for the rounding of the bounds themselves.
-double BoundsMargin(const TraceGeometry& geometry, double reach) {
-  return 2 * kFloatUnit * (2 * geometry.extent + reach);
+double BoundsMargin(const TraceGeometry& geometry, double max_distance) {
+  return 2 * kFloatUnit * (2 * geometry.extent + max_distance);
 }
 
 void SetBounds(const Vec3d& lower, const Vec3d& upper, double margin, RTCBounds* bounds) {
@@ -52,16 +52,16 @@ void TriangleBounds(const RTCBoundsFunctionArguments* args) {
   const auto& geometry = *static_cast<const TraceGeometry*>(args->geometryUserPtr);
   const auto& corners = geometry.triangles[args->primID];
   Vec3d lower = geometry.positions[corners[0]], upper = lower;
-  double reach = 0;
+  double max_distance = 0;
   for (const uint32_t corner : corners) {
     const Vec3d& position = geometry.positions[corner];
     for (int i = 0; i < 3; ++i) {
       lower[i] = std::min(lower[i], position[i]);
       upper[i] = std::max(upper[i], position[i]);
     }
-    reach = std::max(reach, position.length());
+    max_distance = std::max(max_distance, position.length());
   }
-  SetBounds(lower, upper, BoundsMargin(geometry, reach), args->bounds_o);
+  SetBounds(lower, upper, BoundsMargin(geometry, max_distance), args->bounds_o);
   HandOver(args->geometryUserPtr);
 }
 

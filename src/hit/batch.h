@@ -42,6 +42,19 @@ struct Soa3 {
 };
 
 template <typename T>
+Vec3d VectorAt(const Soa3<T>& soa, size_t i) {
+  return {soa.x[i], soa.y[i], soa.z[i]};
+}
+
+// Rounds to T.
+template <typename T>
+void SetVector(const Vec3d& v, size_t i, Soa3<T>* soa) {
+  soa->x[i] = static_cast<T>(v.x);
+  soa->y[i] = static_cast<T>(v.y);
+  soa->z[i] = static_cast<T>(v.z);
+}
+
+template <typename T>
 void CopySoa(const Soa3<T>& from, size_t count, Soa3<T>* to) {
   std::copy_n(from.x.data(), count, to->x.data());
   std::copy_n(from.y.data(), count, to->y.data());

@@ -22,6 +22,7 @@
 #include "image_io/exr_compress.h"
 #include "image_io/exr_container.h"
 #include "image_io/exr_header_check.h"
+#include "image_io/exr_types.h"
 
 namespace nacre {
 namespace {
@@ -34,18 +35,9 @@ namespace {
   throw Error(ExitCode::kBadInput, path, "is not a file that nacre wrote: " + what);
 }
 
-Window ToWindow(const Imath::Box2i& box) {
-  return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
-}
-
 Compression ToCompression(const std::string& path, Imf::Compression compression) {
   if (const auto known = CompressionOfNumber(compression)) return *known;
   RefuseKind(path, "its compression is not one of nacre's");
-}
-
-PixelType ToPixelType(Imf::PixelType type) {
-  if (type == Imf::HALF) return PixelType::kHalf;
-  return type == Imf::UINT ? PixelType::kUint : PixelType::kFloat;
 }
 
 // What every file has, and what ExrContainer writes by itself.

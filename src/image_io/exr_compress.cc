@@ -10,22 +10,11 @@
 
 #include "base/error.h"
 #include "image_io/deflate.h"
+#include "image_io/exr_types.h"
 #include "image_io/zip.h"
 
 namespace nacre {
 namespace {
-
-Imf::PixelType LibraryType(PixelType type) {
-  switch (type) {
-    case PixelType::kHalf:
-      return Imf::HALF;
-    case PixelType::kFloat:
-      return Imf::FLOAT;
-    case PixelType::kUint:
-      return Imf::UINT;
-  }
-  return Imf::FLOAT;
-}
 
 std::span<const uint8_t> Bytes(std::span<const uint16_t> words) {
   return {reinterpret_cast<const uint8_t*>(words.data()), words.size_bytes()};
@@ -55,7 +44,7 @@ std::vector<uint8_t> CompressByLibrary(const ExrLayout& layout, Compression comp
   Imf::FrameBuffer frame;
   auto* place = reinterpret_cast<char*>(const_cast<uint16_t*>(words.data()));  // only read
   for (const ExrChannel& channel : layout.channels) {
-    const Imf::PixelType type = LibraryType(channel.type);
+    const Imf::PixelType type = ToImfType(channel.type);
     const size_t sample_bytes = 2 * SampleWords(channel.type);
     header.channels().insert(channel.name, Imf::Channel(type));
     frame.insert(channel.name, Imf::Slice(type, place, sample_bytes, 2 * layout.row_words));

@@ -18,7 +18,7 @@ namespace {
 // The part that every call is about.
 constexpr int kPart = 0;
 
-exr_pixel_type_t LibraryType(PixelType type) {
+exr_pixel_type_t ToCoreType(PixelType type) {
   switch (type) {
     case PixelType::kHalf:
       return EXR_PIXEL_HALF;
@@ -31,7 +31,7 @@ exr_pixel_type_t LibraryType(PixelType type) {
 }
 
 // EXR windows include their last pixel.
-exr_attr_box2i_t LibraryWindow(const Window& window) {
+exr_attr_box2i_t ToCoreWindow(const Window& window) {
   exr_attr_box2i_t box;
   box.min.x = window.x0;
   box.min.y = window.y0;
@@ -84,8 +84,8 @@ ExrContainer::~ExrContainer() {
 }
 
 void ExrContainer::WriteHeader(const ExrHeader& header, Compression compression) {
-  const exr_attr_box2i_t display = LibraryWindow(header.display);
-  const exr_attr_box2i_t data = LibraryWindow(header.data);
+  const exr_attr_box2i_t display = ToCoreWindow(header.display);
+  const exr_attr_box2i_t data = ToCoreWindow(header.data);
   const exr_attr_v2f_t center{};
   int part = kPart;
   if (HasLongName(header)) Check(exr_set_longname_support(context_, 1));
@@ -94,7 +94,7 @@ void ExrContainer::WriteHeader(const ExrHeader& header, Compression compression)
       context_, kPart, &display, &data, 1.0f, &center, 1.0f, EXR_LINEORDER_INCREASING_Y,
       static_cast<exr_compression_t>(CompressionNumber(compression))));
   for (const ExrChannel& channel : header.channels) {
-    Check(exr_add_channel(context_, kPart, channel.name.c_str(), LibraryType(channel.type),
+    Check(exr_add_channel(context_, kPart, channel.name.c_str(), ToCoreType(channel.type),
                           EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1));
   }
   SetAttributes(header);

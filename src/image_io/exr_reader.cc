@@ -37,6 +37,7 @@
 #include "base/error.h"
 #include "image_io/exr_chunk_check.h"
 #include "image_io/exr_header_check.h"
+#include "image_io/exr_types.h"
 
 namespace nacre {
 namespace {
@@ -46,22 +47,8 @@ namespace {
   throw Error(ExitCode::kBadInput, path, what, hint);
 }
 
-Window ToWindow(const Imath::Box2i& box) {
-  return {box.min.x, box.min.y, box.max.x + 1, box.max.y + 1};
-}
-
-PixelType ToPixelType(Imf::PixelType type) {
-  switch (type) {
-    case Imf::HALF:
-      return PixelType::kHalf;
-    case Imf::UINT:
-      return PixelType::kUint;
-    default:
-      return PixelType::kFloat;
-  }
-}
-
-std::string CompressionName(Imf::Compression compression) {
+// Of every compression that a file may have; exr_compression.h knows those that nacre writes.
+std::string FileCompressionName(Imf::Compression compression) {
   constexpr std::array<const char*, Imf::NUM_COMPRESSION_METHODS> kNames = {
       "none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
   const auto index = static_cast<size_t>(compression);
@@ -126,7 +113,7 @@ std::string AttributeText(const Imf::Attribute& attribute) {
       Describe<Imath::M44d>(attribute, matrix, &text) ||
       Describe<Imf::Chromaticities>(attribute, primaries, &text) ||
       Describe<Imf::StringVector>(attribute, strings, &text) ||
-      Describe<Imf::Compression>(attribute, CompressionName, &text) ||
+      Describe<Imf::Compression>(attribute, FileCompressionName, &text) ||
       Describe<Imf::Envmap>(attribute, envmap, &text) ||
       Describe<Imf::LineOrder>(attribute, LineOrderName, &text)) {
     return text;
@@ -334,11 +321,6 @@ int ChoosePart(const std::string& path, const std::vector<ImagePart>& parts,
                          : "did you mean \"" + nearest + "\"? " + list);
 }
 
-Window Around(const Window& a, const Window& b) {
-  if (a.empty()) return b;
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 }  // namespace
 
 std::vector<ImagePart> DescribeExr(const std::string& path) { return OpenParts(path).parts; }
@@ -362,7 +344,8 @@ ImageFile OpenExr(const std::string& path, const std::string& part) {
            only >= 0 ? RefusalHint(from.refusal) : "choose another part; nacre info lists them");
     }
     image.header.display = from.display;
-    image.header.data = Around(image.header.data, from.data);
+    Window& data = image.header.data;
+    data = data.empty() ? from.data : BoundingWindow(data, from.data);
     for (const ImagePart::PartChannel& channel : from.channels) {
       image.header.channels.push_back({prefix + channel.name, channel.type, {}});
       sources.emplace_back(i, channel.name);

@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "image_io/c_file.h"
 #include "image_io/exif.h"
+#include "image_io/fail_to_read.h"
 #include "image_io/icc_profile.h"
 #include "image_io/orientation.h"
 
@@ -158,9 +159,7 @@ class JpegFile {
     return true;
   }
 
-  [[noreturn]] void Fail(const std::string& reason) const {
-    throw Error(ExitCode::kBadInput, path_, "cannot be read: " + reason);
-  }
+  [[noreturn]] void Fail(const std::string& reason) const { FailToRead(path_, reason); }
   [[noreturn]] void FailWithMessage() const { Fail(decoder_->message); }
 
   std::string path_;

@@ -15,6 +15,7 @@
 #include <link.h>
 
 #include "base/error.h"
+#include "image_io/fail_to_read.h"
 #include "image_io/oiio_abi.h"
 #include "image_io/orientation.h"
 #include "image_io/tiff_check.h"
@@ -134,10 +135,6 @@ Image HeaderOf(const NacreOiioFile& source, const Orientation& orientation) {
   }
   header.metadata["transfer"] = source.integer_samples != 0 ? "display" : "linear";
   return header;
-}
-
-[[noreturn]] void FailToRead(const std::string& path, const std::string& reason) {
-  throw Error(ExitCode::kBadInput, path, "cannot be read: " + reason);
 }
 
 // Closes itself.

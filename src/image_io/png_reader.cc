@@ -22,6 +22,7 @@
 #include "base/error.h"
 #include "image_io/c_file.h"
 #include "image_io/exif.h"
+#include "image_io/fail_to_read.h"
 #include "image_io/icc_profile.h"
 #include "image_io/orientation.h"
 
@@ -31,10 +32,6 @@ namespace {
 constexpr uint32_t kLargestPngSide = 65536;
 // Of a text, a colour profile and the like once unpacked, and of all of them together.
 constexpr size_t kLargestChunk = size_t{1} << 24, kAllChunks = size_t{1} << 26;
-
-[[noreturn]] void FailToRead(const std::string& path, const std::string& reason) {
-  throw Error(ExitCode::kBadInput, path, "cannot be read: " + reason);
-}
 
 // A file that is open, at its first row. Every checksum counts: a flipped bit is damage.
 class PngFile {

@@ -21,7 +21,7 @@ using F = TextbookFaults;
 
 const char kNotShown[] = "not shown by these pictures; ";
 
-AmountLines Joined(AmountLines first, const AmountLines& second) {
+AmountLines JoinLines(AmountLines first, const AmountLines& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
 }
@@ -77,10 +77,10 @@ TextbookFaults WithoutEpsilons() {
 }  // namespace
 
 AmountLines AmountOfAlpha(const LessonPictures& lesson) {
-  return Joined({fmt::format("k at r = 0.4: {:.3f} in words, {:.3f} in the program",
-                             DirectKOfWords(0.4), DirectKOfProgram(0.4)),
-                 "had the program followed the words:"},
-                ChangeLines(lesson, With(&F::k_from_words)));
+  return JoinLines({fmt::format("k at r = 0.4: {:.3f} in words, {:.3f} in the program",
+                                DirectKOfWords(0.4), DirectKOfProgram(0.4)),
+                    "had the program followed the words:"},
+                   ChangeLines(lesson, With(&F::k_from_words)));
 }
 
 AmountLines AmountOfDirectK(const LessonPictures& lesson) {
@@ -88,8 +88,8 @@ AmountLines AmountOfDirectK(const LessonPictures& lesson) {
   const TextbookFaults smith = Without(&F::schlick_geometry);
   const double ratio =
       TextbookGeometry(0.1, 0.1, 0.1, faults) / TextbookGeometry(0.1, 0.1, 0.1, smith);
-  return Joined(ChangeLines(lesson, smith),
-                {fmt::format("G at r = 0.1, n.l = n.v = 0.1: {:.2f} times Smith's", ratio)});
+  return JoinLines(ChangeLines(lesson, smith),
+                   {fmt::format("G at r = 0.1, n.l = n.v = 0.1: {:.2f} times Smith's", ratio)});
 }
 
 AmountLines AmountOfAmbientK(const LessonPictures&) {
@@ -98,7 +98,7 @@ AmountLines AmountOfAmbientK(const LessonPictures&) {
 }
 
 AmountLines AmountOfEpsilon(const LessonPictures& lesson) {
-  return Joined(
+  return JoinLines(
       ChangeLines(lesson, Without(&F::denominator_epsilon)),
       {fmt::format("highlight lost at n.l = n.v = 0.1, 0.02, 0.005: {:.2f} %, {:.1f} %, {:.0f} %",
                    100 * EpsilonLoss(0.1, 0.1), 100 * EpsilonLoss(0.02, 0.02),
@@ -109,7 +109,7 @@ AmountLines AmountOfFloors(const LessonPictures& lesson) {
   const TextbookAngles peak{.n_dot_l = 1, .n_dot_v = 1, .n_dot_h = 1, .v_dot_h = 1, .sin2_h = 0};
   TextbookFaults faults;
   faults.distribution_floor = faults.v_dot_h_floor = false;
-  return Joined(
+  return JoinLines(
       ChangeLines(lesson, faults),
       {fmt::format("D's floor: at work below r = {:.4f}; at r = 0.04 the peak is {:.1f} times too "
                    "low, at r = 0 it is {:g}",
@@ -224,7 +224,7 @@ AmountLines AmountOfUngated(const LessonPictures& lesson) {
         "(Blinn {:.2f} %, {:.2f})",
         n, 100 * phong.share, phong.largest, 100 * blinn.share, blinn.largest);
   };
-  return Joined(ChangeLines(lesson, Without(&F::ungated_specular)), {line(8), line(64)});
+  return JoinLines(ChangeLines(lesson, Without(&F::ungated_specular)), {line(8), line(64)});
 }
 
 AmountLines AmountOfGrid(const LessonPictures& lesson) {
@@ -242,10 +242,10 @@ AmountLines AmountOfGrid(const LessonPictures& lesson) {
 }
 
 AmountLines AmountOfSmallVectors(const LessonPictures& lesson) {
-  return Joined(ChangeLines(lesson, Without(&F::normalize_epsilon)),
-                {fmt::format("an equilateral triangle is degenerate below an edge of {:.2g} "
-                             "(doc1: {:.2g})",
-                             ShortestTriangleEdge(1e-10), ShortestTriangleEdge(1e-6))});
+  return JoinLines(ChangeLines(lesson, Without(&F::normalize_epsilon)),
+                   {fmt::format("an equilateral triangle is degenerate below an edge of {:.2g} "
+                                "(doc1: {:.2g})",
+                                ShortestTriangleEdge(1e-10), ShortestTriangleEdge(1e-6))});
 }
 
 AmountLines AmountOfAttenuation(const LessonPictures&) {
@@ -302,7 +302,7 @@ AmountLines AmountOfCurves(const LessonPictures& lesson) {
   const double reaches_one =
       ((d - b) + std::sqrt((d - b) * (d - b) + 4 * (a - c) * e)) / (2 * (a - c));
   const double overflow = std::sqrt(static_cast<double>(std::numeric_limits<float>::max()) / a);
-  return Joined(
+  return JoinLines(
       ChangeLines(lesson, Without(&F::gamma22)),
       {fmt::format("largest difference of the curves: {:.4f} ({:.1f} codes) at linear {:.5f}",
                    error.difference, 255 * error.difference, error.at_linear),
@@ -337,7 +337,7 @@ AmountLines AmountOfInside(const LessonPictures& lesson) {
   const auto from_center = [](const TextbookFaults& faults) {
     return TextbookIntersectSphere({0, 0, 0}, {0, 0, -1}, {0, 0, 0}, 1, faults);
   };
-  return Joined(
+  return JoinLines(
       ChangeLines(lesson, Without(&F::no_far_root)),
       {fmt::format("from a unit sphere's centre: t = {:g}, the background; right: t = {:g}",
                    from_center({}), from_center(Without(&F::no_far_root)))});

@@ -2,8 +2,10 @@
 #include "output/metadata.h"
 
 #include <set>
+#include <variant>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "base/target.h"
 #include "base/version.h"
@@ -29,6 +31,21 @@ std::string FilterName(const PixelFilter& filter) {
 }
 
 }  // namespace
+
+void AddMetadata(const ExrHeader& header, Image* image) {
+  const auto text = [](const auto& value) { return fmt::format("{}", value); };
+  for (const auto& [name, attribute] : header.attributes) {
+    image->metadata[name] = std::visit(text, attribute);
+  }
+  const auto add_matrix = [&](const char* name, const std::optional<Imath::M44f>& matrix) {
+    if (!matrix) return;
+    const float* const first = &(*matrix)[0][0];
+    image->metadata[name] = fmt::format("{}", fmt::join(first, first + 16, " "));
+  };
+  add_matrix("worldToCamera", header.world_to_camera);
+  add_matrix("worldToNDC", header.world_to_ndc);
+  image->metadata["transfer"] = "linear";
+}
 
 std::string ShadowingForms(const Scene& scene) {
   std::set<std::string_view> forms;

@@ -16,6 +16,9 @@ inline constexpr char kTileAttribute[] = "nacre:tile";
 // render time, which is 0 until ExrWriter::UpdateAttribute.
 ExrHeader MakeExrHeader(const FramePlan& plan, bool reproducible, const std::string& tile = {});
 
+// The header's attributes as text, as readers of its file return them.
+void AddMetadata(const ExrHeader& header, Image* image);
+
 // The masking-shadowing forms of the scene's materials by name, "height_correlated" or
 // "height_correlated, separable"; "none" if no material has one.
 std::string ShadowingForms(const Scene& scene);

@@ -62,9 +62,9 @@ Mesh MakeMesh(const MeshAreaLight& light) {
 // roundings in the shape, relative to the camera and in the depth of a hit, some 300 2^-53 of them
 // for shapes without needles.
 double PlaneRounding(const std::vector<Vec3d>& positions, const Vec3d& camera) {
-  double reach = 0;
-  for (const Vec3d& p : positions) reach = std::max(reach, SumOfAbs(p));
-  return 0x1p-44 * (reach + SumOfAbs(camera));
+  double extent = 0;
+  for (const Vec3d& p : positions) extent = std::max(extent, SumOfAbs(p));
+  return 0x1p-44 * (extent + SumOfAbs(camera));
 }
 
 // The unit normal of a mesh whose triangles lie in one plane and face the same way; or none.

@@ -41,7 +41,7 @@ MetallicRoughnessMaterial FromSpecularGlossiness(const GltfExtension& extension)
     return std::sqrt(0.299 * c.x * c.x + 0.587 * c.y * c.y + 0.114 * c.z * c.z);
   };
   constexpr double kDielectric = 0.04;
-  const double rest = 1 - std::max({specular.x, specular.y, specular.z});
+  const double rest = 1 - LargestChannel(specular);
   const double ks = brightness(specular), kd = brightness(diffuse);
   double metallic = 0;
   if (ks > kDielectric) {

@@ -25,11 +25,11 @@ HWY_INLINE SphereLightV<V> SphereAt(const SampledLight& light, const HitBatch& h
 
 HWY_INLINE RectangleLightV<V> RectangleAt(const SampledLight& light, const HitBatch& hits,
                                           size_t i) {
-  return {Offset(light, hits, i), Set3(light.edge_x), Set3(light.edge_y)};
+  return {Offset(light, hits, i), SetVec3(D(), light.edge_x), SetVec3(D(), light.edge_y)};
 }
 
 HWY_INLINE DiskLightV<V> DiskAt(const SampledLight& light, const HitBatch& hits, size_t i) {
-  return {Offset(light, hits, i), Set3(light.normal),
+  return {Offset(light, hits, i), SetVec3(D(), light.normal),
           hn::Set(D(), static_cast<float>(light.radius))};
 }
 
@@ -123,7 +123,7 @@ void FindAreaT(const SampledLight& light, const HitBatch& hits, LightDirections*
                 [](const SphereLightV<V>& sphere, const Vec3V<V>& direction)
                     HWY_ATTR { return Meet(sphere, direction); });
   }
-  const Vec3V<V> normal = Set3(light.normal);
+  const Vec3V<V> normal = SetVec3(D(), light.normal);
   if (light.form == SampledForm::kRectangle) {
     return find([&](size_t i) HWY_ATTR { return RectangleAt(light, hits, i); },
                 [&](const RectangleLightV<V>& rectangle, const Vec3V<V>& direction)
@@ -153,7 +153,7 @@ void AreaIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
   const auto fill = [&](const auto& at, const auto& front) {
     ShapeIrradiance(light, surface, hits.count, irradiance, at, front);
   };
-  const Vec3V<V> normal = Set3(light.normal);
+  const Vec3V<V> normal = SetVec3(D(), light.normal);
   const auto before = [&](const Vec3V<V>& offset)
                           HWY_ATTR { return hn::Lt(FusedDot(offset, normal), hn::Zero(D())); };
   if (light.form == SampledForm::kSphere) {

@@ -25,8 +25,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using AreaLightTag = hn::ScalableTag<float>;
 using AreaLightV = hn::Vec<AreaLightTag>;
 
-HWY_INLINE Vec3V<AreaLightV> Set3(const Vec3d& v) { return SetVec3(AreaLightTag(), v); }
-
 // From hits i... to a point of the light, formed in double.
 HWY_INLINE Vec3V<AreaLightV> Offset(const SampledLight& light, const HitBatch& hits,
                                     const Vec3d& point, size_t i) {
@@ -44,7 +42,8 @@ HWY_INLINE Vec3V<AreaLightV> Offset(const SampledLight& light, const HitBatch& h
 HWY_INLINE TriangleLightV<AreaLightV> TriangleFrom(const SampledLight& light, const HitBatch& hits,
                                                    size_t triangle, size_t i) {
   const TriangleLight<double>& t = light.mesh->triangles[triangle];
-  return {Offset(light, hits, t.corner, i), Set3(t.edge_x), Set3(t.edge_y)};
+  return {Offset(light, hits, t.corner, i), SetVec3(AreaLightTag(), t.edge_x),
+          SetVec3(AreaLightTag(), t.edge_y)};
 }
 
 // What products of a mesh's edges are multiplied by, a power of two, so that floats hold them: the
@@ -69,7 +68,7 @@ HWY_INLINE void FindFaces(const SampledLight& light, const HitBatch& hits, size_
   for (size_t k = 0; k < outline.faces.size(); ++k) {
     const OutlineFace& face = outline.faces[k];
     const Vec3V<AreaLightV> offset = Offset(light, hits, outline.corners[face.corner], i);
-    const AreaLightV height = FusedDot(offset, Set3(face.cross * by_area));
+    const AreaLightV height = FusedDot(offset, SetVec3(AreaLightTag(), face.cross * by_area));
     faces->shines[k] = light.two_sided ? one : hn::IfThenElseZero(hn::Lt(height, zero), one);
     if (light.two_sided) faces->orientation = height;
   }
@@ -90,7 +89,8 @@ HWY_INLINE AreaLightV OutlineIrradiance(const SampledLight& light, const HitBatc
   const AreaLightV unit = PowerOfTwo(d, hn::Max(LargestComponent(first), size)).inverse;
   seen.first = Scale(first, unit);
   for (size_t k = 0; k < outline.corners.size(); ++k) {
-    seen.offset[k] = Scale(map(Set3(outline.corners[k] - outline.corners[0])), unit);
+    seen.offset[k] =
+        Scale(map(SetVec3(AreaLightTag(), outline.corners[k] - outline.corners[0])), unit);
     seen.unit_offset[k] = UnitDifference(d, seen.first, seen.offset[k]);
   }
   return Irradiance(d, outline, seen, faces.shines, faces.orientation, normal);

@@ -12,6 +12,7 @@
 
 #include "hwy/highway.h"
 
+#include "base/geometry-inl.h"
 #include "shading/soa-inl.h"
 #include "texture/mapping-inl.h"
 
@@ -24,11 +25,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using D = hn::ScalableTag<double>;
 using V = hn::Vec<D>;
 using F = hn::Rebind<float, D>;
-
-HWY_INLINE Vec3V<V> Set3(const Vec3d& v) {
-  const D d;
-  return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
-}
 
 // a x + b y.
 HWY_INLINE Vec3V<V> Combine(V a, const Vec3V<V>& x, V b, const Vec3V<V>& y) {
@@ -49,9 +45,9 @@ void FindSteps(const TexturedRun& run, const HitBatch& hits, HitTextures* t) {
   const D d;
   const CameraFrame& camera = run.scene.camera;
   const bool perspective = camera.projection == Projection::kPerspective;
-  const Vec3V<V> forward = Set3(camera.forward);
-  const Vec3V<V> step_x = Set3(camera.step_x * run.scene.footprint);
-  const Vec3V<V> step_y = Set3(camera.step_y * run.scene.footprint);
+  const Vec3V<V> forward = SetVec3(d, camera.forward);
+  const Vec3V<V> step_x = SetVec3(d, camera.step_x * run.scene.footprint);
+  const Vec3V<V> step_y = SetVec3(d, camera.step_y * run.scene.footprint);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> position = LoadSoa(d, hits.position, i), normal = LoadSoa(d, t->geometric, i);
     // Perspective: steps grow with the depth, for `forward` and the film's rays have product 1.
@@ -78,8 +74,8 @@ void PlaceMeshPoints(const TexturedRun& run, const PreparedTexture& texture, con
 
 void MapRun(const TexturedRun& run, const PreparedTexture& texture, HitTextures* t) {
   const D d;
-  const Vec3V<V> fx = Set3(texture.frame[0]), fy = Set3(texture.frame[1]);
-  const Vec3V<V> fz = Set3(texture.frame[2]);
+  const Vec3V<V> fx = SetVec3(d, texture.frame[0]), fy = SetVec3(d, texture.frame[1]);
+  const Vec3V<V> fz = SetVec3(d, texture.frame[2]);
   for (size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
     const Vec3V<V> point = LoadSoa(d, t->point, i);
     const Vec3V<V> local{FusedDot(point, fx), FusedDot(point, fy), FusedDot(point, fz)};

@@ -8,8 +8,6 @@
 namespace nacre {
 namespace {
 
-double LargestChannel(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
-
 LayerReflection TermsOf(const SheenModel& sheen, const Angles<double>& a) {
   const SheenScale<double> scale =
       ScaleSheen(LargestChannel(sheen.color), CharlieAlbedo(sheen.charlie, a.n_dot_v),

@@ -20,19 +20,13 @@
 namespace nacre {
 namespace {
 
-// Calls of_channel(c) for each channel.
-template <class OfChannel>
-Rgb EachChannel(const OfChannel& of_channel) {
-  return {of_channel(0), of_channel(1), of_channel(2)};
-}
-
 Rgb EonRatio(const Rgb& albedo, double roughness) {
-  return EachChannel([&](int c) { return EonMultipleRatio(albedo[c], roughness); });
+  return MakeRgb([&](int c) { return EonMultipleRatio(albedo[c], roughness); });
 }
 
 MatteModel MakeMatte(DiffuseForm form, const Rgb& albedo, double roughness) {
   MatteModel model{.form = form,
-                   .diffuse = EachChannel([&](int c) { return DeriveDiffuse(albedo[c]); }),
+                   .diffuse = MakeRgb([&](int c) { return DeriveDiffuse(albedo[c]); }),
                    .roughness = roughness};
   if (form == DiffuseForm::kOrenNayar) model.ratio = EonRatio(albedo, roughness);
   return model;
@@ -156,11 +150,11 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
   model.eta = material.eta;
   model.k = material.k;
   model.fresnel = FresnelForm::kConductor;
-  const Rgb f0 = EachChannel([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
+  const Rgb f0 = MakeRgb([&](int c) { return FresnelF0(material.eta[c], material.k[c]); });
   Rgb slope(0, 0, 0);
   if (material.fresnel == ConductorFresnel::kF82Tint) {
     model.fresnel = FresnelForm::kF82;
-    slope = EachChannel([&](int c) {
+    slope = MakeRgb([&](int c) {
       return F82Slope(f0[c], FresnelConductor(1 - one_minus_seventh, one_minus_seventh,
                                               material.eta[c], material.k[c]));
     });
@@ -168,7 +162,7 @@ MicrofacetModel MakeModel(const ConductorMaterial& material) {
     model.fresnel = FresnelForm::kSchlick;
   }
   if (model.compensation == Compensation::kKullaConty) {
-    model.metal_f_average = EachChannel([&](int c) {
+    model.metal_f_average = MakeRgb([&](int c) {
       return model.fresnel == FresnelForm::kConductor
                  ? AverageConductor(material.eta[c], material.k[c])
                  : AverageF82(f0[c], slope[c]);
@@ -329,7 +323,7 @@ void DropMaps(ShadingMaterial* material) {
 
 Rgb LeftByCoat(const ShadingMaterial& coat, double n_dot_v) {
   const auto& model = std::get<MicrofacetModel>(coat.model);
-  return EachChannel([&](int c) { return std::max(1 - CoverAlbedo(model, n_dot_v, c), 0.0); });
+  return MakeRgb([&](int c) { return std::max(1 - CoverAlbedo(model, n_dot_v, c), 0.0); });
 }
 
 double CoverAlbedo(const MicrofacetModel& model, double n_dot_v, int channel) {

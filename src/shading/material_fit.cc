@@ -26,13 +26,8 @@ constexpr double kLeastRoughness = 0.007;
 
 constexpr const char* kColoredLobe = "the lobe is coloured; a dielectric's is grey";
 
-template <class Function>
-Rgb EachChannel(const Function& of_channel) {
-  return {of_channel(0), of_channel(1), of_channel(2)};
-}
-
 Rgb ClampUnit(const Rgb& rgb) {
-  return EachChannel([&](int c) { return std::clamp(rgb[c], 0.0, 1.0); });
+  return MakeRgb([&](int c) { return std::clamp(rgb[c], 0.0, 1.0); });
 }
 
 double Mean(const Rgb& rgb) { return (rgb.x + rgb.y + rgb.z) / 3; }
@@ -94,7 +89,7 @@ MetallicBase SolveMetallic(const Rgb& f0, const Rgb& diffuse, double roughness) 
   };
   MetallicBase best;
   best.metallic = ScannedMinimum(error, 0, 1, 20);
-  best.base_color = EachChannel([&](int c) { return best_base(best.metallic, c); });
+  best.base_color = MakeRgb([&](int c) { return best_base(best.metallic, c); });
   return best;
 }
 
@@ -128,7 +123,7 @@ MetallicRoughnessMaterial GuessMetallic(const Summary& summary, double alpha) {
 // The base colour under which `white`, this material with a white base, reflects `base` diffusely.
 Rgb BaseUnder(const Material& white, const Rgb& base) {
   const Rgb share = DiffuseAlbedo(white);
-  return ClampUnit(EachChannel([&](int c) { return share[c] > 0 ? base[c] / share[c] : 0.0; }));
+  return ClampUnit(MakeRgb([&](int c) { return share[c] > 0 ? base[c] / share[c] : 0.0; }));
 }
 
 bool IsTinted(const Rgb& f0) {
@@ -168,7 +163,7 @@ void FitMetallic(const Material& original, MaterialFit* fit) {
   MetallicRoughnessMaterial material = GuessMetallic(summary, LobeAlpha(original));
   fit->guess.model = material;
   const FittedLobe free = FitGgxLobe(original);
-  if (std::max({free.strength.x, free.strength.y, free.strength.z}) < kDielectricF0) {
+  if (LargestChannel(free.strength) < kDielectricF0) {
     material.roughness = std::sqrt(free.width);
     fit->fitted.model = material;
     FitWeakLobe(original, summary, fit);

@@ -58,7 +58,7 @@ HWY_INLINE V SumTriangles(const SampledLight& light, const HitBatch& hits, const
   V sum = zero;
   for (size_t k = 0; k < mesh.triangles.size(); ++k) {
     const TriangleLightV<V> seen = TriangleFrom(light, hits, k, i);
-    const auto front = hn::Lt(FusedDot(seen.corner, Set3(mesh.crosses[k] * by_area)), zero);
+    const auto front = hn::Lt(FusedDot(seen.corner, SetVec3(D(), mesh.crosses[k] * by_area)), zero);
     if (!light.two_sided && hn::AllFalse(d, front)) continue;
     const V value = hn::Max(Irradiance(d, seen, normal), zero);
     sum = hn::Add(sum, light.two_sided ? value : hn::IfThenElseZero(front, value));
@@ -152,21 +152,13 @@ HWY_EXPORT(MeetMeshT);
 
 namespace {
 
-Vec3d At(const Soa3<double>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
-
-void Put(const Vec3d& v, size_t i, Soa3<float>* to) {
-  to->x[i] = static_cast<float>(v.x);
-  to->y[i] = static_cast<float>(v.y);
-  to->z[i] = static_cast<float>(v.z);
-}
-
-// The triangle as hit `hit` sees it: the way there formed in double.
-void PutTriangle(const SampledLight& light, const HitBatch& hits, uint32_t triangle, size_t hit,
+// Entry i becomes the triangle relative to a hit; the offset is computed in double.
+void SetTriangle(const SampledLight& light, const HitBatch& hits, uint32_t triangle, size_t hit,
                  size_t i, TriangleBatch* seen) {
   const TriangleLight<double>& t = light.mesh->triangles[triangle];
-  Put(light.place + t.corner - At(hits.position, hit), i, &seen->corner);
-  Put(t.edge_x, i, &seen->edge_x);
-  Put(t.edge_y, i, &seen->edge_y);
+  SetVector(light.place + t.corner - VectorAt(hits.position, hit), i, &seen->corner);
+  SetVector(t.edge_x, i, &seen->edge_x);
+  SetVector(t.edge_y, i, &seen->edge_y);
 }
 
 // Adds up the pdfs of triangles along the directions of hits, in batches.
@@ -177,7 +169,7 @@ class PdfSum {
 
   void Add(size_t hit, uint32_t triangle) {
     if (count_ == kBatchCapacity) Flush();
-    PutTriangle(light_, hits_, triangle, hit, count_, &scratch_.seen);
+    SetTriangle(light_, hits_, triangle, hit, count_, &scratch_.seen);
     const Soa3<float>& l = directions_.to_light;
     scratch_.to_light.x[count_] = l.x[hit];
     scratch_.to_light.y[count_] = l.y[hit];
@@ -216,7 +208,7 @@ void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoint
   MeshLightScratch& scratch = *directions->mesh;
   for (size_t i = 0; i < hits.count; ++i) {
     const CdfPick pick = PickIndex(light.mesh->by_area, points.u_bits[i] * 0x1p-32);
-    PutTriangle(light, hits, pick.index, i, i, &scratch.seen);
+    SetTriangle(light, hits, pick.index, i, i, &scratch.seen);
     scratch.rest[i] = std::min(static_cast<float>(pick.remapped), 1 - 0x1p-24f);
   }
   HWY_DYNAMIC_DISPATCH(SampleTrianglesT)

@@ -18,36 +18,37 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-// The models that a kernel is for: those of one shadowing, all of whose hits share a wide lobe over
-// Lambert's base. `kIsPrepared`: with what PrepareMicrofacet has left of every hit: multiple
-// scattering, or a base that gets what the lobe's albedo leaves. `kIsTypical`: what materials are
-// unless they ask for another: not darker at normal incidence than kBrightF0; with Turquin's
-// compensation and a base that gets what the lobe's albedo leaves, or, not prepared, a base that
-// gets what Schlick's curve leaves, which rises to 1.
-template <Shadowing kShadowing, bool kIsPrepared, bool kIsTypical>
-struct UsualForm {
-  static constexpr bool kUsual = true;
+// The kernel of microfacet models is compiled several times. A SpecializedForm is for runs whose
+// hits share one wide lobe over Lambert's base, with one shadowing that is known at compile time.
+// `kIsPrepared`: PrepareMicrofacet has computed, for each hit, multiple scattering or the share
+// that the lobe's albedo leaves to the base. `kIsDefault`: the material has the default coupling
+// and compensation, and is at least as bright as kBrightF0 at normal incidence. Prepared, this is
+// Turquin's compensation over a base that is scaled by what the lobe's albedo leaves; not prepared,
+// no compensation, and a base that is scaled by 1 - F of a Schlick curve with an F90 of 1.
+template <Shadowing kShadowing, bool kIsPrepared, bool kIsDefault>
+struct SpecializedForm {
+  static constexpr bool kSpecialized = true;
   static constexpr bool kPrepared = kIsPrepared;
-  static constexpr bool kTypical = kIsTypical;
+  static constexpr bool kDefault = kIsDefault;
   static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel&) { return kShadowing; }
 };
-// Or any, which is asked at each packet what it is.
-struct AnyForm {
-  static constexpr bool kUsual = false;
+// For all models: it looks at the model's settings at each packet.
+struct GeneralForm {
+  static constexpr bool kSpecialized = false;
   static constexpr bool kPrepared = true;
-  static constexpr bool kTypical = false;
+  static constexpr bool kDefault = false;
   static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel& model) { return model.shadowing; }
 };
 
 template <class Form>
 HWY_INLINE DiffuseCoupling CouplingOf(const MicrofacetModel& model) {
-  if constexpr (!Form::kTypical) return model.coupling;
+  if constexpr (!Form::kDefault) return model.coupling;
   return Form::kPrepared ? DiffuseCoupling::kAlbedoScaled : DiffuseCoupling::kOneMinusFresnel;
 }
 
 template <class Form>
 HWY_INLINE Compensation CompensationOf(const MicrofacetModel& model) {
-  if constexpr (!Form::kTypical) return model.compensation;
+  if constexpr (!Form::kDefault) return model.compensation;
   return Form::kPrepared ? Compensation::kTurquin : Compensation::kNone;
 }
 
@@ -81,7 +82,7 @@ HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
   const FloatV rounded = hn::NegMulAdd(half.twice_u_length, hn::Set(d, 0.25f), hn::Set(d, 1.0f));
   const auto exact = [&]() HWY_ATTR { return OneMinusVDotH(d, half.lv_squared, half.ULength(d)); };
   if constexpr (std::is_same_v<Number, float>) {
-    return Form::kTypical || uniforms.is_bright ? rounded : exact();
+    return Form::kDefault || uniforms.is_bright ? rounded : exact();
   } else {
     const RgbV f0 = RgbAt(d, uniforms.f0, i);
     const auto bright = hn::Ge(hn::Min(hn::Min(f0.r, f0.g), f0.b), hn::Set(d, kBrightF0));
@@ -158,7 +159,7 @@ HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
                              const MicrofacetModel& model, const MicrofacetLight<Number>& light,
                              FloatV weight) {
   const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
-  if constexpr (Form::kTypical) {
+  if constexpr (Form::kDefault) {
     return ScaledPart(RgbAt(d, light.diffuse_normal, i),
                       coupled ? hn::NegMulAdd(weight, curve.weight, weight) : weight);
   }

@@ -36,7 +36,7 @@ struct Microfacet {
   };
 
   HWY_INLINE bool ReadsLv() const {
-    return kFresnel != FresnelForm::kSchlick || !kSame || !(Form::kTypical || uniforms.is_bright);
+    return kFresnel != FresnelForm::kSchlick || !kSame || !(Form::kDefault || uniforms.is_bright);
   }
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface& surface) const {
@@ -62,7 +62,7 @@ struct Microfacet {
   // Distribution, visibility, cosine and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in,
                          FloatV twice_u_length) const {
-    if (!Form::kUsual && kSame && uniforms.sharp_distribution != nullptr)
+    if (!Form::kSpecialized && kSame && uniforms.sharp_distribution != nullptr)
       return SharpLobe(d, p, in);
     const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
     const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
@@ -80,7 +80,7 @@ struct Microfacet {
       const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
       wide = hn::IfThenElse(IsUpright(d, in.half), wide, hn::IfThenElseZero(above, of_short));
     }
-    if (Form::kUsual || kSame || uniforms.sharp_distribution == nullptr) return wide;
+    if (Form::kSpecialized || kSame || uniforms.sharp_distribution == nullptr) return wide;
     const auto is_sharp = hn::Ge(hn::LoadU(d, uniforms.sharp_distribution + p.i), hn::Zero(d));
     return hn::IfThenElse(is_sharp, SharpLobe(d, p, in), wide);
   }
@@ -111,7 +111,7 @@ struct Microfacet {
     const HalfV half{in.half.lv_squared, TwiceSquareRoot(d, in.half.u_squared)};
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const bool spreads =
-        !Form::kUsual && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
+        !Form::kSpecialized && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
     const auto curve = EvaluateCurve<kFresnel, Form>(d, half, p.i, uniforms);
     const FloatV lobe = Lobe(d, p, in, half.twice_u_length);
@@ -188,41 +188,43 @@ void ShadeMicrofacetForm(const MicrofacetUniforms<Number>& uniforms, const Shade
 }
 
 template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared>
-void ShadeUsualMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
-  using Typical = UsualForm<kShadowing, kPrepared, true>;
+void ShadeSpecializedMicrofacet(const MicrofacetUniforms<float>& uniforms,
+                                const ShadeRange& range) {
+  using Default = SpecializedForm<kShadowing, kPrepared, true>;
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const MicrofacetModel& model = *uniforms.model;
-    if (model.coupling == CouplingOf<Typical>(model) &&
-        model.compensation == CompensationOf<Typical>(model) && (kPrepared || model.f90 == 1) &&
+    if (model.coupling == CouplingOf<Default>(model) &&
+        model.compensation == CompensationOf<Default>(model) && (kPrepared || model.f90 == 1) &&
         uniforms.is_bright) {
-      return ShadeMicrofacetForm<kFresnel, Typical>(uniforms, range);
+      return ShadeMicrofacetForm<kFresnel, Default>(uniforms, range);
     }
   }
-  ShadeMicrofacetForm<kFresnel, UsualForm<kShadowing, kPrepared, false>>(uniforms, range);
+  ShadeMicrofacetForm<kFresnel, SpecializedForm<kShadowing, kPrepared, false>>(uniforms, range);
 }
 
 template <FresnelForm kFresnel, Shadowing kShadowing>
-void ShadeUsualMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
+void ShadeSpecializedMicrofacet(const MicrofacetUniforms<float>& uniforms,
+                                const ShadeRange& range) {
   if (uniforms.model->prepared) {
-    ShadeUsualMicrofacet<kFresnel, kShadowing, true>(uniforms, range);
+    ShadeSpecializedMicrofacet<kFresnel, kShadowing, true>(uniforms, range);
   } else {
-    ShadeUsualMicrofacet<kFresnel, kShadowing, false>(uniforms, range);
+    ShadeSpecializedMicrofacet<kFresnel, kShadowing, false>(uniforms, range);
   }
 }
 
 template <FresnelForm kFresnel>
 void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
   if (uniforms.sharp_distribution != nullptr || uniforms.spread != nullptr) {
-    return ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
+    return ShadeMicrofacetForm<kFresnel, GeneralForm>(uniforms, range);
   }
   switch (uniforms.model->shadowing) {
     case Shadowing::kHeightCorrelated:
-      return ShadeUsualMicrofacet<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);
+      return ShadeSpecializedMicrofacet<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);
     case Shadowing::kSeparable:
-      return ShadeUsualMicrofacet<kFresnel, Shadowing::kSeparable>(uniforms, range);
+      return ShadeSpecializedMicrofacet<kFresnel, Shadowing::kSeparable>(uniforms, range);
     case Shadowing::kSchlickDirect:
     case Shadowing::kSchlickIbl:  // but for k, a number of the uniforms, the same
-      return ShadeUsualMicrofacet<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
+      return ShadeSpecializedMicrofacet<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
   }
 }
 
@@ -230,7 +232,7 @@ void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange
 // kernel for all.
 template <FresnelForm kFresnel>
 void ShadeMicrofacetMaps(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacetForm<kFresnel, AnyForm>(uniforms, range);
+  ShadeMicrofacetForm<kFresnel, GeneralForm>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

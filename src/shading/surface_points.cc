@@ -9,14 +9,6 @@
 namespace nacre {
 namespace {
 
-Vec3d Get(const Soa3<double>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
-
-void Put(const Vec3d& v, size_t i, Soa3<double>* soa) {
-  soa->x[i] = v.x;
-  soa->y[i] = v.y;
-  soa->z[i] = v.z;
-}
-
 // A triangle, relative to its first corner.
 struct Corners {
   const Mesh* mesh;
@@ -62,8 +54,8 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
   double inverse_radius = 1;
   for (size_t i = run.begin; i < run.end; ++i) {
     const uint32_t primitive = hits.primitive[i];
-    const Vec3d normal = Get(hits.normal, i);
-    if (run.material.turned) Put(normal, i, &t.unturned);
+    const Vec3d normal = VectorAt(hits.normal, i);
+    if (run.material.turned) SetVector(normal, i, &t.unturned);
     if (primitive < sphere_count) {
       if (primitive != last) {
         last = primitive;
@@ -71,16 +63,16 @@ void FindPoints(const TexturedRun& run, const HitBatch& hits, HitTextures* textu
         inverse_radius = 1 / scene.spheres[primitive].radius;
       }
       // The normal is on the ray's side; from inside it points to the centre.
-      const double side = (Get(hits.position, i) - center).dot(normal) < 0 ? -1 : 1;
+      const double side = (VectorAt(hits.position, i) - center).dot(normal) < 0 ? -1 : 1;
       t.side[i] = side;
-      Put(normal * side, i, &t.point);
+      SetVector(normal * side, i, &t.point);
       t.inverse_size[i] = inverse_radius;
-      Put(normal, i, &t.geometric);
+      SetVector(normal, i, &t.geometric);
     } else {
       const Corners corners = CornersOf(run.scene, primitive);
       const Vec3d face = corners.e1.cross(corners.e2).normalized();
-      t.side[i] = face.dot(Get(hits.to_view, i)) < 0 ? -1 : 1;
-      Put(face * t.side[i], i, &t.geometric);
+      t.side[i] = face.dot(VectorAt(hits.to_view, i)) < 0 ? -1 : 1;
+      SetVector(face * t.side[i], i, &t.geometric);
       t.any_mesh = true;
     }
   }
@@ -99,12 +91,12 @@ void FindMeshCoordinates(const TexturedRun& run, const PreparedTexture& texture,
     const Vec2d uv = uvs[corners.index[0]];
     const Vec2d d1 = uvs[corners.index[1]] - uv, d2 = uvs[corners.index[2]] - uv;
     const auto [g1, g2] = GradientsOf(corners);
-    const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
+    const Vec3d from_a = VectorAt(hits.position, i) - (corners.a - scene.camera.position);
     const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);
     t.u[i] = uv.x + b1 * d1.x + b2 * d2.x;
     t.v[i] = uv.y + b1 * d1.y + b2 * d2.y;
-    Put(g1 * d1.x + g2 * d2.x, i, &t.gradient_u);
-    Put(g1 * d1.y + g2 * d2.y, i, &t.gradient_v);
+    SetVector(g1 * d1.x + g2 * d2.x, i, &t.gradient_u);
+    SetVector(g1 * d1.y + g2 * d2.y, i, &t.gradient_v);
   }
 }
 
@@ -126,7 +118,7 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
     if (own == of_mesh.end()) continue;
     const CornerTangents& made = *run.scene.tangents[own->tangents];
     const auto [g1, g2] = GradientsOf(corners);
-    const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
+    const Vec3d from_a = VectorAt(hits.position, i) - (corners.a - scene.camera.position);
     const double b1 = g1.dot(from_a), b2 = g2.dot(from_a);
     const double weights[3] = {1 - b1 - b2, b1, b2};
     const bool smooth = HasSmoothNormals(*corners.mesh);
@@ -140,9 +132,9 @@ bool FindTangents(const TexturedRun& run, const PreparedTexture& texture, const 
       if (smooth) normal += corners.mesh->normals[corners.index[k]] * weights[k];
     }
     // Seen from behind the frame is the one in front, mirrored at the point.
-    const double side = normal.dot(Get(hits.normal, i)) < 0 ? -1 : 1;
-    Put(tangent * side, i, &t.tangent);
-    Put(normal.cross(tangent) * (sign < 0 ? -side : side), i, &t.bitangent);
+    const double side = normal.dot(VectorAt(hits.normal, i)) < 0 ? -1 : 1;
+    SetVector(tangent * side, i, &t.tangent);
+    SetVector(normal.cross(tangent) * (sign < 0 ? -side : side), i, &t.bitangent);
     t.normal_length[i] = normal.length();
     any = true;
   }
@@ -160,15 +152,13 @@ void FindVertexColors(const TexturedRun& run, const HitBatch& hits, HitTextures*
       const std::vector<Vec3f>& colors = corners.mesh->colors;
       if (!colors.empty()) {
         const auto [g1, g2] = GradientsOf(corners);
-        const Vec3d from_a = Get(hits.position, i) - (corners.a - scene.camera.position);
+        const Vec3d from_a = VectorAt(hits.position, i) - (corners.a - scene.camera.position);
         const Vec3d first(colors[corners.index[0]]);
         color = first + (Vec3d(colors[corners.index[1]]) - first) * g1.dot(from_a) +
                 (Vec3d(colors[corners.index[2]]) - first) * g2.dot(from_a);
       }
     }
-    to.x[i] = static_cast<float>(color.x);
-    to.y[i] = static_cast<float>(color.y);
-    to.z[i] = static_cast<float>(color.z);
+    SetVector(color, i, &to);
   }
 }
 

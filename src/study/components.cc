@@ -97,7 +97,7 @@ Figure LobeFigure() {
   return MakeFigure(std::move(plot));
 }
 
-std::string AnswerOf(double same, double sum, const std::string& shares) {
+std::string ComponentsAnswer(double same, double sum, const std::string& shares) {
   return fmt::format(
       "The exponent changes the specular component and nothing else: between n = {} and n = {} the "
       "ambient and the diffuse picture differ by {:g} at most. The highlight keeps its peak, ks, "
@@ -143,7 +143,7 @@ StudyResult StudyComponents(const StudyProgress& progress) {
       "components", "The components apart and together, for four exponents.", sheet));
   result.figures.push_back(
       {"lobes", "Phong's lobe: the larger the exponent, the narrower.", LobeFigure()});
-  result.answer = AnswerOf(same, sum, shares);
+  result.answer = ComponentsAnswer(same, sum, shares);
   return result;
 }
 

@@ -194,7 +194,7 @@ std::vector<StudyNumber> NumbersOf(const Shares& s) {
   };
 }
 
-std::string AnswerOf(const Shares& s) {
+std::string EnergyAnswer(const Shares& s) {
   return fmt::format(
       "Phong with kd = {} and ks = {}: as lessons write it, without 1/pi, {:.2f} times the light "
       "of "
@@ -228,7 +228,7 @@ StudyResult StudyEnergy(const StudyProgress& progress) {
   StudyResult result;
   const Shares shares = Measure();
   result.numbers = NumbersOf(shares);
-  result.answer = AnswerOf(shares);
+  result.answer = EnergyAnswer(shares);
   progress(0.2);
   result.figures.push_back(
       {"energy", "Above 1, light is made from nothing.", MakeRow({PhongPlot(), PbrPlot()})});

@@ -99,11 +99,11 @@ HWY_INLINE double Reach(const TraceGeometry& geometry, uint32_t primitive) {
     const TraceSphere& sphere = geometry.spheres[primitive];
     return sum_of_abs(sphere.center) + sphere.radius;
   }
-  double reach = 0;
+  double extent = 0;
   for (const uint32_t vertex : geometry.triangles[primitive - geometry.SphereCount()]) {
-    reach = std::max(reach, sum_of_abs(geometry.positions[vertex]));
+    extent = std::max(extent, sum_of_abs(geometry.positions[vertex]));
   }
-  return reach;
+  return extent;
 }
 
 // `starts`: the primitives that the batch's rays start on.

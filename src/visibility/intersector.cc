@@ -82,12 +82,13 @@ bool Intersector::SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ra
   return DepthOn(state_->geometry.spheres[sphere], rays, ray) <= t;
 }
 
-bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window, double reach) {
+bool Intersector::BinForCamera(const CameraFrame& frame, const Window& window,
+                               double sample_margin) {
   // 256 MiB; beyond that a tree is better.
   constexpr size_t kMaxEntries = size_t{1} << 26;
   state_->camera = frame;
-  return BinSpheres(state_->geometry, frame, window, reach, kMaxEntries, state_->settings.threads,
-                    &state_->bins);
+  return BinSpheres(state_->geometry, frame, window, sample_margin, kMaxEntries,
+                    state_->settings.threads, &state_->bins);
 }
 
 bool Intersector::EnterTile(const Window& tile, TileRays rays, TileCandidates* candidates) const {

@@ -78,10 +78,10 @@ class Intersector {
   // Whether the sphere that a camera ray hits lies before t on the ray, or at t.
   bool SphereIsFirst(uint32_t sphere, const RayBatch& rays, size_t ray, double t) const;
 
-  // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most `reach`
-  // pixels outside them (BinSpheres). False, and no bins, if that would take too much room.
-  // Triangles are not binned.
-  bool BinForCamera(const CameraFrame& frame, const Window& window, double reach);
+  // Bins the spheres for the camera rays of the window's pixels, whose samples lie at most
+  // `sample_margin` pixels outside them (BinSpheres). False, and no bins, if that would take too
+  // much room. Triangles are not binned.
+  bool BinForCamera(const CameraFrame& frame, const Window& window, double sample_margin);
 
   // Then, instead of Closest and Refine, for a tile that lies within one row of cells
   // (sphere_bins.h): the spheres that its rays may hit, false if none; and the hits of the rays
