@@ -79,7 +79,7 @@ Image Session::RenderProgressively(const RenderSettings& settings,
     nacre::Image so_far = EmptyImage(plan);
     for (int end = 1;; end = std::min(2 * end, image.spp)) {
       const nacre::RenderStats pass = RenderPass(
-          plan, own, end, &film, [&](const nacre::Strip& strip) { PutStrip(strip, &so_far); });
+          plan, own, end, &film, [&](const nacre::Strip& strip) { CopyStrip(strip, &so_far); });
       counted.Add(pass);
       counted.threads = pass.threads;
       counted.render_seconds += pass.render_seconds;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/seconds_since.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -17,10 +18,6 @@ namespace nacre {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double SecondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 ProgressForm ChooseProgressForm(const RenderOptions& options) {
   if (options.quiet || options.progress == "none") return ProgressForm::kNone;
@@ -126,7 +123,7 @@ void RunRenderJob(const RenderOptions& options, const std::vector<std::string>& 
   }
   if (options.dry_run) {
     PrintOut(DryRunJson(MakeOutputHeader(options, plan), options,
-                        MostBands(plan.frame, settings.band_rows)));
+                        MaxBands(plan.frame, settings.band_rows)));
     return;
   }
   Outputs outputs(options, plan, captions);

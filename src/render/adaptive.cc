@@ -15,27 +15,28 @@
 namespace nacre {
 namespace {
 
-// Samples of a pixel that are added up before they are added to its sum: fixed, so that the order
-// of the additions is.
-constexpr int kPiece = 16;
+// A pixel's samples are first added up in chunks of at most this many. The size is fixed, so that
+// the order of the additions, and with it their rounding, is the same everywhere.
+constexpr int kChunk = 16;
 
-using Unit = CellScratch::Unit;
+using SampleEntry = CellScratch::SampleEntry;
 
-// The units' samples [first, first + count), one unit after the other. `samplers`: of each
-// replicate.
-void MakeUnitSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
-                     int first, int count, TileWork* s, CellScratch* c) {
+// Samples [first, first + count) of each entry of the list, one entry after the other. `samplers`:
+// one per replicate.
+void MakeListSamples(const PixelSampler* samplers, const Window& cell,
+                     std::span<const SampleEntry> list, int first, int count, TileWork* s,
+                     CellScratch* c) {
   c->pixels.clear();
-  for (const Unit& unit : units) {
-    const FilmPixel pixel = PixelOf(cell, unit.pixel);
-    c->pixels.push_back({pixel.x, pixel.y, unit.replicate});
+  for (const SampleEntry& entry : list) {
+    const FilmPixel pixel = PixelOf(cell, entry.pixel);
+    c->pixels.push_back({pixel.x, pixel.y, entry.replicate});
   }
   SamplePixelList(samplers, c->pixels, first, count, s->samples.film.x.data(),
                   s->samples.film.y.data());
-  s->samples.film.count = units.size() * static_cast<size_t>(count);
+  s->samples.film.count = list.size() * static_cast<size_t>(count);
 }
 
-std::array<PixelRun, kBlockSide> RowsOf(const Window& block) {
+std::array<PixelRun, kBlockSide> BlockRows(const Window& block) {
   std::array<PixelRun, kBlockSide> rows;
   for (int i = 0; i < kBlockSide; ++i) {
     rows[static_cast<size_t>(i)] = {block.x0, block.y0 + i, kBlockSide};
@@ -43,27 +44,28 @@ std::array<PixelRun, kBlockSide> RowsOf(const Window& block) {
   return rows;
 }
 
-// The same where units take one sample and come by whole blocks.
-void MakeBlockSamples(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
-                      int index, TileWork* s, CellScratch* c) {
-  for (size_t ray = 0; ray < units.size(); ray += kBlockPixels) {
-    const Window block = BlockWindow(cell, units[ray].pixel / kBlockPixels);
-    const PixelSampler& sampler = samplers[units[ray].replicate];
-    PreparePixels(sampler, RowsOf(block), &c->block);
+// The same for one sample of each entry, where the list consists of whole blocks.
+void MakeBlockSamples(const PixelSampler* samplers, const Window& cell,
+                      std::span<const SampleEntry> list, int index, TileWork* s, CellScratch* c) {
+  for (size_t ray = 0; ray < list.size(); ray += kBlockPixels) {
+    const Window block = BlockWindow(cell, list[ray].pixel / kBlockPixels);
+    const PixelSampler& sampler = samplers[list[ray].replicate];
+    PreparePixels(sampler, BlockRows(block), &c->block);
     SamplePixels(sampler, c->block, index, 1, s->samples.film.x.data() + ray,
                  s->samples.film.y.data() + ray);
   }
-  s->samples.film.count = units.size();
+  s->samples.film.count = list.size();
 }
 
-// Which samples those are, for lights that are sampled.
-void NumberUnits(const PixelSampler* samplers, const Window& cell, std::span<const Unit> units,
-                 int first, int count, SampleNumbers* numbers) {
-  numbers->pixel_count = units.size();
+// Numbers these samples, for sampling of lights.
+void NumberListSamples(const PixelSampler* samplers, const Window& cell,
+                       std::span<const SampleEntry> list, int first, int count,
+                       SampleNumbers* numbers) {
+  numbers->pixel_count = list.size();
   size_t ray = 0;
-  for (uint32_t i = 0; i < units.size(); ++i) {
-    const FilmPixel pixel = PixelOf(cell, units[i].pixel);
-    numbers->seeds[i] = PixelSeed(pixel.x, pixel.y, samplers[units[i].replicate].seed);
+  for (uint32_t i = 0; i < list.size(); ++i) {
+    const FilmPixel pixel = PixelOf(cell, list[i].pixel);
+    numbers->seeds[i] = PixelSeed(pixel.x, pixel.y, samplers[list[i].replicate].seed);
     for (int k = 0; k < count; ++k, ++ray) {
       numbers->number[ray] = static_cast<uint32_t>(first + k);
       numbers->pixel[ray] = i;
@@ -71,8 +73,8 @@ void NumberUnits(const PixelSampler* samplers, const Window& cell, std::span<con
   }
 }
 
-// In four sums, of every fourth product each. `count`: a power of two, not 1.
-double SumOfPiece(const double* values, const double* weights, size_t count) {
+// The weighted sum of a chunk, in four partial sums. `count`: a power of two, not 1.
+double SumOfChunk(const double* values, const double* weights, size_t count) {
   if (count == 2) return weights[0] * values[0] + weights[1] * values[1];
   double sums[4] = {};
   for (size_t i = 0; i < count; i += 4) {
@@ -81,15 +83,15 @@ double SumOfPiece(const double* values, const double* weights, size_t count) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-// Adds a sample of each of a block's pixels. The arrays do not overlap, which lets the compiler use
-// vectors.
+// Adds one sample of each of a block's pixels. The arrays do not overlap, so that the compiler can
+// vectorise.
 void AddBlock(const double* __restrict values, double weight, double* __restrict sums) {
   for (size_t k = 0; k < kBlockPixels; ++k) sums[k] += weight * values[k];
 }
 
-// Takes those of such samples that hit into the pixels' ranges: without branches, which would go
-// either way.
-void WidenRanges(const double* values, const double* hits, double* low, double* high) {
+// Extends the pixels' ranges by those of such samples that hit. Without branches: they would be
+// mispredicted.
+void ExtendHitRanges(const double* values, const double* hits, double* low, double* high) {
   for (size_t k = 0; k < kBlockPixels; ++k) {
     const bool hit = hits[k] != 0;
     low[k] = (hit & (values[k] < low[k])) ? values[k] : low[k];
@@ -97,34 +99,37 @@ void WidenRanges(const double* values, const double* hits, double* low, double* 
   }
 }
 
-// Sorts a sample into the two least and the two greatest ones.
-void WidenExtremes(double value, double* low1, double* low2, double* high2, double* high1) {
-  *low2 = std::min(*low2, std::max(*low1, value));
-  *low1 = std::min(*low1, value);
-  *high2 = std::max(*high2, std::min(*high1, value));
-  *high1 = std::max(*high1, value);
+// Updates the two least and the two greatest samples with one more.
+void UpdateExtremes(double value, double* lowest, double* second_lowest, double* second_highest,
+                    double* highest) {
+  *second_lowest = std::min(*second_lowest, std::max(*lowest, value));
+  *lowest = std::min(*lowest, value);
+  *second_highest = std::max(*second_highest, std::min(*highest, value));
+  *highest = std::max(*highest, value);
 }
 
-// One of each of a block's pixels, of which all have some.
-void WidenByBlock(const double* values, int channel, uint32_t pixel, CellScratch* c) {
-  double* __restrict const low1 = c->low1[channel] + pixel;
-  double* __restrict const low2 = c->low2[channel] + pixel;
-  double* __restrict const high2 = c->high2[channel] + pixel;
-  double* __restrict const high1 = c->high1[channel] + pixel;
+// One sample of each of a block's pixels.
+void UpdateBlockExtremes(const double* values, int channel, uint32_t pixel, CellScratch* c) {
+  double* __restrict const lowest = c->lowest[channel] + pixel;
+  double* __restrict const second_lowest = c->second_lowest[channel] + pixel;
+  double* __restrict const second_highest = c->second_highest[channel] + pixel;
+  double* __restrict const highest = c->highest[channel] + pixel;
   for (size_t k = 0; k < kBlockPixels; ++k) {
-    WidenExtremes(values[k], low1 + k, low2 + k, high2 + k, high1 + k);
+    UpdateExtremes(values[k], lowest + k, second_lowest + k, second_highest + k, highest + k);
   }
 }
 
-// A pixel's samples that stand in a row.
-void WidenByPiece(const double* values, size_t count, int channel, uint32_t pixel, CellScratch* c) {
-  double low1 = c->low1[channel][pixel], low2 = c->low2[channel][pixel];
-  double high2 = c->high2[channel][pixel], high1 = c->high1[channel][pixel];
-  for (size_t i = 0; i < count; ++i) WidenExtremes(values[i], &low1, &low2, &high2, &high1);
-  c->low1[channel][pixel] = low1;
-  c->low2[channel][pixel] = low2;
-  c->high2[channel][pixel] = high2;
-  c->high1[channel][pixel] = high1;
+// `count` samples of one pixel.
+void UpdatePixelExtremes(const double* values, size_t count, int channel, uint32_t pixel,
+                         CellScratch* c) {
+  double lowest = c->lowest[channel][pixel], second_lowest = c->second_lowest[channel][pixel];
+  double second_highest = c->second_highest[channel][pixel], highest = c->highest[channel][pixel];
+  for (size_t i = 0; i < count; ++i)
+    UpdateExtremes(values[i], &lowest, &second_lowest, &second_highest, &highest);
+  c->lowest[channel][pixel] = lowest;
+  c->second_lowest[channel][pixel] = second_lowest;
+  c->second_highest[channel][pixel] = second_highest;
+  c->highest[channel][pixel] = highest;
 }
 
 void MarkHits(const TileWork& s, std::vector<double>* hits) {
@@ -132,8 +137,9 @@ void MarkHits(const TileWork& s, std::vector<double>* hits) {
   for (size_t i = 0; i < s.surfaces.hits.count; ++i) (*hits)[s.surfaces.hits.ray[i]] = 1;
 }
 
-// Where an averaged layer's channel is summed up, by replicates: coverage and the beauty have sums
-// for each, from which pixels know when they have converged.
+// The sums of an averaged layer's channel, by replicate. Beauty and coverage are summed for each
+// replicate, because the spread of the replicates tells when a pixel has converged; other layers
+// have one sum.
 void FindSums(LayerKind layer, int channel, double* film_sum, CellScratch* c,
               double* (&sums)[kReplicates]) {
   for (size_t r = 0; r < kReplicates; ++r) {
@@ -143,8 +149,8 @@ void FindSums(LayerKind layer, int channel, double* film_sum, CellScratch* c,
   }
 }
 
-void AddUnits(const FramePlan& plan, const Window& cell, std::span<const Unit> units,
-              TileWork* work, CellScratch* c) {
+void AddListSamples(const FramePlan& plan, const Window& cell, std::span<const SampleEntry> list,
+                    TileWork* work, CellScratch* c) {
   TileWork& s = *work;
   const size_t count = s.samples.weights.size();
   if (count == 1 && c->outlined != 0) MarkHits(s, &c->hits);
@@ -161,19 +167,20 @@ void AddUnits(const FramePlan& plan, const Window& cell, std::span<const Unit> u
       double* sums[kReplicates];
       FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
       if (count == 1) {
-        // Units are of whole blocks, which stand in a row in the sums as well.
-        for (size_t i = 0; i < units.size(); i += kBlockPixels, value += kBlockPixels) {
-          const uint32_t pixel = units[i].pixel;
-          AddBlock(value, s.samples.weights[0], sums[units[i].replicate] + pixel);
-          if (beauty) WidenByBlock(value, channel, pixel, c);
+        // The list consists of whole blocks, whose pixels are contiguous in the sums as well.
+        for (size_t i = 0; i < list.size(); i += kBlockPixels, value += kBlockPixels) {
+          const uint32_t pixel = list[i].pixel;
+          AddBlock(value, s.samples.weights[0], sums[list[i].replicate] + pixel);
+          if (beauty) UpdateBlockExtremes(value, channel, pixel, c);
           if (!beauty || (c->outlined >> pixel / kBlockPixels & 1) == 0) continue;
-          WidenRanges(value, c->hits.data() + i, c->low[channel] + pixel, c->high[channel] + pixel);
+          ExtendHitRanges(value, c->hits.data() + i, c->hit_low[channel] + pixel,
+                          c->hit_high[channel] + pixel);
         }
         continue;
       }
-      for (const Unit& unit : units) {
-        sums[unit.replicate][unit.pixel] += SumOfPiece(value, s.samples.weights.data(), count);
-        if (beauty) WidenByPiece(value, count, channel, unit.pixel, c);
+      for (const SampleEntry& entry : list) {
+        sums[entry.replicate][entry.pixel] += SumOfChunk(value, s.samples.weights.data(), count);
+        if (beauty) UpdatePixelExtremes(value, count, channel, entry.pixel, c);
         value += count;
       }
     }
@@ -181,20 +188,19 @@ void AddUnits(const FramePlan& plan, const Window& cell, std::span<const Unit> u
   }
   AddNearest(
       plan.film, BatchOf(plan, s),
-      [&](uint32_t ray) { return PixelOf(cell, units[ray / count].pixel); }, &s.layer_room,
-      &s.film);
+      [&](uint32_t ray) { return PixelOf(cell, list[ray / count].pixel); }, &s.layer_room, &s.film);
 }
 
-// The active pixels' samples of a level, in batches.
+// Takes the samples of a level for all active pixels, in batches.
 void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork* s, CellScratch* c,
               StageClock* clock, RenderStats* stats) {
-  const AdaptivePlan::Level& piece = plan.adaptive.levels[level];
-  const auto& samplers = plan.adaptive.patterns[piece.pattern];
-  const int end = piece.first + piece.count;
-  const int count = std::min(piece.count, kPiece);
-  const bool by_blocks = level < kCommonLevels && piece.count == 1;
-  const size_t most = kBatchCapacity / static_cast<size_t>(count);
-  for (int first = piece.first; first < end; first += count) {
+  const AdaptivePlan::Level& l = plan.adaptive.levels[level];
+  const auto& samplers = plan.adaptive.patterns[l.pattern];
+  const int end = l.first + l.count;
+  const int count = std::min(l.count, kChunk);
+  const bool by_blocks = level < kCommonLevels && l.count == 1;
+  const size_t capacity = kBatchCapacity / static_cast<size_t>(count);
+  for (int first = l.first; first < end; first += count) {
     s->samples.weights.resize(static_cast<size_t>(count));
     for (int i = 0; i < count; ++i) {
       s->samples.weights[static_cast<size_t>(i)] = SampleWeight(samplers[0], first + i);
@@ -202,34 +208,34 @@ void AddLevel(const FramePlan& plan, const Window& cell, size_t level, TileWork*
     size_t listed = 0;
     const auto flush = [&] {
       if (listed == 0) return;
-      const std::span<const Unit> units(c->units.data(), listed);
+      const std::span<const SampleEntry> list(c->sample_list.data(), listed);
       if (by_blocks) {
-        MakeBlockSamples(samplers.data(), cell, units, first, s, c);
+        MakeBlockSamples(samplers.data(), cell, list, first, s, c);
       } else {
-        MakeUnitSamples(samplers.data(), cell, units, first, count, s, c);
+        MakeListSamples(samplers.data(), cell, list, first, count, s, c);
       }
       if (plan.sampling.numbered) {
-        NumberUnits(samplers.data(), cell, units, first, count, &NumbersOf(&s->samples));
+        NumberListSamples(samplers.data(), cell, list, first, count, &EnsureNumbers(&s->samples));
       }
       ShadeSamples(plan, s, clock, stats);
-      AddUnits(plan, cell, units, s, c);
+      AddListSamples(plan, cell, list, s, c);
       clock->Charge(Stage::kFilm);
       listed = 0;
     };
-    // Groups of 16 pixels, whole blocks in the common levels, or single ones, by replicates.
+    // Whole blocks in the common levels, else single pixels; for each of them all replicates.
     const size_t group = by_blocks ? kBlockPixels : 1;
     for (size_t i = 0; i < c->active.size(); i += group) {
       for (uint32_t replicate = 0; replicate < kReplicates; ++replicate) {
-        for (size_t k = i; k < i + group; ++k) c->units[listed++] = {c->active[k], replicate};
-        if (listed == most) flush();
+        for (size_t k = i; k < i + group; ++k) c->sample_list[listed++] = {c->active[k], replicate};
+        if (listed == capacity) flush();
       }
     }
     flush();
   }
-  for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(piece.count);
+  for (const uint32_t pixel : c->active) c->samples[pixel] += static_cast<uint32_t>(l.count);
 }
 
-// The pixels of the blocks in `blocks` (bits).
+// Lists the pixels of the blocks whose bits are set.
 void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
   pixels->clear();
   for (; blocks != 0; blocks &= blocks - 1) {
@@ -238,9 +244,10 @@ void ListPixels(uint32_t blocks, std::vector<uint32_t>* pixels) {
   }
 }
 
-// The centres of the pixels of the blocks in `blocks` (bits), and which of these blocks that
-// settles.
-uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t plain,
+// Takes one sample through the centre of each pixel of the blocks whose bits are set in `blocks`.
+// Returns, as bits, the blocks of `edge_free` that need no more. The film gets their values, and,
+// of all of `blocks`, positions, depths and ids.
+uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, uint32_t edge_free,
                     TileWork* work, CellScratch* c, StageClock* clock, RenderStats* stats) {
   if (blocks == 0) return 0;
   TileWork& s = *work;
@@ -252,8 +259,9 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
     s.samples.film.y[i] = pixel.y + 0.5;
   }
   s.samples.film.count = pixels.size();
-  // Only where they lie is of interest: no footprint is plain under sampled lights.
-  if (plan.sampling.numbered) NumberAlike(pixels.size(), &NumbersOf(&s.samples));
+  // Any numbers will do: under sampled lights no block stops at its centres, and only positions,
+  // depths and ids are used.
+  if (plan.sampling.numbered) NumberAlike(pixels.size(), &EnsureNumbers(&s.samples));
   ShadeSamples(plan, &s, clock, stats);
   uint32_t hit_of_ray[kCellPixels];
   std::fill_n(hit_of_ray, kCellPixels, kNoHit);
@@ -270,7 +278,7 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
     if (layer.kind == LayerKind::kBeauty) {
       for (size_t i = 0; i < pixels.size(); i += kBlockPixels) {
         const uint32_t bit = 1u << pixels[i] / kBlockPixels;
-        if ((plain & bit) != 0 && IsSmooth(plan, i, values, hit_of_ray, s)) smooth |= bit;
+        if ((edge_free & bit) != 0 && IsSmooth(plan, i, values, hit_of_ray, s)) smooth |= bit;
       }
     }
     for (int channel = 0; channel < FloatChannels(layer.kind); ++channel, ++sum) {
@@ -289,18 +297,18 @@ uint32_t AddCenters(const FramePlan& plan, const Window& cell, uint32_t blocks, 
   return smooth;
 }
 
-// One hit for every pixel whose covered share is known, before its first sample: all of these may
-// miss. Of its hits only the mean counts, so one that is sought out in the middle of what is
-// covered does no harm.
-void SeekHits(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
-              StageClock* clock, RenderStats* stats) {
-  if (c->sought.empty()) return;
+// Gives every pixel whose coverage is known one hit before its first sample, because all samples of
+// a barely covered pixel may miss. Of its hits only the mean is used, so that a point chosen in the
+// middle of the covered part does no harm.
+void AddCoveredHits(const FramePlan& plan, const Window& cell, TileWork* work, CellScratch* c,
+                    StageClock* clock, RenderStats* stats) {
+  if (c->covered_points.empty()) return;
   TileWork& s = *work;
-  for (size_t i = 0; i < c->sought.size(); ++i) {
-    s.samples.film.x[i] = c->sought[i].x;
-    s.samples.film.y[i] = c->sought[i].y;
+  for (size_t i = 0; i < c->covered_points.size(); ++i) {
+    s.samples.film.x[i] = c->covered_points[i].x;
+    s.samples.film.y[i] = c->covered_points[i].y;
   }
-  s.samples.film.count = c->sought.size();
+  s.samples.film.count = c->covered_points.size();
   ShadeSamples(plan, &s, clock, stats);
   MarkHits(s, &c->hits);
   size_t sum = 0;
@@ -315,19 +323,20 @@ void SeekHits(const FramePlan& plan, const Window& cell, TileWork* work, CellScr
       const double* const value = ChannelOf(values, channel).data();
       double* sums[kReplicates];
       FindSums(layer.kind, channel, s.film.sums[sum].data(), c, sums);
-      for (size_t i = 0; i < c->sought.size(); ++i) {
+      for (size_t i = 0; i < c->covered_points.size(); ++i) {
         if (c->hits[i] == 0) continue;
-        const uint32_t pixel = c->sought[i].pixel;
-        // A hit in place of a miss: the number of samples stays.
+        const uint32_t pixel = c->covered_points[i].pixel;
+        // It counts as a hit in place of a miss: the number of samples stays.
         sums[0][pixel] += value[i] - background[channel];
-        if (beauty) c->low[channel][pixel] = c->high[channel][pixel] = value[i];
+        if (beauty) c->hit_low[channel][pixel] = c->hit_high[channel][pixel] = value[i];
       }
     }
     if (layer.kind == LayerKind::kLight) ++light_layer;
   }
   AddNearest(
       plan.film, BatchOf(plan, s),
-      [&](uint32_t ray) { return PixelOf(cell, c->sought[ray].pixel); }, &s.layer_room, &s.film);
+      [&](uint32_t ray) { return PixelOf(cell, c->covered_points[ray].pixel); }, &s.layer_room,
+      &s.film);
   clock->Charge(Stage::kFilm);
 }
 
@@ -346,9 +355,9 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
                 CellScratch* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats) {
   TileWork& s = *work;
   CellScratch& c = *cell_scratch;
-  FindSight(plan.hits, cell, &s.sight);
+  FindTileShapes(plan.hits, cell, &s.shapes);
   clock->Charge(Stage::kIntersect);
-  if (!ShowsAnything(plan, s.sight)) {
+  if (!ShowsAnything(plan, s.shapes)) {
     FillBackground(plan.film, part, strip);
     stats->pixel_samples.Add(0, part.pixel_count());
     clock->Charge(Stage::kFilm);
@@ -357,21 +366,21 @@ void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, T
   StartTile(plan.film, cell, kBatchCapacity, &s.film);
   std::fill_n(c.samples, kCellPixels, 0u);
   clock->Charge(Stage::kFilm);
-  // All that the frame has: pixels tell of one another, whatever part is rendered.
+  // All blocks within the frame, whatever part is rendered: pixels use what their neighbours know.
   const uint32_t blocks = BlocksOf(cell, plan.frame);
-  c.pictures = PicturesOf(plan.camera, s.sight.spheres);
-  const uint32_t plain = FindPlainBlocks(plan, cell, blocks, &s, &c);
+  c.projections = ProjectSpheres(plan.camera, s.shapes.spheres);
+  const uint32_t edge_free = FindEdgeFreeBlocks(plan, cell, blocks, &s, &c);
   clock->Charge(Stage::kIntersect);
   const bool all_centers = s.film.nearest_distance.size() > 0;
   const uint32_t smooth =
-      AddCenters(plan, cell, all_centers ? blocks : plain, plain, &s, &c, clock, stats);
+      AddCenters(plan, cell, all_centers ? blocks : edge_free, edge_free, &s, &c, clock, stats);
   const uint32_t sampled = blocks & ~smooth;
   ClearReplicates(sampled, &c);
   ListPixels(sampled, &c.active);
-  FindOutlines(plan, cell, &c);
+  FindOutlinePixels(plan, cell, &c);
   ClearEvidence(&c);
   FindRareFeatures(plan, cell, &s, &c, clock, stats);
-  SeekHits(plan, cell, &s, &c, clock, stats);
+  AddCoveredHits(plan, cell, &s, &c, clock, stats);
   for (size_t level = 0; level < plan.adaptive.levels.size() && !c.active.empty(); ++level) {
     AddLevel(plan, cell, level, &s, &c, clock, stats);
     DropConverged(plan, level, &c);

@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/adaptive.h: adaptive sampling: every block of 4x4 pixels takes samples until its error is
-// small enough.
+// render/adaptive.h: adaptive sampling: every block of 4x4 pixels takes samples until the estimated
+// error of its pixels is small enough.
 //
 // Blocks lie on a grid of the whole frame and are evaluated whole, so that a block's pixels never
-// depend on crops, strips or threads. A block whose footprint lies on one smooth hit, or beside
-// everything, stops at its pixels' centres (footprint.h). The others take the common levels; then a
-// block stops as a whole, or its pixels one by one, where in each channel the half-width of the 95
-// % confidence interval from the spread of four independent scramblings (Student's t with three
-// degrees of freedom) is below the wanted error times |L|, of 0.05 at least and of white's at
-// most (white_level.h), no neighbour in the block is far from that (convergence.h), and there is
-// evidence enough that nothing rare was missed (evidence.h).
+// depend on the region, strips or threads. A block stops at one sample per pixel, through the
+// centre, if it lies on one sphere that varies smoothly there, or beside all shapes (footprint.h).
+// The others take the common levels. Then a block stops as a whole, or its pixels stop one by one,
+// when
+// - in each channel the half-width of the 95 % confidence interval of the mean is below the
+//   tolerance. The interval comes from the spread of four independently scrambled replicates of the
+//   sample pattern, by Student's t with three degrees of freedom. The tolerance is max_error times
+//   |L|, where |L| is clamped to at least 0.05 and at most white (white_level.h);
+// - no neighbour in the block is far from its tolerance (convergence.h);
+// - there are enough samples to rule out that something rare was missed (evidence.h).
 //
-// Most of the error of a picture of spheres is in the pixels on their outlines, where samples tell
-// how much of the pixel is covered. Of a pixel that one outline crosses before the background this
-// is known (outline_coverage.h), and samples need only tell what the covered part looks like.
+// In pictures of spheres most of the error is in the pixels on outlines, where the share of samples
+// that hit estimates how much of the pixel is covered. Where a pixel shows one outline in front of
+// the background, this coverage is computed exactly (outline_coverage.h), and samples need only
+// estimate the radiance of the covered part.
 #pragma once
 
 #include "render/cell_scratch.h"
 
 namespace nacre {
 
-// Renders the pixels of `part` of a cell of the frame into the strip.
+// Renders a cell of the frame and writes the pixels of `part`, a part of it, to the strip.
 void RenderCell(const FramePlan& plan, const Window& cell, const Window& part, TileWork* work,
                 CellScratch* cell_scratch, Strip* strip, StageClock* clock, RenderStats* stats);
 

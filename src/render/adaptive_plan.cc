@@ -13,7 +13,8 @@
 namespace nacre {
 namespace {
 
-// About where the narrowest lobe has fallen to half its height.
+// The angle at which the material's narrowest lobe has fallen to about half its peak, in radians;
+// infinite without a lobe.
 double LobeWidth(const ShadingMaterial& material) {
   if (material.coat) {
     ShadingMaterial below = material;
@@ -32,8 +33,8 @@ double LobeWidth(const ShadingMaterial& material) {
                     material.model);
 }
 
-// The second moment of |filter| along one axis, pixels squared: what the curvature of a picture
-// adds to the mean over a pixel is half of it.
+// The second moment of |filter| along one axis, in pixels squared. Half of it times the second
+// derivative is what the mean over a pixel differs by from the value at its centre.
 double SecondMoment(const PixelFilter& filter) {
   constexpr int kSteps = 4096;
   double sum = 0, moment = 0;
@@ -46,7 +47,7 @@ double SecondMoment(const PixelFilter& filter) {
   return moment / sum;
 }
 
-// A cone whose edge falls within few pixels is no smooth light.
+// Whether a spot light has a hard edge, which may lie between pixel centres unnoticed.
 bool HasHardCone(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
     const auto* spot = std::get_if<SpotLight>(&light.kind);
@@ -71,7 +72,7 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
       pattern[r] = MakeReplicateSampler(filter, samples, static_cast<uint32_t>(key));
     }
   };
-  // Few samples cannot hold a negative lobe's share.
+  // A filter with negative lobes needs several samples, some of which have negative weights.
   int count = both_signs ? 4 : 1;
   int total = 0;
   while (kReplicates * total < max_samples) {
@@ -85,18 +86,19 @@ AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>
     total += count;
   }
   if (!both_signs) add_pattern(total);
-  // What is sampled is not known from one sample, however smooth it is.
+  // With lights that are sampled, one sample of a pixel is noisy however smooth the surface is.
   const bool sampled =
       std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
         return !IsPunctual(light) && !std::holds_alternative<AmbientLight>(light.kind);
       });
   plan.footprints = !both_signs && !HasHardCone(scene) && !sampled;
   plan.center = MakePixelSampler(filter, 1, scene.image.seed);
-  plan.reach = std::max(filter.width / 2, 0.5);
-  // Half the second moment where the picture is smooth; where a line of a pixel bends it, at the
-  // edge of a light's hemisphere, up to three times that (of a box: 1/8 of the bend, not 1/24).
+  plan.filter_radius = std::max(filter.width / 2, 0.5);
+  // Half the second moment where the picture is smooth. Where its slope changes within a pixel, as
+  // where a surface turns away from a light, up to three times that (for a box: 1/8 of the change
+  // of slope instead of 1/24).
   plan.center_error = 1.5 * SecondMoment(filter);
-  for (const ShadingMaterial& material : materials) plan.widths.push_back(LobeWidth(material));
+  for (const ShadingMaterial& material : materials) plan.lobe_widths.push_back(LobeWidth(material));
   return plan;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/adaptive_plan.h: how a picture with a wanted error is sampled, decided once.
+// render/adaptive_plan.h: what adaptive sampling (adaptive.h) decides once per frame.
 #pragma once
 
 #include <array>
@@ -12,59 +12,63 @@
 
 namespace nacre {
 
-// Independent scramblings of the same sample pattern, whose spread tells the error of their mean.
+// Independently scrambled copies of a pixel's sample pattern. Their spread estimates the error of
+// their mean.
 inline constexpr int kReplicates = 4;
 
-// A light that highlights may be of, as a point or a ball around what it extends over.
+// A light that causes highlights: a point, or the bounding ball of a light with an extent.
 struct HighlightLight {
-  size_t number;  // punctual ones first, then those with an extent, as in DirectPlan
-  bool far;       // of parallel light
-  Vec3d place;    // relative to the camera; of a far light the unit direction to it
-  double radius;  // 0 of a punctual light
+  size_t number;     // punctual lights first, then those with an extent, as in DirectPlan
+  bool directional;  // its light is parallel
+  Vec3d position;    // relative to the camera; of a directional light the unit direction to it
+  double radius;     // 0 for a punctual light
 };
 
-// A highlight of a light on a sphere or a mesh, in pixels of the frame.
+// A highlight of a light on a sphere or a mesh. Film positions and areas are in pixels.
 struct Glint {
   uint32_t primitive;
   uint32_t material;
   size_t light;  // HighlightLight::number
-  double x, y;   // where its peak lies
-  double area;   // of a disk as bright as the peak that has all of the highlight's flux
-  // From the peak a step on the film that is four times the highlight's half-width, or to the
-  // sphere's centre if that is less: to what is seen beside it.
+  double x, y;   // of its peak on the film
+  double area;   // of a disk of the peak's radiance that has the flux of the whole highlight
+  // An offset on the film from the peak to a point beside the highlight: four times its half-width
+  // towards the sphere's centre, or to the centre if that is nearer.
   double beside_x, beside_y;
 };
 
 struct AdaptivePlan {
-  double max_error = 0;  // 0: every pixel takes the same samples
+  double max_error = 0;  // relative, see ErrorBound; 0: all pixels take the same samples
   double white = 0;      // WhiteLevel
   double brightest = 0;  // BrightestObject
-  int max_samples = 0;   // about, of a pixel
-  // Samples are added level by level: as many again as there are, in each replicate. Of most
-  // filters they go on in one pattern, of which every such beginning is as well spread as a pattern
-  // of its own, so that its error falls as that of uniform sampling. The weights of a filter with
-  // negative lobes depend on the count: each level has a pattern of its own.
+  int max_samples = 0;   // of a pixel, approximately
+  // Samples are taken level by level; each level doubles the samples of each replicate. For most
+  // filters a level continues one pattern, every prefix of which is as well distributed as a
+  // pattern of that length, so that the error falls as with uniform sampling. The weights of a
+  // filter with negative lobes depend on the number of samples, so each level has a pattern of its
+  // own.
   struct Level {
     size_t pattern;
     int first, count;  // samples of the pattern
   };
   std::vector<Level> levels;
   std::vector<std::array<PixelSampler, kReplicates>> patterns;
-  // Where the footprint test may stop a block at the pixels' centres:
+  // Whether blocks may stop at the centres of their pixels (footprint.h).
   bool footprints = false;
-  // Half the side of the square that a pixel is the mean of, where it may be known what share of it
-  // a sphere covers before the background; or 0.
+  // Half the side, in pixels, of the square that a box filter averages, if the coverage of pixels
+  // on outlines can be computed exactly (outline_coverage.h); else 0.
   double square = 0;
   PixelSampler center;
-  double reach = 0.5;                  // of the pixel filter, from the centre
-  double center_error = 0;             // of a centre's value, in units of its second differences
-  std::vector<double> widths;          // of each material's narrowest lobe, in radians
+  double filter_radius = 0.5;  // in pixels from a pixel's centre
+  // The error of taking a pixel's centre for its mean, as a multiple of the second differences.
+  double center_error = 0;
+  std::vector<double> lobe_widths;     // half-width of each material's narrowest lobe, in radians
   std::vector<HighlightLight> lights;  // all but skies
   SmallTriangles small_triangles;
-  std::vector<Glint> mesh_glints;  // from the top of the film down
+  std::vector<Glint> mesh_glints;  // by ascending y
 };
 
-// `max_samples`: of a pixel, at least. Materials are those of the scene.
+// `max_samples`: the largest number of samples of a pixel is at least this. `materials`: those of
+// the scene, in its order.
 AdaptivePlan PlanAdaptive(const Scene& scene, const std::vector<ShadingMaterial>& materials,
                           double max_error, int max_samples);
 

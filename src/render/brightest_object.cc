@@ -28,24 +28,25 @@ double MeanRadiance(const EnvironmentMap& map) {
   return sum / (4 * M_PI);
 }
 
-// What an object reflects of surroundings of radiance 1, at most. Classic Phong materials lack the
-// 1/pi, and their lobe, without n.l, gathers a solid angle of 2 pi / (n + 1).
-double MostReflected(const Scene& scene) {
-  double most = 1;
+// The most that any material of the scene reflects of surroundings of radiance 1. Classic Phong
+// materials lack the factor 1/pi, and their lobe, without n.l, integrates to 2 pi / (n + 1).
+double MaxReflectance(const Scene& scene) {
+  double largest = 1;
   for (const Material& material : scene.materials) {
     if (!IsClassic(material)) continue;
     const auto& phong = std::get<PhongMaterial>(material.model);
     const double exponent = phong.shininess_map.valid() ? 0 : phong.shininess;
     const Rgb matte = phong.color * phong.kd * M_PI, lobe = phong.ks * (2 * M_PI / (exponent + 1));
     const Rgb all = matte + lobe;
-    most = std::max({most, all.x, all.y, all.z});
+    largest = std::max(largest, LargestChannel(all));
   }
-  return most;
+  return largest;
 }
 
-// A mirror ball's picture shows all directions alike, a matte one at most 4 times their mean.
+// A bound of the mean radiance that an object of reflectance 1 shows under the light. The picture
+// of a mirror ball shows all directions equally; a matte object shows at most 4 times their mean.
 double BrightestUnder(const SampledLight& light) {
-  const double color = std::max({light.color.x, light.color.y, light.color.z});
+  const double color = LargestChannel(light.color);
   switch (light.form) {
     case SampledForm::kGradientSky:
     case SampledForm::kQuadraticSky:
@@ -65,12 +66,12 @@ double BrightestObject(const Scene& scene, const DirectPlan& direct, double whit
   for (const Light& light : scene.lights) {
     if (IsPunctual(light)) return kNoBound;
     if (const auto* ambient = std::get_if<AmbientLight>(&light.kind)) {
-      brightest += std::max({ambient->radiance.x, ambient->radiance.y, ambient->radiance.z});
+      brightest += LargestChannel(ambient->radiance);
     }
   }
-  const double reflected = MostReflected(scene);
+  const double reflectance = MaxReflectance(scene);
   for (const PlannedSampledLight& light : direct.sampled_lights) {
-    brightest += reflected * BrightestUnder(light.light);
+    brightest += reflectance * BrightestUnder(light.light);
   }
   return brightest;
 }

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/brightest_object.h: how bright a small object can be: what adaptive sampling fears to
-// miss.
+// render/brightest_object.h: an upper bound of the radiance of small objects. Adaptive sampling
+// uses it to decide which objects are too small to matter if all samples miss them.
 #pragma once
 
 #include "render/direct_plan.h"
 
 namespace nacre {
 
-// The largest mean radiance that the picture of a whole small object can have: `white`
-// (WhiteLevel), or without one what area lights and skies make of it; infinite where that is not
-// known.
+// An upper bound of the mean radiance of an object that is seen whole: `white` (WhiteLevel) if that
+// is finite, else a bound from the area lights and skies. Infinite if no bound is known.
 double BrightestObject(const Scene& scene, const DirectPlan& direct, double white);
 
 }  // namespace nacre

@@ -18,7 +18,7 @@ CameraAxes MakeAxes(const Camera& camera) {
   return basis;
 }
 
-// Half the height of the view: at distance 1 (perspective), or in world units (orthographic).
+// Half the height of the view, at distance 1 (perspective) or in world units (orthographic).
 double HalfHeight(const Camera& camera) {
   return camera.projection == Projection::kPerspective ? std::tan(camera.fov_y_deg * M_PI / 360)
                                                        : camera.height / 2;
@@ -51,7 +51,7 @@ Imath::M44d WorldToCamera(const Camera& camera) {
 Imath::M44d WorldToNdc(const Camera& camera, int width, int height) {
   const double y = 1 / HalfHeight(camera);
   const double x = y * height / width;
-  // Perspective divides by the distance along the view, and z becomes its inverse.
+  // Perspective divides by the depth, and z becomes its reciprocal.
   const Imath::M44d perspective(x, 0, 0, 0, 0, y, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0);
   const Imath::M44d orthographic(x, 0, 0, 0, 0, y, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
   return WorldToCamera(camera) *

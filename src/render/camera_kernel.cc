@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/camera_kernel.cc: rays through film positions, by the operations of the tiles' kernels
-// (visibility/camera_packet-inl.h).
+// render/camera_kernel.cc: the kernel of MakeCameraRays. The operations are those of
+// visibility/camera_packet-inl.h, so that rays have the same bits wherever they are made.
 #include "render/camera.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -27,8 +27,8 @@ void MakeCameraRaysT(const CameraFrame& frame, const double* film_x, const doubl
   const auto step_y = SetVec3(d, frame.step_y);
   rays->count = count;
   const auto make = [&](size_t i, auto x, auto y) HWY_ATTR {
-    const auto own = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
-    Store3(own, d, varying.x.data() + i, varying.y.data() + i, varying.z.data() + i);
+    const auto varying_value = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
+    Store3(varying_value, d, varying.x.data() + i, varying.y.data() + i, varying.z.data() + i);
     Store3(fixed, d, constant.x.data() + i, constant.y.data() + i, constant.z.data() + i);
   };
   const size_t step = hn::Lanes(d);

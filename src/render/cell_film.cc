@@ -7,10 +7,10 @@
 namespace nacre {
 namespace {
 
-// The cell's pixels that lie in `part`, from rows of blocks into rows of the strip.
+// Copies the cell's pixels that lie in `part` from block order to rows of the strip.
 template <typename T>
-void PutCell(const Window& cell, const Window& part, const Strip& strip, const T* values,
-             AlignedArray<T>* to) {
+void CopyCell(const Window& cell, const Window& part, const Strip& strip, const T* values,
+              AlignedArray<T>* to) {
   const auto stride = static_cast<size_t>(strip.window.width());
   for (size_t b = 0; b < kCellBlocks; ++b, values += kBlockPixels) {
     const Window block = BlockWindow(cell, b);
@@ -25,7 +25,7 @@ void PutCell(const Window& cell, const Window& part, const Strip& strip, const T
   }
 }
 
-// Calls body(first) for the first pixel of each of the blocks in `blocks` (bits).
+// Calls body(first) with the first pixel of each block whose bit is set.
 template <class Body>
 void ForEachBlock(uint32_t blocks, const Body& body) {
   for (; blocks != 0; blocks &= blocks - 1) {
@@ -64,9 +64,9 @@ PixelSampleCounts CountSamples(const Window& cell, const Window& part, const Cel
   return counts;
 }
 
-// Where n samples, h of which hit, fall on a share s of a pixel that is covered, its value is s
-// times the mean of the hits and 1 - s times the background, which all others see: of their sum,
-// s / h, and of the background 1 - s n / h. Elsewhere it is the mean of all.
+// A pixel of coverage s is s times the mean of its hits plus (1 - s) times the background. If h of
+// its n samples hit, their sum holds the background n - h times, so the pixel is s / h times the
+// sum plus 1 - s n / h times the background. Other pixels are the mean of all samples.
 void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& c, Strip* strip) {
   double of_sum[kCellPixels], of_background[kCellPixels];
@@ -75,8 +75,8 @@ void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
     const double samples = double{kReplicates} * c.samples[i];
     of_sum[i] = c.samples[i] == 0 ? 1 : 1 / samples;
     of_background[i] = 0;
-    if (c.samples[i] == 0 || c.covered[i] < 0) continue;
-    of_sum[i] = hits[i] > 0 ? c.covered[i] / hits[i] : 0;
+    if (c.samples[i] == 0 || c.coverage[i] < 0) continue;
+    of_sum[i] = hits[i] > 0 ? c.coverage[i] / hits[i] : 0;
     of_background[i] = 1 - of_sum[i] * samples;
   }
   std::vector<double> backgrounds;  // of the averaged channels
@@ -94,11 +94,11 @@ void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
       for (size_t i = 0; i < kCellPixels; ++i) {
         values[i] = static_cast<float>(sums[i] * of_sum[i] + background * of_background[i]);
       }
-      PutCell(cell, part, *strip, values, &strip->colors[color++]);
+      CopyCell(cell, part, *strip, values, &strip->colors[color++]);
     } else if (kind == ChannelKind::kNearest) {
-      PutCell(cell, part, *strip, film.nearest[nearest++].data(), &strip->colors[color++]);
+      CopyCell(cell, part, *strip, film.nearest[nearest++].data(), &strip->colors[color++]);
     } else {
-      PutCell(cell, part, *strip, film.ids[id].data(), &strip->ids[id]);
+      CopyCell(cell, part, *strip, film.ids[id].data(), &strip->ids[id]);
       ++id;
     }
   }

@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/cell_film.h: the film of adaptive sampling: a cell's pixels, block by block, each with as
-// many samples as it took.
+// render/cell_film.h: the film of adaptive sampling: the sums of a cell's pixels, which are ordered
+// block by block and have different numbers of samples.
 #pragma once
 
 #include "render/cell_scratch.h"
 
 namespace nacre {
 
-// Empties the replicates' sums in the blocks in `blocks` (bits).
+// Clears the replicates' sums in the blocks whose bits are set.
 void ClearReplicates(uint32_t blocks, CellScratch* cell_scratch);
 
-// Adds them to the film's first four channels, the beauty and coverage.
+// Adds the replicates' sums to the film's first four channels, beauty and coverage.
 void AddReplicates(uint32_t blocks, const CellScratch& cell_scratch, TileFilm* film);
 
-// The samples of the cell's pixels that lie in `part`.
+// Counts the samples of the cell's pixels that lie in `part`.
 PixelSampleCounts CountSamples(const Window& cell, const Window& part,
                                const CellScratch& cell_scratch);
 
-// Divides by the numbers of samples, or weighs what hits and the background by the shares of the
-// pixels that are known to be covered, and puts the cell's pixels that lie in `part` into the
-// strip.
+// Turns sums into means and writes the cell's pixels that lie in `part` to the strip. A pixel of
+// known coverage is the mean of its hits and the background, weighted by the coverage.
 void ResolveCell(const FramePlan& plan, const Window& cell, const Window& part,
                  const TileFilm& film, const CellScratch& cell_scratch, Strip* strip);
 

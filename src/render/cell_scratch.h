@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/cell_scratch.h: what adaptive sampling (adaptive.h) knows of the pixels of one cell.
+// render/cell_scratch.h: what adaptive sampling (adaptive.h) knows about the pixels of one cell.
 #pragma once
 
 #include <algorithm>
@@ -8,66 +8,68 @@
 
 #include "render/interval.h"
 #include "render/interval_kernel.h"
-#include "render/sphere_pictures.h"
+#include "render/sphere_projections.h"
 #include "render/tile_work.h"
 #include "visibility/sphere_bins.h"
 
 namespace nacre {
 
-// Blocks are grouped by the cells of the intersector's bins (kCellSize).
+// The blocks of one cell of the intersector's bins (kCellSize).
 inline constexpr size_t kCellBlocks =
     size_t{kCellSize / kBlockSide} * size_t{kCellSize / kBlockSide};
 inline constexpr size_t kCellPixels = kCellBlocks * kBlockPixels;
 
-// Pixels are numbered block by block, row by row within a block.
+// Pixels are numbered block by block, and row by row within a block.
 struct CellScratch {
-  // Samples of one replicate of one pixel.
-  struct Unit {
+  // A pixel to sample by the pattern of one replicate.
+  struct SampleEntry {
     uint32_t pixel;
     uint32_t replicate;
   };
 
   std::vector<uint32_t> active;   // pixels that need more samples
-  uint32_t samples[kCellPixels];  // of each pixel in each replicate; 0: its centre
-  // Sums of the samples in each replicate: of the beauty, and of coverage (kAlphaSum).
+  uint32_t samples[kCellPixels];  // of each pixel in each replicate; 0: only its centre
+  // Sums of the samples of each replicate: the three channels of the beauty, and coverage.
   double replicate[kReplicates][4][kCellPixels];
-  BlockIntervals intervals[kCellBlocks];               // of blocks with active pixels
-  std::optional<std::vector<SpherePicture>> pictures;  // of the cell's spheres, unless too many
-  uint32_t outlines_only;             // blocks, as bits, whose only edges are outlines of spheres
-  uint32_t outlined;                  // blocks, as bits, with such pixels:
-  bool on_outline[kCellPixels];       // a sphere's outline crosses the pixel
-  bool sees_background[kCellPixels];  // of these: no sphere covers all of the pixel
-  double covered[kCellPixels];  // the share that the sphere covers, or -1 where it is not known
-  // The range of a pixel's samples that hit, if they were added by whole blocks; and that of all of
-  // them on the outlines of a block.
-  double low[3][kCellPixels], high[3][kCellPixels];
+  BlockIntervals intervals[kCellBlocks];  // of blocks with active pixels
+  // The spheres that rays of the cell may hit, projected; none if they are too many.
+  std::optional<std::vector<SphereProjection>> projections;
+  uint32_t only_outlines;             // blocks, as bits, whose only edges are outlines of spheres
+  uint32_t outlined;                  // blocks, as bits, that have pixels with on_outline
+  bool on_outline[kCellPixels];       // the outline of a sphere may cross the pixel
+  bool sees_background[kCellPixels];  // where on_outline: no sphere covers the whole pixel
+  double coverage[kCellPixels];       // the pixel's coverage in [0, 1], or -1 if it is not known
+  // The range of those samples of a pixel that hit and were taken by whole blocks, and its union
+  // over the pixels of a block that lie on outlines.
+  double hit_low[3][kCellPixels], hit_high[3][kCellPixels];
   PixelRange outline_range[3][kCellBlocks];
-  // The two least and the two greatest of all samples of a pixel, misses too (evidence.h).
-  double low1[3][kCellPixels], low2[3][kCellPixels];
-  double high2[3][kCellPixels], high1[3][kCellPixels];
-  // What few samples find of a pixel (rare_features.h): how many find it, and at most how much of
-  // the pixel's radiance it is.
+  // The two least and the two greatest of all samples of a pixel, misses included (evidence.h).
+  double lowest[3][kCellPixels], second_lowest[3][kCellPixels];
+  double second_highest[3][kCellPixels], highest[3][kCellPixels];
+  // Rare features of a pixel, which few of its samples hit (rare_features.h): how many samples are
+  // needed to hit them, and an upper bound of what they add to the pixel's radiance.
   double rare_samples[kCellPixels], rare_radiance[kCellPixels];
-  // The same of triangles of one material (rare_triangles.h), whose radiance is known: pixel by
-  // pixel.
+  // Rare triangles of one material in one pixel (rare_triangles.h), whose radiance is known. Sorted
+  // by pixel.
   struct RareTriangles {
     uint32_t pixel;
-    double share;  // of the pixel's samples, that hit them
-    Rgb radiance;  // what they add to the pixel's: times that share
+    double share;  // of the pixel's samples that hit them
+    Rgb radiance;  // what they add to the pixel, that is, their radiance times the share
   };
   std::vector<RareTriangles> rare_triangles;
-  // What comes of both where it matters for the pixel as it looks now (evidence.h): how many
-  // samples it must have; 0 where nothing that is rare does.
-  double known_rare[kCellPixels];
-  // Pixels whose covered share is known, and a place on the film in each that hits.
-  struct SoughtHit {
+  // How many samples a pixel needs to find the rare features that matter to it, given what it looks
+  // like so far (evidence.h); 0 if none does.
+  double required_samples[kCellPixels];
+  // A point on the film, in pixels, whose ray hits the sphere that partly covers the pixel.
+  struct CoveredPoint {
     uint32_t pixel;
     double x, y;
   };
-  std::vector<SoughtHit> sought;
+  std::vector<CoveredPoint> covered_points;  // one for each pixel whose coverage is known
+  // Buffers.
   std::vector<double> hits = std::vector<double>(kBatchCapacity);  // 1 for rays that hit, else 0
   std::vector<SampledPixel> pixels;
-  std::vector<Unit> units = std::vector<Unit>(kBatchCapacity);  // room for those of a batch
+  std::vector<SampleEntry> sample_list = std::vector<SampleEntry>(kBatchCapacity);  // of a batch
   PixelBatch block{kBlockPixels};
   FilmBatch corners;  // of footprints
   CameraHits corner_hits;
@@ -87,7 +89,7 @@ inline FilmPixel PixelOf(const Window& cell, uint32_t pixel) {
   return {pixel, block.x0 + in_block % kBlockSide, block.y0 + in_block / kBlockSide};
 }
 
-// Numbers for samples that stand alone, not in a pattern.
+// Gives the same number to samples that belong to no pixel's pattern.
 inline void NumberAlike(size_t count, SampleNumbers* numbers) {
   std::fill_n(numbers->number.data(), count, 0u);
   std::fill_n(numbers->pixel.data(), count, 0u);

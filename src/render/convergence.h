@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/convergence.h: when a pixel of adaptive sampling has samples enough.
+// render/convergence.h: when a pixel of adaptive sampling has enough samples.
 #pragma once
 
 #include "render/cell_scratch.h"
 
 namespace nacre {
 
-// Levels after which blocks are asked first whether they have converged, at the latest: all samples
-// of level 0 and 1 are then added by whole blocks.
+// Convergence is tested for the first time after this many levels, or one level earlier. All
+// samples of the levels before the last of these are added by whole blocks.
 inline constexpr size_t kCommonLevels = 3;
 
-// Finds, before their first sample, the active pixels that outlines cross, and what is covered of
-// those that the outline of one sphere crosses before the background.
-void FindOutlines(const FramePlan& plan, const Window& cell, CellScratch* cell_scratch);
+// Before the first sample: finds the active pixels that outlines of spheres may cross, and the
+// coverage of those that show a single outline in front of the background.
+void FindOutlinePixels(const FramePlan& plan, const Window& cell, CellScratch* cell_scratch);
 
-// Takes the pixels that have converged from the active ones, after a level: whole blocks after
-// their common levels, and then the pixels whose neighbours, too, are not far from what they want.
+// After a level: removes the pixels that have converged from the active ones. After a block's
+// common levels the block is removed if all of its pixels are within their tolerances; later,
+// single pixels whose neighbours are not far from their tolerances either.
 void DropConverged(const FramePlan& plan, size_t level, CellScratch* cell_scratch);
 
-// Of the pixels that are still active after the last level, those whose error may be more than the
-// wanted part of their value: highlights that are not as exact as white is do not count.
-// Those of the cell that lie in `part` are counted.
+// Counts the pixels in `part` that are still active after the last level and whose relative error
+// may be more than max_error. Here a highlight's error is relative to the highlight, not to white.
 size_t CountUnsettled(const FramePlan& plan, const Window& cell, const Window& part,
                       CellScratch* cell_scratch);
 

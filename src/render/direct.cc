@@ -11,7 +11,7 @@
 namespace nacre {
 namespace {
 
-// Whether shadow rays to the light need be cast from the batch.
+// Whether any hit of the batch needs a shadow ray to the light.
 bool CastsShadowRays(const DirectPlan& plan, const PlannedPunctualLight& planned,
                      const HitBatch& hits) {
   if (!hits.one_primitive) return planned.shadow_rays;
@@ -19,7 +19,8 @@ bool CastsShadowRays(const DirectPlan& plan, const PlannedPunctualLight& planned
          plan.intersector->MayOcclude(planned.occluders, hits);
 }
 
-// Takes the light from the hits that lie in its shadow. Only hits that it reaches are asked.
+// Sets the irradiance to 0 at hits that lie in the light's shadow. Only hits that the light can
+// illuminate get a shadow ray.
 void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) {
   const DirectPlan& plan = batch.plan;
   const HitBatch& hits = batch.hits();
@@ -29,13 +30,13 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
   rays.light = planned.occluders;
   rays.outward = plan.eye_outside;
   rays.camera_extent = plan.camera_extent;
-  // Without a branch on what is lit, which would go either way from hit to hit.
+  // Without a branch on whether a hit is lit, which would be mispredicted.
   const bool all = hits.one_primitive && !NeverShadowed(planned, hits.primitive[0]);
   size_t count = 0;
   for (size_t i = 0; i < batch.lit(); ++i) {
     room.shadow_hits[count] = static_cast<uint32_t>(i);
-    const bool asked = all || !NeverShadowed(planned, hits.primitive[i]);
-    count += static_cast<size_t>(asked & (room.light.irradiance[i] > 0));
+    const bool may_be = all || !NeverShadowed(planned, hits.primitive[i]);
+    count += static_cast<size_t>(may_be & (room.light.irradiance[i] > 0));
   }
   rays.count = count;
   batch.stats.shadow_rays += count;
@@ -47,7 +48,8 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
   }
 }
 
-// `lights` is one alone, evaluated, where maps have turned normals.
+// Shades all lit runs. Where normals are mapped, `lights` is a single light that has been
+// evaluated.
 void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, OutputMode output,
                ReflectedRadiance* radiance) {
   const LitHits lit{batch.hits(), batch.surface(), lights, batch.surfaces.textures.get(), output};
@@ -57,10 +59,10 @@ void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, O
   }
 }
 
-// A light that is asked for its shadows, or kept apart in a layer, or of a form that takes a pass
-// of its own.
-void ShadeByOne(const DirectBatch& batch, const PlannedPunctualLight& planned, bool shadow_rays,
-                OutputMode output) {
+// A light that needs a pass of its own: one with shadow rays, with a layer of its own, or of a form
+// that the kernels do not evaluate.
+void ShadeByPunctualLight(const DirectBatch& batch, const PlannedPunctualLight& planned,
+                          bool shadow_rays, OutputMode output) {
   DirectRoom& room = batch.room;
   EvaluateLight(planned.light, batch.hits(), batch.surface(), &room.light);
   if (batch.surface().turned) HideLightsBelowHorizon(batch);
@@ -70,32 +72,33 @@ void ShadeByOne(const DirectBatch& batch, const PlannedPunctualLight& planned, b
     batch.clock.Charge(Stage::kShadow);
   }
   const LightOnBatch light{&planned.light, &room.light};
-  // One light's parts are added up before they are added to others', in a layer or not.
+  // The radiance of such a light is summed by itself before it is added to that of other lights,
+  // whether or not a layer is rendered: layers must not change bits.
   const bool apart = planned.layer >= 0 || batch.surface().turned;
   if (!apart || batch.plan.one_light) {
     ShadeRuns(batch, {&light, 1}, output, &batch.radiance.total);
-    if (planned.layer >= 0) ShowLight(batch, batch.radiance.total, planned.layer);
+    if (planned.layer >= 0) AddToLightLayer(batch, batch.radiance.total, planned.layer);
   } else {
     ShadeRuns(batch, {&light, 1}, OutputMode::kOverwrite, &room.single);
-    AddLight(batch, room.single, planned.layer);
+    AddLightRadiance(batch, room.single, planned.layer);
   }
 }
 
-// In the order of the lights. Those that need nothing but their sum are taken together while they
-// follow one another.
+// Shades by the lights in their order. Consecutive lights that need no pass of their own are shaded
+// by one call of the kernels.
 void ShadeByPunctualLights(const DirectBatch& batch) {
   const DirectPlan& plan = batch.plan;
   const HitBatch& hits = batch.hits();
   const BatchBounds bounds = plan.cull_lights ? BoundHits(hits, batch.surface()) : BatchBounds{};
   batch.clock.Charge(Stage::kLight);
-  std::vector<LightOnBatch>& together = batch.room.together;
-  together.clear();
-  bool dark = true;  // nothing is in the total yet
+  std::vector<LightOnBatch>& light_group = batch.room.light_group;
+  light_group.clear();
+  bool dark = true;  // the total has not been written yet
   const auto output = [&] { return dark ? plan.output : OutputMode::kAccumulate; };
-  const auto shade_together = [&] {
-    if (together.empty()) return;
-    ShadeRuns(batch, together, output(), &batch.radiance.total);
-    together.clear();
+  const auto shade_group = [&] {
+    if (light_group.empty()) return;
+    ShadeRuns(batch, light_group, output(), &batch.radiance.total);
+    light_group.clear();
     dark = false;
   };
   const auto clear_if_dark = [&] {
@@ -104,29 +107,29 @@ void ShadeByPunctualLights(const DirectBatch& batch) {
   };
   for (const PlannedPunctualLight& planned : plan.lights) {
     ++batch.stats.light_batches;
-    if (plan.cull_lights && !MayReach(planned.reach, bounds)) {
+    if (plan.cull_lights && !MayIlluminate(planned.geometry, bounds)) {
       ++batch.stats.culled_lights;
       continue;
     }
     const bool shadow_rays = CastsShadowRays(plan, planned, hits);
     if (!shadow_rays && planned.layer < 0 && !batch.surface().turned &&
         EvaluatedInPlace(planned.light)) {
-      together.push_back({&planned.light, nullptr});
+      light_group.push_back({&planned.light, nullptr});
     } else {
-      shade_together();
+      shade_group();
       const bool apart = planned.layer >= 0 || batch.surface().turned;
       if (apart && !plan.one_light) clear_if_dark();
-      ShadeByOne(batch, planned, shadow_rays, output());
+      ShadeByPunctualLight(batch, planned, shadow_rays, output());
       dark = false;
     }
     batch.stats.shades += batch.lit();
   }
-  shade_together();
+  shade_group();
   clear_if_dark();
   batch.clock.Charge(Stage::kShade);
 }
 
-// All but the coats over the hits.
+// Everything except the coats over the hits.
 void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.radiance.per_light.resize(batch.plan.light_layer_count);
   if (batch.lit() > 0) {
@@ -140,24 +143,24 @@ void ShadeSurfaces(const DirectBatch& batch, const SampleNumbers* numbers) {
   batch.clock.Charge(Stage::kShade);
 }
 
-// light * share, but 0 for a share of 0 where the light has overflowed: infinity times 0 is NaN.
-float LeftOf(float light, float share) { return share > 0 ? light * share : 0; }
+// light * share, but 0 for a share of 0 even if the light has overflowed to infinity.
+float Attenuated(float light, float share) { return share > 0 ? light * share : 0; }
 
-// Attenuates the radiance of the hits below coats by what each coat transmits, 1 less its
+// Attenuates the radiance of the hits below coats by what each coat transmits, which is 1 minus its
 // directional albedo, and adds what the coat itself reflects.
-void CoverBelow(const CoatedHits& coats, const Soa3<float>& of_coats, Soa3<float>* below) {
-  const Soa3<float>& left = coats.surfaces.surface.base;
+void CoverBelow(const CoatedHits& coats, const Soa3<float>& coat_radiance, Soa3<float>* below) {
+  const Soa3<float>& transmitted = coats.surfaces.surface.base;
   for (size_t i = 0; i < coats.surfaces.hits.count; ++i) {
     const size_t j = coats.below[i];
-    below->x[j] = LeftOf(below->x[j], left.x[i]) + of_coats.x[i];
-    below->y[j] = LeftOf(below->y[j], left.y[i]) + of_coats.y[i];
-    below->z[j] = LeftOf(below->z[j], left.z[i]) + of_coats.z[i];
+    below->x[j] = Attenuated(below->x[j], transmitted.x[i]) + coat_radiance.x[i];
+    below->y[j] = Attenuated(below->y[j], transmitted.y[i]) + coat_radiance.y[i];
+    below->z[j] = Attenuated(below->z[j], transmitted.z[i]) + coat_radiance.z[i];
   }
 }
 
 void ShadeCoats(const DirectBatch& batch, const SampleNumbers* numbers) {
   const CoatedHits& coats = *batch.surfaces.coats;
-  std::unique_ptr<BatchRadiance>& room = batch.room.of_coats;
+  std::unique_ptr<BatchRadiance>& room = batch.room.coat_radiance;
   if (!room) room = std::make_unique<BatchRadiance>();
   ShadeSurfaces({batch.plan, coats.surfaces, batch.room, *room, batch.clock, batch.stats,
                  batch.plan.coat_pairs},
@@ -179,8 +182,8 @@ void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers) {
   if (AnyCoat(batch.surfaces)) ShadeCoats(batch, numbers);
 }
 
-void SeeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,
-            BatchRadiance* radiance) {
+void ShadeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,
+              BatchRadiance* radiance) {
   if (!plan.sky || hits == film.count) return;
   MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &room->sky_rays);
   SkyRadiance(plan.sampled_lights[*plan.sky].light, room->sky_rays.direction, film.count,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/direct.h: the fourth stage, an integrator: what surfaces reflect of light that comes
-// straight from the lights.
+// render/direct.h: the fourth stage, an integrator: direct light, that is, what surfaces reflect of
+// light that arrives straight from a light.
 #pragma once
 
 #include "render/direct_batch.h"
@@ -8,13 +8,13 @@
 
 namespace nacre {
 
-// Fills batch.radiance but for `sky`. `numbers`: of the batch's samples, or null where the plan has
+// Fills batch.radiance except `sky`. `numbers`: of the batch's samples; may be null if the plan has
 // no sampled lights.
 void ShadeDirect(const DirectBatch& batch, const SampleNumbers* numbers);
 
-// Fills radiance->sky for the camera rays through `film`, if the plan has a sky and any ray of them
-// hits nothing.
-void SeeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,
-            BatchRadiance* radiance);
+// Fills radiance->sky for the camera rays through `film`, if the plan has a sky and any of the rays
+// misses all shapes. `hits`: how many rays hit.
+void ShadeSky(const DirectPlan& plan, const FilmBatch& film, size_t hits, DirectRoom* room,
+              BatchRadiance* radiance);
 
 }  // namespace nacre

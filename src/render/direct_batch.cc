@@ -4,29 +4,29 @@
 namespace nacre {
 namespace {
 
-// The arrays do not overlap, which lets the compiler use vectors.
-void AddArray(const float* __restrict a, size_t count, float* __restrict sum) {
-  for (size_t i = 0; i < count; ++i) sum[i] += a[i];
-}
-
-void AddSoa(const Soa3<float>& a, size_t count, Soa3<float>* sum) {
-  AddArray(a.x.data(), count, sum->x.data());
-  AddArray(a.y.data(), count, sum->y.data());
-  AddArray(a.z.data(), count, sum->z.data());
+// The arrays do not overlap, so that the compiler can vectorise.
+void AddArray(const float* __restrict from, size_t begin, size_t end, float* __restrict to) {
+  for (size_t i = begin; i < end; ++i) to[i] += from[i];
 }
 
 }  // namespace
 
-void ShowLight(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
-  Soa3<float>& to = batch.radiance.per_light[static_cast<size_t>(layer)];
-  AddSoa(of_light.diffuse, batch.lit(), &to);
-  AddSoa(of_light.specular, batch.lit(), &to);
+void AddSoa(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to) {
+  AddArray(from.x.data(), begin, end, to->x.data());
+  AddArray(from.y.data(), begin, end, to->y.data());
+  AddArray(from.z.data(), begin, end, to->z.data());
 }
 
-void AddLight(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
-  if (layer >= 0) ShowLight(batch, of_light, layer);
-  AddSoa(of_light.diffuse, batch.lit(), &batch.radiance.total.diffuse);
-  AddSoa(of_light.specular, batch.lit(), &batch.radiance.total.specular);
+void AddToLightLayer(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
+  Soa3<float>& to = batch.radiance.per_light[static_cast<size_t>(layer)];
+  AddSoa(of_light.diffuse, 0, batch.lit(), &to);
+  AddSoa(of_light.specular, 0, batch.lit(), &to);
+}
+
+void AddLightRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
+  if (layer >= 0) AddToLightLayer(batch, of_light, layer);
+  AddSoa(of_light.diffuse, 0, batch.lit(), &batch.radiance.total.diffuse);
+  AddSoa(of_light.specular, 0, batch.lit(), &batch.radiance.total.specular);
 }
 
 }  // namespace nacre

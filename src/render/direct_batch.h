@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/direct_batch.h: a batch on its way through the direct integrator, and the buffers for it.
+// render/direct_batch.h: a batch in the direct integrator, its result and its buffers.
 #pragma once
 
 #include <memory>
@@ -16,17 +16,16 @@
 
 namespace nacre {
 
-// What an integrator finds for a batch, by hit but for `sky`.
+// The result of an integrator for a batch: radiance by hit, except `sky`.
 struct BatchRadiance {
   ReflectedRadiance total;             // of all lights
-  std::vector<Soa3<float>> per_light;  // of each light that a layer shows alone
-  Soa3<float> sky;                     // by ray: what those that hit nothing see of the plan's sky
+  std::vector<Soa3<float>> per_light;  // of each light that has a layer of its own
+  Soa3<float> sky;                     // by ray, if the plan has a sky: its radiance
 };
 
 // Buffers of mapped_horizon.h.
 struct MirroredLobe {
-  LightBatch light;  // the light mirrored in the surface; at hits that reflect nothing of it of
-                     // irradiance 0
+  LightBatch light;  // mirrored in the surface; irradiance 0 at hits that reflect none of it
   ReflectedRadiance radiance;
   AlignedArray<float> pdf{kBatchCapacity};
 };
@@ -36,26 +35,26 @@ struct SampledRoom {
   UnitPoints points{kBatchCapacity};
   LightDirections directions;
   AlignedArray<float> pdf{kBatchCapacity}, weight{kBatchCapacity};
-  AlignedArray<uint8_t> flat{kBatchCapacity};  // 1: a hit's diffuse part is in closed form
-  ReflectedRadiance unit;                      // of a light of colour 1
+  AlignedArray<uint8_t> closed_form{kBatchCapacity};  // 1: for a hit's diffuse reflection
+  ReflectedRadiance unit;                             // of a light of colour 1
 };
 
 // Buffers of the direct integrator.
 struct DirectRoom {
   LightBatch light;
   ShadeScratch shade;
-  std::unique_ptr<MirroredLobe> mirrored;  // made for the first lobe about a mapped normal
-  std::vector<LightOnBatch> together;      // lights shaded by in one go
+  std::unique_ptr<MirroredLobe> mirrored;  // made for the first lobe around a mapped normal
+  std::vector<LightOnBatch> light_group;   // lights to shade by in one call
   std::unique_ptr<SampledRoom> sampled;    // made where the plan has sampled lights
-  Soa3<double> shadow_origin;              // of the hits, where the plan offsets some
+  Soa3<double> shadow_origin;              // by hit, if the plan offsets shadow origins
   ShadowRayBatch shadow_rays;
   AlignedArray<uint32_t> shadow_hits{kBatchCapacity};
-  ReflectedRadiance single;                 // of one light
-  RayBatch sky_rays;                        // through the samples
-  std::unique_ptr<BatchRadiance> of_coats;  // made for the first hit with a coat
+  ReflectedRadiance single;                      // of a single light
+  RayBatch sky_rays;                             // through the samples
+  std::unique_ptr<BatchRadiance> coat_radiance;  // made for the first hit with a coat
 };
 
-// A batch on its way through the integrator.
+// What the integrator works on. Functions below read the plan and the surfaces, and write the rest.
 struct DirectBatch {
   const DirectPlan& plan;
   const Surfaces& surfaces;
@@ -63,16 +62,19 @@ struct DirectBatch {
   BatchRadiance& radiance;
   StageClock& clock;
   RenderStats& stats;
-  size_t first_pair = 0;  // DirectPlan::pairs before those of these surfaces
+  size_t first_pair = 0;  // index in DirectPlan::pairs of the first pair of these surfaces
 
   const HitBatch& hits() const { return surfaces.hits; }
   const Surface& surface() const { return surfaces.surface; }
-  size_t lit() const { return surfaces.lit; }  // how many hits lights shine on
+  size_t lit() const { return surfaces.lit; }  // how many hits are shaded by lights
 };
 
-// ShowLight adds what one light leaves to its layer. AddLight adds it to the total, and to its
-// layer unless that is -1.
-void ShowLight(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
-void AddLight(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
+// Adds hits [begin, end).
+void AddSoa(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to);
+
+// Adds the radiance of one light to the light's layer.
+void AddToLightLayer(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
+// Adds the radiance of one light to the total, and to the light's layer unless that is -1.
+void AddLightRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
 
 }  // namespace nacre

@@ -36,43 +36,44 @@ void PlanPunctualLights(const Scene& scene, const RenderSettings& settings,
     planned.light = prepared;
     planned.shadow_rays = shadow_rays;
     planned.layer = LightLayer(layers, i);
-    planned.reach = ReachOf(light, scene.camera.position);
+    planned.geometry = GeometryOf(light, scene.camera.position);
   }
   const size_t count = plan->lights.size();
-  plan->cull_lights = count >= kFewestCulledLights && !settings.general_path;
+  plan->cull_lights = count >= kMinCulledLights && !settings.general_path;
   why->items.push_back(
       {"light culling", plan->cull_lights,
-       plan->cull_lights ? fmt::format("of {} lights a tile's hits are given those that they face "
-                                       "and whose cone they are in",
-                                       count)
+       plan->cull_lights       ? fmt::format("of {} lights each batch is shaded by those that it "
+                                                   "faces and in whose cone it lies",
+                                             count)
        : settings.general_path ? "the general path is asked for"
-                               : fmt::format("fewer than {} lights", kFewestCulledLights)});
+                               : fmt::format("fewer than {} lights", kMinCulledLights)});
 }
 
-// Pairs of points that a light has: on itself, for the diffuse part, and for the lobe.
-constexpr size_t kPairs = 3;
+// Each sampled light has a pair of random numbers for each sampling strategy: the light, the cosine
+// and the lobe.
+constexpr size_t kPairsPerLight = 3;
 
-// The most samples that one sequence of a pixel has.
+// The largest number of samples that a pixel takes of one sequence.
 int LongestSequence(const Scene& scene, const RenderSettings& settings) {
   if (!(settings.max_error > 0)) return scene.image.spp;
-  constexpr int kMost = 65536;
-  return std::min(settings.max_samples, kMost);
+  constexpr int kMaxSequence = 65536;
+  return std::min(settings.max_samples, kMaxSequence);
 }
 
-// Whether the camera may see some of the ball: it reaches past the four planes around the picture,
-// its pixels' filters included. Those of a perspective camera meet in the eye.
+// Whether the camera may see some of the ball: it is not wholly outside one of the four planes that
+// bound the picture, widened by the pixel filter. A perspective camera's planes meet in the eye.
 bool MayBeInView(const Scene& scene, const LightBall& ball) {
   const CameraFrame frame = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   const bool perspective = frame.projection == Projection::kPerspective;
-  const double reach = scene.image.filter.width;
+  const double margin = scene.image.filter.width;
   const Vec3d offset = ball.center - scene.camera.position;
   const double along = offset.dot(frame.forward);
   if (along < -ball.radius) return false;
   const auto beyond = [&](const Vec3d& step, int pixels) {
     const double pixel = step.length();
     const double across = std::abs(offset.dot(step)) / pixel;
-    const double half = pixel * (pixels / 2.0 + reach);
-    // The distance of the centre from the plane.
+    const double half = pixel * (pixels / 2.0 + margin);
+    // The signed distance of the centre from the plane.
     const double outside =
         perspective ? (across - along * half) / std::hypot(1.0, half) : across - half;
     return outside > ball.radius + 1e-9 * (offset.length() + half);
@@ -92,23 +93,23 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
     planned.shadow_rays = scene.image.shadows && light.shadows;
     planned.layer = LightLayer(layers, i);
     if (shown != nullptr) planned.primitives = shown->primitives[i];
-    planned.first_pair = kPairs * plan->sampled_lights.size();
+    planned.first_pair = kPairsPerLight * plan->sampled_lights.size();
     planned.closed_form = HasIrradiance(planned.light) && settings.closed_forms;
     why->substitutions.push_back(
         {fmt::format("light \"{}\"", light.name), true,
-         planned.closed_form ? "diffuse reflection in closed form where all of the light is seen; "
-                               "the rest sampled"
+         planned.closed_form ? "diffuse reflection in closed form where the whole light is "
+                               "visible; the rest sampled"
                              : "sampled"});
     plan->sampled_lights.push_back(std::move(planned));
   }
   DropUnused(&tables->skies);
   DropUnused(&tables->mesh_lights);
   if (plan->sampled_lights.empty()) return;
-  // Coats are surfaces of their own, and their samples independent of those of what is below.
+  // A coat is a surface of its own, whose samples are independent of those of the surface below.
   const bool coats =
       std::any_of(scene.materials.begin(), scene.materials.end(),
                   [](const Material& material) { return CoatOf(material).has_value(); });
-  plan->coat_pairs = kPairs * plan->sampled_lights.size();
+  plan->coat_pairs = kPairsPerLight * plan->sampled_lights.size();
   plan->pairs = MakePairSampler(LongestSequence(scene, settings),
                                 (coats ? 2 : 1) * plan->coat_pairs, scene.image.seed);
   for (size_t i = 0; i < plan->sampled_lights.size(); ++i) {
@@ -120,10 +121,12 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
   }
 }
 
-// With one light the parts need not be kept to be added up, unless samples might cancel: what
-// rounds a sample's sum may then be more than what is left of the pixel.
-void PlanParts(const Scene& scene, const RenderSettings& settings, const std::vector<Layer>& layers,
-               bool unit_weights, DirectPlan* plan, Explanation* why) {
+// With one light, its kernel can write the sum of the components, and the components themselves
+// only if a layer needs them. Not with weighted samples: negative weights may cancel all but the
+// rounding error of the sums.
+void PlanComponents(const Scene& scene, const RenderSettings& settings,
+                    const std::vector<Layer>& layers, bool unit_weights, DirectPlan* plan,
+                    Explanation* why) {
   const auto shows_parts = [](const Layer& layer) {
     return layer.kind == LayerKind::kDiffuse || layer.kind == LayerKind::kSpecular ||
            layer.kind == LayerKind::kLight;
@@ -133,13 +136,13 @@ void PlanParts(const Scene& scene, const RenderSettings& settings, const std::ve
         return mesh.interpolation == Interpolation::kFlat ||
                mesh.interpolation == Interpolation::kGouraud;
       });
-  const char* const many = plan->lights.size() != 1 || !plan->sampled_lights.empty()
-                               ? "what several lights leave, or none, is added up part by part"
-                           : !unit_weights ? "samples have weights"
-                           : interpolated  ? "what some meshes reflect is interpolated"
-                                           : nullptr;
-  plan->one_light = many == nullptr;
-  const char* const reason = many != nullptr         ? many
+  const char* const why_not = plan->lights.size() != 1 || !plan->sampled_lights.empty()
+                                  ? "the scene has not exactly one light"
+                              : !unit_weights ? "samples have weights"
+                              : interpolated  ? "the radiance of some meshes is interpolated"
+                                              : nullptr;
+  plan->one_light = why_not == nullptr;
+  const char* const reason = why_not != nullptr      ? why_not
                              : settings.general_path ? "the general path is asked for"
                              : std::any_of(layers.begin(), layers.end(), shows_parts)
                                  ? "layers show them"
@@ -147,21 +150,24 @@ void PlanParts(const Scene& scene, const RenderSettings& settings, const std::ve
   if (plan->one_light) {
     plan->output = reason == nullptr ? OutputMode::kSum : OutputMode::kComponentsAndSum;
   }
-  why->items.push_back(
-      {"diffuse and specular parts", reason != nullptr,
-       reason != nullptr ? reason : "one light leaves their sum, and no layer asks"});
+  why->items.push_back({"diffuse and specular components", reason != nullptr,
+                        reason != nullptr
+                            ? reason
+                            : "one light: its kernel computes the sum, and no layer needs them"});
 }
 
-// Of more spheres many batches hold hits on several, whose offsets are gathered hit by hit.
-constexpr size_t kMostSpheres = 64;
+// With more spheres many batches hold hits on several of them, and looking up offsets hit by hit
+// takes longer than computing with positions.
+constexpr size_t kMaxOffsetSpheres = 64;
 
-bool LieOnSpheres(const Scene& scene, const DirectPlan& plan) {
-  return scene.meshes.empty() && scene.spheres.size() <= kMostSpheres && plan.eye_outside;
+bool LieOnFewSpheres(const Scene& scene, const DirectPlan& plan) {
+  return scene.meshes.empty() && scene.spheres.size() <= kMaxOffsetSpheres && plan.eye_outside;
 }
 
 }  // namespace
 
-std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedScene* prepared) {
+std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
+                                                        PreparedScene* prepared) {
   const auto casts = [](const Light& light) {
     return light.shadows && !std::holds_alternative<AmbientLight>(light.kind);
   };
@@ -179,7 +185,7 @@ std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedSc
     key = {prepared->versions.Of(ScenePart::kShapes | ScenePart::kLights), shown,
            scene.camera.position, scene.materials.size()};
   }
-  // They lie in the world: a camera that moves does not change them.
+  // Tangents do not depend on the camera, so they are kept when it moves.
   const PartVersions meshes = prepared->versions.Of(ScenePart::kShapes);
   if (meshes != prepared->meshes_of_tangents) {
     prepared->tables.tangents.clear();
@@ -210,19 +216,19 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
       }));
   PlanPunctualLights(scene, settings, layers, &plan, why);
   PlanSampledLights(scene, settings, layers, shown, &prepared->tables, &plan, why);
-  PlanParts(scene, settings, layers, unit_weights, &plan, why);
+  PlanComponents(scene, settings, layers, unit_weights, &plan, why);
   return plan;
 }
 
 void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
                       Explanation* why) {
-  if (!settings.offsets_by_normal || !LieOnSpheres(scene, *plan)) return;
+  if (!settings.offsets_by_normal || !LieOnFewSpheres(scene, *plan)) return;
   for (PlannedPunctualLight& planned : plan->lights) {
     if (!OffsetFromSpheres(scene.spheres, scene.camera.position, &planned.light)) continue;
     why->substitutions.push_back(
         {fmt::format("light \"{}\"", scene.lights[planned.index].name), true,
-         fmt::format("it is {} radii or more from every sphere's centre: where it lies from a hit "
-                     "is found from the hit's normal, to 2e-7 of their distance",
+         fmt::format("it is {} radii or more from every sphere's centre: its position relative to "
+                     "a hit is computed from the hit's normal, to 2e-7 of their distance",
                      kFarRadii)});
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/direct_plan.h: how direct light is gathered: which lights shine on hits, whether their
-// shadow rays need tracing, and by whom.
+// render/direct_plan.h: how direct light is computed: by which lights, how they are sampled, and
+// which of them need shadow rays.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +28,9 @@ struct PlannedPunctualLight {
   size_t index;  // into Scene::lights
   ShadingLight light;
   bool shadow_rays;
-  int layer;                      // which of the light layers shows it alone, or -1
-  std::vector<uint8_t> shadowed;  // per sphere: whether to trace its shadow rays; empty: all
-  LightReach reach;
+  int layer;                      // the number of its own layer among the light layers, or -1
+  std::vector<uint8_t> shadowed;  // by sphere: 1 if its hits need shadow rays; empty: all do
+  LightGeometry geometry;
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
@@ -39,34 +39,35 @@ struct PlannedSampledLight {
   size_t index;  // into Scene::lights
   SampledLight light;
   bool shadow_rays;
-  int layer;                       // likewise
-  std::vector<uint8_t> shadowed;   // likewise
-  uint32_t occluders = kAnyLight;  // likewise
-  PrimitiveRange primitives;       // of the light itself, if it is a visible surface
-  bool trace_all = false;          // even where nothing can be in the way
-  size_t first_pair;               // of the three that DirectPlan::pairs has for it
-  bool closed_form;                // its diffuse reflection need not be sampled where all of
-                                   // it is seen
+  int layer;                       // as above
+  std::vector<uint8_t> shadowed;   // as above
+  uint32_t occluders = kAnyLight;  // as above
+  PrimitiveRange primitives;       // of the light's own shape, if it is visible
+  bool trace_all = false;          // trace shadow rays even where nothing can occlude them
+  size_t first_pair;               // the first of its three pairs in DirectPlan::pairs
+  // Whether its diffuse reflection is computed in closed form at hits from which all of it is
+  // visible.
+  bool closed_form;
 };
 
-// Whether no hit on the primitive can lie in the light's shadow.
+// Whether no point of the primitive can lie in the light's shadow.
 template <class Planned>
 bool NeverShadowed(const Planned& planned, uint32_t primitive) {
   return !planned.shadow_rays ||
          (primitive < planned.shadowed.size() && planned.shadowed[primitive] == 0);
 }
 
-// What the vertices of a mesh reflect under Gouraud's interpolation, or the triangles of a flat
-// one.
+// The reflected radiance of the vertices of a mesh under Gouraud interpolation, or of the triangles
+// of a flat-shaded one.
 struct SideRadiance {
   std::vector<Vec3f> diffuse, specular;
-  std::vector<std::vector<Vec3f>> lights;  // of each light that a layer shows alone
+  std::vector<std::vector<Vec3f>> lights;  // of each light that has a layer of its own
 };
 
 struct MeshRadiance {
-  MaterialId material;  // a split mesh has one of these for each of its materials
-  // As the vertices' normals point, and as they do not: triangles may be seen from either side. Of
-  // flat meshes the first only: a triangle shows the camera one side.
+  MaterialId material;  // a mesh with a split material has a MeshRadiance for each of its parts
+  // Of the side that the vertices' normals point to, and of the other side. Flat-shaded meshes use
+  // the first only: it is the side that each triangle turns to the camera.
   std::array<SideRadiance, 2> sides;
 };
 
@@ -76,32 +77,35 @@ struct DirectPlan {
   std::shared_ptr<const Intersector> intersector;
   std::vector<PlannedPunctualLight> lights;
   std::vector<PlannedSampledLight> sampled_lights;
-  PairSampler pairs;          // their samples'; three pairs a light
-  size_t coat_pairs = 0;      // the first of those for coats
-  std::optional<size_t> sky;  // in sampled_lights: the visible sky, if it varies with direction
-  // The constant colour behind the shapes, the scene's or a one-colour sky's; unused with `sky`.
+  PairSampler pairs;          // random points for the sampled lights: three pairs a light
+  size_t coat_pairs = 0;      // the first pair for coats
+  std::optional<size_t> sky;  // index into sampled_lights: a visible sky that is not constant
+  // The constant radiance behind the shapes, of the scene or of a constant sky. Unused with `sky`.
   Rgb background{0, 0, 0};
-  size_t light_layer_count = 0;        // lights that a layer shows alone
-  bool cull_lights = false;            // leave out those that cannot reach a batch
+  size_t light_layer_count = 0;        // lights that have a layer of their own
+  bool cull_lights = false;            // leave out lights that cannot illuminate a batch
   bool offset_shadow_origins = false;  // some shadow rays do not start at their hits
-  bool eye_outside = false;            // no camera ray starts in a sphere
+  bool eye_outside = false;            // no camera ray starts inside a sphere
   double camera_extent = 0;            // ShadowRayBatch::camera_extent
-  // One light is all that hits reflect: the beauty is the sum that its kernel makes of the parts.
+  // There is one light: the beauty is the sum of the components that its kernel computes.
   bool one_light = false;
-  OutputMode output = OutputMode::kOverwrite;            // of the first light of a hit
-  std::vector<std::vector<MeshRadiance>> mesh_radiance;  // per mesh; empty if none has any
+  OutputMode output = OutputMode::kOverwrite;            // for the first light of a batch
+  std::vector<std::vector<MeshRadiance>> mesh_radiance;  // by mesh; empty if no mesh has any
 };
 
-// The scene with the shapes of its visible lights, or null if none of them can be seen or be in the
-// way of other light.
-std::shared_ptr<const SceneWithLights> ShowLights(const Scene& scene, PreparedScene* prepared);
+// The scene with the shapes of its visible lights added. Null if the camera can see none of them
+// and none can occlude other lights.
+std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
+                                                        PreparedScene* prepared);
 
-// Everything but shadows and what the hits' places decide. `shown`: ShowLights' scene, or null.
+// Plans everything except shadow rays and light offsets. `shown`: from AddVisibleLights; may be
+// null.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,
                       bool unit_weights, PreparedScene* prepared, Explanation* why);
 
-// Then finds out where far lights are from the normals of hits on spheres.
+// Then decides which distant lights are located relative to a hit from the hit's normal alone, on
+// spheres (ShadingLight::from_spheres).
 void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
                       Explanation* why);
 

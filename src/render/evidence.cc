@@ -11,30 +11,31 @@
 namespace nacre {
 namespace {
 
-// Of the pixels 95 % are to be within the wanted error.
-constexpr double kMayBeBeyond = 0.05;
+// The share of pixels whose error may exceed the tolerance: intervals are those of 95 %.
+constexpr double kAllowedShare = 0.05;
 
-// What a pixel's samples hit: misses see the background alone.
-enum Kind : uint8_t { kMisses, kMixed, kHits };
+// Whether none, some or all of a pixel's samples hit a shape.
+enum HitKind : uint8_t { kMisses, kMixed, kHits };
 
 struct PixelEvidence {
   uint32_t pixel;
-  Kind kind;
-  double contrast;  // of its samples, in its widest channel
-  double single;    // from its least or greatest sample to the next: what only one has met
-  bool isolated;    // its neighbours do not explain the contrast
+  HitKind kind;
+  double contrast;  // largest difference of its samples in any channel
+  double single;    // the largest difference of one extreme sample from the next to it
+  bool isolated;    // the means of its neighbours do not explain the contrast
 };
 
-bool IsOpen(const CellScratch& c, uint32_t pixel) {
-  return (c.outlines_only >> pixel / kBlockPixels & 1) == 0;
+// Whether a rare feature may be hidden in the pixel.
+bool MayHideFeatures(const CellScratch& c, uint32_t pixel) {
+  return (c.only_outlines >> pixel / kBlockPixels & 1) == 0;
 }
 
-// Rows and columns in the cell, whose blocks lie row by row.
-struct CellPlace {
+// The column and the row of a pixel in the cell.
+struct CellPosition {
   int column, row;
 };
 
-CellPlace PlaceInCell(uint32_t pixel) {
+CellPosition PositionInCell(uint32_t pixel) {
   constexpr uint32_t kAcross = kCellSize / kBlockSide;
   constexpr auto kPixels = static_cast<uint32_t>(kBlockPixels);
   const uint32_t block = pixel / kPixels, in_block = pixel % kPixels;
@@ -42,7 +43,7 @@ CellPlace PlaceInCell(uint32_t pixel) {
           static_cast<int>(block / kAcross * kBlockSide + in_block / kBlockSide)};
 }
 
-uint32_t PixelAt(const CellPlace& place) {
+uint32_t PixelAt(const CellPosition& place) {
   constexpr int kAcross = kCellSize / kBlockSide;
   const int block = place.row / kBlockSide * kAcross + place.column / kBlockSide;
   const int in_block = place.row % kBlockSide * kBlockSide + place.column % kBlockSide;
@@ -55,11 +56,11 @@ double MeanOf(const CellScratch& c, uint32_t pixel, size_t channel) {
   return sum / (double{kReplicates} * c.samples[pixel]);
 }
 
-Kind KindOf(const CellScratch& c, uint32_t pixel) {
+HitKind Classify(const CellScratch& c, uint32_t pixel) {
   double hits = 0;
   for (const auto& replicate : c.replicate) hits += replicate[kAlphaSum][pixel];
   const double samples = double{kReplicates} * c.samples[pixel];
-  // Weights round.
+  // Sums of weights have rounding errors.
   if (std::abs(hits) < 1e-6 * samples) return kMisses;
   return std::abs(hits - samples) < 1e-6 * samples ? kHits : kMixed;
 }
@@ -68,13 +69,13 @@ double SamplesTaken(const CellScratch& c, uint32_t pixel) {
   return double{kReplicates} * c.samples[pixel];
 }
 
-double WantedOf(const CellScratch& c, uint32_t pixel) {
-  return c.intervals[pixel / kBlockPixels].wanted[pixel % kBlockPixels];
+double ToleranceOf(const CellScratch& c, uint32_t pixel) {
+  return c.intervals[pixel / kBlockPixels].tolerance[pixel % kBlockPixels];
 }
 
-// The least and the greatest mean of the pixel and those around it in the cell.
-PixelRange MeansAround(const CellScratch& c, uint32_t pixel, size_t channel) {
-  const CellPlace at = PlaceInCell(pixel);
+// The range of the means of the pixel and its neighbours in the cell.
+PixelRange RangeOfMeans(const CellScratch& c, uint32_t pixel, size_t channel) {
+  const CellPosition at = PositionInCell(pixel);
   PixelRange range{std::numeric_limits<double>::infinity(),
                    -std::numeric_limits<double>::infinity()};
   for (int row = std::max(at.row - 1, 0); row <= std::min(at.row + 1, kCellSize - 1); ++row) {
@@ -90,49 +91,50 @@ PixelRange MeansAround(const CellScratch& c, uint32_t pixel, size_t channel) {
   return range;
 }
 
-// Whether what the pixel's samples differ by is more than twice that of the means around it: of an
-// edge between two parts of the picture, both sides are seen there.
+// Whether the contrast of the pixel's samples is more than twice that of the means around it. At an
+// edge between two areas of the picture it is not, because both sides appear among the neighbours.
 bool IsIsolated(const CellScratch& c, uint32_t pixel, size_t channel, double contrast) {
-  const PixelRange means = MeansAround(c, pixel, channel);
+  const PixelRange means = RangeOfMeans(c, pixel, channel);
   return 2 * (means.high - means.low) < contrast;
 }
 
 PixelEvidence EvidenceOf(const CellScratch& c, uint32_t pixel) {
-  PixelEvidence evidence{pixel, KindOf(c, pixel), 0, 0, false};
+  PixelEvidence evidence{pixel, Classify(c, pixel), 0, 0, false};
   size_t widest = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const double low1 = c.low1[channel][pixel], low2 = c.low2[channel][pixel];
-    const double high2 = c.high2[channel][pixel], high1 = c.high1[channel][pixel];
-    evidence.single = std::max({evidence.single, low2 - low1, high1 - high2});
-    if (!(high1 - low1 > evidence.contrast)) continue;
-    evidence.contrast = high1 - low1;
+    const double lowest = c.lowest[channel][pixel], second_lowest = c.second_lowest[channel][pixel];
+    const double second_highest = c.second_highest[channel][pixel],
+                 highest = c.highest[channel][pixel];
+    evidence.single = std::max({evidence.single, second_lowest - lowest, highest - second_highest});
+    if (!(highest - lowest > evidence.contrast)) continue;
+    evidence.contrast = highest - lowest;
     widest = channel;
   }
   evidence.isolated = evidence.contrast > 0 && IsIsolated(c, pixel, widest, evidence.contrast);
   return evidence;
 }
 
-// What pixels of some kinds tell of one another.
+// What the pixels of a cell know about rare features that other pixels may have (evidence.h).
 struct Pool {
-  double contrast = 0;  // mean of the witnesses' (evidence.h), by one sample each
+  double contrast = 0;  // mean of PixelEvidence::single of the witnesses
   double share = 0;     // of the pixels that are witnesses
 };
 
-// All pixels but those at the cell's border, whose neighbours are not known.
+// All pixels except those at the cell's border, whose neighbours are not known.
 bool IsInner(uint32_t pixel) {
-  const CellPlace at = PlaceInCell(pixel);
+  const CellPosition at = PositionInCell(pixel);
   return at.column > 0 && at.row > 0 && at.column + 1 < kCellSize && at.row + 1 < kCellSize;
 }
 
-// Whether what is known beforehand of the pixel matters for it.
-bool HasKnownRare(const CellScratch& c, uint32_t pixel) { return c.known_rare[pixel] > 0; }
+// Whether the pixel has a rare feature that is known beforehand and matters.
+bool HasKnownFeature(const CellScratch& c, uint32_t pixel) { return c.required_samples[pixel] > 0; }
 
-// By how much the pixel's mean is wrong if no sample has hit these triangles, as far as they are
-// darker or brighter than all that is seen around: else they are the edge of something.
-double ContrastOf(const CellScratch& c, const CellScratch::RareTriangles& rare) {
+// The error of the pixel's mean if no sample has hit these triangles. Only as far as they are
+// darker or brighter than everything around them; otherwise they are part of an edge.
+double MissingContrast(const CellScratch& c, const CellScratch::RareTriangles& rare) {
   double contrast = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const PixelRange around = MeansAround(c, rare.pixel, channel);
+    const PixelRange around = RangeOfMeans(c, rare.pixel, channel);
     const double radiance = rare.radiance[static_cast<int>(channel)];
     contrast = std::max(
         {contrast, radiance - rare.share * around.high, rare.share * around.low - radiance});
@@ -140,65 +142,64 @@ double ContrastOf(const CellScratch& c, const CellScratch::RareTriangles& rare) 
   return contrast;
 }
 
-// The triangles of one pixel matter together. Those of which all together cannot matter ask for
-// nothing: a part of what is wanted, divided by their number, each.
-void AddKnownTriangles(std::span<const CellScratch::RareTriangles> of_pixel, CellScratch* c) {
+// The triangles of one pixel matter together. Materials that contribute less than an equal part of
+// half the tolerance are left out: all of those together cannot matter.
+void RequireTriangleSamples(std::span<const CellScratch::RareTriangles> of_pixel, CellScratch* c) {
   const uint32_t pixel = of_pixel[0].pixel;
-  const double wanted = WantedOf(*c, pixel);
+  const double tolerance = ToleranceOf(*c, pixel);
   double all = 0;
-  for (const auto& rare : of_pixel) all += ContrastOf(*c, rare);
-  if (!(2 * all > wanted)) return;
+  for (const auto& rare : of_pixel) all += MissingContrast(*c, rare);
+  if (!(2 * all > tolerance)) return;
   const auto count = static_cast<double>(of_pixel.size());
   for (const auto& rare : of_pixel) {
-    if (!(2 * count * ContrastOf(*c, rare) > wanted)) continue;
-    c->known_rare[pixel] = std::max(c->known_rare[pixel], kExpectedHits / rare.share);
+    if (!(2 * count * MissingContrast(*c, rare) > tolerance)) continue;
+    c->required_samples[pixel] = std::max(c->required_samples[pixel], kExpectedHits / rare.share);
   }
 }
 
-// Sets known_rare, of pixels with samples.
-void FindKnownRare(CellScratch* c) {
+// Sets required_samples of the pixels that have samples.
+void FindKnownFeatures(CellScratch* c) {
   for (uint32_t pixel = 0; pixel < kCellPixels; ++pixel) {
-    const bool matters = 2 * c->rare_radiance[pixel] > WantedOf(*c, pixel);
-    c->known_rare[pixel] = matters ? c->rare_samples[pixel] : 0;
+    const bool matters = 2 * c->rare_radiance[pixel] > ToleranceOf(*c, pixel);
+    c->required_samples[pixel] = matters ? c->rare_samples[pixel] : 0;
   }
   const auto& all = c->rare_triangles;
   for (size_t first = 0, end = 0; first < all.size(); first = end) {
     const uint32_t pixel = all[first].pixel;
     while (end < all.size() && all[end].pixel == pixel) ++end;
-    if (c->samples[pixel] > 0) AddKnownTriangles({all.data() + first, end - first}, c);
+    if (c->samples[pixel] > 0) RequireTriangleSamples({all.data() + first, end - first}, c);
   }
 }
 
-// Pixels of the kind `left_out` tell nothing, nor do those in which what is rare is known
-// beforehand: that is known of all pixels that have it.
-Pool PoolOf(const CellScratch& c, const std::vector<PixelEvidence>& all, Kind left_out) {
+// Pools all pixels except those of the kind `left_out` and those with a known rare feature: a
+// feature that is known is known for every pixel that has it.
+Pool MakePool(const CellScratch& c, const std::vector<PixelEvidence>& all, HitKind left_out) {
   Pool pool;
   size_t inner = 0, witnesses = 0;
   for (const PixelEvidence& e : all) {
-    if (e.kind == left_out || !IsInner(e.pixel) || HasKnownRare(c, e.pixel)) continue;
+    if (e.kind == left_out || !IsInner(e.pixel) || HasKnownFeature(c, e.pixel)) continue;
     ++inner;
-    if (!e.isolated || e.single <= WantedOf(c, e.pixel)) continue;
+    if (!e.isolated || e.single <= ToleranceOf(c, e.pixel)) continue;
     pool.contrast += e.single;
     ++witnesses;
   }
-  // One pixel makes no pattern.
+  // A single witness is no evidence of others.
   if (witnesses < 2) return {};
   pool.contrast /= static_cast<double>(witnesses);
   pool.share = static_cast<double>(witnesses - 1) / static_cast<double>(inner);
   return pool;
 }
 
-// The samples that a pixel needs of which the pool is true (evidence.h).
-double SamplesFor(const Pool& pool, double wanted, double samples) {
+// How many samples a pixel needs to which the pool applies (evidence.h).
+double RequiredSamples(const Pool& pool, double tolerance, double samples) {
   if (pool.share == 0) return 0;
-  const double least = wanted / pool.contrast;
+  const double least = tolerance / pool.contrast;
   if (least >= 1) return 0;
   const double affected = std::min(pool.share / std::min(samples * least, 1.0), 1.0);
-  return std::max(std::log(affected / kMayBeBeyond), 0.0) / least;
+  return std::max(std::log(affected / kAllowedShare), 0.0) / least;
 }
 
-// Takes back that the pixel's interval is narrow enough.
-void Doubt(uint32_t pixel, CellScratch* c) {
+void RejectInterval(uint32_t pixel, CellScratch* c) {
   c->intervals[pixel / kBlockPixels].narrow &= ~(1u << pixel % kBlockPixels);
 }
 
@@ -206,30 +207,33 @@ void Doubt(uint32_t pixel, CellScratch* c) {
 
 void ClearEvidence(CellScratch* c) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (auto* low : {c->low1, c->low2}) std::fill_n(&low[0][0], 3 * kCellPixels, kInfinity);
-  for (auto* high : {c->high1, c->high2}) std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
+  for (auto* low : {c->lowest, c->second_lowest})
+    std::fill_n(&low[0][0], 3 * kCellPixels, kInfinity);
+  for (auto* high : {c->highest, c->second_highest})
+    std::fill_n(&high[0][0], 3 * kCellPixels, -kInfinity);
 }
 
 void RequireEvidence(CellScratch* c) {
-  FindKnownRare(c);
+  FindKnownFeatures(c);
   std::vector<PixelEvidence> all;
   for (const uint32_t pixel : c->active) {
-    if (IsOpen(*c, pixel)) all.push_back(EvidenceOf(*c, pixel));
+    if (MayHideFeatures(*c, pixel)) all.push_back(EvidenceOf(*c, pixel));
   }
-  // Pixels with hits and those without tell of those with both, and these of either.
+  // Pixels that hit and pixels that miss both tell about mixed ones, and mixed ones about either.
   std::array<Pool, 3> pools;
-  pools[kMisses] = PoolOf(*c, all, kHits);
-  pools[kHits] = PoolOf(*c, all, kMisses);
+  pools[kMisses] = MakePool(*c, all, kHits);
+  pools[kHits] = MakePool(*c, all, kMisses);
   pools[kMixed] = pools[kHits];
   for (const PixelEvidence& e : all) {
     const Pool& pool = pools[e.kind];
-    const double wanted = WantedOf(*c, e.pixel), samples = SamplesTaken(*c, e.pixel);
-    const bool by_own = c->covered[e.pixel] >= 0 || samples * wanted >= kByChance * e.contrast;
-    const bool by_cell = samples >= SamplesFor(pool, wanted, samples);
-    if (!by_own || !by_cell) Doubt(e.pixel, c);
+    const double tolerance = ToleranceOf(*c, e.pixel), samples = SamplesTaken(*c, e.pixel);
+    const bool enough_for_pixel =
+        c->coverage[e.pixel] >= 0 || samples * tolerance >= kByChance * e.contrast;
+    const bool enough_for_cell = samples >= RequiredSamples(pool, tolerance, samples);
+    if (!enough_for_pixel || !enough_for_cell) RejectInterval(e.pixel, c);
   }
   for (const uint32_t pixel : c->active) {
-    if (SamplesTaken(*c, pixel) < c->known_rare[pixel]) Doubt(pixel, c);
+    if (SamplesTaken(*c, pixel) < c->required_samples[pixel]) RejectInterval(pixel, c);
   }
 }
 

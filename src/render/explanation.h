@@ -7,18 +7,19 @@
 
 namespace nacre {
 
-// A decision and its reason. Skipping leaves every bit as the general path would make it.
+// A decision and its reason. Work that is skipped leaves every bit as the general path has it.
 struct PlanItem {
   std::string what;  // "light \"key\" shadow rays"
   bool used = false;
   std::string reason;  // "a sphere alone, seen from outside, is convex"
 };
 
-// Each stage's plan adds its own decisions.
+// Each stage's plan adds its decisions.
 struct Explanation {
   std::vector<PlanItem> items;
-  std::vector<PlanItem> substitutions;  // choices that agree within a stated error, not to the bit
-  std::vector<std::string> notes;       // what the picture cannot show, and why
+  // Methods whose results agree with the general path within a stated error, not bit by bit.
+  std::vector<PlanItem> substitutions;
+  std::vector<std::string> notes;  // remarks on the scene (plan_notes.h)
 };
 
 }  // namespace nacre

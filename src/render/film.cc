@@ -17,7 +17,7 @@ void CopyTile(const AlignedArray<T>& from, const PixelRows<T>& rows) {
 }
 
 template <typename T>
-void GiveRoom(size_t pixels, std::vector<AlignedArray<T>>* channels) {
+void EnsureCapacity(size_t pixels, std::vector<AlignedArray<T>>* channels) {
   for (AlignedArray<T>& channel : *channels) {
     if (channel.size() < pixels) channel = AlignedArray<T>(pixels);
   }
@@ -52,7 +52,7 @@ void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* pl
     names += (names.empty() ? "" : ", ") + plan->layers[i].name;
   }
   why->items.push_back(
-      {"layers", !names.empty(), names.empty() ? "only colour and coverage are asked for" : names});
+      {"layers", !names.empty(), names.empty() ? "only beauty and alpha are rendered" : names});
 }
 
 bool ShowsNearest(const FilmPlan& plan) {
@@ -83,35 +83,34 @@ void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip) {
   strip->window = window;
   strip->colors.resize(plan.channels.size() - ids);
   strip->ids.resize(ids);
-  GiveRoom(window.pixel_count(), &strip->colors);
-  GiveRoom(window.pixel_count(), &strip->ids);
+  EnsureCapacity(window.pixel_count(), &strip->colors);
+  EnsureCapacity(window.pixel_count(), &strip->ids);
 }
 
-void StartTile(const FilmPlan& plan, const Window& tile, size_t room, TileFilm* film) {
+void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFilm* film) {
   film->window = tile;
   const auto count = [&](ChannelKind kind) {
     return static_cast<size_t>(std::count(plan.channels.begin(), plan.channels.end(), kind));
   };
   while (film->sums.size() < count(ChannelKind::kAveraged)) {
-    film->sums.emplace_back(room);
+    film->sums.emplace_back(capacity);
   }
   const size_t pixels = tile.pixel_count();
   for (AlignedArray<double>& sums : film->sums) std::fill_n(sums.data(), pixels, 0.0);
   while (film->nearest.size() < count(ChannelKind::kNearest)) {
-    film->nearest.emplace_back(room);
+    film->nearest.emplace_back(capacity);
   }
-  while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(room);
+  while (film->ids.size() < count(ChannelKind::kId)) film->ids.emplace_back(capacity);
   if (film->nearest.empty() && film->ids.empty()) return;
   if (film->nearest_distance.size() == 0) {
-    film->nearest_distance = AlignedArray<double>(room);
+    film->nearest_distance = AlignedArray<double>(capacity);
   }
   std::fill_n(film->nearest_distance.data(), pixels, std::numeric_limits<double>::infinity());
   for (AlignedArray<float>& channel : film->nearest) std::fill_n(channel.data(), pixels, 0.0f);
   for (AlignedArray<uint32_t>& channel : film->ids) std::fill_n(channel.data(), pixels, 0u);
 }
 
-// Not inlined: of neighbouring values GCC 12 otherwise leaves the rounding to float out, wherever
-// it vectorises double(float(x)).
+// Not inlined: where GCC 12 vectorises double(float(x)) it otherwise omits the rounding.
 [[gnu::noinline]] static float Rounded(double value) { return static_cast<float>(value); }
 
 Rgb RoundToFloat(const Rgb& value) {

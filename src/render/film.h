@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/film.h: the last stage: a tile of the picture while its samples come in, and the strip it
-// ends in.
+// render/film.h: the last stage: sums of samples of a tile's pixels, and the finished strip that
+// they are averaged into.
 #pragma once
 
 #include <cstdint>
@@ -18,40 +18,40 @@
 namespace nacre {
 
 struct FilmPlan {
-  std::vector<Layer> layers;          // beauty, alpha, then those asked for
+  std::vector<Layer> layers;          // beauty, alpha, then those of the settings
   std::vector<ChannelKind> channels;  // of the layers, in their order
   CameraFrame camera{};
   int spp = 1;
-  double weight = 1;        // of all samples of a pixel
-  Rgb background{0, 0, 0};  // seen where nothing is hit, if not `sky`
+  double weight = 1;        // sum of the weights of a pixel's samples
+  Rgb background{0, 0, 0};  // where nothing is hit, unless `sky`
   bool sky = false;         // the background is BatchRadiance::sky
-  // The beauty is what the only light's kernel makes of the parts: BatchRadiance::total.sum.
+  // The beauty is the sum that the kernel of the only light computes, BatchRadiance::total.sum.
   bool beauty_is_sum = false;
-  bool one_sample = false;  // a pixel's only sample is its value: no sums
+  bool one_sample = false;  // the only sample of a pixel is its value: there are no sums
 };
 
-// The layers, which other stages' plans depend on. Throws Error (usage) for one that the scene does
-// not have.
+// Plans the layers, which other stages' plans depend on. Throws Error (usage) for a layer that the
+// scene does not have.
 void PlanLayers(const Scene& scene, const RenderSettings& settings, FilmPlan* plan,
                 Explanation* why);
 
-// Then whether samples are added up; all else of the plan is there.
+// Then decides whether samples are summed. All other members of the plan must be set.
 void PlanSums(const Scene& scene, const RenderSettings& settings, const PixelSampler& sampler,
               FilmPlan* plan, Explanation* why);
 
-// The tile's pixels, one plane per channel, row by row. Averaged channels are summed in double:
-// every layer rounds once, however many samples there are and however their weights cancel, and
-// so the layers add up to the beauty. The sums are of hits alone: those of the alpha layer, the
-// hits' weights, tell how much of the background the rest shows.
+// The pixels of a tile, one array per channel, row by row. Averaged channels are summed in double
+// and rounded to float once, however many samples there are and however their weights cancel, so
+// that the layers add up to the beauty. Only hits are summed. The sum of the alpha layer is the
+// weight of the hits; the remaining weight shows the background.
 struct TileFilm {
   Window window;
   std::vector<AlignedArray<double>> sums;    // averaged channels, in layer order
   std::vector<AlignedArray<float>> nearest;  // P and Z channels, in layer order
   std::vector<AlignedArray<uint32_t>> ids;   // id channels, in layer order
-  AlignedArray<double> nearest_distance;     // of the sample they come from, pixels squared
+  AlignedArray<double> nearest_distance;     // of their sample from the centre, pixels squared
 };
 
-// Which of a film's sums are those of the alpha layer: it follows the beauty.
+// The index in TileFilm::sums of the alpha layer, which follows the three channels of the beauty.
 inline constexpr size_t kAlphaSum = 3;
 
 // A finished strip, channels in the order of StripChannels. Id channels hold uint32_t.
@@ -62,7 +62,7 @@ struct Strip {
   std::vector<AlignedArray<uint32_t>> ids;  // all uint channels, in order
 };
 
-// The rows of a tile in a channel of the strip that it lies in.
+// The rows of a tile in a channel of the strip that holds it.
 template <typename T>
 PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* channel) {
   const auto stride = static_cast<size_t>(strip.width());
@@ -71,31 +71,32 @@ PixelRows<T> RowsIn(const Window& strip, const Window& tile, AlignedArray<T>* ch
           static_cast<size_t>(tile.width()), static_cast<size_t>(tile.height()), stride};
 }
 
-// The channels of a strip's files: float channels first, then ids.
+// The channels of a strip and of the files written from it: float channels first, then ids.
 std::vector<ChannelSpec> StripChannels(const std::vector<Layer>& layers, PixelType color_type);
 
-// Gives the strip the plan's channels with room for the window. Pixels that were there stay where
-// the room suffices: RenderStrip counts on it.
+// Gives the strip the plan's channels, large enough for the window. If they were large enough,
+// their pixels stay: RenderTile's `blank` relies on it.
 void StartStrip(const FilmPlan& plan, const Window& window, Strip* strip);
 
-// Whether some layers show one sample of a pixel, not an average.
+// Whether some layers hold the value of one sample, not an average.
 bool ShowsNearest(const FilmPlan& plan);
 
-// Empties the tile's channels. `room`: the most pixels that tiles of this film have, at most
-// kBatchCapacity.
-void StartTile(const FilmPlan& plan, const Window& tile, size_t room, TileFilm* film);
+// Clears the channels of a tile. `capacity`: the largest number of pixels of any tile that this
+// film is used for, at most kBatchCapacity.
+void StartTile(const FilmPlan& plan, const Window& tile, size_t capacity, TileFilm* film);
 
-// What a layer shows where nothing is hit: a colour of floats.
+// The value of a layer where nothing is hit, representable in float.
 Rgb BackgroundOf(const Layer& layer, const FilmPlan& plan);
 
-// Whether what lies behind the shapes shows in the layer.
+// Whether the layer shows the background.
 bool ShowsBackground(const Layer& layer);
 
-// Layers hold floats; what they add up to is computed from the same floats.
+// Layers are stored as float. The beauty is computed from the rounded values, so that it is exactly
+// their sum.
 Rgb RoundToFloat(const Rgb& value);
 
-// Adds the background, divides by the number of samples, rounds to float and puts the tile into its
-// strip.
+// Adds the background to the sums, divides by the number of samples, rounds to float and writes the
+// tile to its strip.
 void ResolveTile(const FilmPlan& plan, const TileFilm& film, Strip* strip);
 
 }  // namespace nacre

@@ -33,7 +33,7 @@ void AddSamplesT(const double* values, const double* weights, int samples, size_
 }
 
 // One row of RoundSums.
-HWY_INLINE void RoundRow(const double* sums, const double* coverage, const RoundedBy& by,
+HWY_INLINE void RoundRow(const double* sums, const double* coverage, const Resolution& by,
                          size_t width, float* out) {
   const D d;
   const V background = hn::Set(d, by.background);
@@ -51,7 +51,7 @@ HWY_INLINE void RoundRow(const double* sums, const double* coverage, const Round
   }
 }
 
-void RoundSumsT(const double* sums, const double* coverage, const RoundedBy& by,
+void RoundSumsT(const double* sums, const double* coverage, const Resolution& by,
                 const PixelRows<float>& rows) {
   for (size_t y = 0; y < rows.height; ++y, sums += rows.width, coverage += rows.width) {
     RoundRow(sums, coverage, by, rows.width, rows.first + y * rows.stride);
@@ -70,27 +70,27 @@ void FillPixelsT(float value, const PixelRows<float>& rows) {
   }
 }
 
-// How many hits from `first` on, not beyond `end`, are of rays one after the other. Rays ascend.
+// How many hits from `first` on, and before `end`, have consecutive rays. Rays ascend.
 HWY_INLINE size_t CountConsecutive(const uint32_t* HWY_RESTRICT ray, size_t first, size_t end) {
   if (ray[end - 1] - ray[first] == end - 1 - first) return end - first;
   const hn::ScalableTag<uint32_t> d;
   const auto lane = hn::Iota(d, 0);
-  for (size_t i = first;; i += hn::Lanes(d)) {  // one of them is not
+  for (size_t i = first;; i += hn::Lanes(d)) {  // the loop ends: there is a gap before `end`
     const auto next = hn::Add(lane, hn::Set(d, ray[first] + static_cast<uint32_t>(i - first)));
     const intptr_t other = hn::FindFirstTrue(d, hn::Ne(hn::LoadU(d, ray + i), next));
     if (other >= 0) return i + static_cast<size_t>(other) - first;
   }
 }
 
-void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* weights,
-                std::vector<HitSpan>* spans) {
+void FindHitSpansT(const HitRays& hits, size_t pixels, size_t row, const double* weights,
+                   std::vector<HitSpan>* spans) {
   spans->clear();
   size_t sample = 0;
   size_t row_end = row;
   for (size_t i = hits.begin; i < hits.end;) {
     const size_t ray = hits.ray[i];
     while (ray >= (sample + 1) * pixels) ++sample;
-    while (ray >= row_end) row_end += row;  // a division takes longer
+    while (ray >= row_end) row_end += row;  // faster than a division
     const size_t end = std::min(hits.end, i + (row_end - ray));
     const size_t count = CountConsecutive(hits.ray, i, end);
     spans->push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(ray - sample * pixels),
@@ -99,15 +99,16 @@ void FindSpansT(const HitRays& hits, size_t pixels, size_t row, const double* we
   }
 }
 
-// Adds what hits are worth to the sums of the spans' pixels, in all channels while a span is at
-// hand: many are short.
+// Adds the values of hits to the sums of the spans' pixels. Span by span, and all channels of a
+// span at once, because many spans are short.
 template <size_t kChannels>
 struct ToSums {
-  // Of a tile's pixels that are all hit, so many samples lie one behind the other in a batch.
+  // Where all of a tile's pixels are hit, this many samples of them follow one another in a batch.
+  // Their sums then stay in registers.
   static constexpr size_t kSamples = 8;
   double* const* sums;
 
-  // value(c, i): that of the hits from i on.
+  // value(c, i): a vector of the values of the hits from i on, in channel c.
   template <class Value>
   HWY_INLINE void operator()(std::span<const HitSpan> spans, const Value& value) const {
     const D d;
@@ -118,7 +119,7 @@ struct ToSums {
         Add<1>(spans, [weight, value](size_t c, size_t i)
                           HWY_ATTR { return hn::Mul(weight, value(c, i)); });
         spans = spans.subspan(1);
-      } else if (AreAlike(spans)) {  // of filters that are nowhere negative
+      } else if (AreSamePixels(spans)) {  // weights are all 1 if the filter has no negative lobes
         Add<kSamples>(spans, value);
         spans = spans.subspan(kSamples);
       } else {
@@ -128,8 +129,8 @@ struct ToSums {
     }
   }
 
-  // Whether the first spans are samples of the same pixels and have one weight.
-  static HWY_INLINE bool AreAlike(std::span<const HitSpan> spans) {
+  // Whether the first kSamples spans are samples of the same pixels, with the same weight.
+  static HWY_INLINE bool AreSamePixels(std::span<const HitSpan> spans) {
     if (spans.size() < kSamples) return false;
     for (size_t k = 1; k < kSamples; ++k) {
       if (spans[k].pixel != spans[0].pixel || spans[k].count != spans[0].count ||
@@ -140,7 +141,8 @@ struct ToSums {
     return true;
   }
 
-  // `weighted`: a copy. For all that the compiler knows, the sums are its numbers and the spans'.
+  // `weighted` is a copy, and so are the numbers of the spans: the compiler must assume that stores
+  // to the sums change anything that it has a reference to.
   template <size_t kSpans, class Weighted>
   HWY_INLINE void Add(std::span<const HitSpan> spans, Weighted weighted) const {
     const D d;
@@ -164,7 +166,7 @@ struct ToSums {
   }
 };
 
-// Puts it into the spans' pixels.
+// Writes the values of hits to the spans' pixels.
 template <size_t kChannels>
 struct ToRows {
   const PixelRows<float>* rows;
@@ -191,25 +193,25 @@ struct ToRows {
   }
 };
 
-// Of four channels the last is coverage.
+// The fourth channel is coverage.
 template <size_t kChannels>
 inline constexpr size_t kColorsOf = std::min<size_t>(kChannels, 3);
 
-// What there is to add, in vectors. No value is -0, as no sum that begins with 0 is.
-template <size_t kChannels, bool kTwo, bool kFurther>
+// The values of hits, as vectors. No value is -0, because sums that begin with 0 never are.
+template <size_t kChannels, bool kHasB, bool kHasConstant2>
 struct ValuesV {
   static constexpr size_t kColors = kColorsOf<kChannels>;
   const float *a[kColors], *b[kColors];
-  V constant[kColors], further[kColors];
+  V constant[kColors], constant2[kColors];
 
   explicit HWY_INLINE ValuesV(const HitValues& values) {
     const D d;
     for (size_t c = 0; c < kColors; ++c) {
       a[c] = values.a[c];
       b[c] = values.b[c];
-      // With 0 first: nor is a sum with this.
+      // Adding 0 turns a constant of -0 into 0.
       constant[c] = hn::Add(hn::Zero(d), hn::Set(d, values.constant[c]));
-      further[c] = hn::Set(d, values.further[c]);
+      constant2[c] = hn::Set(d, values.constant2[c]);
     }
   }
 
@@ -217,45 +219,45 @@ struct ValuesV {
     const D d;
     if (c >= kColors) return hn::Set(d, 1.0);
     V sum = hn::PromoteTo(d, hn::LoadU(F(), a[c] + i));
-    if constexpr (kTwo) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(F(), b[c] + i)));
+    if constexpr (kHasB) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(F(), b[c] + i)));
     sum = hn::Add(sum, constant[c]);
-    return kFurther ? hn::Add(sum, further[c]) : sum;
+    return kHasConstant2 ? hn::Add(sum, constant2[c]) : sum;
   }
 };
 
 template <size_t kChannels, class To>
-HWY_INLINE void BringChannels(const HitValues& values, std::span<const HitSpan> spans,
+HWY_INLINE void WriteChannels(const HitValues& values, std::span<const HitSpan> spans,
                               const To& to) {
-  bool further = false;
+  bool has_constant2 = false;
   constexpr size_t kColors = kColorsOf<kChannels>;
-  for (size_t c = 0; c < kColors; ++c) further = further || values.further[c] != 0;
+  for (size_t c = 0; c < kColors; ++c) has_constant2 = has_constant2 || values.constant2[c] != 0;
   if (values.a[0] == nullptr) {
     const D d;
     V both[kChannels];
     for (size_t c = 0; c < kChannels; ++c) {
-      both[c] = hn::Set(d, c < kColors ? 0.0 + values.constant[c] + values.further[c] : 1.0);
+      both[c] = hn::Set(d, c < kColors ? 0.0 + values.constant[c] + values.constant2[c] : 1.0);
     }
     to(spans, [both](size_t c, size_t) HWY_ATTR { return both[c]; });
   } else if (values.b[0] == nullptr) {
-    if (further) return to(spans, ValuesV<kChannels, false, true>(values));
+    if (has_constant2) return to(spans, ValuesV<kChannels, false, true>(values));
     to(spans, ValuesV<kChannels, false, false>(values));
   } else {
-    if (further) return to(spans, ValuesV<kChannels, true, true>(values));
+    if (has_constant2) return to(spans, ValuesV<kChannels, true, true>(values));
     to(spans, ValuesV<kChannels, true, false>(values));
   }
 }
 
 void AddHitsT(const HitValues& values, std::span<const HitSpan> spans, double* const* sums) {
-  if (values.channels == 1) return BringChannels<1>(values, spans, ToSums<1>{sums});
-  if (values.channels == 3) return BringChannels<3>(values, spans, ToSums<3>{sums});
-  BringChannels<4>(values, spans, ToSums<4>{sums});
+  if (values.channels == 1) return WriteChannels<1>(values, spans, ToSums<1>{sums});
+  if (values.channels == 3) return WriteChannels<3>(values, spans, ToSums<3>{sums});
+  WriteChannels<4>(values, spans, ToSums<4>{sums});
 }
 
-void PutHitsT(const HitValues& values, std::span<const HitSpan> spans,
-              const PixelRows<float>* rows) {
-  if (values.channels == 1) return BringChannels<1>(values, spans, ToRows<1>{rows});
-  if (values.channels == 3) return BringChannels<3>(values, spans, ToRows<3>{rows});
-  BringChannels<4>(values, spans, ToRows<4>{rows});
+void StoreHitsT(const HitValues& values, std::span<const HitSpan> spans,
+                const PixelRows<float>* rows) {
+  if (values.channels == 1) return WriteChannels<1>(values, spans, ToRows<1>{rows});
+  if (values.channels == 3) return WriteChannels<3>(values, spans, ToRows<3>{rows});
+  WriteChannels<4>(values, spans, ToRows<4>{rows});
 }
 
 // a[i], and b[i] unless b is null.
@@ -265,11 +267,11 @@ HWY_INLINE V LoadSum(const float* a, const float* b, size_t i) {
   return b == nullptr ? of_a : hn::Add(of_a, hn::PromoteTo(d, hn::LoadU(F(), b + i)));
 }
 
-void AddFloatsT(const float* a, const float* b, double constant, double further, size_t begin,
+void AddFloatsT(const float* a, const float* b, double constant, double constant2, size_t begin,
                 size_t end, double* to) {
   const D d;
   const V first = hn::Set(d, constant);
-  const V second = hn::Set(d, further);
+  const V second = hn::Set(d, constant2);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     hn::StoreU(hn::Add(hn::Add(LoadSum(a, b, i), first), second), d, to + i);
   }
@@ -281,7 +283,8 @@ void AddFloatsByHitT(const FloatsToAdd& floats, size_t begin, size_t end, double
                         HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), from + i)); };
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
     const V sum = LoadSum(floats.a, floats.b, i);
-    hn::StoreU(hn::Add(hn::Add(sum, load(floats.constant, i)), load(floats.further, i)), d, to + i);
+    hn::StoreU(hn::Add(hn::Add(sum, load(floats.constant, i)), load(floats.constant2, i)), d,
+               to + i);
   }
 }
 
@@ -292,9 +295,9 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace nacre {
 HWY_EXPORT(AddSamplesT);
-HWY_EXPORT(FindSpansT);
+HWY_EXPORT(FindHitSpansT);
 HWY_EXPORT(AddHitsT);
-HWY_EXPORT(PutHitsT);
+HWY_EXPORT(StoreHitsT);
 HWY_EXPORT(RoundSumsT);
 HWY_EXPORT(FillPixelsT);
 HWY_EXPORT(AddFloatsT);
@@ -305,21 +308,21 @@ void AddSamples(const double* values, const double* weights, int samples, size_t
   HWY_DYNAMIC_DISPATCH(AddSamplesT)(values, weights, samples, pixels, sums);
 }
 
-void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
-               std::vector<HitSpan>* spans) {
-  HWY_DYNAMIC_DISPATCH(FindSpansT)(hits, pixels, row, weights, spans);
+void FindHitSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
+                  std::vector<HitSpan>* spans) {
+  HWY_DYNAMIC_DISPATCH(FindHitSpansT)(hits, pixels, row, weights, spans);
 }
 
 void AddHits(const HitValues& values, std::span<const HitSpan> spans, double* const* sums) {
   HWY_DYNAMIC_DISPATCH(AddHitsT)(values, spans, sums);
 }
 
-void PutHits(const HitValues& values, std::span<const HitSpan> spans,
-             const PixelRows<float>* rows) {
-  HWY_DYNAMIC_DISPATCH(PutHitsT)(values, spans, rows);
+void StoreHits(const HitValues& values, std::span<const HitSpan> spans,
+               const PixelRows<float>* rows) {
+  HWY_DYNAMIC_DISPATCH(StoreHitsT)(values, spans, rows);
 }
 
-void RoundSums(const double* sums, const double* coverage, const RoundedBy& by,
+void RoundSums(const double* sums, const double* coverage, const Resolution& by,
                const PixelRows<float>& rows) {
   HWY_DYNAMIC_DISPATCH(RoundSumsT)(sums, coverage, by, rows);
 }
@@ -328,9 +331,9 @@ void FillPixels(float value, const PixelRows<float>& rows) {
   HWY_DYNAMIC_DISPATCH(FillPixelsT)(value, rows);
 }
 
-void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,
+void AddFloats(const float* a, const float* b, double constant, double constant2, size_t begin,
                size_t end, double* to) {
-  HWY_DYNAMIC_DISPATCH(AddFloatsT)(a, b, constant, further, begin, end, to);
+  HWY_DYNAMIC_DISPATCH(AddFloatsT)(a, b, constant, constant2, begin, end, to);
 }
 
 void AddFloats(const FloatsToAdd& floats, size_t begin, size_t end, double* to) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/film_kernel.h: the film's loops over samples and pixels, in SIMD. All sums and products
-// are of doubles and never fused: the same bits on every target.
+// render/film_kernel.h: the film's loops over samples and pixels, in SIMD. Arithmetic is in double
+// and never fused, so that every target gives the same bits.
 #pragma once
 
 #include <cstddef>
@@ -11,73 +11,77 @@
 namespace nacre {
 
 // Adds the samples of one channel to the sums of its pixels: values[s * pixels + p] is sample s of
-// pixel p, of the weight weights[s]. All arrays are aligned and padded to whole vectors.
+// pixel p and has weight weights[s]. All arrays are aligned and padded to whole vectors.
 void AddSamples(const double* values, const double* weights, int samples, size_t pixels,
                 double* sums);
 
-// Hits [hit, hit + count) of a batch are those of as many pixels, from `pixel` on, by one sample.
+// Hits [hit, hit + count) of a batch belong to consecutive pixels, from `pixel` on, and to the same
+// sample of each, which has this weight.
 struct HitSpan {
   uint32_t hit, pixel, count;
   double weight;
 };
 
-// Hits [begin, end) of a batch: the numbers of their rays, which ascend. Aligned, and padded to
-// whole vectors.
+// Hits [begin, end) of a batch: the numbers of their rays, in ascending order. The array is aligned
+// and padded to whole vectors.
 struct HitRays {
   const uint32_t* ray;
   size_t begin, end;
 };
 
-// Finds their spans. The rays go through all pixels of the first sample first; `weights`: of each
-// sample. `row` divides `pixels`; no span goes beyond a row.
-void FindSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
-               std::vector<HitSpan>* spans);
+// Finds the spans of these hits. Rays are numbered sample by sample, and by the `pixels` pixels
+// within a sample. `weights`: by sample. No span crosses the end of a row of `row` pixels; `row`
+// divides `pixels`.
+void FindHitSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
+                  std::vector<HitSpan>* spans);
 
-// Hit i is worth a[c][i] + b[c][i] + constant[c] + further[c], in double, in channel c of a layer.
-// b, or a and b, may be null in all channels: 0. `channels` is 1, 3 or 4; the fourth is coverage,
-// where every hit is worth 1.
+// The value of hit i in channel c of a layer is a[c][i] + b[c][i] + constant[c] + constant2[c], in
+// double. b, or a and b, may be null for all channels, and then count as 0. `channels` is 1, 3 or
+// 4; the fourth is coverage, where every hit has the value 1.
 struct HitValues {
   int channels;
   const float* a[3];
   const float* b[3];
-  double constant[3], further[3];
+  double constant[3], constant2[3];
 };
 
-// AddSamples for hits alone, into the sums of each channel.
+// Adds the values of the hits, times the weights of their spans, to the sums of each channel.
 void AddHits(const HitValues& values, std::span<const HitSpan> spans, double* const* sums);
 
-// A tile's rows in a channel of the picture: pixel p is first[p / width * stride + p % width].
+// A tile's rows in a channel of a strip: pixel p is first[p / width * stride + p % width].
 template <typename T>
 struct PixelRows {
   T* first;
   size_t width, height, stride;
 };
 
-// The same for the only sample of each pixel, of weight 1, rounded to float: what RoundSums would
-// make of its sum, into the rows of each channel. No span goes beyond a row.
-void PutHits(const HitValues& values, std::span<const HitSpan> spans, const PixelRows<float>* rows);
+// For tiles with one sample per pixel, of weight 1: writes the values of the hits to the rows of
+// each channel, with the bits that AddHits and RoundSums would give. No span crosses the end of a
+// row.
+void StoreHits(const HitValues& values, std::span<const HitSpan> spans,
+               const PixelRows<float>* rows);
 
-// What rounds the sums of a channel to its pixels: `weight` of all samples of a pixel, those that
-// missed showing the background.
-struct RoundedBy {
+// How the sums of a channel become pixels. `weight`: the sum of the weights of a pixel's samples;
+// those that missed show the background.
+struct Resolution {
   double background, weight, scale;
 };
 
 // float((sum + background (weight - coverage)) scale) for each pixel of a tile.
-void RoundSums(const double* sums, const double* coverage, const RoundedBy& by,
+void RoundSums(const double* sums, const double* coverage, const Resolution& by,
                const PixelRows<float>& rows);
 
-// Sets all pixels of a tile.
+// Sets all pixels of a tile to one value.
 void FillPixels(float value, const PixelRows<float>& rows);
 
-// to[i] = double(a[i]) + double(b[i]) + constant + further for i in [begin, end); what lies after,
-// up to a whole vector, is overwritten. Of a null b there is nothing to add.
-void AddFloats(const float* a, const float* b, double constant, double further, size_t begin,
+// to[i] = double(a[i]) + double(b[i]) + constant + constant2 for i in [begin, end). Entries after
+// the end, up to a whole vector, are overwritten. b may be null and then counts as 0.
+void AddFloats(const float* a, const float* b, double constant, double constant2, size_t begin,
                size_t end, double* to);
 
-// The same with constants of their own.
+// The same with constants for each hit.
 struct FloatsToAdd {
-  const float *a, *b, *constant, *further;
+  const float *a, *b, *constant, *constant2;
 };
 void AddFloats(const FloatsToAdd& floats, size_t begin, size_t end, double* to);
 

@@ -9,26 +9,26 @@
 namespace nacre {
 namespace {
 
-// Where a layer's values come from: the sum of two arrays of floats and two constants, in double.
-// The beauty is the exact sum of the other layers' floats, so after the film's average each is
-// rounded once, whatever the filter's weights cancel; but where FilmPlan::beauty_is_sum rounds a
-// sample's once more. It never depends on which layers are asked for.
+// The values of a layer: the sum of two arrays of floats and two constants, in double. So the
+// beauty is the exact sum of the other layers' floats, and after averaging each layer is rounded
+// once, whatever weights cancel. (With FilmPlan::beauty_is_sum the beauty of each sample is rounded
+// once more.) The beauty never depends on which layers are rendered.
 struct LayerTerms {
   const Soa3<float>* first = nullptr;  // null: zeros
   const Soa3<float>* second = nullptr;
-  Rgb constant{0, 0, 0}, further{0, 0, 0};
-  // Of materials with maps, in place of the constants.
+  Rgb constant{0, 0, 0}, constant2{0, 0, 0};
+  // In place of the constants where materials have maps.
   const Soa3<float>* ambient = nullptr;
   const Soa3<float>* emission = nullptr;
 };
 
-// What hits reflect of all lights.
+// The reflected light of all lights.
 LayerTerms BeautyOf(const FilmPlan& plan, const ShadedBatch& s) {
   if (plan.beauty_is_sum) return {.first = &s.radiance.total.sum};
   return {.first = &s.radiance.total.diffuse, .second = &s.radiance.total.specular};
 }
 
-// The same where maps give each hit its own constants.
+// The terms of a layer where maps give each hit its own ambient, emission and albedo.
 LayerTerms MappedTermsOf(const FilmPlan& plan, const Layer& layer, const ShadedBatch& s) {
   switch (layer.kind) {
     case LayerKind::kBeauty: {
@@ -62,7 +62,7 @@ LayerTerms TermsOf(const FilmPlan& plan, const Layer& layer, size_t light_layer,
     case LayerKind::kBeauty: {
       LayerTerms terms = BeautyOf(plan, s);
       terms.constant = ambient;
-      terms.further = emission;
+      terms.constant2 = emission;
       return terms;
     }
     case LayerKind::kAlpha:
@@ -97,40 +97,42 @@ void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* val
                ChannelOrNull(terms.emission, c)},
               run.begin, run.end, values);
   } else if (first == nullptr) {
-    std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.further[c]);
+    std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.constant2[c]);
   } else {
-    AddFloats(first, ChannelOrNull(terms.second, c), terms.constant[c], terms.further[c], run.begin,
-              run.end, values);
+    AddFloats(first, ChannelOrNull(terms.second, c), terms.constant[c], terms.constant2[c],
+              run.begin, run.end, values);
   }
 }
 
-// Whether each of a run's layers is a sum of what its hits reflect and constants.
-bool IsPlain(const MaterialRun& run) { return !run.shading->mapped; }
+// Whether ambient light, emission and albedo are the same at all hits of the run: no maps change
+// them.
+bool HasConstants(const MaterialRun& run) { return !run.shading->mapped; }
 
-// Finds the spans of a run in a tile of `pixels`; none goes beyond a row of `row` pixels.
-void FindSpans(const MaterialRun& run, size_t pixels, size_t row, const ShadedBatch& batch,
-               LayerRoom* room) {
-  FindSpans({batch.hits().ray.data(), run.begin, run.end}, pixels, row,
-            batch.samples.weights.data(), &room->spans);
+// Finds the spans of a run in a tile of `pixels` pixels. No span crosses the end of a row of `row`
+// pixels.
+void FindRunSpans(const MaterialRun& run, size_t pixels, size_t row, const ShadedBatch& batch,
+                  LayerRoom* room) {
+  FindHitSpans({batch.hits().ray.data(), run.begin, run.end}, pixels, row,
+               batch.samples.weights.data(), &room->spans);
 }
 
 HitValues ValuesOf(const LayerTerms& terms, int channels) {
-  HitValues values{.channels = channels, .a = {}, .b = {}, .constant = {}, .further = {}};
+  HitValues values{.channels = channels, .a = {}, .b = {}, .constant = {}, .constant2 = {}};
   for (int c = 0; c < std::min(channels, 3); ++c) {
     values.a[c] = ChannelOrNull(terms.first, c);
     values.b[c] = ChannelOrNull(terms.second, c);
     values.constant[c] = terms.constant[c];
-    values.further[c] = terms.further[c];
+    values.constant2[c] = terms.constant2[c];
   }
   return values;
 }
 
-// Coverage is the layer behind the beauty, of all layers the first two: it is brought along.
+// Beauty and coverage are the first two layers. Coverage is written together with the beauty.
 int ChannelsWithCoverage(LayerKind kind) {
   return kind == LayerKind::kBeauty ? 4 : FloatChannels(kind);
 }
 
-// Adds a layer of a batch that FindSpans was asked about.
+// Adds a layer of a batch whose only run has the spans in `room`.
 void AddRun(const FilmPlan& plan, const Layer& layer, size_t light_layer, const ShadedBatch& batch,
             const LayerRoom& room, double* const* sums) {
   const ShadingMaterial& constants = *batch.surfaces.runs[0].shading;
@@ -138,7 +140,7 @@ void AddRun(const FilmPlan& plan, const Layer& layer, size_t light_layer, const 
   AddHits(ValuesOf(terms, ChannelsWithCoverage(layer.kind)), room.spans, sums);
 }
 
-// Adds a layer of any batch of a tile of `pixels`.
+// Adds a layer of any batch of a tile of `pixels` pixels.
 void AddRays(const FilmPlan& plan, const Layer& layer, size_t light_layer, size_t pixels,
              const ShadedBatch& batch, LayerRoom* room, double* const* sums) {
   Soa3<double>& values = GatherLayer(plan, layer, light_layer, Rgb(0, 0, 0), batch, room);
@@ -149,9 +151,10 @@ void AddRays(const FilmPlan& plan, const Layer& layer, size_t light_layer, size_
   }
 }
 
-// Makes values by ray of those by hit. `sky`: what the rays see that hit nothing, or null.
-void SpreadHits(const Rgb& background, const Soa3<float>* sky, int channels,
-                const ShadedBatch& batch, LayerRoom* room) {
+// Scatters values by hit to values by ray. Rays that hit nothing get the sky's radiance, or the
+// background if `sky` is null.
+void ScatterToRays(const Rgb& background, const Soa3<float>* sky, int channels,
+                   const ShadedBatch& batch, LayerRoom* room) {
   const size_t hits = batch.hits().count, samples = batch.samples.film.count;
   const uint32_t* const ray = batch.hits().ray.data();
   for (int c = 0; c < channels; ++c) {
@@ -177,8 +180,8 @@ FilmPixel RowPixel(const Window& tile, uint32_t ray) {
 
 }  // namespace
 
-void PutNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, size_t pixel,
-                TileFilm* film) {
+void StoreNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, size_t pixel,
+                  TileFilm* film) {
   const PrimitiveNumbers& primitives = batch.plan.primitives;
   const Soa3<double>& position = batch.hits().position;
   const Vec3d relative(position.x[hit], position.y[hit], position.z[hit]);
@@ -214,10 +217,10 @@ Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light
       }
     }
   }
-  // Where every ray hits the same material, hits are in the order of rays.
+  // If every ray hits and there is one run, hits are in the order of the rays.
   if (hits == batch.samples.film.count && runs.size() == 1) return room->hit_values;
   const bool sees_sky = plan.sky && ShowsBackground(layer);
-  SpreadHits(background, sees_sky ? &batch.radiance.sky : nullptr, channels, batch, room);
+  ScatterToRays(background, sees_sky ? &batch.radiance.sky : nullptr, channels, batch, room);
   return room->ray_values;
 }
 
@@ -225,9 +228,10 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
   const size_t hits = batch.hits().count, pixels = film->window.pixel_count();
   if (hits == 0 && !plan.sky) return;
   const std::vector<MaterialRun>& runs = batch.surfaces.runs;
-  // A pixel's samples are added in their order, whatever materials they hit.
-  const bool in_order = hits > 0 && runs.size() == 1 && IsPlain(runs[0]);
-  if (in_order) FindSpans(runs[0], pixels, pixels, batch, room);
+  // A pixel's samples must be added in their order, whichever materials they hit: with several runs
+  // values are scattered to rays first.
+  const bool in_order = hits > 0 && runs.size() == 1 && HasConstants(runs[0]);
+  if (in_order) FindRunSpans(runs[0], pixels, pixels, batch, room);
   size_t sum = 0;
   size_t light_layer = 0;
   for (const Layer& layer : plan.layers) {
@@ -239,8 +243,8 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
     sum += static_cast<size_t>(FloatChannels(layer.kind));
     const bool sees_sky = plan.sky && ShowsBackground(layer);
     if (in_order && !sees_sky) {
-      const bool brought_along = layer.kind == LayerKind::kAlpha && !plan.sky;
-      if (!brought_along) AddRun(plan, layer, light_layer, batch, *room, sums);
+      const bool is_added = layer.kind == LayerKind::kAlpha && !plan.sky;
+      if (!is_added) AddRun(plan, layer, light_layer, batch, *room, sums);
     } else if (hits > 0 || sees_sky) {
       AddRays(plan, layer, light_layer, pixels, batch, room, sums);
     }
@@ -250,23 +254,23 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
       plan, batch, [&](uint32_t ray) { return RowPixel(film->window, ray); }, room, film);
 }
 
-bool PutOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
-                    LayerRoom* room, Strip* strip) {
+bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
+                      LayerRoom* room, Strip* strip) {
   const std::vector<MaterialRun>& runs = batch.surfaces.runs;
-  if (!std::all_of(runs.begin(), runs.end(), IsPlain)) return false;
+  if (!std::all_of(runs.begin(), runs.end(), HasConstants)) return false;
   if (batch.hits().count < batch.samples.film.count) FillBackground(plan, tile, strip);
   for (const MaterialRun& run : runs) {
-    FindSpans(run, tile.pixel_count(), static_cast<size_t>(tile.width()), batch, room);
+    FindRunSpans(run, tile.pixel_count(), static_cast<size_t>(tile.width()), batch, room);
     size_t color = 0, light_layer = 0;
     for (const Layer& layer : plan.layers) {
-      if (layer.kind == LayerKind::kAlpha) continue;  // brought along
+      if (layer.kind == LayerKind::kAlpha) continue;  // written with the beauty
       const LayerTerms terms = TermsOf(plan, layer, light_layer, *run.shading, batch);
       const int channels = ChannelsWithCoverage(layer.kind);
       PixelRows<float> rows[4] = {};
       for (int c = 0; c < channels; ++c) {
         rows[c] = RowsIn(strip->window, tile, &strip->colors[color++]);
       }
-      PutHits(ValuesOf(terms, channels), room->spans, rows);
+      StoreHits(ValuesOf(terms, channels), room->spans, rows);
       if (layer.kind == LayerKind::kLight) ++light_layer;
     }
   }
@@ -278,7 +282,7 @@ void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip) {
   size_t color = 0;
   for (const Layer& layer : plan.layers) {
     const Rgb background = IsAveraged(layer.kind) ? BackgroundOf(layer, plan) : Rgb(0, 0, 0);
-    // As the film averages it: the sum of spp floats, at most 2^16, is exact.
+    // As the film averages it. The sum of spp equal floats is exact for spp of up to 2^16.
     const Rgb mean = background * spp * (1.0 / spp);
     for (int c = 0; c < FloatChannels(layer.kind); ++c) {
       FillPixels(static_cast<float>(mean[c]), RowsIn(strip->window, tile, &strip->colors[color++]));

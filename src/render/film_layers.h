@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/film_layers.h: from the radiance of a batch of hits to the film's layers.
+// render/film_layers.h: writes the radiance of a batch of hits to the layers of the film.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace nacre {
 
-// A batch that has been through all stages but the film.
+// A batch that has passed all stages except the film.
 struct ShadedBatch {
   const SurfacePlan& plan;
   const CameraSamples& samples;
@@ -22,35 +22,36 @@ struct ShadedBatch {
   const HitBatch& hits() const { return surfaces.hits; }
 };
 
-// Buffers for layers on their way to the film.
+// Buffers of this stage.
 struct LayerRoom {
   Soa3<double> hit_values, ray_values;
   std::vector<HitSpan> spans;
-  AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // of each pixel, in this batch
+  AlignedArray<uint32_t> nearest_ray{kBatchCapacity};  // by pixel, of the rays of one batch
 };
 
 inline AlignedArray<double>& ChannelOf(Soa3<double>& soa, int c) {
   return c == 0 ? soa.x : c == 1 ? soa.y : soa.z;
 }
 
-// An averaged layer's values at the rays of the batch, in buffers of the room; `background` for
-// those that hit nothing.
+// The values of an averaged layer by ray of the batch, in buffers of the room. Rays that hit
+// nothing have the value `background`, or that of the sky. `light_layer`: the number of the layer
+// among the light layers, if it is one.
 Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light_layer,
                           const Rgb& background, const ShadedBatch& batch, LayerRoom* room);
 
-// Takes P, Z and ids of the film's entry `pixel` from a hit.
-void PutNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, size_t pixel,
-                TileFilm* film);
+// Sets P, Z and ids of the film's entry `pixel` to those of a hit.
+void StoreNearest(const FilmPlan& plan, const ShadedBatch& batch, size_t hit, size_t pixel,
+                  TileFilm* film);
 
-// A pixel: its entry in the film, and its place in the frame.
+// A pixel: its index in the film, and its position in the frame.
 struct FilmPixel {
   size_t index;
   int x, y;
 };
 
-// Takes P, Z and ids, where layers ask for them, from the hit nearest to its pixel's centre, and of
-// several as near, which may be in different runs, from that of the first ray of a batch.
-// pixel_of(ray) is a FilmPixel.
+// Sets P, Z and ids, if there are layers of them, to those of the hit nearest to the pixel's
+// centre. Of several hits of a batch at the same distance, which may be in different runs, the one
+// with the first ray counts. pixel_of(ray) is a FilmPixel.
 template <class PixelOf>
 void AddNearest(const FilmPlan& plan, const ShadedBatch& batch, const PixelOf& pixel_of,
                 LayerRoom* room, TileFilm* film) {
@@ -70,20 +71,20 @@ void AddNearest(const FilmPlan& plan, const ShadedBatch& batch, const PixelOf& p
     if (!(distance < nearest || earlier)) continue;
     nearest = distance;
     nearest_ray = ray;
-    PutNearest(plan, batch, i, pixel.index, film);
+    StoreNearest(plan, batch, i, pixel.index, film);
   }
 }
 
 // Adds a tile's round of samples to every layer of its film.
 void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, TileFilm* film);
 
-// Puts a round into the strip that is all of the samples of its tile's pixels (FilmPlan::
-// one_sample), without sums: the same bits. False, and nothing is put, if it takes more than that.
-bool PutOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
-                    LayerRoom* room, Strip* strip);
+// For FilmPlan::one_sample: writes the only round of a tile to the strip directly, with the bits
+// that sums would give. False, and nothing is written, if materials have maps.
+bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Window& tile,
+                      LayerRoom* room, Strip* strip);
 
-// Fills a tile that nothing is hit in, under samples of weight 1, with what its film would resolve
-// to: to the bit, because the background is a float and sums of it are exact.
+// Fills a tile in which nothing is hit, and whose samples have weight 1, with the same bits that
+// its film would give: the background is representable in float, so that its sums are exact.
 void FillBackground(const FilmPlan& plan, const Window& tile, Strip* strip);
 
 }  // namespace nacre

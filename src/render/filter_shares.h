@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/filter_shares.h: which share of a pixel's samples lies in a box on the film.
+// render/filter_shares.h: the share of a pixel's samples that lie in a box on the film.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 namespace nacre {
 
-// The share of a pixel's samples, along one axis, that lie between two distances from its centre.
+// The share of a pixel's samples whose offset from the centre, along one axis, lies between `from`
+// and `to`, in pixels.
 inline double ShareBetween(const PixelFilter& filter, double from, double to) {
   const auto below = [&](double x) {
     const double inside = FilterIntegral(filter, std::min(std::abs(x), filter.width / 2));
@@ -21,30 +22,31 @@ inline double ShareBetween(const PixelFilter& filter, double from, double to) {
 
 // A box on the film, in pixels.
 struct FilmBox {
-  double x, y;  // its middle
+  double x, y;  // of its centre
   double half_width, half_height;
 };
 
 // The pixels of the window whose samples may lie in the box.
 inline Window PixelsOver(const PixelFilter& filter, const Window& window, const FilmBox& box) {
-  const double reach = filter.width / 2;
+  const double radius = filter.width / 2;
   const auto first = [&](double at, double half, int from) {
-    return std::max(static_cast<int>(std::floor(at - 0.5 - reach - half)), from);
+    return std::max(static_cast<int>(std::floor(at - 0.5 - radius - half)), from);
   };
   const auto end = [&](double at, double half, int to) {
-    return std::min(static_cast<int>(std::ceil(at - 0.5 + reach + half)) + 1, to);
+    return std::min(static_cast<int>(std::ceil(at - 0.5 + radius + half)) + 1, to);
   };
   return {first(box.x, box.half_width, window.x0), first(box.y, box.half_height, window.y0),
           end(box.x, box.half_width, window.x1), end(box.y, box.half_height, window.y1)};
 }
 
-// Calls add(column, row, share) for each of these pixels, counted from the window's corner.
+// Calls add(column, row, share) for each of these pixels with the share of its samples that lies in
+// the box. Columns and rows count from the window's corner.
 template <class Add>
 void ForEachShare(const PixelFilter& filter, const Window& window, const FilmBox& box,
                   const Add& add) {
-  constexpr int kMostColumns = 32;  // filters are up to 16 pixels wide, boxes two
+  constexpr int kMaxColumns = 32;  // filters are up to 16 pixels wide, boxes up to 2
   const Window pixels = PixelsOver(filter, window, box);
-  double of_columns[kMostColumns];
+  double of_columns[kMaxColumns];
   for (int x = pixels.x0; x < pixels.x1; ++x) {
     const double across = box.x - (x + 0.5);
     of_columns[x - pixels.x0] =

@@ -30,11 +30,12 @@ Rgb SumAmbient(const Scene& scene) {
   return sum;
 }
 
-// Samples beside all outlines hit nothing: that they are there is all that need be known, unless
-// someone asks where. Tiles that triangles are in sight of place all of theirs.
-const char* WhyAllPlaces(const FramePlan& plan, const RenderSettings& settings) {
+// Samples outside all outlines of spheres hit nothing, so that their positions on the film need not
+// be computed. Returns why they must be in this frame; null if they need not. (Tiles in which
+// triangles may be visible always compute the positions of all samples.)
+const char* WhyAllPositionsOnFilm(const FramePlan& plan, const RenderSettings& settings) {
   return plan.scene->spheres.empty() ? "there are no spheres"
-         : settings.max_error > 0    ? "each block of pixels places its own"
+         : settings.max_error > 0    ? "adaptive sampling makes its own samples"
          : !plan.hits.tiles          ? "a tree finds every ray's hit"
          : settings.general_path     ? "the general path is asked for"
          : plan.direct.sky           ? "they see the sky"
@@ -61,18 +62,20 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
   AdaptivePlan adaptive =
       PlanAdaptive(scene, plan.surfaces.materials, settings.max_error, settings.max_samples);
   adaptive.brightest = BrightestObject(scene, plan.direct, adaptive.white);
-  // A texture may hold anything between pixel centres, and triangles are not binned.
+  // Between pixel centres a texture may show anything. Triangles are not binned, so their edges are
+  // not known.
   adaptive.footprints = adaptive.footprints && plan.hits.binned && scene.meshes.empty() &&
                         !plan.surfaces.splits && !plan.surfaces.textured;
   adaptive.lights = FindHighlightLights(scene, plan.direct);
   adaptive.mesh_glints = FindMeshGlints(scene, plan.surfaces, adaptive, plan.camera, plan.window,
-                                        kCellSize + adaptive.reach + kWidestRare,
-                                        kWidestRare * kWidestRare, settings.threads);
-  // A pixel beyond the cell: what covers its neighbours tells edges from what is rare.
+                                        kCellSize + adaptive.filter_radius + kMaxRareWidth,
+                                        kMaxRareWidth * kMaxRareWidth, settings.threads);
+  // One pixel beyond the cell, because the pixels around a triangle tell whether it is part of an
+  // edge or a rare feature.
   if (!scene.meshes.empty()) {
     adaptive.small_triangles =
         BinSmallTriangles(plan.surfaces.primitives, MakeProjector(plan.camera), plan.window,
-                          adaptive.reach + 1, settings.threads);
+                          adaptive.filter_radius + 1, settings.threads);
   }
   const PixelFilter& filter = scene.image.filter;
   const bool square = filter.kind == FilterKind::kBox && filter.width <= 1;
@@ -81,16 +84,16 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
       {"adaptive sampling", true,
        fmt::format(
            "each block of 4x4 pixels samples until its pixels' 95 % intervals are within {} "
-           "of max(|L|, 0.05){}, and there are enough samples to have met what is rare there; "
+           "of max(|L|, 0.05){}, and there are enough samples to find what is rare there; "
            "{}{}",
            settings.max_error,
            std::isinf(adaptive.white)
                ? ""
                : fmt::format(", and those of highlights of white, {:.3g}", adaptive.white),
-           adaptive.footprints ? "those on one smooth hit stop at their pixels' centres"
-                               : "none is known to be smooth",
-           adaptive.square > 0 ? "; pixels that one outline crosses weigh their hits by the "
-                                 "share that is covered"
+           adaptive.footprints ? "blocks on one smooth surface stop at their pixels' centres"
+                               : "no block is known to be smooth",
+           adaptive.square > 0 ? "; pixels that one outline crosses weight their hits by "
+                                 "their coverage"
                                : "")});
   return adaptive;
 }
@@ -104,7 +107,7 @@ FramePlan MakePlan(const Scene& scene, const RenderSettings& settings) {
 
 FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedScene* prepared) {
   FramePlan plan;
-  plan.with_lights = ShowLights(given, prepared);
+  plan.with_lights = AddVisibleLights(given, prepared);
   const Scene& scene = plan.with_lights ? plan.with_lights->scene : given;
   plan.scene = &scene;
   plan.frame = {0, 0, scene.image.width, scene.image.height};
@@ -124,10 +127,10 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   BuildTrees(tree_for_shadows, &plan.hits, why);
   plan.surfaces =
       PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);
-  plan.sampling = PlanSampling(
-      scene, settings, std::move(sampler),
-      {!plan.direct.sampled_lights.empty(), plan.surfaces.textured, WhyAllPlaces(plan, settings)},
-      why);
+  plan.sampling = PlanSampling(scene, settings, std::move(sampler),
+                               {!plan.direct.sampled_lights.empty(), plan.surfaces.textured,
+                                WhyAllPositionsOnFilm(plan, settings)},
+                               why);
   PlanLightOffsets(scene, settings, &plan.direct, why);
   if (settings.max_error > 0) plan.adaptive = PlanAdaptiveSampling(plan, settings, why);
   if (!scene.meshes.empty() && plan.hits.intersector != nullptr) {
@@ -150,7 +153,7 @@ std::string ExplainPlan(const FramePlan& plan, const RenderStats* stats) {
     text += fmt::format("  {}  {}: {}\n", item.used ? "used   " : "skipped", Printable(item.what),
                         Printable(item.reason));
   }
-  // What is skipped above changes no bit; what is not exact stands here.
+  // Work skipped above changes no bit. These methods do.
   text += "substitutions (which agree within a stated error):\n";
   for (const PlanItem& item : plan.why.substitutions) {
     text += fmt::format("  {}: {}\n", Printable(item.what), Printable(item.reason));

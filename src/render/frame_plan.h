@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/frame_plan.h: what a frame needs, decided once before any ray is traced, and so what is
-// skipped: a plan for each stage of the work on a batch of samples. `--explain` prints the reasons.
+// render/frame_plan.h: how a frame is rendered, decided once before any ray is traced, and with it
+// which work can be skipped. Each stage of the work on a batch of samples has a plan of its own.
+// `--explain` prints the reasons.
 #pragma once
 
 #include <memory>
@@ -19,10 +20,11 @@
 
 namespace nacre {
 
-// What each part is made from; MakePlan makes them in the order in which one needs another.
+// The plans of all stages. Comments name what each plan is made from; MakePlan makes them in an
+// order in which each finds what it needs.
 struct FramePlan {
   const Scene* scene = nullptr;
-  std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` where lights are visible
+  std::shared_ptr<const SceneWithLights> with_lights;  // owns `scene` if lights are visible
   Window frame;                                        // all pixels: 0, 0, width, height
   Window window;                                       // those to render
   CameraFrame camera{};
@@ -31,20 +33,21 @@ struct FramePlan {
   SurfacePlan surfaces;  // materials, textures, ambient lights, shapes; camera for footprints
   DirectPlan direct;     // lights, layers, shapes, camera; `hits` for shadows
   SamplingPlan
-      sampling;  // image settings; what `direct`, `surfaces`, `hits`, `film` ask of samples
-  AdaptivePlan adaptive;  // max_error, and all of the above
-  Explanation why;        // of all parts
+      sampling;  // image settings; what `direct`, `surfaces`, `hits`, `film` need of samples
+  AdaptivePlan adaptive;  // max_error; all of the above
+  Explanation why;        // of all stages
 };
 
 // `scene` must be valid (scene/validate.h) and outlive the plan. Throws Error (usage) for a layer
 // or region that the scene does not have.
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings);
 
-// The same bits from pieces that were made for a plan before, of which none may be rendered any
-// more. `prepared` has been told of all changes of the scene since.
+// The same plan, made faster with what earlier plans have left in `prepared`, whose versions must
+// include all changes of the scene since. Those earlier plans must not be rendered any more.
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings, PreparedScene* prepared);
 
-// The plan as text: each item, used or skipped, and why; with `stats`, each stage's share.
+// The plan as text: what is used or skipped, and why. With `stats`, which may be null, also each
+// stage's share of the time.
 std::string ExplainPlan(const FramePlan& plan, const RenderStats* stats);
 
 }  // namespace nacre

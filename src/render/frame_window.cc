@@ -22,9 +22,9 @@ Window RegionWindow(const Window& frame, const Window& region) {
   return window;
 }
 
-// Bands differ by one unit of rows at most, and every one holds some.
+// A unit is `band_rows` rows. Bands differ by at most one unit, and none is empty.
 Window BandWindow(const Window& frame, const FrameBand& band, int band_rows) {
-  const int units = MostBands(frame, band_rows);
+  const int units = MaxBands(frame, band_rows);
   if (band.count > units) {
     throw Error(ExitCode::kUsage, "--tile",
                 fmt::format("{}/{}: a frame of {} rows has {} bands of {} rows at most", band.index,
@@ -40,7 +40,7 @@ Window BandWindow(const Window& frame, const FrameBand& band, int band_rows) {
 
 }  // namespace
 
-int MostBands(const Window& frame, int band_rows) {
+int MaxBands(const Window& frame, int band_rows) {
   return (frame.height() + band_rows - 1) / band_rows;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/frame_window.h: which pixels of the frame a render is to make.
+// render/frame_window.h: the window of the frame that is to be rendered.
 #pragma once
 
 #include "base/image.h"
@@ -7,12 +7,12 @@
 
 namespace nacre {
 
-// The settings' region or band of the frame. Throws Error (usage) for a region that holds no pixel,
-// and for a band of more than MostBands.
+// The pixels of the settings' region or band; else all pixels of the frame. Throws Error (usage)
+// for a region that holds no pixel, and for more than MaxBands bands.
 Window FrameWindow(const Window& frame, const RenderSettings& settings);
 
-// Into how many bands the frame can be cut, each of `band_rows` rows or a multiple of them, the
-// last of what is left.
-int MostBands(const Window& frame, int band_rows);
+// The largest number of bands that the frame can be divided into. Bands have a multiple of
+// `band_rows` rows; the last has the rest.
+int MaxBands(const Window& frame, int band_rows);
 
 }  // namespace nacre

@@ -10,48 +10,45 @@
 namespace nacre {
 namespace {
 
-constexpr double kFarAway = std::numeric_limits<double>::infinity();
-
-// The eye or a light as a sphere's centre sees it.
-struct SeenPoint {
+// The eye or a light relative to a sphere's centre.
+struct PolarPoint {
   Vec3d direction;  // unit
-  double distance;  // may be infinite
+  double distance;  // kInfiniteDistance if directional
 };
 
-SeenPoint SeenFrom(const Vec3d& center, const Vec3d& point) {
+PolarPoint PolarFrom(const Vec3d& center, const Vec3d& point) {
   const Vec3d to = point - center;
   const double distance = to.length();
   return {to / distance, distance};
 }
 
-// A point of a sphere of `radius`, at an angle from the direction to a point: the angle between
-// the normal there and the way to the point, how that changes with the former, and the way's
-// length.
+// A point P sees a sphere of `radius` from `distance` of its centre. At the point of the sphere
+// whose normal makes `angle` with the direction from the centre to P: the angle of incidence,
+// between the normal and the direction to P; its derivative by `angle`; and the distance to P.
 struct Incidence {
   double angle, slope, length;
 };
 
 Incidence IncidenceAt(double radius, double distance, double angle) {
-  if (distance == kFarAway) return {angle, 1, kFarAway};
+  if (distance == kInfiniteDistance) return {angle, 1, kInfiniteDistance};
   const double along = distance * std::cos(angle) - radius, across = distance * std::sin(angle);
   const double length2 = along * along + across * across;
   return {std::atan2(across, along), 1 + radius * along / length2, std::sqrt(length2)};
 }
 
-// Where on the arc between the directions to the eye and to a light both are seen under the same
-// angle: Alhazen's problem for a point outside the sphere. The difference of the angles grows along
-// the arc, so that Newton's steps, kept between what is known to be too little and too much, find
-// it.
+// The point of mirror reflection on the sphere, on the arc between the directions to the eye and to
+// a light, where both have the same angle of incidence (Alhazen's problem). The difference of the
+// angles increases along the arc, so that Newton's method, safeguarded by bisection, finds it.
 struct MirrorPoint {
-  double from_eye;  // the angle at the sphere's centre
+  double from_eye;  // the angle at the sphere's centre from the direction to the eye
   Incidence eye, light;
 };
 
 MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, double arc) {
-  constexpr int kMostSteps = 60;
+  constexpr int kMaxSteps = 60;
   double low = 0, high = arc, at = arc / 2;
   MirrorPoint point{};
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     point = {at, IncidenceAt(radius, to_eye, at), IncidenceAt(radius, to_light, arc - at)};
     const double excess = point.eye.angle - point.light.angle;
     (excess < 0 ? low : high) = at;
@@ -63,17 +60,17 @@ MirrorPoint FindMirrorPoint(double radius, double to_eye, double to_light, doubl
   return point;
 }
 
-SeenPoint LightSeenFrom(const Vec3d& center, const HighlightLight& light) {
-  if (light.far) return {light.place, kFarAway};
-  return SeenFrom(center, light.place);
+PolarPoint LightFrom(const Vec3d& center, const HighlightLight& light) {
+  if (light.directional) return {light.position, kInfiniteDistance};
+  return PolarFrom(center, light.position);
 }
 
 void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
-              const HighlightLight& shown, double largest, std::vector<Glint>* glints) {
+              const HighlightLight& shown, double max_area, std::vector<Glint>* glints) {
   const TraceSphere& sphere = candidate.sphere;
-  const SeenPoint light = LightSeenFrom(sphere.center, shown);
-  const SeenPoint eye = projector.perspective ? SeenFrom(sphere.center, {0, 0, 0})
-                                              : SeenPoint{-projector.forward, kFarAway};
+  const PolarPoint light = LightFrom(sphere.center, shown);
+  const PolarPoint eye = projector.perspective ? PolarFrom(sphere.center, {0, 0, 0})
+                                               : PolarPoint{-projector.forward, kInfiniteDistance};
   if (!(light.distance > sphere.radius)) return;
   const Vec3d across = light.direction - eye.direction * light.direction.dot(eye.direction);
   const double sine = across.length();
@@ -87,37 +84,38 @@ void AddGlint(const FramePlan& plan, const Projector& projector, const TileCandi
   const Vec3d place = sphere.center + normal * sphere.radius;
   const double depth = place.dot(projector.forward);
   if (!(depth > 0)) return;
-  const FilmPlace peak = ProjectPoint(projector, place);
+  const FilmPoint peak = ProjectPoint(projector, place);
   const uint32_t material = MaterialAt(plan.surfaces, candidate.primitive, peak.x).index;
   const double lobe = HalfVectorWidth(plan.surfaces, plan.adaptive, material);
-  if (lobe == kFarAway) return;
-  // By how much the normal turns away from the half vector along a step on the sphere: the normal
-  // itself, and the half vector the other way, as the ways to eye and light turn. Twice the mean of
-  // the ways' inverse lengths is the latter in the plane of both, times the cosine; across that
-  // plane, over it.
-  const double ways = (1 / mirror.eye.length + 1 / mirror.light.length) / 2;
-  const double bend = 1 / sphere.radius;
-  const double turns = (bend + ways * cosine) * (bend + ways / cosine);
+  if (lobe == kInfiniteDistance) return;
+  // How fast the angle between the normal and the half vector grows per unit length on the sphere.
+  // The normal turns by 1 / radius; the half vector turns the opposite way, because the directions
+  // to eye and light change: by the mean of their inverse distances, times the cosine in the plane
+  // of incidence and divided by it perpendicular to that plane.
+  const double half_turn = (1 / mirror.eye.length + 1 / mirror.light.length) / 2;
+  const double normal_turn = 1 / sphere.radius;
+  const double turns = (normal_turn + half_turn * cosine) * (normal_turn + half_turn / cosine);
   // A light's angular radius turns the half vector by half as much.
   const double of_light = shown.radius / mirror.light.length / 2;
   const double width2 = lobe * lobe + of_light * of_light;
-  const double scale = ScaleAt(projector, place);
+  const double scale = PixelsPerLength(projector, place);
   const double facing = projector.perspective ? cosine * mirror.eye.length / depth : cosine;
   const double area = M_PI * width2 / turns * scale * scale * facing;
-  if (!(area > 0 && area < largest)) return;
-  const FilmPlace center = ProjectPoint(projector, sphere.center);
+  if (!(area > 0 && area < max_area)) return;
+  const FilmPoint center = ProjectPoint(projector, sphere.center);
   const double dx = center.x - peak.x, dy = center.y - peak.y, way = std::hypot(dx, dy);
   const double step = 4 * std::sqrt(width2 / turns) * scale;
-  // Of a sphere that is lit from the camera, any way is inwards.
+  // If the peak is at the centre, any direction leads to a point beside the highlight.
   const double part = way > 0 ? std::min(step / way, 1.0) : 0;
   glints->push_back({candidate.primitive, material, shown.number, peak.x, peak.y, area,
                      way > 0 ? dx * part : step, way > 0 ? dy * part : 0});
 }
 
-// Whether all highlights on the sphere are wider than `least` pixels, unless they are seen at a
-// grazing angle or the light is near: a test that costs little and does for most spheres.
-bool ShowsWide(const Projector& projector, const TraceSphere& sphere, double width, double least) {
-  constexpr double kSlack = 8;  // for these
+// A cheap test that succeeds for most spheres: whether all highlights on the sphere are wider than
+// `least` pixels.
+bool HasOnlyWideHighlights(const Projector& projector, const TraceSphere& sphere, double width,
+                           double least) {
+  constexpr double kSlack = 8;  // for grazing angles and near lights
   const double distance = sphere.center.length();
   if (projector.perspective && distance < 2 * sphere.radius) return false;
   const double depth = projector.perspective ? distance + sphere.radius : 1;
@@ -127,17 +125,17 @@ bool ShowsWide(const Projector& projector, const TraceSphere& sphere, double wid
 }  // namespace
 
 void AddGlints(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
-               double largest, std::vector<Glint>* glints) {
+               double max_area, std::vector<Glint>* glints) {
   if (candidate.around_camera) return;
   const TraceSphere& sphere = candidate.sphere;
   if (!plan.surfaces.splits) {
     const double width = HalfVectorWidth(plan.surfaces, plan.adaptive,
                                          MaterialAt(plan.surfaces, candidate.primitive, 0).index);
-    if (width == kFarAway || (width == 0 && plan.direct.sampled_lights.empty())) return;
-    if (ShowsWide(projector, sphere, width, std::sqrt(largest))) return;
+    if (width == kInfiniteDistance || (width == 0 && plan.direct.sampled_lights.empty())) return;
+    if (HasOnlyWideHighlights(projector, sphere, width, std::sqrt(max_area))) return;
   }
   for (const HighlightLight& light : plan.adaptive.lights) {
-    AddGlint(plan, projector, candidate, light, largest, glints);
+    AddGlint(plan, projector, candidate, light, max_area, glints);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/glints.h: where spheres show the highlights of small lights, and how large these are on
-// the film: known from the geometry, before any sample.
+// render/glints.h: the position and the size on the film of the highlights that small lights cause
+// on spheres. They follow from the geometry, without any sample.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace nacre {
 
-// Adds the sphere's highlights, of every light that it has one of, whose areas are less than
-// `largest` pixels. Shadows and what may hide them are not looked for. Lights with an extent count
-// as spheres around them. None on materials without a lobe, nor where the camera or the light is
-// inside the sphere.
+// Adds the sphere's highlights whose area on the film is less than `max_area` pixels, one per light
+// at most. Lights with an extent count as their bounding balls. There are none on materials without
+// a lobe, nor if the camera or the light is inside the sphere. Occlusion is ignored: other shapes
+// may shadow or hide a highlight.
 void AddGlints(const FramePlan& plan, const Projector& projector, const TileCandidate& candidate,
-               double largest, std::vector<Glint>* glints);
+               double max_area, std::vector<Glint>* glints);
 
 }  // namespace nacre

@@ -34,17 +34,17 @@ double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive
   if (HasDeltaLobe(prepared) || (prepared.coat && HasDeltaLobe(*prepared.coat))) return 0;
   const auto* phong = std::get_if<PhongFamilyModel>(&prepared.model);
   const bool mirrored = phong != nullptr && phong->model != PhongModel::kBlinnPhong;
-  return adaptive.widths[material] * (mirrored ? 0.5 : 1);
+  return adaptive.lobe_widths[material] * (mirrored ? 0.5 : 1);
 }
 
-double ScaleAt(const Projector& projector, const Vec3d& place) {
-  return projector.inverse_pixel / (projector.perspective ? place.dot(projector.forward) : 1);
+double PixelsPerLength(const Projector& projector, const Vec3d& point) {
+  return projector.inverse_pixel / (projector.perspective ? point.dot(projector.forward) : 1);
 }
 
-FilmPlace ProjectPoint(const Projector& projector, const Vec3d& place) {
-  const double scale = ScaleAt(projector, place);
-  return {place.dot(projector.right) * scale + projector.middle_x,
-          place.dot(projector.down) * scale + projector.middle_y};
+FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point) {
+  const double scale = PixelsPerLength(projector, point);
+  return {point.dot(projector.right) * scale + projector.middle_x,
+          point.dot(projector.down) * scale + projector.middle_y};
 }
 
 }  // namespace nacre

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/highlights.h: which lights make highlights, and how wide these are: what is alike of those
+// render/highlights.h: which lights cause highlights, and how wide these are: shared by highlights
 // on spheres (glints.h) and on meshes (mesh_glints.h).
 #pragma once
+
+#include <limits>
+#include <vector>
 
 #include "render/adaptive_plan.h"
 #include "render/direct_plan.h"
@@ -9,20 +12,25 @@
 
 namespace nacre {
 
+inline constexpr double kInfiniteDistance = std::numeric_limits<double>::infinity();
+
+// All lights except skies and ambient lights.
 std::vector<HighlightLight> FindHighlightLights(const Scene& scene, const DirectPlan& direct);
 
-// Half-width, in radians, of a lobe around the half vector; infinite where there is none. That of
-// Phong's, which is around the mirrored direction, turns twice as far as the normal.
+// The half-width of the material's narrowest lobe, in radians of the angle between normal and half
+// vector; infinite if there is no lobe. A Phong lobe is defined around the mirror direction, which
+// turns twice as fast as the normal.
 double HalfVectorWidth(const SurfacePlan& surfaces, const AdaptivePlan& adaptive,
                        uint32_t material);
 
-// Pixels per length at a place relative to the camera, across the view: squared also of areas that
-// face the camera plane.
-double ScaleAt(const Projector& projector, const Vec3d& place);
+// How many pixels a unit length parallel to the film has at a point. Points are relative to the
+// camera.
+double PixelsPerLength(const Projector& projector, const Vec3d& point);
 
-struct FilmPlace {
+// Positions on the film, in pixels.
+struct FilmPoint {
   double x, y;
 };
-FilmPlace ProjectPoint(const Projector& projector, const Vec3d& place);
+FilmPoint ProjectPoint(const Projector& projector, const Vec3d& point);
 
 }  // namespace nacre

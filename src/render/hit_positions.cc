@@ -12,7 +12,7 @@ bool ReadsPositions(const PlannedPunctualLight& planned) {
   return planned.light.form != LightForm::kDirectional && planned.light.from_spheres.empty();
 }
 
-// What reads the positions of all hits; null: nothing does.
+// What reads the positions of all hits; null if nothing does.
 const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
                             const HitReaders& readers, const HitsPlan& plan) {
   const std::vector<PlannedPunctualLight>& lights = readers.direct.lights;
@@ -54,7 +54,7 @@ void PlanPositions(const Scene& scene, const RenderSettings& settings, const Hit
   why->items.push_back({"positions of hits", count > 0,
                         count > 0 ? fmt::format("only shadow rays read them, of {} of {} spheres",
                                                 count, scene.spheres.size())
-                                  : "normals tell all that is asked"});
+                                  : "nothing reads them: normals are enough"});
 }
 
 }  // namespace nacre

@@ -9,14 +9,14 @@
 
 namespace nacre {
 
-// What reads hits after they are found.
+// The stages that read hits after they are found.
 struct HitReaders {
   const SurfacePlan& surfaces;
   const DirectPlan& direct;
   const FilmPlan& film;
 };
 
-// Sets what the plan asks of hits: `exact_directions`, `all_positions`, `may_be_shadowed`.
+// Sets which optional arrays hits have: `exact_directions`, `all_positions`, `may_be_shadowed`.
 void PlanPositions(const Scene& scene, const RenderSettings& settings, const HitReaders& readers,
                    HitsPlan* plan, Explanation* why);
 

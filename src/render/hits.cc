@@ -13,19 +13,17 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Vec3d At(const Soa3<double>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
-
-// Where on its ray a hit lies, but for rounding, and a bound of that.
-struct Place {
-  double t, slack;
+// The parameter t of a hit on its ray, and a bound of its rounding error.
+struct RayDepth {
+  double t, error;
 };
 
-Place PlaceOf(const RayBatch& rays, size_t ray, const Vec3d& position) {
-  const Vec3d origin = At(rays.origin, ray), direction = At(rays.direction, ray);
+RayDepth DepthOf(const RayBatch& rays, size_t ray, const Vec3d& position) {
+  const Vec3d origin = VectorAt(rays.origin, ray), direction = VectorAt(rays.direction, ray);
   const double inverse_dd = 1 / direction.dot(direction);
   const double t = (position - origin).dot(direction) * inverse_dd;
-  const double reach = SumOfAbs(position) + SumOfAbs(origin);
-  return {t, 1e-12 * (t + reach * std::sqrt(inverse_dd))};
+  const double extent = SumOfAbs(position) + SumOfAbs(origin);
+  return {t, 1e-12 * (t + extent * std::sqrt(inverse_dd))};
 }
 
 void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, TraceRoom* room,
@@ -44,27 +42,28 @@ void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, Tr
                            {&hits->batch, &hits->directions, positions, plan.exact_directions});
 }
 
-// Finds the triangles that lie before the hits on spheres, which may be wrong by what only the
-// exact test tells.
+// Finds the nearest triangles in front of the hits on spheres, or behind them by no more than the
+// rounding error.
 void FindNearerTriangles(const HitsPlan& plan, const FilmBatch& film, const HitBatch& on_spheres,
                          TraceRoom* room) {
   MakeCameraRays(plan.camera, film.x.data(), film.y.data(), film.count, &room->rays);
   std::fill(room->closest.t.begin(), room->closest.t.end(), kInfinity);
   for (size_t i = 0; i < on_spheres.count; ++i) {
     const size_t ray = on_spheres.ray[i];
-    const Place place = PlaceOf(room->rays, ray, At(on_spheres.position, i));
-    room->closest.t[ray] = place.t + place.slack;
+    const RayDepth depth = DepthOf(room->rays, ray, VectorAt(on_spheres.position, i));
+    room->closest.t[ray] = depth.t + depth.error;
   }
   plan.intersector->NearerTriangles(room->rays, &room->closest);
 }
 
-// Whether hit i on a sphere is before the triangle that its ray meets at t, or at the same depth:
-// spheres have the lower ids.
+// Whether hit i on a sphere is in front of the triangle that its ray hits at t, or at the same
+// depth: of equal depths the primitive with the lower number counts. If t is within the rounding
+// error, the exact test decides.
 bool SphereIsFirst(const HitsPlan& plan, const RayBatch& rays, const HitBatch& on_spheres, size_t i,
                    double t) {
   const size_t ray = on_spheres.ray[i];
-  const Place place = PlaceOf(rays, ray, At(on_spheres.position, i));
-  if (t < place.t - place.slack) return false;
+  const RayDepth depth = DepthOf(rays, ray, VectorAt(on_spheres.position, i));
+  if (t < depth.t - depth.error) return false;
   return plan.intersector->SphereIsFirst(on_spheres.primitive[i], rays, ray, t);
 }
 
@@ -86,7 +85,7 @@ void CopyHit(const CameraHits& from, size_t i, bool exact, size_t k, CameraHits*
   Copy(from.batch.to_view, i, &to->batch.to_view, k);
 }
 
-// Puts the hits on triangles among those on spheres that they do not hide, by their rays.
+// Merges the hits on triangles with the hits on spheres that no triangle hides, ordered by ray.
 void JoinHits(const HitsPlan& plan, TraceRoom::Triangles* triangles, CameraHits* hits) {
   const HitBatch& spheres = hits->batch;
   const CameraHits& on_triangles = triangles->hits;
@@ -114,7 +113,7 @@ void JoinHits(const HitsPlan& plan, TraceRoom::Triangles* triangles, CameraHits*
   std::swap(hits->directions, to.directions);
 }
 
-// Takes hits on triangles into the batch of hits on spheres.
+// Adds hits on triangles to the batch of hits on spheres.
 void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, CameraHits* hits) {
   const HitBatch& spheres = hits->batch;
   FindNearerTriangles(plan, film, spheres, room);
@@ -138,17 +137,17 @@ void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, 
 
 }  // namespace
 
-void TraceCamera(const HitsPlan& plan, const TileSight& sight, const FilmBatch& film,
+void TraceCamera(const HitsPlan& plan, const TileShapes& shapes, const FilmBatch& film,
                  TraceRoom* room, CameraHits* hits) {
   hits->batch.count = 0;
-  hits->positions = sight.positions;
+  hits->positions = shapes.positions;
   hits->exact = plan.exact_directions;
-  if (!sight.shapes) return;
-  if (!plan.tiles) return TraceByTree(plan, film, sight.positions, room, hits);
+  if (!shapes.any) return;
+  if (!plan.tiles) return TraceByTree(plan, film, shapes.positions, room, hits);
   plan.intersector->HitsInTile(
-      sight.spheres, film,
-      {&hits->batch, &hits->directions, sight.positions, plan.exact_directions});
-  if (sight.triangles) AddTriangles(plan, film, room, hits);
+      shapes.spheres, film,
+      {&hits->batch, &hits->directions, shapes.positions, plan.exact_directions});
+  if (shapes.triangles) AddTriangles(plan, film, room, hits);
 }
 
 }  // namespace nacre

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/hits.h: the second stage: the first hits of a tile's camera rays, found by bins or by a
-// tree, or on spheres by bins and on triangles by a tree, the nearer of both.
+// render/hits.h: the second stage: the first hit of each camera ray of a tile. Spheres are found by
+// bins, triangles by a tree, and the nearer hit counts; without bins a tree finds both.
 #pragma once
 
 #include <memory>
 
 #include "hit/batch.h"
 #include "render/hits_plan.h"
-#include "render/tile_sight.h"
+#include "render/tile_shapes.h"
 
 namespace nacre {
 
-// In the order of the rays.
+// Hits in the order of their rays.
 struct CameraHits {
   HitBatch batch;
   HitDirections directions;
   bool positions = false;  // batch.position is filled
-  bool exact = false;      // batch.normal and to_view are
+  bool exact = false;      // batch.normal and batch.to_view are filled
 };
 
 // Buffers of TraceCamera.
@@ -24,8 +24,8 @@ struct TraceRoom {
   RayBatch rays;
   ClosestHits closest;
   AlignedArray<uint32_t> hit_rays{kBatchCapacity};
-  // Where there are triangles and bins: hits on triangles, hits on spheres that a triangle hides
-  // (1), and both kinds joined.
+  // For tiles in which both binned spheres and triangles may be visible: the hits on triangles, the
+  // joined hits, and by hit on a sphere whether a triangle hides it (1).
   struct Triangles {
     CameraHits hits, joined;
     AlignedArray<uint8_t> hides_sphere{kBatchCapacity};
@@ -33,8 +33,8 @@ struct TraceRoom {
   std::unique_ptr<Triangles> triangles;  // made for the first such tile
 };
 
-// The hits of the camera rays through `film` in a tile that FindSight has seen.
-void TraceCamera(const HitsPlan& plan, const TileSight& sight, const FilmBatch& film,
+// Finds the hits of the camera rays through `film` in a tile. `shapes`: from FindTileShapes.
+void TraceCamera(const HitsPlan& plan, const TileShapes& shapes, const FilmBatch& film,
                  TraceRoom* room, CameraHits* hits);
 
 }  // namespace nacre

@@ -14,27 +14,27 @@
 namespace nacre {
 namespace {
 
-// The cells of adaptive sampling lie on a grid of the frame and are evaluated whole.
-Window WholeCells(const Window& window) {
+// The window extended to whole cells: adaptive sampling evaluates cells whole.
+Window ExtendToCells(const Window& window) {
   const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
   const auto up = [&](int pixel) { return down(pixel + kCellSize - 1); };
   return {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
 }
 
-// True if every camera ray surely starts outside the sphere. The margins are far more than what
-// the roundings of the tests can amount to.
+// True only if every camera ray starts outside the sphere. The margins are far larger than the
+// rounding errors of the intersection tests.
 bool IsOutside(const Scene& scene, const Vec3d& forward, const Sphere& sphere) {
   const Vec3d offset = sphere.center - scene.camera.position;
   const double clear = sphere.radius * (1 + 1e-9);
   if (scene.camera.projection == Projection::kPerspective) return offset.length2() > clear * clear;
-  // Wholly before or behind the image plane.
+  // Orthographic: the whole sphere is in front of the plane in which the rays start, or behind it.
   const double pixel = scene.camera.height / scene.image.height;
   const double plane = pixel * (scene.image.height + scene.image.width);
   return std::abs(offset.dot(forward)) > clear + 1e-12 * (offset.length() + plane);
 }
 
-// True if every camera ray surely starts outside every sphere: what is seen of one is then its
-// outside, and light that it faces cannot be behind itself.
+// True only if every camera ray starts outside every sphere. Then the camera sees spheres from
+// outside only, and a sphere never shadows its own points that face a light.
 bool EyeIsOutside(const Scene& scene, int threads) {
   const Vec3d forward = (scene.camera.look_at - scene.camera.position).normalized();
   constexpr size_t kBlock = size_t{1} << 14;
@@ -74,10 +74,10 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
         {"intersector", false, "the scene has no shapes: every pixel is background"});
     return plan;
   }
-  const auto tell = [&](double done) {
+  const auto report = [&](double done) {
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
-  // What is kept of the shapes is by the eye; the view is by the picture as well.
+  // What depends on the view, too: the intersector itself depends on the shapes and the eye only.
   const auto view = [&](uint64_t made, std::vector<double> numbers) {
     return ViewKey{made, prepared->versions.Of(ScenePart::kCamera | ScenePart::kImage),
                    std::move(numbers)};
@@ -96,19 +96,20 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const bool nested = plan.intersector->SpheresAreNested();
   const char* const tree_asked_for = TreeAskedFor(settings.intersector);
   const bool want_tiles = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;
-  tell(0.15);
-  const double reach = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
+  report(0.15);
+  const double sample_margin = std::max(scene.image.filter.width / 2 - 0.5, 0.0);
   const bool adaptive = settings.max_error > 0;
-  plan.mesh_windows =
-      prepared->mesh_windows.Get(of_shapes, [&] { return FindMeshWindows(scene, camera, reach); });
+  plan.mesh_windows = prepared->mesh_windows.Get(
+      of_shapes, [&] { return FindMeshWindows(scene, camera, sample_margin); });
   plan.tile_rays = adaptive ? TileRays::kAny : TileRays::kSamples;
-  // Footprints and outlines are looked for in the bins, whoever traces: the bits must not depend on
-  // that, nor on the crop, whose bins may fit where the frame's do not.
+  // Adaptive sampling reads footprints and outlines from the bins even if a tree traces the rays,
+  // because bits must not depend on the intersector. It bins the whole frame, because they must not
+  // depend on the region either, whose bins may fit into memory where the frame's do not.
   if (want_tiles || adaptive) {
     const Window binned =
-        adaptive ? WholeCells({0, 0, scene.image.width, scene.image.height}) : window;
+        adaptive ? ExtendToCells({0, 0, scene.image.width, scene.image.height}) : window;
     const bool centers = sampler.centered && !adaptive;
-    const double margin = centers ? kPixelCenterMargin : reach;
+    const double margin = centers ? kPixelCenterMargin : sample_margin;
     const ViewKey bins =
         view(prepared->intersectors_made,
              {static_cast<double>(binned.x0), static_cast<double>(binned.y0),
@@ -124,7 +125,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
        : scene.spheres.empty() ? "there are no spheres"
        : nested                ? kNestedSpheres
                                : tree_asked_for});
-  tell(0.4);
+  report(0.4);
   return plan;
 }
 

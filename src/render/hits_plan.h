@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/hits_plan.h: how a frame's rays find the scene's shapes: trees, bins of spheres, and what
-// is asked of the hits.
+// render/hits_plan.h: how rays find the scene's shapes, by trees or by bins of spheres, and which
+// optional arrays hits have.
 #pragma once
 
 #include <cstdint>
@@ -22,29 +22,29 @@ struct HitsPlan {
   PrimitiveNumbers primitives;
   CameraFrame camera{};
   std::shared_ptr<Intersector> intersector;  // null: there is nothing to hit
-  std::vector<Window> mesh_windows;          // pixels that triangles may be seen in
-  bool binned = false;                       // spheres are binned for the camera
-  bool tiles = false;                        // and camera rays find them there, not by a tree
+  std::vector<Window> mesh_windows;          // where in the frame meshes may be visible
+  bool binned = false;                       // spheres are binned for camera rays
+  bool tiles = false;                        // camera rays use these bins, not a tree
   TileRays tile_rays = TileRays::kSamples;
-  bool eye_outside = false;       // no camera ray starts in a sphere
-  bool exact_directions = false;  // hits have HitBatch::normal and to_view, too
-  // Whether every hit has its position; else those of tiles that show a sphere on which shadow rays
-  // may start.
+  bool eye_outside = false;       // no camera ray starts inside a sphere
+  bool exact_directions = false;  // hits have HitBatch::normal and HitBatch::to_view
+  // Whether all hits have positions. Otherwise only the hits of tiles that show a sphere with
+  // may_be_shadowed have them.
   bool all_positions = true;
   std::vector<uint8_t> may_be_shadowed;  // by sphere
 };
 
-// Why Intersector::SpheresAreNested leaves a tree to find what rays meet.
+// The reason for a tree where Intersector::SpheresAreNested.
 inline constexpr char kNestedSpheres[] =
-    "many spheres lie within one another: a tree of shells tells them apart sooner";
+    "many spheres lie within one another, where a tree of shells is faster";
 
-// The intersector, with the camera's bins and no tree. `window`: the pixels to render of a frame of
-// the scene's size.
+// Makes the intersector and the bins for camera rays, but no tree. `window`: the pixels to render
+// of the frame.
 HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
                   const CameraFrame& camera, const PixelSampler& sampler, PreparedScene* prepared,
                   Explanation* why);
 
-// Then builds the trees that camera rays need, or shadow rays.
+// Then builds the trees that camera rays need, and, if `for_shadows`, shadow rays.
 void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why);
 
 }  // namespace nacre

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/interval.h: what a pixel's replicates tell of its error: a channel's mean and the 95 %
-// interval around it.
+// render/interval.h: confidence intervals: the mean of one channel of a pixel, and the 95 %
+// interval around it, from the spread of the pixel's replicates.
 #pragma once
 
 #include <algorithm>
@@ -10,49 +10,54 @@
 
 namespace nacre {
 
-// Below this value an error is absolute: what a display shows as near black.
+// Errors are relative to a pixel's value, but for values below this one they are relative to it: a
+// display shows it as near black.
 inline constexpr double kDarkest = 0.05;
 
-// The error that is wanted: `max_error` times the value, but of kDarkest at least, and at most of
-// `white` (WhiteLevel). Highlights may be a thousand times brighter, and some ten pixels with such
-// errors would be nearly all of the picture's.
-struct WantedError {
+// The largest error that a pixel may have: `max_error` times its value, which is clamped to at
+// least kDarkest and at most `white` (WhiteLevel). Highlights may be a thousand times brighter than
+// white, and errors relative to them, in a few pixels, would dominate the error of the picture.
+struct ErrorBound {
   double max_error;
   double white;
 };
-inline double Wanted(const WantedError& error, double mean) {
+
+inline double ToleranceAt(const ErrorBound& error, double mean) {
   return error.max_error * std::max(std::min(std::abs(mean), error.white), kDarkest);
 }
 
-// Student's t, squared, over the number of sums: 97.5 % of the distribution with three degrees of
-// freedom lie below 3.182446305. The sum of the replicates' squared differences from their mean,
-// times this, is the square of the interval's half-width.
-inline constexpr double kOfSquares = 3.182446305 * 3.182446305 / ((kReplicates - 1) * kReplicates);
+// The sum of the replicates' squared differences from their mean, times this factor, is the square
+// of the interval's half-width. 97.5 % of Student's t distribution with three degrees of freedom
+// lie below 3.182446305; its square is divided by n (n - 1), n being the number of replicates.
+inline constexpr double kSquaresToHalfWidth2 =
+    3.182446305 * 3.182446305 / ((kReplicates - 1) * kReplicates);
 
 struct PixelRange {
-  double low, high;  // none if low > high
+  double low, high;  // empty if low > high
 };
 
-struct Measured {
+struct Interval {
   double mean;
-  double half_width2;  // of the interval, squared
+  double half_width2;  // squared half-width
 };
 
-// `values`: the mean of each replicate's samples. SIMD twin, for blocks: interval_kernel.h.
-Measured MeasureSpread(const double (&values)[kReplicates]);
+// `values`: the mean of each replicate's samples. The SIMD twin, for blocks, is interval_kernel.h.
+Interval MeasureSpread(const double (&values)[kReplicates]);
 
-// A pixel that an outline crosses, of `samples` in all. All may miss a sliver, and then agree; and
-// so may the replicates' shares of hits. The interval is never narrower than what one more sample
-// might tell that differs from the mean as much as those in `range` (of the outlines around that
-// hit), as the background, which is null where it cannot be seen, or as black does.
-Measured MeasureOnOutline(const double (&values)[kReplicates], const PixelRange& range,
+// For a pixel that an outline crosses. All `samples` of the pixel may miss a sliver, or the
+// replicates may have equally many hits by chance, so that they agree. So the half-width is at
+// least the effect of one more sample that differs from the mean as much as any in `range`, as the
+// background or as black. `range`: of the samples that hit, in outline pixels of the block.
+// `background`: null if it is not visible in the pixel.
+Interval MeasureOnOutline(const double (&values)[kReplicates], const PixelRange& range,
                           const double* background, double samples);
 
-// The same where it is known what share of the pixel is covered. What is measured is then the mean
-// of the samples that hit, `hits` of each replicate's: a share of them that is wrong by chance is
-// taken back. Few hits may agree by chance, too: the mean of n is not better than an n-th of the
-// range; and one alone tells nothing of the others.
-Measured MeasureCovered(const double (&values)[kReplicates], const double (&hits)[kReplicates],
+// The same for a pixel of known coverage, `covered`. `hits`: the share of each replicate's samples
+// that hit. Only the mean of the hits has an error then: the replicates' values are corrected for
+// the difference between their shares of hits and the coverage. Few hits may agree by chance, too:
+// the half-width is at least the n-th part of the range for n hits; and from a single hit nothing
+// is known about the others.
+Interval MeasureCovered(const double (&values)[kReplicates], const double (&hits)[kReplicates],
                         double covered, const PixelRange& range, double background, double samples);
 
 }  // namespace nacre

@@ -22,7 +22,7 @@ struct SpreadV {
   V mean, half_width2;
 };
 
-// MeasureSpread's operations, for the sums that `load`(replicate) has.
+// The operations of MeasureSpread for the sums load(replicate).
 template <class Load>
 HWY_INLINE SpreadV Spread(const Load& load, V scale) {
   const D d;
@@ -37,11 +37,11 @@ HWY_INLINE SpreadV Spread(const Load& load, V scale) {
     const V difference = hn::Sub(value, mean);
     squares = hn::Add(squares, hn::Mul(difference, difference));
   }
-  return {mean, hn::Mul(hn::Set(d, kOfSquares), squares)};
+  return {mean, hn::Mul(hn::Set(d, kSquaresToHalfWidth2), squares)};
 }
 
 void MeasureBlockT(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
-                   const WantedError& error, BlockIntervals* intervals) {
+                   const ErrorBound& error, BlockIntervals* intervals) {
   const D d;
   const hn::Rebind<int32_t, D> di;
   intervals->narrow = 0;
@@ -49,19 +49,20 @@ void MeasureBlockT(const double* const (&sums)[kReplicates][3], const uint32_t* 
     const V taken =
         hn::PromoteTo(d, hn::BitCast(di, hn::LoadU(hn::Rebind<uint32_t, D>(), samples + i)));
     const V scale = hn::Div(hn::Set(d, 1.0), taken);
-    auto narrow = hn::Eq(taken, taken);  // all
+    auto narrow = hn::Eq(taken, taken);  // all lanes
     V widest = hn::Zero(d), strictest = hn::Set(d, std::numeric_limits<double>::infinity());
     for (size_t channel = 0; channel < 3; ++channel) {
       const auto load = [&](size_t r) HWY_ATTR { return hn::LoadU(d, sums[r][channel] + i); };
       const SpreadV spread = Spread(load, scale);
       const V bounded = hn::Min(hn::Abs(spread.mean), hn::Set(d, error.white));
-      const V wanted = hn::Mul(hn::Set(d, error.max_error), hn::Max(bounded, hn::Set(d, kDarkest)));
-      narrow = hn::And(narrow, hn::Le(spread.half_width2, hn::Mul(wanted, wanted)));
+      const V tolerance =
+          hn::Mul(hn::Set(d, error.max_error), hn::Max(bounded, hn::Set(d, kDarkest)));
+      narrow = hn::And(narrow, hn::Le(spread.half_width2, hn::Mul(tolerance, tolerance)));
       widest = hn::Max(spread.half_width2, widest);
-      strictest = hn::Min(wanted, strictest);
+      strictest = hn::Min(tolerance, strictest);
     }
     hn::StoreU(hn::Sqrt(widest), d, intervals->half_width + i);
-    hn::StoreU(strictest, d, intervals->wanted + i);
+    hn::StoreU(strictest, d, intervals->tolerance + i);
     uint8_t bits[8] = {};
     hn::StoreMaskBits(d, narrow, bits);
     intervals->narrow |= uint32_t{bits[0]} << i;
@@ -79,7 +80,7 @@ namespace nacre {
 HWY_EXPORT(MeasureBlockT);
 
 void MeasureBlock(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
-                  const WantedError& error, BlockIntervals* intervals) {
+                  const ErrorBound& error, BlockIntervals* intervals) {
   HWY_DYNAMIC_DISPATCH(MeasureBlockT)(sums, samples, error, intervals);
 }
 

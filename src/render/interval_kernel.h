@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/interval_kernel.h: MeasureSpread of interval.h for whole blocks of pixels, in SIMD, the
+// render/interval_kernel.h: MeasureSpread of interval.h for blocks of pixels, in SIMD, with the
 // same bits on every target.
 #pragma once
 
@@ -13,16 +13,16 @@ namespace nacre {
 inline constexpr int kBlockSide = 4;
 inline constexpr size_t kBlockPixels = size_t{kBlockSide} * kBlockSide;
 
-// What is known of the errors of a block's pixels.
+// The confidence intervals of a block's pixels.
 struct BlockIntervals {
-  uint32_t narrow;  // pixels, as bits, whose interval is as narrow as wanted, in every channel
-  double half_width[kBlockPixels];  // of the widest channel
-  double wanted[kBlockPixels];      // of the strictest
+  uint32_t narrow;  // pixels, as bits, whose half-width is within the tolerance in every channel
+  double half_width[kBlockPixels];  // largest of the channels
+  double tolerance[kBlockPixels];   // smallest of the channels
 };
 
-// `sums`: the block's sums of samples in each replicate, by channel; `samples`: how many a pixel
-// took in each replicate, where 0 gives undefined intervals. NaN is never narrow.
+// `sums`: of the block's samples, by replicate and channel. `samples`: by pixel, how many each
+// replicate has; 0 gives an undefined interval. NaN is never within the tolerance.
 void MeasureBlock(const double* const (&sums)[kReplicates][3], const uint32_t* samples,
-                  const WantedError& error, BlockIntervals* intervals);
+                  const ErrorBound& error, BlockIntervals* intervals);
 
 }  // namespace nacre

@@ -21,7 +21,7 @@ enum class LayerKind : uint8_t {
   kAlbedo,    // diffuse reflectance or base colour
   kLight,     // light.<name>: diffuse and specular reflection of one light
   kNormal,    // N: world-space shading normal, averaged
-  // The rest cannot be averaged: they are those of the hit nearest to the pixel's centre.
+  // The rest cannot be averaged: they show the hit nearest to the pixel's centre.
   kPosition,    // P: world space
   kDepth,       // Z: distance along the viewing direction; 0 where nothing is hit
   kObjectId,    // id.object: 1 + sphere index, or 1 + sphere count + mesh index; 0: none
@@ -34,8 +34,8 @@ struct Layer {
   size_t light = 0;  // kLight: index into Scene::lights
 };
 
-// Beauty and alpha, then the layers named, each once. "all" names every layer of the scene.
-// Throws Error (usage) for a name the scene does not have.
+// Beauty and alpha, then the named layers, each once. "all" stands for every layer of the scene.
+// Throws Error (usage) for a name that the scene does not have.
 std::vector<Layer> ParseLayers(const std::vector<std::string>& names, const Scene& scene);
 
 // The number of the light's layer among the light layers, or -1.
@@ -44,18 +44,18 @@ int LightLayer(const std::vector<Layer>& layers, size_t light);
 // Whether the layer is averaged over a pixel's samples, or taken from one of them.
 bool IsAveraged(LayerKind kind);
 
-// How many channels of floats the layer has.
+// The number of the layer's channels that hold floats.
 int FloatChannels(LayerKind kind);
 
-// What a channel of a layer is made of.
+// Where the values of a channel come from.
 enum class ChannelKind : uint8_t {
   kAveraged,  // floats, averaged over the samples
   kNearest,   // floats of one sample
   kId,        // integers of one sample
 };
 
-// A layer's channels in the order its values are computed in. Colours and normals are stored as
-// `color_type` (half or float), Z, P and ids always in full.
+// The channels of a layer in the order in which its values are computed. Colours and normals are
+// stored as `color_type` (half or float), Z and P always as float, ids as uint.
 struct ChannelSpec {
   std::string name;
   PixelType type;

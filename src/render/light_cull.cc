@@ -9,7 +9,8 @@
 namespace nacre {
 namespace {
 
-// The signs of n.l and of cos a - cos cutoff are taken from floats that err by less than 1e-6.
+// The kernels decide by the signs of n.l and of cos a - cos cutoff, computed in float with errors
+// of less than 1e-6.
 constexpr double kFloatMargin = 1e-5;
 
 }  // namespace
@@ -39,29 +40,29 @@ BatchBounds BoundHits(const HitBatch& hits, const HitDirections& directions) {
   return bounds;
 }
 
-LightReach ReachOf(const Light& light, const Vec3d& camera_position) {
-  LightReach reach;
+LightGeometry GeometryOf(const Light& light, const Vec3d& camera_position) {
+  LightGeometry geometry;
   if (const auto* sun = std::get_if<DirectionalLight>(&light.kind)) {
-    reach.place = -sun->direction_of_travel.normalized();
+    geometry.position = -sun->direction_of_travel.normalized();
   } else if (const auto* point = std::get_if<PointLight>(&light.kind)) {
-    reach.positional = true;
-    reach.place = point->position - camera_position;
+    geometry.positional = true;
+    geometry.position = point->position - camera_position;
   } else if (const auto* spot = std::get_if<SpotLight>(&light.kind)) {
-    reach.positional = true;
-    reach.place = spot->position - camera_position;
-    reach.axis = spot->direction_of_travel.normalized();
-    reach.cos_cutoff = std::cos(spot->cutoff_deg * M_PI / 180);
+    geometry.positional = true;
+    geometry.position = spot->position - camera_position;
+    geometry.axis = spot->direction_of_travel.normalized();
+    geometry.cos_cutoff = std::cos(spot->cutoff_deg * M_PI / 180);
   }
-  return reach;
+  return geometry;
 }
 
-bool MayReach(const LightReach& light, const BatchBounds& bounds) {
-  Vec3d to_light = light.place;
+bool MayIlluminate(const LightGeometry& light, const BatchBounds& bounds) {
+  Vec3d to_light = light.position;
   double ball_rad = 0;  // half the angle that the positions fill as seen from the light
   if (light.positional) {
     to_light -= bounds.center;
     const double distance = to_light.length();
-    if (!(distance > bounds.radius * (1 + 1e-9))) return true;  // in the ball
+    if (!(distance > bounds.radius * (1 + 1e-9))) return true;  // the light is in the ball
     to_light /= distance;
     ball_rad = std::asin(bounds.radius / distance);
     if (light.cos_cutoff >= -1) {
@@ -70,8 +71,8 @@ bool MayReach(const LightReach& light, const BatchBounds& bounds) {
       if (nearest < light.cos_cutoff - kFloatMargin) return false;
     }
   }
-  // The least angle between a normal and the direction to the light is that between the axes less
-  // both spreads.
+  // The least angle between any normal and any direction to the light is the angle between the axes
+  // minus both spreads.
   const double between = std::acos(std::clamp(to_light.dot(bounds.axis), -1.0, 1.0));
   return between - bounds.spread_rad - ball_rad < M_PI / 2 + kFloatMargin;
 }

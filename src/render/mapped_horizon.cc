@@ -10,22 +10,12 @@ bool HasMirroredLobe(const ShadingMaterial& material) {
   return material.turned && HasSampledLobe(material);
 }
 
-// Mirrors room.light for the run. False if no hit has a mirrored lobe with light in it.
+// Mirrors room.light for the run. False if the term f(l') is 0 at all hits.
 bool MirrorLight(const DirectBatch& batch, const MaterialRun& run) {
   if (!HasMirroredLobe(*run.shading)) return false;
   DirectRoom& room = batch.room;
   if (!room.mirrored) room.mirrored = std::make_unique<MirroredLobe>();
   return MirrorAtHorizon(batch.surface(), run.begin, run.end, room.light, &room.mirrored->light);
-}
-
-void AddArray(const MaterialRun& run, const float* from, float* to) {
-  for (size_t i = run.begin; i < run.end; ++i) to[i] += from[i];
-}
-
-void AddSpecular(const MaterialRun& run, const Soa3<float>& from, Soa3<float>* to) {
-  AddArray(run, from.x.data(), to->x.data());
-  AddArray(run, from.y.data(), to->y.data());
-  AddArray(run, from.z.data(), to->z.data());
 }
 
 }  // namespace
@@ -57,9 +47,9 @@ void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const Sha
                     OutputMode::kOverwrite};
   ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.shade, &mirrored.radiance);
   const Soa3<float>& specular = mirrored.radiance.specular;
-  if (output != OutputMode::kSum) AddSpecular(run, specular, &radiance->specular);
+  if (output != OutputMode::kSum) AddSoa(specular, run.begin, run.end, &radiance->specular);
   if (output == OutputMode::kSum || output == OutputMode::kComponentsAndSum) {
-    AddSpecular(run, specular, &radiance->sum);
+    AddSoa(specular, run.begin, run.end, &radiance->sum);
   }
 }
 

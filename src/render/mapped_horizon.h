@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mapped_horizon.h: what normal and bump maps make of light near the horizon of the surface
-// that lies under them, whose normal is Surface::unturned.
+// render/mapped_horizon.h: how surfaces with normal or bump maps reflect light near the horizon of
+// the unmapped surface, whose normal is Surface::unturned.
 //
-// The hemisphere of a normal-mapped normal reaches below that surface, where no light comes from.
-// The diffuse part loses what it would reflect of it. The specular lobe does not: the half of it
-// that the surface cuts off is reflected by the surface, so light from l above the horizon leaves
-// f(l) + f(l'), l' being l mirrored in the surface. Over all l that is the whole lobe, so a white
-// one reflects all light at every roughness, and a narrow one becomes the perfect mirror, which
-// BendNormal (hit/shading_normal.h) keeps above the surface. Schüssler et al. 2017,
-// "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing", close the energy balance
-// in the same way, by a second reflection, at facets of their own.
+// The hemisphere of a mapped normal extends below that surface, where no light comes from. The
+// diffuse component loses the light from there. The specular lobe must not: the part of it that
+// lies below the surface is taken to be reflected by the surface once more. So light from l above
+// the horizon reflects f(l) + f(l'), where l' is l mirrored in the surface. The integral over all l
+// is then that of the whole lobe: a white lobe reflects all light at every roughness, and a narrow
+// one converges to the perfect mirror, which BendNormal (hit/shading_normal.h) keeps above the
+// surface. Schüssler et al. 2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path
+// Tracing", conserve energy in the same way, by a second reflection at an additional facet.
 #pragma once
 
 #include "render/direct_batch.h"
 
 namespace nacre {
 
-// Takes room.light from the hits that it reaches from below the horizon.
+// Sets the irradiance of room.light to 0 at normal-mapped hits for which the light is below the
+// horizon.
 void HideLightsBelowHorizon(const DirectBatch& batch);
 
-// Brings directions that were sampled by the run's lobe above the horizon: l' in the place of l.
+// Mirrors directions that were sampled by the run's lobe and lie below the horizon: l' becomes l.
 void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<float>* to_light);
 
-// Adds f(l') of room.light, which is `light`, to the specular part of `radiance`, or to its sum, or
-// both, as `output` says. Hidden light is not above the horizon: it counts as none.
+// Adds the term f(l') for room.light, which holds `light`, to the specular component of `radiance`,
+// to its sum, or to both, as `output` says. Light that HideLightsBelowHorizon has hidden adds
+// nothing.
 void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const ShadingLight& light,
                      OutputMode output, ReflectedRadiance* radiance);
 
-// Adds the pdf of l', which RaiseLobeSamples brings to l, to that of l.
+// Adds the pdf of l' to that of l, because RaiseLobeSamples mirrors samples at l' to l.
 void AddMirroredLobePdf(const DirectBatch& batch, const MaterialRun& run, float* pdf);
 
 }  // namespace nacre

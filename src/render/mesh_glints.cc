@@ -13,92 +13,92 @@
 namespace nacre {
 namespace {
 
-constexpr double kFarDistance = std::numeric_limits<double>::infinity();
-
-// A triangle as hits on it are shaded, relative to the camera.
+// A triangle with what its shading depends on. Points are relative to the camera.
 struct GlossyTriangle {
   uint32_t primitive;
   uint32_t material;
   double lobe;                   // HalfVectorWidth
-  std::array<Vec3d, 3> corners;  // all before the camera
-  std::array<Vec3d, 3> normals;  // unit, on the side that is seen
+  std::array<Vec3d, 3> corners;  // all in front of the camera
+  std::array<Vec3d, 3> normals;  // unit, on the visible side
 };
 
-// Weights of the second and the third corner.
-using Weights = Vec2d;
+// Barycentric coordinates: the weights of the second and the third corner.
+using Barycentrics = Vec2d;
 
 template <class T>
-T Interpolate(const std::array<T, 3>& of, const Weights& w) {
+T Interpolate(const std::array<T, 3>& of, const Barycentrics& w) {
   return of[0] * (1 - w.x - w.y) + of[1] * w.x + of[2] * w.y;
 }
 
-// The unit vector between the ways to the eye and to the light; none where they are opposite.
+// The half vector of the directions to the eye and to the light; 0 if they are opposite.
 Vec3d HalfVector(const Projector& projector, const HighlightLight& light, const Vec3d& place) {
   const Vec3d to_view = projector.perspective ? -place.normalized() : -projector.forward;
-  const Vec3d to_light = light.far ? light.place : (light.place - place).normalized();
+  const Vec3d to_light = light.directional ? light.position : (light.position - place).normalized();
   return (to_view + to_light).normalized();
 }
 
-// By how much the normal differs from the half vector: the sine of the angle, where it is small.
+// The difference between the unit normal and the half vector.
 Vec3d Deviation(const Projector& projector, const GlossyTriangle& t, const HighlightLight& light,
-                const Weights& w) {
+                const Barycentrics& w) {
   return Interpolate(t.normals, w).normalized() -
          HalfVector(projector, light, Interpolate(t.corners, w));
 }
 
-// How something changes with the weights.
+// The derivatives of a function of the barycentric coordinates.
 template <class T>
-struct Slopes {
-  T of_x, of_y;
+struct Derivatives {
+  T by_x, by_y;
 };
 
 template <class Function>
-auto SlopesOf(const Function& f, const Weights& w) {
-  // Of smooth functions of order 1 over the triangle: what rounds and what bends is alike, 1e-11.
+auto Differentiate(const Function& f, const Barycentrics& w) {
+  // For smooth functions of order 1 over the triangle, at which the rounding error and the error of
+  // the central difference are about equal, 1e-11.
   constexpr double kStep = 1e-5;
   using T = decltype(f(w));
-  return Slopes<T>{(f({w.x + kStep, w.y}) - f({w.x - kStep, w.y})) / (2 * kStep),
-                   (f({w.x, w.y + kStep}) - f({w.x, w.y - kStep})) / (2 * kStep)};
+  return Derivatives<T>{(f({w.x + kStep, w.y}) - f({w.x - kStep, w.y})) / (2 * kStep),
+                        (f({w.x, w.y + kStep}) - f({w.x, w.y - kStep})) / (2 * kStep)};
 }
 
-double Determinant(const Slopes<Vec2d>& s) { return s.of_x.cross(s.of_y); }
+double Determinant(const Derivatives<Vec2d>& s) { return s.by_x.cross(s.by_y); }
 
-// The step by which a function with these slopes changes by `change`.
-Weights StepFor(const Slopes<Vec2d>& s, const Vec2d& change) {
+// The step by which a linear function with these derivatives changes by `change`.
+Barycentrics SolveStep(const Derivatives<Vec2d>& s, const Vec2d& change) {
   const double determinant = Determinant(s);
-  return {change.cross(s.of_y) / determinant, s.of_x.cross(change) / determinant};
+  return {change.cross(s.by_y) / determinant, s.by_x.cross(change) / determinant};
 }
 
-bool IsInside(const Weights& w, double slack) {
+bool IsInTriangle(const Barycentrics& w, double slack) {
   return w.x >= -slack && w.y >= -slack && w.x + w.y <= 1 + slack;
 }
 
-// Two directions across a unit vector and one another.
-std::array<Vec3d, 2> Across(const Vec3d& n) {
+// Two unit vectors that are perpendicular to a unit vector and to one another.
+std::array<Vec3d, 2> Tangents(const Vec3d& n) {
   const Vec3d other = std::abs(n.x) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
   const Vec3d first = n.cross(other).normalized();
   return {first, n.cross(first)};
 }
 
-// Where the normal is the half vector.
-std::optional<Weights> FindPeak(const Projector& projector, const GlossyTriangle& t,
-                                const HighlightLight& light) {
-  constexpr int kMostSteps = 20;
-  // Newton's first step, from the middle, tells of most triangles that it is none of them.
+// The point of the triangle where the normal equals the half vector, by Newton's method.
+std::optional<Barycentrics> FindPeak(const Projector& projector, const GlossyTriangle& t,
+                                     const HighlightLight& light) {
+  constexpr int kMaxSteps = 20;
+  // For most triangles the first step, from the middle, leads so far outside that there is no peak.
   constexpr double kFirstSlack = 1;
-  Weights at(1.0 / 3, 1.0 / 3);
-  for (int i = 0; i < kMostSteps; ++i) {
-    const auto across = Across(Interpolate(t.normals, at).normalized());
-    const auto deviation = [&](const Weights& w) {
+  Barycentrics at(1.0 / 3, 1.0 / 3);
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const auto tangents = Tangents(Interpolate(t.normals, at).normalized());
+    const auto deviation = [&](const Barycentrics& w) {
       const Vec3d d = Deviation(projector, t, light, w);
-      return Vec2d(d.dot(across[0]), d.dot(across[1]));
+      return Vec2d(d.dot(tangents[0]), d.dot(tangents[1]));
     };
-    const Weights step = StepFor(SlopesOf(deviation, at), -deviation(at));
+    const Barycentrics step = SolveStep(Differentiate(deviation, at), -deviation(at));
     at += step;
-    if (!IsInside(at, kFirstSlack)) return std::nullopt;  // so is what is not finite
+    if (!IsInTriangle(at, kFirstSlack)) return std::nullopt;  // also if it is not finite
     if (step.length() < 1e-9) {
-      // A neighbour has those on the edge as well: alike, they count as often as they are found.
-      if (!IsInside(at, 1e-9)) return std::nullopt;
+      // A peak on an edge may be found in two triangles. It does no harm: features of one light and
+      // material are pooled.
+      if (!IsInTriangle(at, 1e-9)) return std::nullopt;
       const Vec3d half = HalfVector(projector, light, Interpolate(t.corners, at));
       return Interpolate(t.normals, at).dot(half) > 0 ? std::optional(at) : std::nullopt;
     }
@@ -106,56 +106,58 @@ std::optional<Weights> FindPeak(const Projector& projector, const GlossyTriangle
   return std::nullopt;
 }
 
-// Whether some normal of the triangle may be a half vector of its: that of its middle differs by
-// more than all of them do.
-bool MayShow(const Projector& projector, const GlossyTriangle& t, const HighlightLight& light,
-             double turn) {
-  const Weights middle(1.0 / 3, 1.0 / 3);
+// Whether the normal may equal the half vector anywhere in the triangle: false if they differ by
+// more in the middle than they can change over the triangle. `turn`: the max_area difference of a
+// corner's normal from their mean.
+bool MayHavePeak(const Projector& projector, const GlossyTriangle& t, const HighlightLight& light,
+                 double turn) {
+  const Barycentrics middle(1.0 / 3, 1.0 / 3);
   const Vec3d place = Interpolate(t.corners, middle);
   double extent = 0;
   for (const Vec3d& corner : t.corners) extent = std::max(extent, (corner - place).length());
-  // Half vectors turn by half of what the ways to the eye and the light do.
-  const double to_eye = projector.perspective ? place.length() : kFarDistance;
-  const double to_light = light.far ? kFarDistance : (light.place - place).length();
+  // The half vector turns by half as much as the directions to the eye and to the light.
+  const double to_eye = projector.perspective ? place.length() : kInfiniteDistance;
+  const double to_light = light.directional ? kInfiniteDistance : (light.position - place).length();
   const double nearer = std::min(to_eye, to_light);
   if (!(extent < nearer / 2)) return true;
   return Deviation(projector, t, light, middle).length() <= 2 * (turn + 2 * extent / nearer);
 }
 
-// Whether the triangle is seen within these bounds of the film.
-bool IsSeen(const Projector& projector, const std::array<Vec3d, 3>& corners, const Window& window,
-            double reach) {
-  double x0 = kFarDistance, x1 = -kFarDistance, y0 = x0, y1 = x1;
+// Whether the triangle's projection comes within `margin` pixels of the window. False for a
+// triangle that is not wholly in front of the camera.
+bool IsNearWindow(const Projector& projector, const std::array<Vec3d, 3>& corners,
+                  const Window& window, double margin) {
+  double x0 = kInfiniteDistance, x1 = -kInfiniteDistance, y0 = x0, y1 = x1;
   for (const Vec3d& corner : corners) {
     if (!(corner.dot(projector.forward) > 0)) return false;
-    const FilmPlace place = ProjectPoint(projector, corner);
+    const FilmPoint place = ProjectPoint(projector, corner);
     x0 = std::min(x0, place.x);
     x1 = std::max(x1, place.x);
     y0 = std::min(y0, place.y);
     y1 = std::max(y1, place.y);
   }
-  return x1 > window.x0 - reach && x0 < window.x1 + reach && y1 > window.y0 - reach &&
-         y0 < window.y1 + reach;
+  return x1 > window.x0 - margin && x0 < window.x1 + margin && y1 > window.y0 - margin &&
+         y0 < window.y1 + margin;
 }
 
-class Finder {
+class GlintFinder {
  public:
-  Finder(const SurfacePlan& surfaces, const AdaptivePlan& adaptive, const CameraFrame& camera)
+  GlintFinder(const SurfacePlan& surfaces, const AdaptivePlan& adaptive, const CameraFrame& camera)
       : surfaces_(surfaces), adaptive_(adaptive), projector_(MakeProjector(camera)) {}
 
-  void Find(const TriangleRef& triangle, uint32_t primitive, const Window& window, double reach,
-            double largest, std::vector<Glint>* glints) const {
+  void Find(const TriangleRef& triangle, uint32_t primitive, const Window& window, double margin,
+            double max_area, std::vector<Glint>* glints) const {
     GlossyTriangle t{};
     t.primitive = primitive;
     const Scene& scene = *surfaces_.primitives.scene;
     for (size_t c = 0; c < 3; ++c) {
       t.corners[c] = triangle.mesh->positions[triangle.Vertex(c)] - scene.camera.position;
     }
-    if (!IsSeen(projector_, t.corners, window, reach)) return;
+    if (!IsNearWindow(projector_, t.corners, window, margin)) return;
     const Vec3d middle = Interpolate(t.corners, {1.0 / 3, 1.0 / 3});
     t.material = MaterialAt(surfaces_, primitive, ProjectPoint(projector_, middle).x).index;
     t.lobe = HalfVectorWidth(surfaces_, adaptive_, t.material);
-    if (t.lobe == kFarDistance) return;
+    if (t.lobe == kInfiniteDistance) return;
     Vec3d face = FaceNormal(*triangle.mesh, triangle.triangle);
     if (face.dot(projector_.perspective ? middle : projector_.forward) > 0) face = -face;
     const bool smooth = HasSmoothNormals(*triangle.mesh);
@@ -168,40 +170,42 @@ class Finder {
     for (const Vec3d& normal : t.normals) turn = std::max(turn, (normal - mean).length());
     for (const HighlightLight& light : adaptive_.lights) {
       if (t.lobe == 0 && light.radius == 0) continue;
-      if (MayShow(projector_, t, light, turn)) Add(t, light, largest, glints);
+      if (MayHavePeak(projector_, t, light, turn)) Add(t, light, max_area, glints);
     }
   }
 
  private:
-  void Add(const GlossyTriangle& t, const HighlightLight& light, double largest,
+  void Add(const GlossyTriangle& t, const HighlightLight& light, double max_area,
            std::vector<Glint>* glints) const {
-    const std::optional<Weights> peak = FindPeak(projector_, t, light);
+    const std::optional<Barycentrics> peak = FindPeak(projector_, t, light);
     if (!peak) return;
     const Vec3d place = Interpolate(t.corners, *peak);
-    const auto across = Across(Interpolate(t.normals, *peak).normalized());
-    const Slopes<Vec2d> turns = SlopesOf(
-        [&](const Weights& w) {
+    const auto tangents = Tangents(Interpolate(t.normals, *peak).normalized());
+    const Derivatives<Vec2d> turns = Differentiate(
+        [&](const Barycentrics& w) {
           const Vec3d d = Deviation(projector_, t, light, w);
-          return Vec2d(d.dot(across[0]), d.dot(across[1]));
+          return Vec2d(d.dot(tangents[0]), d.dot(tangents[1]));
         },
         *peak);
-    const auto on_film = [&](const Weights& w) {
-      const FilmPlace at = ProjectPoint(projector_, Interpolate(t.corners, w));
+    const auto on_film = [&](const Barycentrics& w) {
+      const FilmPoint at = ProjectPoint(projector_, Interpolate(t.corners, w));
       return Vec2d(at.x, at.y);
     };
-    const Slopes<Vec2d> moves = SlopesOf(on_film, *peak);
+    const Derivatives<Vec2d> moves = Differentiate(on_film, *peak);
     // A light's angular radius turns the half vector by half as much.
-    const double of_light = light.far ? 0 : light.radius / (light.place - place).length() / 2;
+    const double of_light =
+        light.directional ? 0 : light.radius / (light.position - place).length() / 2;
     const double width2 = t.lobe * t.lobe + of_light * of_light;
     const double area = M_PI * width2 * std::abs(Determinant(moves) / Determinant(turns));
-    if (!(area > 0 && area < largest)) return;
-    // Along the way on which it is narrower of two across one another, to the triangle's middle.
-    const double reach = 4 * std::sqrt(width2);
+    if (!(area > 0 && area < max_area)) return;
+    // A step of four half-widths along one of two perpendicular directions on the surface: the one
+    // that is shorter on the film, towards the middle of the triangle.
+    const double turn_length = 4 * std::sqrt(width2);
     const auto step = [&](const Vec2d& turn) {
-      const Weights w = StepFor(turns, turn);
-      return moves.of_x * w.x + moves.of_y * w.y;
+      const Barycentrics w = SolveStep(turns, turn);
+      return moves.by_x * w.x + moves.by_y * w.y;
     };
-    const Vec2d one = step({reach, 0}), other = step({0, reach});
+    const Vec2d one = step({turn_length, 0}), other = step({0, turn_length});
     const Vec2d at = on_film(*peak);
     const Vec2d inwards = on_film({1.0 / 3, 1.0 / 3}) - at;
     Vec2d beside = one.length2() < other.length2() ? one : other;
@@ -215,7 +219,7 @@ class Finder {
   Projector projector_;
 };
 
-// Whether a mesh's triangles are shaded by the normals of their points.
+// Whether the mesh is shaded point by point, not by interpolated radiance.
 bool ShowsGlints(const Mesh& mesh) {
   return mesh.interpolation == Interpolation::kPhong ||
          mesh.interpolation == Interpolation::kFaceted;
@@ -225,11 +229,12 @@ bool ShowsGlints(const Mesh& mesh) {
 
 std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surfaces,
                                   const AdaptivePlan& adaptive, const CameraFrame& camera,
-                                  const Window& window, double reach, double largest, int threads) {
+                                  const Window& window, double margin, double max_area,
+                                  int threads) {
   constexpr size_t kAtOnce = 1 << 14;
   std::vector<Glint> glints;
   if (adaptive.lights.empty()) return glints;
-  const Finder finder(surfaces, adaptive, camera);
+  const GlintFinder finder(surfaces, adaptive, camera);
   auto first = static_cast<uint32_t>(scene.spheres.size());
   for (size_t number = 0; number < scene.meshes.size(); ++number) {
     const Mesh& mesh = scene.meshes[number];
@@ -240,7 +245,7 @@ std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surface
         const size_t end = std::min(count, (piece + 1) * kAtOnce);
         for (size_t i = piece * kAtOnce; i < end; ++i) {
           const auto triangle = static_cast<uint32_t>(i);
-          finder.Find({&mesh, number, triangle}, first + triangle, window, reach, largest,
+          finder.Find({&mesh, number, triangle}, first + triangle, window, margin, max_area,
                       &found[piece]);
         }
       });

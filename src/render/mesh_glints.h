@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mesh_glints.h: where meshes show the highlights of small lights, and how large these are
-// on the film: glints.h for triangles.
+// render/mesh_glints.h: the position and the size on the film of the highlights that small lights
+// cause on meshes: glints.h for triangles.
 #pragma once
 
 #include "render/highlights.h"
 
 namespace nacre {
 
-// The highlights of each of adaptive.lights on the triangles of all meshes, as far as they lie
-// within `reach` pixels of the window and their areas are less than `largest` pixels: those whose
-// peak, where the normal is the half vector, lies in the triangle. In descending order on the film.
-// None on triangles that reach beside or behind the camera, and none where radiance, not the
-// normal, is interpolated. Shadows and what may hide them are not looked for.
+// Finds the highlights of adaptive.lights on the triangles of all meshes: those whose peak, the
+// point where the interpolated normal equals the half vector, lies in the triangle, and whose area
+// on the film is less than `max_area` pixels. Only triangles within `margin` pixels of the window
+// count. The result is sorted by ascending y. There are no highlights on triangles that extend
+// beside or behind the camera, nor on meshes that interpolate radiance instead of normals.
+// Occlusion is ignored.
 std::vector<Glint> FindMeshGlints(const Scene& scene, const SurfacePlan& surfaces,
                                   const AdaptivePlan& adaptive, const CameraFrame& camera,
-                                  const Window& window, double reach, double largest, int threads);
+                                  const Window& window, double margin, double max_area,
+                                  int threads);
 
 }  // namespace nacre

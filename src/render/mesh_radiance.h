@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mesh_radiance.h: hits on meshes that interpolate what their vertices reflect (Gouraud
-// 1971), or show what their triangles do (flat shading): DirectPlan::mesh_radiance.
+// render/mesh_radiance.h: radiance of hits on meshes whose vertices' radiance is interpolated
+// (Gouraud 1971), or whose triangles have one radiance each (flat shading):
+// DirectPlan::mesh_radiance.
 #pragma once
 
 #include "render/direct_batch.h"
@@ -8,13 +9,14 @@
 
 namespace nacre {
 
-// Which of a corner's two sides the camera sees, given the normal of the triangle on its side.
-uint32_t SideOf(const TriangleRef& triangle, size_t corner, const Vec3d& seen_normal);
+// Which side of a corner is visible, as an index into MeshRadiance::sides. `visible_normal`: from
+// VisibleNormal.
+uint32_t SideOf(const TriangleRef& triangle, size_t corner, const Vec3d& visible_normal);
 
-// The unit normal of the triangle on the side that the camera sees.
-Vec3d SeenNormal(const CameraFrame& camera, const TriangleRef& triangle, const Corners& corners);
+// The unit normal of the triangle on the side that the camera sees; 0 for a degenerate triangle.
+Vec3d VisibleNormal(const CameraFrame& camera, const TriangleRef& triangle, const Corners& corners);
 
-// Fills batch.radiance of its interpolated runs.
+// Fills batch.radiance of the interpolated runs.
 void InterpolateRadiance(const DirectBatch& batch);
 
 }  // namespace nacre

@@ -17,15 +17,17 @@
 namespace nacre {
 namespace {
 
-// Where a mesh is shaded: relative to the camera.
+// A point at which a mesh is shaded.
 struct Point {
-  Vec3d position, normal;
-  uint32_t primitive;  // that it is on
-  uint32_t index;      // of its vertex or triangle,
-  uint32_t side;       // and the side of MeshRadiance
+  Vec3d position;  // relative to the camera
+  Vec3d normal;
+  uint32_t primitive;  // that the point lies on
+  uint32_t index;      // of the vertex or triangle in the mesh
+  uint32_t side;       // index into MeshRadiance::sides
 };
 
-// Triangles on whose one side a vertex is, by its number; kNoTriangle: on none's.
+// For either side, by vertex, the first triangle that shows the camera this side of the vertex; or
+// kNoTriangle.
 constexpr uint32_t kNoTriangle = 0xffffffffu;
 using SideTriangles = std::array<std::vector<uint32_t>, 2>;
 
@@ -37,8 +39,8 @@ std::vector<Point> FlatPoints(const Scene& scene, const CameraFrame& camera, siz
   for (uint32_t i = 0; i < mesh.triangles.size() / 3; ++i) {
     const TriangleRef triangle{&mesh, number, i};
     const Corners corners = CornersOf(scene, triangle);
-    const Vec3d normal = SeenNormal(camera, triangle, corners);
-    if (normal == Vec3d(0, 0, 0)) continue;  // nothing hits it
+    const Vec3d normal = VisibleNormal(camera, triangle, corners);
+    if (normal == Vec3d(0, 0, 0)) continue;  // degenerate: no ray hits it
     points.push_back({(corners[0] + corners[1] + corners[2]) / 3, normal, first + i, i, 0});
   }
   return points;
@@ -51,7 +53,7 @@ std::vector<Point> VertexPoints(const Scene& scene, const CameraFrame& camera, s
   for (std::vector<uint32_t>& side : seen) side.assign(mesh.positions.size(), kNoTriangle);
   for (uint32_t i = 0; i < mesh.triangles.size() / 3; ++i) {
     const TriangleRef triangle{&mesh, number, i};
-    const Vec3d normal = SeenNormal(camera, triangle, CornersOf(scene, triangle));
+    const Vec3d normal = VisibleNormal(camera, triangle, CornersOf(scene, triangle));
     if (normal == Vec3d(0, 0, 0)) continue;
     for (size_t c = 0; c < 3; ++c) {
       uint32_t& entry = seen[SideOf(triangle, c, normal)][triangle.Vertex(c)];
@@ -71,7 +73,7 @@ std::vector<Point> VertexPoints(const Scene& scene, const CameraFrame& camera, s
   return points;
 }
 
-// Makes hits of up to kBatchCapacity points, which the camera looks at.
+// Makes hits of up to kBatchCapacity points, as if camera rays hit them.
 void MakeHits(const CameraFrame& camera, const Point* points, size_t count, Surfaces* to) {
   const bool parallel = camera.projection == Projection::kOrthographic;
   HitBatch& hits = to->hits;
@@ -81,21 +83,16 @@ void MakeHits(const CameraFrame& camera, const Point* points, size_t count, Surf
     const Point& point = points[std::min(i, count - 1)];
     Vec3d to_view = parallel ? -camera.forward : -point.position.normalized();
     if (to_view == Vec3d(0, 0, 0)) to_view = point.normal;  // the camera is at the vertex
-    const auto put = [i](const Vec3d& v, Soa3<double>* soa) {
-      soa->x[i] = v.x;
-      soa->y[i] = v.y;
-      soa->z[i] = v.z;
-    };
-    put(point.position, &hits.position);
-    put(point.normal, &hits.normal);
-    put(GrazingView(point.normal, to_view), &hits.to_view);
+    SetVector(point.position, i, &hits.position);
+    SetVector(point.normal, i, &hits.normal);
+    SetVector(GrazingView(point.normal, to_view), i, &hits.to_view);
     hits.primitive[i] = point.primitive;
     hits.ray[i] = static_cast<uint32_t>(i);
   }
   PrepareSurface(hits, &to->surface);
 }
 
-// Sums, in double, of the samples of a batch of points.
+// Sums over the samples of a batch of points, in double.
 struct Sums {
   std::vector<Vec3d> diffuse, specular;
   std::vector<std::vector<Vec3d>> lights;
@@ -107,10 +104,10 @@ struct Sums {
 };
 
 void AddTo(const Soa3<float>& from, std::vector<Vec3d>* sums) {
-  for (size_t i = 0; i < sums->size(); ++i) (*sums)[i] += Vec3d(from.x[i], from.y[i], from.z[i]);
+  for (size_t i = 0; i < sums->size(); ++i) (*sums)[i] += VectorAt(from, i);
 }
 
-// How often each point is shaded: lights that are sampled take as many samples as a pixel.
+// How often each point is shaded: as often as a pixel if there are sampled lights, else once.
 int SamplesOf(const DirectPlan& plan) {
   return plan.sampled_lights.empty() ? 1 : static_cast<int>(plan.pairs.samples);
 }
@@ -124,7 +121,7 @@ void NumberPoints(const Point* points, size_t count, int sample, SampleNumbers* 
   }
 }
 
-// What all points of a mesh are shaded by.
+// What the shading of points reads.
 struct MeshShading {
   const SurfacePlan& surfaces;
   const DirectPlan& direct;
@@ -180,7 +177,7 @@ MeshRadiance ShadeMesh(const MeshShading& by, const RenderSettings& settings,
     of.specular.resize(size);
     of.lights.assign(by.direct.light_layer_count, std::vector<Vec3f>(size));
   }
-  // Several batches a task: its buffers take longer to make than one batch.
+  // A task takes several batches, because its buffers take longer to make than a batch to shade.
   constexpr size_t kTask = 16 * kBatchCapacity;
   ParallelFor((points.size() + kTask - 1) / kTask, settings.threads, [&](size_t task) {
     const auto room = std::make_unique<PointRoom>();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mesh_shading.h: what the vertices or triangles of meshes reflect, where that is what hits
-// on them show (mesh_radiance.h): worked out once, in the plan.
+// render/mesh_shading.h: shades the vertices or triangles of meshes that interpolate radiance
+// (mesh_radiance.h), once, while the plan is made.
 #pragma once
 
 #include "render/direct_plan.h"
@@ -8,7 +8,7 @@
 
 namespace nacre {
 
-// Fills plan->mesh_radiance; all else of the plan is there.
+// Fills plan->mesh_radiance. All other members of the plan must be set.
 void ShadeMeshes(const Scene& scene, const RenderSettings& settings, const SurfacePlan& surfaces,
                  DirectPlan* plan, Explanation* why);
 

@@ -8,7 +8,7 @@
 namespace nacre {
 namespace {
 
-constexpr size_t kMostWindows = 64;
+constexpr size_t kMaxMeshWindows = 64;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Extent {
@@ -20,13 +20,14 @@ struct Extent {
   }
 };
 
-// Pixels, clamped to what an int holds.
+// Rounds to a pixel coordinate that an int can hold.
 int ToPixel(double v) { return static_cast<int>(std::clamp(v, -1e9, 1e9)); }
 
 const Window kEverywhere{-1000000000, -1000000000, 1000000000, 1000000000};
 
-// Where a box is seen: its corners' pictures hold it between them if all lie well before the eye.
-Window WindowOf(const Extent (&box)[3], const CameraFrame& frame, double reach) {
+// A window that holds the projection of a box. If all corners lie well in front of the eye, it is
+// the bounding window of their projections.
+Window WindowOf(const Extent (&box)[3], const CameraFrame& frame, double sample_margin) {
   Extent x, y;
   for (int corner = 0; corner < 8; ++corner) {
     Vec3d p;
@@ -40,19 +41,16 @@ Window WindowOf(const Extent (&box)[3], const CameraFrame& frame, double reach) 
     x.Add(p.dot(frame.step_x) / frame.step_x.dot(frame.step_x));
     y.Add(p.dot(frame.step_y) / frame.step_y.dot(frame.step_y));
   }
-  // A pixel more than rounding can make of it.
-  const double margin = reach + 1;
+  // One pixel more than needed, which is far more than rounding errors.
+  const double margin = sample_margin + 1;
   return {ToPixel(std::floor(x.low - margin)), ToPixel(std::floor(y.low - margin)),
           ToPixel(std::ceil(x.high + margin)), ToPixel(std::ceil(y.high + margin))};
 }
 
-Window Around(const Window& a, const Window& b) {
-  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
-}
-
 }  // namespace
 
-std::vector<Window> FindMeshWindows(const Scene& scene, const CameraFrame& frame, double reach) {
+std::vector<Window> FindMeshWindows(const Scene& scene, const CameraFrame& frame,
+                                    double sample_margin) {
   std::vector<Window> windows;
   for (const Mesh& mesh : scene.meshes) {
     Extent box[3];
@@ -61,11 +59,11 @@ std::vector<Window> FindMeshWindows(const Scene& scene, const CameraFrame& frame
       for (int c = 0; c < 3; ++c) box[c].Add(p[c]);
     }
     if (mesh.positions.empty()) continue;
-    const Window window = WindowOf(box, frame, reach);
-    if (windows.size() < kMostWindows) {
+    const Window window = WindowOf(box, frame, sample_margin);
+    if (windows.size() < kMaxMeshWindows) {
       windows.push_back(window);
     } else {
-      windows.back() = Around(windows.back(), window);
+      windows.back() = BoundingWindow(windows.back(), window);
     }
   }
   return windows;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/mesh_windows.h: where in the picture meshes can be.
+// render/mesh_windows.h: where in the frame meshes may be visible.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,10 @@
 
 namespace nacre {
 
-// For each mesh the pixels that rays to it may pass through, samples lying at most `reach` pixels
-// outside them; of many meshes one window for all.
-std::vector<Window> FindMeshWindows(const Scene& scene, const CameraFrame& frame, double reach);
+// For each mesh a window that holds all pixels whose samples may hit it, if samples lie at most
+// `sample_margin` pixels outside their pixel. Beyond a certain number of meshes the last window is
+// that of all remaining ones.
+std::vector<Window> FindMeshWindows(const Scene& scene, const CameraFrame& frame,
+                                    double sample_margin);
 
 }  // namespace nacre

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/outline_coverage.h: how much of a pixel a sphere covers, exactly: near its outline, which
-// a camera sees as an ellipse.
+// render/outline_coverage.h: the share of a pixel that a sphere covers, computed exactly where the
+// sphere's outline, which is an ellipse on the film, crosses the pixel.
 #pragma once
 
 #include "hit/camera_frame.h"
@@ -8,29 +8,32 @@
 
 namespace nacre {
 
-// Around a place on the film: the ray through the place displaced by (dx, dy) pixels hits where
+// A quadratic form that describes an outline around a point on the film: the ray through that point
+// displaced by (dx, dy) pixels hits the sphere where
 //   xx dx^2 + 2 xy dx dy + yy dy^2 + 2 x dx + 2 y dy + one
 // is not negative.
 struct OutlineForm {
   double xx, xy, yy, x, y, one;
 };
 
-// For a sphere whose whole outline lies before the camera.
-OutlineForm OutlineAround(const CameraFrame& frame, const TraceSphere& sphere, double film_x,
-                          double film_y);
+// For a sphere whose whole outline lies in front of the camera.
+OutlineForm MakeOutlineForm(const CameraFrame& frame, const TraceSphere& sphere, double film_x,
+                            double film_y);
 
-// Whether the outline is an ellipse that bends so little everywhere that CoveredShare holds.
-bool BendsLittle(const OutlineForm& outline);
+// Whether the outline is an ellipse of so small a curvature that CoveredShare is accurate.
+bool IsGentlyCurved(const OutlineForm& outline);
 
-// The share, in [0, 1], of the square within `reach` pixels of the place, reach <= 0.5, that is
-// where the form is not negative, to 1e-8, if the outline bends little.
-double CoveredShare(const OutlineForm& outline, double reach);
+// The share, in [0, 1], of a square on the film that the sphere covers. The square is centred at
+// the form's point and has sides of twice `half_side` pixels, at most one pixel. Requires
+// IsGentlyCurved, and is then accurate to 1e-8.
+double CoveredShare(const OutlineForm& outline, double half_side);
 
-// A place within that part of the square, from the square's middle: well inside of it where the
-// part is small. Needs a share above 0.
-struct FilmStep {
+// An offset on the film, in pixels.
+struct FilmOffset {
   double dx, dy;
 };
-FilmStep CoveredPlace(const OutlineForm& outline, double reach);
+// The offset from the square's centre of a point in the covered part, away from the part's border
+// even if the part is small. Requires a share above 0.
+FilmOffset OffsetIntoCovered(const OutlineForm& outline, double half_side);
 
 }  // namespace nacre

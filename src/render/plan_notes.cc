@@ -14,10 +14,10 @@
 namespace nacre {
 namespace {
 
-// The first of the used materials for which `test` holds, and how many more: `material "red" and 2
-// more`; nothing if there is none.
+// Names the first of the used materials for which `test` holds, and counts the others, as in
+// `material "red" and 2 more`. Empty if there is none.
 template <class Test>
-std::string NameThose(const Scene& scene, const Test& test) {
+std::string NameMaterials(const Scene& scene, const Test& test) {
   const std::vector<bool> used = FindUsedMaterials(scene);
   std::string first;
   size_t count = 0;
@@ -30,7 +30,7 @@ std::string NameThose(const Scene& scene, const Test& test) {
   return fmt::format("material \"{}\"{}", first, others);
 }
 
-// Of a material with a GGX lobe; else 0.
+// The roughness of a material with a GGX lobe; else 0.
 double LobeRoughness(const Material& material) {
   return std::visit(
       [](const auto& model) {
@@ -43,14 +43,15 @@ double LobeRoughness(const Material& material) {
       material.model);
 }
 
-// A perfect mirror shows only what has an extent; says so where no light has one. `parameter`: the
-// roughness that is_mirror(i) is about, of material i roughness_of(i).
+// A perfect mirror reflects only what has an extent. This notes mirrors where no light has one.
+// `parameter`: the name of the roughness that makes material i a mirror if is_mirror(i), and whose
+// value is roughness_of(i).
 template <class IsMirror, class RoughnessOf>
 void NoteMirrors(const Scene& scene, const char* parameter, const IsMirror& is_mirror,
                  const RoughnessOf& roughness_of, std::vector<std::string>* notes) {
   double greatest = 0;
   int count = 0;
-  const std::string names = NameThose(scene, [&](size_t i) {
+  const std::string names = NameMaterials(scene, [&](size_t i) {
     if (!is_mirror(i)) return false;
     greatest = std::max(greatest, roughness_of(i));
     ++count;
@@ -78,10 +79,11 @@ void NoteMirrors(const Scene& scene, const std::vector<ShadingMaterial>& materia
       notes);
 }
 
-// What Burley's term gives back of grazing light, of the brightest channel; else 0.
+// The share of grazing light that Burley's diffuse term reflects, in the brightest channel; 0 for
+// other models.
 double BurleyGain(const ShadingMaterial& material) {
   const auto gain = [](const Rgb& diffuse, double roughness) {
-    return std::max({diffuse.x, diffuse.y, diffuse.z}) * M_PI * BurleyGrazingAlbedo(roughness);
+    return LargestChannel(diffuse) * M_PI * BurleyGrazingAlbedo(roughness);
   };
   return std::visit(
       Overloaded{[&](const MatteModel& matte) {
@@ -89,8 +91,8 @@ double BurleyGain(const ShadingMaterial& material) {
                    return burley ? gain(matte.diffuse, matte.roughness) : 0.0;
                  },
                  [&](const MicrofacetModel& model) {
-                   // Under what the lobe's albedo leaves, which is nothing of grazing
-                   // light, it cannot.
+                   // Scaled by what the lobe's albedo leaves, which vanishes at grazing angles, the
+                   // term cannot reflect more than it gets.
                    const bool burley = model.base_form == DiffuseForm::kBurley &&
                                        model.coupling == DiffuseCoupling::kNone;
                    return burley ? gain(model.diffuse, model.base_roughness) : 0.0;
@@ -102,7 +104,7 @@ double BurleyGain(const ShadingMaterial& material) {
 void NoteGain(const Scene& scene, const std::vector<ShadingMaterial>& materials,
               std::vector<std::string>* notes) {
   double most = 1;
-  const std::string names = NameThose(scene, [&](size_t i) {
+  const std::string names = NameMaterials(scene, [&](size_t i) {
     const double gain = BurleyGain(materials[i]);
     most = std::max(most, gain);
     return gain > 1;
@@ -125,7 +127,7 @@ bool IsBlackSky(const EnvironmentLight& light) {
                           (sky.constant == 0 && sky.linear == 0 && sky.quadratic == 0);
                  },
                  [](const PictureSky& sky) {
-                   // A channel that the scale takes away does not light anything.
+                   // A channel whose scale is 0 lights nothing.
                    const std::vector<float>& rgb = sky.picture->rgb;
                    for (size_t i = 0; i < rgb.size(); ++i) {
                      if (rgb[i] * sky.scale[static_cast<int>(i % 3)] > 0) return false;
@@ -135,7 +137,7 @@ bool IsBlackSky(const EnvironmentLight& light) {
       light.sky);
 }
 
-bool Shines(const Light& light) {
+bool EmitsLight(const Light& light) {
   return std::visit(Overloaded{[](const AmbientLight& l) { return !IsBlack(l.radiance); },
                                [](const DirectionalLight& l) { return !IsBlack(l.irradiance); },
                                [](const PointLight& l) { return !IsBlack(l.intensity); },
@@ -145,10 +147,10 @@ bool Shines(const Light& light) {
                     light.kind);
 }
 
-// A scene that nothing lights is a slip, unless its materials shine themselves.
+// A scene without light is probably a mistake, unless its materials emit.
 void NoteDarkness(const Scene& scene, std::vector<std::string>* notes) {
   if (scene.spheres.empty() && scene.meshes.empty()) return;
-  if (std::any_of(scene.lights.begin(), scene.lights.end(), Shines)) return;
+  if (std::any_of(scene.lights.begin(), scene.lights.end(), EmitsLight)) return;
   const std::vector<bool> used = FindUsedMaterials(scene);
   bool emits = false;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
@@ -160,19 +162,19 @@ void NoteDarkness(const Scene& scene, std::vector<std::string>* notes) {
                   emits ? "only what its materials emit is seen" : "every shape is black"));
 }
 
-// The most that a radiometric Phong material lets a viewer see of light 1 from everywhere, of the
-// brightest channel; else 0. The classic convention has no reflectances that could be above 1.
+// The largest radiance, in the brightest channel, that a radiometric Phong material of this model
+// reflects in surroundings of radiance 1; else 0. With the classic convention, kd and ks are no
+// reflectances that could exceed 1.
 double PhongGain(const Material& material, PhongModel model) {
   const auto* phong = std::get_if<PhongMaterial>(&material.model);
   if (phong == nullptr || phong->model != model) return 0;
   if (phong->convention != PhongConvention::kRadiometric) return 0;
   double lobe = 1;
-  // A map may make the exponent smaller, and the lobe wider.
+  // A map may reduce the exponent to 0, which widens the lobe.
   const double shininess = phong->shininess_map.valid() ? 0 : phong->shininess;
   if (model == PhongModel::kPhong) lobe = PhongFurnace(shininess);
   if (model == PhongModel::kBlinnPhong) lobe = BlinnFurnace(shininess);
-  const Rgb most = phong->kd * phong->color + phong->ks * lobe;
-  return std::max({most.x, most.y, most.z});
+  return LargestChannel(phong->kd * phong->color + phong->ks * lobe);
 }
 
 void NotePhongGain(const Scene& scene, std::vector<std::string>* notes) {
@@ -180,10 +182,10 @@ void NotePhongGain(const Scene& scene, std::vector<std::string>* notes) {
                                     std::pair{PhongModel::kModifiedPhong, "modified_phong"},
                                     std::pair{PhongModel::kBlinnPhong, "blinn_phong"}}) {
     double most = 1;
-    const std::string names = NameThose(scene, [&, of = model](size_t i) {
+    const std::string names = NameMaterials(scene, [&, of = model](size_t i) {
       const double gain = PhongGain(scene.materials[i], of);
       most = std::max(most, gain);
-      return gain >= 1.005;  // less is told as 1.00
+      return gain >= 1.005;  // less would be printed as 1.00
     });
     if (names.empty()) continue;
     const bool modified = model == PhongModel::kModifiedPhong;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/plan_notes.h: what a picture cannot show, or shows against nature, as its materials are.
+// render/plan_notes.h: notes on what a scene's materials cannot show, or reflect against the laws
+// of physics.
 #pragma once
 
 #include <string>
@@ -10,11 +11,12 @@
 
 namespace nacre {
 
-// Which of the scene's materials are on a shape, splits resolved.
+// By material of the scene: whether any shape has it, directly or as a part of a split.
 std::vector<bool> FindUsedMaterials(const Scene& scene);
 
-// Adds to the notes: scenes that nothing lights, perfect mirrors under lights that have no extent,
-// and materials that reflect more than they get. `materials`: of the scene, in its order.
+// Adds notes on scenes without any light, on perfect mirrors under punctual lights only, and on
+// materials that reflect more light than they receive. `materials`: those of the scene, in its
+// order. `sampled_lights`: whether any light has an extent.
 void NoteMaterials(const Scene& scene, const std::vector<ShadingMaterial>& materials,
                    bool sampled_lights, std::vector<std::string>* notes);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/prepared_scene.h: what is costly to make of a scene, kept from one plan to the next, and
-// from what each piece was made: a change of the scene, or of what is asked for, makes those pieces
-// again that depend on it. Plans made with pieces that were kept have the bits of others.
+// render/prepared_scene.h: keeps what is costly to compute from a scene from one plan to the next.
+// Each piece has a key, which holds everything that it was made from; when the scene or the
+// settings change, the pieces with another key are made again. Plans that use kept pieces give the
+// same bits as plans made from scratch.
 #pragma once
 
 #include <memory>
@@ -19,11 +20,11 @@
 
 namespace nacre {
 
-// A piece and its key: what it was made from.
+// A piece, and the key of what it was made from.
 template <class Key, class Value>
 class Kept {
  public:
-  // Whether the piece that is there was made from this.
+  // Whether the piece was made from what the key says.
   bool IsUpToDate(const Key& key) const { return key_ && *key_ == key; }
 
   void Set(const Key& key, Value made) {
@@ -32,7 +33,7 @@ class Kept {
   }
   void Forget() { key_.reset(); }
 
-  // The piece, made by make() unless it is up to date.
+  // The piece; made by make() unless it is up to date.
   template <class Make>
   Value& Get(const Key& key, const Make& make) {
     if (!IsUpToDate(key)) {
@@ -49,40 +50,41 @@ class Kept {
   std::optional<Key> key_;
 };
 
-// Of the scene's shapes with those of visible lights, which lie by where the camera is.
+// The key of the scene's shapes with those of visible lights. Which lights are added depends on the
+// camera.
 struct ShapesKey {
-  PartVersions parts;       // kShapes, and kLights if any light is shown
-  std::vector<bool> shown;  // by light
+  PartVersions parts;       // kShapes, and kLights if the shape of any light is added
+  std::vector<bool> shown;  // by light, whether its shape is added
   Vec3d eye{0, 0, 0};
   size_t materials = 0;
   friend bool operator==(const ShapesKey&, const ShapesKey&) = default;
 };
 
-// Of what depends on the shapes and more parts of the scene.
+// The key of what depends on the shapes and on other parts of the scene.
 struct ViewKey {
-  uint64_t made = 0;  // how often the shapes, as above, were made; or the intersector
+  uint64_t made = 0;  // PreparedScene::shapes_made or intersectors_made
   PartVersions parts;
   std::vector<double> numbers;  // of the settings
   friend bool operator==(const ViewKey&, const ViewKey&) = default;
 };
 
 struct PreparedScene {
-  // To be told of all changes of the scene: one object is for one scene.
+  // Of the one scene that this object is for. Must be updated at each change of the scene.
   PartVersions versions;
 
   Kept<ShapesKey, std::shared_ptr<SceneWithLights>> with_lights;
-  uint64_t shapes_made = 0;
+  uint64_t shapes_made = 0;  // how often with_lights was made
 
-  // The trees' coordinates are relative to the camera. Bins and lists are in the intersector.
+  // Its coordinates are relative to the camera. Bins and occluder lists are kept inside it.
   Kept<ViewKey, std::shared_ptr<Intersector>> intersector;
-  uint64_t intersectors_made = 0;
+  uint64_t intersectors_made = 0;  // how often intersector was made
   Kept<ViewKey, bool> eye_outside;
   Kept<ViewKey, std::vector<Window>> mesh_windows;
-  Kept<ViewKey, bool> camera_bins;       // what BinForCamera has returned
-  Kept<ViewKey, std::monostate> lights;  // whose occluders the intersector has found
+  Kept<ViewKey, bool> camera_bins;       // the result of BinForCamera
+  Kept<ViewKey, std::monostate> lights;  // whether the intersector has the lights' occluders
 
   KeptTables tables;
-  PartVersions meshes_of_tangents;  // the versions that tables.tangents are of
+  PartVersions meshes_of_tangents;  // the versions that tables.tangents were made from
 };
 
 }  // namespace nacre

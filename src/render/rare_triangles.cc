@@ -18,38 +18,40 @@
 namespace nacre {
 namespace {
 
-// Candidates of one look in one pixel that are looked at: no more than the samples that a pixel
-// takes before it may stop.
-constexpr size_t kMostLooks = 16;
+// How many candidates of one appearance are probed in one pixel: no more than the samples that a
+// pixel takes before it may stop.
+constexpr size_t kMaxProbes = 16;
 
-// Samples of one place, where lights are sampled: their mean is to tell how bright it is, which one
-// sample need not.
-constexpr size_t kSamplesOfLook = 8;
+// Samples of a probe if lights are sampled: one sample would be too noisy.
+constexpr size_t kSamplesPerProbe = 8;
 
-// Of one material, on one side: a pixel with as large a share is found by 16 samples, which expect
-// kExpectedHits; and so is one among 3x3 pixels with as much of their area, as beside the straight
-// edge of something large, which covers three of them at least: a curved one less.
-constexpr double kFoundShare = kExpectedHits / 16;
-constexpr double kFoundArea = 2.5;
+// Triangles of one appearance are not rare in a pixel if they cover this share of it, because the
+// first 16 samples then have kExpectedHits hits on average; nor if they cover this area, in pixels,
+// of the 3x3 pixels bordered it. The straight edge of a large object covers at least three of
+// these, a curved one less.
+constexpr double kCommonShare = kExpectedHits / 16;
+constexpr double kCommonArea = 2.5;
 
 struct Candidate {
   TrianglePiece piece;
-  std::optional<Rgb> radiance;  // none: it is hidden
+  std::optional<Rgb> radiance;  // none if it is hidden
 };
 
-// The cell and a pixel around it, row by row.
-constexpr int kSideAround = kCellSize + 2;
+// The side of a cell with a border of one pixel.
+constexpr int kBorderedSide = kCellSize + 2;
 
-Window Around(const Window& cell) { return {cell.x0 - 1, cell.y0 - 1, cell.x1 + 1, cell.y1 + 1}; }
+Window WithBorder(const Window& cell) {
+  return {cell.x0 - 1, cell.y0 - 1, cell.x1 + 1, cell.y1 + 1};
+}
 
 template <class Add>
-void ForEachShareOf(const PixelFilter& filter, const Window& cell, const TrianglePiece& piece,
-                    const Add& add) {
+void ForEachPieceShare(const PixelFilter& filter, const Window& cell, const TrianglePiece& piece,
+                       const Add& add) {
   ForEachShare(filter, cell, piece.box,
                [&](int column, int row, double share) { add(column, row, share * piece.fill); });
 }
 
-// Pixels of a cell.
+// A set of the cell's pixels, row by row.
 struct PixelSet {
   bool of[kCellSize][kCellSize] = {};
 };
@@ -58,25 +60,23 @@ struct SharesOfCell {
   double of[kCellSize][kCellSize] = {};
 };
 
-// A number for each pixel of a cell and around it: of pieces, the pixel of their centroid or the
-// nearest to it.
+// A number for each pixel of a cell and its border. A piece belongs to the pixel that holds its
+// centroid, or to the nearest one.
 template <class Number>
-struct NumbersAround {
-  Number of[kSideAround][kSideAround] = {};
+struct BorderedCell {
+  Number of[kBorderedSide][kBorderedSide] = {};
 
-  Number& At(const Window& around, const TrianglePiece& piece) {
+  Number& At(const Window& bordered, const TrianglePiece& piece) {
     const auto place = [](double at, int from) {
-      return static_cast<size_t>(std::clamp(std::floor(at) - from, 0.0, kSideAround - 1.0));
+      return static_cast<size_t>(std::clamp(std::floor(at) - from, 0.0, kBorderedSide - 1.0));
     };
-    return of[place(piece.y, around.y0)][place(piece.x, around.x0)];
+    return of[place(piece.y, bordered.y0)][place(piece.x, bordered.x0)];
   }
 };
-using CountsAround = NumbersAround<size_t>;
+using PieceCounts = BorderedCell<size_t>;
+using CoveredArea = BorderedCell<double>;  // in pixels
 
-// What triangles of one look cover.
-using CoveredArea = NumbersAround<double>;
-
-// The cell's pixels that are not beside as much of such triangles as beside a large thing's edge.
+// The pixels bordered which triangles of one appearance cover less than the edge of a large object.
 PixelSet FindSparse(const CoveredArea& area) {
   PixelSet sparse;
   for (int row = 0; row < kCellSize; ++row) {
@@ -85,30 +85,31 @@ PixelSet FindSparse(const CoveredArea& area) {
       for (int y = row; y < row + 3; ++y) {
         for (int x = column; x < column + 3; ++x) sum += area.of[y][x];
       }
-      sparse.of[row][column] = sum < kFoundArea;
+      sparse.of[row][column] = sum < kCommonArea;
     }
   }
   return sparse;
 }
 
-// The cell's small triangles, piece by piece, with materials that are no splits.
-void ForEachPieceOf(const FramePlan& plan, const Window& cell,
-                    const std::function<void(const TrianglePiece&)>& work) {
+// Calls work(piece) for the pieces of the cell's small triangles. Split materials are resolved.
+void ForEachCellPiece(const FramePlan& plan, const Window& cell,
+                      const std::function<void(const TrianglePiece&)>& work) {
   ForEachPiece(plan.adaptive.small_triangles, plan.surfaces.primitives, MakeProjector(plan.camera),
                cell, [&](const TrianglePiece& piece) {
                  if (!plan.surfaces.splits) return work(piece);
-                 TrianglePiece seen = piece;
-                 seen.material = MaterialAt(plan.surfaces, piece.primitive, piece.x).index;
-                 work(seen);
+                 TrianglePiece resolved = piece;
+                 resolved.material = MaterialAt(plan.surfaces, piece.primitive, piece.x).index;
+                 work(resolved);
                });
 }
 
-// What is alike: a material and the side that is seen.
-using Look = std::pair<uint32_t, bool>;
-Look LookOf(const TrianglePiece& piece) { return {piece.material, piece.front}; }
+// Pieces of one material and one visible side appearance alike.
+using Appearance = std::pair<uint32_t, bool>;
+Appearance AppearanceOf(const TrianglePiece& piece) { return {piece.material, piece.front}; }
 
-bool LiesIn(const PixelSet& pixels, const PixelFilter& filter, const Window& cell,
-            const TrianglePiece& piece) {
+// Whether samples of any pixel of the set may hit the piece.
+bool MayAppearIn(const PixelSet& pixels, const PixelFilter& filter, const Window& cell,
+                 const TrianglePiece& piece) {
   const Window over = PixelsOver(filter, cell, piece.box);
   for (int y = over.y0; y < over.y1; ++y) {
     for (int x = over.x0; x < over.x1; ++x) {
@@ -118,37 +119,37 @@ bool LiesIn(const PixelSet& pixels, const PixelFilter& filter, const Window& cel
   return false;
 }
 
-// The pieces that lie in pixels in which such pieces are rare, by materials. Those of finely cut
-// meshes, of which a pixel may have thousands, are passed over.
+// The pieces that lie in pixels in which pieces of their appearance are rare, sorted by material.
+// This leaves out finely tessellated meshes, of which a pixel may hold thousands of pieces.
 std::vector<Candidate> FindCandidates(const FramePlan& plan, const Window& cell) {
   const PixelFilter& filter = plan.scene->image.filter;
-  std::map<Look, CoveredArea> areas;
-  ForEachPieceOf(plan, cell, [&](const TrianglePiece& piece) {
-    areas[LookOf(piece)].At(Around(cell), piece) += piece.Area();
+  std::map<Appearance, CoveredArea> areas;
+  ForEachCellPiece(plan, cell, [&](const TrianglePiece& piece) {
+    areas[AppearanceOf(piece)].At(WithBorder(cell), piece) += piece.Area();
   });
   std::vector<Candidate> candidates;
   if (areas.empty()) return candidates;
-  std::map<Look, PixelSet> rare;
-  for (const auto& [look, area] : areas) rare[look] = FindSparse(area);
-  std::map<Look, SharesOfCell> shares;
-  ForEachPieceOf(plan, cell, [&](const TrianglePiece& piece) {
-    if (!LiesIn(rare[LookOf(piece)], filter, cell, piece)) return;
+  std::map<Appearance, PixelSet> rare;
+  for (const auto& [appearance, area] : areas) rare[appearance] = FindSparse(area);
+  std::map<Appearance, SharesOfCell> shares;
+  ForEachCellPiece(plan, cell, [&](const TrianglePiece& piece) {
+    if (!MayAppearIn(rare[AppearanceOf(piece)], filter, cell, piece)) return;
     candidates.push_back({piece, std::nullopt});
-    SharesOfCell& sums = shares[LookOf(piece)];
-    ForEachShareOf(filter, cell, piece,
-                   [&](int column, int row, double share) { sums.of[row][column] += share; });
+    SharesOfCell& sums = shares[AppearanceOf(piece)];
+    ForEachPieceShare(filter, cell, piece,
+                      [&](int column, int row, double share) { sums.of[row][column] += share; });
   });
   const double least = plan.adaptive.max_error * kDarkest / (2 * plan.adaptive.brightest);
-  for (const auto& [look, sums] : shares) {
+  for (const auto& [appearance, sums] : shares) {
     for (int row = 0; row < kCellSize; ++row) {
       for (int column = 0; column < kCellSize; ++column) {
         const double share = sums.of[row][column];
-        if (!(share > least && share < kFoundShare)) rare[look].of[row][column] = false;
+        if (!(share > least && share < kCommonShare)) rare[appearance].of[row][column] = false;
       }
     }
   }
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    return !LiesIn(rare[LookOf(candidate.piece)], filter, cell, candidate.piece);
+    return !MayAppearIn(rare[AppearanceOf(candidate.piece)], filter, cell, candidate.piece);
   });
   std::stable_sort(
       candidates.begin(), candidates.end(),
@@ -156,24 +157,25 @@ std::vector<Candidate> FindCandidates(const FramePlan& plan, const Window& cell)
   return candidates;
 }
 
-// Of many candidates of one look in one pixel some stand for all, evenly among them.
-void Thin(const Window& cell, std::vector<Candidate>* candidates) {
-  std::map<Look, CountsAround> counts, taken;
+// If a pixel holds too many candidates of one appearance, keeps an evenly chosen part of them,
+// which represent the others with a larger area.
+void ThinOut(const Window& cell, std::vector<Candidate>* candidates) {
+  std::map<Appearance, PieceCounts> counts, taken;
   for (const Candidate& candidate : *candidates) {
-    ++counts[LookOf(candidate.piece)].At(Around(cell), candidate.piece);
+    ++counts[AppearanceOf(candidate.piece)].At(WithBorder(cell), candidate.piece);
   }
   std::erase_if(*candidates, [&](Candidate& candidate) {
     const TrianglePiece& piece = candidate.piece;
-    const size_t count = counts[LookOf(piece)].At(Around(cell), piece);
-    const size_t number = taken[LookOf(piece)].At(Around(cell), piece)++;
-    if (count <= kMostLooks) return false;
-    candidate.piece.fill *= static_cast<double>(count) / kMostLooks;
-    // The first of each of as many equal parts as are looked at.
-    return number > 0 && number * kMostLooks / count == (number - 1) * kMostLooks / count;
+    const size_t count = counts[AppearanceOf(piece)].At(WithBorder(cell), piece);
+    const size_t number = taken[AppearanceOf(piece)].At(WithBorder(cell), piece)++;
+    if (count <= kMaxProbes) return false;
+    candidate.piece.fill *= static_cast<double>(count) / kMaxProbes;
+    // Keeps the first of each of kMaxProbes equal parts.
+    return number > 0 && number * kMaxProbes / count == (number - 1) * kMaxProbes / count;
   });
 }
 
-void NumberLooks(std::span<const Candidate> candidates, size_t each, SampleNumbers* numbers) {
+void NumberProbes(std::span<const Candidate> candidates, size_t each, SampleNumbers* numbers) {
   numbers->pixel_count = candidates.size();
   for (size_t i = 0; i < candidates.size(); ++i) {
     numbers->seeds[i] = HashCombine(candidates[i].piece.primitive, i);
@@ -184,16 +186,16 @@ void NumberLooks(std::span<const Candidate> candidates, size_t each, SampleNumbe
   }
 }
 
-// Looks at the middle of each candidate, `each` times.
-void LookAt(const FramePlan& plan, std::span<Candidate> candidates, size_t each, TileWork* work,
-            StageClock* clock, RenderStats* stats) {
+// Traces `each` rays through the centroid of each candidate, and sets the radiance of visible ones.
+void ProbeBatch(const FramePlan& plan, std::span<Candidate> candidates, size_t each, TileWork* work,
+                StageClock* clock, RenderStats* stats) {
   TileWork& s = *work;
   for (size_t i = 0; i < candidates.size(); ++i) {
     std::fill_n(s.samples.film.x.data() + each * i, each, candidates[i].piece.x);
     std::fill_n(s.samples.film.y.data() + each * i, each, candidates[i].piece.y);
   }
   s.samples.film.count = each * candidates.size();
-  if (plan.sampling.numbered) NumberLooks(candidates, each, &NumbersOf(&s.samples));
+  if (plan.sampling.numbered) NumberProbes(candidates, each, &EnsureNumbers(&s.samples));
   ShadeSamples(plan, &s, clock, stats);
   for (size_t hit = 0; hit < s.surfaces.hits.count; ++hit) {
     Candidate& candidate = candidates[s.surfaces.hits.ray[hit] / each];
@@ -213,19 +215,20 @@ void LookAt(const FramePlan& plan, std::span<Candidate> candidates, size_t each,
   }
 }
 
-void LookAtAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWork* work,
-               StageClock* clock, RenderStats* stats) {
-  const size_t each = plan.sampling.numbered ? kSamplesOfLook : 1;
-  const size_t at_once = kBatchCapacity / each;
-  for (size_t first = 0; first < candidates->size(); first += at_once) {
-    const size_t count = std::min(at_once, candidates->size() - first);
-    LookAt(plan, {candidates->data() + first, count}, each, work, clock, stats);
+void ProbeAll(const FramePlan& plan, std::vector<Candidate>* candidates, TileWork* work,
+              StageClock* clock, RenderStats* stats) {
+  const size_t each = plan.sampling.numbered ? kSamplesPerProbe : 1;
+  const size_t per_batch = kBatchCapacity / each;
+  for (size_t first = 0; first < candidates->size(); first += per_batch) {
+    const size_t count = std::min(per_batch, candidates->size() - first);
+    ProbeBatch(plan, {candidates->data() + first, count}, each, work, clock, stats);
   }
 }
 
-// What the candidates that are seen, of one material, have of the cell's pixels.
-void AddRare(const PixelFilter& filter, const Window& cell, std::span<const Candidate> candidates,
-             std::vector<CellScratch::RareTriangles>* rare) {
+// Adds, by pixel, the share and the radiance of the visible candidates, all of one material.
+void AddRareTriangles(const PixelFilter& filter, const Window& cell,
+                      std::span<const Candidate> candidates,
+                      std::vector<CellScratch::RareTriangles>* rare) {
   struct Sums {
     double share = 0;
     Rgb radiance{0, 0, 0};
@@ -233,7 +236,7 @@ void AddRare(const PixelFilter& filter, const Window& cell, std::span<const Cand
   Sums sums[kCellSize][kCellSize];
   for (const Candidate& candidate : candidates) {
     if (!candidate.radiance) continue;
-    ForEachShareOf(filter, cell, candidate.piece, [&](int column, int row, double share) {
+    ForEachPieceShare(filter, cell, candidate.piece, [&](int column, int row, double share) {
       sums[row][column].share += share;
       sums[row][column].radiance += *candidate.radiance * share;
     });
@@ -252,13 +255,13 @@ void FindRareTriangles(const FramePlan& plan, const Window& cell, TileWork* work
   c->rare_triangles.clear();
   std::vector<Candidate> candidates = FindCandidates(plan, cell);
   if (candidates.empty()) return;
-  Thin(cell, &candidates);
-  LookAtAll(plan, &candidates, work, clock, stats);
+  ThinOut(cell, &candidates);
+  ProbeAll(plan, &candidates, work, clock, stats);
   for (size_t first = 0, end = 0; first < candidates.size(); first = end) {
     const uint32_t material = candidates[first].piece.material;
     while (end < candidates.size() && candidates[end].piece.material == material) ++end;
-    AddRare(plan.scene->image.filter, cell, {candidates.data() + first, end - first},
-            &c->rare_triangles);
+    AddRareTriangles(plan.scene->image.filter, cell, {candidates.data() + first, end - first},
+                     &c->rare_triangles);
   }
   std::stable_sort(c->rare_triangles.begin(), c->rare_triangles.end(),
                    [](const auto& a, const auto& b) { return a.pixel < b.pixel; });

@@ -3,29 +3,26 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
 
 #include "base/parallel.h"
+#include "base/seconds_since.h"
 #include "render/adaptive.h"
 #include "render/tile.h"
 
 namespace nacre {
 namespace {
 
-double SecondsSince(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// What a worker needs, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
+// The buffers of one thread, reused from strip to strip: fresh memory costs a page fault per 4 KiB.
 struct Worker {
   TileWork work;
   std::unique_ptr<CellScratch> cell;  // of adaptive sampling
   Strip strip;
-  std::vector<uint8_t> blank;  // of each of its tiles, as RenderTile says
+  std::vector<uint8_t> blank;  // for each tile of the strip, as RenderTile has it
 };
 
-// Hands workers out and takes them back.
 class WorkerPool {
  public:
   std::unique_ptr<Worker> Take() {
@@ -35,7 +32,7 @@ class WorkerPool {
     free_.pop_back();
     return worker;
   }
-  void Give(std::unique_ptr<Worker> worker) {
+  void Return(std::unique_ptr<Worker> worker) {
     const std::lock_guard lock(mutex_);
     free_.push_back(std::move(worker));
   }
@@ -45,133 +42,141 @@ class WorkerPool {
   std::vector<std::unique_ptr<Worker>> free_;
 };
 
-// The cells of adaptive sampling lie on a grid of the frame.
-void RenderCells(const FramePlan& plan, const Window& window, Worker* worker, StageClock* clock,
-                 RenderStats* stats) {
-  if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
-  const auto first = [](int pixel) { return pixel / kCellSize * kCellSize; };
-  for (int y = first(window.y0); y < window.y1; y += kCellSize) {
-    for (int x = first(window.x0); x < window.x1; x += kCellSize) {
-      const Window cell{x, y, x + kCellSize, y + kCellSize};
-      RenderCell(plan, cell, Intersect(cell, window), &worker->work, worker->cell.get(),
-                 &worker->strip, clock, stats);
-    }
-  }
-}
-
-void RenderStrip(const FramePlan& plan, const Window& window, bool time_stages, Worker* worker,
-                 RenderStats* stats) {
-  StageClock clock(time_stages ? stats : nullptr);
-  const int rows_before = worker->strip.window.height();
-  StartStrip(plan.film, window, &worker->strip);
-  if (plan.adaptive.max_error > 0) return RenderCells(plan, window, worker, &clock, stats);
-  // What the strip before this one showed still stands, where it had these rows: most tiles of the
-  // background lie below others.
-  const auto tiles = static_cast<size_t>((window.width() - 1) / plan.sampling.tile_width + 1);
-  if (rows_before < window.height()) worker->blank.assign(tiles, 0);
-  for (size_t i = 0; i < tiles; ++i) {
-    const int x = window.x0 + static_cast<int>(i) * plan.sampling.tile_width;
-    const Window tile{x, window.y0, std::min(x + plan.sampling.tile_width, window.x1), window.y1};
-    RenderTile(plan, tile, &worker->work, &worker->strip, &worker->blank[i], &clock, stats);
-  }
-}
-
-size_t TilesOfRow(const FramePlan& plan) {
+size_t TilesPerStrip(const FramePlan& plan) {
   return static_cast<size_t>((plan.window.width() - 1) / plan.sampling.tile_width + 1);
 }
 
-// Strip by strip, from left to right.
-std::vector<Window> TilesOf(const FramePlan& plan) {
-  const Window& window = plan.window;
-  std::vector<Window> tiles;
-  for (int y = window.y0; y < window.y1; y += kStripRows) {
-    for (int x = window.x0; x < window.x1; x += plan.sampling.tile_width) {
-      tiles.push_back({x, y, std::min(x + plan.sampling.tile_width, window.x1),
-                       std::min(y + kStripRows, window.y1)});
+// Calls render_tile(number, tile) for the tiles of a strip from left to right.
+template <class RenderOne>
+void ForEachTile(const FramePlan& plan, const Window& strip, const RenderOne& render_tile) {
+  const int width = plan.sampling.tile_width;
+  size_t number = 0;
+  for (int x = strip.x0; x < strip.x1; x += width) {
+    render_tile(number++, Window{x, strip.y0, std::min(x + width, strip.x1), strip.y1});
+  }
+}
+
+// Calls render_cell(cell) for the cells of adaptive sampling that the strip lies in. They lie on a
+// grid of the whole frame.
+template <class RenderOne>
+void ForEachCell(const Window& strip, const RenderOne& render_cell) {
+  const auto first = [](int pixel) { return pixel / kCellSize * kCellSize; };
+  for (int y = first(strip.y0); y < strip.y1; y += kCellSize) {
+    for (int x = first(strip.x0); x < strip.x1; x += kCellSize) {
+      render_cell(Window{x, y, x + kCellSize, y + kCellSize});
     }
   }
-  return tiles;
+}
+
+size_t StripCount(const FramePlan& plan) {
+  return static_cast<size_t>((plan.window.height() + kStripRows - 1) / kStripRows);
+}
+
+// Renders strip `number` of the window into worker->strip, whose window and channels are set.
+using StripRenderer =
+    std::function<void(size_t number, Worker* worker, StageClock* clock, RenderStats* stats)>;
+
+// Renders all strips in parallel and hands them to the sink. on_progress(share) is called after
+// each of them with the share of the strips that are finished, unless it is empty.
+RenderStats RenderStrips(const FramePlan& plan, const RenderSettings& settings,
+                         const StripRenderer& render_strip, const StripSink& sink,
+                         const std::function<void(double)>& on_progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const Window& window = plan.window;
+  const size_t strip_count = StripCount(plan);
+  RenderStats total;
+  total.threads = ThreadCount(settings.threads);
+  WorkerPool pool;
+  std::mutex mutex;
+  size_t done = 0;
+  ParallelFor(strip_count, settings.threads, [&](size_t number) {
+    const int y0 = window.y0 + static_cast<int>(number) * kStripRows;
+    const Window rows{window.x0, y0, window.x1, std::min(y0 + kStripRows, window.y1)};
+    RenderStats stats;
+    std::unique_ptr<Worker> worker = pool.Take();
+    worker->work.cancel = settings.cancel;
+    {
+      StageClock clock(settings.time_stages ? &stats : nullptr);
+      // The worker's strip keeps the pixels of the strip that it rendered before. A tile that shows
+      // the background often lies below another such tile, which then need not be filled again.
+      // Rows that the strip before did not have are not filled yet.
+      const bool has_new_rows = worker->strip.window.height() < rows.height();
+      if (has_new_rows) worker->blank.assign(TilesPerStrip(plan), 0);
+      StartStrip(plan.film, rows, &worker->strip);
+      render_strip(number, worker.get(), &clock, &stats);
+    }
+    const auto output_start = std::chrono::steady_clock::now();
+    sink(worker->strip);
+    pool.Return(std::move(worker));
+    stats.seconds(Stage::kOutput) = SecondsSince(output_start);
+    const std::lock_guard lock(mutex);
+    total.Add(stats);
+    ++done;
+    if (on_progress) on_progress(static_cast<double>(done) / static_cast<double>(strip_count));
+  });
+  total.render_seconds = SecondsSince(start);
+  return total;
+}
+
+// The plan of a film that has only the first `samples` of each pixel.
+FilmPlan PlanOfFirstSamples(const FramePlan& plan, int samples) {
+  FilmPlan film = plan.film;
+  film.spp = samples;
+  film.weight = 0;
+  for (int i = 0; i < samples; ++i) film.weight += SampleWeight(plan.sampling.sampler, i);
+  return film;
 }
 
 }  // namespace
 
 RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink) {
-  const auto start = std::chrono::steady_clock::now();
-  const Window& window = plan.window;
-  const int strip_count = (window.height() + kStripRows - 1) / kStripRows;
-  RenderStats total;
-  total.threads = ThreadCount(settings.threads);
-  WorkerPool pool;
-  std::mutex mutex;
-  int done = 0;
-  ParallelFor(static_cast<size_t>(strip_count), settings.threads, [&](size_t i) {
-    const int y0 = window.y0 + static_cast<int>(i) * kStripRows;
-    const Window rows{window.x0, y0, window.x1, std::min(y0 + kStripRows, window.y1)};
-    RenderStats stats;
-    std::unique_ptr<Worker> worker = pool.Take();
-    worker->work.cancel = settings.cancel;
-    RenderStrip(plan, rows, settings.time_stages, worker.get(), &stats);
-    const auto output_start = std::chrono::steady_clock::now();
-    sink(worker->strip);
-    pool.Give(std::move(worker));
-    stats.seconds(Stage::kOutput) = SecondsSince(output_start);
-    const std::lock_guard lock(mutex);
-    total.Add(stats);
-    ++done;
-    if (settings.on_progress) settings.on_progress(static_cast<double>(done) / strip_count);
-  });
-  if (plan.adaptive.max_error == 0) {
-    total.pixel_samples.Add(static_cast<uint32_t>(plan.scene->image.spp), window.pixel_count());
+  const bool adaptive = plan.adaptive.max_error > 0;
+  const auto render_strip = [&](size_t, Worker* worker, StageClock* clock, RenderStats* stats) {
+    Strip& strip = worker->strip;
+    if (!adaptive) {
+      return ForEachTile(plan, strip.window, [&](size_t number, const Window& tile) {
+        RenderTile(plan, tile, &worker->work, &strip, &worker->blank[number], clock, stats);
+      });
+    }
+    if (!worker->cell) worker->cell = std::make_unique<CellScratch>();
+    ForEachCell(strip.window, [&](const Window& cell) {
+      RenderCell(plan, cell, Intersect(cell, strip.window), &worker->work, worker->cell.get(),
+                 &strip, clock, stats);
+    });
+  };
+  RenderStats total = RenderStrips(plan, settings, render_strip, sink, settings.on_progress);
+  if (!adaptive) {
+    total.pixel_samples.Add(static_cast<uint32_t>(plan.scene->image.spp),
+                            plan.window.pixel_count());
   }
-  total.render_seconds = SecondsSince(start);
   return total;
 }
 
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
                        FrameFilm* film, const StripSink& sink) {
-  const auto start = std::chrono::steady_clock::now();
-  const Window& window = plan.window;
-  const std::vector<Window> tiles = TilesOf(plan);
-  const bool is_first = film->samples == 0;
-  if (is_first) film->tiles.resize(tiles.size());
-  // What the film is after so many samples.
-  FilmPlan so_far = plan.film;
-  so_far.spp = end;
-  so_far.weight = 0;
-  for (int i = 0; i < end; ++i) so_far.weight += SampleWeight(plan.sampling.sampler, i);
-  const size_t per_strip = TilesOfRow(plan);
-  RenderStats total;
-  total.threads = ThreadCount(settings.threads);
-  WorkerPool pool;
-  std::mutex mutex;
-  const size_t strips = tiles.size() / per_strip;
-  size_t done = 0;
-  ParallelFor(strips, settings.threads, [&](size_t i) {
-    std::unique_ptr<Worker> worker = pool.Take();
-    worker->work.cancel = settings.cancel;
-    RenderStats stats;
-    StageClock clock(settings.time_stages ? &stats : nullptr);
-    const Window& first = tiles[i * per_strip];
-    StartStrip(plan.film, {window.x0, first.y0, window.x1, first.y1}, &worker->strip);
-    for (size_t t = i * per_strip; t < (i + 1) * per_strip; ++t) {
-      TileFilm& of_tile = film->tiles[t];
-      if (is_first) StartTile(plan.film, tiles[t], tiles[t].pixel_count(), &of_tile);
-      AddSamples(plan, tiles[t], film->samples, end, &worker->work, &of_tile, &clock, &stats);
-      ResolveTile(so_far, of_tile, &worker->strip);
+  const int first = film->samples;
+  const size_t tiles_per_strip = TilesPerStrip(plan);
+  if (first == 0) film->tiles.resize(StripCount(plan) * tiles_per_strip);
+  const FilmPlan so_far = PlanOfFirstSamples(plan, end);
+  const auto render_strip = [&](size_t strip, Worker* worker, StageClock* clock,
+                                RenderStats* stats) {
+    ForEachTile(plan, worker->strip.window, [&](size_t number, const Window& tile) {
+      TileFilm& tile_film = film->tiles[strip * tiles_per_strip + number];
+      if (first == 0) StartTile(plan.film, tile, tile.pixel_count(), &tile_film);
+      AddTileSamples(plan, tile, first, end, &worker->work, &tile_film, clock, stats);
+      ResolveTile(so_far, tile_film, &worker->strip);
+      clock->Charge(Stage::kFilm);
+    });
+  };
+  // The share of the samples of all passes.
+  const auto on_progress = [&](double share) {
+    if (settings.on_progress) {
+      settings.on_progress((first + (end - first) * share) / plan.film.spp);
     }
-    sink(worker->strip);
-    pool.Give(std::move(worker));
-    const std::lock_guard lock(mutex);
-    total.Add(stats);
-    ++done;
-    // Of the samples of all passes.
-    const double of_pass = static_cast<double>(done) / static_cast<double>(strips);
-    const double samples = film->samples + (end - film->samples) * of_pass;
-    if (settings.on_progress) settings.on_progress(samples / plan.film.spp);
-  });
+  };
+  RenderStats total = RenderStrips(plan, settings, render_strip, sink, on_progress);
   film->samples = end;
-  total.pixel_samples.Add(static_cast<uint32_t>(end), window.pixel_count());
-  total.render_seconds = SecondsSince(start);
+  total.pixel_samples.Add(static_cast<uint32_t>(end), plan.window.pixel_count());
   return total;
 }
 
@@ -185,7 +190,7 @@ Image EmptyImage(const FramePlan& plan) {
   return image;
 }
 
-void PutStrip(const Strip& strip, Image* image) {
+void CopyStrip(const Strip& strip, Image* image) {
   const size_t offset = static_cast<size_t>(strip.window.y0 - image->data.y0) *
                         static_cast<size_t>(image->data.width());
   const size_t pixels = strip.window.pixel_count();
@@ -202,7 +207,7 @@ void PutStrip(const Strip& strip, Image* image) {
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats) {
   Image image = EmptyImage(plan);
   const RenderStats rendered =
-      Render(plan, settings, [&](const Strip& strip) { PutStrip(strip, &image); });
+      Render(plan, settings, [&](const Strip& strip) { CopyStrip(strip, &image); });
   if (stats != nullptr) *stats = rendered;
   return image;
 }

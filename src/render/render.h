@@ -14,31 +14,34 @@ namespace nacre {
 // Receives finished strips: from any thread, in any order, several at once.
 using StripSink = std::function<void(const Strip&)>;
 
-// Renders what the plan says and hands strips of kStripRows rows, counted from the window's top,
-// to the sink. A pixel's bits depend on scene, pixel, samples, target and the settings
-// that choose another estimate (max_error, closed forms) only: not on threads, tiles, crop or the
-// layers asked for. Exceptions of the sink and of settings.on_progress end it.
+// Renders the plan's window and hands it to the sink in strips of kStripRows rows, counted from the
+// window's top. The bits of a pixel depend only on the scene, the pixel's position, the number of
+// samples, the SIMD target and the settings that choose another estimate (max_error, closed_forms):
+// not on threads, tiles, the region, or which layers are rendered. An exception that the sink or
+// settings.on_progress throws ends the render.
 RenderStats Render(const FramePlan& plan, const RenderSettings& settings, const StripSink& sink);
 
-// The film of a frame between passes.
+// The film of a whole frame, kept from one pass of a progressive render to the next.
 struct FrameFilm {
-  std::vector<TileFilm> tiles;
-  int samples = 0;  // of each pixel, so far
+  std::vector<TileFilm> tiles;  // strip by strip, from left to right
+  int samples = 0;              // of each pixel, so far
 };
 
-// Adds samples [film->samples, end) of each pixel, end at most the plan's, and hands strips of the
-// mean so far to the sink. settings.on_progress is told the share of the plan's samples. After all
-// passes the picture has the bits of Render's. Not for adaptive
-// sampling. A film whose pass has thrown is of no use any more.
+// One pass of a progressive render: adds samples [film->samples, end) of each pixel, where `end` is
+// at most the plan's samples per pixel, and hands strips of the mean of all samples so far to the
+// sink. settings.on_progress gets the share of the plan's samples. After the last pass the picture
+// has the same bits as Render's. Not for adaptive sampling, nor for plans of one sample. After a
+// pass that has thrown the film must not be used again.
 RenderStats RenderPass(const FramePlan& plan, const RenderSettings& settings, int end,
                        FrameFilm* film, const StripSink& sink);
 
-// Black, with the plan's channels; and the place of a strip in it.
+// A black image with the plan's channels.
 Image EmptyImage(const FramePlan& plan);
-void PutStrip(const Strip& strip, Image* image);
+// Copies a strip to its rows of such an image.
+void CopyStrip(const Strip& strip, Image* image);
 
-// The whole picture in memory, channels as StripChannels has them, all in float. For tests,
-// comparisons and labels; `stats` may be null.
+// Renders the whole window into memory. Channels are those of StripChannels, all as float. For
+// tests, comparisons and labels; `stats` may be null.
 Image RenderImage(const Scene& scene, const RenderSettings& settings, RenderStats* stats = nullptr);
 Image RenderImage(const FramePlan& plan, const RenderSettings& settings, RenderStats* stats);
 

@@ -5,7 +5,7 @@
 #define HWY_TARGET_INCLUDE "render/sampled_kernel.cc"
 #include "hwy/foreach_target.h"
 
-#include "base/vec3-inl.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -17,50 +17,45 @@ using D = hn::ScalableTag<float>;
 using V = hn::Vec<D>;
 using DD = hn::ScalableTag<double>;
 
-HWY_INLINE Vec3V<V> LoadAt(const Soa3<float>& soa, size_t i) {
-  return LoadU3(D(), soa.x.data() + i, soa.y.data() + i, soa.z.data() + i);
-}
-
-size_t ShineAlongT(const LightDirections& directions, const Surface& surface, size_t count,
-                   LightBatch* light) {
+size_t IlluminateAlongT(const LightDirections& directions, const Surface& surface, size_t count,
+                        LightBatch* light) {
   const D d;
   const V zero = hn::Zero(d);
   size_t not_finite = 0;
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const Vec3V<V> l = LoadAt(directions.to_light, i);
-    const V n_dot_l = Dot(LoadAt(surface.normal, i), l);
-    const auto finite = hn::IsFinite(n_dot_l);  // it is not where the direction is not
+    const Vec3V<V> l = LoadSoa(d, directions.to_light, i);
+    const V n_dot_l = Dot(LoadSoa(d, surface.normal, i), l);
+    const auto finite = hn::IsFinite(n_dot_l);  // if and only if the direction is
     if (!hn::AllTrue(d, finite)) {
       not_finite += hn::CountTrue(d, hn::AndNot(finite, hn::FirstN(d, count - i)));
     }
     const auto faces = hn::And(hn::Gt(n_dot_l, zero), finite);
     const auto shines = hn::And(hn::Gt(hn::LoadU(d, directions.distance.data() + i), zero), faces);
-    hn::StoreU(l.x, d, light->to_light.x.data() + i);
-    hn::StoreU(l.y, d, light->to_light.y.data() + i);
-    hn::StoreU(l.z, d, light->to_light.z.data() + i);
+    StoreSoa(d, l, i, &light->to_light);
     hn::StoreU(hn::IfThenElseZero(shines, hn::Set(d, 1.0f)), d, light->irradiance.data() + i);
   }
   return not_finite;
 }
 
-void FindDiffusePdfT(const DiffuseWays& ways, const LightDirections& directions,
-                     const Surface& surface, const uint8_t* flat, size_t count, float* pdf) {
+void ComputeDiffusePdfT(const DiffuseStrategies& strategies, const LightDirections& directions,
+                        const Surface& surface, const uint8_t* closed_form, size_t count,
+                        float* pdf) {
   const D d;
   const V by_pi = hn::Set(d, 0.318309886f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     V sum = hn::Zero(d);
-    if (ways.light) sum = hn::LoadU(d, directions.pdf.data() + i);
-    if (ways.cosine) {
-      const V n_dot_l = Dot(LoadAt(surface.normal, i), LoadAt(directions.to_light, i));
+    if (strategies.light) sum = hn::LoadU(d, directions.pdf.data() + i);
+    if (strategies.cosine) {
+      const V n_dot_l = Dot(LoadSoa(d, surface.normal, i), LoadSoa(d, directions.to_light, i));
       sum = hn::Add(sum, hn::Mul(n_dot_l, by_pi));
     }
     hn::StoreU(sum, d, pdf + i);
   }
-  if (flat == nullptr) return;
-  for (size_t i = 0; i < count; ++i) pdf[i] = flat[i] != 0 ? 0 : pdf[i];
+  if (closed_form == nullptr) return;
+  for (size_t i = 0; i < count; ++i) pdf[i] = closed_form[i] != 0 ? 0 : pdf[i];
 }
 
-HWY_INLINE void Widen(hn::Vec<hn::Rebind<float, DD>> v, double* to) {
+HWY_INLINE void StorePromoted(hn::Vec<hn::Rebind<float, DD>> v, double* to) {
   hn::StoreU(hn::PromoteTo(DD(), v), DD(), to);
 }
 
@@ -71,21 +66,21 @@ void AimShadowRaysT(const LightDirections& directions, const float* irradiance, 
   const auto zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto lit = hn::Gt(hn::LoadU(d, irradiance + i), zero);
-    // Inactive rays get a dummy direction; theirs may not be finite.
-    const auto aim = [&](const AlignedArray<float>& from, auto unasked, AlignedArray<double>* to)
+    // Inactive rays get a dummy direction: their own may not be finite.
+    const auto aim = [&](const AlignedArray<float>& from, auto dummy, AlignedArray<double>* to)
                          HWY_ATTR {
                            const auto toward = hn::LoadU(d, from.data() + i);
-                           Widen(hn::IfThenElse(lit, toward, unasked), to->data() + i);
+                           StorePromoted(hn::IfThenElse(lit, toward, dummy), to->data() + i);
                          };
     aim(l.x, zero, &rays->direction.x);
     aim(l.y, zero, &rays->direction.y);
     aim(l.z, one, &rays->direction.z);
     const auto end = hn::IfThenElseZero(lit, hn::LoadU(d, directions.distance.data() + i));
-    Widen(end, rays->t_max.data() + i);
+    StorePromoted(end, rays->t_max.data() + i);
   }
 }
 
-void FindWeightsT(const float* irradiance, const float* pdf, size_t count, float* weight) {
+void ComputeWeightsT(const float* irradiance, const float* pdf, size_t count, float* weight) {
   const D d;
   const V zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   for (size_t i = 0; i < count; i += hn::Lanes(d)) {
@@ -125,20 +120,22 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace nacre {
-HWY_EXPORT(ShineAlongT);
-HWY_EXPORT(FindDiffusePdfT);
+HWY_EXPORT(IlluminateAlongT);
+HWY_EXPORT(ComputeDiffusePdfT);
 HWY_EXPORT(AimShadowRaysT);
-HWY_EXPORT(FindWeightsT);
+HWY_EXPORT(ComputeWeightsT);
 HWY_EXPORT(AddWeightedT);
 
-size_t ShineAlong(const LightDirections& directions, const Surface& surface, size_t count,
-                  LightBatch* light) {
-  return HWY_DYNAMIC_DISPATCH(ShineAlongT)(directions, surface, count, light);
+size_t IlluminateAlong(const LightDirections& directions, const Surface& surface, size_t count,
+                       LightBatch* light) {
+  return HWY_DYNAMIC_DISPATCH(IlluminateAlongT)(directions, surface, count, light);
 }
 
-void FindDiffusePdf(const DiffuseWays& ways, const LightDirections& directions,
-                    const Surface& surface, const uint8_t* flat, size_t count, float* pdf) {
-  HWY_DYNAMIC_DISPATCH(FindDiffusePdfT)(ways, directions, surface, flat, count, pdf);
+void ComputeDiffusePdf(const DiffuseStrategies& strategies, const LightDirections& directions,
+                       const Surface& surface, const uint8_t* closed_form, size_t count,
+                       float* pdf) {
+  HWY_DYNAMIC_DISPATCH(ComputeDiffusePdfT)
+  (strategies, directions, surface, closed_form, count, pdf);
 }
 
 void AimShadowRays(const LightDirections& directions, const float* irradiance, size_t count,
@@ -146,8 +143,8 @@ void AimShadowRays(const LightDirections& directions, const float* irradiance, s
   HWY_DYNAMIC_DISPATCH(AimShadowRaysT)(directions, irradiance, count, rays);
 }
 
-void FindWeights(const float* irradiance, const float* pdf, size_t count, float* weight) {
-  HWY_DYNAMIC_DISPATCH(FindWeightsT)(irradiance, pdf, count, weight);
+void ComputeWeights(const float* irradiance, const float* pdf, size_t count, float* weight) {
+  HWY_DYNAMIC_DISPATCH(ComputeWeightsT)(irradiance, pdf, count, weight);
 }
 
 void AddWeighted(const Soa3<float>& part, const float* weight, const Soa3<float>* radiance,

@@ -11,12 +11,12 @@
 namespace nacre {
 namespace {
 
-// A batch of hits under one light.
-struct Lit {
+// A batch of hits and one light that it is shaded by.
+struct LitBatch {
   const DirectBatch& batch;
   const PlannedSampledLight& planned;
   const SampleNumbers& numbers;
-  SampledRoom& c;
+  SampledRoom& room;
 
   size_t count() const { return batch.lit(); }
   const HitBatch& hits() const { return batch.hits(); }
@@ -29,7 +29,7 @@ struct Lit {
   }
 };
 
-// Which components of the reflected light directions are sampled for.
+// The components of the reflected light that directions are sampled for.
 struct Components {
   bool diffuse, specular;
 };
@@ -43,24 +43,25 @@ struct SamplingStrategies {
   bool cosine;
 };
 
-// Lets a unit light shine on the hits that face it along the directions and do not miss it. What
-// lobes and mirrors look along is above the horizon already, but for rounding, which must not hide
-// a lobe that is narrower.
-void FaceLight(const Lit& lit, bool may_be_below_horizon) {
+// Sets light() to a light of irradiance 1 from the sampled directions. Directions of lobes and
+// mirrors are above the horizon except for rounding errors, which must not hide a lobe that is
+// narrower than these: they are not tested again.
+void Illuminate(const LitBatch& lit, bool may_be_below_horizon) {
   lit.batch.stats.directions_not_finite +=
-      ShineAlong(lit.c.directions, lit.surface(), lit.count(), &lit.light());
+      IlluminateAlong(lit.room.directions, lit.surface(), lit.count(), &lit.light());
   if (may_be_below_horizon) HideLightsBelowHorizon(lit.batch);
 }
 
-void Shadow(const Lit& lit) {
+// Sets light() to 0 at hits in shadow.
+void ApplyShadows(const LitBatch& lit) {
   lit.batch.clock.Charge(Stage::kLight);
   if (!lit.planned.shadow_rays) return;
-  CastSampledShadows(lit.batch, lit.planned, lit.c.directions);
+  CastSampledShadows(lit.batch, lit.planned, lit.room.directions);
   lit.batch.clock.Charge(Stage::kShadow);
 }
 
-// What a light of colour 1 reflects along room.light, into c.unit.
-void ShadeUnit(const Lit& lit) {
+// Computes room.unit: the reflection of light() if the light has colour 1.
+void ShadeUnitLight(const LitBatch& lit) {
   static const ShadingLight kUnit = [] {
     ShadingLight light;
     light.form = LightForm::kGiven;
@@ -74,90 +75,95 @@ void ShadeUnit(const Lit& lit) {
                        {&light, 1},
                        lit.batch.surfaces.textures.get(),
                        OutputMode::kOverwrite};
-    ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.shade, &lit.c.unit);
-    AddMirroredLobe(lit.batch, run, kUnit, OutputMode::kOverwrite, &lit.c.unit);
+    ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.shade, &lit.room.unit);
+    AddMirroredLobe(lit.batch, run, kUnit, OutputMode::kOverwrite, &lit.room.unit);
   }
 }
 
-// sum += part x c.weight x the radiance that is seen.
-void AddSeen(const Lit& lit, const Soa3<float>& part, Soa3<float>* sum) {
+// sum += part * room.weight * the light's radiance.
+void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, Soa3<float>* sum) {
   const SampledLight& light = lit.planned.light;
-  const Soa3<float>* radiance = IsColored(light) ? &lit.c.directions.radiance : nullptr;
-  AddWeighted(part, lit.c.weight.data(), radiance, light.color, lit.count(), sum);
+  const Soa3<float>* radiance = IsColored(light) ? &lit.room.directions.radiance : nullptr;
+  AddWeighted(part, lit.room.weight.data(), radiance, light.color, lit.count(), sum);
 }
 
-void WeighByPdf(const Lit& lit) {
-  FindWeights(lit.light().irradiance.data(), lit.c.pdf.data(), lit.count(), lit.c.weight.data());
+// Sets room.weight to 1 / room.pdf.
+void WeightByPdf(const LitBatch& lit) {
+  ComputeWeights(lit.light().irradiance.data(), lit.room.pdf.data(), lit.count(),
+                 lit.room.weight.data());
 }
 
-void WeighDiffuse(const Lit& lit, const SamplingStrategies& strategies) {
-  const uint8_t* flat = lit.planned.closed_form ? lit.c.flat.data() : nullptr;
-  FindDiffusePdf({strategies.light, strategies.cosine}, lit.c.directions, lit.surface(), flat,
-                 lit.count(), lit.c.pdf.data());
+void WeightDiffuse(const LitBatch& lit, const SamplingStrategies& strategies) {
+  const uint8_t* closed_form = lit.planned.closed_form ? lit.room.closed_form.data() : nullptr;
+  ComputeDiffusePdf({strategies.light, strategies.cosine}, lit.room.directions, lit.surface(),
+                    closed_form, lit.count(), lit.room.pdf.data());
   for (const MaterialRun& run : lit.runs()) {
     if (!strategies.cosine || run.shading->layers.empty()) continue;
-    UnderLayersPdf(*run.shading, lit.RangeOf(run), lit.c.directions.to_light, lit.c.pdf.data());
+    UnderLayersPdf(*run.shading, lit.RangeOf(run), lit.room.directions.to_light,
+                   lit.room.pdf.data());
     if (!strategies.light) continue;
-    for (size_t i = run.begin; i < run.end; ++i) lit.c.pdf[i] += lit.c.directions.pdf[i];
+    for (size_t i = run.begin; i < run.end; ++i) lit.room.pdf[i] += lit.room.directions.pdf[i];
   }
-  WeighByPdf(lit);
+  WeightByPdf(lit);
 }
 
-void WeighSpecular(const Lit& lit, const SamplingStrategies& strategies) {
-  const LightDirections& directions = lit.c.directions;
+void WeightSpecular(const LitBatch& lit, const SamplingStrategies& strategies) {
+  const LightDirections& directions = lit.room.directions;
   for (const MaterialRun& run : lit.runs()) {
-    LobePdf(*run.shading, lit.RangeOf(run), lit.light(), &lit.batch.room.shade, lit.c.pdf.data());
-    AddMirroredLobePdf(lit.batch, run, lit.c.pdf.data());
+    LobePdf(*run.shading, lit.RangeOf(run), lit.light(), &lit.batch.room.shade,
+            lit.room.pdf.data());
+    AddMirroredLobePdf(lit.batch, run, lit.room.pdf.data());
   }
   if (strategies.light) {
-    for (size_t i = 0; i < lit.count(); ++i) lit.c.pdf[i] += directions.pdf[i];
+    for (size_t i = 0; i < lit.count(); ++i) lit.room.pdf[i] += directions.pdf[i];
   }
-  // A batch is sampled if any of its hits has a lobe. Those without must not get a share then, or
-  // a pixel would depend on what else is in its tile.
+  // A batch is sampled if any of its hits has a lobe. Hits without one must still get nothing:
+  // otherwise a pixel would depend on the other pixels of its tile.
   for (const MaterialRun& run : lit.runs()) {
     if (HasSampledLobe(*run.shading)) continue;
-    std::fill(lit.c.pdf.data() + run.begin, lit.c.pdf.data() + run.end, 0.0f);
+    std::fill(lit.room.pdf.data() + run.begin, lit.room.pdf.data() + run.end, 0.0f);
   }
-  WeighByPdf(lit);
+  WeightByPdf(lit);
 }
 
-// Adds what is reflected along the directions, which were chosen in one of the strategies and which
-// FaceLight has seen.
-void AddDirections(const Lit& lit, const SamplingStrategies& strategies,
-                   const Components& components) {
-  Shadow(lit);
-  ShadeUnit(lit);
+// Adds the light reflected along the directions, which were sampled by one of the strategies and
+// passed to Illuminate.
+void AddSampledLight(const LitBatch& lit, const SamplingStrategies& strategies,
+                     const Components& components) {
+  ApplyShadows(lit);
+  ShadeUnitLight(lit);
   if (components.diffuse) {
-    WeighDiffuse(lit, strategies);
-    AddSeen(lit, lit.c.unit.diffuse, &lit.single().diffuse);
+    WeightDiffuse(lit, strategies);
+    AddWeightedRadiance(lit, lit.room.unit.diffuse, &lit.single().diffuse);
   }
   if (components.specular) {
-    WeighSpecular(lit, strategies);
-    AddSeen(lit, lit.c.unit.specular, &lit.single().specular);
+    WeightSpecular(lit, strategies);
+    AddWeightedRadiance(lit, lit.room.unit.specular, &lit.single().specular);
   }
   lit.batch.stats.shades += lit.count();
   lit.batch.clock.Charge(Stage::kShade);
 }
 
-// Which hits reflect the light in closed form: those that see all of it, and whose diffuse
-// reflection does not ask where it comes from. Returns how many do.
-size_t FindFlat(const Lit& lit) {
+// Finds the hits whose diffuse reflection has a closed form: those from which the whole light is
+// visible, and whose diffuse term does not depend on the light's direction. Returns their number.
+size_t FindClosedForm(const LitBatch& lit) {
   const bool some_see_all = !lit.planned.shadow_rays || !lit.planned.shadowed.empty();
   size_t count = 0;
   for (const MaterialRun& run : lit.runs()) {
     const bool may_be = lit.planned.closed_form && some_see_all && DiffuseIsFlat(*run.shading);
     for (size_t i = run.begin; i < run.end; ++i) {
-      lit.c.flat[i] = may_be && NeverShadowed(lit.planned, lit.hits().primitive[i]) ? 1 : 0;
-      count += lit.c.flat[i];
+      lit.room.closed_form[i] =
+          may_be && NeverShadowed(lit.planned, lit.hits().primitive[i]) ? 1 : 0;
+      count += lit.room.closed_form[i];
     }
   }
   return count;
 }
 
-// The diffuse part of those: as if all light came along the normal.
-void AddClosedForm(const Lit& lit) {
+// Adds their diffuse reflection: the irradiance, as if all light came along the normal.
+void AddClosedForm(const LitBatch& lit) {
   const SampledLight& light = lit.planned.light;
-  Soa3<float>& irradiance = lit.c.directions.radiance;
+  Soa3<float>& irradiance = lit.room.directions.radiance;
   LightIrradiance(light, lit.hits(), lit.surface(), &irradiance);
   const Soa3<float>& n = lit.surface().normal;
   LightBatch& batch = lit.light();
@@ -165,64 +171,65 @@ void AddClosedForm(const Lit& lit) {
     batch.to_light.x[i] = n.x[i];
     batch.to_light.y[i] = n.y[i];
     batch.to_light.z[i] = n.z[i];
-    batch.irradiance[i] = lit.c.flat[i] != 0 ? 1.0f : 0.0f;
-    lit.c.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
+    batch.irradiance[i] = lit.room.closed_form[i] != 0 ? 1.0f : 0.0f;
+    lit.room.weight[i] = IsColored(light) ? 1 : irradiance.x[i];
   }
-  ShadeUnit(lit);
-  AddSeen(lit, lit.c.unit.diffuse, &lit.single().diffuse);
+  ShadeUnitLight(lit);
+  AddWeightedRadiance(lit, lit.room.unit.diffuse, &lit.single().diffuse);
   lit.batch.clock.Charge(Stage::kLight);
 }
 
-void ChoosePoints(const Lit& lit, size_t pair) {
+// Draws a pair of random numbers for each hit.
+void DrawPoints(const LitBatch& lit, size_t pair) {
   SamplePair(lit.batch.plan.pairs, lit.batch.first_pair + lit.planned.first_pair + pair,
-             lit.numbers, lit.hits().ray.data(), lit.count(), &lit.c.points);
+             lit.numbers, lit.hits().ray.data(), lit.count(), &lit.room.points);
 }
 
-void AddByLight(const Lit& lit, const Components& components) {
-  ChoosePoints(lit, 0);
-  SampleLight(lit.planned.light, lit.hits(), lit.c.points, &lit.c.directions);
-  FaceLight(lit, true);
-  AddDirections(lit, {true, IsSky(lit.planned.light)}, components);
+void AddLightSamples(const LitBatch& lit, const Components& components) {
+  DrawPoints(lit, 0);
+  SampleLight(lit.planned.light, lit.hits(), lit.room.points, &lit.room.directions);
+  Illuminate(lit, true);
+  AddSampledLight(lit, {true, IsSky(lit.planned.light)}, components);
 }
 
-void AddByCosine(const Lit& lit) {
-  ChoosePoints(lit, 1);
-  SampleCosine(lit.surface(), lit.count(), lit.c.points.u.data(), lit.c.points.v.data(),
-               &lit.c.directions.to_light);
+void AddCosineSamples(const LitBatch& lit) {
+  DrawPoints(lit, 1);
+  SampleCosine(lit.surface(), lit.count(), lit.room.points.u.data(), lit.room.points.v.data(),
+               &lit.room.directions.to_light);
   for (const MaterialRun& run : lit.runs()) {
     if (run.shading->layers.empty()) continue;
-    SampleUnderLayers(*run.shading, lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
-                      &lit.c.directions.to_light);
+    SampleUnderLayers(*run.shading, lit.RangeOf(run), lit.room.points.u.data(),
+                      lit.room.points.v.data(), &lit.room.directions.to_light);
   }
-  FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
-  FaceLight(lit, true);
-  AddDirections(lit, {HasSampler(lit.planned.light), true}, {true, false});
+  FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
+  Illuminate(lit, true);
+  AddSampledLight(lit, {HasSampler(lit.planned.light), true}, {true, false});
 }
 
-void AddByLobe(const Lit& lit) {
-  ChoosePoints(lit, 2);
-  // Hits without a lobe look along their normals, and reflect nothing of it.
-  Soa3<float>& to_light = lit.c.directions.to_light;
+void AddLobeSamples(const LitBatch& lit) {
+  DrawPoints(lit, 2);
+  // Hits without a lobe get their normals as directions, and a weight of 0.
+  Soa3<float>& to_light = lit.room.directions.to_light;
   const Soa3<float>& n = lit.surface().normal;
   std::copy_n(n.x.data(), lit.count(), to_light.x.data());
   std::copy_n(n.y.data(), lit.count(), to_light.y.data());
   std::copy_n(n.z.data(), lit.count(), to_light.z.data());
   for (const MaterialRun& run : lit.runs()) {
-    SampleLobe(*run.shading, lit.RangeOf(run), lit.c.points.u.data(), lit.c.points.v.data(),
+    SampleLobe(*run.shading, lit.RangeOf(run), lit.room.points.u.data(), lit.room.points.v.data(),
                &to_light);
     RaiseLobeSamples(lit.batch, run, &to_light);
   }
-  FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
-  FaceLight(lit, false);
-  AddDirections(lit, {HasSampler(lit.planned.light), false}, {false, true});
+  FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
+  Illuminate(lit, false);
+  AddSampledLight(lit, {HasSampler(lit.planned.light), false}, {false, true});
 }
 
-// Perfect mirrors see the light in one direction.
-void AddByMirror(const Lit& lit) {
-  MirrorDirections({lit.hits(), lit.surface(), 0, lit.count()}, &lit.c.directions.to_light);
-  FindLight(lit.planned.light, lit.hits(), &lit.c.directions);
-  ClearRadiance(lit.count(), &lit.c.unit);
-  FaceLight(lit, false);
+// Perfect mirrors reflect the light of one direction.
+void AddMirrorReflection(const LitBatch& lit) {
+  MirrorDirections({lit.hits(), lit.surface(), 0, lit.count()}, &lit.room.directions.to_light);
+  FindLight(lit.planned.light, lit.hits(), &lit.room.directions);
+  ClearRadiance(lit.count(), &lit.room.unit);
+  Illuminate(lit, false);
   AlignedArray<float>& irradiance = lit.light().irradiance;
   for (const MaterialRun& run : lit.runs()) {
     const LobeRange range = lit.RangeOf(run);
@@ -230,30 +237,30 @@ void AddByMirror(const Lit& lit) {
       if (!IsMirror(*run.shading, range, i)) irradiance[i] = 0;
     }
     if (AnyMirror(*run.shading, range)) {
-      MirrorReflectance(*run.shading, range, &lit.c.unit.specular);
+      MirrorReflectance(*run.shading, range, &lit.room.unit.specular);
     }
   }
-  Shadow(lit);
-  std::copy_n(irradiance.data(), lit.count(), lit.c.weight.data());
-  AddSeen(lit, lit.c.unit.specular, &lit.single().specular);
+  ApplyShadows(lit);
+  std::copy_n(irradiance.data(), lit.count(), lit.room.weight.data());
+  AddWeightedRadiance(lit, lit.room.unit.specular, &lit.single().specular);
   lit.batch.clock.Charge(Stage::kShade);
 }
 
-void ShadeByOne(const Lit& lit) {
+void ShadeBySampledLight(const LitBatch& lit) {
   bool mirrors = false, lobes = false;
   for (const MaterialRun& run : lit.runs()) {
     mirrors = mirrors || AnyMirror(*run.shading, lit.RangeOf(run));
     lobes = lobes || HasSampledLobe(*run.shading);
   }
-  const size_t flat = FindFlat(lit);
-  const bool sampled_diffuse = flat < lit.count();
-  if (flat > 0) AddClosedForm(lit);
+  const size_t in_closed_form = FindClosedForm(lit);
+  const bool sampled_diffuse = in_closed_form < lit.count();
+  if (in_closed_form > 0) AddClosedForm(lit);
   if (HasSampler(lit.planned.light) && (lobes || sampled_diffuse)) {
-    AddByLight(lit, {sampled_diffuse, lobes});
+    AddLightSamples(lit, {sampled_diffuse, lobes});
   }
-  if (IsSky(lit.planned.light) && sampled_diffuse) AddByCosine(lit);
-  if (lobes) AddByLobe(lit);
-  if (mirrors) AddByMirror(lit);
+  if (IsSky(lit.planned.light) && sampled_diffuse) AddCosineSamples(lit);
+  if (lobes) AddLobeSamples(lit);
+  if (mirrors) AddMirrorReflection(lit);
 }
 
 }  // namespace
@@ -264,8 +271,8 @@ void ShadeBySampledLights(const DirectBatch& batch, const SampleNumbers& numbers
   for (const PlannedSampledLight& planned : batch.plan.sampled_lights) {
     ++batch.stats.light_batches;
     ClearRadiance(batch.lit(), &batch.room.single);
-    ShadeByOne({batch, planned, numbers, *room});
-    AddLight(batch, batch.room.single, planned.layer);
+    ShadeBySampledLight({batch, planned, numbers, *room});
+    AddLightRadiance(batch, batch.room.single, planned.layer);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/sampled_lights.h: what a batch of hits reflects of lights with an extent.
+// render/sampled_lights.h: light that a batch of hits reflects from lights with an extent.
 #pragma once
 
 #include "render/direct_batch.h"
@@ -7,7 +7,7 @@
 
 namespace nacre {
 
-// Adds the reflection of every sampled light of the plan to the batch's radiance. `numbers`: of the
+// Adds the reflected light of the plan's sampled lights to the batch's radiance. `numbers`: of the
 // batch's samples.
 void ShadeBySampledLights(const DirectBatch& batch, const SampleNumbers& numbers);
 

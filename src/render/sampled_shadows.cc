@@ -9,7 +9,7 @@
 namespace nacre {
 namespace {
 
-// Lets the shadow ray of a hit start where those of its mesh do, and end at the same point.
+// Moves the start of a hit's shadow ray to its offset origin, and keeps its end.
 void OffsetRay(const Soa3<double>& from, const Soa3<double>& origin, size_t i,
                ShadowRayBatch* rays) {
   const Vec3d offset(origin.x[i] - from.x[i], origin.y[i] - from.y[i], origin.z[i] - from.z[i]);
@@ -25,7 +25,8 @@ void OffsetRay(const Soa3<double>& from, const Soa3<double>& origin, size_t i,
   rays->t_max[i] = 1;
 }
 
-// One ray a hit, most of which need one; the others end where they start. Returns how many do not.
+// Makes a ray for each hit, because most hits need one. The other rays are inactive. Returns the
+// number of active rays.
 size_t MakeSampledShadowRays(const DirectBatch& batch, const PlannedSampledLight& planned,
                              const LightDirections& directions) {
   const HitBatch& hits = batch.hits();
@@ -37,23 +38,23 @@ size_t MakeSampledShadowRays(const DirectBatch& batch, const PlannedSampledLight
   AimShadowRays(directions, room.light.irradiance.data(), rays.count, &rays);
   FindEnds(planned.light, hits, directions, &rays.t_max);
   const bool all = planned.trace_all || planned.shadowed.empty();
-  size_t asked = 0;
+  size_t active = 0;
   for (size_t i = 0; i < rays.count; ++i) {
     if (!all && NeverShadowed(planned, hits.primitive[i])) rays.t_max[i] = 0;
-    asked += rays.t_max[i] > 0 ? 1 : 0;
+    active += rays.t_max[i] > 0 ? 1 : 0;
   }
-  if (!batch.plan.offset_shadow_origins) return asked;
+  if (!batch.plan.offset_shadow_origins) return active;
   for (size_t i = 0; i < rays.count; ++i) OffsetRay(hits.position, room.shadow_origin, i, &rays);
-  return asked;
+  return active;
 }
 
 }  // namespace
 
 void CastSampledShadows(const DirectBatch& batch, const PlannedSampledLight& planned,
                         const LightDirections& directions) {
-  const size_t asked = MakeSampledShadowRays(batch, planned, directions);
-  batch.stats.shadow_rays += asked;
-  if (asked == 0) return;
+  const size_t active = MakeSampledShadowRays(batch, planned, directions);
+  batch.stats.shadow_rays += active;
+  if (active == 0) return;
   ShadowRayBatch& rays = batch.room.shadow_rays;
   rays.light = planned.occluders;
   rays.outward = batch.plan.eye_outside;

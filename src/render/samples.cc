@@ -13,12 +13,12 @@
 namespace nacre {
 namespace {
 
-// The pixels of a tile's spans; returns how many.
+// Appends the pixels of a tile's spans to `runs`; returns their number.
 size_t ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
   const Window& tile = candidates.tile;
   const auto width = static_cast<uint32_t>(tile.width());
   size_t pixels = 0;
-  uint32_t row = 0;  // its first pixel
+  uint32_t row = 0;  // index of the row's first pixel in the tile
   int y = tile.y0;
   for (const PixelSpan& span : candidates.spans) {
     for (; span.first >= row + width; row += width) ++y;
@@ -29,15 +29,14 @@ size_t ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) 
   return pixels;
 }
 
-// Chooses the tile's pixels whose samples are placed.
-void ChoosePixels(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
+void ChoosePixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
                   CameraSamples* s) {
-  if (plan.sampler.centered) return;  // all are
+  if (plan.sampler.centered) return;  // PlaceCenters does all pixels
   const bool were_only_spans = s->film.only_spans;
   std::vector<PixelRun>& runs = s->runs;
   runs.clear();
-  s->film.only_spans = plan.skip_empty_pixels && sight.shapes && !sight.triangles &&
-                       ListSpans(sight.spheres, &runs) < tile.pixel_count();
+  s->film.only_spans = plan.skip_empty_pixels && shapes.any && !shapes.triangles &&
+                       ListSpans(shapes.spheres, &runs) < tile.pixel_count();
   if (!s->film.only_spans) {
     runs.clear();
     for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
@@ -46,11 +45,11 @@ void ChoosePixels(const SamplingPlan& plan, const Window& tile, const TileSight&
   if (s->film.only_spans) {
     NumberRays(tile, runs, plan.samples_per_round, s->film.ray.data());
   } else if (were_only_spans) {
-    s->film.NumberInOrder();  // all of them: a later tile may have more than this one
+    s->film.NumberInOrder();  // the whole array, because a later tile may be larger
   }
 }
 
-// The tile's pixels, for lights that are sampled.
+// Numbers the tile's pixels, for sampling of lights.
 void NumberPixels(const SamplingPlan& plan, const Window& tile, SampleNumbers* numbers) {
   numbers->pixel_count = 0;
   for (int y = tile.y0; y < tile.y1; ++y) {
@@ -64,7 +63,7 @@ void NumberPixels(const SamplingPlan& plan, const Window& tile, SampleNumbers* n
   }
 }
 
-// The round that begins with sample `first`.
+// Numbers the samples of a round that begins with sample `first`.
 void NumberSamples(int first, int count, SampleNumbers* numbers) {
   for (int k = 0; k < count; ++k) {
     std::fill_n(numbers->number.data() + static_cast<size_t>(k) * numbers->pixel_count,
@@ -80,13 +79,12 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
   plan.sampler = std::move(sampler);
   plan.numbered = needs.sampled_lights;
   const int spp = scene.image.spp;
-  // One sample a pixel makes small batches; wider tiles fill them.
-  plan.tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kWidestTile)
-                                           : (spp == 1 ? kWidestTile : kStripRows);
+  // With one sample a pixel, narrow tiles would make small batches.
+  plan.tile_width = settings.tile_size > 0 ? std::min(settings.tile_size, kMaxTileWidth)
+                                           : (spp == 1 ? kMaxTileWidth : kStripRows);
   plan.samples_per_round =
       std::clamp(static_cast<int>(kBatchCapacity) / (plan.tile_width * kStripRows), 1, spp);
-  // Hits take several times as much room with what is looked up for them: half as many stay as
-  // near.
+  // With textures a hit takes several times as much memory; smaller batches stay in the cache.
   if (needs.textured) plan.samples_per_round = std::max(plan.samples_per_round / 2, 1);
   if (settings.max_error > 0) {
     why->items.push_back(
@@ -95,29 +93,29 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
   } else {
     why->items.push_back({"sample pattern", spp > 1,
                           spp > 1 ? fmt::format("{} Owen-scrambled Sobol samples a pixel", spp)
-                                  : "one sample a pixel goes through its centre"});
+                                  : "the only sample of a pixel goes through its centre"});
   }
-  plan.skip_empty_pixels = needs.places == nullptr;
+  plan.skip_empty_pixels = needs.positions == nullptr;
   const bool centered = plan.sampler.centered;
   why->items.push_back(
-      {centered ? "places of samples in memory" : "places of samples beside the spheres",
-       needs.places != nullptr,
-       needs.places != nullptr ? needs.places
-       : centered              ? "they are the pixels' centres"
-                               : "outside the outlines they hit nothing"});
+      {centered ? "positions of samples in memory" : "positions of samples beside spheres",
+       needs.positions != nullptr,
+       needs.positions != nullptr ? needs.positions
+       : centered                 ? "they are the pixels' centres"
+                                  : "samples outside the outlines hit nothing"});
   return plan;
 }
 
-void ChoosePlaces(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
-                  CameraSamples* samples) {
-  ChoosePixels(plan, tile, sight, samples);
-  if (plan.numbered) NumberPixels(plan, tile, &NumbersOf(samples));
+void ChooseSampledPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
+                         CameraSamples* samples) {
+  ChoosePixels(plan, tile, shapes, samples);
+  if (plan.numbered) NumberPixels(plan, tile, &EnsureNumbers(samples));
 }
 
-void PlaceSamples(const SamplingPlan& plan, const Window& tile, const TileSight& sight, int first,
-                  int count, CameraSamples* samples) {
+void MakeSamples(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes, int first,
+                 int count, CameraSamples* samples) {
   FilmBatch& film = samples->film;
-  film.centers = plan.sampler.centered && plan.skip_empty_pixels && !sight.triangles;
+  film.centers = plan.sampler.centered && plan.skip_empty_pixels && !shapes.triangles;
   if (!plan.sampler.centered) {
     SamplePixels(plan.sampler, samples->pixels, first, count, film.x.data(), film.y.data());
   } else if (!film.centers) {
@@ -128,7 +126,7 @@ void PlaceSamples(const SamplingPlan& plan, const Window& tile, const TileSight&
   for (int i = 0; i < count; ++i) {
     samples->weights[static_cast<size_t>(i)] = SampleWeight(plan.sampler, first + i);
   }
-  if (plan.numbered) NumberSamples(first, count, &NumbersOf(samples));
+  if (plan.numbered) NumberSamples(first, count, &EnsureNumbers(samples));
 }
 
 }  // namespace nacre

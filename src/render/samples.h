@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/samples.h: the first stage: where camera samples lie on the film, what they weigh, and
-// their places in the random sequences of their pixels.
+// render/samples.h: the first stage: the positions of camera samples on the film, their weights,
+// and their numbers in the random sequences of their pixels.
 #pragma once
 
 #include <optional>
@@ -11,31 +11,31 @@
 #include "hit/batch.h"
 #include "render/explanation.h"
 #include "render/settings.h"
-#include "render/tile_sight.h"
+#include "render/tile_shapes.h"
 #include "sampling/pair_sampler.h"
 #include "sampling/pixel_sampler.h"
 #include "scene/scene.h"
 
 namespace nacre {
 
-// Columns of a tile: where it spans more cells, less of what it gathers stays in L1.
-inline constexpr int kWidestTile = 64;
-static_assert(kWidestTile * kStripRows <= static_cast<int>(kBatchCapacity));
+// Wider tiles overlap more cells, and the spheres that they gather no longer fit into L1.
+inline constexpr int kMaxTileWidth = 64;
+static_assert(kMaxTileWidth * kStripRows <= static_cast<int>(kBatchCapacity));
 
 struct SamplingPlan {
   PixelSampler sampler;
-  int tile_width = 16;        // pixels; tiles are as high as strips
-  int samples_per_round = 1;  // samples of a tile's pixels that make one batch
-  // Pixels beside all spheres get no places: that their samples hit nothing is all that is asked.
+  int tile_width = 16;        // in pixels; tiles are as high as strips
+  int samples_per_round = 1;  // samples of each of a tile's pixels in one batch
+  // No positions are computed for samples of pixels beside all spheres, which hit nothing.
   bool skip_empty_pixels = false;
   bool numbered = false;  // lights are sampled: CameraSamples::numbers is filled
 };
 
-// What decides how a frame is sampled besides the scene.
+// What other stages need of samples.
 struct SamplingNeeds {
   bool sampled_lights;
   bool textured;
-  const char* places;  // why every sample needs its place on the film, or null
+  const char* positions;  // why every sample needs its position on the film, or null
 };
 
 SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, PixelSampler sampler,
@@ -44,25 +44,27 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
 // One batch of camera samples.
 struct CameraSamples {
   FilmBatch film;
-  std::vector<double> weights;           // of a pixel's samples in this batch
-  std::optional<SampleNumbers> numbers;  // made for the first batch under sampled lights
-  // Room: pixels whose samples are placed.
+  std::vector<double> weights;           // by sample of a pixel
+  std::optional<SampleNumbers> numbers;  // made for the first batch if lights are sampled
+  // Buffers: the pixels whose samples get positions.
   std::vector<PixelRun> runs;
   PixelBatch pixels{kBatchCapacity};
 };
 
-// The numbers, made if they are not there.
-inline SampleNumbers& NumbersOf(CameraSamples* samples) {
+// The numbers, which are made if there are none yet.
+inline SampleNumbers& EnsureNumbers(CameraSamples* samples) {
   if (!samples->numbers) samples->numbers.emplace(kBatchCapacity);
   return *samples->numbers;
 }
 
-// Readies the samples for a tile that FindSight has seen: which of its pixels get places.
-void ChoosePlaces(const SamplingPlan& plan, const Window& tile, const TileSight& sight,
-                  CameraSamples* samples);
+// Chooses the pixels of a tile whose samples get positions, before its first round. `shapes`: from
+// FindTileShapes.
+void ChooseSampledPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
+                         CameraSamples* samples);
 
-// Samples [first, first + count) of each of the tile's pixels, sample by sample, row by row.
-void PlaceSamples(const SamplingPlan& plan, const Window& tile, const TileSight& sight, int first,
-                  int count, CameraSamples* samples);
+// Makes samples [first, first + count) of each of the tile's pixels, ordered by sample, then by
+// row.
+void MakeSamples(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes, int first,
+                 int count, CameraSamples* samples);
 
 }  // namespace nacre

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/settings.h: what a render is asked for beyond its scene.
+// render/settings.h: the settings of a render that are not part of its scene.
 #pragma once
 
 #include <atomic>
@@ -13,17 +13,17 @@
 
 namespace nacre {
 
-// How rays find spheres. All find the same hits, to the bit.
+// How rays find spheres. All choices give the same bits.
 enum class IntersectorChoice : uint8_t { kAuto, kEmbree, kTiles, kShells };
 
 // "auto", "embree", "tiles", "shells".
 std::vector<std::string> IntersectorNames();
 // Throws Error (usage) for a name that is none of these, and for Embree where this build has none.
 IntersectorChoice ParseIntersector(const std::string& name);
-// Why all rays go through a tree, if they do so whatever the scene; or null.
+// Why all rays use a tree with this choice, whatever the scene; else null.
 const char* TreeAskedFor(IntersectorChoice choice);
 
-// Thrown by a render that RenderSettings::cancel has ended.
+// Thrown by a render that was ended by RenderSettings::cancel.
 struct Cancelled {};
 
 // One of `count` horizontal bands that together hold every row of the frame once (--tile).
@@ -35,35 +35,36 @@ struct FrameBand {
 struct RenderSettings {
   int threads = 0;                  // 0: as many as the machine has
   Window region;                    // pixels to render; empty: the whole frame
-  FrameBand band;                   // the same by bands; then `region` is not looked at
-  int band_rows = kStripRows;       // bands begin at multiples of these; a multiple of kStripRows
+  FrameBand band;                   // if its count is above 0: the pixels to render, not `region`
+  int band_rows = kStripRows;       // bands begin at multiples of this; a multiple of kStripRows
   std::vector<std::string> layers;  // besides R G B A; names as in render/layers.h
-  int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bits
+  int tile_size = 0;  // width of tiles in pixels, [1, 64]; 0: the plan chooses. Changes no bit
   IntersectorChoice intersector = IntersectorChoice::kAuto;
-  // Adaptive sampling: the wanted error of a pixel relative to max(|L|, 0.05), above 0, or of a
-  // highlight to white (white_level.h), and about how many samples a pixel takes at most. 0: every
-  // pixel takes the scene's samples.
+  // Adaptive sampling (adaptive.h) if above 0: the largest error of a pixel relative to max(|L|,
+  // 0.05), or for highlights relative to white (white_level.h); and approximately the largest
+  // number of samples of a pixel. 0: every pixel takes the scene's samples.
   double max_error = 0;
   int max_samples = 4096;
-  // Reflect lights with an extent in closed form where that can be; false: only by samples. For
-  // tests that hold the two together.
+  // Compute diffuse reflection of lights with an extent in closed form where possible. false: only
+  // by samples, for tests that compare the two.
   bool closed_forms = true;
-  // Find where far lights lie from the normals of hits on spheres (ShadingLight::from_spheres);
-  // false: always from their positions. Likewise.
+  // Compute the positions of distant lights relative to hits on spheres from the hits' normals
+  // (ShadingLight::from_spheres). false: always from the hits' positions, for tests.
   bool offsets_by_normal = true;
-  // Take no shortcut that changes no bits: shadow rays are traced even where nothing can be in the
-  // way, no light is culled, every sample is placed and summed. For tests that hold shortcuts and
-  // the general path together.
+  // Take none of the shortcuts that change no bits: shadow rays are traced even where nothing can
+  // occlude them, no light is culled, every sample gets a position and is summed. For tests that
+  // compare shortcuts with the general path.
   bool general_path = false;
-  // Measure how long each stage takes (RenderStats::stage_seconds): some per cent of small frames'
-  // time. Output is measured always.
+  // Measure how long each stage takes (RenderStats::stage_seconds). Costs some per cent of the time
+  // of small frames. Output is always measured.
   bool time_stages = false;
-  // Set from any thread, ends the render: Cancelled is thrown within some milliseconds. Null: never.
+  // Setting it to true, from any thread, ends the render: Cancelled is thrown within milliseconds.
+  // May be null.
   const std::atomic<bool>* cancel = nullptr;
-  // Called after every strip, from any thread, one call at a time, with the share done in (0, 1].
-  // Throwing from it stops the render.
+  // Called after every strip, from any thread, one call at a time, with the share of the work that
+  // is done, in (0, 1]. An exception from it ends the render.
   std::function<void(double)> on_progress;
-  // The same while the plan is made, between its large steps.
+  // Called in the same way while the plan is made, between its large steps.
   std::function<void(double)> on_plan_progress;
 };
 

@@ -20,7 +20,7 @@ Corners CornersOf(const Scene& scene, const TriangleRef& triangle) {
           positions[triangle.Vertex(2)] - eye};
 }
 
-Vec3d WeightsAt(const Corners& corners, const Vec3d& point) {
+Vec3d BarycentricsAt(const Corners& corners, const Vec3d& point) {
   const Vec3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vec3d ap = point - corners[0];
   const Vec3d normal = ab.cross(ac);
@@ -49,11 +49,9 @@ bool OffsetsShadowOrigins(const Scene& scene) {
 void OffsetShadowOrigins(const DirectBatch& batch) {
   const PrimitiveNumbers& primitives = batch.plan.primitives;
   const HitBatch& hits = batch.hits();
-  const Soa3<double>& position = hits.position;
   const Soa3<float>& normal = batch.surface().normal;
-  Soa3<double>& to = batch.room.shadow_origin;
   for (size_t i = 0; i < batch.lit(); ++i) {
-    Vec3d origin(position.x[i], position.y[i], position.z[i]);
+    Vec3d origin = VectorAt(hits.position, i);
     if (!IsSphere(primitives, hits.primitive[i])) {
       const TriangleRef triangle = TriangleOf(primitives, hits.primitive[i]);
       if (OffsetsOrigins(*triangle.mesh)) {
@@ -64,16 +62,14 @@ void OffsetShadowOrigins(const DirectBatch& batch) {
           normals[c] = triangle.mesh->normals[triangle.Vertex(c)];
           sum += normals[c];
         }
-        // The hit's normal is on the side that is seen; those of the vertices may not be.
-        if (sum.dot(Vec3d(normal.x[i], normal.y[i], normal.z[i])) < 0) {
+        // The hit's normal is on the visible side; those of the vertices may be on the other.
+        if (sum.dot(VectorAt(normal, i)) < 0) {
           for (Vec3d& n : normals) n = -n;
         }
-        origin = OffsetOrigin(corners, normals, WeightsAt(corners, origin), origin);
+        origin = OffsetOrigin(corners, normals, BarycentricsAt(corners, origin), origin);
       }
     }
-    to.x[i] = origin.x;
-    to.y[i] = origin.y;
-    to.z[i] = origin.z;
+    SetVector(origin, i, &batch.room.shadow_origin);
   }
 }
 

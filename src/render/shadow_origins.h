@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/shadow_origins.h: where shadow rays start on meshes with smooth normals.
+// render/shadow_origins.h: the origins of shadow rays on meshes with smooth normals.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@ namespace nacre {
 using Corners = std::array<Vec3d, 3>;
 Corners CornersOf(const Scene& scene, const TriangleRef& triangle);
 
-// The weights, none negative and of sum 1, of the corners whose mean the point is. Those of the
-// first corner alone for a triangle without an area, which nothing hits.
-Vec3d WeightsAt(const Corners& corners, const Vec3d& point);
+// The barycentric coordinates of a point, clamped to the triangle. (1, 0, 0) for a degenerate
+// triangle, which no ray hits.
+Vec3d BarycentricsAt(const Corners& corners, const Vec3d& point);
 
-// Where a shadow ray from `point` in the triangle starts so that it leaves the surface that the
-// unit normals of the corners, on the side where the ray starts, tell of (Hanika 2021, "Hacking the
-// shadow terminator", Ray Tracing Gems II, chapter 4): the mean of its projections onto the planes
-// at the corners, of those that it is below.
+// The origin of a shadow ray from `point` in the triangle, moved onto the smooth surface that the
+// unit normals of the corners suggest (Hanika 2021, "Hacking the shadow terminator", Ray Tracing
+// Gems II, chapter 4): the weighted mean of the projections of the point onto the tangent planes at
+// the corners, where it is below them. Normals are on the side where the ray starts.
 Vec3d OffsetOrigin(const Corners& corners, const Corners& normals, const Vec3d& weights,
                    const Vec3d& point);
 
-// Whether shadow rays of any mesh's hits start elsewhere than at the hits.
+// Whether shadow rays from any mesh start elsewhere than at the hits.
 bool OffsetsShadowOrigins(const Scene& scene);
 
-// Fills batch.room.shadow_origin with where the shadow rays of the lit hits start.
+// Fills batch.room.shadow_origin with the origins of the lit hits' shadow rays.
 void OffsetShadowOrigins(const DirectBatch& batch);
 
 }  // namespace nacre

@@ -10,29 +10,30 @@
 namespace nacre {
 namespace {
 
-// Adds the items of the lights; of many that are alike the first speaks for all.
+// Adds the items of the lights. Of many that are alike only the first is listed.
 void AddItems(std::vector<PlanItem> items, Explanation* why) {
-  constexpr size_t kMost = 8;
+  constexpr size_t kMaxAlike = 8;
   std::map<std::pair<bool, std::string>, std::vector<PlanItem*>> alike;
   for (PlanItem& item : items) alike[{item.used, item.reason}].push_back(&item);
   for (PlanItem& item : items) {
     const std::vector<PlanItem*>& same = alike[{item.used, item.reason}];
-    if (same.size() > kMost && same.front() != &item) continue;
+    if (same.size() > kMaxAlike && same.front() != &item) continue;
     why->items.push_back(item);
-    if (same.size() > kMost) {
+    if (same.size() > kMaxAlike) {
       why->items.back().what += fmt::format(" and those of {} more", same.size() - 1);
     }
   }
 }
 
-// For each sphere 1 if anything can come between it and the light.
+// By sphere: 1 if anything can occlude the light from it.
 std::vector<uint8_t> FindShadowed(const OccluderLists& lists) {
   std::vector<uint8_t> shadowed(lists.end.size());
   for (size_t i = 0; i < shadowed.size(); ++i) shadowed[i] = lists.Begin(i) < lists.end[i] ? 1 : 0;
   return shadowed;
 }
 
-// Takes from the light the shadow rays that nothing can be in the way of; says why in `item`.
+// Turns off the light's shadow rays on spheres from which nothing can occlude it. Explains it in
+// `item`.
 void SkipUnshadowed(const OccluderLists& lists, PlannedPunctualLight* light, PlanItem* item) {
   std::vector<uint8_t> shadowed = FindShadowed(lists);
   const auto count = std::count(shadowed.begin(), shadowed.end(), uint8_t{1});
@@ -49,7 +50,7 @@ void SkipUnshadowed(const OccluderLists& lists, PlannedPunctualLight* light, Pla
   light->shadowed = std::move(shadowed);
 }
 
-// Why a tree is better than the bins, or nothing.
+// Why a tree is better than these bins; empty if it is not.
 std::string WhyNotBins(const LightBins& bins) {
   constexpr double kCrowd = 2000;
   constexpr size_t kLarge = 32;
@@ -63,7 +64,7 @@ std::string WhyNotBins(const LightBins& bins) {
   return {};
 }
 
-// Why shadow rays need a tree whatever the lights, or nothing.
+// Why the shadow rays of all lights use a tree; empty if they need not.
 std::string WhyTree(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                     const DirectPlan& plan) {
   if (settings.general_path) return "the general path is asked for";
@@ -73,12 +74,12 @@ std::string WhyTree(const Scene& scene, const RenderSettings& settings, const Hi
     return kNestedSpheres;
   }
   if (settings.intersector == IntersectorChoice::kTiles) return {};
-  // Measured: by then one tree is made faster than the bins of all lights, and takes less room.
-  constexpr double kMostPairs = 8e6;
+  // Measured: from here on one tree is made faster than the bins of all lights, and is smaller.
+  constexpr double kMaxPairs = 8e6;
   const auto lights =
       std::count_if(plan.lights.begin(), plan.lights.end(),
                     [](const PlannedPunctualLight& light) { return light.shadow_rays; });
-  if (static_cast<double>(lights) * static_cast<double>(scene.spheres.size()) > kMostPairs &&
+  if (static_cast<double>(lights) * static_cast<double>(scene.spheres.size()) > kMaxPairs &&
       lights > 1) {
     return fmt::format("one tree is less work than bins for {} lights", lights);
   }
@@ -90,17 +91,18 @@ std::string DescribeBins(const LightBins& bins) {
                      bins.end.size(), bins.entries(), bins.mean_occupancy, bins.large.size());
 }
 
-// Counts the lights whose occluders the intersector knows.
+// The lights whose occluders the intersector knows. Its indices of lights are their order here.
 struct KnownLights {
-  bool found = false;  // all of them, for a plan before
-  uint32_t count = 0;
+  bool found = false;  // an earlier plan has found the occluders of all lights
+  uint32_t count = 0;  // the lights that this plan has come to
 };
 
 bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                          KnownLights* known, DirectPlan* plan, Explanation* why) {
   const bool few = scene.spheres.size() <= kMaxListedSpheres;
   const std::string why_tree = WhyTree(scene, settings, hits, *plan);
-  // A tree that is asked for is asked about the same rays as the others.
+  // If the settings ask for a tree, lists still decide which rays are traced: all intersectors must
+  // trace the same rays.
   const char* const asked_for = TreeAskedFor(settings.intersector);
   if (why_tree.empty() || (few && asked_for != nullptr && why_tree == asked_for)) {
     std::vector<const Light*> lights;
@@ -114,7 +116,8 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
   }
   size_t listed = 0, binned = 0, left = 0;
   std::vector<PlanItem> items;
-  std::string crowded, crowd;  // why bins are not used, or what they are like
+  std::string crowded;  // why bins are not used
+  std::string crowd;    // a description of the bins that are used
   for (PlannedPunctualLight& light : plan->lights) {
     if (!light.shadow_rays) continue;
     PlanItem item{fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name), true,
@@ -151,22 +154,23 @@ bool PlanPunctualShadows(const Scene& scene, const RenderSettings& settings, con
   return left > 0;
 }
 
-LightBall BallAround(const SampledLight& light) {
+LightBall BoundingBall(const SampledLight& light) {
   switch (light.form) {
     case SampledForm::kRectangle:
       return {light.place + (light.edge_x + light.edge_y) / 2,
               (light.edge_x + light.edge_y).length() / 2};
-    default:  // of a mesh, the ball around it
+    default:  // spheres, disks and meshes
       return {light.place, light.radius};
   }
 }
 
-// Finds who asks for the light's shadow rays, and why, among few spheres. Which of them can be
-// shadowed decides what is reflected in closed form, so all intersectors are told the same.
-PlanItem PlanListed(const RenderSettings& settings, const HitsPlan& hits, KnownLights* known,
-                    PlannedSampledLight* light) {
+// For scenes of few spheres: finds by lists on which spheres the light can be occluded. This
+// decides where diffuse reflection is in closed form, so that it must be the same for all
+// intersectors, even if they then use a tree.
+PlanItem PlanSampledLightLists(const RenderSettings& settings, const HitsPlan& hits,
+                               KnownLights* known, PlannedSampledLight* light) {
   const std::optional<LightBall> ball =
-      IsSky(light->light) ? std::nullopt : std::optional(BallAround(light->light));
+      IsSky(light->light) ? std::nullopt : std::optional(BoundingBall(light->light));
   light->occluders = known->count++;
   if (!known->found) {
     hits.intersector->FindOccludersOfBall(ball, light->primitives, hits.eye_outside);
@@ -203,7 +207,7 @@ bool PlanSampledShadows(const Scene& scene, const RenderSettings& settings, cons
       item.used = false;
       item.reason = scene.image.shadows ? "the light casts none" : "the scene turns shadows off";
     } else if (few) {
-      item = PlanListed(settings, hits, known, &light);
+      item = PlanSampledLightLists(settings, hits, known, &light);
     }
     item.what = fmt::format("light \"{}\" shadow rays", scene.lights[light.index].name);
     why->items.push_back(std::move(item));
@@ -227,7 +231,7 @@ bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsP
       {static_cast<double>(settings.intersector), settings.general_path ? 1.0 : 0.0}};
   KnownLights known{prepared->lights.IsUpToDate(key), 0};
   if (!known.found) {
-    prepared->lights.Forget();  // until all are found
+    prepared->lights.Forget();  // in case that an exception ends the search
     hits.intersector->ForgetOccluders();
   }
   const bool tree_for_punctual = PlanPunctualShadows(scene, settings, hits, &known, plan, why);

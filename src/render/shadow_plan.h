@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/shadow_plan.h: which shadow rays need tracing, and what finds their occluders.
+// render/shadow_plan.h: decides which shadow rays must be traced, and how their occluders are
+// found.
 #pragma once
 
 #include "render/direct_plan.h"
@@ -7,9 +8,9 @@
 
 namespace nacre {
 
-// Decides for each of the plan's lights that has shadow rays whether any can find something, for
-// which spheres, and by what means, and has the intersector find the lights' occluders. Returns
-// whether any are left for a tree, which must then be built.
+// Decides for each light with shadow rays on which spheres these can be occluded, and whether
+// lists, bins or a tree find the occluders. Makes the intersector compute the lists and bins.
+// Returns whether any light needs a tree, which must then be built.
 bool PlanShadows(const Scene& scene, const RenderSettings& settings, const HitsPlan& hits,
                  PreparedScene* prepared, DirectPlan* plan, Explanation* why);
 

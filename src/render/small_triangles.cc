@@ -13,34 +13,36 @@
 namespace nacre {
 namespace {
 
-// Farther from the film's corner, in pixels, nothing is looked for: cells are numbered by int.
-constexpr double kFarthestPlace = 1e9;
+// Triangles farther from the film's corner than this, in pixels, are ignored: cells are numbered by
+// int.
+constexpr double kMaxFilmPosition = 1e9;
 
 using FilmTriangle = std::array<Vec2d, 3>;
 
-struct Borders {
+// A bounding rectangle on the film, in pixels.
+struct FilmBounds {
   double x0, y0, x1, y1;
 };
 
-Borders BordersOf(const FilmTriangle& t) {
+FilmBounds BoundsOf(const FilmTriangle& t) {
   const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
   const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
   return {x0, y0, x1, y1};
 }
 
-Borders BordersAround(const Window& window, double reach) {
-  return {window.x0 - reach, window.y0 - reach, window.x1 + reach, window.y1 + reach};
+FilmBounds BoundsAround(const Window& window, double margin) {
+  return {window.x0 - margin, window.y0 - margin, window.x1 + margin, window.y1 + margin};
 }
 
-bool Overlap(const Borders& a, const Borders& b) {
+bool Overlap(const FilmBounds& a, const FilmBounds& b) {
   return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
 }
 
-// Twice the area, positive where the corners run counter-clockwise as seen: the film's y points
-// down.
+// Twice the area, positive if the corners are seen in counter-clockwise order. The film's y axis
+// points down.
 double SignedArea2(const FilmTriangle& t) { return -(t[1] - t[0]).cross(t[2] - t[0]); }
 
-// The edge from this corner to the next is the longest.
+// The corner at which the longest edge begins, in the order of the corners.
 size_t LongestEdge(const FilmTriangle& t) {
   size_t longest = 0;
   for (size_t i = 1; i < 3; ++i) {
@@ -51,14 +53,15 @@ size_t LongestEdge(const FilmTriangle& t) {
   return longest;
 }
 
-// A triangle that is less than kWidestRare high over its longest edge. None where a corner is
-// beside or behind the camera, and none of an edge or a point, which no ray hits.
+// A projected triangle of a height of less than kMaxRareWidth over its longest edge.
 struct NarrowTriangle {
   FilmTriangle corners;
   size_t longest;  // LongestEdge
   double height;
 };
 
+// None if the triangle is not narrow, if a corner is beside or behind the camera, or if the
+// projection has no area, so that no ray hits it.
 std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
                                             const Projector& projector, uint32_t primitive) {
   const TriangleRef triangle = TriangleOf(numbers, primitive);
@@ -72,7 +75,7 @@ std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
     Vec2d& corner = narrow.corners[c];
     corner = {place.dot(projector.right) * scale + projector.middle_x,
               place.dot(projector.down) * scale + projector.middle_y};
-    if (!(std::abs(corner.x) < kFarthestPlace && std::abs(corner.y) < kFarthestPlace)) {
+    if (!(std::abs(corner.x) < kMaxFilmPosition && std::abs(corner.y) < kMaxFilmPosition)) {
       return std::nullopt;
     }
   }
@@ -81,29 +84,30 @@ std::optional<NarrowTriangle> ProjectNarrow(const PrimitiveNumbers& numbers,
   narrow.longest = LongestEdge(narrow.corners);
   const FilmTriangle& t = narrow.corners;
   narrow.height = area2 / (t[(narrow.longest + 1) % 3] - t[narrow.longest]).length();
-  if (!(narrow.height < kWidestRare)) return std::nullopt;
+  if (!(narrow.height < kMaxRareWidth)) return std::nullopt;
   return narrow;
 }
 
 int Columns(const Window& cells) { return cells.width() / kCellSize; }
 
-// Calls emit(column, row) for each cell that the triangle may lie within reach of: the cells around
-// its box, of a long triangle only those near its longest edge.
+// Calls emit(column, row) for each cell within whose margin the triangle may lie: the cells that
+// its bounding rectangle overlaps, of a long triangle only those near its longest edge.
 template <class Emit>
-void ForEachCell(const SmallTriangles& triangles, const NarrowTriangle& narrow, const Emit& emit) {
+void ForEachCellNear(const SmallTriangles& triangles, const NarrowTriangle& narrow,
+                     const Emit& emit) {
   const Window& cells = triangles.cells;
-  const Borders box = BordersOf(narrow.corners);
+  const FilmBounds box = BoundsOf(narrow.corners);
   const auto place = [&](double at, int from, int count) {
     return static_cast<int>(std::clamp(std::floor((at - from) / kCellSize), -1.0, double(count)));
   };
   const int columns = Columns(cells), rows = cells.height() / kCellSize;
-  const int column0 = std::max(place(box.x0 - triangles.reach, cells.x0, columns), 0);
-  const int column1 = std::min(place(box.x1 + triangles.reach, cells.x0, columns), columns - 1);
-  const int row0 = std::max(place(box.y0 - triangles.reach, cells.y0, rows), 0);
-  const int row1 = std::min(place(box.y1 + triangles.reach, cells.y0, rows), rows - 1);
+  const int column0 = std::max(place(box.x0 - triangles.margin, cells.x0, columns), 0);
+  const int column1 = std::min(place(box.x1 + triangles.margin, cells.x0, columns), columns - 1);
+  const int row0 = std::max(place(box.y0 - triangles.margin, cells.y0, rows), 0);
+  const int row1 = std::min(place(box.y1 + triangles.margin, cells.y0, rows), rows - 1);
   const Vec2d& from = narrow.corners[narrow.longest];
   const Vec2d along = (narrow.corners[(narrow.longest + 1) % 3] - from).normalized();
-  const double nearby = narrow.height + std::sqrt(2.0) * (kCellSize / 2.0 + triangles.reach);
+  const double nearby = narrow.height + std::sqrt(2.0) * (kCellSize / 2.0 + triangles.margin);
   for (int row = row0; row <= row1; ++row) {
     for (int column = column0; column <= column1; ++column) {
       const Vec2d middle(cells.x0 + (column + 0.5) * kCellSize, cells.y0 + (row + 0.5) * kCellSize);
@@ -112,35 +116,36 @@ void ForEachCell(const SmallTriangles& triangles, const NarrowTriangle& narrow, 
   }
 }
 
-struct Origin {
+// The triangle that a piece is part of.
+struct PieceSource {
   uint32_t primitive;
   MaterialId material;
 };
 
-TrianglePiece PieceOf(const Origin& origin, const FilmTriangle& t, const Borders& borders) {
+TrianglePiece PieceOf(const PieceSource& source, const FilmTriangle& t, const FilmBounds& bounds) {
   const double area2 = SignedArea2(t);
-  const double width = borders.x1 - borders.x0, height = borders.y1 - borders.y0;
+  const double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
   TrianglePiece piece{};
-  piece.primitive = origin.primitive;
-  piece.material = origin.material.index;
+  piece.primitive = source.primitive;
+  piece.material = source.material.index;
   piece.front = area2 > 0;
   piece.x = (t[0].x + t[1].x + t[2].x) / 3;
   piece.y = (t[0].y + t[1].y + t[2].y) / 3;
-  piece.box = {(borders.x0 + borders.x1) / 2, (borders.y0 + borders.y1) / 2, width / 2, height / 2};
+  piece.box = {(bounds.x0 + bounds.x1) / 2, (bounds.y0 + bounds.y1) / 2, width / 2, height / 2};
   piece.fill = std::abs(area2) / 2 / (width * height);
   return piece;
 }
 
-// Halves the longest edge until the pieces are narrow both ways.
+// Bisects the longest edge until the pieces are narrow in both axes.
 template <class Work>
-void CutToPieces(const Origin& origin, const FilmTriangle& t, const Borders& around,
+void CutToPieces(const PieceSource& source, const FilmTriangle& t, const FilmBounds& around,
                  const Work& work) {
-  const Borders borders = BordersOf(t);
-  if (!Overlap(borders, around)) return;
-  const double width = borders.x1 - borders.x0, height = borders.y1 - borders.y0;
-  if (width < kWidestRare && height < kWidestRare) {
-    // Halves of what is thinner than rounding may have no area left.
-    if (width * height > 0) work(PieceOf(origin, t, borders));
+  const FilmBounds bounds = BoundsOf(t);
+  if (!Overlap(bounds, around)) return;
+  const double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
+  if (width < kMaxRareWidth && height < kMaxRareWidth) {
+    // Halves of extremely thin triangles may be rounded to no area.
+    if (width * height > 0) work(PieceOf(source, t, bounds));
     return;
   }
   const size_t from = LongestEdge(t), to = (from + 1) % 3;
@@ -148,19 +153,19 @@ void CutToPieces(const Origin& origin, const FilmTriangle& t, const Borders& aro
   for (const size_t moved : {to, from}) {
     FilmTriangle half = t;
     half[moved] = middle;
-    CutToPieces(origin, half, around, work);
+    CutToPieces(source, half, around, work);
   }
 }
 
 }  // namespace
 
 SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projector& projector,
-                                 const Window& window, double reach, int threads) {
+                                 const Window& window, double margin, int threads) {
   SmallTriangles triangles;
   const auto up = [](int pixel) { return (pixel + kCellSize - 1) / kCellSize * kCellSize; };
   const auto down = [](int pixel) { return pixel / kCellSize * kCellSize; };
   triangles.cells = {down(window.x0), down(window.y0), up(window.x1), up(window.y1)};
-  triangles.reach = reach;
+  triangles.margin = margin;
   const Scene& scene = *numbers.scene;
   size_t count = 0;
   for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size() / 3;
@@ -171,7 +176,7 @@ SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projecto
     const auto narrow =
         ProjectNarrow(numbers, projector, static_cast<uint32_t>(scene.spheres.size() + i));
     if (!narrow) return;
-    ForEachCell(triangles, *narrow, [&](int column, int row) {
+    ForEachCellNear(triangles, *narrow, [&](int column, int row) {
       emit(static_cast<size_t>(row) * static_cast<size_t>(columns) + static_cast<size_t>(column));
     });
   };
@@ -193,7 +198,7 @@ void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbe
   const size_t list =
       number(cell.y0 - triangles.cells.y0) * static_cast<size_t>(Columns(triangles.cells)) +
       number(cell.x0 - triangles.cells.x0);
-  const Borders around = BordersAround(cell, triangles.reach);
+  const FilmBounds around = BoundsAround(cell, triangles.margin);
   for (size_t i = list == 0 ? 0 : triangles.end[list - 1]; i < triangles.end[list]; ++i) {
     const uint32_t primitive = triangles.primitives[i];
     const auto narrow = ProjectNarrow(numbers, projector, primitive);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/small_triangles.h: triangles whose pictures are so narrow that few samples of a pixel hit
-// them, binned to the cells of adaptive sampling before the first sample.
+// render/small_triangles.h: triangles whose projections are so narrow that few samples of a pixel
+// hit them. They are binned to the cells of adaptive sampling before the first sample.
 #pragma once
 
 #include <cstdint>
@@ -15,38 +15,38 @@
 
 namespace nacre {
 
-// Pictures wider than this, in pixels, are found by a pixel's first 16 samples: they expect more
-// hits than evidence.h asks for.
-inline constexpr double kWidestRare = 2;
+// Features wider than this, in pixels, are not rare: a pixel's first 16 samples have more hits on
+// them on average than kExpectedHits (evidence.h).
+inline constexpr double kMaxRareWidth = 2;
 
-// For each cell the triangles of all meshes whose picture is less than kWidestRare high over its
-// longest edge and lies in the cell or within `reach` of it: four bytes an entry.
+// For each cell, the triangles of all meshes whose projection has a height of less than
+// kMaxRareWidth over its longest edge, and lies within `margin` of the cell.
 struct SmallTriangles {
   Window cells{};                  // the pixels of all cells
-  double reach = 0;                // in pixels
-  std::vector<uint32_t> end;       // of each cell's list, row by row; empty: there are none
+  double margin = 0;               // in pixels
+  std::vector<uint32_t> end;       // of each cell's list, row by row; empty if all lists are
   HugeArray<uint32_t> primitives;  // ascending in each list
 };
 
-// `window`: the pixels to render, of a frame whose cells begin at multiples of kCellSize.
+// `window`: the pixels to render. Cells begin at multiples of kCellSize in the frame.
 SmallTriangles BinSmallTriangles(const PrimitiveNumbers& numbers, const Projector& projector,
-                                 const Window& window, double reach, int threads);
+                                 const Window& window, double margin, int threads);
 
-// A part of such a triangle on the film, in pixels: it covers `fill` of a box that is no wider than
-// kWidestRare.
+// A part of the projection of such a triangle. Film positions and sizes are in pixels. The part
+// covers the share `fill` of a box of at most kMaxRareWidth by kMaxRareWidth.
 struct TrianglePiece {
   uint32_t primitive;
-  bool front;         // the camera sees the side from which its corners run counter-clockwise
-  uint32_t material;  // of its mesh, which may be a split one
-  double x, y;        // its centroid
+  bool front;         // the camera sees its corners in counter-clockwise order
+  uint32_t material;  // of its mesh; may be a split
+  double x, y;        // of its centroid
   FilmBox box;
   double fill;
 
   double Area() const { return 4 * box.half_width * box.half_height * fill; }
 };
 
-// Calls work(piece) for the pieces within reach of a cell of the window, triangle by triangle in
-// ascending order. Long triangles are cut. A cell may have a million: none is kept.
+// Calls work(piece) for the pieces within the margin of a cell, in ascending order of triangles.
+// Long triangles are cut into several pieces. A cell may have a million, so they are not stored.
 void ForEachPiece(const SmallTriangles& triangles, const PrimitiveNumbers& numbers,
                   const Projector& projector, const Window& cell,
                   const std::function<void(const TrianglePiece&)>& work);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/stage_clock.h: where a worker's time goes.
+// render/stage_clock.h: measures how long each stage of the work takes.
 #pragma once
 
 #include <array>
@@ -9,12 +9,12 @@
 
 namespace nacre {
 
-// Charges the time since the last call to a stage; what a strip took is in the stats when its clock
-// goes out of scope. The processor's own counter tells how the time is shared: asking the system,
-// as is done once for the whole, would take a twentieth of it.
+// Charges the time since the last call to a stage. The destructor adds the times to the stats. The
+// total comes from the system's clock, and its division into stages from the processor's counter:
+// the system's clock at each call would take a twentieth of the time.
 class StageClock {
  public:
-  // Without `stats` nobody asks, and nothing is charged.
+  // Measures nothing if `stats` is null.
   explicit StageClock(RenderStats* stats) : stats_(stats) {}
   StageClock(const StageClock&) = delete;
   StageClock& operator=(const StageClock&) = delete;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/stats.h: what a render counted and how long its stages took.
+// render/stats.h: counts and times of a render.
 #pragma once
 
 #include <algorithm>
@@ -28,10 +28,10 @@ constexpr std::string_view StageName(Stage stage) {
   return kNames[static_cast<size_t>(stage)];
 }
 
-// How many samples pixels are the means of.
+// The numbers of samples per pixel.
 struct PixelSampleCounts {
   uint64_t pixels = 0, samples = 0;
-  uint32_t fewest = 0, most = 0;  // of a pixel
+  uint32_t fewest = 0, most = 0;  // samples of a pixel
 
   void Add(uint32_t of_each, uint64_t of_pixels) {
     Add({of_pixels, of_pixels * of_each, of_each, of_each});
@@ -53,16 +53,17 @@ struct RenderStats {
   uint64_t hits = 0;
   uint64_t shadow_rays = 0;
   uint64_t light_batches = 0;       // lights times batches of hits
-  uint64_t culled_lights = 0;       // of these, those that could not reach any hit
-  uint64_t unsettled_pixels = 0;    // of adaptive sampling: their error is not known to be small
-  PixelSampleCounts pixel_samples;  // of adaptive sampling 0 where it is known that nothing is hit
-  // Sampled directions to light that are no numbers: they bring nothing, and none is expected.
+  uint64_t culled_lights = 0;       // of light_batches, those in which the light illuminates no hit
+  uint64_t unsettled_pixels = 0;    // of adaptive sampling: they have not converged
+  PixelSampleCounts pixel_samples;  // 0 for a pixel in which adaptive sampling expects no hit
+  // Sampled directions with coordinates that are not finite. They add nothing; there should be
+  // none.
   uint64_t directions_not_finite = 0;
-  uint64_t shades = 0;  // hits times lights that were evaluated
-  // Thread seconds. Without RenderSettings::time_stages only kOutput is measured.
+  uint64_t shades = 0;  // number of evaluations of a light at a hit
+  // In seconds, summed over threads. Without RenderSettings::time_stages only kOutput is measured.
   std::array<double, kStageCount> stage_seconds{};
-  double plan_seconds = 0;    // wall: planning and building the intersector
-  double render_seconds = 0;  // wall: the rest
+  double plan_seconds = 0;    // wall-clock time of making the plan, trees included
+  double render_seconds = 0;  // wall-clock time of rendering
   int threads = 0;
 
   double& seconds(Stage stage) { return stage_seconds[static_cast<size_t>(stage)]; }

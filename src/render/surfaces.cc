@@ -17,17 +17,12 @@ namespace {
 bool IsFromBehind(const PrimitiveNumbers& primitives, const CameraHits& hits, size_t hit) {
   const uint32_t primitive = hits.batch.primitive[hit];
   const Scene& scene = *primitives.scene;
-  const auto normal = [&] {
-    const Soa3<float>& n = hits.directions.normal;
-    return Vec3d(n.x[hit], n.y[hit], n.z[hit]);
-  };
   if (IsSphere(primitives, primitive)) {
     const Vec3d center = scene.spheres[primitive].center - scene.camera.position;
-    const Soa3<double>& p = hits.batch.position;
-    return (Vec3d(p.x[hit], p.y[hit], p.z[hit]) - center).dot(normal()) < 0;
+    const Vec3d normal = VectorAt(hits.directions.normal, hit);
+    return (VectorAt(hits.batch.position, hit) - center).dot(normal) < 0;
   }
-  const Soa3<float>& v = hits.directions.to_view;
-  return FaceNormalOf(primitives, primitive).dot(Vec3d(v.x[hit], v.y[hit], v.z[hit])) < 0;
+  return FaceNormalOf(primitives, primitive).dot(VectorAt(hits.directions.to_view, hit)) < 0;
 }
 
 MaterialId MaterialOfHit(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
@@ -62,7 +57,7 @@ void Permute(const AlignedArray<uint32_t>& order, size_t count, const Soa3<T>& f
   Permute(order, count, from.z, &to->z);
 }
 
-// What arrays the hits have.
+// Which optional arrays the hits have.
 struct HitFields {
   bool positions, exact;
 };
@@ -72,7 +67,7 @@ struct HitsFrom {
   const HitDirections* directions;
 };
 
-// Makes hit i the one that was order[i], of `count` with their padding.
+// Hit i of `to` becomes hit order[i] of `from`. `count` includes the padding.
 void PermuteHits(const HitsFrom& from, const HitFields& fields, size_t count,
                  const AlignedArray<uint32_t>& order, Surfaces* to) {
   to->hits.one_primitive = from.batch->one_primitive;
@@ -86,7 +81,8 @@ void PermuteHits(const HitsFrom& from, const HitFields& fields, size_t count,
   Permute(order, count, from.batch->to_view, &to->hits.to_view);
 }
 
-void TakeHits(CameraHits* from, Surfaces* to) {
+// The same where the order does not change.
+void SwapHits(CameraHits* from, Surfaces* to) {
   std::swap(from->batch, to->hits);
   std::swap(from->directions, static_cast<HitDirections&>(to->surface));
 }
@@ -98,7 +94,7 @@ uint32_t& RunOf(MaterialId material, bool interpolated, SortRoom* room) {
   return room->run_of_material[interpolated ? half + material.index : material.index];
 }
 
-// Finds each hit's run, and with it how many hits a run has.
+// Finds the run of each hit, and counts the hits of each run in MaterialRun::end.
 void CountRuns(const SurfacePlan& plan, const double* film_x, const CameraHits& hits,
                SortRoom* room, std::vector<MaterialRun>* runs) {
   for (size_t i = 0; i < hits.batch.count; ++i) {
@@ -123,7 +119,7 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   if (hits->batch.one_primitive && !plan.splits && !plan.one_sided) {
     const MaterialId material = MaterialOfHit(plan, film_x, *hits, 0);
     runs.push_back({material, &plan.materials[material.index], 0, hits->batch.count, false});
-    return TakeHits(hits, to);
+    return SwapHits(hits, to);
   }
   CountRuns(plan, film_x, *hits, room, &runs);
   size_t begin = 0;
@@ -137,7 +133,7 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   }
   if (runs.size() == 1) {
     runs[0].end = hits->batch.count;
-    return TakeHits(hits, to);
+    return SwapHits(hits, to);
   }
   for (size_t i = 0; i < hits->batch.count; ++i) {
     room->order[runs[room->run_of_hit[i]].end++] = static_cast<uint32_t>(i);
@@ -149,8 +145,8 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   to->hits.count = count;
 }
 
-// For each lit hit whose material has a coat, adds a hit on the coat at the same place, with the
-// shading normal that the maps of the material below have not turned.
+// For each lit hit whose material has a coat, adds a hit on the coat at the same position. Its
+// shading normal is the unmapped one: this must precede the look-up of normal maps.
 void FindCoats(const SurfacePlan& plan, Surfaces* s) {
   if (s->coats) s->coats->surfaces.hits.count = 0;
   if (!plan.coated) return;
@@ -176,7 +172,7 @@ void FindCoats(const SurfacePlan& plan, Surfaces* s) {
   to.hits.count = count;
 }
 
-// Looks up the maps of the materials that have any.
+// Looks up the maps of the runs' materials.
 void LookUpMaps(const SurfacePlan& plan, Surfaces* s) {
   s->surface.turned = false;
   if (!plan.textured) return;
@@ -206,7 +202,8 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
     why->items.push_back({"textures", false, "no shape's material has a map"});
     return;
   }
-  // A sample stands for its share of the pixel. Adaptive sampling takes as many as it needs.
+  // The footprint of a sample is its share of the pixel. For adaptive sampling 64 samples are
+  // assumed.
   const double samples = settings.max_error > 0 ? 64 : scene.image.spp;
   const double footprint = std::max(1 / std::sqrt(samples), 0.125);
   plan->textures = PrepareTextures(scene, camera, footprint, settings.threads, tables);
@@ -245,9 +242,9 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
     plan.materials.push_back(*plan.materials[i].coat);
     plan.coated = true;
   }
-  why->items.push_back(
-      {"coats", plan.coated,
-       plan.coated ? "hits with one are shaded once more, by the coat" : "no material has any"});
+  why->items.push_back({"coats", plan.coated,
+                        plan.coated ? "hits on materials with one are shaded once more, as the coat"
+                                    : "no material has any"});
   plan.interpolates = std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance);
   PlanTextures(scene, settings, camera, tables, &plan, why);
   return plan;
@@ -280,7 +277,7 @@ void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* 
 namespace {
 
 // to[j] *= by[i].
-void DimBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
+void AttenuateBy(const Soa3<float>& by, size_t i, size_t j, Soa3<float>* to) {
   to->x[j] *= by.x[i];
   to->y[j] *= by.y[i];
   to->z[j] *= by.z[i];
@@ -297,8 +294,8 @@ void CoverAmbient(const Soa3<float>& left, size_t i, size_t j, const Rgb& radian
   cover(left.z, radiance.z, &to->z);
 }
 
-// Attenuates the emission and the reflected ambient light of hits below coats, which no light's
-// radiance holds, and adds the coats' own reflection of ambient light.
+// Attenuates emission and reflected ambient light of hits below coats, which the radiance of lights
+// does not include, and adds the ambient light that the coats reflect.
 void CoverLayers(Surfaces* s) {
   if (!AnyCoat(*s)) return;
   const CoatedHits& coats = *s->coats;
@@ -309,7 +306,7 @@ void CoverLayers(Surfaces* s) {
       if (below < run.begin || below >= run.end) continue;
       CoverAmbient(coats.surfaces.surface.base, i, below, run.shading->ambient_radiance,
                    &s->textures->ambient);
-      DimBy(coats.surfaces.surface.base, i, below, &s->textures->emission);
+      AttenuateBy(coats.surfaces.surface.base, i, below, &s->textures->emission);
     }
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/surfaces.h: the third stage: hits sorted into runs of one material, with the maps of those
-// that have any looked up and their shading normals final.
+// render/surfaces.h: the third stage: sorts hits into runs of one material, looks up the maps of
+// materials that have any, and finishes the shading normals.
 #pragma once
 
 #include <limits>
@@ -19,16 +19,16 @@ namespace nacre {
 
 struct SurfacePlan {
   PrimitiveNumbers primitives;
-  int frame_width = 0;                     // that split materials divide
+  int frame_width = 0;                     // in pixels, for split materials
   std::vector<ShadingMaterial> materials;  // one per material of the scene, `black`, and coats
-  MaterialId black;                        // the back of one-sided emitters
-  std::vector<MaterialId> coats;           // by material of the scene; none of those without
+  MaterialId black;                        // of the back of one-sided emitters
+  std::vector<MaterialId> coats;           // by material of the scene; invalid if it has none
   bool coated = false;                     // some material has a coat
   bool splits = false;                     // some material depends on the film position
   bool one_sided = false;                  // some material emits in front only
   bool interpolates = false;  // some mesh interpolates radiance, not normals (mesh_radiance.h)
-  bool textured = false;      // some hits may need textures
-  TextureScene textures;      // empty if no shape has any
+  bool textured = false;      // some shape's material has a map
+  TextureScene textures;      // empty unless `textured`
 };
 
 // `ambient`: the sum of the scene's ambient lights.
@@ -36,12 +36,12 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,
                          Explanation* why);
 
-// Whether some material has a lobe too narrow for float, or maps: its hits keep their directions in
-// double.
+// Whether the hits' directions are needed in double: some material has maps, or a lobe that is too
+// narrow for float.
 bool NeedsExactDirections(const SurfacePlan& plan);
 
-// The material of a primitive where the sample lies at film_x pixels from the frame's left edge:
-// splits resolved.
+// The material of a primitive, splits resolved. `film_x`: of the sample, in pixels from the frame's
+// left edge.
 MaterialId MaterialAt(const SurfacePlan& plan, uint32_t primitive, double film_x);
 
 // Hits [begin, end) of a batch share a material.
@@ -49,7 +49,7 @@ struct MaterialRun {
   MaterialId material;
   const ShadingMaterial* shading;
   size_t begin, end;
-  bool interpolated;  // they reflect what was worked out for their mesh's vertices or triangles
+  bool interpolated;  // their radiance comes from DirectPlan::mesh_radiance
 };
 
 struct CoatedHits;
@@ -58,19 +58,19 @@ struct Surfaces {
   HitBatch hits;
   Surface surface;
   std::vector<MaterialRun> runs;  // those that are not interpolated come first
-  size_t lit_runs = 0;            // how many of the runs are not interpolated,
-  size_t lit = 0;                 // and how many hits these have
-  // What maps have made of the materials: made for the first hit on one with maps.
+  size_t lit_runs = 0;            // number of runs that are shaded by lights, not interpolated
+  size_t lit = 0;                 // number of hits in these runs
+  // The values that maps give the hits. Made for the first material with maps.
   std::unique_ptr<HitTextures> textures;
-  // Coats over some of the hits: made for the first hit that has one.
+  // The coats over some of the hits. Made for the first hit with a coat.
   std::unique_ptr<CoatedHits> coats;
 };
 
-// Hits on clear coats, each at the place of a hit below it, with a shading normal, maps and lobe of
-// its own. The integrator shades them like any others.
+// Hits on clear coats. Each has the position of the hit below it, and a shading normal, maps and a
+// lobe of its own. The integrator shades them like other hits.
 struct CoatedHits {
-  Surfaces surfaces;  // their Surface::base is what the coat transmits, per channel
-  AlignedArray<uint32_t> below{kBatchCapacity};  // by hit on a coat: the index of the hit below it
+  Surfaces surfaces;  // whose Surface::base is the transmittance of the coat, per channel
+  AlignedArray<uint32_t> below{kBatchCapacity};  // by hit on a coat: the index of the hit below
 };
 
 // Whether any hit has a coat.
@@ -78,26 +78,25 @@ inline bool AnyCoat(const Surfaces& surfaces) {
   return surfaces.coats && surfaces.coats->surfaces.hits.count > 0;
 }
 
-// The runs that lights shine on.
+// The runs that are shaded by lights.
 inline std::span<const MaterialRun> LitRuns(const Surfaces& surfaces) {
   return {surfaces.runs.data(), surfaces.lit_runs};
 }
 
 // Buffers of ResolveSurfaces.
 struct SortRoom {
-  // Index into runs, or none, per material of the scene; then the same of interpolated runs.
+  // By material, the index of its run or kNoRun; then the same for interpolated runs.
   std::vector<uint32_t> run_of_material;
   AlignedArray<uint32_t> run_of_hit{kBatchCapacity};
   AlignedArray<uint32_t> order{kBatchCapacity};
 };
 
-// Takes the hits over: within a run they are in the order of their rays, so that what a hit's lane
-// computes never depends on its neighbours. `film_x`: of each ray, where materials are split.
+// Sorts the hits into runs and prepares their surfaces. May swap buffers with `hits`. Within a run,
+// hits stay in the order of their rays. `film_x`: by ray, read only if materials are split.
 void ResolveSurfaces(const SurfacePlan& plan, const double* film_x, CameraHits* hits,
                      SortRoom* room, Surfaces* surfaces);
 
-// After the hits of `surfaces` and their runs are there: looks up maps and readies the materials,
-// and coats.
+// Looks up maps, prepares the materials and makes the hits on coats. Hits and runs must be set.
 void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces);
 
 }  // namespace nacre

@@ -11,17 +11,17 @@ void ShowBackground(const FramePlan& plan, const Window& tile, Strip* strip, uin
   *blank = 1;
 }
 
-// The only sample of each pixel.
+// For FilmPlan::one_sample. The tile's sampled pixels have been chosen.
 void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats) {
-  PlaceSamples(plan.sampling, tile, work->sight, 0, 1, &work->samples);
+  MakeSamples(plan.sampling, tile, work->shapes, 0, 1, &work->samples);
   ShadeSamples(plan, work, clock, stats);
   const ShadedBatch batch = BatchOf(plan, *work);
   if (batch.hits().count == 0) {
     ShowBackground(plan, tile, strip, blank);
   } else {
     *blank = 0;
-    if (!PutOnlySamples(plan.film, batch, tile, &work->layer_room, strip)) {
+    if (!StoreOnlySamples(plan.film, batch, tile, &work->layer_room, strip)) {
       StartTile(plan.film, tile, kBatchCapacity, &work->film);
       AddToFilm(plan.film, batch, &work->layer_room, &work->film);
       ResolveTile(plan.film, work->film, strip);
@@ -30,31 +30,37 @@ void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip
   clock->Charge(Stage::kFilm);
 }
 
-// Of a tile whose places have been chosen.
+// Adds the samples in rounds. The tile's sampled pixels have been chosen.
 void AddRounds(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
                TileFilm* film, StageClock* clock, RenderStats* stats) {
-  const int most = plan.sampling.samples_per_round;
-  for (; first < end; first += most) {
-    PlaceSamples(plan.sampling, tile, work->sight, first, std::min(most, end - first),
-                 &work->samples);
+  const int per_round = plan.sampling.samples_per_round;
+  for (; first < end; first += per_round) {
+    MakeSamples(plan.sampling, tile, work->shapes, first, std::min(per_round, end - first),
+                &work->samples);
     ShadeSamples(plan, work, clock, stats);
     AddToFilm(plan.film, BatchOf(plan, *work), &work->layer_room, film);
     clock->Charge(Stage::kFilm);
   }
 }
 
+// Finds the shapes that the tile's rays may hit. False if the tile shows nothing but a background
+// of one colour.
+bool EnterTile(const FramePlan& plan, const Window& tile, TileWork* work, StageClock* clock) {
+  FindTileShapes(plan.hits, tile, &work->shapes);
+  clock->Charge(Stage::kIntersect);
+  return ShowsAnything(plan, work->shapes);
+}
+
 }  // namespace
 
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats) {
-  FindSight(plan.hits, tile, &work->sight);
-  clock->Charge(Stage::kIntersect);
-  if (!ShowsAnything(plan, work->sight) && HasUnitWeights(plan.sampling.sampler)) {
+  if (!EnterTile(plan, tile, work, clock) && HasUnitWeights(plan.sampling.sampler)) {
     ShowBackground(plan, tile, strip, blank);
     clock->Charge(Stage::kFilm);
     return;
   }
-  ChoosePlaces(plan.sampling, tile, work->sight, &work->samples);
+  ChooseSampledPixels(plan.sampling, tile, work->shapes, &work->samples);
   if (plan.film.one_sample) return RenderOnce(plan, tile, work, strip, blank, clock, stats);
   *blank = 0;
   clock->Charge(Stage::kSample);
@@ -65,12 +71,11 @@ void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip
   clock->Charge(Stage::kFilm);
 }
 
-void AddSamples(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
-                TileFilm* film, StageClock* clock, RenderStats* stats) {
-  FindSight(plan.hits, tile, &work->sight);
-  clock->Charge(Stage::kIntersect);
-  if (!ShowsAnything(plan, work->sight)) return;  // the film is of hits alone
-  ChoosePlaces(plan.sampling, tile, work->sight, &work->samples);
+void AddTileSamples(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
+                    TileFilm* film, StageClock* clock, RenderStats* stats) {
+  // Films are sums over hits, so a tile without any has nothing to add.
+  if (!EnterTile(plan, tile, work, clock)) return;
+  ChooseSampledPixels(plan.sampling, tile, work->shapes, &work->samples);
   clock->Charge(Stage::kSample);
   AddRounds(plan, tile, first, end, work, film, clock, stats);
 }

@@ -6,14 +6,14 @@
 
 namespace nacre {
 
-// Renders the pixels of `tile`, which lies within the strip and has at most kBatchCapacity of them.
-// `blank`, in: 1 if the strip already holds the background there; out: whether it does now.
+// Renders all samples of the pixels of `tile`, at most kBatchCapacity pixels within the strip.
+// `blank`: 1 if the strip already holds the background in the whole tile; updated.
 void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats);
 
-// Adds samples [first, end) of the pixels of `tile` to its film, which StartTile has emptied before
-// the first of them. Not for plans whose film has one sample.
-void AddSamples(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
-                TileFilm* film, StageClock* clock, RenderStats* stats);
+// Adds samples [first, end) of the pixels of `tile` to its film, which StartTile has cleared before
+// the first sample. Not for FilmPlan::one_sample.
+void AddTileSamples(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
+                    TileFilm* film, StageClock* clock, RenderStats* stats);
 
 }  // namespace nacre

@@ -9,8 +9,8 @@ void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, Rend
   const FilmBatch& film = w.samples.film;
   stats->camera_rays += film.count;
   clock->Charge(Stage::kSample);
-  TraceCamera(plan.hits, w.sight, film, &w.trace_room, &w.hits);
-  if (w.sight.shapes) clock->Charge(Stage::kIntersect);
+  TraceCamera(plan.hits, w.shapes, film, &w.trace_room, &w.hits);
+  if (w.shapes.any) clock->Charge(Stage::kIntersect);
   const size_t hits = w.hits.batch.count;
   stats->hits += hits;
   ResolveSurfaces(plan.surfaces, film.x.data(), &w.hits, &w.sort_room, &w.surfaces);
@@ -19,7 +19,7 @@ void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, Rend
     ShadeDirect({plan.direct, w.surfaces, w.direct_room, w.radiance, *clock, *stats},
                 w.samples.numbers ? &*w.samples.numbers : nullptr);
   }
-  SeeSky(plan.direct, film, hits, &w.direct_room, &w.radiance);
+  ShadeSky(plan.direct, film, hits, &w.direct_room, &w.radiance);
 }
 
 }  // namespace nacre

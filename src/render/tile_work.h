@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// render/tile_work.h: the buffers of one worker, stage by stage, and the way through the stages
-// that all samples take.
+// render/tile_work.h: the buffers of one worker, stage by stage, and the stages that all samples
+// pass through.
 #pragma once
 
 #include <atomic>
@@ -13,15 +13,15 @@
 #include "render/samples.h"
 #include "render/stage_clock.h"
 #include "render/surfaces.h"
-#include "render/tile_sight.h"
+#include "render/tile_shapes.h"
 
 namespace nacre {
 
-// Reused from tile to tile. Each is written by one stage alone, with its room; but ResolveSurfaces
-// swaps its buffers with those of `hits`, where it need not copy them.
+// Reused from tile to tile. Each result and its room are written by one stage only, which a comment
+// names; but ResolveSurfaces swaps its buffers with those of `hits` where it need not sort.
 struct TileWork {
-  TileSight sight;        // FindSight
-  CameraSamples samples;  // PlaceSamples, or adaptive sampling
+  TileShapes shapes;      // FindTileShapes
+  CameraSamples samples;  // MakeSamples, or adaptive sampling
   CameraHits hits;        // TraceCamera
   TraceRoom trace_room;
   Surfaces surfaces;  // ResolveSurfaces
@@ -33,17 +33,18 @@ struct TileWork {
   const std::atomic<bool>* cancel = nullptr;  // RenderSettings::cancel
 };
 
-// From work->samples, whose tile FindSight has seen, to their radiance. Throws Cancelled.
+// Traces and shades work->samples, which belong to a tile whose shapes are in work->shapes: fills
+// `hits`, `surfaces` and `radiance`. Throws Cancelled.
 void ShadeSamples(const FramePlan& plan, TileWork* work, StageClock* clock, RenderStats* stats);
 
-// What the film takes of the work.
+// What the film reads of the work.
 inline ShadedBatch BatchOf(const FramePlan& plan, const TileWork& work) {
   return {plan.surfaces, work.samples, work.surfaces, work.radiance};
 }
 
-// Whether there is anything in the tile but a background of one colour.
-inline bool ShowsAnything(const FramePlan& plan, const TileSight& sight) {
-  return sight.shapes || plan.film.sky;
+// Whether the tile may show anything but a background of one colour.
+inline bool ShowsAnything(const FramePlan& plan, const TileShapes& shapes) {
+  return shapes.any || plan.film.sky;
 }
 
 }  // namespace nacre

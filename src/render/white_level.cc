@@ -16,15 +16,13 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// No more spheres than this are asked how near a light is.
-constexpr size_t kMostAskedSpheres = 4096;
-
-double Largest(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
+// The distance of a light is computed for at most this many spheres.
+constexpr size_t kMaxMeasuredSpheres = 4096;
 
 double LeastDistance(const Scene& scene, const std::vector<Imath::Box3d>& meshes,
                      const Vec3d& place) {
   double least = kNoLimit;
-  const size_t step = scene.spheres.size() / kMostAskedSpheres + 1;
+  const size_t step = scene.spheres.size() / kMaxMeasuredSpheres + 1;
   for (size_t i = 0; i < scene.spheres.size(); i += step) {
     const Sphere& sphere = scene.spheres[i];
     least = std::min(least, std::abs((place - sphere.center).length() - sphere.radius));
@@ -35,7 +33,7 @@ double LeastDistance(const Scene& scene, const std::vector<Imath::Box3d>& meshes
   return least;
 }
 
-// The largest value of an image: its mip levels are means.
+// The largest value of an image. Its other mip levels are means, and so no larger.
 double LargestTexel(const MipChain& image) {
   const MipLevel& level = image.levels[0];
   const auto count = static_cast<std::ptrdiff_t>(level.width) * level.height * image.channels;
@@ -51,10 +49,11 @@ bool IsClassic(const Material& material) {
 }
 
 double LargestEmission(const Scene& scene) {
-  std::vector<double> texels(scene.images.size(), -1);  // the largest of each image; -1: not asked
+  std::vector<double> texels(scene.images.size(),
+                             -1);  // the largest of each image; -1: not computed
   double largest = 0;
   for (const Material& material : scene.materials) {
-    double emission = Largest(material.emission);
+    double emission = LargestChannel(material.emission);
     if (emission > 0 && material.emission_map.valid()) {
       const size_t image = scene.textures[material.emission_map.index].image.index;
       if (texels[image] < 0) texels[image] = LargestTexel(*scene.images[image].texels);
@@ -70,12 +69,12 @@ double WhiteLevel(const Scene& scene) {
   for (size_t i = 0; i < meshes.size(); ++i) {
     for (const Vec3d& position : scene.meshes[i].positions) meshes[i].extendBy(position);
   }
-  // Every shape is farther away than nothing is, where there are none.
+  // Without shapes the distance is infinite, and the irradiance 0.
   const auto irradiance = [&](const auto& light) {
     const double d = LeastDistance(scene, meshes, light.position);
     const Attenuation& a = light.attenuation;
     const double falloff = (a.quadratic * d + a.linear) * d + a.constant;
-    const double intensity = Largest(light.intensity);
+    const double intensity = LargestChannel(light.intensity);
     return intensity == 0 || d == kNoLimit ? 0 : intensity / falloff;
   };
   const bool classic = std::any_of(scene.materials.begin(), scene.materials.end(), IsClassic);
@@ -83,15 +82,16 @@ double WhiteLevel(const Scene& scene) {
   double white = 0;
   for (const Light& light : scene.lights) {
     white += std::visit(
-        Overloaded{[](const AmbientLight& l) { return Largest(l.radiance); },
-                   [&](const DirectionalLight& l) { return of_irradiance * Largest(l.irradiance); },
-                   [&](const PointLight& l) { return of_irradiance * irradiance(l); },
-                   [&](const SpotLight& l) { return of_irradiance * irradiance(l); },
-                   [](const auto&) { return kNoLimit; }},
+        Overloaded{
+            [](const AmbientLight& l) { return LargestChannel(l.radiance); },
+            [&](const DirectionalLight& l) { return of_irradiance * LargestChannel(l.irradiance); },
+            [&](const PointLight& l) { return of_irradiance * irradiance(l); },
+            [&](const SpotLight& l) { return of_irradiance * irradiance(l); },
+            [](const auto&) { return kNoLimit; }},
         light.kind);
   }
   if (white == kNoLimit) return white;
-  return std::max({white, Largest(scene.background), LargestEmission(scene)});
+  return std::max({white, LargestChannel(scene.background), LargestEmission(scene)});
 }
 
 }  // namespace nacre

@@ -55,8 +55,8 @@ FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 RENDER_ORDER = """
     settings stats stage_clock explanation layers camera camera_kernel frame_window white_level plan_notes
     film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel light_cull mesh_windows
-    outline_coverage sphere_pictures
-    prepared_scene hits_plan tile_sight samples hits surfaces
+    outline_coverage sphere_projections
+    prepared_scene hits_plan tile_shapes samples hits surfaces
     direct_plan highlights mesh_glints shadow_plan brightest_object direct_batch
     shadow_origins mapped_horizon sampled_shadows sampled_lights mesh_radiance direct mesh_shading
     film hit_positions film_layers

@@ -300,8 +300,8 @@ TEST_CASE("pixels on an outline weigh what hits by the share that is covered") {
   int partial = 0;
   for (int y = 0; y < 120; ++y) {
     for (int x = 0; x < 120; ++x) {
-      const OutlineForm outline = OutlineAround(frame, sphere, x + 0.5, y + 0.5);
-      REQUIRE(BendsLittle(outline));
+      const OutlineForm outline = MakeOutlineForm(frame, sphere, x + 0.5, y + 0.5);
+      REQUIRE(IsGentlyCurved(outline));
       if (std::abs(outline.one) > 2 * std::hypot(outline.x, outline.y)) continue;
       const double share = CoveredShare(outline, 0.5);
       partial += share > 0 && share < 1 ? 1 : 0;

@@ -47,7 +47,7 @@ TEST_CASE("Spans are as long as hits follow one another, within a row and a samp
       for (const size_t begin : {size_t{0}, count / 3}) {
         ForEachTarget([&](Target) {
           std::vector<HitSpan> spans(3);  // of an earlier batch
-          FindSpans({hits.data(), begin, count}, rays.pixels, row, weights, &spans);
+          FindHitSpans({hits.data(), begin, count}, rays.pixels, row, weights, &spans);
           CAPTURE(rays.pixels, rays.hit_share, row, begin);
           size_t hit = begin, wrong = 0;
           for (size_t k = 0; k < spans.size(); ++k) {
@@ -90,7 +90,7 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
         for (float& v : floats.emplace_back(hits.size())) v = value(random);
       }
       std::vector<HitSpan> spans;
-      FindSpans({hits.data(), 0, count}, rays.pixels, rays.pixels, weights, &spans);
+      FindHitSpans({hits.data(), 0, count}, rays.pixels, rays.pixels, weights, &spans);
       for (const int channels : {1, 3, 4}) {
         for (const int terms : {0, 1, 2}) {
           for (const auto& [constant, further] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.7}}) {

@@ -42,7 +42,7 @@ TEST_CASE("bands hold every row once") {
   for (const int band_rows : {16, 32}) {
     for (const int height : {1, 15, 16, 17, 32, 33, 47, 100, 1080, 65536}) {
       const Window frame{0, 0, 5, height};
-      const int most = MostBands(frame, band_rows);
+      const int most = MaxBands(frame, band_rows);
       for (const int count : {1, 2, 3, 7, 64, most - 1, most}) {
         if (count >= 1 && count <= most) CheckBands(frame, count, band_rows);
       }

@@ -15,12 +15,12 @@ namespace {
 
 constexpr PixelRange kNone{1, -1};
 
-double HalfWidth(const Measured& measured) { return std::sqrt(measured.half_width2); }
+double HalfWidth(const Interval& measured) { return std::sqrt(measured.half_width2); }
 
 // Student's t of three degrees of freedom, 3.182446305, times the standard error of the mean, here
 // sqrt(5/3) / 2.
 TEST_CASE("an interval is Student's") {
-  const Measured measured = MeasureSpread({1, 2, 3, 4});
+  const Interval measured = MeasureSpread({1, 2, 3, 4});
   CHECK(measured.mean == 2.5);
   CHECK(std::abs(HalfWidth(measured) - 3.182446305 * std::sqrt(5.0 / 3) / 2) < 1e-8);
   CHECK(MeasureSpread({3, 3, 3, 3}).half_width2 == 0);
@@ -43,7 +43,7 @@ TEST_CASE("hits are weighed by the share that is covered") {
   // Of 16 samples 1, 3, 2 and 2 of four hit, all with 5, before 1.
   const double hits[kReplicates] = {0.25, 0.75, 0.5, 0.5};
   const double values[kReplicates] = {2, 4, 3, 3};
-  const Measured measured = MeasureCovered(values, hits, 0.375, {5, 5}, 1, 16);
+  const Interval measured = MeasureCovered(values, hits, 0.375, {5, 5}, 1, 16);
   CHECK(std::abs(measured.mean - (1 + 0.375 * 4)) < 1e-15);
   CHECK(measured.half_width2 < 1e-30);
   // Other hits around it are between 4 and 6: eight of them that agree may be wrong by an eighth.
@@ -55,11 +55,11 @@ TEST_CASE("one hit is not all hits, and none is not nothing") {
   const double one[kReplicates] = {0.25, 0, 0, 0};
   const double background = 1;
   // 5 in one of 16 samples, of which a tenth would hit.
-  const Measured single = MeasureCovered({2, 1, 1, 1}, one, 0.1, {5, 5}, background, 16);
+  const Interval single = MeasureCovered({2, 1, 1, 1}, one, 0.1, {5, 5}, background, 16);
   CHECK(std::abs(single.mean - 1.4) < 1e-15);
   CHECK(std::abs(HalfWidth(single) - 0.1 * 4) < 1e-15);
   const double none[kReplicates] = {};
-  const Measured missed = MeasureCovered({1, 1, 1, 1}, none, 0.1, {3, 5}, background, 16);
+  const Interval missed = MeasureCovered({1, 1, 1, 1}, none, 0.1, {3, 5}, background, 16);
   CHECK(missed.mean == 1);
   CHECK(std::abs(HalfWidth(missed) - 0.1 * 4) < 1e-15);
 }
@@ -70,7 +70,7 @@ TEST_CASE("a block's intervals are its pixels', to the bit") {
   alignas(64) double sums[kReplicates][3][kBlockPixels];
   uint32_t samples[kBlockPixels];
   // White is passed by some of the sums, of one sample.
-  constexpr WantedError kWanted{0.7, 1.2};
+  constexpr ErrorBound kErrorBound{0.7, 1.2};
   for (int round = 0; round < 20; ++round) {
     for (auto& replicate : sums) {
       for (auto& channel : replicate) {
@@ -85,24 +85,24 @@ TEST_CASE("a block's intervals are its pixels', to the bit") {
     }
     ForEachTarget([&](Target) {
       BlockIntervals intervals;
-      MeasureBlock(channels, samples, kWanted, &intervals);
+      MeasureBlock(channels, samples, kErrorBound, &intervals);
       for (size_t i = 0; i < kBlockPixels; ++i) {
         bool narrow = true;
         double widest = 0, strictest = std::numeric_limits<double>::infinity();
         for (size_t c = 0; c < 3; ++c) {
           double values[kReplicates];
           for (size_t r = 0; r < kReplicates; ++r) values[r] = sums[r][c][i] * (1.0 / samples[i]);
-          const Measured measured = MeasureSpread(values);
-          const double wanted = Wanted(kWanted, measured.mean);
-          narrow = narrow && measured.half_width2 <= wanted * wanted;
+          const Interval measured = MeasureSpread(values);
+          const double tolerance = ToleranceAt(kErrorBound, measured.mean);
+          narrow = narrow && measured.half_width2 <= tolerance * tolerance;
           widest = std::max(widest, measured.half_width2);
-          strictest = std::min(strictest, wanted);
+          strictest = std::min(strictest, tolerance);
         }
         CAPTURE(round, i);
         CHECK((intervals.narrow >> i & 1) == (narrow ? 1 : 0));
         if (i == 3) continue;  // no number
         CHECK(intervals.half_width[i] == std::sqrt(widest));
-        CHECK(intervals.wanted[i] == strictest);
+        CHECK(intervals.tolerance[i] == strictest);
       }
     });
   }

@@ -43,7 +43,7 @@ Light RandomLight(Uniform* uniform, int i) {
 }
 
 // What decides in the end: n.l > 0 and cos a > cos cutoff.
-bool Reaches(const LightReach& light, const Vec3d& position, const Vec3d& normal) {
+bool Reaches(const LightGeometry& light, const Vec3d& position, const Vec3d& normal) {
   const Vec3d to_light = light.positional ? (light.place - position).normalized() : light.place;
   if (normal.dot(to_light) <= 0) return false;
   return !(light.cos_cutoff >= -1) || -to_light.dot(light.axis) > light.cos_cutoff;
@@ -69,14 +69,14 @@ TEST_CASE("a culled light reaches no hit") {
       directions.normal.z[i] = static_cast<float>(normal.z);
     }
     const BatchBounds bounds = BoundHits(hits, directions);
-    const LightReach light = ReachOf(RandomLight(&uniform, round), Vec3d(0));
+    const LightGeometry light = GeometryOf(RandomLight(&uniform, round), Vec3d(0));
     bool any = false;
     for (size_t i = 0; i < hits.count; ++i) {
       const Vec3d position(hits.position.x[i], hits.position.y[i], hits.position.z[i]);
       const Vec3d normal(directions.normal.x[i], directions.normal.y[i], directions.normal.z[i]);
       any = any || Reaches(light, position, normal);
     }
-    const bool may = MayReach(light, bounds);
+    const bool may = MayIlluminate(light, bounds);
     CAPTURE(round);
     CHECK((may || !any));
     culled += may ? 0 : 1;

@@ -92,8 +92,8 @@ void VisitOutlines(Projection projection, const Take& take) {
   for (int i = 0; i < 300; ++i) {
     const View view = MakeView(projection, &random);
     // From the middle of the picture outward until the ray misses.
-    const OutlineForm form = OutlineAround(view.frame, view.sphere, 320, 240);
-    if (!BendsLittle(form)) continue;
+    const OutlineForm form = MakeOutlineForm(view.frame, view.sphere, 320, 240);
+    if (!IsGentlyCurved(form)) continue;
     const double determinant = form.xx * form.yy - form.xy * form.xy;
     const double middle_x = 320 + (form.y * form.xy - form.x * form.yy) / determinant;
     const double middle_y = 240 + (form.x * form.xy - form.y * form.xx) / determinant;
@@ -118,8 +118,8 @@ TEST_CASE("the covered share of a pixel is that of its lines") {
     int count = 0, partial = 0;
     VisitOutlines(projection, [&](const View& view, double x, double y) {
       for (const double reach : {0.5, 0.2}) {
-        const OutlineForm outline = OutlineAround(view.frame, view.sphere, x, y);
-        if (!BendsLittle(outline)) continue;
+        const OutlineForm outline = MakeOutlineForm(view.frame, view.sphere, x, y);
+        if (!IsGentlyCurved(outline)) continue;
         const double share = CoveredShare(outline, reach);
         CAPTURE(x, y, reach, view.sphere.center.length(), view.sphere.radius);
         CHECK(std::abs(share - ShareByLines(view, x, y, reach)) < 1e-6);
@@ -140,12 +140,12 @@ TEST_CASE("the covered shares of all pixels add up to the ellipse") {
     int count = 0;
     for (int i = 0; i < 20; ++i) {
       const View view = MakeView(projection, &random);
-      const OutlineForm f = OutlineAround(view.frame, view.sphere, 320, 240);
-      if (!BendsLittle(f)) continue;
+      const OutlineForm f = MakeOutlineForm(view.frame, view.sphere, 320, 240);
+      if (!IsGentlyCurved(f)) continue;
       const double determinant = f.xx * f.yy - f.xy * f.xy;
       const double x = 320 + (f.y * f.xy - f.x * f.yy) / determinant;
       const double y = 240 + (f.x * f.xy - f.y * f.xx) / determinant;
-      const OutlineForm middle = OutlineAround(view.frame, view.sphere, x, y);
+      const OutlineForm middle = MakeOutlineForm(view.frame, view.sphere, x, y);
       const double half_x = std::sqrt(-middle.one * f.yy / determinant) + 1;
       const double half_y = std::sqrt(-middle.one * f.xx / determinant) + 1;
       if (half_x * half_y > 1e6) continue;
@@ -157,7 +157,7 @@ TEST_CASE("the covered shares of all pixels add up to the ellipse") {
           for (const double dx : {0.0, 1.0}) {
             for (const double dy : {0.0, 1.0}) corners += Hits(view, px + dx, py + dy) ? 1 : 0;
           }
-          const OutlineForm form = OutlineAround(view.frame, view.sphere, px + 0.5, py + 0.5);
+          const OutlineForm form = MakeOutlineForm(view.frame, view.sphere, px + 0.5, py + 0.5);
           // How far off the outline is, but for its bend.
           const double off = std::abs(form.one) / (2 * std::hypot(form.x, form.y));
           if (off > 1) {
@@ -185,8 +185,8 @@ TEST_CASE("outlines that bend much are told from those that do not") {
   scene.camera.height = 200;  // a unit is a pixel
   scene.camera.position = {0, 0, 10};
   const CameraFrame frame = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
-  CHECK(BendsLittle(OutlineAround(frame, {{0, 0, -10}, 8.1}, 50, 60)));
-  CHECK_FALSE(BendsLittle(OutlineAround(frame, {{0, 0, -10}, 7.9}, 50, 60)));
+  CHECK(IsGentlyCurved(MakeOutlineForm(frame, {{0, 0, -10}, 8.1}, 50, 60)));
+  CHECK_FALSE(IsGentlyCurved(MakeOutlineForm(frame, {{0, 0, -10}, 7.9}, 50, 60)));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "render/camera.h"
 #include "render/direct_plan.h"
 #include "render/frame_plan.h"
-#include "render/camera.h"
 #include "render/render.h"
 #include "targets.h"
 #include "visibility/sphere_test.h"
@@ -94,7 +93,7 @@ TEST_CASE("a light in view is shown, and one well out of view is not") {
       light.radius = uniform(0.05, 1);
       scene.lights = {Named("lamp", light)};
       PreparedScene prepared;
-      const bool is_shown = ShowLights(scene, &prepared) != nullptr;
+      const bool is_shown = AddVisibleLights(scene, &prepared) != nullptr;
       CAPTURE(light.center.x, light.center.y, light.center.z, light.radius);
       const bool is_met = IsMet(scene, light);
       if (is_met) REQUIRE(is_shown);

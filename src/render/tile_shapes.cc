@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render/tile_sight.h"
+#include "render/tile_shapes.h"
 
 #include <algorithm>
 
@@ -18,17 +18,17 @@ bool NeedsPositions(const HitsPlan& plan, const TileCandidates& candidates) {
 
 }  // namespace
 
-void FindSight(const HitsPlan& plan, const Window& tile, TileSight* sight) {
-  sight->shapes = sight->triangles = false;
+void FindTileShapes(const HitsPlan& plan, const Window& tile, TileShapes* shapes) {
+  shapes->any = shapes->triangles = false;
   if (plan.intersector == nullptr) return;
   const bool spheres =
       !plan.primitives.scene->spheres.empty() &&
-      (!plan.binned || plan.intersector->EnterTile(tile, plan.tile_rays, &sight->spheres));
-  sight->triangles =
+      (!plan.binned || plan.intersector->EnterTile(tile, plan.tile_rays, &shapes->spheres));
+  shapes->triangles =
       std::any_of(plan.mesh_windows.begin(), plan.mesh_windows.end(),
                   [&](const Window& window) { return !Intersect(window, tile).empty(); });
-  if (spheres) sight->positions = NeedsPositions(plan, sight->spheres);
-  sight->shapes = spheres || sight->triangles;
+  if (spheres) shapes->positions = NeedsPositions(plan, shapes->spheres);
+  shapes->any = spheres || shapes->triangles;
 }
 
 }  // namespace nacre

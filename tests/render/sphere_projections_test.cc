@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/render/sphere_pictures_test.cc: which outlines a part of the film may see.
-#include "render/sphere_pictures.h"
+// tests/render/sphere_projections_test.cc: which outlines a part of the film may see.
+#include "render/sphere_projections.h"
 
 #include <cmath>
 #include <initializer_list>
@@ -32,11 +32,11 @@ TileCandidates Candidates(std::initializer_list<TraceSphere> spheres) {
   return candidates;
 }
 
-SeenOutlines Around(const CameraFrame& frame, const TileCandidates& candidates, double x,
-                    double y) {
-  const auto pictures = PicturesOf(frame, candidates);
-  REQUIRE(pictures);
-  return OutlinesAround(frame, *pictures, x, y, 0.5);
+VisibleOutlines Around(const CameraFrame& frame, const TileCandidates& candidates, double x,
+                       double y) {
+  const auto projections = ProjectSpheres(frame, candidates);
+  REQUIRE(projections);
+  return FindVisibleOutlines(frame, *projections, x, y, 0.5);
 }
 
 TEST_CASE("outlines are seen where they are") {
@@ -46,14 +46,14 @@ TEST_CASE("outlines are seen where they are") {
     const bool perspective = projection == Projection::kPerspective;
     const TraceSphere near{{0, 0, -50}, 15};
     const double edge = 100 + (perspective ? 50 * 15 / std::sqrt(50.0 * 50 - 15 * 15) : 15);
-    const TileCandidates alone = Candidates({near});
-    CHECK(Around(frame, alone, edge, 100).any);
-    CHECK(Around(frame, alone, edge, 100).alone != nullptr);
-    CHECK(Around(frame, alone, edge + 0.4, 100).any);
-    CHECK(Around(frame, alone, edge - 0.4, 100).any);
-    CHECK_FALSE(Around(frame, alone, edge + 1.5, 100).any);
-    CHECK_FALSE(Around(frame, alone, edge - 1.5, 100).any);
-    CHECK_FALSE(Around(frame, alone, 100, 100).any);
+    const TileCandidates only_sphere = Candidates({near});
+    CHECK(Around(frame, only_sphere, edge, 100).any);
+    CHECK(Around(frame, only_sphere, edge, 100).only_sphere != nullptr);
+    CHECK(Around(frame, only_sphere, edge + 0.4, 100).any);
+    CHECK(Around(frame, only_sphere, edge - 0.4, 100).any);
+    CHECK_FALSE(Around(frame, only_sphere, edge + 1.5, 100).any);
+    CHECK_FALSE(Around(frame, only_sphere, edge - 1.5, 100).any);
+    CHECK_FALSE(Around(frame, only_sphere, 100, 100).any);
 
     // Another one behind it, whose outline it hides, and one whose picture holds it.
     const TraceSphere hidden{{0, 0, -200}, 10}, behind{{0, 0, -200}, 150};
@@ -63,7 +63,7 @@ TEST_CASE("outlines are seen where they are") {
     CHECK_FALSE(Around(frame, Candidates({hidden, near}), hidden_edge, 100).any);
     for (const auto& candidates : {Candidates({near, behind}), Candidates({behind, near})}) {
       CHECK(Around(frame, candidates, edge, 100).any);
-      CHECK(Around(frame, candidates, edge, 100).alone == nullptr);
+      CHECK(Around(frame, candidates, edge, 100).only_sphere == nullptr);
     }
   }
 }
@@ -74,22 +74,22 @@ TEST_CASE("a sphere around the camera is seen everywhere and has no outline") {
   const double edge = 100 + 50 * 8.0 / 6.0;  // tan(asin(0.8)) = 8 / 6
   CHECK_FALSE(Around(frame, Candidates({around}), 30, 40).any);
   CHECK(Around(frame, Candidates({around, before}), edge, 100).any);
-  CHECK(Around(frame, Candidates({around, before}), edge, 100).alone == nullptr);
+  CHECK(Around(frame, Candidates({around, before}), edge, 100).only_sphere == nullptr);
 }
 
 TEST_CASE("parallel rays that begin inside a sphere see its outline where they do") {
   const CameraFrame frame = Frame(Projection::kOrthographic);
-  CHECK(Around(frame, Candidates({{{0, 0, -16}, 15}}), 115, 100).alone != nullptr);
+  CHECK(Around(frame, Candidates({{{0, 0, -16}, 15}}), 115, 100).only_sphere != nullptr);
   const TileCandidates cut = Candidates({{{0, 0, -1}, 15}});
   CHECK(Around(frame, cut, 115, 100).any);
-  CHECK(Around(frame, cut, 115, 100).alone == nullptr);
+  CHECK(Around(frame, cut, 115, 100).only_sphere == nullptr);
   // They see its back, behind what is in it.
   const TileCandidates inside = Candidates({{{0, 0, -1}, 15}, {{0, 0, -5}, 2}});
   CHECK(Around(frame, inside, 102, 100).any);
   const TileCandidates behind = Candidates({{{0, 0, 9}, 15}});  // 12 = sqrt(15^2 - 9^2)
   CHECK_FALSE(Around(frame, behind, 115, 100).any);
   CHECK(Around(frame, behind, 112, 100).any);
-  CHECK(Around(frame, behind, 112, 100).alone == nullptr);
+  CHECK(Around(frame, behind, 112, 100).only_sphere == nullptr);
 }
 
 TEST_CASE("the horizon is seen where it is, and hides what is below it") {
@@ -106,17 +106,17 @@ TEST_CASE("the horizon is seen where it is, and hides what is below it") {
   CHECK_FALSE(Around(frame, candidates, 60, 102).any);
   CHECK_FALSE(Around(frame, candidates, 60, 102).background);
   CHECK(Around(frame, candidates, 60, 98).background);
-  // Of two spheres none is alone.
+  // Of two spheres none is only_sphere.
   const double top = 100 + 50 * (0.12 - 0.05);
   CHECK(Around(frame, Candidates({ground, ball}), 100, top).any);
-  CHECK(Around(frame, Candidates({ground, ball}), 100, top).alone == nullptr);
+  CHECK(Around(frame, Candidates({ground, ball}), 100, top).only_sphere == nullptr);
 }
 
 TEST_CASE("many spheres are not looked through") {
   const TraceSphere sphere{{0, 0, -10}, 1};
   const CameraFrame frame = Frame(Projection::kPerspective);
-  CHECK(PicturesOf(frame, Candidates({sphere, sphere, sphere})));
-  CHECK_FALSE(PicturesOf(
+  CHECK(ProjectSpheres(frame, Candidates({sphere, sphere, sphere})));
+  CHECK_FALSE(ProjectSpheres(
       frame, Candidates({sphere, sphere, sphere, sphere, sphere, sphere, sphere, sphere, sphere})));
 }
 

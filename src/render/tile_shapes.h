@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// render/tile_shapes.h: which of the scene's shapes the rays of a tile may hit, found before any of
+// them is traced.
+#pragma once
+
+#include "base/image.h"
+#include "render/hits_plan.h"
+#include "visibility/tile_kernel.h"
+
+namespace nacre {
+
+struct TileShapes {
+  bool any = false;        // rays may hit anything at all
+  bool triangles = false;  // rays may hit triangles
+  bool positions = true;   // hits need HitBatch::position
+  TileCandidates spheres;  // that rays may hit; valid if HitsPlan::binned
+};
+
+// `tile` must lie within one row of cells (visibility/sphere_bins.h).
+void FindTileShapes(const HitsPlan& plan, const Window& tile, TileShapes* shapes);
+
+}  // namespace nacre
