@@ -48,8 +48,8 @@ void BenchClosest(benchmark::State& state, const SphereScene& which) {
 template <class Trace>
 void ForEachTile(const Intersector& intersector, TileCandidates* candidates, const Trace& trace) {
   for (int y0 = 0; y0 < kHeight; y0 += kCellSize) {
-    for (int x0 = 0; x0 < kWidth; x0 += kWidestTile) {
-      const Window tile{x0, y0, std::min(x0 + kWidestTile, kWidth),
+    for (int x0 = 0; x0 < kWidth; x0 += kMaxTileWidth) {
+      const Window tile{x0, y0, std::min(x0 + kMaxTileWidth, kWidth),
                         std::min(y0 + kCellSize, kHeight)};
       if (intersector.EnterTile(tile, TileRays::kSamples, candidates)) trace(tile);
     }

@@ -69,15 +69,14 @@ Image Finish(const FramePlan& plan, nacre::Image rendered, const nacre::RenderSt
   // In files, colours and normals are of half floats.
   const std::vector<ChannelSpec> in_files = StripChannels(plan.film.layers, PixelType::kHalf);
   for (size_t i = 0; i < in_files.size(); ++i) rendered.channels[i].type = in_files[i].type;
-  Image image = ToPublic(std::move(rendered));
   nacre::ExrHeader header = MakeExrHeader(plan, false);
   header.attributes[kRenderTimeAttribute] = static_cast<float>(counted.render_seconds);
-  AddMetadata(header, &image);
+  AddMetadata(header, &rendered);
   if (stats != nullptr) {
     *stats = {counted.camera_rays,    counted.shadow_rays, plan_seconds,
               counted.render_seconds, counted.threads,     plan.why.notes};
   }
-  return image;
+  return ToPublic(std::move(rendered));
 }
 
 Image Render(const Scene& scene, const RenderSettings& settings, RenderStats* stats) {

@@ -93,12 +93,12 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
       FindHitSpans({hits.data(), 0, count}, rays.pixels, rays.pixels, weights, &spans);
       for (const int channels : {1, 3, 4}) {
         for (const int terms : {0, 1, 2}) {
-          for (const auto& [constant, further] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.7}}) {
+          for (const auto& [constant, constant2] : {std::pair{0.0, 0.0}, {0.1, 0.0}, {0.1, 0.7}}) {
             HitValues values{.channels = channels,
                              .a = {},
                              .b = {},
                              .constant = {constant, 0, 0},
-                             .further = {further, 0, 0}};
+                             .constant2 = {constant2, 0, 0}};
             // Each ray's pixel once more, by itself.
             std::vector<double> expected[4];
             for (int c = 0; c < std::min(channels, 3); ++c) {
@@ -110,7 +110,7 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
               for (size_t i = 0; i < count; ++i) {
                 double worth = terms > 0 ? double{a[i]} : 0.0;
                 if (terms > 1) worth += double{b[i]};
-                worth = worth + values.constant[c] + values.further[c];
+                worth = worth + values.constant[c] + values.constant2[c];
                 const double weighted = weights[hits[i] / rays.pixels] * worth;  // never fused
                 expected[c][hits[i] % rays.pixels] += weighted;
               }
@@ -125,7 +125,8 @@ TEST_CASE("Hits add their weight times what they are worth, in doubles", "[rende
               double* const to[4] = {sums[0].data(), sums[1].data(), sums[2].data(),
                                      sums[3].data()};
               AddHits(values, spans, to);
-              CAPTURE(weights[2], rays.pixels, rays.hit_share, channels, terms, constant, further);
+              CAPTURE(weights[2], rays.pixels, rays.hit_share, channels, terms, constant,
+                      constant2);
               for (int c = 0; c < channels; ++c) {
                 CHECK(std::vector<double>(sums[c].begin(), sums[c].end()) == expected[c]);
               }

@@ -44,7 +44,8 @@ Light RandomLight(Uniform* uniform, int i) {
 
 // What decides in the end: n.l > 0 and cos a > cos cutoff.
 bool Reaches(const LightGeometry& light, const Vec3d& position, const Vec3d& normal) {
-  const Vec3d to_light = light.positional ? (light.place - position).normalized() : light.place;
+  const Vec3d to_light =
+      light.positional ? (light.position - position).normalized() : light.position;
   if (normal.dot(to_light) <= 0) return false;
   return !(light.cos_cutoff >= -1) || -to_light.dot(light.axis) > light.cos_cutoff;
 }
