@@ -100,9 +100,8 @@ void WeightDiffuse(const LitBatch& lit, const SamplingStrategies& strategies) {
   for (const MaterialRun& run : lit.runs()) {
     if (!strategies.cosine || run.shading->layers.empty()) continue;
     UnderLayersPdf(*run.shading, lit.RangeOf(run), lit.room.directions.to_light,
+                   strategies.light ? lit.room.directions.pdf.data() : nullptr,
                    lit.room.pdf.data());
-    if (!strategies.light) continue;
-    for (size_t i = run.begin; i < run.end; ++i) lit.room.pdf[i] += lit.room.directions.pdf[i];
   }
   WeightByPdf(lit);
 }

@@ -11,10 +11,6 @@
 namespace nacre {
 namespace {
 
-double LargestOf(const Rgb& color) { return std::max({color.x, color.y, color.z}); }
-
-Vec3d DirectionAt(const Soa3<float>& soa, size_t i) { return {soa.x[i], soa.y[i], soa.z[i]}; }
-
 // A hit of the material, and how likely a layer is sampled rather than what lies below it.
 class LayersOfHit {
  public:
@@ -22,9 +18,18 @@ class LayersOfHit {
       : material_(material),
         maps_(material.mapped_model ? range.textures : nullptr),
         i_(i),
-        normal_(DirectionAt(range.surface.normal, i)),
-        n_dot_v_(std::clamp(normal_.dot(DirectionAt(range.surface.to_view, i)), 0.0, 1.0)),
-        base_(LargestOf(maps_ != nullptr ? Rgb(DirectionAt(maps_->albedo, i)) : material.albedo)) {}
+        normal_(VectorAt(range.surface.normal, i)),
+        n_dot_v_(std::clamp(normal_.dot(VectorAt(range.surface.to_view, i)), 0.0, 1.0)),
+        // Rounded as the maps' is: a map of one value changes no direction.
+        base_(LargestChannel(maps_ != nullptr ? Rgb(VectorAt(maps_->albedo, i))
+                                              : Rgb(Vec3f(material.albedo)))) {
+    for (size_t k = 0; k < material.layers.size(); ++k) {
+      reflects_ = reflects_ || Share(Layer(k)) > 0;
+    }
+  }
+
+  // Whether any layer does.
+  bool Reflects() const { return reflects_; }
 
   Vec3d Sample(double u0, double u1) const {
     for (size_t k = material_.layers.size(); k-- > 0;) {
@@ -60,7 +65,7 @@ class LayersOfHit {
   // Of the albedo of the layer and of the base as the layer shows it, the layer's.
   double Share(const LayerModel& layer) const {
     const LayerReflection albedo = LayerAlbedo(layer, n_dot_v_);
-    const double lobe = LargestOf(albedo.lobe), sum = lobe + albedo.below * base_;
+    const double lobe = LargestChannel(albedo.lobe), sum = lobe + albedo.below * base_;
     return sum > 0 ? lobe / sum : 0;
   }
 
@@ -69,6 +74,7 @@ class LayersOfHit {
   size_t i_;
   Vec3d normal_;
   double n_dot_v_, base_;
+  bool reflects_ = false;
 };
 
 }  // namespace
@@ -76,17 +82,18 @@ class LayersOfHit {
 void SampleUnderLayers(const ShadingMaterial& material, const LobeRange& range, const float* u,
                        const float* v, Soa3<float>* to_light) {
   for (size_t i = range.begin; i < range.end; ++i) {
-    const Vec3f l(LayersOfHit(material, range, i).Sample(u[i], v[i]));
-    to_light->x[i] = l.x;
-    to_light->y[i] = l.y;
-    to_light->z[i] = l.z;
+    const LayersOfHit layers(material, range, i);
+    if (layers.Reflects()) SetVector(layers.Sample(u[i], v[i]), i, to_light);
   }
 }
 
 void UnderLayersPdf(const ShadingMaterial& material, const LobeRange& range,
-                    const Soa3<float>& to_light, float* pdf) {
+                    const Soa3<float>& to_light, const float* light_pdf, float* pdf) {
   for (size_t i = range.begin; i < range.end; ++i) {
-    pdf[i] = static_cast<float>(LayersOfHit(material, range, i).Pdf(DirectionAt(to_light, i)));
+    const LayersOfHit layers(material, range, i);
+    if (!layers.Reflects()) continue;
+    pdf[i] = static_cast<float>(layers.Pdf(VectorAt(to_light, i)));
+    if (light_pdf != nullptr) pdf[i] += light_pdf[i];
   }
 }
 

@@ -31,14 +31,16 @@ struct LobeRange {
   const HitTextures* textures = nullptr;  // of materials with maps
 };
 
-// Of materials with layers, in the place of SampleCosine: the diffuse component has the layers' own
-// reflection, which may lie where the cosine law has few directions. From the top down each layer
-// is sampled as often as its share of the albedo is, and the cosine law otherwise.
+// Of materials with layers, in the place of the directions that SampleCosine has made: the diffuse
+// component has the layers' own reflection, which may lie where the cosine law has few directions.
+// From the top down each layer is sampled as often as its share of the albedo is, and the cosine
+// law otherwise. Hits whose layers reflect nothing keep what is there, as hits without layers do.
 void SampleUnderLayers(const ShadingMaterial& material, const LobeRange& range, const float* u,
                        const float* v, Soa3<float>* to_light);
-// The pdf with which it chooses the directions.
+// The pdf with which it chooses the directions, plus `light_pdf`, if that is not null. The pdf of
+// hits whose layers reflect nothing stays.
 void UnderLayersPdf(const ShadingMaterial& material, const LobeRange& range,
-                    const Soa3<float>& to_light, float* pdf);
+                    const Soa3<float>& to_light, const float* light_pdf, float* pdf);
 
 // Directions by the material's lobe: the normals that are visible (Heitz 2018) of a GGX lobe,
 // shared out between it and the lobe of Kulla and Conty's compensation, of which PrepareRun must
