@@ -2,7 +2,9 @@
 // scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
 // read_generators.cc.
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/displace.h"
@@ -60,13 +62,66 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
   shape.RefuseOthers();
 }
 
+// The scene's materials of these names; none for those that there are not.
+std::vector<MaterialId> FindMaterials(const std::vector<std::string>& names,
+                                      const SceneContext& context) {
+  std::vector<MaterialId> ids;
+  ids.reserve(names.size());
+  for (const std::string& name : names) {
+    const auto found = context.materials.find(name);
+    ids.push_back(found != context.materials.end() ? found->second : MaterialId{});
+  }
+  return ids;
+}
+
+bool IsInRange(const Sphere& sphere) {
+  const Range& coordinate = limits::kCoordinate;
+  return coordinate.Contains(sphere.center.x) && coordinate.Contains(sphere.center.y) &&
+         coordinate.Contains(sphere.center.z) && limits::kLength.Contains(sphere.radius);
+}
+
+// Does what ReadShape does for each of them.
+void ReadRun(const SphereRun& run, const PlainSpheres& plain, const std::vector<MaterialId>& ids,
+             const JsonValue& shapes, SceneContext* context) {
+  for (size_t i = 0; i < run.spheres.size(); ++i) {
+    Sphere sphere = run.spheres[i];
+    const MaterialId id = ids[sphere.material.index];
+    if (!id.valid() || !IsInRange(sphere) || context->budget->IsSpent()) {  // it says what is wrong
+      const Json json = JsonOf(sphere, plain.MaterialOf(sphere));
+      ReadShape({json, shapes.path.Element(run.first + i), shapes.faults}, context);
+      continue;
+    }
+    sphere.material = id;
+    context->budget->Spend(1);
+    context->scene->spheres.push_back(sphere);
+  }
+}
+
 }  // namespace
 
-void ReadShapes(const JsonValue& value, SceneContext* context) {
+Json JsonOf(const Sphere& sphere, const std::string& material) {
+  const Vec3d& center = sphere.center;
+  return {{"type", "sphere"},
+          {"center", {center.x, center.y, center.z}},
+          {"radius", sphere.radius},
+          {"material", material}};
+}
+
+void ReadShapes(const JsonValue& value, const PlainSpheres& spheres, SceneContext* context) {
   if (!value.Expect(value.json.is_array(), "an array", "[{\"type\": \"sphere\", ...}, ...]"))
     return;
-  for (size_t i = 0; i < value.json.size(); ++i) {
-    ReadShape({value.json[i], value.path.Element(i), value.faults}, context);
+  const std::vector<MaterialId> ids = FindMaterials(spheres.materials, *context);
+  size_t count = 0;
+  for (const SphereRun& run : spheres.runs) count += run.spheres.size();
+  context->scene->spheres.reserve(count);
+  auto run = spheres.runs.begin();
+  size_t place = 0;
+  for (const Json& shape : value.json) {
+    ReadShape({shape, value.path.Element(place++), value.faults}, context);
+    if (run == spheres.runs.end() || run->first != place) continue;
+    ReadRun(*run, spheres, ids, value, context);
+    place += run->spheres.size();
+    ++run;
   }
 }
 
