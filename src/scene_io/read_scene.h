@@ -25,8 +25,8 @@ struct SceneSource {
 
 // What the text of a scene file says.
 struct SceneTree {
-  Json root;             // but for
-  PlainSpheres spheres;  // of its "shapes"
+  Json root;             // without the elements of "shapes" that are
+  PlainSpheres spheres;  // here
 };
 
 // Moves plain spheres into the tree if `pointer` points at or into the scene's shapes.

@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "scene/displace.h"
 #include "scene_io/readers.h"
+#include "scene_io/sphere_file.h"
+#include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
@@ -35,11 +37,47 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
   context->scene->meshes.push_back(std::move(mesh));
 }
 
+void ReadSpheres(JsonObject* shape, SceneContext* context) {
+  const auto member = [&](std::string_view name, const Json& json) {
+    return JsonValue{json, shape->path().Member(name), shape->faults()};
+  };
+  SphereRowSettings settings;
+  double radius = 0;
+  if (shape->Number("radius", limits::kLength, &radius)) settings.radius = radius;
+  if (const Json* material = shape->Find("material")) {
+    ReadMaterialId(member("material", *material), context, &settings.material);
+  }
+  if (const Json* materials = shape->Find("materials")) {
+    ReadMaterialList(member("materials", *materials), context, &settings.materials);
+  }
+  settings.by_name = &context->materials;
+  const Json* const file = shape->Require("file", "a .ply, .csv or .npy file");
+  // After a fault materials may be missing that the file names.
+  if (file == nullptr || shape->faults()->count() != 0) return;
+  const JsonPath path = shape->path().Member("file");
+  const JsonValue value{*file, path, shape->faults()};
+  std::string name;
+  if (!ReadText(value, &name)) return;
+  try {
+    std::vector<Sphere> spheres = ReadSphereFile(
+        ResolveReference(context->folder, name, context->references), settings, context->budget);
+    std::vector<Sphere>& all = context->scene->spheres;
+    if (all.empty()) {
+      all = std::move(spheres);
+    } else {
+      all.insert(all.end(), spheres.begin(), spheres.end());
+    }
+  } catch (const Error& error) {
+    AddFileFaults(error, value);
+  }
+}
+
 struct ShapeType {
   std::string_view name;
   void (*read)(JsonObject*, SceneContext*);
 };
-constexpr std::array<ShapeType, 7> kShapeTypes = {{{"sphere", ReadSphere},
+constexpr std::array<ShapeType, 8> kShapeTypes = {{{"sphere", ReadSphere},
+                                                   {"spheres", ReadSpheres},
                                                    {"mesh", ReadMesh},
                                                    {"icosphere", ReadIcosphere},
                                                    {"uv_sphere", ReadUvSphere},
@@ -51,7 +89,7 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
   std::array<std::string_view, kShapeTypes.size()> names;
   for (size_t i = 0; i < names.size(); ++i) names[i] = kShapeTypes[i].name;
   JsonObject shape(value);
-  shape.Require("type", "one of: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud");
+  shape.Require("type", "one of: sphere, spheres, mesh, icosphere, uv_sphere, grid, pair, cloud");
   size_t type = 0;
   if (!shape.Choice("type", names, &type)) return;
   try {

@@ -100,6 +100,9 @@ void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* mat
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);
 
+// A list of them, of one at least.
+void ReadMaterialList(const JsonValue& value, SceneContext* context, std::vector<MaterialId>* ids);
+
 // The required member "material" of a shape.
 void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id);
 
