@@ -117,6 +117,12 @@ bool ReadText(const JsonValue& value, std::string* out) {
   return true;
 }
 
+void AddFileFaults(const Error& error, const JsonValue& value) {
+  for (const Fault& fault : error.faults()) {
+    value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what, fault.hint);
+  }
+}
+
 void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,
                       const std::vector<std::string>& names) {
   // No hint for what is only counted: there may be a million, of a million names.

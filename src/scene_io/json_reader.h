@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/error.h"
 #include "base/vec.h"
 #include "scene/fault_list.h"
 #include "scene/limits.h"
@@ -50,6 +51,9 @@ bool ReadWhole(const JsonValue& value, const Range& range, int64_t* out);
 bool ReadColor(const JsonValue& value, const Range& range, Rgb* out);
 bool ReadPoint(const JsonValue& value, const Range& range, Vec3d* out);
 bool ReadText(const JsonValue& value, std::string* out);
+
+// Reports what is wrong with the file that the value names, or in it.
+void AddFileFaults(const Error& error, const JsonValue& value);
 
 // Reports that `word` is none of the names, with the nearest one or all of them as the hint.
 void FaultUnknownName(const JsonValue& value, std::string_view kind, const std::string& word,

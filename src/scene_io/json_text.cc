@@ -27,23 +27,22 @@ std::string LineAndColumn(std::string_view text, size_t bytes_read) {
   return fmt::format("{}:{}", line, before.size() - line_start + 1);
 }
 
-// Walks through the text and keeps track of how far it has come.
-struct CountingIterator {
-  using iterator_category = std::forward_iterator_tag;
+// Walks through the text. Its place is shared with the tree's builder, which may move on.
+struct SharedIterator {
+  using iterator_category = std::input_iterator_tag;
   using value_type = char;
   using difference_type = std::ptrdiff_t;
   using pointer = const char*;
   using reference = const char&;
 
-  const char* at = nullptr;
-  const char** reached = nullptr;
+  const char** at = nullptr;
 
-  reference operator*() const { return *at; }
-  CountingIterator& operator++() {
-    *reached = ++at;
+  reference operator*() const { return **at; }
+  SharedIterator& operator++() {
+    ++*at;
     return *this;
   }
-  bool operator==(const CountingIterator& other) const { return at == other.at; }
+  bool operator==(const SharedIterator& other) const { return *at == *other.at; }
 };
 
 // Builds the tree from the parser's events: its own builder reports neither repeated names nor
@@ -51,13 +50,22 @@ struct CountingIterator {
 class TreeBuilder : public nlohmann::json_sax<Json> {
  public:
   TreeBuilder(std::string_view text, const std::string& file, FaultList* faults,
-              const std::function<void(double)>& on_progress)
-      : text_(text), file_(file), faults_(faults), on_progress_(on_progress) {}
+              const std::function<void(double)>& on_progress, PlainSpheres* spheres)
+      : text_(text),
+        file_(file),
+        faults_(faults),
+        on_progress_(on_progress),
+        spheres_(spheres),
+        reached_(text.data()),
+        end_(text.data() + text.size()) {}
 
-  CountingIterator begin() { return {text_.data(), &reached_}; }
-  CountingIterator end() { return {text_.data() + text_.size(), &reached_}; }
+  SharedIterator begin() { return {&reached_}; }
+  SharedIterator end() { return {&end_}; }
 
-  Json TakeRoot() { return std::move(root_); }
+  Json TakeRoot() {
+    if (spheres_ != nullptr) spheres_->materials = sphere_reader_.TakeMaterials();
+    return std::move(root_);
+  }
 
   bool null() override { return Add(nullptr); }
   bool boolean(bool value) override { return Add(value); }
@@ -78,11 +86,17 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
                    "keep one of them");
     }
     level.name = std::move(name);
+    if (levels_.size() == 1 && level.name == kShapes) ++shapes_;
     return true;
   }
 
   bool parse_error(size_t bytes_read, const std::string& token,
                    const nlohmann::json::exception& error) override {
+    // The parser's message quotes what it has read before, and it has not read plain spheres.
+    if (spheres_ != nullptr && !spheres_->runs.empty()) {
+      FaultList ignored;
+      ParseJson(text_, file_, &ignored);  // throws
+    }
     constexpr int kNumberOverflow = 406;
     if (error.id == kNumberOverflow) {
       throw Error(ExitCode::kBadInput, PlaceInFile(file_, PointerToNext()),
@@ -102,8 +116,11 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
   }
 
  private:
+  static constexpr std::string_view kShapes = "shapes";
+
   struct Level {
     Json* value;       // an object or array; stays where it is while it is the last in its parent
+    size_t plain = 0;  // elements of an array that are in spheres_ instead
     std::string name;  // of the member that comes next, in an object
     std::unordered_set<std::string> names;  // of the members so far, once they are many
   };
@@ -129,8 +146,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     for (size_t i = 0; i + 1 < levels_.size(); ++i) {
       const Json& value = *levels_[i].value;
       pointer += '/';
-      pointer +=
-          value.is_array() ? std::to_string(value.size() - 1) : PointerToken(levels_[i].name);
+      pointer += value.is_array() ? std::to_string(value.size() + levels_[i].plain - 1)
+                                  : PointerToken(levels_[i].name);
     }
     return pointer;
   }
@@ -141,7 +158,8 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
     const Json& value = *levels_.back().value;
     std::string pointer = Pointer();
     pointer += '/';
-    pointer += value.is_array() ? std::to_string(value.size()) : PointerToken(levels_.back().name);
+    pointer += value.is_array() ? std::to_string(value.size() + levels_.back().plain)
+                                : PointerToken(levels_.back().name);
     return pointer;
   }
 
@@ -173,25 +191,53 @@ class TreeBuilder : public nlohmann::json_sax<Json> {
                   fmt::format("nested deeper than {} levels", kMaxJsonDepth));
     }
     Json* const inserted = Insert(std::move(value));
-    levels_.push_back({inserted, {}, {}});
+    levels_.push_back({inserted, 0, {}, {}});
     return true;
   }
 
   bool Close() {
     levels_.pop_back();
+    TellProgress();
+    // The parser has read the element up to its bracket, and nothing of what follows.
+    if (spheres_ != nullptr && levels_.size() == 2 && IsInShapes()) TakePlainSpheres();
+    return true;
+  }
+
+  void TellProgress() {
     constexpr size_t kEvery = size_t{1} << 12;
     if (on_progress_ && ++closed_ % kEvery == 0) {
       on_progress_(static_cast<double>(reached_ - text_.data()) /
                    static_cast<double>(text_.size()));
     }
-    return true;
+  }
+
+  // Whether the innermost of the two open values is the scene's array of shapes, the first and only
+  // one: a second is a fault.
+  bool IsInShapes() const {
+    return shapes_ == 1 && levels_.back().value->is_array() && levels_.front().name == kShapes;
+  }
+
+  void TakePlainSpheres() {
+    Level& shapes = levels_.back();
+    SphereRun run{shapes.value->size() + shapes.plain, {}};
+    while (const std::optional<Sphere> sphere = sphere_reader_.Next(&reached_, end_)) {
+      run.spheres.push_back(*sphere);
+      TellProgress();
+    }
+    if (run.spheres.empty()) return;
+    shapes.plain += run.spheres.size();
+    spheres_->runs.push_back(std::move(run));
   }
 
   std::string_view text_;
   const std::string& file_;
   FaultList* faults_;
   const std::function<void(double)>& on_progress_;
-  const char* reached_ = nullptr;
+  PlainSpheres* spheres_;
+  PlainSphereReader sphere_reader_;
+  const char* reached_;
+  const char* end_;
+  size_t shapes_ = 0;  // members "shapes" of the outermost object
   size_t closed_ = 0;
   Json root_;
   std::vector<Level> levels_;
@@ -234,12 +280,12 @@ void ThrowFaults(const FaultList& faults, const std::string& file, ExitCode code
 }
 
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
-               const std::function<void(double)>& on_progress) {
+               const std::function<void(double)>& on_progress, PlainSpheres* spheres) {
   const std::string_view json = WithoutByteOrderMark(text, file);
   // The parser takes it for the end.
   const size_t zero = json.find('\0');
   if (zero != std::string_view::npos) RefuseZero(json, zero, file);
-  TreeBuilder builder(json, file, faults, on_progress);
+  TreeBuilder builder(json, file, faults, on_progress, spheres);
   Json::sax_parse(builder.begin(), builder.end(), &builder);
   return builder.TakeRoot();
 }

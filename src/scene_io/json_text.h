@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "scene/fault_list.h"
+#include "scene_io/plain_spheres.h"
 
 namespace nacre {
 
@@ -25,8 +26,11 @@ inline constexpr size_t kMaxJsonDepth = 100;
 // Error (kBadInput) with `file` in its place for text that is not JSON (line and column), UTF-16,
 // numbers too large for a double (pointer) and nesting deeper than 100.
 // `on_progress`, if any, is passed the share of the text that has been read now and then.
+// `spheres`, if any, gets the plain spheres of a scene's "shapes", which the tree then lacks, but
+// for the first shape and those behind one that is no plain sphere.
 Json ParseJson(std::string_view text, const std::string& file, FaultList* faults,
-               const std::function<void(double)>& on_progress = {});
+               const std::function<void(double)>& on_progress = {},
+               PlainSpheres* spheres = nullptr);
 
 // The same for a snippet, an option's value; nothing if ParseJson would find fault with it.
 std::optional<Json> TryParseJson(std::string_view text);

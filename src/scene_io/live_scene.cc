@@ -70,7 +70,7 @@ LiveScene::LiveScene(std::string_view text, std::string file, std::filesystem::p
       bytes_(text.size()),
       complete_(std::move(complete)) {
   FaultList faults;
-  root_ = ParseScene({text, file_, folder_}, options_, &faults);
+  tree_ = ParseScene({text, file_, folder_}, options_, &faults);
   ThrowFaults(faults, file_);
   options_.overrides.clear();  // they are in the tree
   ReadAgain(SceneParts::All());
@@ -91,7 +91,7 @@ LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
   model_.emplace();
   model_->scene = ReadModel(path, options_, &model_->has_camera);
   ModelOverrides overrides = OverridesOf(options_);
-  root_ = std::move(overrides.root);
+  tree_.root = std::move(overrides.root);
   model_->own_lights = overrides.own_lights;
   SwapParts(ScenePart::kShapes, &scene_, &model_->scene);
   CompleteModel(SceneParts::All());
@@ -99,8 +99,10 @@ LiveScene::LiveScene(const std::filesystem::path& path, LoadOptions options,
 }
 
 SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
+  CompleteTree(pointer, &tree_);
+  Json* const root = &tree_.root;
   Replaced replaced =
-      model_ ? ReplaceValue(pointer, json, &root_) : ReplaceInFile(pointer, json, &root_);
+      model_ ? ReplaceValue(pointer, json, root) : ReplaceInFile(pointer, json, root);
   const bool own_lights = model_ && model_->own_lights;
   try {
     if (!model_) return ReadAgain(PartsOf(pointer));
@@ -108,13 +110,13 @@ SceneParts LiveScene::Set(const std::string& pointer, const std::string& json) {
     return CompleteModel(PartsOf(pointer));
   } catch (...) {
     if (model_) model_->own_lights = own_lights;
-    PutBack(std::move(replaced), &root_);
+    PutBack(std::move(replaced), root);
     throw;
   }
 }
 
 SceneParts LiveScene::ReadAgain(SceneParts touched) {
-  CheckVersion(root_, file_);
+  CheckVersion(tree_.root, file_);
   SceneParts parts = touched;
   const bool with_shapes = shapes_bring_materials_ && parts.Has(ScenePart::kMaterials);
   if (with_shapes) parts |= ScenePart::kShapes;
@@ -125,7 +127,7 @@ SceneParts LiveScene::ReadAgain(SceneParts touched) {
   try {
     FaultList faults;
     const ReadMembers read =
-        ReadScene(root_, parts, {folder_, bytes_, &options_, &kept_}, &faults, &next);
+        ReadScene(tree_, parts, {folder_, bytes_, &options_, &kept_}, &faults, &next);
     ThrowFaults(faults, file_);
     const bool has_shapes = parts.Has(ScenePart::kShapes);
     moved = parts.Has(ScenePart::kMaterials) && !has_shapes &&
@@ -165,7 +167,7 @@ SceneParts LiveScene::CompleteModel(SceneParts touched) {
   const SceneParts others = SceneParts::All().Without(parts);
   Scene next = model_->scene;
   SwapParts(others, &scene_, &next);
-  const ModelOverrides overrides{root_, model_->own_lights};
+  const ModelOverrides overrides{tree_.root, model_->own_lights};
   bool new_coordinates = false;
   try {
     new_coordinates = CompleteModelScene({&overrides, &options_, file_, model_->has_camera, &kept_},

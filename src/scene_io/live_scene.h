@@ -15,6 +15,7 @@
 #include "scene_io/json_text.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/load_scene.h"
+#include "scene_io/read_scene.h"
 
 namespace nacre {
 
@@ -58,7 +59,7 @@ class LiveScene {
   uint64_t bytes_ = 0;
   std::function<void(Scene*)> complete_;
   std::optional<ModelAsRead> model_;  // none: a scene file
-  Json root_;                         // of a scene file; of a model, what overrides have put there
+  SceneTree tree_;                    // of a scene file; of a model, what overrides have put there
   Scene scene_;
   ImageSettings own_image_;              // of the file with its changes
   bool shapes_bring_materials_ = false;  // or textures: these are read again with those

@@ -26,9 +26,9 @@ constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
 Scene LoadSceneText(std::string_view text, const std::string& file,
                     const std::filesystem::path& folder, const LoadOptions& options) {
   FaultList faults;
-  const Json root = ParseScene({text, file, folder}, options, &faults);
+  const SceneTree tree = ParseScene({text, file, folder}, options, &faults);
   Scene scene;
-  ReadScene(root, SceneParts::All(), {.folder = folder, .bytes = text.size(), .options = &options},
+  ReadScene(tree, SceneParts::All(), {.folder = folder, .bytes = text.size(), .options = &options},
             &faults, &scene);
   ThrowFaults(faults, file);
   return scene;

@@ -34,7 +34,7 @@ struct PlyData {
   std::vector<Vec2d> uvs;
   std::vector<Rgb> colors;  // linear
   bool has_face_colors = false, has_face_uvs = false;
-  std::vector<double> radii;
+  std::vector<double> radii, materials;
   std::vector<uint32_t> triangles;
 };
 
@@ -124,6 +124,7 @@ class PlyReader {
         FindFirst<3, 2>(element, {{{"nx", "ny", "nz"}, {"normal_x", "normal_y", "normal_z"}}});
     const auto color = FindFirst(element, kColorNames);
     const auto radius = FindAll<1>(element, {"radius"});
+    const auto material = FindAll<1>(element, {"material"});
     const auto uv = FindFirst<2, 4>(
         element,
         {{{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}});
@@ -148,6 +149,7 @@ class PlyReader {
         data_.colors.push_back(Linear(triple(color), element.properties[color[0]].type));
       }
       if (radius[0] != PlyElement::kNone) data_.radii.push_back(values[radius[0]]);
+      if (material[0] != PlyElement::kNone) data_.materials.push_back(values[material[0]]);
     }
   }
 
@@ -370,6 +372,14 @@ Mesh ReadPly(const std::filesystem::path& path) {
   PlyData data = PlyReader(path).Read();
   if (data.triangles.empty()) throw Error(ExitCode::kBadInput, path.string(), "has no faces");
   return TakeMesh(path, &data);
+}
+
+PlyPoints ReadPlyPoints(const std::filesystem::path& path) {
+  PlyData data = PlyReader(path).Read();
+  if (!data.triangles.empty()) {
+    throw Error(ExitCode::kBadInput, path.string(), "has faces", "it is a \"mesh\"");
+  }
+  return {std::move(data.positions), std::move(data.radii), std::move(data.materials)};
 }
 
 Scene ReadPlyScene(const std::filesystem::path& path, const LoadOptions& options) {

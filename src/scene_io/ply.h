@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "scene/scene.h"
 #include "scene_io/load_scene.h"
@@ -17,11 +18,21 @@ namespace nacre {
 // without faces.
 Mesh ReadPly(const std::filesystem::path& path);
 
-// The same as a scene of its own, where faces without normals get averages, parted where they meet
+// The mesh as a scene of its own, where faces without normals get averages, parted where they meet
 // at more than kModelCreaseAngleDeg. A file without faces is a cloud of spheres, with the vertices'
 // "radius" or one that suits their distances, and a material for each colour (red, green, blue:
 // sRGB in bytes, linear in floats). Camera and light are left to CompleteModelScene
 // (model_scene.h). What is not shown is told by options.on_warning.
 Scene ReadPlyScene(const std::filesystem::path& path, const LoadOptions& options);
+
+// The vertices of a file without faces.
+struct PlyPoints {
+  std::vector<Vec3d> positions;
+  std::vector<double> radii;      // the property "radius", or empty
+  std::vector<double> materials;  // likewise "material"
+};
+
+// Throws Error (kBadInput) with the file for what is malformed, positions out of range, and faces.
+PlyPoints ReadPlyPoints(const std::filesystem::path& path);
 
 }  // namespace nacre

@@ -215,7 +215,9 @@ double Load(const char* bytes, bool swap) {
   return static_cast<double>(value);
 }
 
-double LoadNumber(const char* bytes, PlyType type, bool swap) {
+}  // namespace
+
+double LoadPlyNumber(const char* bytes, PlyType type, bool swap) {
   switch (type) {
     case PlyType::kInt8:
       return Load<int8_t>(bytes, swap);
@@ -236,8 +238,6 @@ double LoadNumber(const char* bytes, PlyType type, bool swap) {
   }
   return Load<double>(bytes, swap);
 }
-
-}  // namespace
 
 size_t PlyElement::Find(std::string_view property) const {
   for (size_t i = 0; i < properties.size(); ++i) {
@@ -286,7 +286,7 @@ double PlyNumbers::Next(PlyType type) {
     if (bytes_.size() - position_ < size) Refuse("ends too early");
     const char* const bytes = bytes_.data() + position_;
     position_ += size;
-    return LoadNumber(bytes, type, format_ == PlyFormat::kBigEndian);
+    return LoadPlyNumber(bytes, type, format_ == PlyFormat::kBigEndian);
   }
   const std::string_view word = NextWord();
   std::optional<double> number = ParseNumber(word);

@@ -38,6 +38,9 @@ struct PlyHeader {
   size_t length = 0;  // bytes of the header
 };
 
+// The number whose bytes begin here. `swap`: they are in big-endian order.
+double LoadPlyNumber(const char* bytes, PlyType type, bool swap);
+
 // Throws Error (kBadInput) unless a file that begins like this says that it is a PLY file.
 void CheckPlyMagic(std::string_view head, const std::string& file);
 

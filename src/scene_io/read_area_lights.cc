@@ -146,10 +146,7 @@ void ReadPicture(const JsonValue& value, const PictureReading& reading, const Sc
           fmt::format("{}: {} samples below 0, down to {}, count as 0", file, clamped, lowest));
     }
   } catch (const Error& error) {
-    for (const Fault& fault : error.faults()) {
-      value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
-                     fault.hint);
-    }
+    AddFileFaults(error, value);
   }
 }
 

@@ -149,14 +149,6 @@ void ReadRadii(const JsonValue& value, Cloud* cloud) {
              &cloud->radius_max);
 }
 
-void ReadCloudMaterials(const JsonValue& value, SceneContext* context, Cloud* cloud) {
-  if (!value.Expect(value.json.is_array() && !value.json.empty(), "a list of materials")) return;
-  for (size_t i = 0; i < value.json.size(); ++i) {
-    ReadMaterialId({value.json[i], value.path.Element(i), value.faults}, context,
-                   &cloud->materials.emplace_back());
-  }
-}
-
 }  // namespace
 
 void ReadGrid(JsonObject* shape, SceneContext* context) {
@@ -206,8 +198,8 @@ void ReadCloud(JsonObject* shape, SceneContext* context) {
     ReadRadii({*radius, shape->path().Member("radius"), shape->faults()}, &cloud);
   }
   if (const Json* materials = shape->Require("materials", "a list to choose from")) {
-    ReadCloudMaterials({*materials, shape->path().Member("materials"), shape->faults()}, context,
-                       &cloud);
+    ReadMaterialList({*materials, shape->path().Member("materials"), shape->faults()}, context,
+                     &cloud.materials);
   }
   if (shape->faults()->count() != 0) return;
   context->budget->Spend(cloud.count);

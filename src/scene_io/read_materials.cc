@@ -154,6 +154,14 @@ void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id) {
   ReadMaterialId({*json, shape->path().Member("material"), shape->faults()}, context, id);
 }
 
+void ReadMaterialList(const JsonValue& value, SceneContext* context, std::vector<MaterialId>* ids) {
+  if (!value.Expect(value.json.is_array() && !value.json.empty(), "a list of materials")) return;
+  for (size_t i = 0; i < value.json.size(); ++i) {
+    ReadMaterialId({value.json[i], value.path.Element(i), value.faults}, context,
+                   &ids->emplace_back());
+  }
+}
+
 bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material) {
   if (value.json.is_string()) {
     const MaterialId id = FindMaterial(value, *context);

@@ -127,10 +127,7 @@ std::optional<Mesh> ReadMeshFile(const JsonValue& value, const Transform& transf
     ApplyTransform(transform, &mesh);
     return mesh;
   } catch (const Error& error) {
-    for (const Fault& fault : error.faults()) {
-      value.AddFault(fault.where.empty() ? fault.what : fault.where + ": " + fault.what,
-                     fault.hint);
-    }
+    AddFileFaults(error, value);
   }
   return std::nullopt;
 }

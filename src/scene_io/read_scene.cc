@@ -45,9 +45,9 @@ void CheckIsObject(const Json& root, const std::string& file) {
 }
 
 // Members of the file that are other parts are known, and that is all.
-void ReadRoot(const Json& root, SceneParts parts, FaultList* faults, SceneContext* context,
+void ReadRoot(const SceneTree& tree, SceneParts parts, FaultList* faults, SceneContext* context,
               ReadMembers* read) {
-  JsonObject object({root, JsonPath{}, faults});
+  JsonObject object({tree.root, JsonPath{}, faults});
   Scene* const scene = context->scene;
   const auto member = [&](std::string_view name, ScenePart part, const auto& read_member) {
     const Json* const json = object.Find(name);
@@ -68,7 +68,8 @@ void ReadRoot(const Json& root, SceneParts parts, FaultList* faults, SceneContex
   *read = {scene->materials.size(), scene->textures.size()};
   member("lights", ScenePart::kLights,
          [&](const JsonValue& value) { ReadLights(value, *context, &scene->lights); });
-  member("shapes", ScenePart::kShapes, [&](const JsonValue& value) { ReadShapes(value, context); });
+  member("shapes", ScenePart::kShapes,
+         [&](const JsonValue& value) { ReadShapes(value, tree.spheres, context); });
   member("background", ScenePart::kBackground,
          [&](const JsonValue& value) { ReadColor(value, limits::kRadiance, &scene->background); });
   object.RefuseOthers();
@@ -100,12 +101,32 @@ void AddValidation(const Scene& scene, SceneParts parts, FaultList* faults) {
 
 }  // namespace
 
-Json ParseScene(const SceneSource& source, const LoadOptions& options, FaultList* faults) {
+void CompleteTree(const std::string& pointer, SceneTree* tree) {
+  std::vector<SphereRun>& runs = tree->spheres.runs;
+  if (runs.empty() || !(pointer.empty() || pointer.starts_with("/shapes"))) return;
+  auto& shapes = tree->root["shapes"].get_ref<Json::array_t&>();
+  Json::array_t all;
+  auto run = runs.begin();
+  for (Json& shape : shapes) {
+    all.push_back(std::move(shape));
+    if (run == runs.end() || run->first != all.size()) continue;
+    for (const Sphere& sphere : run->spheres) {
+      all.push_back(JsonOf(sphere, tree->spheres.MaterialOf(sphere)));
+    }
+    ++run;
+  }
+  shapes = std::move(all);
+  tree->spheres = {};
+}
+
+SceneTree ParseScene(const SceneSource& source, const LoadOptions& options, FaultList* faults) {
   const std::string& file = source.file;
-  Json root = ParseJson(source.text, file, faults, options.on_progress);
-  CheckIsObject(root, file);
+  SceneTree tree;
+  tree.root = ParseJson(source.text, file, faults, options.on_progress, &tree.spheres);
+  CheckIsObject(tree.root, file);
+  for (const auto& [pointer, value] : options.overrides) CompleteTree(pointer, &tree);
   try {
-    ApplyOptionsToFile(options, &root);
+    ApplyOptionsToFile(options, &tree.root);
   } catch (const Error&) {
     // The fault may be the file's: "image": [] has no place for --size. Then that is told.
     LoadOptions file_alone = options;
@@ -114,8 +135,8 @@ Json ParseScene(const SceneSource& source, const LoadOptions& options, FaultList
     if (!options.overrides.empty()) LoadSceneText(source.text, file, source.folder, file_alone);
     throw;
   }
-  CheckVersion(root, file);
-  return root;
+  CheckVersion(tree.root, file);
+  return tree;
 }
 
 void CheckVersion(const Json& root, const std::string& file) {
@@ -129,7 +150,7 @@ void CheckVersion(const Json& root, const std::string& file) {
   throw Error(ExitCode::kBadInput, {JudgeVersion(*version, PlaceInFile(file, "/nacre"))});
 }
 
-ReadMembers ReadScene(const Json& root, SceneParts parts, const SceneReading& reading,
+ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReading& reading,
                       FaultList* faults, Scene* scene) {
   const LoadOptions& options = *reading.options;
   SceneContext context;
@@ -144,7 +165,7 @@ ReadMembers ReadScene(const Json& root, SceneParts parts, const SceneReading& re
   TexelBudget texels(reading.bytes);
   context.texels = &texels;
   ReadMembers read;
-  ReadRoot(root, parts, faults, &context, &read);
+  ReadRoot(tree, parts, faults, &context, &read);
   AddValidation(*scene, parts, faults);
   return read;
 }

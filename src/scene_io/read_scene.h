@@ -23,9 +23,18 @@ struct SceneSource {
   std::filesystem::path folder;
 };
 
+// What the text of a scene file says.
+struct SceneTree {
+  Json root;             // without the elements of "shapes" that are
+  PlainSpheres spheres;  // here
+};
+
+// Moves plain spheres into the tree if `pointer` points at or into the scene's shapes.
+void CompleteTree(const std::string& pointer, SceneTree* tree);
+
 // The tree, with the options' overrides made. Throws Error as LoadSceneText does for text that is
 // no scene; what is merely wrong in it is added to `faults`.
-Json ParseScene(const SceneSource& source, const LoadOptions& options, FaultList* faults);
+SceneTree ParseScene(const SceneSource& source, const LoadOptions& options, FaultList* faults);
 
 // Throws Error unless the tree is that of a scene file of a version that is read.
 void CheckVersion(const Json& root, const std::string& file);
@@ -54,7 +63,7 @@ struct ReadMembers {
 
 // Reads these parts, of which `scene` has none, and checks them. The rest of the scene is there.
 // Shapes want materials, and materials textures. Adds to `faults` what is wrong.
-ReadMembers ReadScene(const Json& root, SceneParts parts, const SceneReading& reading,
+ReadMembers ReadScene(const SceneTree& tree, SceneParts parts, const SceneReading& reading,
                       FaultList* faults, Scene* scene);
 
 }  // namespace nacre

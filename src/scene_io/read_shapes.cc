@@ -2,11 +2,15 @@
 // scene_io/read_shapes.cc: the part "shapes". Meshes: read_meshes.cc. Grids, pairs and clouds:
 // read_generators.cc.
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "scene/displace.h"
 #include "scene_io/readers.h"
+#include "scene_io/sphere_file.h"
+#include "scene_io/text_file.h"
 
 namespace nacre {
 namespace {
@@ -33,11 +37,47 @@ void ReadSphere(JsonObject* shape, SceneContext* context) {
   context->scene->meshes.push_back(std::move(mesh));
 }
 
+void ReadSpheres(JsonObject* shape, SceneContext* context) {
+  const auto member = [&](std::string_view name, const Json& json) {
+    return JsonValue{json, shape->path().Member(name), shape->faults()};
+  };
+  SphereRowSettings settings;
+  double radius = 0;
+  if (shape->Number("radius", limits::kLength, &radius)) settings.radius = radius;
+  if (const Json* material = shape->Find("material")) {
+    ReadMaterialId(member("material", *material), context, &settings.material);
+  }
+  if (const Json* materials = shape->Find("materials")) {
+    ReadMaterialList(member("materials", *materials), context, &settings.materials);
+  }
+  settings.by_name = &context->materials;
+  const Json* const file = shape->Require("file", "a .ply, .csv or .npy file");
+  // After a fault materials may be missing that the file names.
+  if (file == nullptr || shape->faults()->count() != 0) return;
+  const JsonPath path = shape->path().Member("file");
+  const JsonValue value{*file, path, shape->faults()};
+  std::string name;
+  if (!ReadText(value, &name)) return;
+  try {
+    std::vector<Sphere> spheres = ReadSphereFile(
+        ResolveReference(context->folder, name, context->references), settings, context->budget);
+    std::vector<Sphere>& all = context->scene->spheres;
+    if (all.empty()) {
+      all = std::move(spheres);
+    } else {
+      all.insert(all.end(), spheres.begin(), spheres.end());
+    }
+  } catch (const Error& error) {
+    AddFileFaults(error, value);
+  }
+}
+
 struct ShapeType {
   std::string_view name;
   void (*read)(JsonObject*, SceneContext*);
 };
-constexpr std::array<ShapeType, 7> kShapeTypes = {{{"sphere", ReadSphere},
+constexpr std::array<ShapeType, 8> kShapeTypes = {{{"sphere", ReadSphere},
+                                                   {"spheres", ReadSpheres},
                                                    {"mesh", ReadMesh},
                                                    {"icosphere", ReadIcosphere},
                                                    {"uv_sphere", ReadUvSphere},
@@ -49,7 +89,7 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
   std::array<std::string_view, kShapeTypes.size()> names;
   for (size_t i = 0; i < names.size(); ++i) names[i] = kShapeTypes[i].name;
   JsonObject shape(value);
-  shape.Require("type", "one of: sphere, mesh, icosphere, uv_sphere, grid, pair, cloud");
+  shape.Require("type", "one of: sphere, spheres, mesh, icosphere, uv_sphere, grid, pair, cloud");
   size_t type = 0;
   if (!shape.Choice("type", names, &type)) return;
   try {
@@ -60,13 +100,66 @@ void ReadShape(const JsonValue& value, SceneContext* context) {
   shape.RefuseOthers();
 }
 
+// The scene's materials of these names; none for those that there are not.
+std::vector<MaterialId> FindMaterials(const std::vector<std::string>& names,
+                                      const SceneContext& context) {
+  std::vector<MaterialId> ids;
+  ids.reserve(names.size());
+  for (const std::string& name : names) {
+    const auto found = context.materials.find(name);
+    ids.push_back(found != context.materials.end() ? found->second : MaterialId{});
+  }
+  return ids;
+}
+
+bool IsInRange(const Sphere& sphere) {
+  const Range& coordinate = limits::kCoordinate;
+  return coordinate.Contains(sphere.center.x) && coordinate.Contains(sphere.center.y) &&
+         coordinate.Contains(sphere.center.z) && limits::kLength.Contains(sphere.radius);
+}
+
+// Does what ReadShape does for each of them.
+void ReadRun(const SphereRun& run, const PlainSpheres& plain, const std::vector<MaterialId>& ids,
+             const JsonValue& shapes, SceneContext* context) {
+  for (size_t i = 0; i < run.spheres.size(); ++i) {
+    Sphere sphere = run.spheres[i];
+    const MaterialId id = ids[sphere.material.index];
+    if (!id.valid() || !IsInRange(sphere) || context->budget->IsSpent()) {  // it says what is wrong
+      const Json json = JsonOf(sphere, plain.MaterialOf(sphere));
+      ReadShape({json, shapes.path.Element(run.first + i), shapes.faults}, context);
+      continue;
+    }
+    sphere.material = id;
+    context->budget->Spend(1);
+    context->scene->spheres.push_back(sphere);
+  }
+}
+
 }  // namespace
 
-void ReadShapes(const JsonValue& value, SceneContext* context) {
+Json JsonOf(const Sphere& sphere, const std::string& material) {
+  const Vec3d& center = sphere.center;
+  return {{"type", "sphere"},
+          {"center", {center.x, center.y, center.z}},
+          {"radius", sphere.radius},
+          {"material", material}};
+}
+
+void ReadShapes(const JsonValue& value, const PlainSpheres& spheres, SceneContext* context) {
   if (!value.Expect(value.json.is_array(), "an array", "[{\"type\": \"sphere\", ...}, ...]"))
     return;
-  for (size_t i = 0; i < value.json.size(); ++i) {
-    ReadShape({value.json[i], value.path.Element(i), value.faults}, context);
+  const std::vector<MaterialId> ids = FindMaterials(spheres.materials, *context);
+  size_t count = 0;
+  for (const SphereRun& run : spheres.runs) count += run.spheres.size();
+  context->scene->spheres.reserve(count);
+  auto run = spheres.runs.begin();
+  size_t place = 0;
+  for (const Json& shape : value.json) {
+    ReadShape({shape, value.path.Element(place++), value.faults}, context);
+    if (run == spheres.runs.end() || run->first != place) continue;
+    ReadRun(*run, spheres, ids, value, context);
+    place += run->spheres.size();
+    ++run;
   }
 }
 

@@ -19,6 +19,7 @@
 #include "scene/scene.h"
 #include "scene_io/json_reader.h"
 #include "scene_io/kept_files.h"
+#include "scene_io/plain_spheres.h"
 #include "scene_io/scene_budget.h"
 #include "scene_io/text_file.h"
 #include "scene_io/texture_image.h"
@@ -53,7 +54,7 @@ struct SceneContext {
   std::unordered_map<std::string, TextureSource> textures;
   std::unordered_map<std::string, ImageId> images;     // by path, encoding and part
   std::function<void(const std::string&)> on_warning;  // LoadOptions::on_warning
-  KeptFiles* kept = nullptr;  // of a scene that is read again; else null
+  KeptFiles* kept = nullptr;                           // of a scene that is read again; else null
 };
 
 // The object "lights"; `context` says where their pictures are.
@@ -99,6 +100,9 @@ void ChangeMaterial(const JsonValue& value, SceneContext* context, Material* mat
 // A material by name or inline. An inline one is added to the scene, named by its JSON pointer.
 bool ReadMaterialId(const JsonValue& value, SceneContext* context, MaterialId* id);
 
+// A list of them, of one at least.
+void ReadMaterialList(const JsonValue& value, SceneContext* context, std::vector<MaterialId>* ids);
+
 // The required member "material" of a shape.
 void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id);
 
@@ -106,8 +110,11 @@ void ReadMaterialOf(JsonObject* shape, SceneContext* context, MaterialId* id);
 // faults, even if they were reported before.
 bool ReadBaseMaterial(const JsonValue& value, SceneContext* context, Material* material);
 
-// The array "shapes".
-void ReadShapes(const JsonValue& value, SceneContext* context);
+// The array "shapes"; `spheres` are those of its elements that the value lacks.
+void ReadShapes(const JsonValue& value, const PlainSpheres& spheres, SceneContext* context);
+
+// The shape as the file has it.
+Json JsonOf(const Sphere& sphere, const std::string& material);
 
 // Those with a file or faces of their own.
 void ReadMesh(JsonObject* shape, SceneContext* context);

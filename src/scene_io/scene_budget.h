@@ -41,6 +41,8 @@ class SceneBudget {
     left_ -= primitives;
   }
 
+  bool IsSpent() const { return left_ == 0; }
+
   // False from the second time on: a scene has one environment, whose picture may be large.
   bool TakeSkyPicture() {
     const bool first = !has_sky_picture_;

@@ -115,6 +115,16 @@ def meshes():
           'property float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\n'
           'property float t\nelement tristrips 1\nproperty list int int vertex_indices\nend_header\n'
           '0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n0 1 0 0 0 1 0 1\n1 1 0 0 0 1 1 1\n6 0 1 2 3 -1 0\n')
+    write('ply', 'points', 'ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n'
+          'property float z\nproperty uchar material\nend_header\n0 0 0 1\n2 0 0 0\n')
+    write('sphere_file', 'points', (CORPUS / 'ply/points').read_bytes())
+    write('sphere_file', 'named', 'x,y,z,id,radius,material\r\n# a comment\r\n1,2,3,7,0.5,a\r\n\r\n4,5,6,8,,1\r\n')
+    write('sphere_file', 'in_order', '1 2 3 .5 0\n4 5 6 1e-1 1\n')
+    write('sphere_file', 'semicolons', '\ufeff1;2;3\n4;5;6\n')
+    for name, kind, order in ('floats', '<f4', False), ('doubles', '>f8', True):
+        header = str({'descr': kind, 'fortran_order': order, 'shape': (2, 5)}).ljust(117) + '\n'
+        write('sphere_file', name, b'\x93NUMPY\1\0' + struct.pack('<H', len(header)) + header.encode() +
+              struct.pack(kind[0] + '10' + {'4': 'f', '8': 'd'}[kind[2]], *[1] * 10))
 
 
 # ---- glTF ----

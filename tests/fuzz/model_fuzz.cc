@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// tests/fuzz/model_fuzz.cc: model files: OBJ with MTL, PLY, glTF as text and as bytes.
+// tests/fuzz/model_fuzz.cc: model files: OBJ with MTL, PLY, glTF as text and as bytes; tables of
+// spheres.
 #include "fuzz/fuzz_input.h"
 #include "fuzz/targets.h"
 #include "scene/hash.h"
@@ -24,6 +25,22 @@ void FuzzObj(std::string_view bytes) {
 }
 
 void FuzzPly(std::string_view bytes) { ReadModel(SharedFolder().Write("fuzz.ply", bytes)); }
+
+// By its first bytes a file of one of three kinds. Numbers are places in the list of materials.
+void FuzzSphereFile(std::string_view bytes) {
+  const std::string name = bytes.starts_with("\x93NUMPY") ? "fuzz.npy"
+                           : bytes.starts_with("ply")     ? "points.ply"
+                                                          : "fuzz.csv";
+  SharedFolder().Write(name, bytes);
+  ReadOrRefuse([&] {
+    const std::string scene =
+        R"({"nacre": 1, "materials": {"a": {"model": "lambert"}, "b": {"model": "lambert"}},)"
+        R"("shapes": [{"type": "spheres", "radius": 1, "material": "a", "materials": ["b", "a"],)"
+        R"("file": ")" +
+        name + "\"}]}";
+    HashScene(LoadSceneText(scene, "scene.json", SharedFolder().path(), SmallScenes()));
+  });
+}
 
 void FuzzGltf(std::string_view bytes) { ReadModel(SharedFolder().Write("fuzz.gltf", bytes)); }
 

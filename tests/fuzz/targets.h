@@ -14,6 +14,7 @@ void FuzzSceneJson(std::string_view bytes);
 void FuzzSetPath(std::string_view bytes);  // lines of "pointer=value", on a scene and on a model
 void FuzzObj(std::string_view bytes);      // an OBJ file; after a line "# mtl" its materials
 void FuzzPly(std::string_view bytes);
+void FuzzSphereFile(std::string_view bytes);  // a .csv, .npy or .ply of a shape "spheres"
 void FuzzGltf(std::string_view bytes);
 void FuzzGlb(std::string_view bytes);
 void FuzzTextureImage(std::string_view bytes);

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// scene_io/npy_file.h: a matrix of floats in NumPy's format (.npy).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "scene_io/ply_file.h"
+
+namespace nacre {
+
+class NpyMatrix {
+ public:
+  // Reads the header. Throws Error (kBadInput) with `file` for what is no such file, for what its
+  // numbers are if they are not floats of 4 or 8 bytes, and unless the bytes are as many as its
+  // shape says. Refers to `bytes`.
+  NpyMatrix(const std::string& bytes, const std::string& file);
+
+  uint64_t rows() const { return rows_; }
+  uint64_t columns() const { return columns_; }
+  double At(uint64_t row, uint64_t column) const {
+    const uint64_t place = by_columns_ ? column * rows_ + row : row * columns_ + column;
+    return LoadPlyNumber(numbers_ + place * size_, type_, big_endian_);
+  }
+
+ private:
+  const char* numbers_ = nullptr;
+  PlyType type_ = PlyType::kFloat;
+  size_t size_ = 4;
+  bool big_endian_ = false;
+  bool by_columns_ = false;  // Fortran's order
+  uint64_t rows_ = 0, columns_ = 0;
+};
+
+}  // namespace nacre

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene_io/sphere_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/excerpt.h"
+#include "base/path.h"
+#include "scene/limits.h"
+#include "scene_io/npy_file.h"
+#include "scene_io/ply.h"
+#include "scene_io/text_file.h"
+#include "scene_io/text_lines.h"
+
+namespace nacre {
+namespace {
+
+constexpr uint64_t kMaxSphereFileBytes = uint64_t{4} << 30;
+
+// Collects spheres and refuses what no row may hold. `row_word` stands between the file's name and
+// the number of a row where an error is: "cloud.csv:17", "cloud.npy: row 16".
+class SphereRows {
+ public:
+  SphereRows(const SphereRowSettings& settings, SceneBudget* budget, std::string file,
+             const char* row_word)
+      : settings_(settings), budget_(budget), file_(std::move(file)), row_word_(row_word) {}
+
+  [[noreturn]] void Refuse(std::string what, std::string hint) const {
+    throw Error(ExitCode::kBadInput, file_, std::move(what), std::move(hint));
+  }
+  [[noreturn]] void RefuseRow(uint64_t row, std::string what, std::string hint = {}) const {
+    throw Error(ExitCode::kBadInput, file_ + row_word_ + std::to_string(row), std::move(what),
+                std::move(hint));
+  }
+
+  // What the file does not say, the scene must.
+  void CheckColumns(bool has_radii, bool has_materials) const {
+    if (!has_radii && !settings_.radius) {
+      Refuse("has no radii", "give the shape a \"radius\", or the file a column of that name");
+    }
+    if (!has_materials && !settings_.material.valid()) {
+      Refuse("has no materials",
+             "give the shape a \"material\", or the file a column of that name");
+    }
+  }
+
+  // To be called with the number of rows, or of some of them, before they are added.
+  void Announce(uint64_t rows) { budget_->Spend(rows); }
+  void Reserve(uint64_t rows) {
+    Announce(rows);
+    spheres_.reserve(rows);
+  }
+
+  double RadiusOf(uint64_t row) const {
+    if (!settings_.radius) RefuseRow(row, "has no radius", "the shape has none either");
+    return *settings_.radius;
+  }
+
+  MaterialId MaterialOf(uint64_t row) const {
+    if (!settings_.material.valid()) {
+      RefuseRow(row, "has no material", "the shape has none either");
+    }
+    return settings_.material;
+  }
+
+  MaterialId MaterialOfNumber(double number, uint64_t row) const {
+    const size_t count = settings_.materials.size();
+    if (count == 0) {
+      Refuse("has materials by number", "give the shape \"materials\", the list that they are of");
+    }
+    if (!(number >= 0) || number != std::floor(number) || number >= static_cast<double>(count)) {
+      RefuseRow(row, fmt::format("has material {}", number),
+                fmt::format("\"materials\" has {}, counted from 0", count));
+    }
+    return settings_.materials[static_cast<size_t>(number)];
+  }
+
+  MaterialId MaterialOfName(std::string_view name, uint64_t row) {
+    if (last_material_.valid() && name == last_name_) return last_material_;
+    last_name_ = name;
+    const auto found = settings_.by_name->find(last_name_);
+    if (found == settings_.by_name->end()) {
+      std::vector<std::string> names;
+      for (const auto& [known, id] : *settings_.by_name) names.push_back(known);
+      std::sort(names.begin(), names.end());
+      const std::string nearest = NearestName(last_name_, names);
+      RefuseRow(row, fmt::format("unknown material \"{}\"", Excerpt(name)),
+                nearest.empty() ? "the name of one in the scene's \"materials\""
+                                : fmt::format("did you mean \"{}\"?", nearest));
+    }
+    last_material_ = found->second;
+    return last_material_;
+  }
+
+  void Add(const Vec3d& center, double radius, MaterialId material, uint64_t row) {
+    const Range& coordinate = limits::kCoordinate;
+    if (!coordinate.Contains(center.x) || !coordinate.Contains(center.y) ||
+        !coordinate.Contains(center.z)) {
+      RefuseRow(row, fmt::format("[{}, {}, {}] is out of range", center.x, center.y, center.z),
+                "each coordinate " + Describe(coordinate));
+    }
+    if (!limits::kLength.Contains(radius)) {
+      RefuseRow(row, fmt::format("the radius {} is out of range", radius),
+                "a length " + Describe(limits::kLength));
+    }
+    spheres_.push_back({center, radius, material});
+  }
+
+  std::vector<Sphere> Take() {
+    if (spheres_.empty()) Refuse("has no rows", "one for each sphere");
+    return std::move(spheres_);
+  }
+
+ private:
+  const SphereRowSettings& settings_;
+  SceneBudget* budget_;
+  std::string file_;
+  const char* row_word_;
+  std::string last_name_;     // rows of one material often
+  MaterialId last_material_;  // come together
+  std::vector<Sphere> spheres_;
+};
+
+// Columns of a table by their places, kNone for those that it has not.
+struct TableColumns {
+  static constexpr size_t kNone = static_cast<size_t>(-1);
+  std::array<size_t, 3> xyz = {0, 1, 2};
+  size_t radius = kNone, material = kNone;
+};
+
+TableColumns ColumnsInOrder(size_t count) {
+  TableColumns columns;
+  if (count > 3) columns.radius = 3;
+  if (count > 4) columns.material = 4;
+  return columns;
+}
+
+// A table as text. Blanks around cells, empty lines and lines that begin with # mean nothing.
+class CsvReader {
+ public:
+  CsvReader(std::string_view text, SphereRows* rows) : text_(text), rows_(*rows) {}
+
+  void Read() {
+    if (!NextRow()) return;
+    // The first row says how many columns there are. It may hold their names.
+    const size_t count = cells_.size();
+    const bool has_names = !ParseNumber(cells_[0]);
+    columns_ = has_names ? ColumnsByName() : ColumnsInOrder(count);
+    if (!has_names && (count < 3 || count > 5)) {
+      rows_.RefuseRow(line_, fmt::format("has {} columns", count),
+                      "x, y, z, radius and material; or begin with a row of names");
+    }
+    rows_.CheckColumns(columns_.radius != TableColumns::kNone,
+                       columns_.material != TableColumns::kNone);
+    if (!has_names) AddRow();
+    while (NextRow()) {
+      if (cells_.size() != count) {
+        rows_.RefuseRow(line_, fmt::format("has {} columns", cells_.size()),
+                        fmt::format("the first row has {}", count));
+      }
+      AddRow();
+    }
+  }
+
+ private:
+  // Splits the next row into cells_. False at the end.
+  bool NextRow() {
+    while (!text_.empty()) {
+      const std::string_view line = text_.substr(0, text_.find('\n'));
+      text_.remove_prefix(std::min(line.size() + 1, text_.size()));
+      ++line_;
+      const size_t first = line.find_first_not_of(" \t\r");
+      if (first == std::string_view::npos || line[first] == '#') continue;
+      Split(line);
+      return true;
+    }
+    return false;
+  }
+
+  void Split(std::string_view line) {
+    if (separator_ == '\0') {  // of all rows, as the first row has it
+      const size_t place = line.find_first_of(",;\t");
+      separator_ = place == std::string_view::npos ? ' ' : line[place];
+    }
+    cells_.clear();
+    if (separator_ == ' ') {
+      for (std::string_view word = NextWord(&line); !word.empty(); word = NextWord(&line)) {
+        AddCell(word);
+      }
+      return;
+    }
+    for (;;) {
+      const size_t end = line.find(separator_);
+      AddCell(Trimmed(line.substr(0, end)));
+      if (end == std::string_view::npos) return;
+      line.remove_prefix(end + 1);
+    }
+  }
+
+  void AddCell(std::string_view cell) {
+    constexpr size_t kMaxColumns = 1000;
+    if (cells_.size() == kMaxColumns) {
+      rows_.RefuseRow(line_, fmt::format("has more than {} columns", kMaxColumns));
+    }
+    cells_.push_back(cell);
+  }
+
+  TableColumns ColumnsByName() const {
+    constexpr std::array<std::string_view, 5> kNames = {"x", "y", "z", "radius", "material"};
+    std::array<size_t, 5> places;
+    places.fill(TableColumns::kNone);
+    std::vector<std::pair<std::string, size_t>> others;
+    for (size_t i = 0; i < cells_.size(); ++i) {
+      std::string name(cells_[i]);
+      for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      const auto found = std::find(kNames.begin(), kNames.end(), name);
+      if (found == kNames.end()) {
+        others.emplace_back(std::move(name), i);
+        continue;
+      }
+      size_t& place = places[static_cast<size_t>(found - kNames.begin())];
+      if (place != TableColumns::kNone) {
+        rows_.RefuseRow(line_, fmt::format("names two columns \"{}\"", name));
+      }
+      place = i;
+    }
+    RefuseMistyped(others, {kNames.begin(), kNames.end()}, places);
+    for (size_t i = 0; i < 3; ++i) {
+      if (places[i] != TableColumns::kNone) continue;
+      rows_.RefuseRow(line_, fmt::format("names no column \"{}\"", kNames[i]),
+                      "the first row is names, or numbers: x, y, z, radius, material");
+    }
+    return {{places[0], places[1], places[2]}, places[3], places[4]};
+  }
+
+  // Columns of other names are left out, but not if they look like one that is missing.
+  void RefuseMistyped(const std::vector<std::pair<std::string, size_t>>& others,
+                      const std::vector<std::string>& names,
+                      const std::array<size_t, 5>& places) const {
+    std::vector<std::string> missing;
+    for (size_t i = 0; i < names.size(); ++i) {
+      if (places[i] == TableColumns::kNone) missing.push_back(names[i]);
+    }
+    for (const auto& [name, cell] : others) {
+      const std::string nearest = NearestName(name, missing);
+      if (nearest.empty()) continue;
+      rows_.RefuseRow(line_, fmt::format("unknown column \"{}\"", Excerpt(cells_[cell])),
+                      fmt::format("did you mean \"{}\"?", nearest));
+    }
+  }
+
+  double Number(size_t column) const {
+    const std::optional<double> number = ParseNumber(cells_[column]);
+    if (!number) {
+      rows_.RefuseRow(line_, fmt::format("\"{}\" is not a number", Excerpt(cells_[column], 40)));
+    }
+    return *number;
+  }
+
+  bool Says(size_t column) const {
+    return column != TableColumns::kNone && !cells_[column].empty();
+  }
+
+  void AddRow() {
+    rows_.Announce(1);
+    const auto& xyz = columns_.xyz;
+    const Vec3d center(Number(xyz[0]), Number(xyz[1]), Number(xyz[2]));
+    const double radius = Says(columns_.radius) ? Number(columns_.radius) : rows_.RadiusOf(line_);
+    rows_.Add(center, radius, Material(), line_);
+  }
+
+  MaterialId Material() {
+    if (!Says(columns_.material)) return rows_.MaterialOf(line_);
+    const std::string_view cell = cells_[columns_.material];
+    const std::optional<double> number = ParseNumber(cell);
+    return number ? rows_.MaterialOfNumber(*number, line_) : rows_.MaterialOfName(cell, line_);
+  }
+
+  std::string_view text_;
+  SphereRows& rows_;
+  size_t line_ = 0;
+  char separator_ = '\0';
+  std::vector<std::string_view> cells_;
+  TableColumns columns_;
+};
+
+void AddNpy(const NpyMatrix& matrix, SphereRows* rows) {
+  const TableColumns columns = ColumnsInOrder(matrix.columns());
+  const bool has_radii = columns.radius != TableColumns::kNone;
+  const bool has_materials = columns.material != TableColumns::kNone;
+  rows->CheckColumns(has_radii, has_materials);
+  rows->Reserve(matrix.rows());
+  for (uint64_t row = 0; row < matrix.rows(); ++row) {
+    const Vec3d center(matrix.At(row, 0), matrix.At(row, 1), matrix.At(row, 2));
+    const double radius = has_radii ? matrix.At(row, columns.radius) : rows->RadiusOf(row);
+    const MaterialId material = has_materials
+                                    ? rows->MaterialOfNumber(matrix.At(row, columns.material), row)
+                                    : rows->MaterialOf(row);
+    rows->Add(center, radius, material, row);
+  }
+}
+
+void AddPlyPoints(const PlyPoints& points, SphereRows* rows) {
+  rows->CheckColumns(!points.radii.empty(), !points.materials.empty());
+  rows->Reserve(points.positions.size());
+  for (size_t i = 0; i < points.positions.size(); ++i) {
+    const double radius = points.radii.empty() ? rows->RadiusOf(i) : points.radii[i];
+    const MaterialId material = points.materials.empty()
+                                    ? rows->MaterialOf(i)
+                                    : rows->MaterialOfNumber(points.materials[i], i);
+    rows->Add(points.positions[i], radius, material, i);
+  }
+}
+
+}  // namespace
+
+std::vector<Sphere> ReadSphereFile(const std::filesystem::path& path,
+                                   const SphereRowSettings& settings, SceneBudget* budget) {
+  const std::string file = path.string();
+  if (HasExtension(file, ".ply")) {
+    SphereRows rows(settings, budget, file, ": vertex ");
+    AddPlyPoints(ReadPlyPoints(path), &rows);
+    return rows.Take();
+  }
+  if (HasExtension(file, ".npy")) {
+    SphereRows rows(settings, budget, file, ": row ");
+    const std::string bytes = ReadBytes(path, kMaxSphereFileBytes);
+    AddNpy(NpyMatrix(bytes, file), &rows);
+    return rows.Take();
+  }
+  if (HasExtension(file, ".csv")) {
+    SphereRows rows(settings, budget, file, ":");
+    const std::string text = ReadTextFile(path, kMaxSphereFileBytes);
+    CsvReader(WithoutByteOrderMark(text, file), &rows).Read();
+    return rows.Take();
+  }
+  throw Error(ExitCode::kBadInput, file, "is no table of spheres", "a .ply, .csv or .npy file");
+}
+
+}  // namespace nacre
