@@ -22,11 +22,25 @@ struct ReleaseScene {
 };
 using ScenePointer = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 
+// No ray starts further than this from the origin of a tree that is built now, which is where the
+// camera is. A camera that is `reach` from there sees nothing further away than the extent and
+// `reach`, and its rays start no further from it. The last term is for flat lights, which move with
+// the camera: they are lifted by 2^-44 times sums of the coordinates of the camera and of their own
+// (scene/light_shapes.h), altogether less than 2^-42 times the distance of what is furthest from
+// the world's origin; u times the term is no less than that.
+double OriginExtent(const TraceGeometry& geometry) {
+  const double reach = geometry.eye_reach;
+  if (reach == 0) return geometry.extent;
+  const double extent = geometry.extent + 2 * reach;
+  return extent + 0x1p-18 * (geometry.eye.length() + extent);
+}
+
 // How far the float ray strays from the true one, at or before points within `max_distance` of the
-// camera: its origin by u |o| and its direction by u |p - o|, with |o| at most the extent. Twice
-// that, for the rounding of the bounds themselves.
+// tree's origin: its origin by u |o| and its direction by u |p - o|, with |o| at most OriginExtent.
+// Twice that, for the rounding of the bounds themselves, and of the doubles that are relative to a
+// camera elsewhere.
 double BoundsMargin(const TraceGeometry& geometry, double max_distance) {
-  return 2 * kFloatUnit * (2 * geometry.extent + max_distance);
+  return 2 * kFloatUnit * (2 * OriginExtent(geometry) + max_distance);
 }
 
 void SetBounds(const Vec3d& lower, const Vec3d& upper, double margin, RTCBounds* bounds) {
@@ -83,12 +97,19 @@ void Attach(RTCDevice device, RTCScene scene, const TraceGeometry* geometry, siz
 
 // Embree holds pointers to the geometry; the scenes go before the device.
 struct BoxTrees::State {
+  struct Tree {
+    ScenePointer scene;
+    Vec3d origin{0, 0, 0};  // in the world: where the camera was when it was built
+  };
   const TraceGeometry* geometry;
   EmbreeDevice device;
-  ScenePointer all, triangles;
+  Tree all, triangles;
 
-  ScenePointer& SceneOf(BoxTree tree) { return tree == BoxTree::kAll ? all : triangles; }
-  TraceScene Traced(BoxTree tree) { return {SceneOf(tree).get(), device.packet_width(), geometry}; }
+  Tree& TreeOf(BoxTree tree) { return tree == BoxTree::kAll ? all : triangles; }
+  TraceScene Traced(BoxTree tree) {
+    const Tree& of = TreeOf(tree);
+    return {of.scene.get(), device.packet_width(), geometry, geometry->eye - of.origin};
+  }
 };
 
 const char* EmbreeVersion() { return RTC_VERSION_STRING; }
@@ -101,7 +122,8 @@ BoxTrees::~BoxTrees() = default;
 void BoxTrees::Build(BoxTree tree, int threads) {
   EmbreeDevice& device = state_->device;
   const TraceGeometry* const geometry = state_->geometry;
-  if (state_->SceneOf(tree)) return;
+  State::Tree& to = state_->TreeOf(tree);
+  if (to.scene) return;
   ScenePointer built(rtcNewScene(device.get()));
   device.ThrowIfFailed();
   rtcSetSceneFlags(built.get(), RTC_SCENE_FLAG_ROBUST);
@@ -122,7 +144,14 @@ void BoxTrees::Build(BoxTree tree, int threads) {
     [[maybe_unused]] const RTCScene left = built.release();
     throw;
   }
-  state_->SceneOf(tree) = std::move(built);
+  to = {std::move(built), geometry->eye};
+}
+
+bool BoxTrees::Serve(const Vec3d& eye) const {
+  const auto serves = [&](const State::Tree& tree) {
+    return !tree.scene || (eye - tree.origin).length() <= state_->geometry->eye_reach;
+  };
+  return serves(state_->all) && serves(state_->triangles);
 }
 
 void BoxTrees::FindNearer(BoxTree tree, const RayBatch& rays, ClosestHits* hits) const {

@@ -9,7 +9,8 @@
 
 namespace nacre {
 
-// The packet's float rays are `rays`.
+// The packet's float rays are `rays`, but for their origins: those of `rays` are relative to the
+// tree's origin.
 struct EmbreePacket {
   EmbreePacket(int width, RTCScene scene, const TraceGeometry* geometry);
   EmbreePacket(const EmbreePacket&) = delete;  // it points into itself
@@ -20,6 +21,7 @@ struct EmbreePacket {
   alignas(64) int valid[kMaxPacketWidth];  // -1: the lane is asked about, 0: not
   RTCRayHit16 rays;                        // laid out for the packet's width
   Packet packet;
+  alignas(64) float origin[3][kMaxPacketWidth];
 
   RTCRayN* ray_n() { return RTCRayHitN_RayN(reinterpret_cast<RTCRayHitN*>(&rays), Width()); }
   unsigned Width() const { return static_cast<unsigned>(packet.width); }
@@ -32,9 +34,12 @@ inline EmbreePacket::EmbreePacket(int width, RTCScene to_scene, const TraceGeome
   packet.geometry = geometry;
   const unsigned lanes = Width();
   RTCRayN* ray = ray_n();
-  packet.floats = {&RTCRayN_org_x(ray, lanes, 0), &RTCRayN_org_y(ray, lanes, 0),
-                   &RTCRayN_org_z(ray, lanes, 0), &RTCRayN_dir_x(ray, lanes, 0),
-                   &RTCRayN_dir_y(ray, lanes, 0), &RTCRayN_dir_z(ray, lanes, 0),
+  packet.floats = {origin[0],
+                   origin[1],
+                   origin[2],
+                   &RTCRayN_dir_x(ray, lanes, 0),
+                   &RTCRayN_dir_y(ray, lanes, 0),
+                   &RTCRayN_dir_z(ray, lanes, 0),
                    &RTCRayN_tfar(ray, lanes, 0)};
   auto* hits = RTCRayHitN_HitN(reinterpret_cast<RTCRayHitN*>(&rays), lanes);
   for (unsigned i = 0; i < lanes; ++i) {

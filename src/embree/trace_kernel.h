@@ -13,6 +13,7 @@ struct TraceScene {
   RTCScene scene = nullptr;
   int packet_width = 0;  // 4, 8 or 16: the widest that the device walks natively
   const TraceGeometry* geometry = nullptr;
+  Vec3d offset{0, 0, 0};  // from the scene's origin to the camera, which rays are relative to
 };
 
 // As BoxTrees has them.

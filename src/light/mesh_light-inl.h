@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// light/mesh_light-inl.h: the triangles of a mesh light that a vector of rays hits. Scalar twin:
-// FindMeshLightHits of mesh_light.h, bit for bit. The rays traverse the tree together: a box is
-// entered, and a triangle tested, if any of them needs it.
+// light/mesh_light-inl.h: the triangles of a mesh light that rays hit. Scalar twin:
+// FindMeshLightHits of mesh_light.h, bit for bit. Rays to a light go to all its parts, so each
+// traverses the tree by itself: a vector holds the boxes of a node, or the triangles of a leaf.
 #if defined(NACRE_LIGHT_MESH_LIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_LIGHT_MESH_LIGHT_INL_H_
 #undef NACRE_LIGHT_MESH_LIGHT_INL_H_
@@ -9,6 +9,8 @@
 #define NACRE_LIGHT_MESH_LIGHT_INL_H_
 #endif
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "base/geometry-inl.h"
@@ -19,39 +21,80 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rays, relative to the light's origin, in double. `inverse`: reciprocals of the directions.
-template <class V>
-struct LightRaysV {
-  Vec3V<V> point, direction, inverse;
+// Rays as the boxes of the tree are tested with them, in floats: relative to the light's origin,
+// and from the point where they are nearest to it, so that the floats' errors are relative to the
+// light's size, however far away a ray starts.
+//
+// In place of the origin are two with a margin between them: what the exact test may accept beside
+// a triangle must not be outside of its box, nor lost by roundings. R is the light's radius, p
+// where the ray starts. In units of 2^-24 R, floats lose at most 1 in the origin, 2 in the
+// difference to a side of a box, which is up to 2 R, and 4 in its product with the rounded inverse.
+// In units of 2^-53 |p|, doubles lose less than 4 in the origin, and the exact test accepts less
+// than 12 beside a triangle; more only if the ray is all but parallel to an edge, where its last
+// bits decide. The margin is twice that.
+inline constexpr double kLightBoxMargin = 16 * 0x1p-24, kLightDistanceMargin = 32 * 0x1p-53;
+
+struct LightBoxRays {
+  static constexpr size_t kMaxLanes = HWY_MAX_BYTES / sizeof(double);
+  // Of an axis: the origin plus and minus the margin, and the inverse of the direction.
+  alignas(64) float plus[3][kMaxLanes], minus[3][kMaxLanes], inverse[3][kMaxLanes];
+  alignas(64) float start[kMaxLanes];  // where the ray starts, in units of the direction
 };
 
+// Sets `rays`. `direction`: unit vectors, up to the rounding to float. Returns the lanes whose ray
+// meets the ball around the light.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE LightRaysV<V> MakeLightRays(D d, const Vec3V<V>& point, const Vec3V<V>& direction) {
-  const auto inverse = [d](V x) HWY_ATTR {
-    const V one = hn::Set(d, 1.0);
-    const auto along = hn::Eq(x, hn::Zero(d));
-    return hn::IfThenElse(along, hn::Set(d, kSlabInfinity),
-                          hn::Div(one, hn::IfThenElse(along, one, x)));
+HWY_INLINE hn::Mask<D> MakeLightBoxRays(D d, const MeshLight& light, const Vec3V<V>& point,
+                                        const Vec3V<V>& direction, LightBoxRays* rays) {
+  const hn::Rebind<float, D> df;
+  const V zero = hn::Zero(d);
+  const V forward =
+      hn::Max(hn::Div(hn::Neg(Dot(point, direction)), Dot(direction, direction)), zero);
+  const Vec3V<V> nearest = Add(point, Scale(direction, forward));
+  const V size = hn::Add(hn::Add(hn::Abs(point.x), hn::Abs(point.y)), hn::Abs(point.z));
+  const V margin = hn::Add(hn::Set(d, light.radius * kLightBoxMargin),
+                           hn::Mul(size, hn::Set(d, kLightDistanceMargin)));
+  const auto store = [&](V v, float* to) HWY_ATTR { hn::Store(hn::DemoteTo(df, v), df, to); };
+  const auto axis = [&](int c, V at, V along) HWY_ATTR {
+    store(hn::Add(at, margin), rays->plus[c]);
+    store(hn::Sub(at, margin), rays->minus[c]);
+    // A ray along a slab is not in its planes: the margin lies between.
+    const V size_along = hn::Max(hn::Abs(along), hn::Set(d, 1e-30));
+    store(hn::Div(hn::CopySign(hn::Set(d, 1.0), along), size_along), rays->inverse[c]);
   };
-  return {point, direction, {inverse(direction.x), inverse(direction.y), inverse(direction.z)}};
+  axis(0, nearest.x, direction.x);
+  axis(1, nearest.y, direction.y);
+  axis(2, nearest.z, direction.z);
+  // Nothing of the light is before -4 R, where floats still hold the margin.
+  store(hn::Sub(hn::Max(hn::Neg(forward), hn::Set(d, -4 * light.radius)), margin), rays->start);
+  const V reach = hn::Add(hn::Set(d, light.radius), hn::Add(margin, margin));
+  return hn::Le(Dot(nearest, nearest), hn::Mul(reach, reach));
 }
 
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE auto IntersectsBox(D d, const MeshLightNode& box, const LightRaysV<V>& rays) {
-  V near = hn::Zero(d), far = hn::Set(d, std::numeric_limits<double>::infinity());
-  const auto cut = [&](double low, double high, V point, V inverse) HWY_ATTR {
-    const V a = hn::Mul(hn::Sub(hn::Set(d, low), point), inverse);
-    const V b = hn::Mul(hn::Sub(hn::Set(d, high), point), inverse);
-    near = hn::Max(near, hn::Min(a, b));
-    far = hn::Min(far, hn::Max(a, b));
-  };
-  cut(box.low.x, box.high.x, rays.point.x, rays.inverse.x);
-  cut(box.low.y, box.high.y, rays.point.y, rays.inverse.y);
-  cut(box.low.z, box.high.z, rays.point.z, rays.inverse.z);
-  return hn::Le(near, hn::Mul(far, hn::Set(d, kSlabRounding)));
+// The boxes of the node that ray `lane` meets, as bits.
+HWY_INLINE uint32_t IntersectBoxes(const MeshLightNode& node, const LightBoxRays& rays,
+                                   size_t lane) {
+  const hn::CappedTag<float, kMeshLightWidth> d;
+  uint32_t bits = 0;
+  for (size_t i = 0; i < kMeshLightWidth; i += hn::Lanes(d)) {
+    auto near = hn::Set(d, rays.start[lane]);
+    auto far = hn::Set(d, std::numeric_limits<float>::infinity());
+    for (int c = 0; c < 3; ++c) {
+      const auto inverse = hn::Set(d, rays.inverse[c][lane]);
+      const auto low = hn::Sub(hn::Load(d, node.low[c] + i), hn::Set(d, rays.plus[c][lane]));
+      const auto high = hn::Sub(hn::Load(d, node.high[c] + i), hn::Set(d, rays.minus[c][lane]));
+      const auto a = hn::Mul(low, inverse), b = hn::Mul(high, inverse);
+      near = hn::Max(near, hn::Min(a, b));
+      far = hn::Min(far, hn::Max(a, b));
+    }
+    alignas(8) uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, hn::Le(near, far), bytes);
+    bits |= (bytes[0] | uint32_t{bytes[1]} << 8) << i;
+  }
+  return bits & ((uint32_t{1} << node.count) - 1);
 }
 
-// Hits of rays on a triangle: t in units of the direction, valid where `hit`; and the product of
+// Hits of a ray on triangles: t in units of the direction, valid where `hit`; and the product of
 // the direction and the triangle's normal, negative where a ray meets its front.
 template <class M, class V>
 struct MeshLightHitV {
@@ -59,16 +102,21 @@ struct MeshLightHitV {
   V t, towards;
 };
 
+// On triangles i... of a leaf.
 template <class D, class V = hn::Vec<D>>
-HWY_INLINE MeshLightHitV<hn::Mask<D>, V> IntersectLightTriangle(D d, const TriangleLight<double>& t,
-                                                                const Vec3d& cross,
-                                                                const LightRaysV<V>& rays) {
+HWY_INLINE MeshLightHitV<hn::Mask<D>, V> IntersectLightTriangles(D d, const MeshLightLeaf& leaf,
+                                                                 size_t i, const Vec3d& point,
+                                                                 const Vec3V<V>& direction) {
   const V zero = hn::Zero(d);
-  const Vec3V<V> corner = Sub(SetVec3(d, t.corner), rays.point);
-  const Vec3V<V> normal = SetVec3(d, cross);
-  const V towards = Dot(rays.direction, normal);
-  const Vec3V<V> across = Cross(corner, rays.direction);
-  const V along_y = Dot(across, SetVec3(d, t.edge_y)), along_x = Dot(across, SetVec3(d, t.edge_x));
+  const auto load = [&](const double(&column)[3][kMeshLightLeaf]) HWY_ATTR {
+    return Vec3V<V>{hn::Load(d, column[0] + i), hn::Load(d, column[1] + i),
+                    hn::Load(d, column[2] + i)};
+  };
+  const Vec3V<V> corner = Sub(load(leaf.corner), SetVec3(d, point));
+  const Vec3V<V> normal = load(leaf.cross);
+  const V towards = Dot(direction, normal);
+  const Vec3V<V> across = Cross(corner, direction);
+  const V along_y = Dot(across, load(leaf.edge_y)), along_x = Dot(across, load(leaf.edge_x));
   const auto back = hn::Lt(towards, zero);
   const V x = hn::IfThenElse(back, hn::Neg(along_y), along_y);
   const V y = hn::IfThenElse(back, along_x, hn::Neg(along_x));
@@ -80,24 +128,48 @@ HWY_INLINE MeshLightHitV<hn::Mask<D>, V> IntersectLightTriangle(D d, const Trian
   return {hn::And(line_hit, hn::Gt(t_hit, zero)), t_hit, towards};
 }
 
-// Calls found(triangle, hit) for the triangles that any lane's ray hits.
-template <class D, class V, class Found>
-HWY_INLINE void ForEachMeshLightHit(D d, const MeshLight& light, const LightRaysV<V>& rays,
+// Calls found(triangle, t, towards) for the triangles of the leaf that the ray hits.
+template <class Found>
+HWY_INLINE void ForEachLeafHit(const MeshLightLeaf& leaf, const Vec3d& point,
+                               const Vec3d& direction, const Found& found) {
+  const hn::CappedTag<double, kMeshLightLeaf> d;
+  const auto directions = SetVec3(d, direction);
+  for (size_t i = 0; i < kMeshLightLeaf; i += hn::Lanes(d)) {
+    const auto hits = IntersectLightTriangles(d, leaf, i, point, directions);
+    if (hn::AllFalse(d, hits.hit)) continue;
+    alignas(64) double t[kMeshLightLeaf], towards[kMeshLightLeaf];
+    alignas(8) uint8_t bits[8] = {};
+    hn::Store(hits.t, d, t);
+    hn::Store(hits.towards, d, towards);
+    hn::StoreMaskBits(d, hits.hit, bits);
+    for (uint32_t lanes = bits[0]; lanes != 0; lanes &= lanes - 1) {
+      const size_t k = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      found(leaf.triangle[i + k], t[k], towards[k]);
+    }
+  }
+}
+
+// Calls found(triangle, t, towards) for the triangles that a ray hits, which is `lane` of the rays.
+template <class Found>
+HWY_INLINE void ForEachMeshLightHit(const MeshLight& light, const LightBoxRays& rays, size_t lane,
+                                    const Vec3d& point, const Vec3d& direction,
                                     const Found& found) {
   uint32_t stack[kMeshLightStack];
   size_t size = 0;
   stack[size++] = 0;
+  // Leaves are on the stack as well, so that triangles are met in the order of the tree.
+  constexpr uint32_t kLeafBit = 0x80000000u;
   while (size > 0) {
-    const MeshLightNode& node = light.tree[stack[--size]];
-    if (hn::AllFalse(d, IntersectsBox(d, node, rays))) continue;
-    if (node.child != 0) {
-      stack[size++] = node.child;
-      stack[size++] = node.child + 1;
+    const uint32_t top = stack[--size];
+    if ((top & kLeafBit) != 0) {
+      ForEachLeafHit(light.leaves[top & ~kLeafBit], point, direction, found);
       continue;
     }
-    for (uint32_t i = node.begin; i < node.end; ++i) {
-      const auto hit = IntersectLightTriangle(d, light.triangles[i], light.crosses[i], rays);
-      if (!hn::AllFalse(d, hit.hit)) found(i, hit);
+    const MeshLightNode& node = light.nodes[top];
+    for (uint32_t bits = IntersectBoxes(node, rays, lane); bits != 0;) {
+      const auto last = static_cast<uint32_t>(31 - hwy::Num0BitsAboveMS1Bit_Nonzero32(bits));
+      bits ^= 1u << last;
+      stack[size++] = node.child[last] | ((node.leaves >> last & 1) != 0 ? kLeafBit : 0);
     }
   }
 }

@@ -9,9 +9,6 @@
 namespace nacre {
 namespace {
 
-constexpr uint32_t kLeafSize = 4;
-constexpr double kBoxMargin = 0x1p-50;  // relative to the mesh's size: a few roundings
-
 struct Box {
   Vec3d low{std::numeric_limits<double>::infinity()};
   Vec3d high{-std::numeric_limits<double>::infinity()};
@@ -31,51 +28,139 @@ struct Box {
 
 Vec3d Centroid(const TriangleLight<double>& t) { return t.corner + (t.edge_x + t.edge_y) / 3; }
 
+// Triangles [begin, end) of the sorted ones, and their box. The halves of what is split are two
+// neighbours, `halves` and the next.
+struct Range {
+  Box box;
+  uint32_t begin = 0, end = 0;
+  uint32_t halves = 0;  // 0: not split
+
+  uint32_t count() const { return end - begin; }
+};
+
 // Splits the triangles at the median along the longest side of their centroids' box, until few are
 // left. Sorts `order`.
-class TreeBuilder {
+class RangeSplitter {
  public:
-  TreeBuilder(const std::vector<TriangleLight<double>>& triangles, std::vector<uint32_t>* order,
-              std::vector<MeshLightNode>* tree)
-      : triangles_(triangles), order_(*order), tree_(*tree) {}
+  RangeSplitter(const std::vector<TriangleLight<double>>& triangles, std::vector<uint32_t>* order)
+      : triangles_(triangles), order_(*order) {}
 
-  void Build() {
-    tree_.emplace_back();
-    Split(0, 0, static_cast<uint32_t>(order_.size()));
-    // The margin keeps rays in the plane of a side inside of the box, as SlabInverse requires.
-    const Vec3d margin(kBoxMargin * (tree_[0].high - tree_[0].low).length());
-    for (MeshLightNode& node : tree_) {
-      node.low -= margin;
-      node.high += margin;
-    }
+  std::vector<Range> Split() {
+    ranges_.emplace_back();
+    SplitRange(0, 0, static_cast<uint32_t>(order_.size()));
+    return std::move(ranges_);
   }
 
  private:
-  void Split(size_t node, uint32_t begin, uint32_t end) {
+  void SplitRange(size_t range, uint32_t begin, uint32_t end) {
+    constexpr uint32_t kFew = 4;
     Box box, centroids;
     for (uint32_t i = begin; i < end; ++i) {
       box.Add(triangles_[order_[i]]);
       centroids.Add(Centroid(triangles_[order_[i]]));
     }
-    tree_[node] = {box.low, box.high, begin, end, 0};
-    if (end - begin <= kLeafSize) return;
+    ranges_[range] = {box, begin, end, 0};
+    if (end - begin <= kFew) return;
     const Vec3d size = centroids.high - centroids.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const uint32_t half = begin + (end - begin) / 2;
-    std::nth_element(order_.begin() + begin, order_.begin() + half, order_.begin() + end,
+    const uint32_t middle = begin + (end - begin) / 2;
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                      [&](uint32_t a, uint32_t b) {
                        return Centroid(triangles_[a])[axis] < Centroid(triangles_[b])[axis];
                      });
-    const auto child = static_cast<uint32_t>(tree_.size());
-    tree_[node].child = child;
-    tree_.resize(tree_.size() + 2);
-    Split(child, begin, half);
-    Split(child + 1, half, end);
+    const auto halves = static_cast<uint32_t>(ranges_.size());
+    ranges_[range].halves = halves;
+    ranges_.resize(ranges_.size() + 2);
+    SplitRange(halves, begin, middle);
+    SplitRange(halves + 1, middle, end);
   }
 
   const std::vector<TriangleLight<double>>& triangles_;
   std::vector<uint32_t>& order_;
-  std::vector<MeshLightNode>& tree_;
+  std::vector<Range> ranges_;
+};
+
+float RoundDown(double x) {
+  const auto f = static_cast<float>(x);
+  return f <= x ? f : std::nextafter(f, -std::numeric_limits<float>::infinity());
+}
+
+// Makes the light's tree: nodes of up to kMeshLightWidth ranges, leaves of up to kMeshLightLeaf
+// triangles. Of two halves the second always comes first: pdfs are summed in the order in which
+// rays meet triangles, so the order is part of a picture's bits.
+class TreeBuilder {
+ public:
+  TreeBuilder(const std::vector<Range>& ranges, MeshLight* light)
+      : ranges_(ranges), light_(*light) {}
+
+  uint32_t AddNode(uint32_t root) {
+    const std::vector<uint32_t> children = ChildrenOf(root);
+    const auto node = static_cast<uint32_t>(light_.nodes.size());
+    light_.nodes.emplace_back();
+    light_.nodes[node].count = static_cast<uint32_t>(children.size());
+    for (size_t i = 0; i < kMeshLightWidth; ++i) {
+      // Unused entries repeat the last one.
+      SetBox(ranges_[children[std::min(i, children.size() - 1)]].box, i, &light_.nodes[node]);
+    }
+    for (size_t i = 0; i < children.size(); ++i) {
+      const bool leaf = ranges_[children[i]].count() <= kMeshLightLeaf;
+      const uint32_t child = leaf ? AddLeaf(children[i]) : AddNode(children[i]);
+      light_.nodes[node].child[i] = child;
+      light_.nodes[node].leaves |= leaf ? 1u << i : 0u;
+    }
+    return node;
+  }
+
+ private:
+  // The largest ranges are split until there are enough, or none needs it.
+  std::vector<uint32_t> ChildrenOf(uint32_t root) const {
+    std::vector<uint32_t> children{root};
+    while (children.size() < kMeshLightWidth) {
+      const auto largest = std::max_element(
+          children.begin(), children.end(),
+          [&](uint32_t a, uint32_t b) { return ranges_[a].count() < ranges_[b].count(); });
+      if (ranges_[*largest].count() <= kMeshLightLeaf) break;
+      const uint32_t halves = ranges_[*largest].halves;
+      *largest = halves + 1;
+      children.insert(largest + 1, halves);
+    }
+    return children;
+  }
+
+  static void SetBox(const Box& box, size_t i, MeshLightNode* node) {
+    for (int c = 0; c < 3; ++c) {
+      node->low[c][i] = RoundDown(box.low[c]);
+      node->high[c][i] = -RoundDown(-box.high[c]);
+    }
+  }
+
+  uint32_t AddLeaf(uint32_t range) {
+    MeshLightLeaf leaf{};
+    size_t count = 0;
+    FillLeaf(ranges_[range], &leaf, &count);
+    light_.leaves.push_back(leaf);
+    return static_cast<uint32_t>(light_.leaves.size() - 1);
+  }
+
+  void FillLeaf(const Range& range, MeshLightLeaf* leaf, size_t* count) const {
+    if (range.halves != 0) {
+      FillLeaf(ranges_[range.halves + 1], leaf, count);
+      FillLeaf(ranges_[range.halves], leaf, count);
+      return;
+    }
+    for (uint32_t k = range.begin; k < range.end; ++k, ++*count) {
+      for (int c = 0; c < 3; ++c) {
+        leaf->corner[c][*count] = light_.triangles[k].corner[c];
+        leaf->edge_x[c][*count] = light_.triangles[k].edge_x[c];
+        leaf->edge_y[c][*count] = light_.triangles[k].edge_y[c];
+        leaf->cross[c][*count] = light_.crosses[k][c];
+      }
+      leaf->triangle[*count] = k;
+    }
+  }
+
+  const std::vector<Range>& ranges_;
+  MeshLight& light_;
 };
 
 // The tolerance of corners from a plane, relative to the mesh's size, because files hold floats. A
@@ -107,22 +192,6 @@ Heights FindHeights(const MeshLight& light) {
   return heights;
 }
 
-// 1 / x, and a large finite number for x = 0: 0 times it is 0.
-double SlabInverse(double x) { return x == 0 ? kSlabInfinity : 1 / x; }
-
-// Ize 2013, "Robust BVH Ray Traversal": the far end is multiplied by 1 + 2 gamma(3), so that no box
-// is missed because of rounding.
-bool IntersectsBox(const MeshLightNode& box, const Vec3d& point, const Vec3d& inverse) {
-  double near = 0, far = std::numeric_limits<double>::infinity();
-  for (int c = 0; c < 3; ++c) {
-    const double a = (box.low[c] - point[c]) * inverse[c];
-    const double b = (box.high[c] - point[c]) * inverse[c];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far * kSlabRounding;
-}
-
 // The t at which the ray hits the triangle, edges included, by Cramer's rule; 0 if it misses.
 double IntersectLightTriangle(const TriangleLight<double>& t, const Vec3d& cross,
                               const Vec3d& point, const Vec3d& direction) {
@@ -151,8 +220,8 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
   }
   std::vector<uint32_t> order(unsorted.size());
   std::iota(order.begin(), order.end(), 0u);
+  const std::vector<Range> ranges = RangeSplitter(unsorted, &order).Split();
   MeshLight light;
-  TreeBuilder(unsorted, &order, &light.tree).Build();
   light.triangles.reserve(order.size());
   light.crosses.reserve(order.size());
   light.probabilities.reserve(order.size());
@@ -162,7 +231,11 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
     light.crosses.push_back(unsorted[i].edge_x % unsorted[i].edge_y);
     light.probabilities.push_back(light.crosses.back().length());
     sum += light.probabilities.back();
+    const auto& [corner, edge_x, edge_y] = unsorted[i];
+    light.radius = std::max(
+        {light.radius, corner.length(), (corner + edge_x).length(), (corner + edge_y).length()});
   }
+  TreeBuilder(ranges, &light).AddNode(0);
   for (double& probability : light.probabilities) probability /= sum;
   light.by_area = MakeInverseCdf(light.probabilities);
   if (light.triangles.size() <= kMaxClosedFormTriangles) {
@@ -178,23 +251,9 @@ MeshLight MakeMeshLight(std::span<const Vec3d> positions, std::span<const uint32
 void FindMeshLightHits(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
                        std::vector<MeshLightHit>* hits) {
   hits->clear();
-  const Vec3d inverse(SlabInverse(direction.x), SlabInverse(direction.y), SlabInverse(direction.z));
-  uint32_t stack[kMeshLightStack];
-  size_t size = 0;
-  stack[size++] = 0;
-  while (size > 0) {
-    const MeshLightNode& node = light.tree[stack[--size]];
-    if (!IntersectsBox(node, point, inverse)) continue;
-    if (node.child != 0) {
-      stack[size++] = node.child;
-      stack[size++] = node.child + 1;
-      continue;
-    }
-    for (uint32_t i = node.begin; i < node.end; ++i) {
-      const double t =
-          IntersectLightTriangle(light.triangles[i], light.crosses[i], point, direction);
-      if (t > 0) hits->push_back({i, t});
-    }
+  for (uint32_t i = 0; i < light.triangles.size(); ++i) {
+    const double t = IntersectLightTriangle(light.triangles[i], light.crosses[i], point, direction);
+    if (t > 0) hits->push_back({i, t});
   }
 }
 

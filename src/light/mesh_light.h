@@ -18,12 +18,24 @@
 
 namespace nacre {
 
-// A node of a bounding volume hierarchy: the box of triangles [begin, end). Inner nodes have two
-// children, `child` and the one after it.
+inline constexpr size_t kMeshLightWidth = 16;  // the most children of a node: a vector of floats
+inline constexpr size_t kMeshLightLeaf = 8;    // the most triangles of a leaf: a vector of doubles
+
+// A node of a bounding volume hierarchy. The children's boxes are rounded outwards to floats.
 struct MeshLightNode {
-  Vec3d low, high;
-  uint32_t begin = 0, end = 0;
-  uint32_t child = 0;  // 0: a leaf
+  alignas(64) float low[3][kMeshLightWidth];
+  alignas(64) float high[3][kMeshLightWidth];
+  uint32_t count = 0;               // of children
+  uint32_t child[kMeshLightWidth];  // a node's index; or a leaf's, if the bit is set in `leaves`
+  uint32_t leaves = 0;
+};
+
+struct MeshLightLeaf {
+  alignas(64) double corner[3][kMeshLightLeaf];
+  alignas(64) double edge_x[3][kMeshLightLeaf];
+  alignas(64) double edge_y[3][kMeshLightLeaf];
+  alignas(64) double cross[3][kMeshLightLeaf];  // 0: no triangle
+  uint32_t triangle[kMeshLightLeaf];            // its index
 };
 
 struct MeshLight {
@@ -31,7 +43,9 @@ struct MeshLight {
   std::vector<Vec3d> crosses;                    // edge_x cross edge_y of each
   std::vector<double> probabilities;             // area over the sum of all
   std::vector<CdfEntry> by_area;
-  std::vector<MeshLightNode> tree;
+  std::vector<MeshLightNode> nodes;  // the first one is the root
+  std::vector<MeshLightLeaf> leaves;
+  double radius = 0;  // of the ball around the origin that holds all triangles
   // Convex: no corner lies in front of any triangle's plane, so that from no point a front face
   // hides another one. Flat: no corner lies behind one either.
   bool is_convex = false;
@@ -39,13 +53,9 @@ struct MeshLight {
   MeshOutline outline;  // of convex solids and polygons; else empty
 };
 
-// Replaces 1 / 0 where a ray is parallel to a slab of a box, because 0 times infinity is NaN.
-inline constexpr double kSlabInfinity = 1e300;
-inline constexpr double kSlabRounding = 1 + 2 * 3 * 0x1p-52;
-
-// The size of the traversal stack: a tree that is split into halves is no deeper than the number of
-// bits of its count.
-inline constexpr size_t kMeshLightStack = 64;
+// The size of the traversal stack. A node puts at most kMeshLightWidth on it, and a tree that is
+// split into halves has 29 levels of them above leaves of 8, 4 of which make one level of nodes.
+inline constexpr size_t kMeshLightStack = 8 * kMeshLightWidth;
 
 // Meshes with more triangles are not checked for convexity: summing their irradiance in closed form
 // over all triangles takes longer than sampling.
@@ -62,7 +72,7 @@ struct MeshLightHit {
   double t;  // > 0, in units of the direction
 };
 
-// Sets `hits` to all hits of the ray, in any order.
+// Sets `hits` to all hits of the ray, in any order. Tests every triangle.
 void FindMeshLightHits(const MeshLight& light, const Vec3d& point, const Vec3d& direction,
                        std::vector<MeshLightHit>* hits);
 

@@ -19,6 +19,7 @@ BoxTrees::~BoxTrees() = default;
 
 // There is never an object to call these of.
 void BoxTrees::Build(BoxTree /*tree*/, int /*threads*/) {}
+bool BoxTrees::Serve(const Vec3d& /*eye*/) const { return true; }
 void BoxTrees::FindNearer(BoxTree /*tree*/, const RayBatch& /*rays*/, ClosestHits* /*hits*/) const {
 }
 void BoxTrees::FindOccluded(ShadowRayBatch* /*rays*/) const {}

@@ -180,10 +180,10 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
     shown.push_back(ball && (blocks_others || MayBeInView(scene, *ball)));
   }
   const bool any = std::find(shown.begin(), shown.end(), true) != shown.end();
-  ShapesKey key{prepared->versions.Of(ScenePart::kShapes), {}, scene.camera.position, 0};
+  ShapesKey key{prepared->versions.Of(ScenePart::kShapes), {}, 0};
   if (any) {
     key = {prepared->versions.Of(ScenePart::kShapes | ScenePart::kLights), shown,
-           scene.camera.position, scene.materials.size()};
+           scene.materials.size()};
   }
   // Tangents do not depend on the camera, so they are kept when it moves.
   const PartVersions meshes = prepared->versions.Of(ScenePart::kShapes);

@@ -102,6 +102,7 @@ AdaptivePlan PlanAdaptiveSampling(const FramePlan& plan, const RenderSettings& s
 
 FramePlan MakePlan(const Scene& scene, const RenderSettings& settings) {
   PreparedScene prepared;
+  prepared.for_one_plan = true;
   return MakePlan(scene, settings, &prepared);
 }
 

@@ -61,6 +61,26 @@ std::string DescribeShapes(const Scene& scene) {
                      CountTriangles(scene), TargetName(ActiveTarget()));
 }
 
+// That of a plan before follows the camera, if it can.
+std::shared_ptr<Intersector> FindIntersector(const Scene& scene, const RenderSettings& settings,
+                                             PreparedScene* prepared) {
+  // A camera on its way around what it looks at, and somewhat away from it.
+  constexpr double kOrbit = 2.5;
+  const Vec3d& eye = scene.camera.position;
+  const bool shells = settings.intersector == IntersectorChoice::kShells;
+  const ViewKey key{prepared->shapes_made, {}, {shells ? 1.0 : 0.0}};
+  Kept<ViewKey, std::shared_ptr<Intersector>>& kept = prepared->intersector;
+  if (kept.IsUpToDate(key) && !kept.value->MoveTo(scene, eye)) kept.Forget();
+  return kept.Get(key, [&] {
+    ++prepared->intersectors_made;
+    const double reach =
+        prepared->for_one_plan ? 0 : kOrbit * (scene.camera.look_at - eye).length();
+    const IntersectorSettings how{
+        .threads = settings.threads, .tree = false, .shells = shells, .eye_reach = reach};
+    return std::make_shared<Intersector>(scene, eye, how);
+  });
+}
+
 }  // namespace
 
 HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Window& window,
@@ -77,7 +97,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const auto report = [&](double done) {
     if (settings.on_plan_progress) settings.on_plan_progress(done);
   };
-  // What depends on the view, too: the intersector itself depends on the shapes and the eye only.
+  // What depends on the view, too: the intersector itself depends on the shapes only.
   const auto view = [&](uint64_t made, std::vector<double> numbers) {
     return ViewKey{made, prepared->versions.Of(ScenePart::kCamera | ScenePart::kImage),
                    std::move(numbers)};
@@ -85,14 +105,7 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
   const ViewKey of_shapes = view(prepared->shapes_made, {});
   plan.eye_outside =
       prepared->eye_outside.Get(of_shapes, [&] { return EyeIsOutside(scene, settings.threads); });
-  const bool shells = settings.intersector == IntersectorChoice::kShells;
-  plan.intersector =
-      prepared->intersector.Get({prepared->shapes_made, {}, {shells ? 1.0 : 0.0}}, [&] {
-        ++prepared->intersectors_made;
-        return std::make_shared<Intersector>(
-            scene, scene.camera.position,
-            IntersectorSettings{.threads = settings.threads, .tree = false, .shells = shells});
-      });
+  plan.intersector = FindIntersector(scene, settings, prepared);
   const bool nested = plan.intersector->SpheresAreNested();
   const char* const tree_asked_for = TreeAskedFor(settings.intersector);
   const bool want_tiles = tree_asked_for == nullptr && !scene.spheres.empty() && !nested;

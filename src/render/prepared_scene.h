@@ -55,7 +55,6 @@ class Kept {
 struct ShapesKey {
   PartVersions parts;       // kShapes, and kLights if the shape of any light is added
   std::vector<bool> shown;  // by light, whether its shape is added
-  Vec3d eye{0, 0, 0};
   size_t materials = 0;
   friend bool operator==(const ShapesKey&, const ShapesKey&) = default;
 };
@@ -75,7 +74,11 @@ struct PreparedScene {
   Kept<ShapesKey, std::shared_ptr<SceneWithLights>> with_lights;
   uint64_t shapes_made = 0;  // how often with_lights was made
 
-  // Its coordinates are relative to the camera. Bins and occluder lists are kept inside it.
+  // For one plan only: trees need not serve other cameras.
+  bool for_one_plan = false;
+
+  // Its coordinates are relative to the camera, which it follows (Intersector::MoveTo). Bins and
+  // occluder lists are kept inside it.
   Kept<ViewKey, std::shared_ptr<Intersector>> intersector;
   uint64_t intersectors_made = 0;  // how often intersector was made
   Kept<ViewKey, bool> eye_outside;

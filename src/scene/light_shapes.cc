@@ -101,6 +101,23 @@ void LiftFromItsPlane(const Vec3d& camera, Mesh* mesh) {
   for (Vec3d& p : mesh->positions) p += *normal * rounding;
 }
 
+// Puts the meshes of lights, which are the last ones, where they are for the scene's camera.
+void MoveLightMeshes(const Scene& scene, SceneWithLights* with) {
+  size_t next = scene.meshes.size();
+  for (size_t i = 0; i < scene.lights.size(); ++i) {
+    if (with->primitives[i].end <= with->scene.spheres.size()) continue;
+    const auto move = [&](const auto& light) {
+      Mesh mesh = MakeMesh(light);
+      LiftFromItsPlane(scene.camera.position, &mesh);
+      with->scene.meshes[next++].positions = std::move(mesh.positions);
+    };
+    const auto& kind = scene.lights[i].kind;
+    if (const auto* rectangle = std::get_if<RectangleAreaLight>(&kind)) move(*rectangle);
+    if (const auto* disk = std::get_if<DiskAreaLight>(&kind)) move(*disk);
+    if (const auto* mesh = std::get_if<MeshAreaLight>(&kind)) move(*mesh);
+  }
+}
+
 }  // namespace
 
 RectangleCorners CornersOf(const RectangleAreaLight& light) {
@@ -180,6 +197,7 @@ SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& show
 
 void UpdateAllButShapes(const Scene& scene, SceneWithLights* with) {
   Scene& to = with->scene;
+  if (scene.camera.position != to.camera.position) MoveLightMeshes(scene, with);
   to.camera = scene.camera;
   to.image = scene.image;
   to.images = scene.images;

@@ -47,7 +47,7 @@ struct SceneWithLights {
 SceneWithLights AddLightShapes(const Scene& scene, const std::vector<bool>& shown);
 
 // Takes over from `scene` all but shapes: one of as many materials whose lights and shapes are
-// those that `with` was made of.
+// those that `with` was made of. Flat lights are lifted for its camera.
 void UpdateAllButShapes(const Scene& scene, SceneWithLights* with);
 
 }  // namespace nacre

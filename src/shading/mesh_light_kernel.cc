@@ -90,50 +90,48 @@ void MeshIrradianceT(const SampledLight& light, const HitBatch& hits, const Surf
 using DD = hn::ScalableTag<double>;
 using VD = hn::Vec<DD>;
 
-HWY_INLINE LightRaysV<VD> RaysAt(const SampledLight& light, const HitBatch& hits,
-                                 const Soa3<float>& l, size_t i) {
-  const DD d;
-  return MakeLightRays(d, Sub(LoadSoa(d, hits.position, i), SetVec3(d, light.place)),
-                       PromoteSoa(d, l, i));
-}
-
-// What a vector of rays has met so far.
-struct Nearest {
-  VD t, towards;
-};
-
-// Writes a bit for each lane of the mask.
-template <class M>
-HWY_INLINE uint32_t BitsOf(M mask) {
-  alignas(8) uint8_t bits[8] = {};
-  hn::StoreMaskBits(DD(), mask, bits);
-  return bits[0];
+// Finds all triangles that the ray of hit i meets. Sets where it meets the nearest one (infinity:
+// it meets none), and the product of its direction and that triangle's normal.
+HWY_INLINE void MeetTriangles(const MeshLight& mesh, const LightBoxRays& boxes, size_t lane,
+                              const Vec3d& point, const Vec3d& direction, size_t i,
+                              MeshLightScratch* scratch) {
+  double nearest = std::numeric_limits<double>::infinity(), nearest_towards = 0;
+  ForEachMeshLightHit(mesh, boxes, lane, point, direction,
+                      [&](uint32_t triangle, double t, double towards) HWY_ATTR {
+                        scratch->meetings.Add({static_cast<uint32_t>(i), triangle});
+                        if (!(t < nearest)) return;
+                        nearest = t;
+                        nearest_towards = towards;
+                      });
+  scratch->end[i] = nearest;
+  scratch->towards[i] = nearest_towards;
 }
 
 void MeetMeshT(const SampledLight& light, const HitBatch& hits, const Soa3<float>& to_light,
-               float* distance, double* end, CrossedTriangles* meetings) {
+               float* distance, MeshLightScratch* scratch) {
   const DD d;
   const VD zero = hn::Zero(d), infinity = hn::Set(d, std::numeric_limits<double>::infinity());
-  meetings->count = 0;
+  scratch->meetings.count = 0;
+  LightBoxRays boxes;
   for (size_t i = 0; i < hits.count; i += hn::Lanes(d)) {
-    const LightRaysV<VD> rays = RaysAt(light, hits, to_light, i);
-    const auto ray = static_cast<uint32_t>(i);
-    Nearest nearest{infinity, zero};
-    ForEachMeshLightHit(d, *light.mesh, rays, [&](uint32_t triangle, const auto& meeting) HWY_ATTR {
-      const auto nearer = hn::And(meeting.hit, hn::Lt(meeting.t, nearest.t));
-      nearest.t = hn::IfThenElse(nearer, meeting.t, nearest.t);
-      nearest.towards = hn::IfThenElse(nearer, meeting.towards, nearest.towards);
-      CrossedTriangle* to = meetings->Room(hn::Lanes(d));
-      for (uint32_t bits = BitsOf(meeting.hit); bits != 0; bits &= bits - 1) {
-        *to++ = {ray + static_cast<uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(bits)), triangle};
-        ++meetings->count;
-      }
-    });
-    const auto met = hn::Lt(nearest.t, infinity);
-    const auto seen = light.two_sided ? met : hn::And(met, hn::Lt(nearest.towards, zero));
-    hn::StoreU(nearest.t, d, end + i);
-    const VD length = hn::Sqrt(Dot(rays.direction, rays.direction));
-    const VD away = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElseZero(met, nearest.t), length));
+    const Vec3V<VD> point = Sub(LoadSoa(d, hits.position, i), SetVec3(d, light.place));
+    const Vec3V<VD> direction = PromoteSoa(d, to_light, i);
+    hn::StoreU(infinity, d, scratch->end.data() + i);
+    alignas(8) uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, MakeLightBoxRays(d, *light.mesh, point, direction, &boxes), bits);
+    for (uint32_t lanes = bits[0]; lanes != 0; lanes &= lanes - 1) {
+      const size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      const size_t hit = i + lane;
+      if (hit >= hits.count) break;
+      MeetTriangles(*light.mesh, boxes, lane, VectorAt(hits.position, hit) - light.place,
+                    VectorAt(to_light, hit), hit, scratch);
+    }
+    const VD nearest = hn::LoadU(d, scratch->end.data() + i);
+    const auto met = hn::Lt(nearest, infinity);
+    const auto front = hn::Lt(hn::LoadU(d, scratch->towards.data() + i), zero);
+    const auto seen = light.two_sided ? met : hn::And(met, front);
+    const VD length = hn::Sqrt(Dot(direction, direction));
+    const VD away = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElseZero(met, nearest), length));
     hn::StoreU(hn::DemoteTo(hn::Rebind<float, DD>(), away), hn::Rebind<float, DD>(), distance + i);
   }
 }
@@ -218,17 +216,14 @@ void SampleMesh(const SampledLight& light, const HitBatch& hits, const UnitPoint
 
 void FindMesh(const SampledLight& light, const HitBatch& hits, LightDirections* directions) {
   MakeScratch(directions);
-  CrossedTriangles& meetings = directions->mesh->meetings;
-  meetings.count = 0;
   HWY_DYNAMIC_DISPATCH(MeetMeshT)
-  (light, hits, directions->to_light, directions->distance.data(), directions->mesh->end.data(),
-   &meetings);
+  (light, hits, directions->to_light, directions->distance.data(), directions->mesh.get());
   std::fill_n(directions->pdf.data(), hits.count, 0.0f);
   PdfSum sum(light, hits, directions);
+  const CrossedTriangles& meetings = directions->mesh->meetings;
   for (size_t i = 0; i < meetings.count; ++i) {
     const CrossedTriangle& meeting = meetings.entries[i];
-    const bool seen = meeting.hit < hits.count && directions->distance[meeting.hit] > 0;
-    if (seen) sum.Add(meeting.hit, meeting.triangle);
+    if (directions->distance[meeting.hit] > 0) sum.Add(meeting.hit, meeting.triangle);
   }
   sum.Flush();
 }

@@ -22,10 +22,9 @@ struct CrossedTriangles {
   std::vector<CrossedTriangle> entries;
   size_t count = 0;
 
-  // The place for so many more.
-  CrossedTriangle* Room(size_t more) {
-    if (count + more > entries.size()) entries.resize(2 * (count + more) + kBatchCapacity);
-    return entries.data() + count;
+  void Add(const CrossedTriangle& triangle) {
+    if (count == entries.size()) entries.resize(2 * count + kBatchCapacity);
+    entries[count++] = triangle;
   }
 };
 
@@ -35,7 +34,9 @@ struct MeshLightScratch {
   TriangleBatch seen;
   AlignedArray<float> rest{kBatchCapacity};  // what is left of the numbers that chose triangles
   CrossedTriangles meetings;
-  AlignedArray<double> end{kBatchCapacity};  // the nearest, in units of the direction
+  // Where directions meet the nearest triangle, in units of them, and their product with its
+  // normal.
+  AlignedArray<double> end{kBatchCapacity}, towards{kBatchCapacity};
   // Of triangles in `seen`, on their way into the pdf of directions.
   Soa3<float> to_light;
   AlignedArray<float> pdf{kBatchCapacity}, probability{kBatchCapacity};

@@ -24,8 +24,9 @@ enum class BoxTree : uint8_t {
 // threads at once.
 class BoxTrees {
  public:
-  // Builds no tree yet. Keeps a pointer to `geometry`. Throws Error: kInternal where Embree has not
-  // the target's instruction set, kBadInput if this build has no Embree.
+  // Builds no tree yet. Keeps a pointer to `geometry`, which may be moved (MoveGeometry). Throws
+  // Error: kInternal where Embree has not the target's instruction set, kBadInput if this build has
+  // no Embree.
   explicit BoxTrees(const TraceGeometry* geometry);
   ~BoxTrees();
   BoxTrees(const BoxTrees&) = delete;
@@ -34,6 +35,9 @@ class BoxTrees {
   // Builds a tree that is not there, on up to `threads` threads (0: as many as the machine has).
   // Throws Error (kInternal) where Embree fails: out of memory.
   void Build(BoxTree tree, int threads);
+
+  // Whether the trees that are there are good for a camera at `eye` as well.
+  bool Serve(const Vec3d& eye) const;
 
   // Puts the rays' first hits in the place of those that they are nearer than.
   void FindNearer(BoxTree tree, const RayBatch& rays, ClosestHits* hits) const;

@@ -23,8 +23,7 @@ double MapOpacity(const CutOut& cut_out, const Vec2d& uv) {
 
 }  // namespace
 
-std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh,
-                                 const Vec3d& camera_position) {
+std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh) {
   if (mesh.material.index >= scene.materials.size()) return std::nullopt;  // traced, never shaded
   const Material& material = scene.materials[mesh.material.index];
   if (!CutsHoles(material) && mesh.opacities.empty()) return std::nullopt;
@@ -41,12 +40,15 @@ std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh,
   made.opacities = mesh.opacities;
   if (made.image == nullptr) return made;
   made.transform = TransformOf(made.texture);
-  made.center = made.texture.center - camera_position;
   if (made.texture.mapping == MappingKind::kUv) {
     const bool second = made.texture.second_uvs && !mesh.second_uvs.empty();
     made.uvs = second ? mesh.second_uvs : mesh.uvs;
   }
   return made;
+}
+
+void MoveCutOut(const Vec3d& camera_position, CutOut* cut_out) {
+  cut_out->center = cut_out->texture.center - camera_position;
 }
 
 bool IsSolidAt(const CutOut& cut_out, const std::vector<Vec3d>& positions,

@@ -32,9 +32,10 @@ struct CutOut {
 };
 
 // Nothing if no opacity can be below the cutoff. begin, end and first_vertex are left to the
-// caller.
-std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh,
-                                 const Vec3d& camera_position);
+// caller, and the centre to MoveCutOut.
+std::optional<CutOut> MakeCutOut(const Scene& scene, const Mesh& mesh);
+
+void MoveCutOut(const Vec3d& camera_position, CutOut* cut_out);
 
 // Whether the surface exists at the point with these weights in the triangle of these corners,
 // which index TraceGeometry::positions.

@@ -28,13 +28,9 @@ void CheckPrimitiveCount(const Scene& scene) {
   }
 }
 
-void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normals,
-                TraceGeometry* geometry) {
+void AppendMesh(const Mesh& mesh, bool with_normals, TraceGeometry* geometry) {
   const auto base = static_cast<uint32_t>(geometry->positions.size());
-  for (const Vec3d& position : mesh.positions) {
-    geometry->positions.push_back(position - camera_position);
-    geometry->extent = std::max(geometry->extent, geometry->positions.back().length());
-  }
+  geometry->positions.resize(base + mesh.positions.size());
   if (with_normals) {
     if (HasSmoothNormals(mesh)) {
       geometry->normals.insert(geometry->normals.end(), mesh.normals.begin(), mesh.normals.end());
@@ -45,6 +41,21 @@ void AppendMesh(const Mesh& mesh, const Vec3d& camera_position, bool with_normal
     geometry->triangles.push_back(
         {base + mesh.triangles[i], base + mesh.triangles[i + 1], base + mesh.triangles[i + 2]});
   }
+}
+
+// Calls move(i) for i < count, on several threads; returns the largest result, or 0.
+template <class Move>
+double MoveAll(size_t count, int threads, const Move& move) {
+  constexpr size_t kBlock = size_t{1} << 14;
+  const size_t blocks = (count + kBlock - 1) / kBlock;
+  std::vector<double> extents(blocks);
+  ParallelFor(blocks, threads, [&](size_t block) {
+    const size_t end = std::min((block + 1) * kBlock, count);
+    double extent = 0;
+    for (size_t i = block * kBlock; i < end; ++i) extent = std::max(extent, move(i));
+    extents[block] = extent;
+  });
+  return extents.empty() ? 0 : *std::max_element(extents.begin(), extents.end());
 }
 
 }  // namespace
@@ -70,36 +81,43 @@ TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position
   CheckPrimitiveCount(scene);
   TraceGeometry geometry;
   geometry.spheres = HugeArray<TraceSphere>(scene.spheres.size());
-  constexpr size_t kBlock = size_t{1} << 14;
-  const size_t blocks = (scene.spheres.size() + kBlock - 1) / kBlock;
-  std::vector<double> extents(blocks);
-  ParallelFor(blocks, threads, [&](size_t block) {
-    const size_t end = std::min((block + 1) * kBlock, scene.spheres.size());
-    double extent = 0;
-    for (size_t i = block * kBlock; i < end; ++i) {
-      const Sphere& sphere = scene.spheres[i];
-      // Adding 0 turns -0 into 0: some tests would do so, and others not.
-      const TraceSphere traced{sphere.center - camera_position + Vec3d(0), sphere.radius};
-      std::construct_at(geometry.spheres.data() + i, traced);
-      extent = std::max(extent, traced.center.length() + traced.radius);
-    }
-    extents[block] = extent;
-  });
-  for (const double extent : extents) geometry.extent = std::max(geometry.extent, extent);
-  if (AreNested(geometry.spheres)) geometry.shells = BuildShellTree(geometry.spheres);
   const bool with_normals = std::any_of(scene.meshes.begin(), scene.meshes.end(), HasSmoothNormals);
   for (const Mesh& mesh : scene.meshes) {
     const auto first = static_cast<uint32_t>(geometry.triangles.size());
     const auto vertex = static_cast<uint32_t>(geometry.positions.size());
-    AppendMesh(mesh, camera_position, with_normals, &geometry);
-    std::optional<CutOut> holes = MakeCutOut(scene, mesh, camera_position);
+    AppendMesh(mesh, with_normals, &geometry);
+    std::optional<CutOut> holes = MakeCutOut(scene, mesh);
     if (!holes) continue;
     holes->begin = first;
     holes->end = static_cast<uint32_t>(geometry.triangles.size());
     holes->first_vertex = vertex;
     geometry.cut_outs.push_back(std::move(*holes));
   }
+  MoveGeometry(scene, camera_position, threads, &geometry);
+  if (AreNested(geometry.spheres)) geometry.shells = BuildShellTree(geometry.spheres);
   return geometry;
+}
+
+void MoveGeometry(const Scene& scene, const Vec3d& camera_position, int threads,
+                  TraceGeometry* geometry) {
+  geometry->eye = camera_position;
+  geometry->extent = MoveAll(scene.spheres.size(), threads, [&](size_t i) {
+    const Sphere& sphere = scene.spheres[i];
+    // Adding 0 turns -0 into 0: some tests would do so, and others not.
+    const TraceSphere traced{sphere.center - camera_position + Vec3d(0), sphere.radius};
+    std::construct_at(geometry->spheres.data() + i, traced);
+    return traced.center.length() + traced.radius;
+  });
+  Vec3d* to = geometry->positions.data();
+  for (const Mesh& mesh : scene.meshes) {
+    const double extent = MoveAll(mesh.positions.size(), threads, [&](size_t i) {
+      to[i] = mesh.positions[i] - camera_position;
+      return to[i].length();
+    });
+    geometry->extent = std::max(geometry->extent, extent);
+    to += mesh.positions.size();
+  }
+  for (CutOut& holes : geometry->cut_outs) MoveCutOut(camera_position, &holes);
 }
 
 }  // namespace nacre

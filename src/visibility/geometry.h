@@ -47,10 +47,18 @@ struct TraceGeometry {
   // No point of any primitive is further than this from the camera.
   double extent = 0;
 
+  Vec3d eye{0, 0, 0};  // where the camera is in the world
+  // How far a camera may be from the one that a tree of boxes was built for.
+  double eye_reach = 0;
+
   uint32_t SphereCount() const { return static_cast<uint32_t>(spheres.size()); }
 };
 
 // Throws Error (kBadInput) when there are more primitives than ids.
 TraceGeometry MakeTraceGeometry(const Scene& scene, const Vec3d& camera_position, int threads = 0);
+
+// Makes the coordinates of all but shells relative to another camera. `scene` has the same shapes.
+void MoveGeometry(const Scene& scene, const Vec3d& camera_position, int threads,
+                  TraceGeometry* geometry);
 
 }  // namespace nacre

@@ -17,7 +17,6 @@ namespace nacre {
 // Trees hold pointers to the geometry.
 struct Intersector::State {
   IntersectorSettings settings;
-  Vec3d camera_position{0, 0, 0};
   TraceGeometry geometry;
   bool nested = false;
   std::vector<LightOccluders> occluders;  // by number of the light
@@ -38,8 +37,8 @@ Intersector::Intersector(const Scene& scene, const Vec3d& camera_position,
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.settings = settings;
-  s.camera_position = camera_position;
   s.geometry = MakeTraceGeometry(scene, camera_position, settings.threads);
+  s.geometry.eye_reach = std::min(settings.eye_reach, 2 * s.geometry.extent);
   s.nested = s.HasShells();
   if (settings.tree) BuildTree();
 }
@@ -53,6 +52,16 @@ void Intersector::BuildTree() {
   const bool spheres_in_boxes = !geometry.spheres.empty() && !s.HasShells();
   if (spheres_in_boxes || !geometry.triangles.empty()) s.BuildBoxes(BoxTree::kAll);
   s.tree = true;
+}
+
+bool Intersector::MoveTo(const Scene& scene, const Vec3d& camera_position) {
+  State& s = *state_;
+  if (camera_position == s.geometry.eye) return true;
+  if (s.HasShells() || (s.boxes && !s.boxes->Serve(camera_position))) return false;
+  MoveGeometry(scene, camera_position, s.settings.threads, &s.geometry);
+  s.occluders.clear();
+  // Spheres that nearly are nested may be by the roundings of other coordinates.
+  return !AreNested(s.geometry.spheres);
 }
 
 bool Intersector::SpheresAreNested() const { return state_->nested; }
@@ -115,7 +124,7 @@ void Intersector::FindOccluders(const std::vector<const Light*>& lights, bool ou
   s.occluders.resize(lights.size());
   ParallelFor(lights.size(), many ? s.settings.threads : 1, [&](size_t i) {
     LightOccluders& occluders = s.occluders[i];
-    const ShadowLight target = MakeShadowLight(*lights[i], s.camera_position);
+    const ShadowLight target = MakeShadowLight(*lights[i], s.geometry.eye);
     occluders.light = target;
     if (few) occluders.lists = ListOccluders(s.geometry, target, outward);
     if (few && occluders.lists.longest <= kMaxListLength) return;

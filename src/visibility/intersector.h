@@ -26,6 +26,9 @@ struct IntersectorSettings {
   int threads = 0;      // that building uses; 0: as many as the machine has
   bool tree = true;     // false: no tree is built until BuildTree is called
   bool shells = false;  // the tree of spheres is one of shells whatever they are like
+  // Trees are to be good for cameras up to this far from the first one as well: MoveTo. Their boxes
+  // grow with it.
+  double eye_reach = 0;
 };
 
 // What can come between the spheres and a light: bins, or else lists; in small scenes both may be
@@ -51,6 +54,12 @@ class Intersector {
   ~Intersector();
   Intersector(Intersector&&) noexcept;
   Intersector& operator=(Intersector&&) noexcept;
+
+  // Makes it that of another camera of the same scene, or of one whose flat lights are lifted for
+  // that camera (scene/light_shapes.h). Trees stay; bins and occluders do not, if it is another.
+  // False: it cannot be, because the camera is too far from that of the trees, or spheres are
+  // nested; a new one must be made.
+  bool MoveTo(const Scene& scene, const Vec3d& camera_position);
 
   // Whether so many spheres lie within one another that Closest and Occluded are faster than what
   // is found in bins (shell_tree.h).

@@ -60,7 +60,9 @@ void CheckChanges(const std::string& file, const std::vector<Change>& changes, i
 
 const std::vector<Change> kOfEveryScene = {
     {"/camera/fov_y_deg", {"20", "27", "35"}},
-    {"/camera/position", {"[0, 1, 9]", "[1, 2, 11]", "[-3, 0.5, 8]"}},
+    // The last one is too far away for the trees that are there.
+    {"/camera/position",
+     {"[0, 1, 9]", "[1, 2, 11]", "[-3, 0.5, 8]", "[-9, 2, -1]", "[0, 40, 120]"}},
     {"/camera/look_at", {"[0, 0.4, 0]", "[0, 0, 0]"}},
     {"/image/width", {"40", "56"}},
     {"/image/spp", {"1", "2", "3"}},
@@ -137,7 +139,12 @@ TEST_CASE("A material's change makes nothing again but what it is made of", "[pr
   CHECK(after.direct.sampled_lights[0].light.mesh == map);
   change("/camera/fov_y_deg", "30");
   CHECK(plan().hits.intersector == after.hits.intersector);
-  change("/camera/position", "[0, 2, 12]");
+  // Trees stay where the camera moves, but not where it goes far away.
+  for (const char* position : {"[0, 2, 12]", "[11, 1, 1]", "[0, 3, -11]"}) {
+    change("/camera/position", position);
+    CHECK(plan().hits.intersector == after.hits.intersector);
+  }
+  change("/camera/position", "[0, 2, 200]");
   CHECK(plan().hits.intersector != after.hits.intersector);
 }
 

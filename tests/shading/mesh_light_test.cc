@@ -3,10 +3,13 @@
 // every target.
 #include "light/mesh_light.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "light/irradiance.h"
 #include "scene/sphere_mesh.h"
@@ -141,6 +144,92 @@ TEST_CASE("what hides behind the nearest triangle is not seen, and counts for it
   // In the plane of a square, and past both.
   CHECK(find(true, {3, 0.2, 1}, {-1, 0, 0}) == std::pair(0.0f, 0.0f));
   CHECK(find(true, {3, 0.2, 4}, {0, 0, -1}) == std::pair(0.0f, 0.0f));
+}
+
+// A square of n x n squares in the plane z = 0, and as many beside it at random.
+Mesh SquareAndHeap(uint32_t n) {
+  Mesh mesh;
+  for (uint32_t i = 0; i <= n; ++i) {
+    for (uint32_t k = 0; k <= n; ++k) mesh.positions.emplace_back(i, k, 0);
+  }
+  for (uint32_t i = 0; i < n; ++i) {
+    for (uint32_t k = 0; k < n; ++k) {
+      const uint32_t a = i * (n + 1) + k, b = a + n + 1;
+      mesh.triangles.insert(mesh.triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+  }
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(0, n);
+  for (uint32_t i = 0; i < 6 * n * n; ++i) {
+    mesh.triangles.push_back(static_cast<uint32_t>(mesh.positions.size()));
+    mesh.positions.emplace_back(uniform(random), uniform(random) - n, uniform(random));
+  }
+  return mesh;
+}
+
+// Directions from points as near as the light and as far as its sight allows, to points of
+// triangles and, half of them, to their edges, where boxes end as well.
+TEST_CASE("a ray finds the triangles of a mesh that are tested one by one") {
+  const double kSizes[] = {1, 3e-6, 2e5};
+  for (const double size : kSizes) {
+    for (const uint32_t n : {1u, 2u, 9u}) {
+      Mesh mesh = SquareAndHeap(n);
+      for (Vec3d& p : mesh.positions) p = (p + Vec3d(7, 3, -4)) * size;
+      const SampledLight light = Prepare(mesh, true);
+      const MeshLight& triangles = *light.mesh;
+      std::mt19937 random(n);
+      std::uniform_real_distribution<double> uniform(0, 1);
+      std::normal_distribution<double> gauss;
+      HitBatch hits;
+      hits.count = kBatchCapacity - 3;
+      LightDirections found;
+      for (size_t i = 0; i < hits.count; ++i) {
+        const auto& t = triangles.triangles[random() % triangles.triangles.size()];
+        const double u = uniform(random), v = (i % 2 == 0) ? 0 : uniform(random) * (1 - u);
+        Vec3d target = light.place + t.corner + t.edge_x * u + t.edge_y * v;
+        if (i % 5 == 0) target += (target - light.place) * 0.3 * uniform(random);
+        Vec3d away(gauss(random), gauss(random), gauss(random));
+        if (i % 7 == 0) away = Vec3d(0, 0, gauss(random));
+        const double distance = light.radius * std::pow(10.0, 6 * uniform(random) - 2);
+        const Vec3d point = target + away.normalized() * distance;
+        const Vec3d to_light = (target - point).normalized();
+        for (int c = 0; c < 3; ++c) {
+          (c == 0 ? hits.position.x : c == 1 ? hits.position.y : hits.position.z)[i] = point[c];
+          (c == 0   ? found.to_light.x
+           : c == 1 ? found.to_light.y
+                    : found.to_light.z)[i] = static_cast<float>(to_light[c]);
+        }
+      }
+      ForEachTarget([&](Target) {
+        FindLight(light, hits, &found);
+        std::vector<MeshLightHit> expected;
+        size_t met = 0, several = 0;
+        for (size_t i = 0; i < hits.count; ++i) {
+          const Vec3d point(hits.position.x[i], hits.position.y[i], hits.position.z[i]);
+          const Vec3d l(found.to_light.x[i], found.to_light.y[i], found.to_light.z[i]);
+          FindMeshLightHits(triangles, point - light.place, l, &expected);
+          double distance = std::numeric_limits<double>::infinity(), pdf = 0;
+          for (const MeshLightHit& hit : expected) {
+            distance = std::min(distance, hit.t * l.length());
+            TriangleLight<double> triangle = triangles.triangles[hit.triangle];
+            triangle.corner += light.place - point;
+            pdf += triangles.probabilities[hit.triangle] * LightPdf(triangle, l);
+          }
+          met += expected.empty() ? 0 : 1;
+          several += expected.size() > 1 ? 1 : 0;
+          CAPTURE(size, n, i, expected.size());
+          REQUIRE((found.distance[i] > 0) == !expected.empty());
+          if (expected.empty()) continue;
+          REQUIRE(std::abs(double{found.distance[i]} / distance - 1) <= 1e-7);
+          // Of triangles that are seen edge-on floats keep two digits. One that was lost counts
+          // more than that.
+          REQUIRE(std::abs(double{found.pdf[i]} / pdf - 1) <= 0.02);
+        }
+        CHECK(met > hits.count / 2);
+        CHECK((several > hits.count / 20 || n == 1));
+      });
+    }
+  }
 }
 
 TEST_CASE("closed forms are for meshes that hide nothing of themselves") {

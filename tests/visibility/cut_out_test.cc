@@ -162,7 +162,9 @@ std::optional<CutOut> CutByVertices(const std::array<float, 3>& opacities, doubl
   mesh.uvs.resize(6);
   mesh.triangles.resize(6);
   mesh.opacities = {opacities[0], opacities[1], opacities[2], 0, 0, 0};
-  return MakeCutOut(scene, mesh, Vec3d(0));
+  std::optional<CutOut> made = MakeCutOut(scene, mesh);
+  if (made) MoveCutOut(Vec3d(0), &*made);
+  return made;
 }
 
 TEST_CASE("a triangle whose corners have the cutoff's opacity has no holes") {

@@ -13,12 +13,17 @@ namespace nacre {
 namespace {
 
 // Checks that the intersector's hits equal those of brute force, bit for bit, on every target, with
-// spheres in shells as well, whatever they are like.
+// spheres in shells as well, whatever they are like, and with trees of a camera elsewhere.
 void CheckClosest(const Scene& scene, const Vec3d& eye, const std::vector<Ray>& rays) {
   const TraceGeometry geometry = MakeTraceGeometry(scene, eye);
   ForEachTarget([&](Target) {
     const std::vector<Hit> hits = Trace(Intersector(scene, eye), rays);
     CHECK(Trace(Intersector(scene, eye, {.shells = true}), rays) == hits);
+    const double away = geometry.extent / 2;
+    Intersector moved(scene, eye + Vec3d(-0.6, 0, 0.8) * away, {.eye_reach = away * (1 + 1e-9)});
+    const bool follows = moved.MoveTo(scene, eye);
+    CHECK(follows == !moved.HasShells());
+    if (follows) CHECK(Trace(moved, rays) == hits);
     bool any = false;
     for (size_t i = 0; i < rays.size(); ++i) {
       const Hit expected = BruteForce(geometry, rays[i]);
