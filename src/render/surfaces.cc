@@ -211,9 +211,15 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
   for (const SceneImage& image : scene.images) bytes += image.texels->values.size() * sizeof(float);
   why->items.push_back(
       {"textures", true,
-       fmt::format("maps on {} materials: {} images, {:.1f} MiB with their mip levels; a sample's "
-                   "footprint is {:g} pixels wide",
-                   count, scene.images.size(), static_cast<double>(bytes) / (1 << 20), footprint)});
+       scene.images.empty()
+           ? fmt::format("no shape's material has a map, but of {} materials with coats or layers "
+                         "ambient light and emission are found hit by hit",
+                         count)
+           : fmt::format("maps on {} materials, those with coats or layers in ambient light "
+                         "included: {} images, {:.1f} MiB with their mip levels; a sample's "
+                         "footprint is {:g} pixels wide",
+                         count, scene.images.size(), static_cast<double>(bytes) / (1 << 20),
+                         footprint)});
 }
 
 }  // namespace
@@ -225,7 +231,9 @@ SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
   plan.primitives = NumberPrimitives(scene);
   plan.frame_width = scene.image.width;
   why->items.push_back({"ambient light", !IsBlack(ambient),
-                        IsBlack(ambient) ? "the scene has none" : "a constant per material"});
+                        IsBlack(ambient)
+                            ? "the scene has none"
+                            : "a constant per material without maps, coats and layers"});
   const MaterialId none{};
   plan.materials.reserve(2 * scene.materials.size() + 1);
   for (const Material& material : scene.materials) {

@@ -150,6 +150,19 @@ class CliTest(unittest.TestCase):
         for stage in 'intersect', 'shade', 'film', 'output':
             self.assertGreater(stats['time_ms']['stages_all_threads'][stage], 0)
 
+    def test_explain_of_layers_in_ambient_light_speaks_of_no_images(self):
+        scene = self.out / 'velvet.json'
+        scene.write_text(json.dumps({
+            'nacre': 1,
+            'camera': {'position': [0, 0, 5], 'look_at': [0, 0, 0]},
+            'materials': {'velvet': {'model': 'metallic_roughness', 'sheen_color': [1, 1, 1]}},
+            'lights': {'sky': {'type': 'ambient', 'radiance': [1, 1, 1]}},
+            'shapes': [{'type': 'sphere', 'radius': 1, 'material': 'velvet'}]}))
+        result = run('render', scene, '-o', 'null:', '--explain', *SMALL)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("no shape's material has a map, but of 1 materials with coats or layers",
+                      result.stdout)
+
     def test_explain_names_each_decision(self):
         text = self.render('-o', self.out / 'a.exr', '--explain', *SMALL).stdout
         self.assertIn('intersector', text)
