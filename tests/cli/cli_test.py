@@ -157,7 +157,8 @@ class CliTest(unittest.TestCase):
             'camera': {'position': [0, 0, 5], 'look_at': [0, 0, 0]},
             'materials': {'velvet': {'model': 'metallic_roughness', 'sheen_color': [1, 1, 1]}},
             'lights': {'sky': {'type': 'ambient', 'radiance': [1, 1, 1]}},
-            'shapes': [{'type': 'sphere', 'radius': 1, 'material': 'velvet'}]}))
+            'shapes': [{'type': 'sphere', 'center': [0, 0, 0], 'radius': 1,
+                        'material': 'velvet'}]}))
         result = run('render', scene, '-o', 'null:', '--explain', *SMALL)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("no shape's material has a map, but of 1 materials with coats or layers",
