@@ -155,7 +155,8 @@ class CliTest(unittest.TestCase):
         scene.write_text(json.dumps({
             'nacre': 1,
             'camera': {'position': [0, 0, 5], 'look_at': [0, 0, 0]},
-            'materials': {'velvet': {'model': 'metallic_roughness', 'sheen_color': [1, 1, 1]}},
+            'materials': {'velvet': {'model': 'metallic_roughness', 'sheen_color': [1, 1, 1],
+                                     'sheen_roughness': 0.5}},
             'lights': {'sky': {'type': 'ambient', 'radiance': [1, 1, 1]}},
             'shapes': [{'type': 'sphere', 'center': [0, 0, 0], 'radius': 1,
                         'material': 'velvet'}]}))
