@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What each special path of bench/special_paths.txt is worth: a frame with it and without it.
 
-    bench/special_paths.py [--rounds N] [--table] [NAME...]
+    bench/special_paths.py [--rounds N] [--target T] [--table] [NAME...]
 
 One program is built, of a copy of the tree in which every path can be switched off, so that both
 sides of a pair are the same code in the same places. Prints, for each path, how many times longer
@@ -48,10 +48,21 @@ def read_paths():
 
 
 def change_sources(paths, tree):
-    """All changes at once: each text is looked for in what those before it left."""
+    """All changes at once: each text is looked for in what those before it left. What is so already
+    keeps its time, so that little is built anew."""
+    changed = {part.path for path in paths for part in path.change.parts}
+    before = {file: ((tree / file).read_bytes(), (tree / file).stat())
+              for file in changed if (tree / file).exists()}
+    for file in output_of(["git", "-C", ROOT, "ls-files"]).splitlines():
+        if (ROOT / file).exists():
+            (tree / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / file, tree / file)
     for path in paths:
         for file, content in fault_list.plant(path.change, tree).items():
             (tree / file).write_text(content, encoding="utf-8")
+    for file, (content, status) in before.items():
+        if (tree / file).read_bytes() == content:
+            os.utime(tree / file, ns=(status.st_atime_ns, status.st_mtime_ns))
 
 
 def switch(paths):
@@ -68,18 +79,14 @@ def switch(paths):
 def build(paths):
     """The program whose paths can be switched off; kept under out/, so that it is built once."""
     tree = ROOT / "out" / "special_paths"
-    for folder in ("src", "cmake", "tests"):
-        if (ROOT / folder).exists():
-            shutil.rmtree(tree / folder, ignore_errors=True)
     tree.mkdir(parents=True, exist_ok=True)
-    for name in output_of(["git", "-C", ROOT, "ls-files"]).splitlines():
-        (tree / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy2(ROOT / name, tree / name)
     change_sources(paths, tree)
-    (tree / "off.h").write_text(switch(paths), encoding="utf-8")
+    off = tree / "off.h"
+    if not off.exists() or off.read_text(encoding="utf-8") != switch(paths):
+        off.write_text(switch(paths), encoding="utf-8")
     folder = tree / "build"
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DNACRE_TESTS=OFF", "-DNACRE_UNITY=ON",
-               f"-DCMAKE_CXX_FLAGS=-include {tree / 'off.h'}"]
+               f"-DCMAKE_CXX_FLAGS=-include {off}"]
     if shutil.which("ccache"):
         options.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
     say(f"building {folder}")
@@ -88,12 +95,13 @@ def build(paths):
     return folder / "nacre"
 
 
-def milliseconds(nacre, path, number, folder):
-    """Of planning and rendering a frame, by one thread; `number` is the path not to be taken."""
+def milliseconds(nacre, path, number, folder, extra):
+    """Of planning and rendering a frame, by one thread, written nowhere; `number` is the path not to
+    be taken."""
     stats = pathlib.Path(folder) / "stats.json"
     scene, *options = path.frame
-    command = [nacre, "render", ROOT / "scenes" / scene, "-o", pathlib.Path(folder) / "frame.exr",
-               "--threads", "1", "--stats", stats, "--progress", "none", *options]
+    command = [nacre, "render", ROOT / "scenes" / scene, "-o", "null:",
+               "--threads", "1", "--stats", stats, "--progress", "none", *options, *extra]
     result = subprocess.run([str(part) for part in command], capture_output=True, text=True,
                             env={**os.environ, "NACRE_PATH_OFF": str(number)}, check=False)
     if result.returncode != 0:
@@ -102,8 +110,8 @@ def milliseconds(nacre, path, number, folder):
     return times["plan"] + times["render"]
 
 
-def measure(nacre, paths, names, rounds):
-    """{name: (ratio without over with, low, high)}."""
+def measure(nacre, paths, names, rounds, extra):
+    """{name: (ratio without over with, low, high)}; `extra`: further options of nacre render."""
     found = {}
     with scratch_folder() as folder:
         for number, path in enumerate(paths, 1):
@@ -112,7 +120,7 @@ def measure(nacre, paths, names, rounds):
             times = ([], [])
             for turn in range(-1, rounds):  # the first, not counted, fills caches
                 for off in ((0, 1) if turn % 2 else (1, 0)):
-                    time = milliseconds(nacre, path, number * off, folder)
+                    time = milliseconds(nacre, path, number * off, folder, extra)
                     if turn >= 0:
                         times[off].append(time)
             found[path.name] = estimates.paired_ratio(times[1], times[0])
@@ -136,6 +144,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*")
     parser.add_argument("--rounds", type=int, default=15)
+    parser.add_argument("--target", help="the SIMD target; by default the best")
     parser.add_argument("--table", action="store_true")
     parser.add_argument("--check", action="store_true")
     arguments = parser.parse_args()
@@ -148,7 +157,8 @@ def main():
             for path in paths:
                 fault_list.plant(path.change, ROOT)
             return 0
-        found = measure(build(paths), paths, arguments.names, arguments.rounds)
+        found = measure(build(paths), paths, arguments.names, arguments.rounds,
+                        ["--target", arguments.target] if arguments.target else [])
     except (Failed, fault_list.ListError) as error:
         say(f"special_paths: {error}")
         return 2
