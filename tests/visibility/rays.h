@@ -167,6 +167,13 @@ inline bool StartsOnPlane(const TraceGeometry& geometry, size_t triangle, const 
          16 * 0x1p-53 * SumOfAbs(e1) * SumOfAbs(e2) * (extent + SumOfAbs(to_a));
 }
 
+// Whether the primitive that a ray starts on is the sphere, or one that coincides with it.
+inline bool StartsOnSphere(const TraceGeometry& geometry, uint32_t start,
+                           const TraceSphere& sphere) {
+  return start < geometry.SphereCount() && geometry.spheres[start].center == sphere.center &&
+         geometry.spheres[start].radius == sphere.radius;
+}
+
 // Of a ray that leaves a surface: RayBatch::from_surfaces.
 inline Hit BruteForceFrom(const TraceGeometry& geometry, const Ray& ray, uint32_t start) {
   Hit best;
@@ -174,9 +181,7 @@ inline Hit BruteForceFrom(const TraceGeometry& geometry, const Ray& ray, uint32_
     const TraceSphere& sphere = geometry.spheres[i];
     const auto hit =
         TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
-    const bool own = start < geometry.SphereCount() &&
-                     geometry.spheres[start].center == sphere.center &&
-                     geometry.spheres[start].radius == sphere.radius;
+    const bool own = StartsOnSphere(geometry, start, sphere);
     const double t = own ? 2 * hit.closest : hit.t;
     if ((own ? t > 0 : hit.hit) && t < best.t) best = {i, t};
   }
@@ -222,9 +227,7 @@ inline bool BruteForceOccluded(const TraceGeometry& geometry, const ShadowRay& s
     const TraceSphere& sphere = geometry.spheres[i];
     const auto hit =
         TestSphere(sphere.center - ray.origin, ray.direction, sphere.radius, TargetProducts());
-    const bool own = start < geometry.SphereCount() &&
-                     geometry.spheres[start].center == sphere.center &&
-                     geometry.spheres[start].radius == sphere.radius;
+    const bool own = StartsOnSphere(geometry, start, sphere);
     const double t = own ? 2 * hit.closest : hit.t;
     const double other = 2 * hit.closest - t_max;
     if ((own || other <= 0 || other >= t_max) && EndsOnSphere(sphere, shadow)) continue;
