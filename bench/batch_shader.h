@@ -25,14 +25,14 @@ class BatchShader {
     light_ = PrepareLight(source, Vec3d(0));
   }
 
-  // Adds what the first materials * run hits reflect to `radiance`.
+  // Writes what the first materials * run hits reflect to `radiance`.
   void Shade(PreparedHits* batch, ReflectedRadiance* radiance) {
     auto& [hits, surface] = *batch;
-    const LightOnBatch on_batch{&light_, nullptr};
+    EvaluateLight(light_, hits, surface, &on_hits_);
     for (size_t i = 0; i < materials_.size(); ++i) {
       PrepareRun(materials_[i], i * run_, (i + 1) * run_, &surface);
-      ShadeRun(materials_[i], {hits, surface, {&on_batch, 1}}, i * run_, (i + 1) * run_, &scratch_,
-               radiance);
+      ShadeRun(materials_[i], {hits, surface, light_, &on_hits_}, i * run_, (i + 1) * run_,
+               &scratch_, radiance);
     }
   }
 
@@ -40,6 +40,7 @@ class BatchShader {
   std::vector<ShadingMaterial> materials_;
   size_t run_;
   ShadingLight light_;
+  LightBatch on_hits_;
   ShadeScratch scratch_;
 };
 

@@ -51,7 +51,6 @@ def visibility(results, path):
                        ("embree_user", "nacre on Embree's tree, exact"),
                        ("embree_float_user", "Embree's tree with our test in float, bare trace"),
                        ("tiles", "nacre's tiles, exact, binning included"),
-                       ("tiles_without_positions", "the same without the hits' positions"),
                        ("float_tiles", "nacre's tiles in float, binning included, depths alone")):
         points = [(count, 1e-6 * estimates.median(results["benchmarks"][name]["ns"]))
                   for scene, count in _SPHERES.items()

@@ -34,7 +34,7 @@ _HITS = {"avx3": 32, "avx2": 8, "sse4": 4}
 _RAYS = {"avx3": 8, "avx2": 4, "sse4": 2}
 # Those loops, of src/visibility/single_sphere-inl.h, and where they are measured.
 _EXACT = re.compile(r"TestRays|AppendBlock")
-EXACT_HITS = "visibility/tiles_without_positions/grid"
+EXACT_HITS = "visibility/tiles/grid"
 _REGISTERS = {"avx3": "zmm", "avx2": "ymm", "sse4": "xmm"}
 _LEAST_VECTORS = 8  # instructions on these, in a loop over hits
 _SECONDS = 2  # long enough for what prepares a benchmark to be below _LEAST_SHARE

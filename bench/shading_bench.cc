@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench/shading_bench.cc: throughput of shading: a run of 512 hits of one material, in L1, under
-// one point light (lights16: 16 of them). All that is done per hit and light is counted: the
-// light's direction and fall-off, what the material prepares per view, reflection. Per model and
+// one point light. All that is done per hit is counted: the light's direction and fall-off, from
+// positions in double, what the material prepares per view, reflection. Per model and
 // target: time per hit and light, beside the scalar baseline of the same table: plain per-hit float
 // C++ in the textbook's form, x^5 by multiplication, -O3 -march=native (scalar_baseline.h).
 //   ggx_plain_*            glTF's form: no compensation, diffuse 1 - F; the baseline's formula
 //   ggx_default            with Turquin's compensation and a base scaled by the lobe's albedo
 //   *_double_terms         lobes so narrow that their half vector is formed in double
-//   *_by_position          the lights are found from the hits' positions, in double, as near lights
-//                          and those of meshes are; else from their normals (SphereOffset)
 //   *_in_lobe              hits that have Phong's lobe; everywhere else three of four have none, of
 //                          which plain C++ knows the power at once
 //   *_from_behind          the light is behind the sphere, and half vectors are formed with care
@@ -72,62 +70,49 @@ HitBatch MakeHits(bool in_lobe) {
   return hits;
 }
 
-// `shades`: hits times lights of an iteration.
-void ReportShades(benchmark::State& state, size_t shades) {
-  state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(shades));
-  state.counters["time_per_shade"] = benchmark::Counter(
-      static_cast<double>(shades),
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+void ReportShades(benchmark::State& state) {
+  state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(kHits));
+  state.counters["time_per_shade"] =
+      benchmark::Counter(static_cast<double>(kHits), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
 }
 
-// The point lights that hits are shaded by, and how they are found. The first is kLight, or is
-// behind the sphere.
-struct Lights {
-  size_t count = 1;
-  bool by_position = false;
-  bool from_behind = false;
-  bool in_lobe = false;  // the hits are chosen by kLight, the only one then
+// Where the light and the hits are.
+struct Places {
+  bool from_behind = false;  // the light is behind the sphere, not kLight
+  bool in_lobe = false;      // the hits are chosen by kLight
 };
 
-// Runs shade(hits, surface, lights, radiance) on a target.
+// Runs shade(lit, surface, radiance) on a target.
 template <class Shade>
-void BenchShade(benchmark::State& state, Target target, const Lights& by, const Shade& shade) {
+void BenchShade(benchmark::State& state, Target target, const Places& places, const Shade& shade) {
   PinTarget(target);
   const FlushDenormals flush;
-  const HitBatch hits = MakeHits(by.in_lobe);
+  const HitBatch hits = MakeHits(places.in_lobe);
   Surface surface;
+  LightBatch on_hits;
   ReflectedRadiance radiance;
   PrepareSurface(hits, &surface);
-  std::vector<ShadingLight> lights;
-  for (size_t i = 0; i < by.count; ++i) {
-    Light light;
-    light.kind = PointLight{.position = {kLight.x, kLight.y - static_cast<double>(i % 4),
-                                         by.from_behind ? -20.0 : kLight.z},
-                            .intensity = {60, 60, 60},
-                            .attenuation = {}};
-    lights.push_back(PrepareLight(light, {0, 0, 0}));
-    if (!by.by_position && !OffsetFromSpheres({&kSphere, 1}, {0, 0, 0}, &lights.back())) {
-      state.SkipWithError("the light is too near for its offset from the sphere");
-    }
-  }
-  std::vector<LightOnBatch> on_hits;
-  for (const ShadingLight& light : lights) on_hits.push_back({&light, nullptr});
+  Light source;
+  source.kind = PointLight{.position = {kLight.x, kLight.y, places.from_behind ? -20.0 : kLight.z},
+                           .intensity = {60, 60, 60},
+                           .attenuation = {}};
+  const ShadingLight light = PrepareLight(source, {0, 0, 0});
   for (auto _ : state) {
-    shade(LitHits{hits, surface, on_hits, nullptr,
-                  by.count == 1 ? OutputMode::kSum : OutputMode::kOverwrite},
-          &surface, &radiance);
+    EvaluateLight(light, hits, surface, &on_hits);
+    shade(LitHits{hits, surface, light, &on_hits, false}, &surface, &radiance);
     benchmark::DoNotOptimize(radiance.sum.x.data());
     benchmark::ClobberMemory();
   }
-  ReportShades(state, kHits * by.count);
+  ReportShades(state);
   PinTarget(SupportedTargets().back());
 }
 
 void BenchKernel(benchmark::State& state, const Material& material, Target target,
-                 const Lights& lights) {
+                 const Places& places) {
   ShadeScratch scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
-  BenchShade(state, target, lights,
+  BenchShade(state, target, places,
              [&](const LitHits& lit, Surface* surface, ReflectedRadiance* radiance) {
                PrepareRun(prepared, 0, kHits, surface);
                ShadeRun(prepared, lit, 0, kHits, &scratch, radiance);
@@ -135,7 +120,7 @@ void BenchKernel(benchmark::State& state, const Material& material, Target targe
 }
 
 ShadeRange RangeOf(const LitHits& lit, ReflectedRadiance* radiance) {
-  return {lit.hits, lit.surface, lit.lights, 0, kHits, radiance, lit.output};
+  return {lit.hits, lit.surface, lit.light, lit.on_hits, 0, kHits, radiance, lit.components};
 }
 
 using TextbookKernel = void (*)(const TextbookGgxUniforms&, const ShadeRange&);
@@ -155,11 +140,11 @@ using PhongKernel = void (*)(const PhongUniforms<float>&, const ShadeRange&);
 void BenchGiven(benchmark::State& state, PhongKernel kernel, PhongModel model, Target target,
                 bool in_lobe) {
   const PhongLight<float> light{{38, 25, 8}, {30, 30, 30}};
-  const PhongUniforms<float> uniforms{model, {static_cast<float>(kShininess)}, &light, nullptr};
-  const Lights lights{.in_lobe = in_lobe};
-  BenchShade(state, target, lights, [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
-    kernel(uniforms, RangeOf(lit, radiance));
-  });
+  const PhongUniforms<float> uniforms{model, {static_cast<float>(kShininess)}, light, nullptr};
+  BenchShade(state, target, {.in_lobe = in_lobe},
+             [&](const LitHits& lit, Surface*, ReflectedRadiance* radiance) {
+               kernel(uniforms, RangeOf(lit, radiance));
+             });
 }
 
 struct GivenBench {
@@ -208,14 +193,14 @@ void BenchBaseline(benchmark::State& state, const BaselineKernel& kernel, bool i
     kernel(arrays, light);
     benchmark::ClobberMemory();
   }
-  ReportShades(state, kHits);
+  ReportShades(state);
 }
 
 struct ModelBench {
   const char* name;
   Material material;
   BaselineKernel baseline;  // null: the baseline has no such model
-  Lights lights = {};
+  Places places = {};
 };
 
 std::vector<ModelBench> MakeModels() {
@@ -279,17 +264,10 @@ std::vector<ModelBench> MakeModels() {
        [=](const auto& hits, const auto& light) {
          baseline::ShadeGgxHeightCorrelated(hits, kHits, light, scalar_ggx);
        }},
-      {"ggx_plain_schlick_direct_lights16", plain_ggx(Shadowing::kSchlickDirect), nullptr, {16}},
-      {"lambert_by_position", lambert, nullptr, {1, true}},
-      {"phong_by_position", phong(PhongModel::kPhong), nullptr, {1, true}},
-      {"ggx_plain_schlick_direct_by_position",
-       plain_ggx(Shadowing::kSchlickDirect),
-       nullptr,
-       {1, true}},
       {"ggx_plain_schlick_direct_from_behind",
        plain_ggx(Shadowing::kSchlickDirect),
        nullptr,
-       {1, false, true}},
+       {.from_behind = true}},
       {"phong_double_terms", phong(PhongModel::kPhong, 2 * kDoubleTermsShininess), nullptr},
       {"blinn_phong_double_terms", phong(PhongModel::kBlinnPhong, 2 * kDoubleTermsShininess),
        nullptr},
@@ -307,11 +285,11 @@ const bool kRegistered = [] {
     const std::string prefix = std::string("shade/") + model.name + "/";
     if (model.baseline) {
       benchmark::RegisterBenchmark((prefix + "scalar_baseline").c_str(), BenchBaseline,
-                                   model.baseline, model.lights.in_lobe);
+                                   model.baseline, model.places.in_lobe);
     }
     for (const Target target : SupportedTargets()) {
       benchmark::RegisterBenchmark((prefix + TargetName(target)).c_str(), BenchKernel,
-                                   model.material, target, model.lights);
+                                   model.material, target, model.places);
     }
   }
   for (const Target target : SupportedTargets()) {

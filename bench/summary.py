@@ -92,9 +92,6 @@ def _visibility(times):
         yield f"{name}_over_embree_spheres", times.ratio(
             (f"visibility/embree_sphere_point/{scene}",), tiles)
         yield f"{name}_over_embree_user", times.ratio((f"visibility/embree_user/{scene}",), tiles)
-        yield f"{name}_without_positions_over_embree_spheres", times.ratio(
-            (f"visibility/embree_sphere_point/{scene}",),
-            (f"visibility/tiles_without_positions/{scene}",))
         in_float = (f"visibility/float_tiles/{scene}",)
         yield f"{name}_in_float_over_embree_spheres", times.ratio(
             (f"visibility/embree_sphere_point/{scene}",), in_float)

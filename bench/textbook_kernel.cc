@@ -18,15 +18,14 @@ namespace HWY_NAMESPACE {
 
 // Its numbers are copies: nothing that a kernel stores is in them.
 struct TextbookGgx {
-  static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   struct View {};
   TextbookGgxLight light;
   float alpha2, k, pi_over_alpha2;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                                size_t) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p,
+                                const IncidentV& in) const {
     const FloatV one = hn::Set(d, 1.0f);
     const FloatV smallest = hn::Set(d, 1e-30f);
     const FloatV n_dot_v = hn::Max(FusedDot(p.normal, p.to_view), hn::Zero(d));
@@ -48,7 +47,6 @@ struct TextbookGgx {
 
 // Term by term.
 struct WrittenGgx {
-  static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   struct View {};
   TextbookGgxLight light;
@@ -65,8 +63,8 @@ struct WrittenGgx {
   }
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                                size_t) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p,
+                                const IncidentV& in) const {
     const FloatV zero = hn::Zero(d), one = hn::Set(d, 1.0f);
     const Vec3V<FloatV>& offset = in.toward.offset;
     const Vec3V<FloatV> l = Normalize(d, offset), h = Normalize(d, Add(l, p.to_view));
@@ -91,9 +89,10 @@ struct WrittenGgx {
 };
 
 // Phong's cosine as it is written, and what rounding leaves of 1 - c.
-HWY_NOINLINE void FillNaivePhong(const RangeArrays& arrays, size_t begin, size_t end,
-                                 IncidentBlock* block) {
+HWY_NOINLINE void FillNaivePhong(const ShadeRange& range, size_t begin, size_t end,
+                                 LobeBlock* block) {
   const FloatTag d;
+  const RangeArrays arrays(range);
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     const TowardV toward = block->Toward(d, at);
@@ -106,9 +105,10 @@ HWY_NOINLINE void FillNaivePhong(const RangeArrays& arrays, size_t begin, size_t
 }
 
 // Blinn's likewise.
-HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, size_t end,
-                                      IncidentBlock* block) {
+HWY_NOINLINE void FillNaiveBlinnPhong(const ShadeRange& range, size_t begin, size_t end,
+                                      LobeBlock* block) {
   const FloatTag d;
+  const RangeArrays arrays(range);
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     const Vec3V<FloatV> u = block->Toward(d, at).Plus(p.to_view);
@@ -118,25 +118,22 @@ HWY_NOINLINE void FillNaiveBlinnPhong(const RangeArrays& arrays, size_t begin, s
   }
 }
 
-template <void (*kFill)(const RangeArrays&, size_t, size_t, IncidentBlock*)>
+template <void (*kFill)(const ShadeRange&, size_t, size_t, LobeBlock*)>
 struct NaiveLobe {
-  static constexpr bool kReadsIrradiance = true;
   using Incident = LobeIncidentV;
   struct View {};
   const PhongUniforms<float>& uniforms;
 
   HWY_INLINE bool ReadsLobe() const { return true; }
-  HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
-                           IncidentBlock* block) const {
-    kFill(arrays, begin, end, block);
+  HWY_INLINE void FillLobe(const ShadeRange& range, size_t begin, size_t end,
+                           LobeBlock* block) const {
+    kFill(range, begin, end, block);
   }
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in,
-                                size_t k) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV&, const Incident& in) const {
     const FloatV lobe = LobePower(d, in.log2_cosine, hn::Set(d, uniforms.constants.shininess));
-    const PhongLight<float>& by = uniforms.lights[k];
-    return {{ScaledPart(SetRgb(d, by.diffuse), in.weight)},
-            ScaledPart(SetRgb(d, by.specular), hn::Mul(lobe, in.irradiance))};
+    return {{ScaledPart(SetRgb(d, uniforms.light.diffuse), in.weight)},
+            ScaledPart(SetRgb(d, uniforms.light.specular), hn::Mul(lobe, in.irradiance))};
   }
 };
 

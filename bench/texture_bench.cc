@@ -109,7 +109,7 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
   Light light;
   light.kind = PointLight{.position = {3, 4, 8}, .intensity = {60, 60, 60}, .attenuation = {}};
   const ShadingLight shading_light = PrepareLight(light, scene.camera.position);
-  const LightOnBatch on_hits{&shading_light, nullptr};
+  LightBatch on_hits;
   const auto texture_hits = std::make_unique<HitTextures>();
   ShadeScratch scratch;
   ReflectedRadiance radiance;
@@ -118,8 +118,9 @@ void BenchMapped(benchmark::State& state, const Material& material, Target targe
       TextureHits({textures, prepared, 0, kHits}, &hits, &surface, texture_hits.get());
     }
     PrepareRun(prepared, 0, kHits, &surface, texture_hits.get());
-    ShadeRun(prepared, {hits, surface, {&on_hits, 1}, texture_hits.get()}, 0, kHits, &scratch,
-             &radiance);
+    EvaluateLight(shading_light, hits, surface, &on_hits);
+    ShadeRun(prepared, {hits, surface, shading_light, &on_hits, true, texture_hits.get()}, 0, kHits,
+             &scratch, &radiance);
     benchmark::DoNotOptimize(radiance.diffuse.x.data());
     benchmark::ClobberMemory();
   }

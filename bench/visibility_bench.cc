@@ -10,6 +10,7 @@
 #include "float_visibility.h"
 #include "render/camera.h"
 #include "render/frame_plan.h"
+#include "sampling/pixel_sampler.h"
 #include "visibility/intersector.h"
 #include "visibility/sphere_bins.h"
 #include "visibility_scenes.h"
@@ -56,35 +57,31 @@ void ForEachTile(const Intersector& intersector, TileCandidates* candidates, con
   }
 }
 
-// The exact hits of tiles, as the renderer goes about them, with or without their positions.
+// The exact hits of tiles, as the renderer goes about them.
 class ExactTiles {
  public:
-  explicit ExactTiles(bool positions) : positions_(positions) {}
-
   const HitBatch& Trace(const Intersector& intersector, const TileCandidates& candidates) {
     film_.count = candidates.tile.pixel_count();
-    film_.centers = true;
-    intersector.HitsInTile(candidates, film_, {&hits_, &directions_, positions_, false});
+    PlaceCenters(candidates.tile, film_.x.data(), film_.y.data());
+    intersector.HitsInTile(candidates, film_, {&hits_, &directions_, false});
     return hits_;
   }
 
  private:
-  bool positions_;
   FilmBatch film_;
   HitBatch hits_;
   HitDirections directions_;
 };
 
 // The same frame by tiles: with the binning of every frame, the film positions, and the hits'
-// normals and view directions; and their positions, or without them, as where no light is near and
-// nothing casts a shadow. Embree's tree above is built before.
-void BenchTiles(benchmark::State& state, const SphereScene& which, bool positions) {
+// positions, normals and view directions. Embree's tree above is built before.
+void BenchTiles(benchmark::State& state, const SphereScene& which) {
   const FlushDenormals flush;
   const Scene scene = MakeSphereScene(which);
   Intersector intersector(scene, scene.camera.position, {.tree = false});
   const CameraFrame camera = MakeCameraFrame(scene.camera, kWidth, kHeight);
   TileCandidates candidates;
-  ExactTiles tiles(positions);
+  ExactTiles tiles;
   size_t found = 0;
   for (auto _ : state) {
     intersector.BinForCamera(camera, {0, 0, kWidth, kHeight}, kPixelCenterMargin);
@@ -120,7 +117,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
 
   int64_t wrong = 0, found = 0;
   double error = 0;
-  ExactTiles exact_tiles(true);
+  ExactTiles exact_tiles;
   ForEachTile(intersector, &candidates, [&](const Window& tile) {
     std::fill_n(hits.sphere.data(), tile.pixel_count(), kNoPrimitive);
     TraceFloatTile(camera, spheres, candidates, &hits);
@@ -152,10 +149,7 @@ void BenchFloatTiles(benchmark::State& state, const SphereScene& which) {
 const bool kRegistered = [] {
   for (const SphereScene& which : SphereScenes()) {
     const std::string scene = which.name;
-    benchmark::RegisterBenchmark(("visibility/tiles/" + scene).c_str(), BenchTiles, which, true)
-        ->Unit(benchmark::kMillisecond);
-    benchmark::RegisterBenchmark(("visibility/tiles_without_positions/" + scene).c_str(),
-                                 BenchTiles, which, false)
+    benchmark::RegisterBenchmark(("visibility/tiles/" + scene).c_str(), BenchTiles, which)
         ->Unit(benchmark::kMillisecond);
     benchmark::RegisterBenchmark(("visibility/float_tiles/" + scene).c_str(), BenchFloatTiles,
                                  which)

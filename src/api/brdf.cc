@@ -119,9 +119,7 @@ class Batch {
     }
     PrepareSurface(hits_, &surface_);
     PrepareRun(material, 0, count, &surface_);
-    ClearRadiance(count, &radiance_);
-    const LightOnBatch light{&light_, &lit_};
-    ShadeRun(material, {hits_, surface_, {&light, 1}}, 0, count, &scratch_, &radiance_);
+    ShadeRun(material, {hits_, surface_, light_, &lit_}, 0, count, &scratch_, &radiance_);
   }
 
   const ReflectedRadiance& radiance() const { return radiance_; }

@@ -18,7 +18,7 @@ enum class Shadowing : uint8_t {
   kHeightCorrelated,  // Smith, height-correlated (Heitz 2014, eq. 99)
   kSeparable,         // Smith, product of two G1
   kSchlickDirect,     // Schlick's G1 with k = (roughness + 1)^2 / 8 (Karis 2013), the lesson's
-  kSchlickIbl,        // Schlick's G1 with k = alpha / 2 = roughness^2 / 2 (Karis 2013): SchlickK
+  kSchlickIbl,        // Schlick's G1 with k = alpha / 2 (Karis 2013, for image-based light)
 };
 
 template <typename Real>
@@ -36,9 +36,9 @@ bool IsDeltaLobe(Real alpha) {
   return alpha < static_cast<Real>(kDeltaRoughness * kDeltaRoughness);
 }
 
-// Walter et al. 2007, eq. 33, isotropic: alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2), with cos and
-// sin of the half-vector's angle scaled by |u|. 0 where h lies below the surface, where it is
-// undefined (l = -v) and for a delta lobe.
+// Walter et al. 2007, eq. 33, isotropic: alpha^2 / (pi (cos^2 alpha^2 + sin^2)^2) of the angle
+// between n and h. Angles has cosine and sine times |u|: the factors cancel. 0 where h lies below
+// the surface, where it is undefined (l = -v), and for a delta lobe.
 template <typename Real>
 Real GgxDistribution(const Angles<Real>& a, Real alpha) {
   if (IsDeltaLobe(alpha) || !(a.n_dot_u > 0)) return 0;

@@ -82,20 +82,11 @@ Pointers3<T> PointersTo(Soa3<T>* soa) {
 }
 
 // Film positions, in pixels from the top left corner of the full frame, and the indices of the rays
-// through them, in ascending order. The rays of a tile's samples are numbered sample by sample, and
-// within a sample by the tile's pixels row by row; other rays in their order here.
+// through them. Those of a tile's samples are ordered by sample, and within a sample by the tile's
+// pixels row by row.
 struct FilmBatch {
-  FilmBatch() { NumberInOrder(); }
-  void NumberInOrder() { std::iota(ray.begin(), ray.end(), 0u); }
-
-  size_t count = 0;  // of rays
-  // Only the pixels of a tile's spans, in which rays may hit something, have positions here,
-  // without gaps. If false, ray i goes through position i.
-  bool only_spans = false;
-  // The rays go through the centres of a tile's pixels, row by row: x and y are not filled in.
-  bool centers = false;
+  size_t count = 0;
   AlignedArray<double> x{kBatchCapacity}, y{kBatchCapacity};
-  AlignedArray<uint32_t> ray{kBatchCapacity};
 };
 
 // Rays: points origin + t direction, t > 0. Directions are not normalised.
@@ -140,8 +131,8 @@ struct HitBatch {
 struct HitOutput {
   HitBatch* hits;
   HitDirections* directions;
-  bool positions;         // HitBatch::position
   bool exact_directions;  // HitBatch::normal and to_view
+  bool positions = true;  // HitBatch::position
 };
 
 // Shadow rays origin + t direction, 0 < t < t_max.

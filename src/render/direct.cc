@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/direct.h"
 
+#include <algorithm>
+#include <span>
+
 #include "render/camera.h"
 #include "render/mapped_horizon.h"
 #include "render/mesh_radiance.h"
@@ -48,85 +51,55 @@ void CastShadows(const DirectBatch& batch, const PlannedPunctualLight& planned) 
   }
 }
 
-// Shades all lit runs. Where normals are mapped, `lights` is a single light that has been
-// evaluated.
-void ShadeRuns(const DirectBatch& batch, std::span<const LightOnBatch> lights, OutputMode output,
+// What all lit runs reflect of the light. `on_hits`: the light in room.light, or null.
+void ShadeRuns(const DirectBatch& batch, const ShadingLight& light, const LightBatch* on_hits,
                ReflectedRadiance* radiance) {
-  const LitHits lit{batch.hits(), batch.surface(), lights, batch.surfaces.textures.get(), output};
+  const LitHits lit{batch.hits(), batch.surface(),       light,
+                    on_hits,      batch.plan.components, batch.surfaces.textures.get()};
   for (const MaterialRun& run : LitRuns(batch.surfaces)) {
     ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.shade, radiance);
-    if (batch.surface().turned) AddMirroredLobe(batch, run, *lights[0].light, output, radiance);
+    if (batch.surface().turned) AddMirroredLobe(batch, run, light, radiance);
   }
 }
 
-// A light that needs a pass of its own: one with shadow rays, with a layer of its own, or of a form
-// that the kernels do not evaluate.
+// Whether the kernels of the batch's materials evaluate the light, which casts no shadow here.
+bool IsEvaluatedInPlace(const DirectBatch& batch, const ShadingLight& light) {
+  const std::span<const MaterialRun> runs = LitRuns(batch.surfaces);
+  return EvaluatedInPlace(light) && !batch.surface().turned &&
+         std::all_of(runs.begin(), runs.end(),
+                     [](const MaterialRun& run) { return run.shading->layers.empty(); });
+}
+
 void ShadeByPunctualLight(const DirectBatch& batch, const PlannedPunctualLight& planned,
-                          bool shadow_rays, OutputMode output) {
-  DirectRoom& room = batch.room;
-  EvaluateLight(planned.light, batch.hits(), batch.surface(), &room.light);
+                          ReflectedRadiance* radiance) {
+  LightBatch* const on_hits = &batch.room.light;
+  const bool shadow_rays = CastsShadowRays(batch.plan, planned, batch.hits());
+  const bool in_place = !shadow_rays && IsEvaluatedInPlace(batch, planned.light);
+  if (!in_place) EvaluateLight(planned.light, batch.hits(), batch.surface(), on_hits);
   if (batch.surface().turned) HideLightsBelowHorizon(batch);
   batch.clock.Charge(Stage::kLight);
   if (shadow_rays) {
     CastShadows(batch, planned);
     batch.clock.Charge(Stage::kShadow);
   }
-  const LightOnBatch light{&planned.light, &room.light};
-  // The radiance of such a light is summed by itself before it is added to that of other lights,
-  // whether or not a layer is rendered: layers must not change bits.
-  const bool apart = planned.layer >= 0 || batch.surface().turned;
-  if (!apart || batch.plan.one_light) {
-    ShadeRuns(batch, {&light, 1}, output, &batch.radiance.total);
-    if (planned.layer >= 0) AddToLightLayer(batch, batch.radiance.total, planned.layer);
-  } else {
-    ShadeRuns(batch, {&light, 1}, OutputMode::kOverwrite, &room.single);
-    AddLightRadiance(batch, room.single, planned.layer);
-  }
+  ShadeRuns(batch, planned.light, in_place ? nullptr : on_hits, radiance);
+  batch.stats.shades += batch.lit();
+  batch.clock.Charge(Stage::kShade);
 }
 
-// Shades by the lights in their order. Consecutive lights that need no pass of their own are shaded
-// by one call of the kernels.
+// Shades by the lights in their order.
 void ShadeByPunctualLights(const DirectBatch& batch) {
   const DirectPlan& plan = batch.plan;
-  const HitBatch& hits = batch.hits();
-  const BatchBounds bounds = plan.cull_lights ? BoundHits(hits, batch.surface()) : BatchBounds{};
-  batch.clock.Charge(Stage::kLight);
-  std::vector<LightOnBatch>& light_group = batch.room.light_group;
-  light_group.clear();
-  bool dark = true;  // the total has not been written yet
-  const auto output = [&] { return dark ? plan.output : OutputMode::kAccumulate; };
-  const auto shade_group = [&] {
-    if (light_group.empty()) return;
-    ShadeRuns(batch, light_group, output(), &batch.radiance.total);
-    light_group.clear();
-    dark = false;
-  };
-  const auto clear_if_dark = [&] {
-    if (dark) ClearRadiance(batch.lit(), &batch.radiance.total);
-    dark = false;
-  };
+  ReflectedRadiance& total = batch.radiance.total;
+  if (plan.lights.empty()) ClearRadiance(batch.lit(), &total);
   for (const PlannedPunctualLight& planned : plan.lights) {
     ++batch.stats.light_batches;
-    if (plan.cull_lights && !MayIlluminate(planned.geometry, bounds)) {
-      ++batch.stats.culled_lights;
-      continue;
-    }
-    const bool shadow_rays = CastsShadowRays(plan, planned, hits);
-    if (!shadow_rays && planned.layer < 0 && !batch.surface().turned &&
-        EvaluatedInPlace(planned.light)) {
-      light_group.push_back({&planned.light, nullptr});
-    } else {
-      shade_group();
-      const bool apart = planned.layer >= 0 || batch.surface().turned;
-      if (apart && !plan.one_light) clear_if_dark();
-      ShadeByPunctualLight(batch, planned, shadow_rays, output());
-      dark = false;
-    }
-    batch.stats.shades += batch.lit();
+    const bool is_first = &planned == &plan.lights.front();
+    ReflectedRadiance& of_light = is_first ? total : batch.room.single;
+    ShadeByPunctualLight(batch, planned, &of_light);
+    if (planned.layer >= 0) AddToLightLayer(batch, of_light, planned.layer);
+    if (!is_first) AddRadiance(batch, of_light);
   }
-  shade_group();
-  clear_if_dark();
-  batch.clock.Charge(Stage::kShade);
 }
 
 // Everything except the coats over the hits.
@@ -166,9 +139,11 @@ void ShadeCoats(const DirectBatch& batch, const SampleNumbers* numbers) {
                  batch.plan.coat_pairs},
                 numbers);
   ReflectedRadiance& total = batch.radiance.total;
-  CoverBelow(coats, room->total.diffuse, &total.diffuse);
-  CoverBelow(coats, room->total.specular, &total.specular);
   CoverBelow(coats, room->total.sum, &total.sum);
+  if (batch.plan.components) {
+    CoverBelow(coats, room->total.diffuse, &total.diffuse);
+    CoverBelow(coats, room->total.specular, &total.specular);
+  }
   for (size_t layer = 0; layer < room->per_light.size(); ++layer) {
     CoverBelow(coats, room->per_light[layer], &batch.radiance.per_light[layer]);
   }

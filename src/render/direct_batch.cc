@@ -18,15 +18,15 @@ void AddSoa(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to) 
 }
 
 void AddToLightLayer(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
-  Soa3<float>& to = batch.radiance.per_light[static_cast<size_t>(layer)];
-  AddSoa(of_light.diffuse, 0, batch.lit(), &to);
-  AddSoa(of_light.specular, 0, batch.lit(), &to);
+  AddSoa(of_light.sum, 0, batch.lit(), &batch.radiance.per_light[static_cast<size_t>(layer)]);
 }
 
-void AddLightRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer) {
-  if (layer >= 0) AddToLightLayer(batch, of_light, layer);
-  AddSoa(of_light.diffuse, 0, batch.lit(), &batch.radiance.total.diffuse);
-  AddSoa(of_light.specular, 0, batch.lit(), &batch.radiance.total.specular);
+void AddRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light) {
+  ReflectedRadiance& total = batch.radiance.total;
+  AddSoa(of_light.sum, 0, batch.lit(), &total.sum);
+  if (!batch.plan.components) return;
+  AddSoa(of_light.diffuse, 0, batch.lit(), &total.diffuse);
+  AddSoa(of_light.specular, 0, batch.lit(), &total.specular);
 }
 
 }  // namespace nacre

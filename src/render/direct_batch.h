@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "render/direct_plan.h"
@@ -44,7 +43,6 @@ struct DirectRoom {
   LightBatch light;
   ShadeScratch shade;
   std::unique_ptr<MirroredLobe> mirrored;  // made for the first lobe around a mapped normal
-  std::vector<LightOnBatch> light_group;   // lights to shade by in one call
   std::unique_ptr<SampledRoom> sampled;    // made where the plan has sampled lights
   Soa3<double> shadow_origin;              // by hit, if the plan offsets shadow origins
   ShadowRayBatch shadow_rays;
@@ -74,7 +72,7 @@ void AddSoa(const Soa3<float>& from, size_t begin, size_t end, Soa3<float>* to);
 
 // Adds the radiance of one light to the light's layer.
 void AddToLightLayer(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
-// Adds the radiance of one light to the total, and to the light's layer unless that is -1.
-void AddLightRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light, int layer);
+// Adds the radiance of one light to the total.
+void AddRadiance(const DirectBatch& batch, const ReflectedRadiance& of_light);
 
 }  // namespace nacre

@@ -9,13 +9,14 @@
 #include <fmt/format.h>
 
 #include "render/camera.h"
+#include "render/surfaces.h"
 #include "scene/coat.h"
 
 namespace nacre {
 namespace {
 
-void PlanPunctualLights(const Scene& scene, const RenderSettings& settings,
-                        const std::vector<Layer>& layers, DirectPlan* plan, Explanation* why) {
+void PlanPunctualLights(const Scene& scene, const std::vector<Layer>& layers, DirectPlan* plan,
+                        Explanation* why) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i];
     if (!IsPunctual(light)) continue;
@@ -36,17 +37,7 @@ void PlanPunctualLights(const Scene& scene, const RenderSettings& settings,
     planned.light = prepared;
     planned.shadow_rays = shadow_rays;
     planned.layer = LightLayer(layers, i);
-    planned.geometry = GeometryOf(light, scene.camera.position);
   }
-  const size_t count = plan->lights.size();
-  plan->cull_lights = count >= kMinCulledLights && !settings.general_path;
-  why->items.push_back(
-      {"light culling", plan->cull_lights,
-       plan->cull_lights       ? fmt::format("of {} lights each batch is shaded by those that it "
-                                                   "faces and in whose cone it lies",
-                                             count)
-       : settings.general_path ? "the general path is asked for"
-                               : fmt::format("fewer than {} lights", kMinCulledLights)});
 }
 
 // Each sampled light has a pair of random numbers for each sampling strategy: the light, the cosine
@@ -121,39 +112,20 @@ void PlanSampledLights(const Scene& scene, const RenderSettings& settings,
   }
 }
 
-// With one light, its kernel can write the sum of the components, and the components themselves
-// only if a layer needs them. Not with weighted samples: negative weights may cancel all but the
-// rounding error of the sums.
-void PlanComponents(const Scene& scene, const RenderSettings& settings,
-                    const std::vector<Layer>& layers, bool unit_weights, DirectPlan* plan,
+// Whether the components of what is reflected are computed, beside their sum.
+void PlanComponents(const Scene& scene, const std::vector<Layer>& layers, DirectPlan* plan,
                     Explanation* why) {
-  const auto shows_parts = [](const Layer& layer) {
-    return layer.kind == LayerKind::kDiffuse || layer.kind == LayerKind::kSpecular ||
-           layer.kind == LayerKind::kLight;
+  const auto shows_component = [](const Layer& layer) {
+    return layer.kind == LayerKind::kDiffuse || layer.kind == LayerKind::kSpecular;
   };
-  const bool interpolated =
-      std::any_of(scene.meshes.begin(), scene.meshes.end(), [](const Mesh& mesh) {
-        return mesh.interpolation == Interpolation::kFlat ||
-               mesh.interpolation == Interpolation::kGouraud;
-      });
-  const char* const why_not = plan->lights.size() != 1 || !plan->sampled_lights.empty()
-                                  ? "the scene has not exactly one light"
-                              : !unit_weights ? "samples have weights"
-                              : interpolated  ? "the radiance of some meshes is interpolated"
-                                              : nullptr;
-  plan->one_light = why_not == nullptr;
-  const char* const reason = why_not != nullptr      ? why_not
-                             : settings.general_path ? "the general path is asked for"
-                             : std::any_of(layers.begin(), layers.end(), shows_parts)
-                                 ? "layers show them"
-                                 : nullptr;
-  if (plan->one_light) {
-    plan->output = reason == nullptr ? OutputMode::kSum : OutputMode::kComponentsAndSum;
-  }
-  why->items.push_back({"diffuse and specular components", reason != nullptr,
-                        reason != nullptr
-                            ? reason
-                            : "one light: its kernel computes the sum, and no layer needs them"});
+  const char* const reason =
+      std::any_of(layers.begin(), layers.end(), shows_component) ? "layers show them"
+      : std::any_of(scene.meshes.begin(), scene.meshes.end(), InterpolatesRadiance)
+          ? "the radiance of some meshes is interpolated"
+          : nullptr;
+  plan->components = reason != nullptr;
+  why->items.push_back({"diffuse and specular components", plan->components,
+                        plan->components ? reason : "no layer shows them: their sum is enough"});
 }
 
 // With more spheres many batches hold hits on several of them, and looking up offsets hit by hit
@@ -205,7 +177,7 @@ std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
 
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,
-                      bool unit_weights, PreparedScene* prepared, Explanation* why) {
+                      PreparedScene* prepared, Explanation* why) {
   DirectPlan plan;
   plan.background = scene.background;
   const Vec3d& eye = scene.camera.position;
@@ -214,15 +186,15 @@ DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
       static_cast<size_t>(std::count_if(layers.begin(), layers.end(), [](const Layer& layer) {
         return layer.kind == LayerKind::kLight;
       }));
-  PlanPunctualLights(scene, settings, layers, &plan, why);
+  PlanPunctualLights(scene, layers, &plan, why);
   PlanSampledLights(scene, settings, layers, shown, &prepared->tables, &plan, why);
-  PlanComponents(scene, settings, layers, unit_weights, &plan, why);
+  PlanComponents(scene, layers, &plan, why);
   return plan;
 }
 
-void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
-                      Explanation* why) {
-  if (!settings.offsets_by_normal || !LieOnFewSpheres(scene, *plan)) return;
+void PlanFarLights(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
+                   Explanation* why) {
+  if (!settings.far_lights || !LieOnFewSpheres(scene, *plan)) return;
   for (PlannedPunctualLight& planned : plan->lights) {
     if (!OffsetFromSpheres(scene.spheres, scene.camera.position, &planned.light)) continue;
     why->substitutions.push_back(

@@ -11,7 +11,6 @@
 #include "render/explanation.h"
 #include "render/hits_plan.h"
 #include "render/layers.h"
-#include "render/light_cull.h"
 #include "render/prepared_scene.h"
 #include "render/settings.h"
 #include "sampling/pair_sampler.h"
@@ -28,9 +27,8 @@ struct PlannedPunctualLight {
   size_t index;  // into Scene::lights
   ShadingLight light;
   bool shadow_rays;
-  int layer;                      // the number of its own layer among the light layers, or -1
-  std::vector<uint8_t> shadowed;  // by sphere: 1 if its hits need shadow rays; empty: all do
-  LightGeometry geometry;
+  int layer;                       // the number of its own layer among the light layers, or -1
+  std::vector<uint8_t> shadowed;   // by sphere: 1 if its hits need shadow rays; empty: all do
   uint32_t occluders = kAnyLight;  // ShadowRayBatch::light
 };
 
@@ -83,13 +81,10 @@ struct DirectPlan {
   // The constant radiance behind the shapes, of the scene or of a constant sky. Unused with `sky`.
   Rgb background{0, 0, 0};
   size_t light_layer_count = 0;        // lights that have a layer of their own
-  bool cull_lights = false;            // leave out lights that cannot illuminate a batch
   bool offset_shadow_origins = false;  // some shadow rays do not start at their hits
   bool eye_outside = false;            // no camera ray starts inside a sphere
   double camera_extent = 0;            // ShadowRayBatch::camera_extent
-  // There is one light: the beauty is the sum of the components that its kernel computes.
-  bool one_light = false;
-  OutputMode output = OutputMode::kOverwrite;            // for the first light of a batch
+  bool components = false;             // ReflectedRadiance::diffuse and specular are computed
   std::vector<std::vector<MeshRadiance>> mesh_radiance;  // by mesh; empty if no mesh has any
 };
 
@@ -98,15 +93,14 @@ struct DirectPlan {
 std::shared_ptr<const SceneWithLights> AddVisibleLights(const Scene& scene,
                                                         PreparedScene* prepared);
 
-// Plans everything except shadow rays and light offsets. `shown`: from AddVisibleLights; may be
-// null.
+// Plans everything except shadow rays and far lights. `shown`: from AddVisibleLights; may be null.
 DirectPlan PlanLights(const Scene& scene, const RenderSettings& settings,
                       const std::vector<Layer>& layers, const SceneWithLights* shown,
-                      bool unit_weights, PreparedScene* prepared, Explanation* why);
+                      PreparedScene* prepared, Explanation* why);
 
-// Then decides which distant lights are located relative to a hit from the hit's normal alone, on
-// spheres (ShadingLight::from_spheres).
-void PlanLightOffsets(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
-                      Explanation* why);
+// Then decides which lights are located relative to a hit from the hit's normal alone, on spheres
+// (ShadingLight::from_spheres).
+void PlanFarLights(const Scene& scene, const RenderSettings& settings, DirectPlan* plan,
+                   Explanation* why);
 
 }  // namespace nacre

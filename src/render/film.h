@@ -25,8 +25,6 @@ struct FilmPlan {
   double weight = 1;        // sum of the weights of a pixel's samples
   Rgb background{0, 0, 0};  // where nothing is hit, unless `sky`
   bool sky = false;         // the background is BatchRadiance::sky
-  // The beauty is the sum that the kernel of the only light computes, BatchRadiance::total.sum.
-  bool beauty_is_sum = false;
   bool one_sample = false;  // the only sample of a pixel is its value: there are no sums
 };
 

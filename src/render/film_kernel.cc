@@ -198,17 +198,16 @@ template <size_t kChannels>
 inline constexpr size_t kColorsOf = std::min<size_t>(kChannels, 3);
 
 // The values of hits, as vectors. No value is -0, because sums that begin with 0 never are.
-template <size_t kChannels, bool kHasB, bool kHasConstant2>
+template <size_t kChannels, bool kHasConstant2>
 struct ValuesV {
   static constexpr size_t kColors = kColorsOf<kChannels>;
-  const float *a[kColors], *b[kColors];
+  const float* from[kColors];
   V constant[kColors], constant2[kColors];
 
   explicit HWY_INLINE ValuesV(const HitValues& values) {
     const D d;
     for (size_t c = 0; c < kColors; ++c) {
-      a[c] = values.a[c];
-      b[c] = values.b[c];
+      from[c] = values.values[c];
       // Adding 0 turns a constant of -0 into 0.
       constant[c] = hn::Add(hn::Zero(d), hn::Set(d, values.constant[c]));
       constant2[c] = hn::Set(d, values.constant2[c]);
@@ -218,9 +217,7 @@ struct ValuesV {
   HWY_INLINE V operator()(size_t c, size_t i) const {
     const D d;
     if (c >= kColors) return hn::Set(d, 1.0);
-    V sum = hn::PromoteTo(d, hn::LoadU(F(), a[c] + i));
-    if constexpr (kHasB) sum = hn::Add(sum, hn::PromoteTo(d, hn::LoadU(F(), b[c] + i)));
-    sum = hn::Add(sum, constant[c]);
+    const V sum = hn::Add(hn::PromoteTo(d, hn::LoadU(F(), from[c] + i)), constant[c]);
     return kHasConstant2 ? hn::Add(sum, constant2[c]) : sum;
   }
 };
@@ -231,19 +228,16 @@ HWY_INLINE void WriteChannels(const HitValues& values, std::span<const HitSpan> 
   bool has_constant2 = false;
   constexpr size_t kColors = kColorsOf<kChannels>;
   for (size_t c = 0; c < kColors; ++c) has_constant2 = has_constant2 || values.constant2[c] != 0;
-  if (values.a[0] == nullptr) {
+  if (values.values[0] == nullptr) {
     const D d;
     V both[kChannels];
     for (size_t c = 0; c < kChannels; ++c) {
       both[c] = hn::Set(d, c < kColors ? 0.0 + values.constant[c] + values.constant2[c] : 1.0);
     }
     to(spans, [both](size_t c, size_t) HWY_ATTR { return both[c]; });
-  } else if (values.b[0] == nullptr) {
-    if (has_constant2) return to(spans, ValuesV<kChannels, false, true>(values));
-    to(spans, ValuesV<kChannels, false, false>(values));
   } else {
-    if (has_constant2) return to(spans, ValuesV<kChannels, true, true>(values));
-    to(spans, ValuesV<kChannels, true, false>(values));
+    if (has_constant2) return to(spans, ValuesV<kChannels, true>(values));
+    to(spans, ValuesV<kChannels, false>(values));
   }
 }
 
@@ -260,31 +254,25 @@ void StoreHitsT(const HitValues& values, std::span<const HitSpan> spans,
   WriteChannels<4>(values, spans, ToRows<4>{rows});
 }
 
-// a[i], and b[i] unless b is null.
-HWY_INLINE V LoadSum(const float* a, const float* b, size_t i) {
-  const D d;
-  const V of_a = hn::PromoteTo(d, hn::LoadU(F(), a + i));
-  return b == nullptr ? of_a : hn::Add(of_a, hn::PromoteTo(d, hn::LoadU(F(), b + i)));
+HWY_INLINE V LoadDouble(const float* from, size_t i) {
+  return hn::PromoteTo(D(), hn::LoadU(F(), from + i));
 }
 
-void AddFloatsT(const float* a, const float* b, double constant, double constant2, size_t begin,
-                size_t end, double* to) {
+void AddFloatsT(const float* from, double constant, double constant2, size_t begin, size_t end,
+                double* to) {
   const D d;
   const V first = hn::Set(d, constant);
   const V second = hn::Set(d, constant2);
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    hn::StoreU(hn::Add(hn::Add(LoadSum(a, b, i), first), second), d, to + i);
+    hn::StoreU(hn::Add(hn::Add(LoadDouble(from, i), first), second), d, to + i);
   }
 }
 
 void AddFloatsByHitT(const FloatsToAdd& floats, size_t begin, size_t end, double* to) {
   const D d;
-  const auto load = [&](const float* from, size_t i)
-                        HWY_ATTR { return hn::PromoteTo(d, hn::LoadU(F(), from + i)); };
   for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const V sum = LoadSum(floats.a, floats.b, i);
-    hn::StoreU(hn::Add(hn::Add(sum, load(floats.constant, i)), load(floats.constant2, i)), d,
-               to + i);
+    const V sum = hn::Add(LoadDouble(floats.from, i), LoadDouble(floats.constant, i));
+    hn::StoreU(hn::Add(sum, LoadDouble(floats.constant2, i)), d, to + i);
   }
 }
 
@@ -331,9 +319,9 @@ void FillPixels(float value, const PixelRows<float>& rows) {
   HWY_DYNAMIC_DISPATCH(FillPixelsT)(value, rows);
 }
 
-void AddFloats(const float* a, const float* b, double constant, double constant2, size_t begin,
-               size_t end, double* to) {
-  HWY_DYNAMIC_DISPATCH(AddFloatsT)(a, b, constant, constant2, begin, end, to);
+void AddFloats(const float* from, double constant, double constant2, size_t begin, size_t end,
+               double* to) {
+  HWY_DYNAMIC_DISPATCH(AddFloatsT)(from, constant, constant2, begin, end, to);
 }
 
 void AddFloats(const FloatsToAdd& floats, size_t begin, size_t end, double* to) {

@@ -35,13 +35,12 @@ struct HitRays {
 void FindHitSpans(const HitRays& hits, size_t pixels, size_t row, const double* weights,
                   std::vector<HitSpan>* spans);
 
-// The value of hit i in channel c of a layer is a[c][i] + b[c][i] + constant[c] + constant2[c], in
-// double. b, or a and b, may be null for all channels, and then count as 0. `channels` is 1, 3 or
-// 4; the fourth is coverage, where every hit has the value 1.
+// The value of hit i in channel c of a layer is values[c][i] + constant[c] + constant2[c], in
+// double. `values` may be null for all channels, and then count as 0. `channels` is 1, 3 or 4; the
+// fourth is coverage, where every hit has the value 1.
 struct HitValues {
   int channels;
-  const float* a[3];
-  const float* b[3];
+  const float* values[3];
   double constant[3], constant2[3];
 };
 
@@ -74,14 +73,14 @@ void RoundSums(const double* sums, const double* coverage, const Resolution& by,
 // Sets all pixels of a tile to one value.
 void FillPixels(float value, const PixelRows<float>& rows);
 
-// to[i] = double(a[i]) + double(b[i]) + constant + constant2 for i in [begin, end). Entries after
-// the end, up to a whole vector, are overwritten. b may be null and then counts as 0.
-void AddFloats(const float* a, const float* b, double constant, double constant2, size_t begin,
-               size_t end, double* to);
+// to[i] = double(from[i]) + constant + constant2 for i in [begin, end). Entries after the end, up
+// to a whole vector, are overwritten.
+void AddFloats(const float* from, double constant, double constant2, size_t begin, size_t end,
+               double* to);
 
 // The same with constants for each hit.
 struct FloatsToAdd {
-  const float *a, *b, *constant, *constant2;
+  const float *from, *constant, *constant2;
 };
 void AddFloats(const FloatsToAdd& floats, size_t begin, size_t end, double* to);
 

@@ -9,40 +9,32 @@
 namespace nacre {
 namespace {
 
-// The values of a layer: the sum of two arrays of floats and two constants, in double. So the
-// beauty is the exact sum of the other layers' floats, and after averaging each layer is rounded
-// once, whatever weights cancel. (With FilmPlan::beauty_is_sum the beauty of each sample is rounded
-// once more.) The beauty never depends on which layers are rendered.
-struct LayerTerms {
-  const Soa3<float>* first = nullptr;  // null: zeros
-  const Soa3<float>* second = nullptr;
+// The values of a layer: an array of floats and two constants, added in double, so that after
+// averaging each layer is rounded once, whatever weights cancel. The beauty never depends on which
+// layers are rendered.
+struct LayerValues {
+  const Soa3<float>* values = nullptr;  // null: zeros
   Rgb constant{0, 0, 0}, constant2{0, 0, 0};
   // In place of the constants where materials have maps.
   const Soa3<float>* ambient = nullptr;
   const Soa3<float>* emission = nullptr;
 };
 
-// The reflected light of all lights.
-LayerTerms BeautyOf(const FilmPlan& plan, const ShadedBatch& s) {
-  if (plan.beauty_is_sum) return {.first = &s.radiance.total.sum};
-  return {.first = &s.radiance.total.diffuse, .second = &s.radiance.total.specular};
-}
-
-// The terms of a layer where maps give each hit its own ambient, emission and albedo.
-LayerTerms MappedTermsOf(const FilmPlan& plan, const Layer& layer, const ShadedBatch& s) {
+// The shown of a layer where maps give each hit its own ambient, emission and albedo.
+LayerValues MappedValuesShown(const Layer& layer, const ShadedBatch& s) {
   switch (layer.kind) {
     case LayerKind::kBeauty: {
-      LayerTerms terms = BeautyOf(plan, s);
-      terms.ambient = &s.surfaces.textures->ambient;
-      terms.emission = &s.surfaces.textures->emission;
-      return terms;
+      LayerValues shown{.values = &s.radiance.total.sum};
+      shown.ambient = &s.surfaces.textures->ambient;
+      shown.emission = &s.surfaces.textures->emission;
+      return shown;
     }
     case LayerKind::kAmbient:
-      return {.first = &s.surfaces.textures->ambient};
+      return {.values = &s.surfaces.textures->ambient};
     case LayerKind::kEmission:
-      return {.first = &s.surfaces.textures->emission};
+      return {.values = &s.surfaces.textures->emission};
     case LayerKind::kAlbedo:
-      return {.first = &s.surfaces.textures->albedo};
+      return {.values = &s.surfaces.textures->albedo};
     default:
       return {};
   }
@@ -53,24 +45,24 @@ bool IsMapped(LayerKind kind) {
          kind == LayerKind::kEmission || kind == LayerKind::kAlbedo;
 }
 
-LayerTerms TermsOf(const FilmPlan& plan, const Layer& layer, size_t light_layer,
-                   const ShadingMaterial& constants, const ShadedBatch& s) {
-  if (constants.mapped && IsMapped(layer.kind)) return MappedTermsOf(plan, layer, s);
+LayerValues ValuesShown(const Layer& layer, size_t light_layer, const ShadingMaterial& constants,
+                        const ShadedBatch& s) {
+  if (constants.mapped && IsMapped(layer.kind)) return MappedValuesShown(layer, s);
   const Rgb ambient = RoundToFloat(constants.ambient);
   const Rgb emission = RoundToFloat(constants.emission);
   switch (layer.kind) {
     case LayerKind::kBeauty: {
-      LayerTerms terms = BeautyOf(plan, s);
-      terms.constant = ambient;
-      terms.constant2 = emission;
-      return terms;
+      LayerValues shown{.values = &s.radiance.total.sum};
+      shown.constant = ambient;
+      shown.constant2 = emission;
+      return shown;
     }
     case LayerKind::kAlpha:
       return {.constant = {1, 0, 0}};
     case LayerKind::kDiffuse:
-      return {.first = &s.radiance.total.diffuse};
+      return {.values = &s.radiance.total.diffuse};
     case LayerKind::kSpecular:
-      return {.first = &s.radiance.total.specular};
+      return {.values = &s.radiance.total.specular};
     case LayerKind::kAmbient:
       return {.constant = ambient};
     case LayerKind::kEmission:
@@ -78,9 +70,9 @@ LayerTerms TermsOf(const FilmPlan& plan, const Layer& layer, size_t light_layer,
     case LayerKind::kAlbedo:
       return {.constant = RoundToFloat(constants.albedo)};
     case LayerKind::kLight:
-      return {.first = &s.radiance.per_light[light_layer]};
+      return {.values = &s.radiance.per_light[light_layer]};
     default:
-      return {.first = &s.surfaces.surface.normal};
+      return {.values = &s.surfaces.surface.normal};
   }
 }
 
@@ -90,17 +82,15 @@ const float* ChannelOrNull(const Soa3<float>* soa, int c) {
 }
 
 // Channel c of a layer at the hits of a run.
-void FillRun(const LayerTerms& terms, int c, const MaterialRun& run, double* values) {
-  const float* const first = ChannelOrNull(terms.first, c);
-  if (terms.ambient != nullptr) {
-    AddFloats({first, ChannelOrNull(terms.second, c), ChannelOrNull(terms.ambient, c),
-               ChannelOrNull(terms.emission, c)},
-              run.begin, run.end, values);
-  } else if (first == nullptr) {
-    std::fill(values + run.begin, values + run.end, terms.constant[c] + terms.constant2[c]);
+void FillRun(const LayerValues& shown, int c, const MaterialRun& run, double* values) {
+  const float* const from = ChannelOrNull(shown.values, c);
+  if (shown.ambient != nullptr) {
+    AddFloats({from, ChannelOrNull(shown.ambient, c), ChannelOrNull(shown.emission, c)}, run.begin,
+              run.end, values);
+  } else if (from == nullptr) {
+    std::fill(values + run.begin, values + run.end, shown.constant[c] + shown.constant2[c]);
   } else {
-    AddFloats(first, ChannelOrNull(terms.second, c), terms.constant[c], terms.constant2[c],
-              run.begin, run.end, values);
+    AddFloats(from, shown.constant[c], shown.constant2[c], run.begin, run.end, values);
   }
 }
 
@@ -116,13 +106,12 @@ void FindRunSpans(const MaterialRun& run, size_t pixels, size_t row, const Shade
                batch.samples.weights.data(), &room->spans);
 }
 
-HitValues ValuesOf(const LayerTerms& terms, int channels) {
-  HitValues values{.channels = channels, .a = {}, .b = {}, .constant = {}, .constant2 = {}};
+HitValues ValuesOf(const LayerValues& shown, int channels) {
+  HitValues values{.channels = channels, .values = {}, .constant = {}, .constant2 = {}};
   for (int c = 0; c < std::min(channels, 3); ++c) {
-    values.a[c] = ChannelOrNull(terms.first, c);
-    values.b[c] = ChannelOrNull(terms.second, c);
-    values.constant[c] = terms.constant[c];
-    values.constant2[c] = terms.constant2[c];
+    values.values[c] = ChannelOrNull(shown.values, c);
+    values.constant[c] = shown.constant[c];
+    values.constant2[c] = shown.constant2[c];
   }
   return values;
 }
@@ -133,11 +122,11 @@ int ChannelsWithCoverage(LayerKind kind) {
 }
 
 // Adds a layer of a batch whose only run has the spans in `room`.
-void AddRun(const FilmPlan& plan, const Layer& layer, size_t light_layer, const ShadedBatch& batch,
-            const LayerRoom& room, double* const* sums) {
+void AddRun(const Layer& layer, size_t light_layer, const ShadedBatch& batch, const LayerRoom& room,
+            double* const* sums) {
   const ShadingMaterial& constants = *batch.surfaces.runs[0].shading;
-  const LayerTerms terms = TermsOf(plan, layer, light_layer, constants, batch);
-  AddHits(ValuesOf(terms, ChannelsWithCoverage(layer.kind)), room.spans, sums);
+  const LayerValues shown = ValuesShown(layer, light_layer, constants, batch);
+  AddHits(ValuesOf(shown, ChannelsWithCoverage(layer.kind)), room.spans, sums);
 }
 
 // Adds a layer of any batch of a tile of `pixels` pixels.
@@ -211,9 +200,9 @@ Soa3<double>& GatherLayer(const FilmPlan& plan, const Layer& layer, size_t light
   const size_t hits = batch.hits().count;
   if (hits > 0) {
     for (const MaterialRun& run : runs) {
-      const LayerTerms terms = TermsOf(plan, layer, light_layer, *run.shading, batch);
+      const LayerValues shown = ValuesShown(layer, light_layer, *run.shading, batch);
       for (int c = 0; c < channels; ++c) {
-        FillRun(terms, c, run, ChannelOf(room->hit_values, c).data());
+        FillRun(shown, c, run, ChannelOf(room->hit_values, c).data());
       }
     }
   }
@@ -244,7 +233,7 @@ void AddToFilm(const FilmPlan& plan, const ShadedBatch& batch, LayerRoom* room, 
     const bool sees_sky = plan.sky && ShowsBackground(layer);
     if (in_order && !sees_sky) {
       const bool is_added = layer.kind == LayerKind::kAlpha && !plan.sky;
-      if (!is_added) AddRun(plan, layer, light_layer, batch, *room, sums);
+      if (!is_added) AddRun(layer, light_layer, batch, *room, sums);
     } else if (hits > 0 || sees_sky) {
       AddRays(plan, layer, light_layer, pixels, batch, room, sums);
     }
@@ -264,13 +253,13 @@ bool StoreOnlySamples(const FilmPlan& plan, const ShadedBatch& batch, const Wind
     size_t color = 0, light_layer = 0;
     for (const Layer& layer : plan.layers) {
       if (layer.kind == LayerKind::kAlpha) continue;  // written with the beauty
-      const LayerTerms terms = TermsOf(plan, layer, light_layer, *run.shading, batch);
+      const LayerValues shown = ValuesShown(layer, light_layer, *run.shading, batch);
       const int channels = ChannelsWithCoverage(layer.kind);
       PixelRows<float> rows[4] = {};
       for (int c = 0; c < channels; ++c) {
         rows[c] = RowsIn(strip->window, tile, &strip->colors[color++]);
       }
-      StoreHits(ValuesOf(terms, channels), room->spans, rows);
+      StoreHits(ValuesOf(shown, channels), room->spans, rows);
       if (layer.kind == LayerKind::kLight) ++light_layer;
     }
   }

@@ -19,7 +19,7 @@ Footprint FootprintOf(const Window& block, double filter_radius) {
           block.x1 - 0.5 + filter_radius, block.y1 - 0.5 + filter_radius};
 }
 
-// A cone around a footprint'work rays. The film is flat, so the rays farthest from the axis go
+// A cone around a footprint's rays. The film is flat, so the rays farthest from the axis go
 // through the corners.
 struct FootprintCone {
   Vec3d axis;
@@ -35,7 +35,7 @@ FootprintCone BoundingCone(const CameraFrame& frame, const Footprint& f) {
   for (const double x : {f.x0, f.x1}) {
     for (const double y : {f.y0, f.y1}) cosine = std::min(cosine, cone.axis.dot(direction(x, y)));
   }
-  // At small angles the cosine'work rounding error becomes its square root in the angle.
+  // At small angles the cosine's rounding error becomes its square root in the angle.
   cone.half_angle = std::acos(cosine) + 1e-7;
   return cone;
 }
@@ -69,7 +69,7 @@ void CountCornerHits(const FramePlan& plan, const Window& cell, const TileWork& 
   for (size_t i = 0; i < hits.count; ++i) ++counts[hits.ray[i] / 4];
 }
 
-// Whether no light'work shadow can fall on the sphere.
+// Whether no light's shadow can fall on the sphere.
 bool IsUnshadowed(const FramePlan& plan, uint32_t sphere) {
   return std::all_of(
       plan.direct.lights.begin(), plan.direct.lights.end(),
@@ -81,7 +81,7 @@ bool MayIntersect(const TraceSphere& a, const TraceSphere& b) {
   return !((a.center - b.center).length() > (a.radius + b.radius) * (1 + 1e-9));
 }
 
-// Whether the plane in which an orthographic camera'work rays start cuts the sphere: the cut is an
+// Whether the plane in which an orthographic camera's rays start cuts the sphere: the cut is an
 // edge.
 bool IsCutByCamera(const CameraFrame& frame, const TraceSphere& sphere) {
   return frame.projection == Projection::kOrthographic &&
@@ -101,7 +101,7 @@ bool HasOnlyOutlines(const FramePlan& plan, const std::vector<const TileCandidat
   return true;
 }
 
-// The largest second difference of a block'work values along rows plus that along columns.
+// The largest second difference of a block's values along rows plus that along columns.
 double Curvature(const double* v) {
   double along_x = 0, along_y = 0;
   constexpr std::ptrdiff_t kSide = kBlockSide;
@@ -125,7 +125,7 @@ bool HasSmallCurvature(const AdaptivePlan& plan, const double* values) {
          ToleranceAt({plan.max_error, plan.white}, darkest);
 }
 
-// Whether normals turn from pixel to pixel by at largest a quarter of the lobe'work width.
+// Whether normals turn from pixel to pixel by at most a quarter of the lobe's width.
 bool ResolvesLobe(const Soa3<float>& normals, const uint32_t* hits, double width) {
   const auto distance2 = [&](size_t i, size_t k) {
     const double x = normals.x[hits[i]] - normals.x[hits[k]];

@@ -30,20 +30,6 @@ Rgb SumAmbient(const Scene& scene) {
   return sum;
 }
 
-// Samples outside all outlines of spheres hit nothing, so that their positions on the film need not
-// be computed. Returns why they must be in this frame; null if they need not. (Tiles in which
-// triangles may be visible always compute the positions of all samples.)
-const char* WhyAllPositionsOnFilm(const FramePlan& plan, const RenderSettings& settings) {
-  return plan.scene->spheres.empty() ? "there are no spheres"
-         : settings.max_error > 0    ? "adaptive sampling makes its own samples"
-         : !plan.hits.tiles          ? "a tree finds every ray's hit"
-         : settings.general_path     ? "the general path is asked for"
-         : plan.direct.sky           ? "they see the sky"
-         : plan.surfaces.splits      ? "some material depends on where samples lie"
-         : ShowsNearest(plan.film)   ? "some layers show the hit nearest to the pixel's centre"
-                                     : nullptr;
-}
-
 void PlanShadowOrigins(const Scene& scene, DirectPlan* plan, Explanation* why) {
   const auto casts = [](const auto& light) { return light.shadow_rays; };
   const bool shadows = std::any_of(plan->lights.begin(), plan->lights.end(), casts) ||
@@ -116,11 +102,10 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   plan.camera = MakeCameraFrame(scene.camera, scene.image.width, scene.image.height);
   Explanation* const why = &plan.why;
   PixelSampler sampler = MakePixelSampler(scene.image.filter, scene.image.spp, scene.image.seed);
-  const bool unit_weights = HasUnitWeights(sampler);
 
   PlanLayers(scene, settings, &plan.film, why);
-  plan.direct = PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), unit_weights,
-                           prepared, why);
+  plan.direct =
+      PlanLights(scene, settings, plan.film.layers, plan.with_lights.get(), prepared, why);
   plan.hits = PlanHits(scene, settings, plan.window, plan.camera, sampler, prepared, why);
   const bool tree_for_shadows =
       PlanShadows(scene, settings, plan.hits, prepared, &plan.direct, why);
@@ -129,10 +114,8 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   plan.surfaces =
       PlanSurfaces(scene, settings, plan.camera, SumAmbient(scene), &prepared->tables, why);
   plan.sampling = PlanSampling(scene, settings, std::move(sampler),
-                               {!plan.direct.sampled_lights.empty(), plan.surfaces.textured,
-                                WhyAllPositionsOnFilm(plan, settings)},
-                               why);
-  PlanLightOffsets(scene, settings, &plan.direct, why);
+                               {!plan.direct.sampled_lights.empty(), plan.surfaces.textured}, why);
+  PlanFarLights(scene, settings, &plan.direct, why);
   if (settings.max_error > 0) plan.adaptive = PlanAdaptiveSampling(plan, settings, why);
   if (!scene.meshes.empty() && plan.hits.intersector != nullptr) {
     PlanShadowOrigins(scene, &plan.direct, why);
@@ -141,7 +124,6 @@ FramePlan MakePlan(const Scene& given, const RenderSettings& settings, PreparedS
   plan.film.camera = plan.camera;
   plan.film.background = plan.direct.background;
   plan.film.sky = plan.direct.sky.has_value();
-  plan.film.beauty_is_sum = plan.direct.one_light;
   PlanSums(scene, settings, plan.sampling.sampler, &plan.film, why);
   PlanPositions(scene, settings, {plan.surfaces, plan.direct, plan.film}, &plan.hits, why);
   NoteMaterials(scene, plan.surfaces.materials, !plan.direct.sampled_lights.empty(), &why->notes);
@@ -162,12 +144,6 @@ std::string ExplainPlan(const FramePlan& plan, const RenderStats* stats) {
   if (plan.why.substitutions.empty())
     text += "  none: every skip above leaves all bits as they are\n";
   if (stats == nullptr) return text;
-  if (plan.direct.cull_lights && stats->light_batches > 0) {
-    text += fmt::format(
-        "lights culled: {:.1f} % of {} lights times batches of hits\n",
-        100 * static_cast<double>(stats->culled_lights) / static_cast<double>(stats->light_batches),
-        stats->light_batches);
-  }
   double total = 0;
   for (const double seconds : stats->stage_seconds) total += seconds;
   text += "share of the time (all threads):\n";

@@ -18,11 +18,10 @@ const char* WhyAllPositions(const Scene& scene, const RenderSettings& settings,
   const std::vector<PlannedPunctualLight>& lights = readers.direct.lights;
   const bool near = std::any_of(lights.begin(), lights.end(), ReadsPositions);
   return settings.general_path                    ? "the general path is asked for"
-         : !plan.tiles                            ? "camera rays go through a tree"
+         : !plan.trace_by_bins                    ? "camera rays go through a tree"
          : !scene.meshes.empty()                  ? "spheres and triangles are sorted by depth"
          : near                                   ? "lights are found from them"
          : !readers.direct.sampled_lights.empty() ? "some lights have an extent"
-         : readers.direct.cull_lights             ? "lights are culled by them"
          : readers.surfaces.textured              ? "textures may need them"
          : plan.exact_directions                  ? "narrow lobes find lights from them"
          : readers.surfaces.one_sided             ? "some materials emit in front only"

@@ -39,7 +39,7 @@ void TraceByTree(const HitsPlan& plan, const FilmBatch& film, bool positions, Tr
   hits->batch.count = 0;
   if (count == 0) return;
   plan.intersector->Refine(rays, room->closest, room->hit_rays.data(), count,
-                           {&hits->batch, &hits->directions, positions, plan.exact_directions});
+                           {&hits->batch, &hits->directions, plan.exact_directions, positions});
 }
 
 // Finds the nearest triangles in front of the hits on spheres, or behind them by no more than the
@@ -131,7 +131,7 @@ void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, 
   if (count == 0) return;
   plan.intersector->Refine(
       room->rays, room->closest, room->hit_rays.data(), count,
-      {&triangles.hits.batch, &triangles.hits.directions, true, plan.exact_directions});
+      {&triangles.hits.batch, &triangles.hits.directions, plan.exact_directions});
   JoinHits(plan, &triangles, hits);
 }
 
@@ -140,13 +140,13 @@ void AddTriangles(const HitsPlan& plan, const FilmBatch& film, TraceRoom* room, 
 void TraceCamera(const HitsPlan& plan, const TileShapes& shapes, const FilmBatch& film,
                  TraceRoom* room, CameraHits* hits) {
   hits->batch.count = 0;
-  hits->positions = shapes.positions;
-  hits->exact = plan.exact_directions;
+  hits->has_positions = shapes.positions;
+  hits->has_exact_directions = plan.exact_directions;
   if (!shapes.any) return;
-  if (!plan.tiles) return TraceByTree(plan, film, shapes.positions, room, hits);
+  if (!plan.trace_by_bins) return TraceByTree(plan, film, shapes.positions, room, hits);
   plan.intersector->HitsInTile(
       shapes.spheres, film,
-      {&hits->batch, &hits->directions, shapes.positions, plan.exact_directions});
+      {&hits->batch, &hits->directions, plan.exact_directions, shapes.positions});
   if (shapes.triangles) AddTriangles(plan, film, room, hits);
 }
 

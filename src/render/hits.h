@@ -15,8 +15,8 @@ namespace nacre {
 struct CameraHits {
   HitBatch batch;
   HitDirections directions;
-  bool positions = false;  // batch.position is filled
-  bool exact = false;      // batch.normal and batch.to_view are filled
+  bool has_positions = false;         // batch.position is filled
+  bool has_exact_directions = false;  // batch.normal and batch.to_view are filled
 };
 
 // Buffers of TraceCamera.

@@ -129,12 +129,12 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
               static_cast<double>(binned.x1), static_cast<double>(binned.y1), margin});
     plan.binned = prepared->camera_bins.Get(
         bins, [&] { return plan.intersector->BinForCamera(camera, binned, margin); });
-    plan.tiles = want_tiles && plan.binned;
+    plan.trace_by_bins = want_tiles && plan.binned;
   }
   why->items.push_back(
-      {"intersector tiles, for camera rays", plan.tiles,
-       plan.tiles   ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
-       : want_tiles ? "the bins would not fit 256 MiB"
+      {"intersector tiles, for camera rays", plan.trace_by_bins,
+       plan.trace_by_bins ? "spheres binned to 16x16 pixels need no tree: " + DescribeShapes(scene)
+       : want_tiles       ? "the bins would not fit 256 MiB"
        : scene.spheres.empty() ? "there are no spheres"
        : nested                ? kNestedSpheres
                                : tree_asked_for});
@@ -145,14 +145,14 @@ HitsPlan PlanHits(const Scene& scene, const RenderSettings& settings, const Wind
 void BuildTrees(bool for_shadows, HitsPlan* plan, Explanation* why) {
   if (plan->intersector == nullptr) return;
   const Scene& scene = *plan->primitives.scene;
-  const bool triangles_apart = plan->tiles && CountTriangles(scene) > 0;
-  if (!plan->tiles || for_shadows) plan->intersector->BuildTree();
+  const bool triangles_apart = plan->trace_by_bins && CountTriangles(scene) > 0;
+  if (!plan->trace_by_bins || for_shadows) plan->intersector->BuildTree();
   if (triangles_apart) plan->intersector->BuildTriangleTree();
-  const bool used = !plan->tiles || triangles_apart || for_shadows;
+  const bool used = !plan->trace_by_bins || triangles_apart || for_shadows;
   const char* const kind = !plan->intersector->HasShells() ? "Embree's, "
                            : CountTriangles(scene) > 0 ? "of shells, Embree's of the triangles, "
                                                        : "of shells, ";
-  const std::string use = !plan->tiles ? "for all rays: " + DescribeShapes(scene)
+  const std::string use = !plan->trace_by_bins ? "for all rays: " + DescribeShapes(scene)
                           : triangles_apart && for_shadows
                               ? "for camera rays to triangles, and for shadow rays"
                           : triangles_apart ? "for camera rays to triangles"

@@ -24,7 +24,7 @@ struct HitsPlan {
   std::shared_ptr<Intersector> intersector;  // null: there is nothing to hit
   std::vector<Window> mesh_windows;          // where in the frame meshes may be visible
   bool binned = false;                       // spheres are binned for camera rays
-  bool tiles = false;                        // camera rays use these bins, not a tree
+  bool trace_by_bins = false;                // camera rays use these bins, not a tree
   TileRays tile_rays = TileRays::kSamples;
   bool eye_outside = false;       // no camera ray starts inside a sphere
   bool exact_directions = false;  // hits have HitBatch::normal and HitBatch::to_view

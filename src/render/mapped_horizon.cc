@@ -33,24 +33,17 @@ void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<flo
 }
 
 void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const ShadingLight& light,
-                     OutputMode output, ReflectedRadiance* radiance) {
+                     ReflectedRadiance* radiance) {
   if (!MirrorLight(batch, run)) return;
   MirroredLobe& mirrored = *batch.room.mirrored;
   ShadingLight given;
   given.form = LightForm::kGiven;
   given.color = light.color;
-  const LightOnBatch along{&given, &mirrored.light};
-  const LitHits lit{batch.hits(),
-                    batch.surface(),
-                    {&along, 1},
-                    batch.surfaces.textures.get(),
-                    OutputMode::kOverwrite};
+  const LitHits lit{
+      batch.hits(), batch.surface(), given, &mirrored.light, true, batch.surfaces.textures.get()};
   ShadeRun(*run.shading, lit, run.begin, run.end, &batch.room.shade, &mirrored.radiance);
-  const Soa3<float>& specular = mirrored.radiance.specular;
-  if (output != OutputMode::kSum) AddSoa(specular, run.begin, run.end, &radiance->specular);
-  if (output == OutputMode::kSum || output == OutputMode::kComponentsAndSum) {
-    AddSoa(specular, run.begin, run.end, &radiance->sum);
-  }
+  AddSoa(mirrored.radiance.specular, run.begin, run.end, &radiance->sum);
+  AddSoa(mirrored.radiance.specular, run.begin, run.end, &radiance->specular);
 }
 
 void AddMirroredLobePdf(const DirectBatch& batch, const MaterialRun& run, float* pdf) {

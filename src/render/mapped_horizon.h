@@ -23,11 +23,10 @@ void HideLightsBelowHorizon(const DirectBatch& batch);
 // Mirrors directions that were sampled by the run's lobe and lie below the horizon: l' becomes l.
 void RaiseLobeSamples(const DirectBatch& batch, const MaterialRun& run, Soa3<float>* to_light);
 
-// Adds the term f(l') for room.light, which holds `light`, to the specular component of `radiance`,
-// to its sum, or to both, as `output` says. Light that HideLightsBelowHorizon has hidden adds
-// nothing.
+// Adds the term f(l') for room.light, which holds `light`, to the sum and the specular component of
+// `radiance`. Light that HideLightsBelowHorizon has hidden adds nothing.
 void AddMirroredLobe(const DirectBatch& batch, const MaterialRun& run, const ShadingLight& light,
-                     OutputMode output, ReflectedRadiance* radiance);
+                     ReflectedRadiance* radiance);
 
 // Adds the pdf of l' to that of l, because RaiseLobeSamples mirrors samples at l' to l.
 void AddMirroredLobePdf(const DirectBatch& batch, const MaterialRun& run, float* pdf);

@@ -15,20 +15,20 @@ double VisibleSide(const CameraFrame& camera, const Corners& corners) {
   return normal.dot(parallel ? camera.forward : corners[0]) > 0 ? -1 : 1;
 }
 
-// Interpolates arrays of a SideRadiance between the corners of a triangle.
+// Interpolates values of a SideRadiance between the corners of a triangle.
 class CornerInterpolator {
  public:
   CornerInterpolator(const TriangleRef& triangle, const MeshRadiance& radiance,
                      const std::array<uint32_t, 3>& sides, const Vec3d& weights)
       : triangle_(triangle), radiance_(radiance), sides_(sides), weights_(weights) {}
 
-  template <class Array>
-  Vec3d At(const Array& array) const {
+  template <class Value>
+  Vec3d At(const Value& value) const {
     Vec3d mean(0);
     for (int c = 0; c < 3; ++c) {
       const auto corner = static_cast<size_t>(c);
       const SideRadiance& side = radiance_.sides[sides_[corner]];
-      mean += Vec3d(array(side)[triangle_.Vertex(corner)]) * weights_[c];
+      mean += value(side, triangle_.Vertex(corner)) * weights_[c];
     }
     return mean;
   }
@@ -40,19 +40,18 @@ class CornerInterpolator {
   const Vec3d& weights_;
 };
 
-// Calls set(array, to) for each array of a SideRadiance and the array of BatchRadiance that it
-// fills. array(side) is the former.
+// Calls set(value, to) for each array of BatchRadiance. value(side, i) is what it is filled with,
+// of entry i of a SideRadiance.
 template <class Set>
 void ForEachArray(BatchRadiance* radiance, const Set& set) {
-  set(
-      [](const SideRadiance& side) -> const auto& { return side.diffuse; },
-      &radiance->total.diffuse);
-  set(
-      [](const SideRadiance& side) -> const auto& { return side.specular; },
-      &radiance->total.specular);
+  ReflectedRadiance& total = radiance->total;
+  set([](const SideRadiance& side, size_t i) { return Vec3d(side.diffuse[i]); }, &total.diffuse);
+  set([](const SideRadiance& side, size_t i) { return Vec3d(side.specular[i]); }, &total.specular);
+  set([](const SideRadiance& side,
+         size_t i) { return Vec3d(side.diffuse[i]) + Vec3d(side.specular[i]); },
+      &total.sum);
   for (size_t l = 0; l < radiance->per_light.size(); ++l) {
-    set(
-        [l](const SideRadiance& side) -> const auto& { return side.lights[l]; },
+    set([l](const SideRadiance& side, size_t i) { return Vec3d(side.lights[l][i]); },
         &radiance->per_light[l]);
   }
 }
@@ -60,8 +59,8 @@ void ForEachArray(BatchRadiance* radiance, const Set& set) {
 void InterpolateHit(const DirectBatch& batch, const TriangleRef& triangle,
                     const MeshRadiance& radiance, size_t hit) {
   if (triangle.mesh->interpolation == Interpolation::kFlat) {
-    ForEachArray(&batch.radiance, [&](const auto& array, Soa3<float>* to) {
-      SetVector(Vec3d(array(radiance.sides[0])[triangle.triangle]), hit, to);
+    ForEachArray(&batch.radiance, [&](const auto& value, Soa3<float>* to) {
+      SetVector(value(radiance.sides[0], triangle.triangle), hit, to);
     });
     return;
   }
@@ -71,8 +70,8 @@ void InterpolateHit(const DirectBatch& batch, const TriangleRef& triangle,
                                          SideOf(triangle, 2, normal)};
   const Vec3d weights = BarycentricsAt(corners, VectorAt(batch.hits().position, hit));
   const CornerInterpolator interpolator(triangle, radiance, sides, weights);
-  ForEachArray(&batch.radiance, [&](const auto& array, Soa3<float>* to) {
-    SetVector(interpolator.At(array), hit, to);
+  ForEachArray(&batch.radiance, [&](const auto& value, Soa3<float>* to) {
+    SetVector(interpolator.At(value), hit, to);
   });
 }
 

@@ -68,23 +68,23 @@ void ShadeUnitLight(const LitBatch& lit) {
     light.color = Rgb(1, 1, 1);
     return light;
   }();
-  const LightOnBatch light{&kUnit, &lit.light()};
+  const LitHits hits{lit.hits(),   lit.surface(), kUnit,
+                     &lit.light(), true,          lit.batch.surfaces.textures.get()};
   for (const MaterialRun& run : lit.runs()) {
-    const LitHits hits{lit.hits(),
-                       lit.surface(),
-                       {&light, 1},
-                       lit.batch.surfaces.textures.get(),
-                       OutputMode::kOverwrite};
     ShadeRun(*run.shading, hits, run.begin, run.end, &lit.batch.room.shade, &lit.room.unit);
-    AddMirroredLobe(lit.batch, run, kUnit, OutputMode::kOverwrite, &lit.room.unit);
+    AddMirroredLobe(lit.batch, run, kUnit, &lit.room.unit);
   }
 }
 
-// sum += part * room.weight * the light's radiance.
-void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, Soa3<float>* sum) {
+// Adds part * room.weight * the light's radiance to the sum and to the component that it is.
+void AddWeightedRadiance(const LitBatch& lit, const Soa3<float>& part, Soa3<float>* component) {
   const SampledLight& light = lit.planned.light;
   const Soa3<float>* radiance = IsColored(light) ? &lit.room.directions.radiance : nullptr;
-  AddWeighted(part, lit.room.weight.data(), radiance, light.color, lit.count(), sum);
+  const auto add_to = [&](Soa3<float>* to) {
+    AddWeighted(part, lit.room.weight.data(), radiance, light.color, lit.count(), to);
+  };
+  add_to(&lit.single().sum);
+  if (lit.batch.plan.components) add_to(component);
 }
 
 // Sets room.weight to 1 / room.pdf.
@@ -271,7 +271,8 @@ void ShadeBySampledLights(const DirectBatch& batch, const SampleNumbers& numbers
     ++batch.stats.light_batches;
     ClearRadiance(batch.lit(), &batch.room.single);
     ShadeBySampledLight({batch, planned, numbers, *room});
-    AddLightRadiance(batch, batch.room.single, planned.layer);
+    if (planned.layer >= 0) AddToLightLayer(batch, batch.room.single, planned.layer);
+    AddRadiance(batch, batch.room.single);
   }
 }
 

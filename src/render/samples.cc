@@ -13,40 +13,11 @@
 namespace nacre {
 namespace {
 
-// Appends the pixels of a tile's spans to `runs`; returns their number.
-size_t ListSpans(const TileCandidates& candidates, std::vector<PixelRun>* runs) {
-  const Window& tile = candidates.tile;
-  const auto width = static_cast<uint32_t>(tile.width());
-  size_t pixels = 0;
-  uint32_t row = 0;  // index of the row's first pixel in the tile
-  int y = tile.y0;
-  for (const PixelSpan& span : candidates.spans) {
-    for (; span.first >= row + width; row += width) ++y;
-    runs->push_back(
-        {tile.x0 + static_cast<int>(span.first - row), y, static_cast<int>(span.count)});
-    pixels += span.count;
-  }
-  return pixels;
-}
-
-void ChoosePixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
-                  CameraSamples* s) {
+void ListPixels(const SamplingPlan& plan, const Window& tile, CameraSamples* s) {
   if (plan.sampler.centered) return;  // PlaceCenters does all pixels
-  const bool were_only_spans = s->film.only_spans;
-  std::vector<PixelRun>& runs = s->runs;
-  runs.clear();
-  s->film.only_spans = plan.skip_empty_pixels && shapes.any && !shapes.triangles &&
-                       ListSpans(shapes.spheres, &runs) < tile.pixel_count();
-  if (!s->film.only_spans) {
-    runs.clear();
-    for (int y = tile.y0; y < tile.y1; ++y) runs.push_back({tile.x0, y, tile.width()});
-  }
-  PreparePixels(plan.sampler, runs, &s->pixels);
-  if (s->film.only_spans) {
-    NumberRays(tile, runs, plan.samples_per_round, s->film.ray.data());
-  } else if (were_only_spans) {
-    s->film.NumberInOrder();  // the whole array, because a later tile may be larger
-  }
+  s->runs.clear();
+  for (int y = tile.y0; y < tile.y1; ++y) s->runs.push_back({tile.x0, y, tile.width()});
+  PreparePixels(plan.sampler, s->runs, &s->pixels);
 }
 
 // Numbers the tile's pixels, for sampling of lights.
@@ -95,31 +66,21 @@ SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, Pi
                           spp > 1 ? fmt::format("{} Owen-scrambled Sobol samples a pixel", spp)
                                   : "the only sample of a pixel goes through its centre"});
   }
-  plan.skip_empty_pixels = needs.positions == nullptr;
-  const bool centered = plan.sampler.centered;
-  why->items.push_back(
-      {centered ? "positions of samples in memory" : "positions of samples beside spheres",
-       needs.positions != nullptr,
-       needs.positions != nullptr ? needs.positions
-       : centered                 ? "they are the pixels' centres"
-                                  : "samples outside the outlines hit nothing"});
   return plan;
 }
 
-void ChooseSampledPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
-                         CameraSamples* samples) {
-  ChoosePixels(plan, tile, shapes, samples);
+void EnterPixels(const SamplingPlan& plan, const Window& tile, CameraSamples* samples) {
+  ListPixels(plan, tile, samples);
   if (plan.numbered) NumberPixels(plan, tile, &EnsureNumbers(samples));
 }
 
-void MakeSamples(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes, int first,
-                 int count, CameraSamples* samples) {
+void MakeSamples(const SamplingPlan& plan, const Window& tile, int first, int count,
+                 CameraSamples* samples) {
   FilmBatch& film = samples->film;
-  film.centers = plan.sampler.centered && plan.skip_empty_pixels && !shapes.triangles;
-  if (!plan.sampler.centered) {
-    SamplePixels(plan.sampler, samples->pixels, first, count, film.x.data(), film.y.data());
-  } else if (!film.centers) {
+  if (plan.sampler.centered) {
     PlaceCenters(tile, film.x.data(), film.y.data());
+  } else {
+    SamplePixels(plan.sampler, samples->pixels, first, count, film.x.data(), film.y.data());
   }
   film.count = tile.pixel_count() * static_cast<size_t>(count);
   samples->weights.resize(static_cast<size_t>(count));

@@ -11,7 +11,6 @@
 #include "hit/batch.h"
 #include "render/explanation.h"
 #include "render/settings.h"
-#include "render/tile_shapes.h"
 #include "sampling/pair_sampler.h"
 #include "sampling/pixel_sampler.h"
 #include "scene/scene.h"
@@ -26,16 +25,13 @@ struct SamplingPlan {
   PixelSampler sampler;
   int tile_width = 16;        // in pixels; tiles are as high as strips
   int samples_per_round = 1;  // samples of each of a tile's pixels in one batch
-  // No positions are computed for samples of pixels beside all spheres, which hit nothing.
-  bool skip_empty_pixels = false;
-  bool numbered = false;  // lights are sampled: CameraSamples::numbers is filled
+  bool numbered = false;      // lights are sampled: CameraSamples::numbers is filled
 };
 
 // What other stages need of samples.
 struct SamplingNeeds {
   bool sampled_lights;
   bool textured;
-  const char* positions;  // why every sample needs its position on the film, or null
 };
 
 SamplingPlan PlanSampling(const Scene& scene, const RenderSettings& settings, PixelSampler sampler,
@@ -46,7 +42,7 @@ struct CameraSamples {
   FilmBatch film;
   std::vector<double> weights;           // by sample of a pixel
   std::optional<SampleNumbers> numbers;  // made for the first batch if lights are sampled
-  // Buffers: the pixels whose samples get positions.
+  // Buffers: the pixels of a tile.
   std::vector<PixelRun> runs;
   PixelBatch pixels{kBatchCapacity};
 };
@@ -57,14 +53,12 @@ inline SampleNumbers& EnsureNumbers(CameraSamples* samples) {
   return *samples->numbers;
 }
 
-// Chooses the pixels of a tile whose samples get positions, before its first round. `shapes`: from
-// FindTileShapes.
-void ChooseSampledPixels(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes,
-                         CameraSamples* samples);
+// Prepares for sampling the pixels of a tile, before its first round.
+void EnterPixels(const SamplingPlan& plan, const Window& tile, CameraSamples* samples);
 
 // Makes samples [first, first + count) of each of the tile's pixels, ordered by sample, then by
 // row.
-void MakeSamples(const SamplingPlan& plan, const Window& tile, const TileShapes& shapes, int first,
-                 int count, CameraSamples* samples);
+void MakeSamples(const SamplingPlan& plan, const Window& tile, int first, int count,
+                 CameraSamples* samples);
 
 }  // namespace nacre

@@ -48,11 +48,11 @@ struct RenderSettings {
   // Compute diffuse reflection of lights with an extent in closed form where possible. false: only
   // by samples, for tests that compare the two.
   bool closed_forms = true;
-  // Compute the positions of distant lights relative to hits on spheres from the hits' normals
+  // Locate distant lights relative to hits on spheres from the hits' normals
   // (ShadingLight::from_spheres). false: always from the hits' positions, for tests.
-  bool offsets_by_normal = true;
+  bool far_lights = true;
   // Take none of the shortcuts that change no bits: shadow rays are traced even where nothing can
-  // occlude them, no light is culled, every sample gets a position and is summed. For tests that
+  // occlude them, every sample gets a position and is summed. For tests that
   // compare shortcuts with the general path.
   bool general_path = false;
   // Measure how long each stage takes (RenderStats::stage_seconds). Costs some per cent of the time

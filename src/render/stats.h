@@ -53,7 +53,6 @@ struct RenderStats {
   uint64_t hits = 0;
   uint64_t shadow_rays = 0;
   uint64_t light_batches = 0;       // lights times batches of hits
-  uint64_t culled_lights = 0;       // of light_batches, those in which the light illuminates no hit
   uint64_t unsettled_pixels = 0;    // of adaptive sampling: they have not converged
   PixelSampleCounts pixel_samples;  // 0 for a pixel in which adaptive sampling expects no hit
   // Sampled directions with coordinates that are not finite. They add nothing; there should be
@@ -75,7 +74,6 @@ struct RenderStats {
     hits += part.hits;
     shadow_rays += part.shadow_rays;
     light_batches += part.light_batches;
-    culled_lights += part.culled_lights;
     shades += part.shades;
     directions_not_finite += part.directions_not_finite;
     unsettled_pixels += part.unsettled_pixels;

@@ -34,11 +34,6 @@ MaterialId MaterialOfHit(const SurfacePlan& plan, const double* film_x, const Ca
   return IsFromBehind(plan.primitives, hits, hit) ? plan.black : id;
 }
 
-bool InterpolatesRadiance(const Mesh& mesh) {
-  return mesh.interpolation == Interpolation::kFlat ||
-         mesh.interpolation == Interpolation::kGouraud;
-}
-
 bool IsInterpolated(const SurfacePlan& plan, uint32_t primitive) {
   return plan.interpolates && !IsSphere(plan.primitives, primitive) &&
          InterpolatesRadiance(*TriangleOf(plan.primitives, primitive).mesh);
@@ -57,14 +52,14 @@ void Permute(const AlignedArray<uint32_t>& order, size_t count, const Soa3<T>& f
   Permute(order, count, from.z, &to->z);
 }
 
-// Which optional arrays the hits have.
-struct HitFields {
-  bool positions, exact;
-};
-
 struct HitsFrom {
   const HitBatch* batch;
   const HitDirections* directions;
+};
+
+// Which optional arrays the hits have.
+struct HitFields {
+  bool positions, exact_directions;
 };
 
 // Hit i of `to` becomes hit order[i] of `from`. `count` includes the padding.
@@ -76,7 +71,7 @@ void PermuteHits(const HitsFrom& from, const HitFields& fields, size_t count,
   if (fields.positions) Permute(order, count, from.batch->position, &to->hits.position);
   Permute(order, count, from.directions->normal, &to->surface.normal);
   Permute(order, count, from.directions->to_view, &to->surface.to_view);
-  if (!fields.exact) return;
+  if (!fields.exact_directions) return;
   Permute(order, count, from.batch->normal, &to->hits.normal);
   Permute(order, count, from.batch->to_view, &to->hits.to_view);
 }
@@ -140,8 +135,8 @@ void SortHits(const SurfacePlan& plan, const double* film_x, CameraHits* hits, S
   }
   const size_t count = hits->batch.count, padded = RoundUp(count, kBatchPadding);
   for (size_t i = count; i < padded; ++i) room->order[i] = room->order[count - 1];
-  PermuteHits({&hits->batch, &hits->directions}, {hits->positions, hits->exact}, padded,
-              room->order, to);
+  PermuteHits({&hits->batch, &hits->directions}, {hits->has_positions, hits->has_exact_directions},
+              padded, room->order, to);
   to->hits.count = count;
 }
 
@@ -224,6 +219,11 @@ void PlanTextures(const Scene& scene, const RenderSettings& settings, const Came
 
 }  // namespace
 
+bool InterpolatesRadiance(const Mesh& mesh) {
+  return mesh.interpolation == Interpolation::kFlat ||
+         mesh.interpolation == Interpolation::kGouraud;
+}
+
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,
                          Explanation* why) {
@@ -304,7 +304,7 @@ void CoverAmbient(const Soa3<float>& left, size_t i, size_t j, const Rgb& radian
 
 // Attenuates emission and reflected ambient light of hits below coats, which the radiance of lights
 // does not include, and adds the ambient light that the coats reflect.
-void CoverLayers(Surfaces* s) {
+void CoverByCoats(Surfaces* s) {
   if (!AnyCoat(*s)) return;
   const CoatedHits& coats = *s->coats;
   for (const MaterialRun& run : LitRuns(*s)) {
@@ -341,7 +341,7 @@ void PrepareSurfaces(const SurfacePlan& plan, Surfaces* surfaces) {
   coats.lit_runs = coats.runs.size();
   coats.lit = coats.hits.count;
   PrepareRuns(plan, &coats);
-  CoverLayers(&s);
+  CoverByCoats(&s);
 }
 
 }  // namespace nacre

@@ -31,6 +31,9 @@ struct SurfacePlan {
   TextureScene textures;      // empty unless `textured`
 };
 
+// Whether the mesh interpolates radiance, not normals (mesh_radiance.h).
+bool InterpolatesRadiance(const Mesh& mesh);
+
 // `ambient`: the sum of the scene's ambient lights.
 SurfacePlan PlanSurfaces(const Scene& scene, const RenderSettings& settings,
                          const CameraFrame& camera, const Rgb& ambient, KeptTables* tables,

@@ -11,10 +11,10 @@ void ShowBackground(const FramePlan& plan, const Window& tile, Strip* strip, uin
   *blank = 1;
 }
 
-// For FilmPlan::one_sample. The tile's sampled pixels have been chosen.
+// For FilmPlan::one_sample.
 void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip* strip,
                 uint8_t* blank, StageClock* clock, RenderStats* stats) {
-  MakeSamples(plan.sampling, tile, work->shapes, 0, 1, &work->samples);
+  MakeSamples(plan.sampling, tile, 0, 1, &work->samples);
   ShadeSamples(plan, work, clock, stats);
   const ShadedBatch batch = BatchOf(plan, *work);
   if (batch.hits().count == 0) {
@@ -30,13 +30,12 @@ void RenderOnce(const FramePlan& plan, const Window& tile, TileWork* work, Strip
   clock->Charge(Stage::kFilm);
 }
 
-// Adds the samples in rounds. The tile's sampled pixels have been chosen.
+// Adds the samples in rounds.
 void AddRounds(const FramePlan& plan, const Window& tile, int first, int end, TileWork* work,
                TileFilm* film, StageClock* clock, RenderStats* stats) {
   const int per_round = plan.sampling.samples_per_round;
   for (; first < end; first += per_round) {
-    MakeSamples(plan.sampling, tile, work->shapes, first, std::min(per_round, end - first),
-                &work->samples);
+    MakeSamples(plan.sampling, tile, first, std::min(per_round, end - first), &work->samples);
     ShadeSamples(plan, work, clock, stats);
     AddToFilm(plan.film, BatchOf(plan, *work), &work->layer_room, film);
     clock->Charge(Stage::kFilm);
@@ -60,7 +59,7 @@ void RenderTile(const FramePlan& plan, const Window& tile, TileWork* work, Strip
     clock->Charge(Stage::kFilm);
     return;
   }
-  ChooseSampledPixels(plan.sampling, tile, work->shapes, &work->samples);
+  EnterPixels(plan.sampling, tile, &work->samples);
   if (plan.film.one_sample) return RenderOnce(plan, tile, work, strip, blank, clock, stats);
   *blank = 0;
   clock->Charge(Stage::kSample);
@@ -75,7 +74,7 @@ void AddTileSamples(const FramePlan& plan, const Window& tile, int first, int en
                     TileFilm* film, StageClock* clock, RenderStats* stats) {
   // Films are sums over hits, so a tile without any has nothing to add.
   if (!EnterTile(plan, tile, work, clock)) return;
-  ChooseSampledPixels(plan.sampling, tile, work->shapes, &work->samples);
+  EnterPixels(plan.sampling, tile, &work->samples);
   clock->Charge(Stage::kSample);
   AddRounds(plan, tile, first, end, work, film, clock, stats);
 }

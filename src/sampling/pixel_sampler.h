@@ -78,11 +78,6 @@ void PreparePixels(const PixelSampler& sampler, std::span<const PixelRun> runs, 
 void SamplePixels(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,
                   double* film_x, double* film_y);
 
-// The indices that `count` samples of the runs' pixels have among `count` samples of all pixels of
-// the window, which are numbered sample by sample, and row by row within a sample. The array is
-// padded as for SamplePixels.
-void NumberRays(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray);
-
 // A pixel, and the index of the sampler that places its samples.
 struct SampledPixel {
   int x, y;

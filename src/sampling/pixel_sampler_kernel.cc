@@ -246,21 +246,6 @@ void PreparePixelsT(const PixelSampler& sampler, std::span<const PixelRun> runs,
   pixels->count = begin;
 }
 
-void NumberRaysT(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray) {
-  const hn::ScalableTag<uint32_t> d;
-  const auto lane = hn::Iota(d, 0);
-  const auto plane = static_cast<uint32_t>(window.pixel_count());
-  for (uint32_t k = 0; k < static_cast<uint32_t>(count); ++k) {
-    for (const PixelRun& run : runs) {
-      const auto first = k * plane + static_cast<uint32_t>(IndexIn(window, run.x, run.y));
-      for (int i = 0; i < run.count; i += static_cast<int>(hn::Lanes(d))) {
-        hn::StoreU(hn::Add(lane, hn::Set(d, first + static_cast<uint32_t>(i))), d, ray + i);
-      }
-      ray += run.count;
-    }
-  }
-}
-
 // Samples of one pixel, of one part of the filter.
 template <class Place>
 HWY_INLINE void SampleRun(const Place& place, const PixelSampler& sampler, int x, int y,
@@ -309,7 +294,6 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(PlaceCentersT);
 HWY_EXPORT(PreparePixelsT);
-HWY_EXPORT(NumberRaysT);
 HWY_EXPORT(SamplePixelsT);
 HWY_EXPORT(SamplePixelListT);
 void PlaceCenters(const Window& pixels, double* film_x, double* film_y) {
@@ -319,10 +303,6 @@ void PlaceCenters(const Window& pixels, double* film_x, double* film_y) {
 void PreparePixels(const PixelSampler& sampler, std::span<const PixelRun> runs,
                    PixelBatch* pixels) {
   HWY_DYNAMIC_DISPATCH(PreparePixelsT)(sampler, runs, pixels);
-}
-
-void NumberRays(const Window& window, std::span<const PixelRun> runs, int count, uint32_t* ray) {
-  HWY_DYNAMIC_DISPATCH(NumberRaysT)(window, runs, count, ray);
 }
 
 void SamplePixels(const PixelSampler& sampler, const PixelBatch& pixels, int first, int count,

@@ -54,8 +54,9 @@ enum class MappedNumber : uint8_t {
   kSheenColor,
   kSheenRoughness,
   kEmission,
+  kCount,
 };
-inline constexpr size_t kMappedNumbers = 8;
+inline constexpr size_t kMappedNumbers = static_cast<size_t>(MappedNumber::kCount);
 
 // One of the parameters that a map multiplies.
 struct MapTarget {

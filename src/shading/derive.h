@@ -183,20 +183,20 @@ NACRE_DERIVE KullaContyChannel DeriveKullaConty(const MicrofacetForm& form,
           .diffuse = form.coupling == DiffuseCoupling::kAlbedoScaled ? scaled : at.diffuse};
 }
 
-// --- Layers. ---
+// --- What layers of files show. ---
 
-// One channel of what the layers of these names show: the albedo, and the share of ambient light.
-struct LayerColors {
+// One channel of the layers of these names: the albedo, and the share of ambient light.
+struct ShownColors {
   double albedo, of_ambient;
 };
 // Of metallic-roughness, too: base_color is what both the diffuse base and a metal reflect. The
 // gloss of its dielectric is left out, as lessons do.
-NACRE_DERIVE LayerColors DeriveLayers(double color) { return {color, color}; }
-NACRE_DERIVE LayerColors DerivePhongLayers(double color, double kd, double ka) {
+NACRE_DERIVE ShownColors DeriveShown(double color) { return {color, color}; }
+NACRE_DERIVE ShownColors DerivePhongShown(double color, double kd, double ka) {
   return {color * kd, color * ka};
 }
 // `gloss`: AverageDielectric of the index.
-NACRE_DERIVE LayerColors DeriveDielectricLayers(double color, double gloss) {
+NACRE_DERIVE ShownColors DeriveDielectricShown(double color, double gloss) {
   return {color, gloss + color * (1 - gloss)};
 }
 

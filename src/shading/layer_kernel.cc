@@ -100,53 +100,39 @@ HWY_INLINE V Left(V light, V share) {
 }
 
 template <class Model>
-void Cover(const Model& model, const HitTextures* maps, const ShadeRange& range,
-           const ReflectedRadiance& below) {
+void Cover(const Model& model, const HitTextures* maps, const ShadeRange& range) {
   const D d;
   const HalfFloatTag df;
-  const LightOnBatch& on_batch = range.lights[0];
-  const LightBatch& light = *on_batch.evaluated;
-  const Rgb& light_color = on_batch.light->color;
+  const Rgb& light = range.light.color;
   const LayerOnHits<Model> layer(model, maps);
-  ReflectedRadiance& to = *range.radiance;
-  const bool accumulate = range.output == OutputMode::kAccumulate;
-  const bool components = range.output != OutputMode::kSum;
-  const bool sums = !components || range.output == OutputMode::kComponentsAndSum;
+  auto& [sum, diffuse, specular] = *range.radiance;
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const auto mask = hn::FirstN(df, range.end - i);
-    const AnglesV<V> angles = AnglesAt(range.surface, light, i);
+    const AnglesV<V> angles = AnglesAt(range.surface, *range.on_hits, i);
     const LayerReflectionV terms = layer.At(i, angles);
-    const Vec3V<V> lobe = Scale(terms.lobe, PromoteAt(d, light.irradiance, i));
-    const Vec3V<V> diffuse = PromoteSoa(d, below.diffuse, i);
-    const Vec3V<V> specular = PromoteSoa(d, below.specular, i);
-    // One channel.
-    const auto store = [&](V lobe_of, double light_of, V diffuse_of, V specular_of,
-                           AlignedArray<float>& to_diffuse, AlignedArray<float>& to_specular,
-                           AlignedArray<float>& to_sum) HWY_ATTR {
-      const V of_layer = hn::Mul(lobe_of, hn::Set(d, light_of));
-      const auto all_diffuse = hn::DemoteTo(df, hn::Add(Left(diffuse_of, terms.below), of_layer));
-      const auto all_specular = hn::DemoteTo(df, Left(specular_of, terms.below));
-      const auto component = [&](auto value, AlignedArray<float>& array) HWY_ATTR {
-        const auto before = accumulate ? hn::LoadU(df, array.data() + i) : hn::Zero(df);
-        hn::BlendedStore(hn::Add(before, value), mask, df, array.data() + i);
-      };
-      if (components) {
-        component(all_diffuse, to_diffuse);
-        component(all_specular, to_specular);
-      }
-      if (sums) {
-        hn::BlendedStore(hn::Add(all_diffuse, all_specular), mask, df, to_sum.data() + i);
-      }
+    const Vec3V<V> lobe = Scale(terms.lobe, PromoteAt(d, range.on_hits->irradiance, i));
+    const auto cover = [&](AlignedArray<float>& below, V added) HWY_ATTR {
+      const V left = Left(PromoteAt(d, below, i), terms.below);
+      hn::BlendedStore(hn::DemoteTo(df, hn::Add(left, added)), mask, df, below.data() + i);
     };
-    store(lobe.x, light_color.x, diffuse.x, specular.x, to.diffuse.x, to.specular.x, to.sum.x);
-    store(lobe.y, light_color.y, diffuse.y, specular.y, to.diffuse.y, to.specular.y, to.sum.y);
-    store(lobe.z, light_color.z, diffuse.z, specular.z, to.diffuse.z, to.specular.z, to.sum.z);
+    const Vec3V<V> of_layer{hn::Mul(lobe.x, hn::Set(d, light.x)),
+                            hn::Mul(lobe.y, hn::Set(d, light.y)),
+                            hn::Mul(lobe.z, hn::Set(d, light.z))};
+    cover(sum.x, of_layer.x);
+    cover(sum.y, of_layer.y);
+    cover(sum.z, of_layer.z);
+    if (!range.components) continue;
+    cover(diffuse.x, of_layer.x);
+    cover(diffuse.y, of_layer.y);
+    cover(diffuse.z, of_layer.z);
+    cover(specular.x, hn::Zero(d));
+    cover(specular.y, hn::Zero(d));
+    cover(specular.z, hn::Zero(d));
   }
 }
 
-void CoverByLayerT(const LayerModel& layer, const HitTextures* maps, const ShadeRange& range,
-                   const ReflectedRadiance& below) {
-  std::visit([&](const auto& model) { Cover(model, maps, range, below); }, layer);
+void CoverByLayerT(const LayerModel& layer, const HitTextures* maps, const ShadeRange& range) {
+  std::visit([&](const auto& model) { Cover(model, maps, range); }, layer);
 }
 
 }  // namespace
@@ -158,9 +144,8 @@ HWY_AFTER_NAMESPACE();
 namespace nacre {
 HWY_EXPORT(CoverByLayerT);
 
-void CoverByLayer(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range,
-                  const ReflectedRadiance& below) {
-  HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, textures, range, below);
+void CoverByLayer(const LayerModel& layer, const HitTextures* textures, const ShadeRange& range) {
+  HWY_DYNAMIC_DISPATCH(CoverByLayerT)(layer, textures, range);
 }
 }  // namespace nacre
 #endif

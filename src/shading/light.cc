@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shading/light.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>

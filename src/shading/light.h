@@ -40,6 +40,7 @@ struct ShadingLight {
   Vec3d axis{0, 0, 0};      // spot: unit, from the light into the cone
   AttenuationTerms<float> attenuation{0, 0, 1};
   ConeTerms<double> cone{2, 2, 0};
+
   // One per sphere of the scene: where the light lies from hits is then found from their normals,
   // and neither their positions nor doubles are asked for. Empty: from their positions.
   std::vector<SphereOffset> from_spheres{};

@@ -9,6 +9,7 @@
 
 #include "shading/kernels.h"
 #include "shading/light_at-inl.h"
+#include "shading/soa-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
@@ -60,15 +61,15 @@ void EvaluatePositional(const ShadingLight& light, const HitBatch& hits, const S
                         LightBatch* result) {
   const FloatTag d;
   const Soa3<float>& n = surface.turned ? surface.unturned : surface.normal;
-  VisitOffset(d, light, hits, [&](const auto& offset) HWY_ATTR {
-    ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
-      const Vec3V<FloatV> normal = LoadU3(d, n.x.data() + i, n.y.data() + i, n.z.data() + i);
-      LightV at = PositionalAt<kForm>(d, light, offset.At(d, i, normal));
-      if constexpr (kForm == LightForm::kSpot) {
-        at.irradiance = hn::Mul(at.irradiance, SpotFactorAt(d, light, hits, i));
-      }
-      return at;
-    });
+  const bool by_normal = !light.from_spheres.empty();
+  ForEachPacket(hits, surface, result, [&](size_t i) HWY_ATTR {
+    const Vec3V<FloatV> offset = by_normal ? OffsetByNormal(d, light, hits, i, LoadSoa(d, n, i))
+                                           : OffsetByPosition(d, light, hits, i);
+    LightV at = PositionalAt<kForm>(d, light, offset);
+    if constexpr (kForm == LightForm::kSpot) {
+      at.irradiance = hn::Mul(at.irradiance, SpotFactorAt(d, light, hits, i));
+    }
+    return at;
   });
 }
 

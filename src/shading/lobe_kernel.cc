@@ -404,8 +404,8 @@ void LobePdf(const ShadingMaterial& material, const LobeRange& hits, const Light
     std::fill(pdf + hits.begin, pdf + hits.end, 0.0f);
     return;
   }
-  const LightOnBatch given{&GivenLight(), &light};
-  const ShadeRange range{hits.hits, hits.surface, {&given, 1}, hits.begin, hits.end, nullptr};
+  const ShadeRange range{hits.hits,  hits.surface, GivenLight(), &light,
+                         hits.begin, hits.end,     nullptr,      false};
   const HitTextures* const maps = MapsOf(material, hits);
   if (const auto* phong = std::get_if<PhongFamilyModel>(&material.model)) {
     return HWY_DYNAMIC_DISPATCH(PhongPdfT)(phong->model, ExponentOf(*phong, maps), hits, light,

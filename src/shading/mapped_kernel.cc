@@ -63,22 +63,23 @@ void MultiplyNumberT(const TexturedRun& run, const MapTarget& target, HitTexture
   }
 }
 
-// The layers that maps give values of their own. layers_of(c, i): those of a channel of a hit.
-template <class LayersOf>
-void PutLayers(const TexturedRun& run, const LayersOf& layers_of, HitTextures* t) {
+// What layers of files show of hits with numbers of their own. shown_of(c, i): of a channel of hit
+// i.
+template <class ShownOf>
+void PutShown(const TexturedRun& run, const ShownOf& shown_of, HitTextures* t) {
   const Hits hits{run.begin, run.end};
   for (int c = 0; c < 3; ++c) {
     float *const albedo = Channel(t->albedo, c), *const ambient = Channel(t->ambient, c);
     const double radiance = run.material.ambient_radiance[c];
     hits.Each([&](size_t i) {
-      const LayerColors at = layers_of(c, i);
+      const ShownColors at = shown_of(c, i);
       albedo[i] = static_cast<float>(at.albedo);
       ambient[i] = static_cast<float>(at.of_ambient * radiance);
     });
   }
 }
 
-void PutLayers(const TexturedRun& run, HitTextures* t) {
+void PutShown(const TexturedRun& run, HitTextures* t) {
   const Hits hits{run.begin, run.end};
   const double* color[3];
   for (int c = 0; c < 3; ++c) {
@@ -89,20 +90,20 @@ void PutLayers(const TexturedRun& run, HitTextures* t) {
   const Material& material = *run.material.textured;
   if (const auto* phong = std::get_if<PhongMaterial>(&material.model)) {
     const Rgb kd = phong->kd, ka = phong->ka;
-    PutLayers(
-        run, [&](int c, size_t i) { return DerivePhongLayers(color[c][i], kd[c], ka[c]); }, t);
+    PutShown(
+        run, [&](int c, size_t i) { return DerivePhongShown(color[c][i], kd[c], ka[c]); }, t);
   } else if (const auto* dielectric = std::get_if<DielectricMaterial>(&material.model)) {
     const double gloss = AverageDielectric(dielectric->ior);
-    PutLayers(
-        run, [&](int c, size_t i) { return DeriveDielectricLayers(color[c][i], gloss); }, t);
+    PutShown(
+        run, [&](int c, size_t i) { return DeriveDielectricShown(color[c][i], gloss); }, t);
   } else if (std::holds_alternative<ConductorMaterial>(material.model)) {  // not of colours
     for (int c = 0; c < 3; ++c) {
       hits.Fill(Channel(t->albedo, c), [&](size_t) { return run.material.albedo[c]; });
       hits.Fill(Channel(t->ambient, c), [&](size_t) { return run.material.ambient[c]; });
     }
   } else {
-    PutLayers(
-        run, [&](int c, size_t i) { return DeriveLayers(color[c][i]); }, t);
+    PutShown(
+        run, [&](int c, size_t i) { return DeriveShown(color[c][i]); }, t);
   }
 }
 
@@ -256,7 +257,7 @@ void Finish(const TexturedRun& run, const MicrofacetModel& model, HitTextures* t
 void Finish(const TexturedRun&, const std::monostate&, HitTextures*) {}
 
 void FinishNumbersT(const TexturedRun& run, HitTextures* t) {
-  PutLayers(run, t);
+  PutShown(run, t);
   if (!run.material.mapped_model) return;
   std::visit([&](const auto& model) { Finish(run, model, t); }, run.material.model);
 }

@@ -229,16 +229,16 @@ ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radi
   ShadingMaterial prepared{};
   prepared.emission = material.emission;
   Rgb of_ambient(0, 0, 0);  // what it reflects of light from everywhere
-  const auto take_layers = [&](const auto& of_channel) {
+  const auto take_shown = [&](const auto& of_channel) {
     for (int c = 0; c < 3; ++c) {
-      const LayerColors layers = of_channel(c);
-      prepared.albedo[c] = layers.albedo;
-      of_ambient[c] = layers.of_ambient;
+      const ShownColors shown = of_channel(c);
+      prepared.albedo[c] = shown.albedo;
+      of_ambient[c] = shown.of_ambient;
     }
   };
   const auto matte = [&](const auto& material_of) {
     prepared.model = MakeModel(material_of);
-    take_layers([&](int c) { return DeriveLayers(material_of.albedo[c]); });
+    take_shown([&](int c) { return DeriveShown(material_of.albedo[c]); });
   };
   std::visit(
       Overloaded{
@@ -247,25 +247,25 @@ ShadingMaterial PrepareSurface(const Material& material, const Rgb& ambient_radi
           [&](const BurleyMaterial& burley) { matte(burley); },
           [&](const PhongMaterial& phong) {
             prepared.model = MakeModel(phong);
-            take_layers(
-                [&](int c) { return DerivePhongLayers(phong.color[c], phong.kd[c], phong.ka[c]); });
+            take_shown(
+                [&](int c) { return DerivePhongShown(phong.color[c], phong.kd[c], phong.ka[c]); });
           },
           [&](const MetallicRoughnessMaterial& metallic_roughness) {
             prepared.model = MakeModel(metallic_roughness);
-            take_layers([&](int c) { return DeriveLayers(metallic_roughness.base_color[c]); });
+            take_shown([&](int c) { return DeriveShown(metallic_roughness.base_color[c]); });
           },
           [&](const ConductorMaterial& conductor) {
             const MicrofacetModel model = MakeModel(conductor);
             prepared.model = model;
-            take_layers([&](int c) {
-              return LayerColors{model.f0[c], AverageConductor(conductor.eta[c], conductor.k[c])};
+            take_shown([&](int c) {
+              return ShownColors{model.f0[c], AverageConductor(conductor.eta[c], conductor.k[c])};
             });
           },
           [&](const DielectricMaterial& dielectric) {
             const double gloss = AverageDielectric(dielectric.ior);
             prepared.model = MakeModel(dielectric);
-            take_layers(
-                [&](int c) { return DeriveDielectricLayers(dielectric.base_color[c], gloss); });
+            take_shown(
+                [&](int c) { return DeriveDielectricShown(dielectric.base_color[c], gloss); });
           },
           [](const SplitMaterial&) {}},
       material.model);

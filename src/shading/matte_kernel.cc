@@ -16,19 +16,19 @@ namespace HWY_NAMESPACE {
 
 template <class Number>
 struct Lambert {
+  using Incident = IncidentV;
   struct View {};
-  const MatteLight<Number>* HWY_RESTRICT lights;
+  const MatteLight<Number> light;
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface&) const { return {}; }
-  HWY_INLINE DiffuseV Reflect(FloatTag d, const View&, const PacketV& p, const IncidentV& in,
-                              size_t k) const {
-    return {ScaledPart(RgbAt(d, lights[k].diffuse, p.i), in.weight)};
+  HWY_INLINE DiffuseV Reflect(FloatTag d, const View&, const PacketV& p,
+                              const IncidentV& in) const {
+    return {ScaledPart(RgbAt(d, light.diffuse, p.i), in.weight)};
   }
 };
 
 template <DiffuseForm kForm, class Number>
 struct RoughMatte {
-  static constexpr bool kReadsIrradiance = false;
   using Incident = IncidentV;
   using View = typename RoughDiffuse<kForm>::View;
   const MatteUniforms<Number> uniforms;  // a copy: nothing that a kernel stores is in it
@@ -36,12 +36,12 @@ struct RoughMatte {
   HWY_INLINE View SeenBy(FloatTag d, const PacketV& p, const Surface&) const {
     return RoughDiffuse<kForm>::SeenBy(d, p);
   }
-  HWY_INLINE DiffuseV Reflect(FloatTag d, const View& view, const PacketV& p, const IncidentV& in,
-                              size_t k) const {
+  HWY_INLINE DiffuseV Reflect(FloatTag d, const View& view, const PacketV& p,
+                              const IncidentV& in) const {
     const FloatV roughness = NumberAt(d, uniforms.constants.roughness, p.i);
     const SpreadV spread = RoughDiffuse<kForm>::Spread(d, view, p, in, roughness);
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
-    const RgbV lambert = RgbAt(d, uniforms.lights[k].diffuse, p.i);
+    const RgbV lambert = RgbAt(d, uniforms.light.diffuse, p.i);
     if constexpr (kForm == DiffuseForm::kBurley) {
       return {ScaledPart(lambert, hn::Mul(spread.single, in.weight))};
     } else {
@@ -55,7 +55,7 @@ template <class Number>
 void ShadeMatteOf(const MatteUniforms<Number>& uniforms, const ShadeRange& range) {
   switch (uniforms.form) {
     case DiffuseForm::kLambert:
-      return ShadeBriefly(FloatTag(), Lambert<Number>{uniforms.lights}, range);
+      return ShadePackets(FloatTag(), Lambert<Number>{uniforms.light}, range);
     case DiffuseForm::kOrenNayar:
       return ShadePackets(FloatTag(), RoughMatte<DiffuseForm::kOrenNayar, Number>{uniforms}, range);
     case DiffuseForm::kBurley:

@@ -22,9 +22,9 @@ namespace HWY_NAMESPACE {
 // hits share one wide lobe over Lambert's base, with one shadowing that is known at compile time.
 // `kIsPrepared`: PrepareMicrofacet has computed, for each hit, multiple scattering or the share
 // that the lobe's albedo leaves to the base. `kIsDefault`: the material has the default coupling
-// and compensation, and is at least as bright as kBrightF0 at normal incidence. Prepared, this is
-// Turquin's compensation over a base that is scaled by what the lobe's albedo leaves; not prepared,
-// no compensation, and a base that is scaled by 1 - F of a Schlick curve with an F90 of 1.
+// and compensation. Prepared, this is Turquin's compensation over a base that is scaled by what the
+// lobe's albedo leaves; not prepared, no compensation, and a base that is scaled by 1 - F of a
+// Schlick curve with an F90 of 1.
 template <Shadowing kShadowing, bool kIsPrepared, bool kIsDefault>
 struct SpecializedForm {
   static constexpr bool kSpecialized = true;
@@ -75,29 +75,14 @@ HWY_INLINE RgbV FresnelOf(const MixedCurveV& curve) {
   return AddRgb(curve.dielectric, curve.metal);
 }
 
-// 1 - v.h for Schlick's weight; by kBrightF0.
-template <class Form, class Number>
-HWY_INLINE FloatV SchlickBase(FloatTag d, const HalfV& half, size_t i,
-                              const MicrofacetUniforms<Number>& uniforms) {
-  const FloatV rounded = hn::NegMulAdd(half.twice_u_length, hn::Set(d, 0.25f), hn::Set(d, 1.0f));
-  const auto exact = [&]() HWY_ATTR { return OneMinusVDotH(d, half.lv_squared, half.ULength(d)); };
-  if constexpr (std::is_same_v<Number, float>) {
-    return Form::kDefault || uniforms.is_bright ? rounded : exact();
-  } else {
-    const RgbV f0 = RgbAt(d, uniforms.f0, i);
-    const auto bright = hn::Ge(hn::Min(hn::Min(f0.r, f0.g), f0.b), hn::Set(d, kBrightF0));
-    return hn::IfThenElse(bright, rounded, exact());
-  }
-}
-
-template <FresnelForm kFresnel, class Form, class Number>
+template <FresnelForm kFresnel, class Number>
 HWY_INLINE auto EvaluateCurve(FloatTag d, const HalfV& half, size_t i,
                               const MicrofacetUniforms<Number>& uniforms) {
+  const FloatV u_length = half.ULength(d);
+  const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, u_length);
   if constexpr (kFresnel == FresnelForm::kSchlick) {
-    return SchlickCurveV{Power5(SchlickBase<Form>(d, half, i, uniforms))};
+    return SchlickCurveV{Power5(one_minus_vh)};
   } else {
-    const FloatV u_length = half.ULength(d);
-    const FloatV one_minus_vh = OneMinusVDotH(d, half.lv_squared, u_length);
     const FloatV v_dot_h = VDotH(d, u_length);
     if constexpr (kFresnel == FresnelForm::kF82) {
       const RgbV f0 = RgbAt(d, uniforms.metal_f0, i), slope = RgbAt(d, uniforms.f82_slope, i);

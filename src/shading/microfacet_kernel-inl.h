@@ -23,7 +23,6 @@ namespace HWY_NAMESPACE {
 
 template <FresnelForm kFresnel, class Form, class Number>
 struct Microfacet {
-  static constexpr bool kReadsIrradiance = false;
   using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
   // Of a dielectric and a metal, which Turquin's compensation scales each by its own F0.
@@ -34,10 +33,6 @@ struct Microfacet {
   struct View {
     const Surface* surface;  // with what was prepared, loaded where it is needed
   };
-
-  HWY_INLINE bool ReadsLv() const {
-    return kFresnel != FresnelForm::kSchlick || !kSame || !(Form::kDefault || uniforms.is_bright);
-  }
 
   HWY_INLINE View SeenBy(FloatTag, const PacketV&, const Surface& surface) const {
     return {&surface};
@@ -105,15 +100,15 @@ struct Microfacet {
     return hn::IfThenElseZero(IsLit(d, in.n_dot_l), hn::Min(product, largest));
   }
 
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p, const Incident& in,
-                                size_t k) const {
-    const MicrofacetLight<Number>& light = uniforms.lights[k];
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View& view, const PacketV& p,
+                                const Incident& in) const {
+    const MicrofacetLight<Number>& light = uniforms.light;
     const HalfV half{in.half.lv_squared, TwiceSquareRoot(d, in.half.u_squared)};
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
     const bool spreads =
         !Form::kSpecialized && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
-    const auto curve = EvaluateCurve<kFresnel, Form>(d, half, p.i, uniforms);
+    const auto curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms);
     const FloatV lobe = Lobe(d, p, in, half.twice_u_length);
     if constexpr (!Form::kPrepared) {
       return {{LeftForBase<Form>(d, curve, p.i, model, light, in.weight)},
@@ -194,8 +189,7 @@ void ShadeSpecializedMicrofacet(const MicrofacetUniforms<float>& uniforms,
   if constexpr (kFresnel == FresnelForm::kSchlick) {
     const MicrofacetModel& model = *uniforms.model;
     if (model.coupling == CouplingOf<Default>(model) &&
-        model.compensation == CompensationOf<Default>(model) && (kPrepared || model.f90 == 1) &&
-        uniforms.is_bright) {
+        model.compensation == CompensationOf<Default>(model) && (kPrepared || model.f90 == 1)) {
       return ShadeMicrofacetForm<kFresnel, Default>(uniforms, range);
     }
   }

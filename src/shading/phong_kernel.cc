@@ -16,9 +16,9 @@ namespace nacre {
 namespace HWY_NAMESPACE {
 
 // The cosines of a block's lobes.
-HWY_NOINLINE void FillPhong(const RangeArrays& arrays, size_t begin, size_t end,
-                            IncidentBlock* block) {
+HWY_NOINLINE void FillPhong(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
+  const RangeArrays arrays(range);
   for (size_t at = 0; at < end - begin; at += hn::Lanes(d)) {
     const PacketV p = arrays.Packet(d, begin + at);
     const TowardV toward = block->Toward(d, at);
@@ -28,17 +28,15 @@ HWY_NOINLINE void FillPhong(const RangeArrays& arrays, size_t begin, size_t end,
   }
 }
 
-HWY_NOINLINE void FillBlinn(const RangeArrays& arrays, size_t begin, size_t end,
-                            IncidentBlock* block) {
+HWY_NOINLINE void FillBlinn(const ShadeRange& range, size_t begin, size_t end, LobeBlock* block) {
   const FloatTag d;
-  ForHalfAngles(arrays, begin, end, *block,
+  ForHalfAngles(range, begin, end, *block,
                 [&](size_t at, const HalfAnglesV<FloatV>& half, FloatV)
                     HWY_ATTR { block->StoreLobe(d, at, BlinnSquaredCosine(d, half)); });
 }
 
 template <PhongModel kModel, class Number>
 struct PhongFamily {
-  static constexpr bool kReadsIrradiance = kModel != PhongModel::kModifiedPhong;
   using Incident = LobeIncidentV;
   struct View {};
   const PhongUniforms<Number>& uniforms;
@@ -60,23 +58,22 @@ struct PhongFamily {
     return hn::IfThenElse(is_sharp, log2, in.log2_cosine);
   }
 
-  HWY_INLINE void FillLobe(const RangeArrays& arrays, size_t begin, size_t end,
-                           IncidentBlock* block) const {
+  HWY_INLINE void FillLobe(const ShadeRange& range, size_t begin, size_t end,
+                           LobeBlock* block) const {
     const auto fill = kModel == PhongModel::kBlinnPhong ? FillBlinn : FillPhong;
-    fill(arrays, begin, end, block);
+    fill(range, begin, end, block);
   }
 
-  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p, const Incident& in,
-                                size_t k) const {
+  HWY_INLINE ReflectedV Reflect(FloatTag d, const View&, const PacketV& p,
+                                const Incident& in) const {
     const FloatV log2 = Log2Cosine(d, p, in);
     const FloatV shininess = NumberAt(d, uniforms.constants.shininess, p.i);
     const FloatV lobe = kModel == PhongModel::kBlinnPhong ? LobePowerOfSquare(d, log2, shininess)
                                                           : LobePower(d, log2, shininess);
     // The irradiance is 0 where n.l <= 0: that gates the lobes without a cosine of their own.
     const FloatV light = kModel == PhongModel::kModifiedPhong ? in.weight : in.irradiance;
-    const PhongLight<Number>& by = uniforms.lights[k];
-    return {{ScaledPart(RgbAt(d, by.diffuse, p.i), in.weight)},
-            ScaledPart(RgbAt(d, by.specular, p.i), hn::Mul(lobe, light))};
+    return {{ScaledPart(RgbAt(d, uniforms.light.diffuse, p.i), in.weight)},
+            ScaledPart(RgbAt(d, uniforms.light.specular, p.i), hn::Mul(lobe, light))};
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/range-inl.h: what all shading kernels share: loading a hit's vectors, the light on it,
-// adding to its radiance. The loops over hits and lights: shading/packets-inl.h.
+// storing its radiance. The loops over hits: shading/packets-inl.h.
 #if defined(NACRE_SHADING_RANGE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_RANGE_INL_H_
 #undef NACRE_SHADING_RANGE_INL_H_
@@ -8,7 +8,6 @@
 #define NACRE_SHADING_RANGE_INL_H_
 #endif
 
-#include <span>
 #include <type_traits>
 
 #include "brdf/angles-inl.h"
@@ -58,8 +57,6 @@ HWY_INLINE RgbV MulAddRgb(const RgbV& a, FloatV b, const RgbV& c) {
   return {hn::MulAdd(a.r, b, c.r), hn::MulAdd(a.g, b, c.g), hn::MulAdd(a.b, b, c.b)};
 }
 
-// Of sums of light this is an Add of its own, never fused with the product before it: a light then
-// adds the same bits whether it is summed with the others or kept apart in a layer.
 HWY_INLINE RgbV AddRgb(const RgbV& a, const RgbV& b) {
   return {hn::Add(a.r, b.r), hn::Add(a.g, b.g), hn::Add(a.b, b.b)};
 }
@@ -99,20 +96,20 @@ HWY_INLINE hn::Mask<FloatTag> IsLit(FloatTag d, FloatV n_dot_l) {
   return hn::Gt(n_dot_l, hn::Zero(d));
 }
 
-HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
-  const FloatV n_dot_l = at.toward.Dot(normal);
+HWY_INLINE IncidentV MakeIncident(FloatTag d, const TowardV& toward, FloatV n_dot_l,
+                                  FloatV irradiance) {
   const auto lit = IsLit(d, n_dot_l);
-  const FloatV irradiance = hn::IfThenElseZero(lit, at.irradiance);
-  const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, irradiance));
-  return {at.toward, n_dot_l, irradiance, weight};
+  const FloatV on_lit = hn::IfThenElseZero(lit, irradiance);
+  const FloatV weight = hn::IfThenElseZero(lit, hn::Mul(n_dot_l, on_lit));
+  return {toward, n_dot_l, on_lit, weight};
+}
+
+HWY_INLINE IncidentV MakeIncident(FloatTag d, const LightV& at, const Vec3V<FloatV>& normal) {
+  return MakeIncident(d, at.toward, at.toward.Dot(normal), at.irradiance);
 }
 
 HWY_INLINE Vec3V<FloatV> LoadAt(FloatTag d, const Pointers3<const float>& from, size_t i) {
   return LoadU3(d, from.x() + i, from.y() + i, from.z() + i);
-}
-
-HWY_INLINE RgbV LoadAsRgb(FloatTag d, const Pointers3<float>& from, size_t i) {
-  return {hn::LoadU(d, from.x() + i), hn::LoadU(d, from.y() + i), hn::LoadU(d, from.z() + i)};
 }
 
 HWY_INLINE void StoreWhole(FloatTag d, const RgbV& value, const Pointers3<float>& to, size_t i) {
@@ -157,15 +154,23 @@ HWY_INLINE RgbV RgbOf(const PartV& part) { return MulRgb(part.color, part.scale)
 // a packet may reach past its range: the lanes that do are not stored.
 struct RangeArrays {
   Pointers3<const float> normal, to_view;
-  Pointers3<float> diffuse, specular, sum;
+  const ShadingLight& light;
+  const HitBatch& hits;
+  const LightBatch* on_hits;
+  Pointers3<float> sum, diffuse, specular;
+  bool components;
   size_t end;
 
   explicit RangeArrays(const ShadeRange& range)
       : normal(PointersTo(range.surface.normal)),
         to_view(PointersTo(range.surface.to_view)),
+        light(range.light),
+        hits(range.hits),
+        on_hits(range.on_hits),
+        sum(PointersTo(&range.radiance->sum)),
         diffuse(PointersTo(&range.radiance->diffuse)),
         specular(PointersTo(&range.radiance->specular)),
-        sum(PointersTo(&range.radiance->sum)),
+        components(range.components),
         end(range.end) {}
 
   HWY_INLINE Vec3V<FloatV> Normal(FloatTag d, size_t i) const { return LoadAt(d, normal, i); }
@@ -174,78 +179,53 @@ struct RangeArrays {
     return {i, LoadAt(d, normal, i), LoadAt(d, to_view, i)};
   }
 
-  HWY_INLINE void Store(FloatTag d, const RgbV& value, const Pointers3<float>& to, size_t i) const {
-    StoreRgb(d, end - i, value, to, i);
-  }
-};
-
-// The light of a batch's hits i..., of any form.
-struct AnyLight {
-  const LightOnBatch& light;
-  const HitBatch& hits;
-  HWY_INLINE LightV At(FloatTag d, size_t i, const Vec3V<FloatV>& normal) const {
-    return LightAt(d, light, hits, i, normal);
-  }
-};
-
-// Calls with_light(light): the most frequent form's numbers are then known before the loop.
-template <class WithLight>
-HWY_INLINE void VisitLight(FloatTag d, const LightOnBatch& light, const HitBatch& hits,
-                           const WithLight& with_light) {
-  if (light.evaluated == nullptr && light.light->form == LightForm::kInverseSquare) {
-    VisitOffset(d, *light.light, hits,
-                [&](const auto& offset) HWY_ATTR { with_light(PointLightV(offset)); });
-  } else {
-    with_light(AnyLight{light, hits});
-  }
-}
-
-HWY_INLINE RgbV SumOf(const DiffuseV& of_light) { return RgbOf(of_light.diffuse); }
-HWY_INLINE RgbV SumOf(const ReflectedV& of_light) {
-  const RgbV diffuse = RgbOf(of_light.diffuse);
-  const auto& [color, scale] = of_light.specular;
-  return {hn::MulAdd(color.r, scale.r, diffuse.r), hn::MulAdd(color.g, scale.g, diffuse.g),
-          hn::MulAdd(color.b, scale.b, diffuse.b)};
-}
-
-// Stores a packet's reflection of one light as `output` says.
-template <class Reflected>
-HWY_INLINE void StoreReflected(FloatTag d, const Reflected& of_light, OutputMode output,
-                               const RangeArrays& arrays, size_t i) {
-  constexpr bool kHasSpecular = std::is_same_v<Reflected, ReflectedV>;
-  const RgbV diffuse = RgbOf(of_light.diffuse);
-  if (output == OutputMode::kAccumulate) {
-    arrays.Store(d, AddRgb(LoadAsRgb(d, arrays.diffuse, i), diffuse), arrays.diffuse, i);
-    if constexpr (kHasSpecular) {
-      const RgbV specular = RgbOf(of_light.specular);
-      arrays.Store(d, AddRgb(LoadAsRgb(d, arrays.specular, i), specular), arrays.specular, i);
+  // The light: given, evaluated before, or evaluated here. Vectors, not structs, are what the
+  // branches choose: GCC takes a struct that they choose through memory.
+  HWY_INLINE LightV Light(FloatTag d, size_t i, const Vec3V<FloatV>& n) const {
+    FloatV x, y, z, inverse_length, irradiance;
+    const auto take = [&](const LightV& at) HWY_ATTR {
+      x = at.toward.offset.x;
+      y = at.toward.offset.y;
+      z = at.toward.offset.z;
+      inverse_length = at.toward.inverse_length;
+      irradiance = at.irradiance;
+    };
+    if (on_hits != nullptr) {
+      const Soa3<float>& l = on_hits->to_light;
+      const FloatV inverse = light.form == LightForm::kGiven
+                                 ? hn::Set(d, 1.0f)
+                                 : hn::LoadU(d, on_hits->inverse_length.data() + i);
+      take({{LoadU3(d, l.x.data() + i, l.y.data() + i, l.z.data() + i), inverse},
+            hn::LoadU(d, on_hits->irradiance.data() + i)});
+    } else if (light.form == LightForm::kDirectional) {
+      take(DirectionalAt(d, light));
+    } else {
+      take(PositionalAt<LightForm::kInverseSquare>(d, light, OffsetByNormal(d, light, hits, i, n)));
     }
-    return;
+    return {{{x, y, z}, inverse_length}, irradiance};
   }
-  if (output != OutputMode::kSum) {
-    const FloatV zero = hn::Zero(d);
-    RgbV specular{zero, zero, zero};
-    if constexpr (kHasSpecular) specular = RgbOf(of_light.specular);
-    arrays.Store(d, diffuse, arrays.diffuse, i);
-    arrays.Store(d, specular, arrays.specular, i);
-    if (output == OutputMode::kOverwrite) return;
-  }
-  arrays.Store(d, SumOf(of_light), arrays.sum, i);
-}
 
-// What `incident_at(packet)` brings to hits [begin, end) is reflected and stored.
-template <class Model, class IncidentAt>
-HWY_INLINE void ReflectLight(FloatTag d, const Model& model, const ShadeRange& range,
-                             const RangeArrays& given, size_t k, size_t begin, size_t end,
-                             const IncidentAt& incident_at) {
-  const RangeArrays arrays = given;  // kept in registers: what is stored cannot be this copy
-  const OutputMode output = k == 0 ? range.output : OutputMode::kAccumulate;
-  for (size_t i = begin; i < end; i += hn::Lanes(d)) {
-    const PacketV packet = arrays.Packet(d, i);
-    const auto view = model.SeenBy(d, packet, range.surface);
-    StoreReflected(d, model.Reflect(d, view, packet, incident_at(packet), k), output, arrays, i);
+  HWY_INLINE void Store(FloatTag d, const ReflectedV& reflected, size_t i) const {
+    const RgbV of_diffuse = RgbOf(reflected.diffuse);
+    const auto& [color, scale] = reflected.specular;
+    StoreRgb(
+        d, end - i,
+        {hn::MulAdd(color.r, scale.r, of_diffuse.r), hn::MulAdd(color.g, scale.g, of_diffuse.g),
+         hn::MulAdd(color.b, scale.b, of_diffuse.b)},
+        sum, i);
+    if (!components) return;
+    StoreRgb(d, end - i, of_diffuse, diffuse, i);
+    StoreRgb(d, end - i, RgbOf(reflected.specular), specular, i);
   }
-}
+  HWY_INLINE void Store(FloatTag d, const DiffuseV& reflected, size_t i) const {
+    const RgbV of_diffuse = RgbOf(reflected.diffuse);
+    StoreRgb(d, end - i, of_diffuse, sum, i);
+    if (!components) return;
+    const FloatV zero = hn::Zero(d);
+    StoreRgb(d, end - i, of_diffuse, diffuse, i);
+    StoreRgb(d, end - i, {zero, zero, zero}, specular, i);
+  }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace nacre

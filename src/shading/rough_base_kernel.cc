@@ -22,8 +22,7 @@ void SpreadOf(Number roughness, const ShadeRange& range, BaseSpread* to) {
   for (size_t i = range.begin; i < range.end; i += hn::Lanes(d)) {
     const PacketV packet = arrays.Packet(d, i);
     const auto view = RoughDiffuse<kForm>::SeenBy(d, packet);
-    const Vec3V<FloatV>& n = packet.normal;
-    const IncidentV in = MakeIncident(d, LightAt(d, range.lights[0], range.hits, i, n), n);
+    const IncidentV in = MakeIncident(d, arrays.Light(d, i, packet.normal), packet.normal);
     const SpreadV spread =
         RoughDiffuse<kForm>::Spread(d, view, packet, in, NumberAt(d, roughness, i));
     hn::StoreU(spread.single, d, to->single.data() + i);

@@ -2,7 +2,6 @@
 #include "shading/shade.h"
 
 #include <algorithm>
-#include <array>
 #include <type_traits>
 #include <variant>
 
@@ -14,10 +13,6 @@
 
 namespace nacre {
 namespace {
-
-// Lights that one call of a kernel shades by. More make several calls, with the same bits: sums
-// between calls are kept in the floats that they are formed in.
-constexpr size_t kLightsAtOnce = 16;
 
 void Assign(const Rgb& from, float (&to)[3]) {
   for (int c = 0; c < 3; ++c) to[c] = static_cast<float>(from[c]);
@@ -64,21 +59,21 @@ struct RunMaps {
   bool widths = false;  // ShadingMaterial::mapped_width
 };
 
-// By the kernel of a model, whose constants are all hits' or each hit's. `lights` are those of the
-// range.
+// By the kernel of a model, whose constants, and `light` times its colours, are all hits' or each
+// hit's.
 template <class Number>
 void ShadeGroup(const MatteModel& model, const MatteConstants<Number>& constants,
-                const MatteLight<Number>* lights, const ShadeRange& range, const RunMaps&,
+                const MatteLight<Number>& light, const ShadeRange& range, const RunMaps&,
                 ShadeScratch*) {
-  ShadeMatte(MatteUniforms<Number>{model.form, constants, lights}, range);
+  ShadeMatte(MatteUniforms<Number>{model.form, constants, light}, range);
 }
 
 template <class Number>
 void ShadeGroup(const PhongFamilyModel& model, const PhongConstants<Number>& constants,
-                const PhongLight<Number>* lights, const ShadeRange& range, const RunMaps& maps,
+                const PhongLight<Number>& light, const ShadeRange& range, const RunMaps& maps,
                 ShadeScratch* scratch) {
   const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
-  ShadePhong(PhongUniforms<Number>{model.model, constants, lights, sharp}, range);
+  ShadePhong(PhongUniforms<Number>{model.model, constants, light, sharp}, range);
 }
 
 template <class Number>
@@ -97,13 +92,9 @@ void ShadeByCurve(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& 
 
 template <class Number>
 void ShadeGroup(const MicrofacetModel& model, const MicrofacetConstants<Number>& constants,
-                const MicrofacetLight<Number>* lights, const ShadeRange& range, const RunMaps& maps,
+                const MicrofacetLight<Number>& light, const ShadeRange& range, const RunMaps& maps,
                 ShadeScratch* scratch) {
-  MicrofacetUniforms<Number> uniforms{constants, &model, lights};
-  if constexpr (std::is_same_v<Number, float>) {
-    const auto& f0 = constants.f0;
-    uniforms.is_bright = std::min({f0[0], f0[1], f0[2]}) >= kBrightF0;
-  }
+  MicrofacetUniforms<Number> uniforms{constants, &model, light};
   Assign(model.eta, uniforms.eta);
   Assign(model.k, uniforms.k);
   const SharpLobeTerms* const sharp = FormSharpTerms(model, range, maps.textures, &scratch->sharp);
@@ -115,13 +106,6 @@ void ShadeGroup(const MicrofacetModel& model, const MicrofacetConstants<Number>&
     uniforms.spread = &scratch->base;
   }
   ShadeByCurve(uniforms, range);
-}
-
-// Whether a kernel has room for the terms of one light only.
-bool TakesOneLight(const MatteModel&) { return false; }
-bool TakesOneLight(const PhongFamilyModel& model) { return model.double_terms; }
-bool TakesOneLight(const MicrofacetModel& model) {
-  return model.double_terms || model.base_form != DiffuseForm::kLambert;
 }
 
 MatteConstants<float> ConstantsOf(const MatteModel& model) {
@@ -137,40 +121,20 @@ const MicrofacetConstants<float>& ConstantsOf(const MicrofacetModel& model) {
   return model.constants;
 }
 
-// The part of a range under some of its lights, those before which have been shaded by.
-ShadeRange Under(const ShadeRange& range, size_t first, size_t count) {
-  ShadeRange group = range;
-  group.lights = range.lights.subspan(first, count);
-  if (first > 0) group.output = OutputMode::kAccumulate;
-  return group;
-}
-
 // Hits that share the constants of their material.
 template <class Model>
 void Shade(const Model& model, const ShadeRange& range, ShadeScratch* scratch) {
-  const size_t at_once = TakesOneLight(model) ? 1 : kLightsAtOnce;
-  const auto& constants = ConstantsOf(model);
-  std::array<decltype(MakeLight(model, Rgb())), kLightsAtOnce> lights;
-  for (size_t first = 0; first < range.lights.size(); first += at_once) {
-    const size_t count = std::min(at_once, range.lights.size() - first);
-    for (size_t k = 0; k < count; ++k) {
-      lights[k] = MakeLight(model, range.lights[first + k].light->color);
-    }
-    ShadeGroup(model, constants, lights.data(), Under(range, first, count), {}, scratch);
-  }
+  ShadeGroup(model, ConstantsOf(model), MakeLight(model, range.light.color), range, {}, scratch);
 }
 
-// Hits with constants of their own, one light after the other.
+// Hits with constants of their own.
 template <template <class> class Constants, template <class> class Light, class Model>
 void ShadeMapped(const ShadingMaterial& material, const Model& model, const ShadeRange& range,
                  ShadeScratch* scratch, HitTextures* maps) {
-  const auto constants = ColumnsIn<Constants<float*>>(maps->constants);
-  const auto products = ColumnsIn<Light<float*>>(maps->products);
-  const RunMaps run{maps, material.mapped_width};
-  for (size_t k = 0; k < range.lights.size(); ++k) {
-    MakeProducts({material, range.lights[k].light->color, range.begin, range.end}, maps);
-    ShadeGroup(model, constants, &products, Under(range, k, 1), run, scratch);
-  }
+  MakeProducts({material, range.light.color, range.begin, range.end}, maps);
+  ShadeGroup(model, ColumnsIn<Constants<float*>>(maps->constants),
+             ColumnsIn<Light<float*>>(maps->products), range, {maps, material.mapped_width},
+             scratch);
 }
 
 }  // namespace
@@ -204,7 +168,8 @@ const SharpLobeTerms* FormSharpTerms(const MicrofacetModel& model, const ShadeRa
 }
 
 bool EvaluatedInPlace(const ShadingLight& light) {
-  return light.form == LightForm::kDirectional || light.form == LightForm::kInverseSquare;
+  return light.form == LightForm::kDirectional ||
+         (light.form == LightForm::kInverseSquare && !light.from_spheres.empty());
 }
 
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
@@ -249,41 +214,16 @@ void ShadeModel(const ShadingMaterial& material, const ShadeRange& range, ShadeS
       material.model);
 }
 
-// One light after the other, as what layers leave of it depends on where it is. The model's
-// reflection is overwritten layer by layer, and the last layer's goes where the range says.
-void ShadeUnderLayers(const ShadingMaterial& material, const ShadeRange& range,
-                      ShadeScratch* scratch, HitTextures* maps) {
-  if (!scratch->below) scratch->below = std::make_unique<BelowLayers>();
-  BelowLayers& below = *scratch->below;
-  const HitTextures* const layer_maps = material.mapped_model ? maps : nullptr;
-  for (size_t k = 0; k < range.lights.size(); ++k) {
-    LightOnBatch light = range.lights[k];
-    if (light.evaluated == nullptr) {
-      EvaluateLight(*light.light, range.hits, range.surface, &below.light);
-      light.evaluated = &below.light;
-    }
-    ShadeRange all = Under(range, k, 1);
-    all.lights = {&light, 1};
-    ShadeRange under = all;
-    under.radiance = &below.radiance;
-    under.output = OutputMode::kOverwrite;
-    ShadeModel(material, under, scratch, maps);
-    for (const LayerModel& layer : material.layers) {
-      const bool is_top = &layer == &material.layers.back();
-      CoverByLayer(layer, layer_maps, is_top ? all : under, below.radiance);
-    }
-  }
-}
-
 }  // namespace
 
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               ShadeScratch* scratch, ReflectedRadiance* radiance) {
-  const ShadeRange range{lit.hits, lit.surface, lit.lights, begin, end, radiance, lit.output};
-  if (!material.layers.empty()) {
-    return ShadeUnderLayers(material, range, scratch, lit.textures);
-  }
+  const ShadeRange range{lit.hits, lit.surface, lit.light, lit.on_hits,
+                         begin,    end,         radiance,  lit.components};
   ShadeModel(material, range, scratch, lit.textures);
+  for (const LayerModel& layer : material.layers) {
+    CoverByLayer(layer, material.mapped_model ? lit.textures : nullptr, range);
+  }
 }
 
 void ClearSoa(size_t count, Soa3<float>* soa) {
@@ -293,9 +233,9 @@ void ClearSoa(size_t count, Soa3<float>* soa) {
 }
 
 void ClearRadiance(size_t count, ReflectedRadiance* radiance) {
+  ClearSoa(count, &radiance->sum);
   ClearSoa(count, &radiance->diffuse);
   ClearSoa(count, &radiance->specular);
-  ClearSoa(count, &radiance->sum);
 }
 
 }  // namespace nacre

@@ -3,15 +3,12 @@
 //
 //   PrepareRun       once per run of hits that share a material: what depends on the view alone
 //   EvaluateLight    direction and irradiance of a light at every hit (unshadowed)
-//   ShadeRun         per run: adds the radiance that one or several lights leave
+//   ShadeRun         per run: the radiance that the hits reflect of that light
 // Between the last two the renderer removes the light from the hits that lie in shadow. A light
 // without shadow rays, of the forms that EvaluatedInPlace names, needs no EvaluateLight: ShadeRun
 // does the same arithmetic on the way, with the same bits.
 // Each is one call of a Highway kernel (2.4 ns of dispatch), so batches, never packets.
 #pragma once
-
-#include <memory>
-#include <span>
 
 #include "hit/batch.h"
 #include "shading/light.h"
@@ -40,26 +37,11 @@ struct LightBatch {
   AlignedArray<float> irradiance{kBatchCapacity};
 };
 
-// A light to shade by.
-struct LightOnBatch {
-  const ShadingLight* light;
-  const LightBatch* evaluated;  // null: ShadeRun is to evaluate it in place
-};
-
-// What a batch reflects so far, per hit: its components, or their sum, or both.
+// What the hits of a batch reflect: the sum, and its components, where they are asked for. In the
+// sum the specular component is rounded once, as it is added.
 struct ReflectedRadiance {
-  Soa3<float> diffuse, specular;
   Soa3<float> sum;
-};
-
-// How ShadeRun writes to it.
-enum class OutputMode : uint8_t {
-  kAccumulate,  // adds to the components that are there
-  kOverwrite,   // writes the components, whatever is there
-  // Writes the sum, of one light. The specular component is rounded once, as it is added: within an
-  // ulp of the sum of the components.
-  kSum,
-  kComponentsAndSum,  // the bits of kOverwrite and of kSum
+  Soa3<float> diffuse, specular;
 };
 
 // The half-vector terms of sharp lobes, formed in double (sharp_lobe_kernel.cc). Of hits with a
@@ -75,28 +57,22 @@ struct BaseSpread {
   AlignedArray<float> single{kBatchCapacity}, multiple{kBatchCapacity};
 };
 
-// What is below the layers of a material, under one light.
-struct BelowLayers {
-  LightBatch light;
-  ReflectedRadiance radiance;
-};
-
 // What ShadeRun and LobePdf keep between the kernels of a run.
 struct ShadeScratch {
   SharpLobeTerms sharp;
   BaseSpread base;
-  std::unique_ptr<BelowLayers> below;  // made for the first hit that has layers
 };
 
 struct HitTextures;
 
-// A batch under lights, whose reflections are added in this order.
+// A batch under one light.
 struct LitHits {
   const HitBatch& hits;
   const Surface& surface;
-  std::span<const LightOnBatch> lights;
+  const ShadingLight& light;
+  const LightBatch* on_hits;        // the light, evaluated at the hits; null: EvaluatedInPlace
+  bool components = true;           // they are asked for
   HitTextures* textures = nullptr;  // of materials with maps
-  OutputMode output = OutputMode::kAccumulate;
 };
 
 // Rounds hits whose directions were given in double.
@@ -107,14 +83,16 @@ void PrepareSurface(const HitBatch& hits, Surface* surface);
 void PrepareRun(const ShadingMaterial& material, size_t begin, size_t end, Surface* surface,
                 const HitTextures* textures = nullptr);
 
-// True for directional lights and point lights that fall off with the square of the distance.
+// True for directional lights, and for point lights far from all spheres that fall off with the
+// square of the distance (ShadingLight::from_spheres).
 bool EvaluatedInPlace(const ShadingLight& light);
 
 // `light` is not LightForm::kGiven.
 void EvaluateLight(const ShadingLight& light, const HitBatch& hits, const Surface& surface,
                    LightBatch* result);
 
-// Brings to `radiance` what hits [begin, end), all of `material`, reflect of the lights.
+// Writes to `radiance` what hits [begin, end), all of `material`, reflect of the light, which has
+// been evaluated if there are layers.
 void ShadeRun(const ShadingMaterial& material, const LitHits& lit, size_t begin, size_t end,
               ShadeScratch* scratch, ReflectedRadiance* radiance);
 

@@ -35,7 +35,7 @@ HWY_INLINE void StoreRounded(DoubleTag, DoubleV value, float* to) {
 template <class Form>
 HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const DoubleTag d;
-  const ShadingLight& light = *range.lights[0].light;
+  const ShadingLight& light = range.light;
   const bool far = light.form == LightForm::kDirectional;
   const Vec3d& from = far ? light.to_light : light.position;
   const Vec3V<DoubleV> origin{hn::Set(d, from.x), hn::Set(d, from.y), hn::Set(d, from.z)};
@@ -43,7 +43,7 @@ HWY_INLINE void ForEachHit(const ShadeRange& range, const Form& form) {
   const auto offset_at = [&](size_t i) HWY_ATTR {
     // A direction that was chosen in float is that direction, to the last digit.
     if (light.form == LightForm::kGiven) {
-      return PromoteSoa(d, range.lights[0].evaluated->to_light, i);
+      return PromoteSoa(d, range.on_hits->to_light, i);
     }
     return far ? origin : Sub(origin, LoadSoa(d, range.hits.position, i));
   };

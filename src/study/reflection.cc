@@ -14,6 +14,7 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
   struct Batches {
     HitBatch hits;
     Surface surface;
+    LightBatch light;
     ShadeScratch scratch;
     ReflectedRadiance radiance;
   };
@@ -31,10 +32,10 @@ Reflection ReflectByKernel(const ShadingMaterial& material, const Vec3d& normal,
   Light light;
   light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = Rgb(1)};
   const ShadingLight prepared = PrepareLight(light, Vec3d(0));
-  const LightOnBatch on_hits{&prepared, nullptr};
   PrepareSurface(hits, &batches->surface);
+  EvaluateLight(prepared, hits, batches->surface, &batches->light);
   PrepareRun(material, 0, 1, &batches->surface);
-  ShadeRun(material, {hits, batches->surface, {&on_hits, 1}}, 0, 1, &batches->scratch,
+  ShadeRun(material, {hits, batches->surface, prepared, &batches->light}, 0, 1, &batches->scratch,
            &batches->radiance);
   const auto get = [](const Soa3<float>& soa) { return Rgb(soa.x[0], soa.y[0], soa.z[0]); };
   return {get(batches->radiance.diffuse), get(batches->radiance.specular)};

@@ -65,15 +65,17 @@ class HitWriter {
         to_view_(PointersTo(&to.directions->to_view)) {}
 
   // Everything of a group's hits but their primitives: call Primitive or Primitives afterwards,
-  // which count the hits. `ray`: the lanes' ray indices; `position` computes the points, if wanted.
+  // which count the hits. `first_ray`: the index of the first lane's ray. position() computes the
+  // points, if they are wanted, once the directions are stored: it takes their registers.
   template <class V, class Position>
   HWY_INLINE void Surfaces(Vec3V<V> normal, Vec3V<V> to_view, const Position& position,
-                           uint32_t bits, const uint32_t* ray) const {
+                           uint32_t bits, uint32_t first_ray) const {
     const CameraDouble d;
     const hn::Rebind<float, CameraDouble> df;
     const D32 du;
     const bool all = bits == kAllOfGroup;
-    auto rays = hn::LoadU(du, ray);
+    // Iota(du, first_ray) goes through memory.
+    auto rays = hn::Add(hn::Iota(du, 0), hn::Set(du, first_ray));
     // Compacted before the stores, so that there is one set of stores for both cases: with two sets
     // GCC keeps their common addresses in mask registers.
     if (!all) {

@@ -31,7 +31,6 @@ struct CameraPacket {
   uint32_t pixel_rows;   // pixel rows of their cells that the rays may lie in, as bits
   const double* film_x;  // film positions: the packet's part of the batch
   const double* film_y;
-  alignas(kVectorBytes) double center_x[kCameraPacket], center_y[kCameraPacket];
   // In float: the varying vectors, and the directions' squared lengths.
   alignas(kVectorBytes) float varying[3][kCameraPacket];
   alignas(kVectorBytes) float dd[kCameraPacket];
@@ -78,17 +77,6 @@ HWY_INLINE void SetSphere(const TileCandidate& candidate, int lane, uint32_t bit
   set3(candidate.projected->center, packet->projected_center);
   set3(candidate.projected->rounding_error, packet->projected_error);
   set(d, candidate.projected->scale, packet->projected_scale);
-}
-
-// Sets the packet's film positions: (x, y) and those to its right, one pixel apart.
-HWY_INLINE void SetPixelCenters(double x, double y, CameraPacket* packet) {
-  const CameraDouble d;
-  for (size_t i = 0; i < kCameraPacket; i += hn::Lanes(d)) {
-    hn::Store(hn::Add(hn::Set(d, x), hn::Iota(d, static_cast<double>(i))), d, packet->center_x + i);
-    hn::Store(hn::Set(d, y), d, packet->center_y + i);
-  }
-  packet->film_x = packet->center_x;
-  packet->film_y = packet->center_y;
 }
 
 HWY_INLINE Vec3V<hn::Vec<CameraDouble>> LoadLanes(const double (&from)[3][kCameraPacket],

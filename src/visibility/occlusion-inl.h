@@ -114,38 +114,15 @@ HWY_INLINE ShadowRaysV<D> ShadowRaysOf(D d, const Packet& packet, int lane) {
           packet.camera_extent};
 }
 
-// Early out: most spheres are missed by all lanes, by a large margin. That shows before any square
-// root is computed: the ray's line is too far from the centre, or the ray starts outside and moves
-// away. Both tests err by a few 2^-53 of the centre's distance.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE bool SurelyMissed(D d, const Vec3V<V>& to_center, const ShadowRaysV<D>& rays,
-                             hn::Mask<D> lanes, V radius) {
-  const V along = Dot(to_center, rays.direction);
-  const V closest = hn::Mul(along, rays.inverse_dd);
-  const Vec3V<V> perpendicular = Sub(to_center, Scale(rays.direction, closest));
-  const V distance2 = Dot(to_center, to_center);
-  const V slack = hn::Mul(hn::Set(d, 1e-12), distance2);
-  const V bound2 = hn::MulAdd(hn::Mul(radius, radius), hn::Set(d, 1 + 1e-9), slack);
-  const auto near_line = hn::Le(Dot(perpendicular, perpendicular), bound2);
-  const auto leaves = hn::And(hn::Lt(along, hn::Zero(d)), hn::Gt(hn::Mul(along, closest), slack));
-  const auto gone = hn::And(leaves, hn::Gt(distance2, bound2));
-  return hn::AllFalse(d, hn::And(lanes, hn::AndNot(gone, near_line)));
-}
-
 // Those of `lanes` that the sphere occludes. `own`: the lanes that start on it. `load` loads `rays`
 // again.
 template <class D, class LoadRays>
 HWY_INLINE hn::Mask<D> OccludedLanes(D d, const TraceSphere& sphere, const ShadowRaysV<D>& rays,
                                      hn::Mask<D> lanes, hn::Mask<D> own, bool outward,
                                      const LoadRays& load) {
-  using V = hn::Vec<D>;
-  const Vec3V<V> to_center = Sub(SetVec3(d, sphere.center), rays.origin);
-  const V radius = hn::Set(d, sphere.radius);
-  // Not for rays that start on the sphere: the rounding of a distant origin may be above the
-  // margin.
-  const bool leaves_it = !outward && !hn::AllFalse(d, own);
-  if (!leaves_it && SurelyMissed(d, to_center, rays, lanes, radius)) return hn::Lt(radius, radius);
-  const auto hit = TestSphere(d, to_center, rays.direction, rays.inverse_dd, radius);
+  const auto to_center = Sub(SetVec3(d, sphere.center), rays.origin);
+  const auto hit =
+      TestSphere(d, to_center, rays.direction, rays.inverse_dd, hn::Set(d, sphere.radius));
   return hn::And(lanes, InTheWay(d, sphere, hit, own, outward, rays.t_max, load));
 }
 

@@ -27,7 +27,6 @@ inline constexpr int kSingleSphereBlock = 8 * kCameraPacket;
 struct SingleSphereRays {
   const TileCandidate* candidate;
   uint32_t first, count;
-  double x = 0, y = 0;  // film position of the first ray, where FilmBatch::centers is set
 };
 
 // Groups of lanes between the two passes. The rays of a group are consecutive in a batch and can
@@ -37,10 +36,6 @@ struct SingleSphereBlock {
   uint32_t ray[kSingleSphereBlock];   // index in the batch of a group's first ray
   uint32_t bits[kSingleSphereBlock];  // lanes to be tested; after TestRays those that hit
   const TileCandidate* candidate[kSingleSphereBlock];
-  double x[kSingleSphereBlock], y[kSingleSphereBlock];  // film position of the first ray (centers)
-  // Packets of the last block, as bits, all of whose rays hit: those of the next block at the same
-  // position probably do so, too (ProposeGroups).
-  uint32_t likely = 0;
   bool projected = false;  // all spheres of the block use the projected test, or none does
   alignas(kVectorBytes) double backward[3][kSingleSphereBlock];  // the negated ray directions
   alignas(kVectorBytes) double inverse_length[kSingleSphereBlock];
@@ -75,18 +70,11 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
   const auto corner = SetVec3(d, -frame.corner);
   const auto step_x = SetVec3(d, -frame.step_x);
   const auto step_y = SetVec3(d, -frame.step_y);
-  const auto lanes = hn::Iota(d, 0);
   for (int g = 0; g < block->groups; ++g) {
     const int first = g * kGroupLanes;
     const TileCandidate& candidate = *block->candidate[g];
-    hn::Vec<CameraDouble> x, y;
-    if (film.centers) {
-      x = hn::Add(hn::Set(d, block->x[g]), lanes);
-      y = hn::Set(d, block->y[g]);
-    } else {
-      x = hn::LoadU(d, film.x.data() + block->ray[g]);
-      y = hn::LoadU(d, film.y.data() + block->ray[g]);
-    }
+    const auto x = hn::LoadU(d, film.x.data() + block->ray[g]);
+    const auto y = hn::LoadU(d, film.y.data() + block->ray[g]);
     // The operations of MakeCameraRays.
     const auto backward = MulAdd3(step_y, y, MulAdd3(step_x, x, corner));
     const auto dd = FusedDot(backward, backward);
@@ -112,11 +100,9 @@ HWY_NOINLINE HWY_ATTR void TestRays(const CameraFrame& frame, const FilmBatch& f
 // The second pass: appends the hits to `to`. The rays start outside of the spheres, so the normals
 // point outward.
 template <bool kProjected>
-HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const FilmBatch& film,
-                                       const HitOutput& to) {
+HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const HitOutput& to) {
   const CameraDouble d;
   HitWriter writer(to);
-  const uint32_t* HWY_RESTRICT const ray = film.ray.data();
   for (int g = 0; g < block.groups; ++g) {
     const uint32_t bits = block.bits[g];
     if (bits == 0) continue;
@@ -138,7 +124,7 @@ HWY_NOINLINE HWY_ATTR void AppendBlock(const SingleSphereBlock& block, const Fil
     const auto position = [&]() HWY_ATTR {
       return SpherePosition(SetVec3(d, candidate.sphere.center), normal, radius);
     };
-    writer.Surfaces(normal, to_view, position, bits, ray + block.ray[g]);
+    writer.Surfaces(normal, to_view, position, bits, block.ray[g]);
     writer.Primitive(candidate.primitive, bits);
   }
 }
@@ -149,10 +135,9 @@ HWY_INLINE void TestRays(const CameraFrame& frame, const FilmBatch& film,
   TestRays<false>(frame, film, block);
 }
 
-HWY_INLINE void AppendBlock(const SingleSphereBlock& block, const FilmBatch& film,
-                            const HitOutput& to) {
-  if (block.projected) return AppendBlock<true>(block, film, to);
-  AppendBlock<false>(block, film, to);
+HWY_INLINE void AppendBlock(const SingleSphereBlock& block, const HitOutput& to) {
+  if (block.projected) return AppendBlock<true>(block, to);
+  AppendBlock<false>(block, to);
 }
 
 // Appends the hits of the block's groups, and empties it.
@@ -160,7 +145,7 @@ HWY_INLINE void TraceBlock(const CameraFrame& frame, const FilmBatch& film,
                            SingleSphereBlock* block, const HitOutput& to) {
   if (block->groups == 0) return;
   TestRays(frame, film, block);
-  AppendBlock(*block, film, to);
+  AppendBlock(*block, to);
   block->groups = 0;
 }
 
@@ -179,27 +164,22 @@ HWY_INLINE void AddSingleSphereRays(const CameraFrame& frame, const FilmBatch& f
     block->ray[g] = rays.first + i;
     block->bits[g] = left >= kGroupLanes ? kAllOfGroup : (1u << left) - 1;
     block->candidate[g] = rays.candidate;
-    block->x[g] = rays.x + i;
-    block->y[g] = rays.y;
     if (block->groups * kGroupLanes == kSingleSphereBlock) TraceBlock(frame, film, block, to);
   }
 }
 
 // Fills the block with those groups of up to kSingleSphereBlock rays, in any order, that pass the
-// float test. Likely packets skip the float test: the exact test decides anyway.
+// float test.
 HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& candidate,
                               const FilmBatch& film, size_t first, size_t rays,
                               CameraPacket* packet, SingleSphereBlock* block) {
   for (size_t i = 0; i < rays; i += kCameraPacket) {
     const size_t left = rays - i;
     packet->lanes = left >= kCameraPacket ? 0xffffu : (1u << left) - 1;
-    uint32_t lanes = packet->lanes;
-    if ((block->likely >> (i / kCameraPacket) & 1) == 0) {
-      packet->film_x = film.x.data() + first + i;
-      packet->film_y = film.y.data() + first + i;
-      FillFloatRays<true>(frame, packet);
-      lanes = ProposedLanes<true, true>(frame, candidate, *packet);
-    }
+    packet->film_x = film.x.data() + first + i;
+    packet->film_y = film.y.data() + first + i;
+    FillFloatRays<true>(frame, packet);
+    const uint32_t lanes = ProposedLanes<true, true>(frame, candidate, *packet);
     for (int lane = 0; lane < kCameraPacket; lane += kGroupLanes) {
       const uint32_t bits = lanes >> lane & kAllOfGroup;
       const int g = block->groups;
@@ -208,19 +188,6 @@ HWY_INLINE void ProposeGroups(const CameraFrame& frame, const TileCandidate& can
       block->candidate[g] = &candidate;
       block->groups += bits != 0 ? 1 : 0;
     }
-  }
-}
-
-// Finds the packets that hit with all their lanes, after TestRays. `first`: the block's first ray.
-HWY_INLINE void FindLikely(size_t first, SingleSphereBlock* block) {
-  uint32_t hit[kSingleSphereBlock / kCameraPacket] = {};
-  for (int g = 0; g < block->groups; ++g) {
-    const size_t ray = block->ray[g] - first;
-    hit[ray / kCameraPacket] |= block->bits[g] << (ray % kCameraPacket);
-  }
-  block->likely = 0;
-  for (int p = 0; p < kSingleSphereBlock / kCameraPacket; ++p) {
-    block->likely |= static_cast<uint32_t>(hit[p] == 0xffff) << p;
   }
 }
 
@@ -233,10 +200,7 @@ HWY_INLINE void TraceSingleSphere(const CameraFrame& frame, const TileCandidate&
   for (size_t i = 0; i < film.count; i += kSingleSphereBlock) {
     const size_t count = std::min<size_t>(kSingleSphereBlock, film.count - i);
     ProposeGroups(frame, candidate, film, i, count, packet, block);
-    TestRays(frame, film, block);
-    FindLikely(i, block);
-    AppendBlock(*block, film, to);
-    block->groups = 0;
+    TraceBlock(frame, film, block, to);
   }
 }
 

@@ -31,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // rounding of the sum, 3 u S: twice `error` is enough. The direction's length is at least 1
 // (FillPacket), so depths err no more than lengths do.
 template <class D>
-HWY_INLINE uint32_t ProposedLanes(D d, const Packet& packet, const TraceSphere& sphere) {
+HWY_INLINE uint32_t ProposedOfPacket(D d, const Packet& packet, const TraceSphere& sphere) {
   using V = hn::Vec<D>;
   const Vec3V<V> center{hn::Set(d, static_cast<float>(sphere.center.x)),
                         hn::Set(d, static_cast<float>(sphere.center.y)),
@@ -96,7 +96,7 @@ HWY_INLINE void RecordFromSurfaces(D d, const TraceSphere& sphere, uint32_t prim
 // Tests `lanes`, as bits, and records the hits that are nearer than the nearest so far.
 HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, uint32_t lanes,
                                Packet* packet) {
-  lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
+  lanes &= ProposedOfPacket(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
   if (lanes == 0) return;
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));
@@ -122,7 +122,7 @@ HWY_INLINE void IntersectLanes(const TraceSphere& sphere, uint32_t primitive, ui
 
 // Marks those of `lanes`, as bits, that the sphere occludes.
 HWY_INLINE void OccludeLanes(const TraceSphere& sphere, uint32_t lanes, Packet* packet) {
-  lanes &= ProposedLanes(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
+  lanes &= ProposedOfPacket(hn::CappedTag<float, kMaxPacketWidth>(), *packet, sphere);
   if (lanes == 0) return;
   const hn::ScalableTag<double> d;
   const int step = static_cast<int>(hn::Lanes(d));

@@ -24,8 +24,8 @@ namespace {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <bool kPerspective>
-HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
-                           const uint32_t* rays, const HitOutput& to) {
+HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet, uint32_t first_ray,
+                           const HitOutput& to) {
   const CameraDouble d;
   const int step = static_cast<int>(hn::Lanes(d));
   HitWriter writer(to);
@@ -39,7 +39,8 @@ HWY_INLINE void AppendHits(const CameraFrame& frame, const CameraPacket& packet,
     const auto position = [&]() HWY_ATTR {
       return SpherePosition(LoadLanes(packet.center, lane), normal, radius);
     };
-    writer.Surfaces(normal, ToView(direction, inverse_length), position, bits, rays + lane);
+    writer.Surfaces(normal, ToView(direction, inverse_length), position, bits,
+                    first_ray + static_cast<uint32_t>(lane));
     writer.Primitives(packet.primitive + lane, bits);
   }
 }
@@ -94,16 +95,11 @@ HWY_NOINLINE void TraceRow(const CameraFrame& frame, const SphereBins& bins,
     while (begin != end && begin->empty()) ++begin;
     if (begin == end) continue;
     packet->lanes = (1u << width) - 1;
-    if (film.centers) {
-      const int row = static_cast<int>(first) / candidates.tile.width();
-      SetPixelCenters(candidates.tile.x0 + x + 0.5, candidates.tile.y0 + row + 0.5, packet);
-    } else {
-      packet->film_x = film.x.data() + first;
-      packet->film_y = film.y.data() + first;
-    }
+    packet->film_x = film.x.data() + first;
+    packet->film_y = film.y.data() + first;
     TracePacket<kPerspective>(frame, begin, end, packet);
     if (packet->hit == 0) continue;
-    AppendHits<kPerspective>(frame, *packet, film.ray.data() + first, to);
+    AppendHits<kPerspective>(frame, *packet, static_cast<uint32_t>(first), to);
   }
 }
 
@@ -112,30 +108,17 @@ HWY_INLINE void TraceSamples(const CameraFrame& frame, const SphereBins& bins,
                              const TileCandidates& candidates, const FilmBatch& film,
                              SingleSphereBlock* block, const HitOutput& to) {
   const size_t pixels = candidates.tile.pixel_count();
-  if (kPerspective && candidates.single_sphere != nullptr && !film.centers) {
-    size_t in_spans = 0;
-    for (const PixelSpan& span : candidates.spans) in_spans += span.count;
-    if (film.only_spans || in_spans == pixels) {  // the rays of all spans are consecutive
-      const auto rays = static_cast<uint32_t>(film.count / pixels * in_spans);
-      AddSingleSphereRays(frame, film, {candidates.single_sphere, 0, rays}, block, to);
-      return TraceBlock(frame, film, block, to);
-    }
-  }
   const Window& tile = candidates.tile;
   const auto width = static_cast<uint32_t>(tile.width());
   const auto first_row = static_cast<uint32_t>((tile.y0 - bins.window.y0) % kCellSize);
   std::optional<CameraPacket> packet;  // large, and few tiles need it
-  uint32_t next = 0;
   for (size_t sample = 0; sample < film.count; sample += pixels) {
     for (const PixelSpan& span : candidates.spans) {
-      const uint32_t begin = film.only_spans ? next : static_cast<uint32_t>(sample) + span.first;
-      next += span.count;
+      const uint32_t begin = static_cast<uint32_t>(sample) + span.first;
       const auto x = static_cast<int>(span.first % width);
       const uint32_t row = span.first / width;
       if (kPerspective && span.single_sphere != nullptr) {
-        const SingleSphereRays rays{span.single_sphere, begin, span.count, tile.x0 + x + 0.5,
-                                    tile.y0 + static_cast<int>(row) + 0.5};
-        AddSingleSphereRays(frame, film, rays, block, to);
+        AddSingleSphereRays(frame, film, {span.single_sphere, begin, span.count}, block, to);
         continue;
       }
       TraceBlock(frame, film, block, to);

@@ -54,7 +54,7 @@ FOLDERS = TRUNK_FOLDERS | set(BRANCHES) | {TOP}
 # headers of those before it.
 RENDER_ORDER = """
     settings stats stage_clock explanation layers camera camera_kernel frame_window white_level plan_notes
-    film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel light_cull mesh_windows
+    film_kernel filter_shares small_triangles adaptive_plan interval interval_kernel sampled_kernel shadow_rays_kernel mesh_windows
     outline_coverage sphere_projections
     prepared_scene hits_plan tile_shapes samples hits surfaces
     direct_plan highlights mesh_glints shadow_plan brightest_object direct_batch

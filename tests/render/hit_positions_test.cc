@@ -82,7 +82,7 @@ void CheckLastDigits(const Scene& scene) {
   RenderSettings settings;
   settings.threads = 1;
   const Image got = RenderImage(scene, settings);
-  settings.offsets_by_normal = false;
+  settings.far_lights = false;
   const Image by_position = RenderImage(scene, settings);
   CHECK_FALSE(SameBits(got, by_position));
   const std::vector<float>& a = got.Find("R")->samples;

@@ -271,7 +271,7 @@ TEST_CASE("a tree is there where it is needed, and only there") {
     for (const PlanItem& item : plan.why.items) {
       if (item.what == "intersector tree") tree = item.used;
     }
-    return std::pair(plan.hits.tiles, tree);
+    return std::pair(plan.hits.trace_by_bins, tree);
   };
   Scene scene = RandomScene(0);
   CHECK(uses(scene, {}) == std::pair(true, false));
@@ -320,7 +320,7 @@ TEST_CASE("a tile's hits are of the batch's own rays, wherever it ends") {
     HitDirections directions;
     ForEachTarget([&](Target) {
       for (film.count = 1; film.count <= 40; ++film.count) {
-        intersector.HitsInTile(candidates, film, {&hits, &directions, true, false});
+        intersector.HitsInTile(candidates, film, {&hits, &directions, false});
         CAPTURE(film.count);
         CHECK(hits.count == film.count);
       }
@@ -341,7 +341,7 @@ std::vector<uint32_t> HitsOf(const Intersector& intersector, const Window& tile)
   }
   HitBatch hits;
   HitDirections directions;
-  intersector.HitsInTile(candidates, film, {&hits, &directions, true, false});
+  intersector.HitsInTile(candidates, film, {&hits, &directions, false});
   return {hits.primitive.begin(), hits.primitive.begin() + hits.count};
 }
 

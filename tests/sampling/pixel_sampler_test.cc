@@ -135,10 +135,8 @@ size_t CountPixels(const std::vector<PixelRun>& runs) {
 
 // Samples of the runs' pixels, in arrays exactly as large as documented, for the address sanitizer.
 struct Placed {
-  Placed(const PixelSampler& sampler, const Window& window, const std::vector<PixelRun>& runs,
-         int first, int count)
-      : size(CountPixels(runs) * static_cast<size_t>(count)), x(size), y(size), number(size) {
-    NumberRays(window, runs, count, number.data());
+  Placed(const PixelSampler& sampler, const std::vector<PixelRun>& runs, int first, int count)
+      : size(CountPixels(runs) * static_cast<size_t>(count)), x(size), y(size) {
     PixelBatch batch(CountPixels(runs));
     PreparePixels(sampler, runs, &batch);
     CHECK(batch.count == CountPixels(runs));
@@ -147,7 +145,6 @@ struct Placed {
 
   size_t size;
   AlignedArray<double> x, y;
-  AlignedArray<uint32_t> number;
 };
 
 TEST_CASE("the only sample of a pixel is placed at its centre on every target", "[sampling]") {
@@ -176,16 +173,13 @@ TEST_CASE("SamplePixels is SamplePixel to the bit on every target", "[sampling]"
         for (const auto& [first, count] : {std::pair{0, spp}, {spp / 2, spp - spp / 2}, {0, 1}}) {
           CAPTURE(static_cast<int>(filter.kind), spp, first, count);
           for (const std::vector<PixelRun>& runs : {RowsOf(pixels), some}) {
-            const Placed placed(sampler, pixels, runs, first, count);
+            const Placed placed(sampler, runs, first, count);
             size_t wrong = 0, i = 0;
             for (int sample = 0; sample < count; ++sample) {
               for (const PixelRun& run : runs) {
                 for (int x = run.x; x < run.x + run.count; ++x, ++i) {
                   const PixelSample s = SamplePixel(sampler, x, run.y, first + sample);
-                  const size_t number = static_cast<size_t>(sample) * pixels.pixel_count() +
-                                        IndexIn(pixels, x, run.y);
                   wrong += placed.x[i] != x + 0.5 + s.dx || placed.y[i] != run.y + 0.5 + s.dy ||
-                           placed.number[i] != number ||
                            SampleWeight(sampler, first + sample) != s.weight;
                 }
               }

@@ -83,7 +83,6 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
   Surface surface;
   const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
   LightBatch evaluated;
-  const LightOnBatch on_hits{&light, &evaluated};
   ShadeScratch scratch;
   hits.count = kBatchCapacity;
   for (size_t i = 0; i < kBatchCapacity; ++i) {
@@ -108,7 +107,7 @@ Rgb Furnace(const Material& material, const Vec3d& to_view,
     }
     ReflectedRadiance radiance;
     ClearRadiance(kBatchCapacity, &radiance);
-    ShadeRun(prepared, {hits, surface, {&on_hits, 1}}, 0, kBatchCapacity, &scratch, &radiance);
+    ShadeRun(prepared, {hits, surface, light, &evaluated}, 0, kBatchCapacity, &scratch, &radiance);
     for (size_t i = 0; i < kBatchCapacity; ++i) {
       sum += Rgb(double{radiance.diffuse.x[i]} + radiance.specular.x[i],
                  double{radiance.diffuse.y[i]} + radiance.specular.y[i],

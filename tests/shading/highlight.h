@@ -56,9 +56,10 @@ inline Highlight ShadeHighlight(const ShadingMaterial& material, const Rgb& irra
   PrepareSurface(highlight.hits, &surface);
   PrepareRun(material, 0, highlight.hits.count, &surface);
   const ShadingLight prepared = PrepareLight(light, Vec3d(0));
-  const LightOnBatch on_hits{&prepared, nullptr};
-  ShadeRun(material, {highlight.hits, surface, {&on_hits, 1}}, 0, highlight.hits.count, &scratch,
-           &highlight.radiance);
+  LightBatch on_hits;
+  EvaluateLight(prepared, highlight.hits, surface, &on_hits);
+  ShadeRun(material, {highlight.hits, surface, prepared, &on_hits}, 0, highlight.hits.count,
+           &scratch, &highlight.radiance);
   return highlight;
 }
 

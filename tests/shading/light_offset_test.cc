@@ -109,12 +109,11 @@ ReflectedRadiance ReflectFromSpheres(const ShadingLight& light, HitsOnSpheres* h
   const ShadingMaterial prepared = PrepareMaterial(material, {0, 0, 0});
   LightBatch evaluated;
   EvaluateLight(light, hits->batch, hits->surface, &evaluated);
-  const LightOnBatch on_hits{&light, in_place ? nullptr : &evaluated};
   ShadeScratch scratch;
   ReflectedRadiance radiance;
   PrepareRun(prepared, 0, kHitsOnSpheres, &hits->surface);
-  ShadeRun(prepared, {hits->batch, hits->surface, {&on_hits, 1}}, 0, kHitsOnSpheres, &scratch,
-           &radiance);
+  ShadeRun(prepared, {hits->batch, hits->surface, light, in_place ? nullptr : &evaluated}, 0,
+           kHitsOnSpheres, &scratch, &radiance);
   return radiance;
 }
 
@@ -148,6 +147,22 @@ TEST_CASE("lights found from normals give the same bits whichever hits share a b
       CHECK(SameBits(one.diffuse, unaware.diffuse));
       CHECK(SameBits(one.specular, unaware.specular));
     }
+  });
+}
+
+TEST_CASE("a directional light leaves the same bits in place and evaluated ahead") {
+  Light sun;
+  sun.kind = DirectionalLight{.direction_of_travel = {1, -2, -3}, .irradiance = {3, 2, 1}};
+  const ShadingLight light = PrepareLight(sun, {0, 0, 0});
+  REQUIRE(EvaluatedInPlace(light));
+  ForEachTarget([&](Target) {
+    std::mt19937 random(12);
+    HitsOnSpheres hits({{.center = {0, 0, -6}, .radius = 1, .material = {}}}, {0, 0, 0}, &random);
+    const ReflectedRadiance ahead = ReflectFromSpheres(light, &hits, false);
+    const ReflectedRadiance here = ReflectFromSpheres(light, &hits, true);
+    CHECK(SameBits(ahead.sum, here.sum));
+    CHECK(SameBits(ahead.diffuse, here.diffuse));
+    CHECK(SameBits(ahead.specular, here.specular));
   });
 }
 

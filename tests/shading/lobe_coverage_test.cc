@@ -68,9 +68,7 @@ class SampledHits {
     for (size_t i = 0; i < kCoverageHits; ++i)
       lit_.irradiance[i] = lit_.to_light.z[i] > 0 ? 1.0f : 0.0f;
     LobePdf(material_, Range(), lit_, &scratch_, pdf_.data());
-    ClearRadiance(kCoverageHits, &radiance_);
-    const LightOnBatch on_hits{&light_, &lit_};
-    ShadeRun(material_, {hits_, surface_, {&on_hits, 1}}, 0, kCoverageHits, &scratch_, &radiance_);
+    ShadeRun(material_, {hits_, surface_, light_, &lit_}, 0, kCoverageHits, &scratch_, &radiance_);
   }
 
   const ShadingMaterial& material_;

@@ -390,10 +390,9 @@ TEST_CASE("a normal that leans away from the viewer counts as seen edge-on") {
     light.kind = DirectionalLight{.direction_of_travel = -to_light, .irradiance = {1, 1, 1}};
     const ShadingLight prepared_light = PrepareLight(light, {0, 0, 0});
     EvaluateLight(prepared_light, hits, surface, &batch);
-    const LightOnBatch on_hit{&prepared_light, &batch};
     ReflectedRadiance radiance;
     ShadeScratch scratch;
-    ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
+    ShadeRun(prepared, {hits, surface, prepared_light, &batch}, 0, 1, &scratch, &radiance);
     CHECK(radiance.specular.x[0] == Approx(expected).epsilon(1e-5));
   });
 }
@@ -413,10 +412,11 @@ TEST_CASE("light exactly opposite the viewer of a normal that leans away: no hig
       Surface surface;
       PrepareSurface(hits, &surface);
       PrepareRun(prepared, 0, 1, &surface);
-      const LightOnBatch on_hit{&prepared_light, nullptr};
+      LightBatch on_hit;
+      EvaluateLight(prepared_light, hits, surface, &on_hit);
       ReflectedRadiance radiance;
       ShadeScratch scratch;
-      ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
+      ShadeRun(prepared, {hits, surface, prepared_light, &on_hit}, 0, 1, &scratch, &radiance);
       CHECK(radiance.specular.x[0] == 0);
       CHECK(std::isfinite(radiance.diffuse.x[0]));
     });

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // tests/shading/one_sphere_test.cc: hits of one sphere under one point light, wherever the range
-// of them begins and ends: where only the sum is asked for it has the bits that it has beside the
-// parts, and nothing else is written.
+// of them begins and ends: they have the bits that they have among all, whatever is computed
+// beside them, and nothing else is written.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -27,6 +28,7 @@ struct Lit {
   HitBatch hits;
   Surface surface;
   ShadingLight light;
+  LightBatch on_hits;
   size_t short_halves = 0, lobes = 0;  // lit hits with |l + v| < 1/2; with r.v > 0
 };
 
@@ -56,7 +58,7 @@ void MakeLit(double angle, Lit* lit) {
     lit->lobes += (n ^ l) > 0 && 2 * (n ^ l) * (n ^ v) > (l ^ v);
     SetAt(i, n, &lit->hits.normal);
     SetAt(i, v, &lit->hits.to_view);
-    lit->hits.primitive[i] = 0;
+    SetAt(i, hit, &lit->hits.position);
     ++i;
   }
   PrepareSurface(lit->hits, &lit->surface);
@@ -79,6 +81,7 @@ void MakeLimb(Lit* lit) {
     }
     SetAt(i, n, &lit->hits.normal);
     SetAt(i, -(kSphere.center + n).normalized(), &lit->hits.to_view);
+    SetAt(i, kSphere.center + n, &lit->hits.position);
   }
   PrepareSurface(lit->hits, &lit->surface);
 }
@@ -115,28 +118,50 @@ std::array<uint32_t, 3> BitsAt(const Soa3<float>& soa, size_t i) {
           std::bit_cast<uint32_t>(soa.z[i])};
 }
 
-void CheckRange(const ShadingMaterial& material, const Lit& on, size_t begin, size_t end) {
+// `sum` rounds what is added to the diffuse part once, in place of the specular part and then their
+// sum: half an ulp of the result, and of the specular part, is what they may differ by.
+bool IsSumOf(float diffuse, float specular, float sum) {
+  const double ulp = std::nextafter(std::max(specular, sum), INFINITY) - std::max(specular, sum);
+  return std::abs(double{diffuse} + double{specular} - double{sum}) <= ulp;
+}
+
+// Of a range, in place and evaluated ahead, with components and without.
+void CheckRange(const ShadingMaterial& material, const Lit& on, const ReflectedRadiance& all,
+                size_t begin, size_t end) {
   constexpr float kUntouched = -7;
-  const LightOnBatch light{&on.light, nullptr};
-  ShadeScratch scratch;
-  ReflectedRadiance apart, sum;
-  for (size_t i = 0; i < kSphereHits; ++i) sum.sum.x[i] = sum.sum.y[i] = sum.sum.z[i] = kUntouched;
-  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, OutputMode::kComponentsAndSum},
-           begin, end, &scratch, &apart);
-  ShadeRun(material, {on.hits, on.surface, {&light, 1}, nullptr, OutputMode::kSum}, begin, end,
-           &scratch, &sum);
-  for (size_t i = 0; i < kSphereHits; ++i) {
-    CAPTURE(i, begin, end);
-    const bool inside = begin <= i && i < end;
-    if (inside) {
-      REQUIRE(BitsAt(sum.sum, i) == BitsAt(apart.sum, i));
-    } else {
-      REQUIRE(ColorAt(sum.sum, i) == Rgb(kUntouched));
+  for (const LightBatch* on_hits : {static_cast<const LightBatch*>(nullptr), &on.on_hits}) {
+    for (const bool components : {false, true}) {
+      CAPTURE(begin, end, on_hits == nullptr, components);
+      ShadeScratch scratch;
+      ReflectedRadiance part;
+      for (size_t i = 0; i < kSphereHits; ++i) {
+        for (Soa3<float>* soa : {&part.sum, &part.diffuse, &part.specular}) {
+          SetAt(i, Vec3d(kUntouched), soa);
+        }
+      }
+      ShadeRun(material, {on.hits, on.surface, on.light, on_hits, components}, begin, end, &scratch,
+               &part);
+      for (size_t i = 0; i < kSphereHits; ++i) {
+        CAPTURE(i);
+        const bool inside = begin <= i && i < end;
+        if (inside) REQUIRE(BitsAt(part.sum, i) == BitsAt(all.sum, i));
+        if (!inside) REQUIRE(ColorAt(part.sum, i) == Rgb(kUntouched));
+        if (inside && components) {
+          REQUIRE(BitsAt(part.diffuse, i) == BitsAt(all.diffuse, i));
+          REQUIRE(BitsAt(part.specular, i) == BitsAt(all.specular, i));
+          REQUIRE(IsSumOf(part.diffuse.x[i], part.specular.x[i], part.sum.x[i]));
+          REQUIRE(IsSumOf(part.diffuse.y[i], part.specular.y[i], part.sum.y[i]));
+          REQUIRE(IsSumOf(part.diffuse.z[i], part.specular.z[i], part.sum.z[i]));
+        } else {
+          REQUIRE(ColorAt(part.diffuse, i) == Rgb(kUntouched));
+          REQUIRE(ColorAt(part.specular, i) == Rgb(kUntouched));
+        }
+      }
     }
   }
 }
 
-TEST_CASE("a sum alone has the bits of the sum beside its parts") {
+TEST_CASE("a range of hits has the bits that it has among all, and no others are written") {
   const FlushDenormals flush;
   // Light beside the viewer, and so far behind that some lit hits have |l + v| < 1/2, where half
   // vectors are formed with more care.
@@ -150,11 +175,17 @@ TEST_CASE("a sum alone has the bits of the sum beside its parts") {
   REQUIRE(front.lobes < kSphereHits);
   REQUIRE(behind.short_halves > kSphereHits / 20);
   ForEachTarget([&](Target) {
+    for (Lit* on : {&front, &limb, &behind}) {
+      EvaluateLight(on->light, on->hits, on->surface, &on->on_hits);
+    }
     for (const ShadingMaterial& material : Materials()) {
       for (const Lit* on : {&front, &limb, &behind}) {
-        CheckRange(material, *on, 0, kSphereHits);
-        CheckRange(material, *on, 77, 900);
-        CheckRange(material, *on, 700, 701);
+        ShadeScratch scratch;
+        ReflectedRadiance all;
+        ShadeRun(material, {on->hits, on->surface, on->light, &on->on_hits}, 0, kSphereHits,
+                 &scratch, &all);
+        CheckRange(material, *on, all, 77, 900);
+        CheckRange(material, *on, all, 700, 701);
       }
     }
   });

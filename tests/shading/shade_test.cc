@@ -89,9 +89,8 @@ struct Batch {
   }
   void Shade(const ShadingMaterial& material, size_t begin, size_t end,
              ReflectedRadiance* radiance) {
-    const LightOnBatch on_hits{&light, &evaluated};
     PrepareRun(material, begin, end, &surface);
-    ShadeRun(material, {hits, surface, {&on_hits, 1}}, begin, end, &scratch, radiance);
+    ShadeRun(material, {hits, surface, light, &evaluated}, begin, end, &scratch, radiance);
   }
 };
 
@@ -305,90 +304,6 @@ TEST_CASE("a hit's bits do not depend on its place in the batch or the run") {
   });
 }
 
-TEST_CASE("lights leave the same bits taken together, one by one, in place or evaluated before") {
-  const FlushDenormals flush;
-  std::vector<Material> materials = MicrofacetMaterials(0.05);
-  for (const Material& material : MicrofacetMaterials(0.4)) materials.push_back(material);
-  for (const MaterialModel& model : MaterialModels()) materials.push_back(model.make());
-  const ShadingLight point = PrepareLight(MakeLight("point"), {0, 0, 0});
-  const ShadingLight sun = PrepareLight(MakeLight("directional"), {0, 0, 0});
-  REQUIRE((EvaluatedInPlace(point) && EvaluatedInPlace(sun)));
-  std::vector<LightOnBatch> lights;  // more than one call of a kernel takes
-  for (int i = 0; i < 20; ++i) lights.push_back({i % 3 == 0 ? &sun : &point, nullptr});
-  ForEachTarget([&](Target) {
-    Batch batch(MakeLight("point"));
-    LightBatch evaluated_point, evaluated_sun;
-    EvaluateLight(point, batch.hits, batch.surface, &evaluated_point);
-    EvaluateLight(sun, batch.hits, batch.surface, &evaluated_sun);
-    for (const Material& material : materials) {
-      const ShadingMaterial prepared = Prepare(material);
-      PrepareRun(prepared, 0, kHits, &batch.surface);
-      const auto shade = [&](std::span<const LightOnBatch> some, ReflectedRadiance* radiance) {
-        ShadeRun(prepared, {batch.hits, batch.surface, some}, 0, kHits, &batch.scratch, radiance);
-      };
-      ReflectedRadiance together, single;
-      shade(lights, &together);
-      for (LightOnBatch light : lights) {
-        light.evaluated = light.light == &sun ? &evaluated_sun : &evaluated_point;
-        shade({&light, 1}, &single);
-      }
-      for (size_t i = 0; i < kHits; ++i) {
-        REQUIRE(At(together.diffuse, i) == At(single.diffuse, i));
-        REQUIRE(At(together.specular, i) == At(single.specular, i));
-      }
-    }
-  });
-}
-
-// Under one light.
-ReflectedRadiance ShadeWith(const ShadingMaterial& material, OutputMode output, Batch* batch) {
-  ReflectedRadiance radiance;
-  for (Soa3<float>* soa : {&radiance.diffuse, &radiance.specular, &radiance.sum}) {
-    for (size_t i = 0; i < kHits; ++i) soa->x[i] = soa->y[i] = soa->z[i] = NAN;
-  }
-  if (output == OutputMode::kAccumulate) ClearRadiance(kHits, &radiance);
-  const LightOnBatch light{&batch->light, nullptr};
-  PrepareRun(material, 0, kHits, &batch->surface);
-  ShadeRun(material, {batch->hits, batch->surface, {&light, 1}, nullptr, output}, 0, kHits,
-           &batch->scratch, &radiance);
-  return radiance;
-}
-
-// `sum` rounds what is added to the diffuse part once, in place of the specular part and then their
-// sum: half an ulp of the result, and of the specular part, is what they may differ by.
-bool IsSumOf(float diffuse, float specular, float sum) {
-  const double ulp = std::nextafter(std::max(specular, sum), INFINITY) - std::max(specular, sum);
-  return std::abs(double{diffuse} + double{specular} - double{sum}) <= ulp;
-}
-
-TEST_CASE(
-    "the reflection of one light has the same bits as components, as their sum, and as both") {
-  const FlushDenormals flush;
-  std::vector<Material> materials = MicrofacetMaterials(0.05);
-  for (const Material& material : MicrofacetMaterials(0.4)) materials.push_back(material);
-  for (const MaterialModel& model : MaterialModels()) materials.push_back(model.make());
-  ForEachTarget([&](Target) {
-    Batch batch(MakeLight("point"));
-    for (const Material& material : materials) {
-      const ShadingMaterial prepared = Prepare(material);
-      const ReflectedRadiance added = ShadeWith(prepared, OutputMode::kAccumulate, &batch);
-      const ReflectedRadiance parts = ShadeWith(prepared, OutputMode::kOverwrite, &batch);
-      const ReflectedRadiance both = ShadeWith(prepared, OutputMode::kComponentsAndSum, &batch);
-      const ReflectedRadiance sum = ShadeWith(prepared, OutputMode::kSum, &batch);
-      for (size_t i = 0; i < kHits; ++i) {
-        REQUIRE(At(parts.diffuse, i) == At(added.diffuse, i));
-        REQUIRE(At(parts.specular, i) == At(added.specular, i));
-        REQUIRE(At(both.diffuse, i) == At(added.diffuse, i));
-        REQUIRE(At(both.specular, i) == At(added.specular, i));
-        REQUIRE(At(both.sum, i) == At(sum.sum, i));
-        REQUIRE(IsSumOf(parts.diffuse.x[i], parts.specular.x[i], sum.sum.x[i]));
-        REQUIRE(IsSumOf(parts.diffuse.y[i], parts.specular.y[i], sum.sum.y[i]));
-        REQUIRE(IsSumOf(parts.diffuse.z[i], parts.specular.z[i], sum.sum.z[i]));
-      }
-    }
-  });
-}
-
 // Two layers of different kinds of cloth over a lobe and its base.
 ShadingMaterial UnderTwoLayers() {
   MetallicRoughnessMaterial base;
@@ -412,13 +327,8 @@ TEST_CASE("each of several layers covers those below it, as the scalar material 
       const Light light = MakeLight(kind);
       Batch batch(light);
       const ReflectedRadiance got = Shade(material, light);
-      const ReflectedRadiance overwritten = ShadeWith(material, OutputMode::kOverwrite, &batch);
-      const ReflectedRadiance sum = ShadeWith(material, OutputMode::kSum, &batch);
       size_t lit = 0;
       for (size_t i = 0; i < kHits; ++i) {
-        REQUIRE(At(overwritten.diffuse, i) == At(got.diffuse, i));
-        REQUIRE(At(overwritten.specular, i) == At(got.specular, i));
-        REQUIRE(IsSumOf(got.diffuse.x[i], got.specular.x[i], sum.sum.x[i]));
         const Vec3d n = At(batch.hits.normal, i);
         const Incident in = Illuminate(light, At(batch.hits.position, i));
         if ((n ^ in.to_light) < 0.01) continue;

@@ -89,7 +89,7 @@ void PrintHits() {
       for (uint32_t i = 0; i < kBatchCapacity; ++i) {
         if (closest.primitive[i] != kNoPrimitive) found.push_back(i);
       }
-      intersector.Refine(rays, closest, found.data(), found.size(), {&hits, &rounded, true, true});
+      intersector.Refine(rays, closest, found.data(), found.size(), {&hits, &rounded, true});
       std::vector<Hit> got(kBatchCapacity);
       for (size_t i = 0; i < found.size(); ++i) {
         got[found[i]] = {true, Vec3d(hits.normal.x[i], hits.normal.y[i], hits.normal.z[i])};

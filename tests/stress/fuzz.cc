@@ -29,7 +29,6 @@ static_assert(kHits + 16 <= kBatchCapacity);
 // A batch and what is reflected of it.
 struct Placement {
   std::array<size_t, kHits> place;  // of each hit in the batch
-  bool in_place;                    // the light, where that can be
   HitBatch hits;
   Surface surface;
   ShadingLight light;
@@ -63,16 +62,15 @@ void Fill(const std::vector<Drawn>& drawn, const Light& light, Placement* p) {
 void Shade(const ShadingMaterial& material, const Rgb& color, size_t begin, size_t end,
            Placement* p) {
   p->light.color = color;
-  const bool in_place = p->in_place && EvaluatedInPlace(p->light);
-  const LightOnBatch on_hits{&p->light, in_place ? nullptr : &p->evaluated};
   PrepareRun(material, begin, end, &p->surface);
-  ShadeRun(material, {p->hits, p->surface, {&on_hits, 1}}, begin, end, &p->scratch, &p->radiance);
+  ShadeRun(material, {p->hits, p->surface, p->light, &p->evaluated}, begin, end, &p->scratch,
+           &p->radiance);
 }
 
 // The bits of a hit's radiance.
 std::array<uint32_t, 6> BitsOf(const Placement& p, size_t hit) {
   const size_t i = p.place[hit];
-  const auto& [diffuse, specular, sum] = p.radiance;
+  const auto& [sum, diffuse, specular] = p.radiance;
   return {std::bit_cast<uint32_t>(diffuse.x[i]),  std::bit_cast<uint32_t>(diffuse.y[i]),
           std::bit_cast<uint32_t>(diffuse.z[i]),  std::bit_cast<uint32_t>(specular.x[i]),
           std::bit_cast<uint32_t>(specular.y[i]), std::bit_cast<uint32_t>(specular.z[i])};
@@ -111,8 +109,6 @@ class ChunkFuzz {
       hit = {-d.to_light * DrawDistance(&random_), d.normal, d.to_view};
     }
     const size_t first = random_.Below(17);
-    ordered_.in_place = false;
-    moved_.in_place = true;
     for (size_t i = 0; i < kHits; ++i) {
       ordered_.place[i] = i;
       moved_.place[i] = first + kHits - 1 - i;

@@ -37,8 +37,7 @@ Vec3d Reflect(const Material& material, const Rgb& color, const Point& point, bo
   ShadeScratch scratch;
   const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
   PrepareRun(prepared, 0, 1, &surface);
-  const LightOnBatch on_hit{&light, &batch};
-  ShadeRun(prepared, {hits, surface, {&on_hit, 1}}, 0, 1, &scratch, &radiance);
+  ShadeRun(prepared, {hits, surface, light, &batch}, 0, 1, &scratch, &radiance);
   const Soa3<float>& part = specular ? radiance.specular : radiance.diffuse;
   return {part.x[0], part.y[0], part.z[0]};
 }

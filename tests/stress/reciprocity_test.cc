@@ -91,9 +91,8 @@ void CheckReciprocal(const Material& material, BothSides* sides, double bound, d
   for (Side* side : {&sides->there, &sides->back}) {
     ClearRadiance(kHits, &side->radiance);
     PrepareRun(prepared, 0, kHits, &side->surface);
-    const LightOnBatch on_hits{&light, &side->evaluated};
-    ShadeRun(prepared, {side->hits, side->surface, {&on_hits, 1}}, 0, kHits, &side->scratch,
-             &side->radiance);
+    ShadeRun(prepared, {side->hits, side->surface, light, &side->evaluated}, 0, kHits,
+             &side->scratch, &side->radiance);
   }
   const ReflectedRadiance& there = sides->there.radiance;
   const ReflectedRadiance& back = sides->back.radiance;

@@ -325,7 +325,7 @@ TEST_CASE("padding repeats the last hit") {
   ClosestHits closest;
   HitBatch hits;
   HitDirections rounded;
-  const HitOutput to{&hits, &rounded, true, true};
+  const HitOutput to{&hits, &rounded, true};
   rays.count = 20;
   for (size_t i = 0; i < rays.count; ++i) {
     SetRay({Vec3d(0), Vec3d(random.Uniform(-0.1, 0.1), 0, -1)}, i, &rays);

@@ -227,7 +227,7 @@ void HitTile(const CameraFrame& frame, const FilmBatch& film, Intersector* inter
   TileCandidates candidates;
   if (!intersector->EnterTile(kTile, TileRays::kSamples, &candidates)) return;
   HitDirections rounded;
-  intersector->HitsInTile(candidates, film, {hits, &rounded, true, true});
+  intersector->HitsInTile(candidates, film, {hits, &rounded, true});
 }
 
 TEST_CASE("tiles hit what the scalar twins hit, on every target") {
@@ -289,8 +289,7 @@ TEST_CASE("camera rays by Embree have all bits of the tiles' hits, on every targ
         if (closest.primitive[i] != kNoPrimitive) found.push_back(i);
       }
       REQUIRE(found.size() == by_tiles.count);
-      intersector.Refine(rays, closest, found.data(), found.size(),
-                         {&by_embree, &rounded, true, true});
+      intersector.Refine(rays, closest, found.data(), found.size(), {&by_embree, &rounded, true});
       for (size_t i = 0; i < found.size(); ++i) {
         const uint32_t ray = found[i], primitive = by_embree.primitive[i];
         REQUIRE(by_tiles.ray[i] == ray);

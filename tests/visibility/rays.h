@@ -89,8 +89,7 @@ inline std::vector<Surface> TraceSurfaces(const Intersector& intersector,
     for (uint32_t i = 0; i < batch.count; ++i) {
       if (closest.primitive[i] != kNoPrimitive) indices.push_back(i);
     }
-    intersector.Refine(batch, closest, indices.data(), indices.size(),
-                       {&hits, &rounded, true, true});
+    intersector.Refine(batch, closest, indices.data(), indices.size(), {&hits, &rounded, true});
     for (size_t i = 0; i < hits.count; ++i) {
       surfaces.push_back(
           {hits.primitive[i], At(hits.position, i), At(hits.normal, i), At(hits.to_view, i)});

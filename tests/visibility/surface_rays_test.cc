@@ -39,8 +39,7 @@ std::vector<Arrival> Follow(const Intersector& intersector, const std::vector<Su
       if (closest.primitive[i] != kNoPrimitive) indices.push_back(i);
     }
     if (!indices.empty()) {
-      intersector.Refine(batch, closest, indices.data(), indices.size(),
-                         {&hits, &rounded, true, true});
+      intersector.Refine(batch, closest, indices.data(), indices.size(), {&hits, &rounded, true});
     }
     size_t next = 0;
     for (size_t i = 0; i < batch.count; ++i) {
