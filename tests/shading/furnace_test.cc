@@ -75,47 +75,52 @@ std::vector<Direction> SampleDirections(const Vec3d& to_view, double alpha) {
   return directions;
 }
 
-// What the material reflects of a radiance of 1 from everywhere, of each channel.
-Rgb Furnace(const Material& material, const Vec3d& to_view,
-            const std::vector<Direction>& directions) {
-  const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
-  HitBatch hits;
-  Surface surface;
-  const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
-  LightBatch evaluated;
-  ShadeScratch scratch;
-  hits.count = kBatchCapacity;
-  for (size_t i = 0; i < kBatchCapacity; ++i) {
-    hits.normal.z[i] = 1;
-    hits.to_view.x[i] = to_view.x;
-    hits.to_view.z[i] = to_view.z;
-  }
-  PrepareSurface(hits, &surface);
-  PrepareRun(prepared, 0, hits.count, &surface);
-  Rgb sum(0, 0, 0);
-  for (size_t first = 0; first < directions.size(); first += kBatchCapacity) {
-    for (size_t i = 0; i < kBatchCapacity; ++i) {
-      const auto& [l, weight] = directions[first + i];
-      hits.position.x[i] = -l.x;
-      hits.position.y[i] = -l.y;
-      hits.position.z[i] = -l.z;
-      evaluated.to_light.x[i] = static_cast<float>(l.x);
-      evaluated.to_light.y[i] = static_cast<float>(l.y);
-      evaluated.to_light.z[i] = static_cast<float>(l.z);
-      evaluated.inverse_length[i] = 1;
-      evaluated.irradiance[i] = static_cast<float>(weight);
+// Hits that are all seen from one direction, each under a light of its own. Many materials are held
+// to one furnace.
+class LitFurnace {
+ public:
+  LitFurnace(const Vec3d& to_view, double alpha) {
+    const std::vector<Direction> directions = SampleDirections(to_view, alpha);
+    for (size_t first = 0; first < directions.size(); first += kBatchCapacity) {
+      HitBatch& hits = hits_.emplace_back();
+      LightBatch& light = light_.emplace_back();
+      hits.count = kBatchCapacity;
+      for (size_t i = 0; i < kBatchCapacity; ++i) {
+        const auto& [l, weight] = directions[first + i];
+        hits.normal.z[i] = 1;
+        SetVector(to_view, i, &hits.to_view);
+        SetVector(-l, i, &hits.position);
+        SetVector(l, i, &light.to_light);
+        light.inverse_length[i] = 1;
+        light.irradiance[i] = static_cast<float>(weight);
+      }
     }
-    ReflectedRadiance radiance;
-    ClearRadiance(kBatchCapacity, &radiance);
-    ShadeRun(prepared, {hits, surface, light, &evaluated}, 0, kBatchCapacity, &scratch, &radiance);
-    for (size_t i = 0; i < kBatchCapacity; ++i) {
-      sum += Rgb(double{radiance.diffuse.x[i]} + radiance.specular.x[i],
-                 double{radiance.diffuse.y[i]} + radiance.specular.y[i],
-                 double{radiance.diffuse.z[i]} + radiance.specular.z[i]);
-    }
+    PrepareSurface(hits_[0], &surface_);
   }
-  return sum;
-}
+
+  // What the material reflects of a radiance of 1 from everywhere, of each channel.
+  Rgb Reflected(const Material& material) {
+    const ShadingMaterial prepared = PrepareMaterial(material, Rgb(0));
+    const ShadingLight light{.color = Rgb(1)};  // at the origin, and the hits around it
+    PrepareRun(prepared, 0, kBatchCapacity, &surface_);
+    Rgb sum(0, 0, 0);
+    for (size_t k = 0; k < hits_.size(); ++k) {
+      ShadeRun(prepared, {hits_[k], surface_, light, &light_[k]}, 0, kBatchCapacity, &scratch_,
+               &radiance_);
+      for (size_t i = 0; i < kBatchCapacity; ++i) {
+        sum += VectorAt(radiance_.diffuse, i) + VectorAt(radiance_.specular, i);
+      }
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<HitBatch> hits_;
+  std::vector<LightBatch> light_;
+  Surface surface_;
+  ShadeScratch scratch_;
+  ReflectedRadiance radiance_;
+};
 
 Material White(double metallic, double roughness, Shadowing shadowing, Compensation compensation) {
   Material material;
@@ -149,22 +154,19 @@ TEST_CASE("a white furnace stays white at every roughness and angle") {
        {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0}) {
     for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.05, 0.1, 0.3, 0.6, 1.0}) {
       const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
-      const auto directions = SampleDirections(to_view, AlphaFromRoughness(roughness));
+      LitFurnace furnace(to_view, AlphaFromRoughness(roughness));
       for (const Shadowing shadowing : {Shadowing::kHeightCorrelated, Shadowing::kSeparable,
                                         Shadowing::kSchlickDirect, Shadowing::kSchlickIbl}) {
         for (const Compensation compensation :
              {Compensation::kTurquin, Compensation::kKullaConty}) {
           CAPTURE(roughness, n_dot_v, static_cast<int>(shadowing), static_cast<int>(compensation));
-          const double metal =
-              Furnace(White(1, roughness, shadowing, compensation), to_view, directions).y;
+          const double metal = furnace.Reflected(White(1, roughness, shadowing, compensation)).y;
           CHECK(std::abs(metal - 1) <= 1e-3);
           metal_error = std::max(metal_error, std::abs(metal - 1));
           for (const DielectricFresnel fresnel :
                {DielectricFresnel::kExact, DielectricFresnel::kSchlick}) {
             const double white =
-                Furnace(WhiteDielectric(roughness, fresnel, shadowing, compensation), to_view,
-                        directions)
-                    .y;
+                furnace.Reflected(WhiteDielectric(roughness, fresnel, shadowing, compensation)).y;
             CHECK(white >= 0.999);
             CHECK(white <= 1.0001);
             least = std::min(least, white);
@@ -184,17 +186,17 @@ TEST_CASE("a white furnace stays white at every metallic") {
   for (const double roughness : {0.01, 0.1, 0.3, 0.6, 1.0}) {
     for (const double n_dot_v : {1e-4, 0.01, 0.1, 0.4, 1.0}) {
       const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
-      const auto directions = SampleDirections(to_view, AlphaFromRoughness(roughness));
+      LitFurnace furnace(to_view, AlphaFromRoughness(roughness));
       const auto check = [&](double metallic, Shadowing shadowing, Compensation compensation) {
         CAPTURE(roughness, n_dot_v, metallic, static_cast<int>(shadowing),
                 static_cast<int>(compensation));
         Material material = White(metallic, roughness, shadowing, compensation);
-        CHECK(std::abs(Furnace(material, to_view, directions).y - 1) <= 1e-3);
+        CHECK(std::abs(furnace.Reflected(material).y - 1) <= 1e-3);
         // Whatever the dielectric's gloss: twice the index of glass, and half the gloss.
         auto& model = std::get<MetallicRoughnessMaterial>(material.model);
         model.dielectric_f0 = Rgb(0.25);
         model.specular = 0.5;
-        CHECK(std::abs(Furnace(material, to_view, directions).y - 1) <= 1e-3);
+        CHECK(std::abs(furnace.Reflected(material).y - 1) <= 1e-3);
       };
       for (const double metallic : {0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0}) {
         check(metallic, Shadowing::kHeightCorrelated, Compensation::kTurquin);
@@ -216,12 +218,12 @@ TEST_CASE("a white furnace stays white for a half metal on every target") {
     for (const double roughness : {0.05, 0.5, 1.0}) {
       for (const double n_dot_v : {0.01, 0.3, 1.0}) {
         const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
-        const auto directions = SampleDirections(to_view, AlphaFromRoughness(roughness));
+        LitFurnace furnace(to_view, AlphaFromRoughness(roughness));
         for (const Compensation compensation :
              {Compensation::kTurquin, Compensation::kKullaConty}) {
           CAPTURE(roughness, n_dot_v, static_cast<int>(compensation));
           const Material half = White(0.5, roughness, Shadowing::kHeightCorrelated, compensation);
-          CHECK(std::abs(Furnace(half, to_view, directions).y - 1) <= 1e-3);
+          CHECK(std::abs(furnace.Reflected(half).y - 1) <= 1e-3);
         }
       }
     }
@@ -237,7 +239,7 @@ TEST_CASE("white Oren-Nayar surfaces reflect all light, and Burley's what is kno
     Material material;
     material.model = std::move(model);
     const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
-    return Furnace(material, to_view, SampleDirections(to_view, 1)).y;
+    return LitFurnace(to_view, 1).Reflected(material).y;
   };
   for (const double roughness : {0.0, 0.2, 0.5, 1.0}) {
     for (const double n_dot_v : {1e-4, 1e-3, 0.01, 0.1, 0.3, 0.6, 1.0}) {
@@ -261,11 +263,11 @@ TEST_CASE("the base below a perfect mirror gets what the mirror leaves") {
   for (const double n_dot_v : {1e-4, 0.01, 0.1, 0.5, 1.0}) {
     CAPTURE(n_dot_v);
     const Vec3d to_view(std::sqrt(1 - n_dot_v * n_dot_v), 0, n_dot_v);
-    const auto directions = SampleDirections(to_view, 1);
+    LitFurnace furnace(to_view, 1);
     const Material glass = WhiteDielectric(0, DielectricFresnel::kExact,
                                            Shadowing::kHeightCorrelated, Compensation::kTurquin);
     const double mirror = FresnelDielectric(n_dot_v, 1 - n_dot_v, 1.5);
-    CHECK(Furnace(glass, to_view, directions).y + mirror == Approx(1).margin(1e-4));
+    CHECK(furnace.Reflected(glass).y + mirror == Approx(1).margin(1e-4));
   }
 }
 
