@@ -175,8 +175,9 @@ class CsvReader {
       const std::string_view line = text_.substr(0, text_.find('\n'));
       text_.remove_prefix(std::min(line.size() + 1, text_.size()));
       ++line_;
-      const size_t first = line.find_first_not_of(" \t\r");
-      if (first == std::string_view::npos || line[first] == '#') continue;
+      std::string_view rest = line;
+      const std::string_view word = NextWord(&rest);
+      if (word.empty() || word[0] == '#') continue;
       Split(line);
       return true;
     }

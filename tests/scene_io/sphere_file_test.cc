@@ -85,6 +85,20 @@ TEST_CASE("tables of spheres are read however they are written") {
   CHECK(SpheresOf("a.csv", "1,2,3").size() == 1);
 }
 
+TEST_CASE("lines of any blanks in a table of spheres are empty") {
+  for (const std::string& blank :
+       std::vector<std::string>{"\v", "\f", " \t\v\f\r", "\v# of a comment"}) {
+    for (const char* before : {"", "x y z radius material\n"}) {
+      const std::string row = "1 2 3 .5 0\n";
+      const std::vector<Sphere> spheres =
+          SpheresOf("a.csv", blank + '\n' + before + row + blank + '\n' + row + blank);
+      REQUIRE(spheres.size() == 2);
+      CHECK((Is(spheres[0], {1, 2, 3}, 0.5, 1) && Is(spheres[1], {1, 2, 3}, 0.5, 1)));
+    }
+    CHECK(RefusesTable(blank, "a.csv: has no rows"));
+  }
+}
+
 TEST_CASE("matrices of NumPy are read in both orders and sizes") {
   const std::vector<double> rows = {1, 2, 3, 0.5, 0, -4, 5e3, 0.25, 2, 1};
   const std::vector<double> columns = {1, -4, 2, 5e3, 3, 0.25, 0.5, 2, 0, 1};
