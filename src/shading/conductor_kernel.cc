@@ -18,7 +18,7 @@ void ShadeConductorT(const MicrofacetUniforms<float>& uniforms, const ShadeRange
 
 // Of materials with maps.
 void ShadeConductorMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacetMaps<FresnelForm::kConductor>(uniforms, range);
+  ShadeMicrofacet<FresnelForm::kConductor>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -18,7 +18,7 @@ void ShadeDielectricT(const MicrofacetUniforms<float>& uniforms, const ShadeRang
 
 // Of materials with maps.
 void ShadeDielectricMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacetMaps<FresnelForm::kDielectric>(uniforms, range);
+  ShadeMicrofacet<FresnelForm::kDielectric>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

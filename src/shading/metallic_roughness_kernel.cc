@@ -23,11 +23,11 @@ void ShadeF82T(const MicrofacetUniforms<float>& uniforms, const ShadeRange& rang
 
 // Of materials with maps.
 void ShadeSchlickMapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacetMaps<FresnelForm::kSchlick>(uniforms, range);
+  ShadeMicrofacet<FresnelForm::kSchlick>(uniforms, range);
 }
 
 void ShadeF82MapsT(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacetMaps<FresnelForm::kF82>(uniforms, range);
+  ShadeMicrofacet<FresnelForm::kF82>(uniforms, range);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // shading/microfacet_curve-inl.h: what a Fresnel curve makes of light: the part that a lobe
-// reflects, and the part that it leaves for a base under it; and the forms of the kernels that are
-// made of them (microfacet_kernel-inl.h).
+// reflects, and the part that it leaves for a base under it.
 #if defined(NACRE_SHADING_MICROFACET_CURVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef NACRE_SHADING_MICROFACET_CURVE_INL_H_
 #undef NACRE_SHADING_MICROFACET_CURVE_INL_H_
@@ -17,40 +16,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
-
-// The kernel of microfacet models is compiled several times. A SpecializedForm is for runs whose
-// hits share one wide lobe over Lambert's base, with one shadowing that is known at compile time.
-// `kIsPrepared`: PrepareMicrofacet has computed, for each hit, multiple scattering or the share
-// that the lobe's albedo leaves to the base. `kIsDefault`: the material has the default coupling
-// and compensation. Prepared, this is Turquin's compensation over a base that is scaled by what the
-// lobe's albedo leaves; not prepared, no compensation, and a base that is scaled by 1 - F of a
-// Schlick curve with an F90 of 1.
-template <Shadowing kShadowing, bool kIsPrepared, bool kIsDefault>
-struct SpecializedForm {
-  static constexpr bool kSpecialized = true;
-  static constexpr bool kPrepared = kIsPrepared;
-  static constexpr bool kDefault = kIsDefault;
-  static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel&) { return kShadowing; }
-};
-// For all models: it looks at the model's settings at each packet.
-struct GeneralForm {
-  static constexpr bool kSpecialized = false;
-  static constexpr bool kPrepared = true;
-  static constexpr bool kDefault = false;
-  static HWY_INLINE Shadowing ShadowingOf(const MicrofacetModel& model) { return model.shadowing; }
-};
-
-template <class Form>
-HWY_INLINE DiffuseCoupling CouplingOf(const MicrofacetModel& model) {
-  if constexpr (!Form::kDefault) return model.coupling;
-  return Form::kPrepared ? DiffuseCoupling::kAlbedoScaled : DiffuseCoupling::kOneMinusFresnel;
-}
-
-template <class Form>
-HWY_INLINE Compensation CompensationOf(const MicrofacetModel& model) {
-  if constexpr (!Form::kDefault) return model.compensation;
-  return Form::kPrepared ? Compensation::kTurquin : Compensation::kNone;
-}
 
 // Angles and lengths of the half vector that the curves are functions of.
 struct HalfV {
@@ -139,21 +104,16 @@ HWY_INLINE RgbV TurquinTerm(FloatTag d, const MixedCurveV& curve, size_t i,
 
 // What the base gets of the light, times its colour and `weight`: all, or 1 - F of it
 // (DiffuseCoupling::kOneMinusFresnel), which is (1 - F0) (1 - W) + (1 - F90) W by Schlick.
-template <class Form, class Number>
+template <class Number>
 HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
                              const MicrofacetModel& model, const MicrofacetLight<Number>& light,
                              FloatV weight) {
-  const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
-  if constexpr (Form::kDefault) {
-    return ScaledPart(RgbAt(d, light.diffuse_normal, i),
-                      coupled ? hn::NegMulAdd(weight, curve.weight, weight) : weight);
-  }
-  // The same bits where F90 is 1. Vectors, not structs, are what the branch chooses: GCC takes a
-  // struct that it chooses through memory.
+  // Vectors, not structs, are what the branch chooses: GCC takes a struct that it chooses through
+  // memory.
   FloatV r = NumberAt(d, light.diffuse_normal[0], i);
   FloatV g = NumberAt(d, light.diffuse_normal[1], i);
   FloatV b = NumberAt(d, light.diffuse_normal[2], i);
-  if (coupled) {
+  if (model.coupling == DiffuseCoupling::kOneMinusFresnel) {
     const FloatV rest = hn::NegMulAdd(weight, curve.weight, weight);
     const FloatV rise = hn::Mul(weight, curve.weight);
     r = hn::MulAdd(NumberAt(d, light.diffuse_grazing[0], i), rise, hn::Mul(r, rest));
@@ -163,10 +123,10 @@ HWY_INLINE PartV LeftForBase(FloatTag d, const SchlickCurveV& curve, size_t i,
   }
   return ScaledPart({r, g, b}, weight);
 }
-template <class Form, class Curve, class Number>
+template <class Curve, class Number>
 HWY_INLINE PartV LeftForBase(FloatTag d, const Curve& curve, size_t i, const MicrofacetModel& model,
                              const MicrofacetLight<Number>& light, FloatV weight) {
-  const bool coupled = CouplingOf<Form>(model) == DiffuseCoupling::kOneMinusFresnel;
+  const bool coupled = model.coupling == DiffuseCoupling::kOneMinusFresnel;
   // The exact curves may round to just above 1 at grazing angles.
   const auto left = [&](FloatV fresnel, size_t c) HWY_ATTR {
     FloatV all = NumberAt(d, light.diffuse[c], i);

@@ -21,7 +21,7 @@ HWY_BEFORE_NAMESPACE();
 namespace nacre {
 namespace HWY_NAMESPACE {
 
-template <FresnelForm kFresnel, class Form, class Number>
+template <FresnelForm kFresnel, class Number>
 struct Microfacet {
   using Incident = HalfIncidentV;
   static constexpr bool kSame = std::is_same_v<Number, float>;  // for all hits
@@ -41,7 +41,7 @@ struct Microfacet {
   // The denominator of the visibility times `scale`.
   HWY_INLINE FloatV Masking(FloatTag d, const PacketV& p, const Incident& in, FloatV scale) const {
     const FloatV alpha = NumberAt(d, uniforms.alpha, p.i);
-    switch (Form::ShadowingOf(model)) {
+    switch (model.shadowing) {
       case Shadowing::kHeightCorrelated:
         return VisibilityDenominatorHeightCorrelated(d, in.n_dot_l, in.n_dot_v, alpha, scale);
       case Shadowing::kSeparable:
@@ -57,8 +57,7 @@ struct Microfacet {
   // Distribution, visibility, cosine and irradiance.
   HWY_INLINE FloatV Lobe(FloatTag d, const PacketV& p, const Incident& in,
                          FloatV twice_u_length) const {
-    if (!Form::kSpecialized && kSame && uniforms.sharp_distribution != nullptr)
-      return SharpLobe(d, p, in);
+    if (kSame && uniforms.sharp_distribution != nullptr) return SharpLobe(d, p, in);
     const FloatV q = GgxRootDenominator(d, in.half, NumberAt(d, uniforms.alpha, p.i));
     const FloatV masking = Masking(d, p, in, NumberAt(d, uniforms.pi_over_alpha2, p.i));
     // As a rule the square of |u|^2 is far from float's limits, and no root need be waited for.
@@ -75,7 +74,7 @@ struct Microfacet {
       const auto above = hn::Gt(in.half.n_dot_u, hn::Set(d, 0x1p-63f));
       wide = hn::IfThenElse(IsUpright(d, in.half), wide, hn::IfThenElseZero(above, of_short));
     }
-    if (Form::kSpecialized || kSame || uniforms.sharp_distribution == nullptr) return wide;
+    if (kSame || uniforms.sharp_distribution == nullptr) return wide;
     const auto is_sharp = hn::Ge(hn::LoadU(d, uniforms.sharp_distribution + p.i), hn::Zero(d));
     return hn::IfThenElse(is_sharp, SharpLobe(d, p, in), wide);
   }
@@ -105,18 +104,13 @@ struct Microfacet {
     const MicrofacetLight<Number>& light = uniforms.light;
     const HalfV half{in.half.lv_squared, TwiceSquareRoot(d, in.half.u_squared)};
     // Grazing light spreads by as much more as its weight is less: their product stays in range.
-    const bool spreads =
-        !Form::kSpecialized && kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
+    const bool spreads = kFresnel != FresnelForm::kConductor && uniforms.spread != nullptr;
     const FloatV base_weight = spreads ? hn::Set(d, 1.0f) : in.weight;
     const auto curve = EvaluateCurve<kFresnel>(d, half, p.i, uniforms);
     const FloatV lobe = Lobe(d, p, in, half.twice_u_length);
-    if constexpr (!Form::kPrepared) {
-      return {{LeftForBase<Form>(d, curve, p.i, model, light, in.weight)},
-              ScaledPart(ReflectedBy(d, curve, p.i, light), lobe)};
-    }
     PartV reflected = ScaledPart(ReflectedBy(d, curve, p.i, light), lobe);
-    PartV base = LeftForBase<Form>(d, curve, p.i, model, light, base_weight);
-    if (CompensationOf<Form>(model) == Compensation::kTurquin) {
+    PartV base = LeftForBase(d, curve, p.i, model, light, base_weight);
+    if (model.compensation == Compensation::kTurquin) {
       // The lobe first: a bright light's colour times the weight may be beyond float's range.
       const FloatV multiple = hn::LoadU(d, view.surface->multiple.data() + p.i);
       if constexpr (kIsMix) {
@@ -157,10 +151,10 @@ struct Microfacet {
   HWY_INLINE void Complete(FloatTag d, const View& view, size_t i, const IncidentV& in,
                            const MicrofacetLight<Number>& light, PartV* reflected,
                            RgbV* base) const {
-    const bool scaled = CouplingOf<Form>(model) == DiffuseCoupling::kAlbedoScaled;
+    const bool scaled = model.coupling == DiffuseCoupling::kAlbedoScaled;
     const Surface& surface = *view.surface;
     if (scaled) *base = MulRgb(*base, LoadRgb(d, surface.base, i));
-    if (CompensationOf<Form>(model) != Compensation::kKullaConty) return;
+    if (model.compensation != Compensation::kKullaConty) return;
     const FloatV multiple = hn::LoadU(d, surface.multiple.data() + i);
     const FloatV largest = hn::Set(d, std::numeric_limits<float>::max());
     const AlbedoV from_light = AlbedoAt(d, i, hn::Max(in.n_dot_l, hn::Zero(d)));
@@ -177,56 +171,9 @@ struct Microfacet {
   }
 };
 
-template <FresnelForm kFresnel, class Form, class Number>
-void ShadeMicrofacetForm(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& range) {
-  ShadePackets(FloatTag(), Microfacet<kFresnel, Form, Number>{uniforms, *uniforms.model}, range);
-}
-
-template <FresnelForm kFresnel, Shadowing kShadowing, bool kPrepared>
-void ShadeSpecializedMicrofacet(const MicrofacetUniforms<float>& uniforms,
-                                const ShadeRange& range) {
-  using Default = SpecializedForm<kShadowing, kPrepared, true>;
-  if constexpr (kFresnel == FresnelForm::kSchlick) {
-    const MicrofacetModel& model = *uniforms.model;
-    if (model.coupling == CouplingOf<Default>(model) &&
-        model.compensation == CompensationOf<Default>(model) && (kPrepared || model.f90 == 1)) {
-      return ShadeMicrofacetForm<kFresnel, Default>(uniforms, range);
-    }
-  }
-  ShadeMicrofacetForm<kFresnel, SpecializedForm<kShadowing, kPrepared, false>>(uniforms, range);
-}
-
-template <FresnelForm kFresnel, Shadowing kShadowing>
-void ShadeSpecializedMicrofacet(const MicrofacetUniforms<float>& uniforms,
-                                const ShadeRange& range) {
-  if (uniforms.model->prepared) {
-    ShadeSpecializedMicrofacet<kFresnel, kShadowing, true>(uniforms, range);
-  } else {
-    ShadeSpecializedMicrofacet<kFresnel, kShadowing, false>(uniforms, range);
-  }
-}
-
-template <FresnelForm kFresnel>
-void ShadeMicrofacet(const MicrofacetUniforms<float>& uniforms, const ShadeRange& range) {
-  if (uniforms.sharp_distribution != nullptr || uniforms.spread != nullptr) {
-    return ShadeMicrofacetForm<kFresnel, GeneralForm>(uniforms, range);
-  }
-  switch (uniforms.model->shadowing) {
-    case Shadowing::kHeightCorrelated:
-      return ShadeSpecializedMicrofacet<kFresnel, Shadowing::kHeightCorrelated>(uniforms, range);
-    case Shadowing::kSeparable:
-      return ShadeSpecializedMicrofacet<kFresnel, Shadowing::kSeparable>(uniforms, range);
-    case Shadowing::kSchlickDirect:
-    case Shadowing::kSchlickIbl:  // but for k, a number of the uniforms, the same
-      return ShadeSpecializedMicrofacet<kFresnel, Shadowing::kSchlickDirect>(uniforms, range);
-  }
-}
-
-// Hits with numbers of their own, of which looking up and rounding them is most of the work: one
-// kernel for all.
-template <FresnelForm kFresnel>
-void ShadeMicrofacetMaps(const MicrofacetUniforms<float*>& uniforms, const ShadeRange& range) {
-  ShadeMicrofacetForm<kFresnel, GeneralForm>(uniforms, range);
+template <FresnelForm kFresnel, class Number>
+void ShadeMicrofacet(const MicrofacetUniforms<Number>& uniforms, const ShadeRange& range) {
+  ShadePackets(FloatTag(), Microfacet<kFresnel, Number>{uniforms, *uniforms.model}, range);
 }
 
 }  // namespace HWY_NAMESPACE
