@@ -9,9 +9,9 @@
 namespace nacre {
 namespace {
 
-// The values of a layer: an array of floats and two constants, added in double, so that after
-// averaging each layer is rounded once, whatever weights cancel. The beauty never depends on which
-// layers are rendered.
+// The values of a layer: an array of floats and two constants, added in double. What the lights
+// leave of a sample is rounded to float, as kernels write it; the average of samples once more. The
+// beauty never depends on which layers are rendered.
 struct LayerValues {
   const Soa3<float>* values = nullptr;  // null: zeros
   Rgb constant{0, 0, 0}, constant2{0, 0, 0};
@@ -20,7 +20,7 @@ struct LayerValues {
   const Soa3<float>* emission = nullptr;
 };
 
-// The shown of a layer where maps give each hit its own ambient, emission and albedo.
+// The values of a layer where maps give each hit its own ambient, emission and albedo.
 LayerValues MappedValuesShown(const Layer& layer, const ShadedBatch& s) {
   switch (layer.kind) {
     case LayerKind::kBeauty: {

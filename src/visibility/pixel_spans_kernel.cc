@@ -291,7 +291,6 @@ void FindPixelSpans(const SphereBins& bins, TileCandidates* candidates) {
   GatherSpheres(*candidates, &outlines, in_front);
   HWY_DYNAMIC_DISPATCH(FindOutlineSpansT)
   (bins.projector, bins.sample_margin, tile, &outlines, of_outline);
-  candidates->single_sphere = outlines.count == 1 ? in_front[0] : nullptr;
   if (outlines.count == 1)
     return AppendSpansOfOutline(of_outline[0], in_front[0], tile, &candidates->spans);
   RowSpan row[kMaxOutlines];

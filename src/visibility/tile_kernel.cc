@@ -247,7 +247,6 @@ bool GatherTile(const TraceGeometry& geometry, const SphereBins& bins, const Cam
   for (std::vector<TileCandidate>& cell : candidates->cells) cell.clear();
   candidates->spheres = 0;
   candidates->spans.clear();
-  candidates->single_sphere = nullptr;
   // The cells of a row are consecutive.
   const uint32_t entries = bins.end[bins.Cell(last, row)] - bins.Begin(bins.Cell(first, row));
   if (entries == 0) return false;

@@ -47,9 +47,8 @@ struct TileCandidates {
   int first_column = 0;  // column of the first cell
   size_t spheres = 0;    // number of spheres, each counted once
   std::vector<std::vector<TileCandidate>> cells;
-  std::vector<ProjectedSphere> projected;        // what TileCandidate::projected points to
-  std::vector<PixelSpan> spans;                  // for kSamples, in the order of the pixels
-  const TileCandidate* single_sphere = nullptr;  // that of all spans, if the tile has one sphere
+  std::vector<ProjectedSphere> projected;  // what TileCandidate::projected points to
+  std::vector<PixelSpan> spans;            // for kSamples, in the order of the pixels
 };
 
 // Fills `candidates` for a tile that lies within one row of cells; false if there are none.
