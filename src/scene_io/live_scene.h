@@ -44,6 +44,9 @@ class LiveScene {
   // scene is then the one before.
   SceneParts Set(const std::string& pointer, const std::string& json);
 
+  // What is read: the tree of a scene file with all changes; of a model, these alone.
+  const Json& root() const { return root_; }
+
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }

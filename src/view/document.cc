@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/document.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/material_parameters.h"
+#include "scene_io/kept_files.h"
+#include "scene_io/material_json.h"
+#include "view/page_parts.h"
+
+namespace nacre {
+namespace {
+
+// Steps that can be undone. Each holds the values before and after it, which may be whole scenes.
+constexpr size_t kMaxSteps = 500;
+
+// The deepest value on the way to where `pointer` points that exists: the pointer itself, or that
+// of the object in which a member is going to be made.
+std::string ExistingPart(const Json& root, std::string pointer) {
+  while (!pointer.empty()) {
+    try {
+      if (root.contains(Json::json_pointer(pointer))) return pointer;
+    } catch (const Json::exception&) {  // no pointer: Set will say so
+    }
+    const size_t slash = pointer.rfind('/');
+    pointer.resize(slash == std::string::npos ? 0 : slash);
+  }
+  return pointer;
+}
+
+Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
+
+LoadOptions Watching(LoadOptions options, std::map<std::filesystem::path, std::string>* files) {
+  options.on_file = [files](const std::filesystem::path& file) { files->try_emplace(file); };
+  return options;
+}
+
+}  // namespace
+
+ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions& options)
+    : name_(path.filename().string()),
+      path_(path),
+      live_(path, Watching(options, &files_)),
+      original_(live_.root()) {
+  files_.try_emplace(path);
+  WatchFiles();
+}
+
+ViewDocument::ViewDocument(const LoadOptions& options)
+    : name_("material ball"),
+      live_(ViewFirstScene(), name_, std::filesystem::current_path(), options),
+      original_(live_.root()) {}
+
+void ViewDocument::UseImage(const ImageSettings& image) {
+  if (image == live_.scene().image) return;
+  live_.UseImage(image);
+  prepared_.versions.Change(ScenePart::kImage);
+}
+
+void ViewDocument::Put(const std::string& pointer, const Json& value) {
+  prepared_.versions.Change(live_.Set(pointer, JsonText(value)));
+}
+
+void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
+  const std::string place = ExistingPart(live_.root(), pointer);
+  Json before = live_.root().at(Json::json_pointer(place));
+  Put(pointer, value);
+  Json after = live_.root().at(Json::json_pointer(place));
+  future_.clear();
+  if (gesture != 0 && !past_.empty() && past_.back().gesture == gesture) {
+    std::vector<Change>& changes = past_.back().changes;
+    if (!changes.empty() && changes.back().pointer == place) {
+      changes.back().after = std::move(after);
+      return;
+    }
+    changes.push_back({place, std::move(before), std::move(after)});
+    return;
+  }
+  past_.push_back({gesture, {{place, std::move(before), std::move(after)}}});
+  if (past_.size() > kMaxSteps) past_.erase(past_.begin());
+}
+
+bool ViewDocument::Undo() {
+  if (past_.empty()) return false;
+  Step step = std::move(past_.back());
+  past_.pop_back();
+  for (auto change = step.changes.rbegin(); change != step.changes.rend(); ++change) {
+    Put(change->pointer, change->before);
+  }
+  future_.push_back(std::move(step));
+  return true;
+}
+
+bool ViewDocument::Redo() {
+  if (future_.empty()) return false;
+  Step step = std::move(future_.back());
+  future_.pop_back();
+  for (const Change& change : step.changes) Put(change.pointer, change.after);
+  past_.push_back(std::move(step));
+  return true;
+}
+
+bool ViewDocument::Reset() {
+  if (live_.root() == original_) return false;
+  Set("", original_, 0);
+  return true;
+}
+
+Json ViewDocument::Tree() const {
+  Json tree = live_.root();
+  if (!tree.is_object() || !IsModelFile(path_)) return tree;
+  Json& materials = tree["materials"];
+  for (const Material& material : scene().materials) {
+    if (ModelOf(material) == nullptr) continue;
+    Json whole = MaterialJson(material);
+    if (materials.contains(material.name)) whole.update(materials[material.name]);
+    materials[material.name] = std::move(whole);
+  }
+  return tree;
+}
+
+Json ViewDocument::Camera() const {
+  const nacre::Camera& camera = scene().camera;
+  const bool perspective = camera.projection == Projection::kPerspective;
+  Json json = {{"type", perspective ? "perspective" : "orthographic"},
+               {"position", PointJson(camera.position)},
+               {"look_at", PointJson(camera.look_at)},
+               {"up", PointJson(camera.up)}};
+  if (perspective) {
+    json["fov_y_deg"] = camera.fov_y_deg;
+  } else {
+    json["height"] = camera.height;
+  }
+  return json;
+}
+
+void ViewDocument::WatchFiles() {
+  for (auto& [file, key] : files_) key = KeyOfFile(file);
+}
+
+bool ViewDocument::FilesChanged() {
+  bool changed = false;
+  for (auto& [file, key] : files_) {
+    std::string now = KeyOfFile(file);
+    changed |= now != key;
+    key = std::move(now);
+  }
+  return changed;
+}
+
+}  // namespace nacre

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// view/html/page.js: the page: picture, panel, and what goes between them and the server.
+
+class View {
+  constructor() {
+    this.last = new Map();  // the serial of the newest own change, by pointer
+    this.scene = {};
+    const act = this.act = {
+      set: (pointer, value, gesture) => this.set(pointer, value, gesture),
+      look: (tone, exposure, layer) => this.connection?.send({look: tone, exposure, layer}),
+      samples: layer => this.connection.samples(layer),
+    };
+    this.panel = new Panel(act);
+    this.viewer = new LiveViewer(act);
+    this.status = el('span', {class: 'status', role: 'status'}, 'connecting…');
+    this.banner = el('div', {class: 'banner', role: 'alert', hidden: true});
+    this.name = el('h1', {}, 'nacre view');
+    const step = (what, label, text) => el('button', {'aria-label': label, title: label, disabled: true, onclick: () => this.history(what)}, text);
+    this.steps = {undo: step('undo', 'Undo', '↶'), redo: step('redo', 'Redo', '↷'), reset: step('reset', 'Reset everything', 'Reset')};
+    this.keep = el('button', {onclick: () => this.compare(), title: 'Keep this picture as A, and compare what follows with it'}, 'Keep as A');
+    this.drop = el('button', {hidden: true, onclick: () => this.dropA()}, 'Drop A');
+    document.body.append(el('main', {class: 'app'},
+        el('section', {class: 'picture', 'aria-label': 'Picture'},
+           el('div', {class: 'top'}, this.name, el('div', {class: 'row tight'}, Object.values(this.steps)), el('div', {class: 'row'}, this.keep, this.drop), this.status),
+           this.banner, this.viewer.element),
+        this.panel.element));
+    document.addEventListener('keydown', event => this.key(event));
+    this.connection = new Connection({text: message => this.received(message), frame: (head, bytes) => this.frame(head, bytes),
+                                      state: open => this.connected(open)});
+  }
+
+  connected(open) {
+    this.viewer.said = undefined;
+    if (open) {
+      this.last.clear();
+      this.viewer.pending = [];
+      // What this page shows is kept when the server comes back.
+      this.viewer.tell();
+    } else {
+      this.status.textContent = 'no connection: trying again…';
+    }
+  }
+
+  set(pointer, value, gesture) {
+    this.last.set(pointer, this.connection.set(pointer, value, gesture));
+    // A light's handle and its fields, the camera and its fields: the server's answer moves the others.
+  }
+  history(what) { this.connection.send({history: what}); }
+
+  received(message) {
+    if ('scene' in message) this.sceneIs(message);
+    else if ('changed' in message) this.changed(message);
+    else if ('fault' in message) this.fault(message);
+    if ('banner' in message) this.showBanner(message.banner);
+    if ('undo' in message) {
+      this.steps.undo.disabled = !message.undo;
+      this.steps.redo.disabled = !message.redo;
+      this.steps.reset.disabled = !message.undo;
+    }
+  }
+
+  sceneIs({scene, camera, name, layers, client}) {
+    if (client) this.client = client;
+    this.scene = scene;
+    this.name.textContent = name;
+    this.panel.build(scene, camera);
+    this.viewer.layersAre(layers);
+    this.viewer.hand.show(camera, scene.lights);
+  }
+
+  changed({changed, value, revision, client, serial, camera}) {
+    const mine = client === this.client;
+    if (mine) this.viewer.pending.push({serial, revision});
+    this.scene = this.panel.scene = putAt(this.scene, changed, value);
+    // A newer own value is on its way: this one would move the control back under the hand.
+    if (mine && serial < this.last.get(changed)) return;
+    this.panel.changed(changed, value, camera);
+    this.viewer.hand.show(camera, this.scene.lights);
+    if (!this.broken) this.showBanner('');
+  }
+
+  fault({fault, faults}) {
+    const text = faults.map(({what, hint}) => hint ? `${what}: ${hint}` : what).join('\n');
+    if (!this.panel.fault(fault, text)) {
+      this.showBanner(faults.map(({where, what, hint}) => `${where ? where + ': ' : ''}${what}${hint ? '\n  ' + hint : ''}`).join('\n'));
+    }
+  }
+  showBanner(text) {
+    this.banner.textContent = text;
+    this.banner.hidden = !text;
+  }
+
+  frame(head, bytes) {
+    this.viewer.frame(head, bytes);
+    const size = head.width === head.frameWidth ? `${head.width}×${head.height}` : `${head.width}×${head.height} of ${head.frameWidth}×${head.frameHeight}`;
+    this.status.textContent = `${head.samples} of ${head.ofSamples} samples · ${size} · ${show(head.renderUs / 1000, 3)} ms`;
+    this.keep.disabled = !head.done;
+  }
+
+  async compare() {
+    if (await this.viewer.keepA(structuredClone(this.scene))) this.drop.hidden = false;
+  }
+  dropA() {
+    this.viewer.dropA();
+    this.drop.hidden = true;
+  }
+
+  key(event) {
+    const typing = event.target.matches('input:not([type="range"]):not([type="checkbox"]), select');
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z' && !typing) {
+      event.preventDefault();
+      this.history(event.shiftKey ? 'redo' : 'undo');
+    }
+    if (typing || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    if (event.key === '/') { event.preventDefault(); this.panel.find.focus(); }
+    if (event.key === 'k') this.compare();
+    if (event.key === '?') showKeys();
+  }
+}
+
+const VIEW = new View();

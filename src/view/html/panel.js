@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// view/html/panel.js: a control for everything that the scene says, in the order of its parts.
+
+const MOST_SHAPES = 40;  // with controls; more are a cloud, and have none
+// Members that are no numbers to play with.
+const NO_CONTROLS = new Set(['$schema', 'nacre']);
+
+class Panel {
+  // `act`: {set(pointer, value, gesture)}
+  constructor(act) {
+    this.act = act;
+    this.scene = {};
+    this.controls = new Map();  // by pointer
+    this.find = el('input', {type: 'search', placeholder: 'Find a parameter ( / )', 'aria-label': 'Find a parameter', oninput: () => this.filter()});
+    this.list = el('div', {});
+    this.element = el('div', {class: 'panel', role: 'region', 'aria-label': 'Scene'}, el('div', {class: 'find'}, this.find), this.list);
+    this.open = new Map();  // whether a group is open, by pointer
+  }
+
+  // The scene is another, or has other members.
+  build(scene, camera) {
+    this.scene = scene;
+    this.camera = camera;
+    this.controls.clear();
+    const focused = document.activeElement?.closest?.('.control')?.dataset.pointer;
+    let first = true;  // the only group that is open by itself
+    const groups = [], group = (title, schema, value, pointer) => {
+      groups.push(this.group(title, schema, value, pointer, first));
+      first = false;
+    };
+    for (const [name, material] of Object.entries(scene.materials || {})) {
+      group(`Material ${name}`, {$ref: '#/$defs/material'}, material, `/materials/${token(name)}`);
+    }
+    (scene.shapes || []).slice(0, MOST_SHAPES).forEach((shape, i) => {
+      for (const [name, value] of Object.entries(shape)) {
+        if (name === 'material' && value && typeof value === 'object') {
+          group(`Material of ${shape.type} ${i + 1}`, {$ref: '#/$defs/material'}, value, `/shapes/${i}/material`);
+        }
+      }
+    });
+    for (const [name, light] of Object.entries(scene.lights || {})) {
+      group(`Light ${name}`, {$ref: '#/$defs/light'}, light, `/lights/${token(name)}`);
+    }
+    group('Camera', {$ref: '#/$defs/camera'}, camera, '/camera');
+    group('Picture', {$ref: '#/$defs/image'}, scene.image || {}, '/image');
+    const background = this.control('background', resolve(SCHEMA.properties.background), '/background');
+    groups.push(el('details', {}, el('summary', {}, 'Background'), background.element));
+    for (const [name, texture] of Object.entries(scene.textures || {})) {
+      group(`Texture ${name}`, {$ref: '#/$defs/texture'}, texture, `/textures/${token(name)}`);
+    }
+    (scene.shapes || []).slice(0, MOST_SHAPES).forEach((shape, i) => {
+      group(`Shape ${i + 1}`, {$ref: '#/$defs/shape'}, shape, `/shapes/${i}`);
+    });
+    this.list.replaceChildren(...groups);
+    this.show();
+    this.filter();
+    if (focused && this.controls.has(focused)) this.controls.get(focused).focus();
+  }
+
+  group(title, schema, value, pointer, open) {
+    const variant = variantOf(schema, value), telling = constOf(variant);
+    const details = el('details', {'data-group': pointer, open: this.open.get(pointer) ?? open,
+                                   ontoggle: () => { if (!this.find.value) this.open.set(pointer, details.open); }},
+                       el('summary', {}, title, telling ? el('span', {class: 'soft'}, String(telling[1]).replaceAll('_', ' ')) : null));
+    details.append(...this.members(schema, variant, value, pointer));
+    return details;
+  }
+
+  members(schema, variant, value, pointer) {
+    const rows = [], maps = [], telling = constOf(variant), variants = variantsOf(schema);
+    if (telling && variants.length > 1 && telling[0] === 'model') {
+      const control = makeControl('model', {enum: variants.map(([name]) => name), description: 'The reflection model. Parameters are kept where they mean the same.'},
+          `${pointer}/model`, (_, name, gesture) => this.act.set(pointer, asModel(valueAt(this.scene, pointer), name), gesture), null);
+      this.controls.set(control.pointer, control);
+      rows.push(control.element);
+    }
+    for (const [name, property] of Object.entries(variant.properties || {})) {
+      if (NO_CONTROLS.has(name) || (telling && name === telling[0])) continue;
+      const own = resolve(property), now = value?.[name], inner = objectForm(own);
+      if (name === 'material' && pointer.startsWith('/shapes/') && now && typeof now === 'object') continue;
+      if (inner && now && typeof now === 'object' && !Array.isArray(now)) {
+        rows.push(this.group(name.replaceAll('_', ' '), inner, now, `${pointer}/${token(name)}`, false));
+      } else {
+        (name.endsWith('_map') ? maps : rows).push(this.control(name, own, `${pointer}/${token(name)}`).element);
+      }
+    }
+    if (maps.length) {
+      const at = `${pointer} maps`;
+      rows.push(el('details', {open: this.open.get(at), ontoggle: event => this.open.set(at, event.target.open)}, el('summary', {}, 'maps'), maps));
+    }
+    return rows;
+  }
+
+  control(name, schema, pointer) {
+    const names = name.endsWith('_map') || name === 'texture' ? Object.keys(this.scene.textures || {})
+                : name === 'material' ? Object.keys(this.scene.materials || {}) : [];
+    const control = makeControl(name, schema, pointer, (at, value, gesture) => this.edit(at, value, gesture),
+                                at => this.drop(at), {names: names.length ? names : null, value: this.valueOf(pointer)});
+    this.controls.set(pointer, control);
+    return control;
+  }
+
+  // The camera is set whole: of one of its members alone the others would be defaults.
+  edit(pointer, value, gesture) {
+    if (!pointer.startsWith('/camera/')) return this.act.set(pointer, value, gesture);
+    this.act.set('/camera', {...this.camera, [steps(pointer)[1]]: value}, gesture);
+  }
+
+  // The value by default: the object around it without the member.
+  drop(pointer) {
+    const around = pointer.slice(0, pointer.lastIndexOf('/')), name = steps(pointer).pop();
+    const {[name]: _, ...rest} = around ? valueAt(this.scene, around) ?? {} : this.scene;
+    this.act.set(around, rest, newGesture());
+  }
+
+  valueOf(pointer) {
+    return pointer.startsWith('/camera/') ? valueAt({camera: this.camera}, pointer) : valueAt(this.scene, pointer);
+  }
+
+  // All controls say what the scene says.
+  show(below = '') {
+    for (const [pointer, control] of this.controls) {
+      if (pointer.startsWith(below) || below.startsWith(pointer + '/') || pointer.startsWith('/camera')) control.show(this.valueOf(pointer));
+    }
+  }
+
+  // A value has changed, by whomever.
+  changed(pointer, value, camera) {
+    const before = valueAt(this.scene, pointer);
+    const reshaped = value && typeof value === 'object' && !Array.isArray(value) && !pointer.startsWith('/camera');
+    this.scene = putAt(this.scene, pointer, value);
+    this.camera = camera;
+    for (const [at, control] of this.controls) if (at.startsWith(pointer)) control.fault('');
+    // Members may have come or gone.
+    if (reshaped || (before && typeof before === 'object' && !Array.isArray(before) && typeof value !== 'object')) this.build(this.scene, camera);
+    else this.show(pointer);
+  }
+
+  // What is wrong stands below the control that asked for it; returns whether there is one.
+  fault(pointer, text) {
+    let control = null;
+    for (const [at, candidate] of this.controls) if (pointer && (at === pointer || pointer.startsWith(at + '/') || at === `${pointer}/model`)) control = candidate;
+    if (!control) return false;
+    control.fault(text);
+    control.show(this.valueOf(control.pointer));
+    return true;
+  }
+
+  filter() {
+    const words = this.find.value.toLowerCase().split(/\s+/).filter(Boolean);
+    const fits = control => words.every(word => control.words.includes(word));
+    for (const control of this.controls.values()) control.element.hidden = words.length > 0 && !fits(control);
+    for (const details of [...this.list.querySelectorAll('details')].reverse()) {
+      const any = details.querySelector('.control:not([hidden])');
+      details.hidden = words.length > 0 && !any;
+      if (words.length && any) details.open = true;
+    }
+  }
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/token.h"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+
+#include <sys/random.h>
+
+#include "base/error.h"
+
+namespace nacre {
+
+std::string MakeToken() {
+  std::array<uint8_t, 16> bytes;
+  // The kernel gives so few at once, or none before it has begun to gather them.
+  ssize_t got = -1;
+  do {
+    got = getrandom(bytes.data(), bytes.size(), 0);
+  } while (got < 0 && errno == EINTR);
+  if (got != static_cast<ssize_t>(bytes.size())) {
+    throw Error(ExitCode::kInternal, "", "the kernel gives no random numbers");
+  }
+  std::string token;
+  for (const uint8_t byte : bytes) {
+    token += "0123456789abcdef"[byte >> 4];
+    token += "0123456789abcdef"[byte & 15];
+  }
+  return token;
+}
+
+bool SameToken(std::string_view token, std::string_view given) {
+  if (token.empty()) return false;
+  unsigned difference = token.size() == given.size() ? 0 : 1;
+  for (size_t i = 0; i < given.size(); ++i) {
+    difference |= static_cast<uint8_t>(given[i]) ^ static_cast<uint8_t>(token[i % token.size()]);
+  }
+  return difference == 0;
+}
+
+}  // namespace nacre

@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "view/worker.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <utility>
+
+
+#include "base/printable.h"
+#include "view/answer.h"
+
+namespace nacre {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// What a picture may take while something moves: half of the 33 ms from a slider's event to the
+// screen; the other half is the browser's.
+constexpr double kMovingMs = 14;
+// How long nothing must have moved before a picture is refined: a hand that drags moves every 8 to
+// 17 ms.
+constexpr std::chrono::milliseconds kRest(90);
+// A page that takes no picture for so long does not hold up the others.
+constexpr std::chrono::milliseconds kPatience(250);
+constexpr std::chrono::milliseconds kFilesEvery(300);
+// Between pictures that are refined.
+constexpr double kRefinedEveryMs = 60;
+// Of the picture's width and height, by which a frame may be smaller than it.
+constexpr std::array<int, 8> kDivisors = {1, 2, 3, 4, 6, 8, 12, 16};
+// Pixels that a page is sent at most: 33 MB. Larger pictures are shown smaller.
+constexpr double kMaxPixels = 3840.0 * 2160;
+// Scenes longer than this are told without their shapes: no page has controls for so many.
+constexpr size_t kMaxSceneText = size_t{2} << 20;
+
+double MsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+int DividedBy(int side, int divisor) { return std::max(1, (side + divisor - 1) / divisor); }
+
+// The layer's channels of an image, in the order R G B, or X Y Z.
+std::vector<const Channel*> ChannelsOf(const Image& image, const std::string& layer) {
+  std::vector<const Channel*> found;
+  const std::string prefix = layer.empty() ? "" : layer + ".";
+  for (const char* const letters : {"RGB", "XYZ"}) {
+    for (const char* letter = letters; *letter != 0; ++letter) {
+      const Channel* const channel = image.Find(prefix + *letter);
+      if (channel != nullptr && !(layer.empty() && *letters == 'X')) found.push_back(channel);
+    }
+    if (found.size() == 3) return found;
+    found.clear();
+  }
+  if (const Channel* const channel = image.Find(layer)) found.push_back(channel);
+  return found;
+}
+
+}  // namespace
+
+Worker::Worker(OpenDocument open, const WorkerOptions& options)
+    : open_(std::move(open)), options_(options), document_(open_()), display_(options.display) {}
+
+Worker::~Worker() { Stop(); }
+
+void Worker::Stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    cancel_ = true;
+  }
+  woken_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+void Worker::Start(WorkerSinks sinks) {
+  sinks_ = std::move(sinks);
+  thread_ = std::thread([this] { Run(); });
+}
+
+void Worker::Receive(ClientId client, std::string_view message) {
+  Add(ReadRequests(client, message));
+}
+
+void Worker::Add(std::vector<Request> requests) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (Request& request : requests) {
+      // A page that asks for samples does not end what it waits for.
+      const bool ends = !std::holds_alternative<SamplesRequest>(request.what) &&
+                        !std::holds_alternative<WelcomeRequest>(request.what);
+      mailbox_.Add(std::move(request));
+      if (ends && refining_) cancel_ = true;
+    }
+  }
+  woken_.notify_all();
+}
+
+void Worker::Opened(ClientId client) {
+  {
+    const std::lock_guard lock(mutex_);
+    clients_.push_back(client);
+  }
+  Add({{client, WelcomeRequest{}}});
+}
+
+void Worker::Closed(ClientId client) {
+  const std::lock_guard lock(mutex_);
+  std::erase(clients_, client);
+}
+
+void Worker::Ready() {
+  {
+    const std::lock_guard lock(mutex_);
+    ready_ = true;
+  }
+  woken_.notify_all();
+}
+
+void Worker::Run() {
+  Clock::time_point last_change = Clock::now(), last_files = Clock::now();
+  while (true) {
+    std::vector<Request> requests;
+    Next next = Next::kNothing;
+    {
+      std::unique_lock lock(mutex_);
+      refining_ = false;
+      const auto rested = [&] { return Clock::now() - last_change >= kRest; };
+      const auto has_work = [&] {
+        if (stop_ || !mailbox_.empty()) return true;
+        if (clients_.empty()) return false;
+        return moved_ || (!done_ && rested());
+      };
+      if (!has_work()) {
+        // Until there is a request, or until it is time to refine or to look at the files.
+        const auto until = !done_ && !clients_.empty() && !moved_ ? last_change + kRest
+                                                                  : Clock::now() + kFilesEvery;
+        woken_.wait_until(lock, until, has_work);
+      }
+      // A picture that nobody can take yet would be old when it is sent: newer values may come.
+      if (!stop_ && (moved_ || !mailbox_.empty()) && !clients_.empty()) {
+        woken_.wait_for(lock, kPatience, [&] { return stop_ || ready_; });
+      }
+      if (stop_) return;
+      requests = mailbox_.Take();
+      cancel_ = false;
+    }
+    const bool was_moved = std::exchange(moved_, false);
+    for (const Request& request : requests) Serve(request);
+    const auto hand = [](const Request& request) {
+      return !std::holds_alternative<SamplesRequest>(request.what) &&
+             !std::holds_alternative<WelcomeRequest>(request.what);
+    };
+    if (moved_ || std::any_of(requests.begin(), requests.end(), hand)) last_change = Clock::now();
+    moved_ |= was_moved;
+    if (requests.empty() && Clock::now() - last_files >= kFilesEvery) {
+      last_files = Clock::now();
+      CheckFiles();
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      if (clients_.empty()) continue;
+      next = moved_                                       ? Next::kMoving
+             : !done_ && Clock::now() - last_change >= kRest ? Next::kRefine
+                                                          : Next::kNothing;
+      // What came meanwhile ends it at once; a request before this line has set no flag.
+      refining_ = next == Next::kRefine && mailbox_.empty();
+      if (next == Next::kRefine && !mailbox_.empty()) continue;
+      if (next == Next::kMoving) ready_ = false;
+    }
+    try {
+      if (next == Next::kMoving) RenderMoving();
+      if (next == Next::kRefine) Refine();
+    } catch (const Cancelled&) {
+      plan_.reset();  // its film is of no use any more
+    } catch (const Error& error) {
+      done_ = true;
+      moved_ = false;
+      plan_.reset();
+      SayFault(0, "", error);
+    } catch (const std::bad_alloc&) {
+      done_ = true;
+      moved_ = false;
+      plan_.reset();
+      SayFault(0, "", Error(ExitCode::kInternal, "", "out of memory", "a smaller picture needs less"));
+    }
+  }
+}
+
+void Worker::Serve(const Request& request) {
+  try {
+    if (const auto* set = std::get_if<SetRequest>(&request.what)) {
+      ServeSet(request.client, *set);
+    } else if (const auto* step = std::get_if<HistoryRequest>(&request.what)) {
+      ServeHistory(*step);
+    } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
+      display_.tone = ParseToneOperator(look->tone);
+      display_.exposure_ev = look->exposure;
+      const std::string layer = std::exchange(layer_, look->layer);
+      try {
+        ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
+      } catch (const Error&) {
+        layer_ = layer;
+        throw;
+      }
+      if (layer != layer_) {
+        Changed();
+      } else if (!image_.channels.empty()) {
+        Publish(done_);
+      }
+    } else if (const auto* samples = std::get_if<SamplesRequest>(&request.what)) {
+      SendSamples(request.client, *samples);
+    } else {
+      SayScene(request.client);
+      if (image_.channels.empty()) {
+        moved_ = true;
+      } else {
+        Publish(done_);
+      }
+    }
+  } catch (const Error& error) {
+    SayFault(request.client, "", error);
+  }
+}
+
+void Worker::ServeSet(ClientId client, const SetRequest& set) {
+  plan_.reset();  // it refers to the scene
+  try {
+    document_->Set(set.pointer, set.value, set.gesture);
+  } catch (const Error& error) {
+    moved_ = true;  // the picture that was being made is gone
+    SayFault(client, set.pointer, error);
+    return;
+  }
+  Changed();
+  sinks_.say(0, JsonText({{"changed", set.pointer},
+                          {"value", set.value},
+                          {"revision", revision_},
+                          {"client", client},
+                          {"serial", set.serial},
+                          {"camera", document_->Camera()},
+                          {"undo", document_->can_undo()},
+                          {"redo", document_->can_redo()}}));
+}
+
+void Worker::ServeHistory(HistoryRequest step) {
+  plan_.reset();
+  const bool did = step == HistoryRequest::kUndo   ? document_->Undo()
+                   : step == HistoryRequest::kRedo ? document_->Redo()
+                                                   : document_->Reset();
+  Changed();
+  if (did) SayScene(0);
+}
+
+void Worker::Changed() {
+  plan_.reset();
+  ++revision_;
+  moved_ = true;
+  done_ = false;
+}
+
+void Worker::SayScene(ClientId client) {
+  Json tree = document_->Tree();
+  if (JsonText(tree).size() > kMaxSceneText && tree.is_object()) tree.erase("shapes");
+  Json layers = Json::array();
+  for (const Layer& layer : ParseLayers({"all"}, document_->scene())) {
+    if (layer.kind != LayerKind::kAlpha) layers.push_back(layer.name);
+  }
+  sinks_.say(client, JsonText({{"scene", std::move(tree)},
+                               {"camera", document_->Camera()},
+                               {"name", Printable(document_->name())},
+                               {"layers", std::move(layers)},
+                               {"width", document_->own_image().width},
+                               {"height", document_->own_image().height},
+                               {"revision", revision_},
+                               {"client", client},
+                               {"banner", banner_},
+                               {"undo", document_->can_undo()},
+                               {"redo", document_->can_redo()}}));
+}
+
+void Worker::SayFault(ClientId client, const std::string& pointer, const Error& error) {
+  sinks_.say(client, FaultMessage(pointer, error));
+}
+
+void Worker::CheckFiles() {
+  if (!document_->FilesChanged()) return;
+  try {
+    std::unique_ptr<ViewDocument> read = open_();
+    plan_.reset();
+    document_ = std::move(read);
+    banner_.clear();
+    Changed();
+    SayScene(0);
+  } catch (const Error& error) {
+    // The picture stays: it is the last good one.
+    banner_ = error.what();
+    sinks_.say(0, JsonText({{"banner", banner_}}));
+  }
+}
+
+void Worker::SendSamples(ClientId client, const SamplesRequest& request) {
+  std::vector<const Channel*> channels;
+  if (!image_.channels.empty()) channels = ChannelsOf(image_, request.layer);
+  FrameHead head;
+  head.revision = revision_;
+  head.samples = request.id;
+  head.of_samples = static_cast<uint32_t>(channels.size());
+  head.width = static_cast<uint32_t>(channels.empty() ? 0 : image_.data.width());
+  head.height = static_cast<uint32_t>(channels.empty() ? 0 : image_.data.height());
+  head.done = done_ ? 1 : 0;
+  sinks_.samples(client, SampleBytes(head, channels));
+}
+
+// ---- Rendering ----------------------------------------------------------------------------------
+
+RenderSettings Worker::Settings() {
+  RenderSettings settings;
+  settings.threads = options_.threads;
+  settings.cancel = &cancel_;
+  if (!layer_.empty()) settings.layers = {layer_};
+  return settings;
+}
+
+ImageSettings Worker::FullImage() const {
+  ImageSettings image = document_->own_image();
+  if (options_.samples > 0) image.spp = options_.samples;
+  return image;
+}
+
+int Worker::FitDivisor() const {
+  const ImageSettings image = document_->own_image();
+  for (const int divisor : kDivisors) {
+    if (static_cast<double>(image.width) / divisor * image.height / divisor <= kMaxPixels) {
+      return divisor;
+    }
+  }
+  return 32;
+}
+
+void Worker::Plan(int divisor) {
+  plan_.reset();
+  ImageSettings image = FullImage();
+  image.width = DividedBy(image.width, divisor);
+  image.height = DividedBy(image.height, divisor);
+  document_->UseImage(image);
+  plan_.emplace(MakePlan(document_->scene(), Settings(), document_->prepared()));
+  film_ = {};
+  image_ = EmptyImage(*plan_);
+  planned_divisor_ = divisor;
+}
+
+void Worker::RenderMoving() {
+  const auto start = Clock::now();
+  Plan(std::max(divisor_, FitDivisor()));
+  RenderPass(*plan_, Settings(), 1, &film_, [&](const Strip& strip) { PutStrip(strip, &image_); });
+  moved_ = false;
+  render_ms_ = MsSince(start);
+  done_ = plan_->scene->image.spp == 1 && planned_divisor_ == FitDivisor() &&
+          !(options_.max_error > 0);
+  Publish(done_);
+  // The first picture makes all that later ones keep: it says nothing of these.
+  if (revision_ > 1) Adapt(render_ms_);
+}
+
+// The next divisor, from what this picture took: at once smaller, and larger by a step if there is
+// time to spare.
+void Worker::Adapt(double ms) {
+  const auto place = std::find(kDivisors.begin(), kDivisors.end(), divisor_);
+  if (ms > kMovingMs) {
+    const double wanted = divisor_ * std::sqrt(ms / kMovingMs);
+    const auto enough = std::find_if(place, kDivisors.end() - 1, [&](int d) { return d >= wanted; });
+    divisor_ = *enough;
+  } else if (place != kDivisors.begin()) {
+    const double larger = *(place - 1);
+    if (ms * (divisor_ / larger) * (divisor_ / larger) < 0.8 * kMovingMs) divisor_ = *(place - 1);
+  }
+}
+
+void Worker::Refine() {
+  const auto start = Clock::now();
+  const int full = FitDivisor();
+  RenderSettings settings = Settings();
+  if (options_.max_error > 0 && plan_ && planned_divisor_ == full && film_.samples > 0) {
+    settings.max_error = options_.max_error;
+    settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
+    plan_.reset();
+    FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+    image_ = RenderImage(plan, settings, nullptr);
+    plan_.emplace(std::move(plan));
+    render_ms_ = MsSince(start);
+    done_ = true;
+    return Publish(true);
+  }
+  if (!plan_ || planned_divisor_ != full) Plan(full);
+  const int spp = plan_->scene->image.spp;
+  double last_shown = 0;
+  do {
+    const int end = std::min(std::max(1, 2 * film_.samples), spp);
+    RenderPass(*plan_, settings, end, &film_, [&](const Strip& strip) { PutStrip(strip, &image_); });
+    // Pictures follow one another no faster than pages can show them beside the rendering.
+    if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
+    last_shown = MsSince(start);
+    render_ms_ = last_shown;
+    Publish(film_.samples == spp && !(options_.max_error > 0));
+  } while (film_.samples < spp && !cancel_ && !(options_.max_error > 0));
+  done_ = film_.samples == spp && !(options_.max_error > 0);
+}
+
+void Worker::Publish(bool done) {
+  std::vector<const Channel*> channels = ChannelsOf(image_, layer_);
+  if (channels.empty()) channels = ChannelsOf(image_, "");
+  const std::array<const float*, 3> rgb = {
+      channels[0]->samples.data(), channels[channels.size() > 1 ? 1 : 0]->samples.data(),
+      channels[channels.size() > 2 ? 2 : 0]->samples.data()};
+  const ImageSettings own = document_->own_image();
+  FrameHead head;
+  head.revision = revision_;
+  head.width = static_cast<uint32_t>(image_.data.width());
+  head.height = static_cast<uint32_t>(image_.data.height());
+  head.frame_width = static_cast<uint32_t>(own.width);
+  head.frame_height = static_cast<uint32_t>(own.height);
+  head.samples = static_cast<uint32_t>(film_.samples);
+  head.of_samples = static_cast<uint32_t>(FullImage().spp);
+  head.done = done ? 1 : 0;
+  head.render_us = static_cast<uint32_t>(std::min(1e3 * render_ms_, 4e9));
+  sinks_.show(PictureBytes(head, rgb, display_));
+}
+
+}  // namespace nacre
