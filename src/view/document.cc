@@ -32,7 +32,9 @@ std::string ExistingPart(const Json& root, std::string pointer) {
 Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 LoadOptions Watching(LoadOptions options, std::map<std::filesystem::path, std::string>* files) {
-  options.on_file = [files](const std::filesystem::path& file) { files->try_emplace(file); };
+  options.on_file = [files](const std::filesystem::path& file) { 
+    files->try_emplace(file, KeyOfFile(file));
+  };
   return options;
 }
 
@@ -43,8 +45,7 @@ ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions&
       path_(path),
       live_(path, Watching(options, &files_)),
       original_(live_.root()) {
-  files_.try_emplace(path);
-  WatchFiles();
+  files_.try_emplace(path, KeyOfFile(path));
 }
 
 ViewDocument::ViewDocument(const LoadOptions& options)
@@ -133,10 +134,6 @@ Json ViewDocument::Camera() const {
     json["height"] = camera.height;
   }
   return json;
-}
-
-void ViewDocument::WatchFiles() {
-  for (auto& [file, key] : files_) key = KeyOfFile(file);
 }
 
 bool ViewDocument::FilesChanged() {

@@ -63,7 +63,6 @@ class ViewDocument {
   };
 
   void Put(const std::string& pointer, const Json& value);
-  void WatchFiles();
 
   std::string name_;
   std::filesystem::path path_;  // empty: the built-in scene

@@ -10,6 +10,7 @@
 #include "color/tone.h"
 #include "scene/limits.h"
 #include "scene_io/json_reader.h"
+#include "shading/material_fit.h"
 
 namespace nacre {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 // Whole numbers that a double holds.
 constexpr Range kCounter{0, 9007199254740991.0};
 constexpr Range kStops{-60, 60};
+constexpr Range kPixel{0, limits::kImageSide.max};
 
 bool IsBelow(std::string_view pointer, std::string_view above) {
   return pointer.size() > above.size() && pointer.starts_with(above) &&
@@ -51,7 +53,12 @@ LookRequest ReadLook(JsonObject* message) {
 
 }  // namespace
 
-std::vector<Request> ReadRequests(ClientId client, std::string_view text) {
+bool Request::ChangesPicture() const {
+  return std::holds_alternative<SetRequest>(what) || std::holds_alternative<HistoryRequest>(what) ||
+         std::holds_alternative<LookRequest>(what) || std::holds_alternative<ConvertRequest>(what);
+}
+
+Request ReadRequest(ClientId client, std::string_view text) {
   const std::string file = "message";
   FaultList faults;
   const Json json = ParseJson(text, file, &faults);
@@ -69,15 +76,29 @@ std::vector<Request> ReadRequests(ClientId client, std::string_view text) {
     message.Text("samples", &samples.layer);
     message.Whole("id", Range{0, std::numeric_limits<uint32_t>::max()}, &samples.id);
     request.what = samples;
+  } else if (message.Find("explain") != nullptr) {
+    ExplainRequest explain;
+    message.Whole("explain", kPixel, &explain.x);
+    message.Whole("y", kPixel, &explain.y);
+    request.what = explain;
+  } else if (message.Find("convert") != nullptr) {
+    ConvertRequest convert;
+    const std::span<const std::string_view> models = FitTargets();
+    message.Text("convert", &convert.pointer);
+    size_t model = 0;
+    message.Choice("model", models, &model);
+    convert.model = models[model];
+    message.Whole("gesture", kCounter, &convert.gesture);
+    request.what = convert;
   } else if (message.Find("history") != nullptr) {
     message.Choice("history", kSteps, &step);
     request.what = static_cast<HistoryRequest>(step);
   } else {
-    faults.Add("", "asks for nothing known", "it has one of set, look, samples, history");
+    faults.Add("", "asks for nothing known", "it has one of set, look, samples, explain, convert, history");
   }
   message.RefuseOthers();
   ThrowFaults(faults, file);
-  return {std::move(request)};
+  return request;
 }
 
 void Mailbox::Add(Request request) {
@@ -85,14 +106,17 @@ void Mailbox::Add(Request request) {
     // An older value of the same place need never be made, unless something between depends on it.
     for (size_t i = waiting_.size(); i-- > 0;) {
       const auto* other = std::get_if<SetRequest>(&waiting_[i].what);
-      if (std::holds_alternative<HistoryRequest>(waiting_[i].what)) break;
+      if (other == nullptr && waiting_[i].ChangesPicture() &&
+          !std::holds_alternative<LookRequest>(waiting_[i].what)) {
+        break;
+      }
       if (other == nullptr || !Overlap(other->pointer, set->pointer)) continue;
       if (other->pointer == set->pointer && other->gesture == set->gesture) {
         waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(i));
       }
       break;
     }
-  } else if (!std::holds_alternative<HistoryRequest>(request.what)) {
+  } else if (!request.ChangesPicture() || std::holds_alternative<LookRequest>(request.what)) {
     std::erase_if(waiting_, [&](const Request& other) {
       return other.client == request.client && other.what.index() == request.what.index();
     });

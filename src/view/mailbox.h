@@ -33,15 +33,28 @@ struct SamplesRequest {
   std::string layer;
   uint32_t id = 0;  // comes back with them
 };
+// Where a pixel's value comes from.
+struct ExplainRequest {
+  int x = 0, y = 0;
+};
+// The material at a pointer becomes the nearest one of another model, as `nacre convert` finds it.
+struct ConvertRequest {
+  std::string pointer, model;
+  uint64_t gesture = 0;
+};
 struct WelcomeRequest {};  // a page that has just connected: it is told all
 
 struct Request {
   ClientId client = 0;
-  std::variant<SetRequest, HistoryRequest, LookRequest, SamplesRequest, WelcomeRequest> what;
+  std::variant<SetRequest, HistoryRequest, LookRequest, SamplesRequest, ExplainRequest,
+               ConvertRequest, WelcomeRequest>
+      what;
+  // Whether it changes what the picture shows, or how: a render for what was before may end.
+  bool ChangesPicture() const;
 };
 
 // What a message of a page asks for. Throws Error (kBadInput) for one that asks for nothing known.
-std::vector<Request> ReadRequests(ClientId client, std::string_view text);
+Request ReadRequest(ClientId client, std::string_view text);
 
 class Mailbox {
  public:

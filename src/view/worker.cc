@@ -10,7 +10,10 @@
 
 
 #include "base/printable.h"
+#include "scene_io/material_json.h"
+#include "shading/material_fit.h"
 #include "view/answer.h"
+#include "view/explain.h"
 
 namespace nacre {
 namespace {
@@ -80,19 +83,15 @@ void Worker::Start(WorkerSinks sinks) {
 }
 
 void Worker::Receive(ClientId client, std::string_view message) {
-  Add(ReadRequests(client, message));
+  Add(ReadRequest(client, message));
 }
 
-void Worker::Add(std::vector<Request> requests) {
+void Worker::Add(Request request) {
   {
     const std::lock_guard lock(mutex_);
-    for (Request& request : requests) {
-      // A page that asks for samples does not end what it waits for.
-      const bool ends = !std::holds_alternative<SamplesRequest>(request.what) &&
-                        !std::holds_alternative<WelcomeRequest>(request.what);
-      mailbox_.Add(std::move(request));
-      if (ends && refining_) cancel_ = true;
-    }
+    const bool changes = request.ChangesPicture();
+    mailbox_.Add(std::move(request));
+    if (changes && refining_) cancel_ = true;
   }
   woken_.notify_all();
 }
@@ -102,7 +101,7 @@ void Worker::Opened(ClientId client) {
     const std::lock_guard lock(mutex_);
     clients_.push_back(client);
   }
-  Add({{client, WelcomeRequest{}}});
+  Add({client, WelcomeRequest{}});
 }
 
 void Worker::Closed(ClientId client) {
@@ -148,11 +147,10 @@ void Worker::Run() {
     }
     const bool was_moved = std::exchange(moved_, false);
     for (const Request& request : requests) Serve(request);
-    const auto hand = [](const Request& request) {
-      return !std::holds_alternative<SamplesRequest>(request.what) &&
-             !std::holds_alternative<WelcomeRequest>(request.what);
-    };
-    if (moved_ || std::any_of(requests.begin(), requests.end(), hand)) last_change = Clock::now();
+    const auto changes = [](const Request& request) { return request.ChangesPicture(); };
+    if (moved_ || std::any_of(requests.begin(), requests.end(), changes)) {
+      last_change = Clock::now();
+    }
     moved_ |= was_moved;
     if (requests.empty() && Clock::now() - last_files >= kFilesEvery) {
       last_files = Clock::now();
@@ -211,6 +209,10 @@ void Worker::Serve(const Request& request) {
       }
     } else if (const auto* samples = std::get_if<SamplesRequest>(&request.what)) {
       SendSamples(request.client, *samples);
+    } else if (const auto* explain = std::get_if<ExplainRequest>(&request.what)) {
+      Explain(request.client, *explain);
+    } else if (const auto* convert = std::get_if<ConvertRequest>(&request.what)) {
+      ServeConvert(request.client, *convert);
     } else {
       SayScene(request.client);
       if (image_.channels.empty()) {
@@ -242,6 +244,50 @@ void Worker::ServeSet(ClientId client, const SetRequest& set) {
                           {"camera", document_->Camera()},
                           {"undo", document_->can_undo()},
                           {"redo", document_->can_redo()}}));
+}
+
+void Worker::ServeConvert(ClientId client, const ConvertRequest& convert) {
+  try {
+    const Json tree = document_->Tree();
+    const Json::json_pointer pointer(convert.pointer);
+    if (!tree.contains(pointer)) {
+      throw Error(ExitCode::kUsage, convert.pointer, "there is no material here");
+    }
+    const MaterialFit fit =
+        FitMaterial(MaterialFromJson(tree.at(pointer), convert.pointer), convert.model);
+    ServeSet(client, {convert.pointer, MaterialJson(fit.fitted), convert.gesture, 0});
+    if (fit.notes.empty()) return;
+    Json notes = Json::array();
+    for (const std::string& note : fit.notes) notes.push_back(Printable(note));
+    sinks_.say(client, JsonText({{"not_kept", std::move(notes)}, {"convert", convert.pointer}}));
+  } catch (const Json::exception&) {
+    SayFault(client, convert.pointer,
+             Error(ExitCode::kUsage, convert.pointer, "is no JSON pointer"));
+  } catch (const Error& error) {
+    SayFault(client, convert.pointer, error);
+  }
+}
+
+void Worker::Explain(ClientId client, const ExplainRequest& request) {
+  // Of one sample through the pixel's centre, which is where its terms are computed.
+  ImageSettings image = FullImage();
+  const int divisor = FitDivisor();
+  image.width = DividedBy(image.width, divisor);
+  image.height = DividedBy(image.height, divisor);
+  image.spp = 1;
+  plan_.reset();  // it refers to the scene
+  document_->UseImage(image);
+  RenderSettings settings = Settings();
+  settings.cancel = nullptr;
+  settings.layers = {"all"};
+  const int x = std::min(request.x / divisor, image.width - 1);
+  const int y = std::min(request.y / divisor, image.height - 1);
+  settings.region = {x, y, x + 1, y + 1};
+  const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+  Json json = ExplainPixel(document_->scene(), RenderImage(plan, settings, nullptr));
+  json["x"] = request.x;
+  json["y"] = request.y;
+  sinks_.say(client, JsonText({{"explained", std::move(json)}, {"revision", revision_}}));
 }
 
 void Worker::ServeHistory(HistoryRequest step) {

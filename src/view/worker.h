@@ -60,11 +60,13 @@ class Worker {
  private:
   enum class Next { kMoving, kRefine, kNothing };
 
-  void Add(std::vector<Request> requests);
+  void Add(Request request);
   void Run();
   void Serve(const Request& request);
   void ServeSet(ClientId client, const SetRequest& set);
   void ServeHistory(HistoryRequest step);
+  void ServeConvert(ClientId client, const ConvertRequest& convert);
+  void Explain(ClientId client, const ExplainRequest& request);
   void SendSamples(ClientId client, const SamplesRequest& request);
   void SayScene(ClientId client);
   void SayHistory();

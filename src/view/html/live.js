@@ -102,6 +102,7 @@ class LiveViewer extends Viewer {
   inspect(x, y) {
     this.reads = true;
     super.inspect(x, y);
+    this.act.explain(this.mark.x, this.mark.y);
   }
   read() {
     return this.head?.done || !this.head ? super.read() : undefined;

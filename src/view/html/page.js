@@ -9,9 +9,12 @@ class View {
       set: (pointer, value, gesture) => this.set(pointer, value, gesture),
       look: (tone, exposure, layer) => this.connection?.send({look: tone, exposure, layer}),
       samples: layer => this.connection.samples(layer),
+      explain: (x, y) => this.connection.send({explain: x, y}),
+      convert: (pointer, model) => this.connection.send({convert: pointer, model, gesture: newGesture()}),
     };
     this.panel = new Panel(act);
     this.viewer = new LiveViewer(act);
+    this.explanation = new Explanation();
     this.status = el('span', {class: 'status', role: 'status'}, 'connecting…');
     this.banner = el('div', {class: 'banner', role: 'alert', hidden: true});
     this.name = el('h1', {}, 'nacre view');
@@ -22,7 +25,7 @@ class View {
     document.body.append(el('main', {class: 'app'},
         el('section', {class: 'picture', 'aria-label': 'Picture'},
            el('div', {class: 'top'}, this.name, el('div', {class: 'row tight'}, Object.values(this.steps)), el('div', {class: 'row'}, this.keep, this.drop), this.status),
-           this.banner, this.viewer.element),
+           this.banner, this.viewer.element, this.explanation.element),
         this.panel.element));
     document.addEventListener('keydown', event => this.key(event));
     this.connection = new Connection({text: message => this.received(message), frame: (head, bytes) => this.frame(head, bytes),
@@ -51,6 +54,8 @@ class View {
     if ('scene' in message) this.sceneIs(message);
     else if ('changed' in message) this.changed(message);
     else if ('fault' in message) this.fault(message);
+    else if ('explained' in message) this.explanation.show(message.explained, this.viewer.look);
+    else if ('not_kept' in message) this.panel.fault(message.convert, `Not kept: ${message.not_kept.join('; ')}`);
     if ('banner' in message) this.showBanner(message.banner);
     if ('undo' in message) {
       this.steps.undo.disabled = !message.undo;

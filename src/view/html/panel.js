@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // view/html/panel.js: a control for everything that the scene says, in the order of its parts.
 
+// Models that nacre convert makes.
+const FITTED = ['phong', 'modified_phong', 'blinn_phong', 'metallic_roughness', 'dielectric'];
 const MOST_SHAPES = 40;  // with controls; more are a cloud, and have none
 // Members that are no numbers to play with.
 const NO_CONTROLS = new Set(['$schema', 'nacre']);
@@ -73,6 +75,9 @@ class Panel {
           `${pointer}/model`, (_, name, gesture) => this.act.set(pointer, asModel(valueAt(this.scene, pointer), name), gesture), null);
       this.controls.set(control.pointer, control);
       rows.push(control.element);
+      const fit = choiceInput(['', ...FITTED], 'Convert to the nearest material of another model', to => { if (to) this.act.convert(pointer, to); });
+      fit.focus.options[0].textContent = 'to the nearest…';
+      rows.push(el('div', {class: 'control'}, el('span', {class: 'label', title: 'As nacre convert: the lobe is fitted, the base keeps its albedo.'}, 'convert'), fit.element));
     }
     for (const [name, property] of Object.entries(variant.properties || {})) {
       if (NO_CONTROLS.has(name) || (telling && name === telling[0])) continue;
