@@ -74,18 +74,26 @@ void RunView(const ViewArguments& arguments, int* exit_code) {
   work.threads = options.threads;
   work.display.tone = ParseToneOperator(options.tonemap);
   work.display.exposure_ev = options.exposure;
+  work.file = arguments.scene;
+  if (!options.size.empty()) work.given = {"--size", options.size};
+  for (const std::string& set : options.sets) {
+    work.given.emplace_back("--set");
+    work.given.push_back(set);
+  }
   Worker worker(open, work);
 
   ServerOptions server_options = arguments.server;
-  server_options.token = MakeToken();
+  // A port that was asked for is asked for again.
+  server_options.token = server_options.port != 0 ? KeptToken(server_options.port) : MakeToken();
   const std::string title =
       arguments.scene.empty() ? "nacre view" : fmt::format("{} - nacre view", arguments.scene);
-  Server server(server_options,
-                MakeViewPage(title, fmt::format("nacre {} ({})", kVersion, kCommit),
-                             options.tonemap, options.exposure),
-                {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
-                 [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
-                 [&] { worker.Ready(); }, [] { ThrowIfStopped(); }});
+  Server server(
+      server_options,
+      MakeViewPage(title, fmt::format("nacre {} ({})", kVersion, kCommit), options.tonemap,
+                   options.exposure),
+      {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
+       [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
+       [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] { ThrowIfStopped(); }});
   if (!IsLoopback(server_options.address)) {
     PrintError(
         "warning: {} can be reached from other machines, and what is sent there is not "
@@ -121,7 +129,10 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
   command->add_option("SCENE", arguments->scene,
                       "Scene file (.json) or model (.gltf, .glb, .obj, .ply); without one, Phong "
                       "and physically based spheres beside a grid");
-  command->add_option("--port", arguments->server.port, "Port to listen on; 0: one that is free")
+  command
+      ->add_option("--port", arguments->server.port,
+                   "Port to listen on; 0: one that is free. With a port the address stays the same "
+                   "from one start to the next, and open pages find the server again")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command->add_flag("--no-open", arguments->no_open, "Open no browser, only print the address");
@@ -129,7 +140,8 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
   AddDisplayOptions(command, &o->tonemap, &o->exposure);
   command->add_option("--size", o->size, "Width and height in pixels")->type_name("WxH");
   command
-      ->add_option("--spp", o->spp, "Samples per pixel once nothing moves; the scene's if not given")
+      ->add_option("--spp", o->spp,
+                   "Samples per pixel once nothing moves; the scene's if not given")
       ->check(CLI::Range(1, 65536));
   command
       ->add_option("--max-error", o->max_error,
@@ -140,9 +152,10 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       ->type_name("/POINTER=JSON")
       ->allow_extra_args(false);
   command
-      ->add_option("--listen", arguments->server.address,
-                   "Address to listen on. Any but this machine's own (127.0.0.1, ::1) needs a proxy "
-                   "with TLS ahead of it")
+      ->add_option(
+          "--listen", arguments->server.address,
+          "Address to listen on. Any but this machine's own (127.0.0.1, ::1) needs a proxy "
+          "with TLS ahead of it")
       ->capture_default_str();
   command
       ->add_option("--origin", arguments->server.origin,

@@ -134,13 +134,13 @@ std::string Page::Html(const std::string& title, const std::string& generator,
   const std::string safe_title = EscapeHtml(Printable(title));
   const std::string safe_generator = EscapeHtml(generator);
   return FillPage(PageTemplate(), {{"title", safe_title},
-                               {"generator", safe_generator},
-                               {"style_hash", style_hash},
-                               {"script_hash", script_hash},
-                               {"style", PageStyle()},
-                               {"script", PageScript()},
-                               {"data", json},
-                               {"blobs", blobs}});
+                                   {"generator", safe_generator},
+                                   {"style_hash", style_hash},
+                                   {"script_hash", script_hash},
+                                   {"style", PageStyle()},
+                                   {"script", PageScript()},
+                                   {"data", json},
+                                   {"blobs", blobs}});
 }
 
 }  // namespace nacre

@@ -32,7 +32,7 @@ std::string ExistingPart(const Json& root, std::string pointer) {
 Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
 LoadOptions Watching(LoadOptions options, std::map<std::filesystem::path, std::string>* files) {
-  options.on_file = [files](const std::filesystem::path& file) { 
+  options.on_file = [files](const std::filesystem::path& file) {
     files->try_emplace(file, KeyOfFile(file));
   };
   return options;

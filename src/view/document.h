@@ -44,6 +44,8 @@ class ViewDocument {
 
   // The file's tree with all changes. A model's has materials and camera of the file in it.
   Json Tree() const;
+  // The file's tree as it was read: of a model, what it was given besides.
+  const Json& original() const { return original_; }
   // The camera that is rendered with, every member of it.
   Json Camera() const;
   const std::string& name() const { return name_; }
@@ -65,7 +67,7 @@ class ViewDocument {
   void Put(const std::string& pointer, const Json& value);
 
   std::string name_;
-  std::filesystem::path path_;  // empty: the built-in scene
+  std::filesystem::path path_;                          // empty: the built-in scene
   std::map<std::filesystem::path, std::string> files_;  // with KeyOfFile of each
   LiveScene live_;
   PreparedScene prepared_;

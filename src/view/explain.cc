@@ -94,9 +94,9 @@ Json TermsJson(const ShadingMaterial& material, const Point& point, const Vec3d&
     const Vec3d mirrored = point.normal * (2 * a.n_dot_l) - to_light;
     terms["shininess"] = phong->shininess;
     if (!half) terms["r_dot_v"] = mirrored ^ point.to_view;
-    terms["lobe"] = NumberJson(half ? BlinnLobe(a, phong->shininess)
-                                    : PhongLobe(point.normal, to_light, point.to_view,
-                                                phong->shininess));
+    terms["lobe"] =
+        NumberJson(half ? BlinnLobe(a, phong->shininess)
+                        : PhongLobe(point.normal, to_light, point.to_view, phong->shininess));
   }
   return terms;
 }
@@ -125,7 +125,7 @@ Json LightJson(const Light& light, const ShadingMaterial& material, const Point&
   json["terms"] = n_dot_l > 0 && n_dot_v > 0 ? TermsJson(material, point, l) : Json::object();
   json["diffuse"] = TripleJson(diffuse);
   json["specular"] = TripleJson(specular);
-  json["state"] = !(n_dot_l > 0)      ? "below the horizon"
+  json["state"] = !(n_dot_l > 0) ? "below the horizon"
                   : !(brightest > 0) && std::max({diffuse.x + specular.x, diffuse.y + specular.y,
                                                   diffuse.z + specular.z}) > 0
                       ? "in shadow"

@@ -23,8 +23,8 @@ struct FrameHead {
   uint32_t width = 0, height = 0;              // pixels that follow
   uint32_t frame_width = 0, frame_height = 0;  // of the whole picture; larger while things move
   uint32_t samples = 0, of_samples = 0;        // of each pixel
-  uint32_t done = 0;       // 1: nothing is refined any more
-  uint32_t render_us = 0;  // what it took to render
+  uint32_t done = 0;                           // 1: nothing is refined any more
+  uint32_t render_us = 0;                      // what it took to render
 };
 inline constexpr size_t kFrameHeadBytes = 40;
 

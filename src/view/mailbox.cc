@@ -94,7 +94,8 @@ Request ReadRequest(ClientId client, std::string_view text) {
     message.Choice("history", kSteps, &step);
     request.what = static_cast<HistoryRequest>(step);
   } else {
-    faults.Add("", "asks for nothing known", "it has one of set, look, samples, explain, convert, history");
+    faults.Add("", "asks for nothing known",
+               "it has one of set, look, samples, explain, convert, history");
   }
   message.RefuseOthers();
   ThrowFaults(faults, file);

@@ -18,10 +18,9 @@ ServedPage MakeViewPage(const std::string& title, const std::string& generator,
                                        {"schema", Json::parse(SceneSchema())}});
   const std::string safe_title = EscapeHtml(Printable(title));
   ServedPage page;
-  page.html = FillPage(ViewTemplate(), {{"title", safe_title},
-                                        {"style", ViewStyle()},
-                                        {"script", ViewScript()},
-                                        {"data", data}});
+  page.html = FillPage(
+      ViewTemplate(),
+      {{"title", safe_title}, {"style", ViewStyle()}, {"script", ViewScript()}, {"data", data}});
   page.style_hashes = "'" + PolicySource(ViewStyleSha256()) + "'";
   page.script_hashes = "'" + PolicySource(ViewScriptSha256()) + "'";
   return page;

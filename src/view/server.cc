@@ -30,6 +30,7 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using Tcp = asio::ip::tcp;
 using boost::system::error_code;
+using Clock = std::chrono::steady_clock;
 using HttpRequest = http::request<http::empty_body>;
 using HttpResponse = http::response<http::string_body>;
 
@@ -108,7 +109,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
       self->open_ = true;
       self->server_->pages[self->id_] = self;
       self->server_->events.opened(self->id_);
-      self->server_->events.ready();
+      self->server_->events.ready(0, 0);
       self->Read();
     });
   }
@@ -120,6 +121,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   void Show() {
     if (in_flight_ || shown_ == server_->latest || !server_->latest) return;
     in_flight_ = true;
+    sent_at_ = Clock::now();
     shown_ = server_->latest;
     Add({nullptr, shown_});
   }
@@ -144,9 +146,12 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
 
   void Received(const std::string& text) {
     if (text == "taken") {
-      in_flight_ = false;
+      if (!std::exchange(in_flight_, false)) return;
+      const std::chrono::duration<double, std::milli> taken = Clock::now() - sent_at_;
+      const double taken_ms = taken.count();
+      const size_t taken_bytes = shown_->size();
       if (shown_ != server_->latest) return Show();
-      return server_->events.ready();
+      return server_->events.ready(taken_ms, taken_bytes);
     }
     try {
       server_->events.message(id_, text);
@@ -189,6 +194,7 @@ class PageSocket : public std::enable_shared_from_this<PageSocket> {
   std::deque<Outgoing> waiting_;  // the first is being written
   size_t waiting_bytes_ = 0;
   bool in_flight_ = false;
+  Clock::time_point sent_at_;  // of the picture in flight
   SharedBytes shown_;
 };
 
@@ -209,9 +215,10 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     parser_.header_limit(kMaxHeaderBytes);
     parser_.body_limit(0);
     stream_.expires_after(kRequestTime);
-    http::async_read(stream_, buffer_, parser_, [self = shared_from_this()](error_code error, size_t) {
-      if (!error) self->Serve();
-    });
+    http::async_read(stream_, buffer_, parser_,
+                     [self = shared_from_this()](error_code error, size_t) {
+                       if (!error) self->Serve();
+                     });
   }
 
  private:
@@ -221,8 +228,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     if (status == 200 && websocket::is_upgrade(request)) {
       stream_.expires_never();
       if (server_->pages.size() >= kMaxPages) return Write(server_->Answer(request, 503));
-      const auto page = std::make_shared<PageSocket>(server_, stream_.release_socket(),
-                                                     ++server_->last_client);
+      const auto page =
+          std::make_shared<PageSocket>(server_, stream_.release_socket(), ++server_->last_client);
       return page->Accept(request);
     }
     Write(server_->Answer(request, status));
@@ -330,14 +337,17 @@ HttpResponse Server::Impl::Answer(const HttpRequest& request, unsigned status) c
   answer.set("Cross-Origin-Opener-Policy", "same-origin");
   answer.set("Cross-Origin-Resource-Policy", "same-origin");
   const std::string host(View(request[http::field::host]));
-  answer.set("Content-Security-Policy",
-             status == 200 ? fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data: blob:; "
-                                         "connect-src 'self' {}://{}; base-uri 'none'; form-action 'none'; "
-                                         "frame-ancestors 'none'",
-                                         page.script_hashes, page.style_hashes,
-                                         options.origin.starts_with("https:") ? "wss" : "ws", host)
-                           : "default-src 'none'; frame-ancestors 'none'");
-  answer.set(http::field::content_type, status == 200 ? "text/html; charset=utf-8" : "text/plain; charset=utf-8");
+  answer.set(
+      "Content-Security-Policy",
+      status == 200
+          ? fmt::format("default-src 'none'; script-src {}; style-src {}; img-src data: blob:; "
+                        "connect-src 'self' {}://{}; base-uri 'none'; form-action 'none'; "
+                        "frame-ancestors 'none'",
+                        page.script_hashes, page.style_hashes,
+                        options.origin.starts_with("https:") ? "wss" : "ws", host)
+          : "default-src 'none'; frame-ancestors 'none'");
+  answer.set(http::field::content_type,
+             status == 200 ? "text/html; charset=utf-8" : "text/plain; charset=utf-8");
   answer.body() = status == 200   ? page.html
                   : status == 403 ? "nacre view: this is not the address that it has printed\n"
                   : status == 503 ? "nacre view: too many pages are open\n"
@@ -351,9 +361,7 @@ Server::Server(ServerOptions options, ServedPage page, ServerEvents events)
   impl_->Listen();
 }
 
-Server::~Server() {
-  impl_->pages.clear();
-}
+Server::~Server() { impl_->pages.clear(); }
 
 std::string Server::url() const {
   return fmt::format("http://{}/{}/", impl_->HostName(), impl_->options.token);

@@ -32,8 +32,8 @@ struct ServedPage {
 struct ServerEvents {
   std::function<void(ClientId)> opened, closed;
   std::function<void(ClientId, std::string_view)> message;  // throws Error for a bad one
-  std::function<void()> ready;  // a page could take a picture
-  std::function<void()> tick;   // twenty times a second; what it throws comes out of Run
+  std::function<void()> ready;                              // a page could take a picture
+  std::function<void()> tick;  // twenty times a second; what it throws comes out of Run
 };
 
 class Server {

@@ -8,7 +8,6 @@
 #include <new>
 #include <utility>
 
-
 #include "base/printable.h"
 #include "scene_io/material_json.h"
 #include "shading/material_fit.h"
@@ -20,9 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What a picture may take while something moves: half of the 33 ms from a slider's event to the
-// screen; the other half is the browser's.
-constexpr double kMovingMs = 14;
+// What a picture may take while something moves, until a page has it: of the 33 ms from a slider's
+// event to the screen the rest is for the event's way here, and for the browser to draw.
+constexpr double kMovingMs = 24;
 // How long nothing must have moved before a picture is refined: a hand that drags moves every 8 to
 // 17 ms.
 constexpr std::chrono::milliseconds kRest(90);
@@ -109,10 +108,12 @@ void Worker::Closed(ClientId client) {
   std::erase(clients_, client);
 }
 
-void Worker::Ready() {
+void Worker::Ready(double ms, size_t bytes) {
   {
     const std::lock_guard lock(mutex_);
     ready_ = true;
+    // The mean of the last few: one may have met a busy browser.
+    if (bytes > 0) ms_per_byte_ += 0.3 * (ms / static_cast<double>(bytes) - ms_per_byte_);
   }
   woken_.notify_all();
 }
@@ -159,9 +160,9 @@ void Worker::Run() {
     {
       const std::lock_guard lock(mutex_);
       if (clients_.empty()) continue;
-      next = moved_                                       ? Next::kMoving
+      next = moved_                                          ? Next::kMoving
              : !done_ && Clock::now() - last_change >= kRest ? Next::kRefine
-                                                          : Next::kNothing;
+                                                             : Next::kNothing;
       // What came meanwhile ends it at once; a request before this line has set no flag.
       refining_ = next == Next::kRefine && mailbox_.empty();
       if (next == Next::kRefine && !mailbox_.empty()) continue;
@@ -181,7 +182,8 @@ void Worker::Run() {
       done_ = true;
       moved_ = false;
       plan_.reset();
-      SayFault(0, "", Error(ExitCode::kInternal, "", "out of memory", "a smaller picture needs less"));
+      SayFault(0, "",
+               Error(ExitCode::kInternal, "", "out of memory", "a smaller picture needs less"));
     }
   }
 }
@@ -307,15 +309,23 @@ void Worker::Changed() {
 }
 
 void Worker::SayScene(ClientId client) {
-  Json tree = document_->Tree();
-  if (JsonText(tree).size() > kMaxSceneText && tree.is_object()) tree.erase("shapes");
+  Json tree = document_->Tree(), original = document_->original();
+  if (JsonText(tree).size() > kMaxSceneText && tree.is_object()) {
+    tree.erase("shapes");
+    original.erase("shapes");
+  }
   Json layers = Json::array();
   for (const Layer& layer : ParseLayers({"all"}, document_->scene())) {
     if (layer.kind != LayerKind::kAlpha) layers.push_back(layer.name);
   }
+  Json given = Json::array();
+  for (const std::string& word : options_.given) given.push_back(Printable(word));
   sinks_.say(client, JsonText({{"scene", std::move(tree)},
+                               {"given", std::move(given)},
                                {"camera", document_->Camera()},
+                               {"original", std::move(original)},
                                {"name", Printable(document_->name())},
+                               {"file", Printable(options_.file)},
                                {"layers", std::move(layers)},
                                {"width", document_->own_image().width},
                                {"height", document_->own_image().height},
@@ -403,11 +413,17 @@ void Worker::RenderMoving() {
   RenderPass(*plan_, Settings(), 1, &film_, [&](const Strip& strip) { PutStrip(strip, &image_); });
   moved_ = false;
   render_ms_ = MsSince(start);
-  done_ = plan_->scene->image.spp == 1 && planned_divisor_ == FitDivisor() &&
-          !(options_.max_error > 0);
+  done_ =
+      plan_->scene->image.spp == 1 && planned_divisor_ == FitDivisor() && !(options_.max_error > 0);
   Publish(done_);
   // The first picture makes all that later ones keep: it says nothing of these.
-  if (revision_ > 1) Adapt(render_ms_);
+  if (revision_ <= 1) return;
+  double way_ms = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    way_ms = ms_per_byte_ * 4.0 * static_cast<double>(image_.data.pixel_count());
+  }
+  Adapt(render_ms_ + way_ms);
 }
 
 // The next divisor, from what this picture took: at once smaller, and larger by a step if there is
@@ -416,7 +432,8 @@ void Worker::Adapt(double ms) {
   const auto place = std::find(kDivisors.begin(), kDivisors.end(), divisor_);
   if (ms > kMovingMs) {
     const double wanted = divisor_ * std::sqrt(ms / kMovingMs);
-    const auto enough = std::find_if(place, kDivisors.end() - 1, [&](int d) { return d >= wanted; });
+    const auto enough =
+        std::find_if(place, kDivisors.end() - 1, [&](int d) { return d >= wanted; });
     divisor_ = *enough;
   } else if (place != kDivisors.begin()) {
     const double larger = *(place - 1);
@@ -444,7 +461,8 @@ void Worker::Refine() {
   double last_shown = 0;
   do {
     const int end = std::min(std::max(1, 2 * film_.samples), spp);
-    RenderPass(*plan_, settings, end, &film_, [&](const Strip& strip) { PutStrip(strip, &image_); });
+    RenderPass(*plan_, settings, end, &film_,
+               [&](const Strip& strip) { PutStrip(strip, &image_); });
     // Pictures follow one another no faster than pages can show them beside the rendering.
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);
@@ -457,9 +475,9 @@ void Worker::Refine() {
 void Worker::Publish(bool done) {
   std::vector<const Channel*> channels = ChannelsOf(image_, layer_);
   if (channels.empty()) channels = ChannelsOf(image_, "");
-  const std::array<const float*, 3> rgb = {
-      channels[0]->samples.data(), channels[channels.size() > 1 ? 1 : 0]->samples.data(),
-      channels[channels.size() > 2 ? 2 : 0]->samples.data()};
+  const std::array<const float*, 3> rgb = {channels[0]->samples.data(),
+                                           channels[channels.size() > 1 ? 1 : 0]->samples.data(),
+                                           channels[channels.size() > 2 ? 2 : 0]->samples.data()};
   const ImageSettings own = document_->own_image();
   FrameHead head;
   head.revision = revision_;

@@ -26,6 +26,9 @@ struct WorkerOptions {
   double max_error = 0;  // > 0: adaptive at rest, as --max-error
   int threads = 0;
   DisplaySettings display;
+  // What the command line says of the scene, for the page's own command line.
+  std::string file;
+  std::vector<std::string> given;  // options that have changed it
 };
 
 // What the worker's pictures and answers go to. Called from its thread.
@@ -54,8 +57,8 @@ class Worker {
   void Receive(ClientId client, std::string_view message);
   void Opened(ClientId client);
   void Closed(ClientId client);
-  // Some page could take a picture now.
-  void Ready();
+  // Some page could take a picture now. It took `ms` to have the last one, of so many bytes.
+  void Ready(double ms, size_t bytes);
 
  private:
   enum class Next { kMoving, kRefine, kNothing };
@@ -91,6 +94,7 @@ class Worker {
   Mailbox mailbox_;                // under mutex_
   std::vector<ClientId> clients_;  // under mutex_
   bool ready_ = false;             // under mutex_: a page waits for a picture
+  double ms_per_byte_ = 0;         // under mutex_: of pictures on their way
   bool stop_ = false;              // under mutex_
   bool refining_ = false;          // under mutex_: what runs may be cancelled
   std::atomic<bool> cancel_ = false;

@@ -261,6 +261,7 @@ class EndTest(unittest.TestCase):
             server.process.send_signal(number)
             self.assertEqual(server.process.wait(20), code)
             self.assertLess(time.monotonic() - start, 5)
+            page.close()
             server.close()
 
     def test_the_port_is_free_again_and_taken_ports_are_told(self):

@@ -64,7 +64,8 @@ TEST_CASE("a page cannot fill the mailbox") {
 }
 
 TEST_CASE("messages") {
-  const Request set = ReadRequest(7, R"({"set": "/image/spp", "value": 4, "gesture": 9, "serial": 3})");
+  const Request set =
+      ReadRequest(7, R"({"set": "/image/spp", "value": 4, "gesture": 9, "serial": 3})");
   CHECK(set.client == 7);
   CHECK(std::get<SetRequest>(set.what).pointer == "/image/spp");
   CHECK(std::get<SetRequest>(set.what).value == 4);
@@ -76,9 +77,10 @@ TEST_CASE("messages") {
   CHECK(std::get<LookRequest>(look.what).exposure == -2);
   CHECK(std::get<HistoryRequest>(ReadRequest(1, R"({"history": "redo"})").what) ==
         HistoryRequest::kRedo);
-  for (const char* bad : {"", "{}", "[]", "3", R"({"set": "/a"})", R"({"set": "/a", "value": 1, "x": 2})",
-                          R"({"look": "none", "exposure": 61})", R"({"history": 1})",
-                          R"({"set": "/a", "value": 1, "serial": 0.5})"}) {
+  for (const char* bad :
+       {"", "{}", "[]", "3", R"({"set": "/a"})", R"({"set": "/a", "value": 1, "x": 2})",
+        R"({"look": "none", "exposure": 61})", R"({"history": 1})",
+        R"({"set": "/a", "value": 1, "serial": 0.5})"}) {
     CHECK_THROWS_AS(ReadRequest(1, bad), Error);
   }
 }

@@ -21,10 +21,8 @@ class Server:
         self.host = parts.netloc
 
     def memory_mib(self):
-        for line in open(f'/proc/{self.process.pid}/status', encoding='utf-8'):
-            if line.startswith('VmRSS'):
-                return int(line.split()[1]) / 1024
-        return 0
+        with open(f'/proc/{self.process.pid}/status', encoding='utf-8') as status:
+            return next(int(line.split()[1]) / 1024 for line in status if line.startswith('VmRSS'))
 
     def close(self):
         """Ends it; returns the exit code."""

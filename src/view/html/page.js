@@ -24,7 +24,7 @@ class View {
     this.drop = el('button', {hidden: true, onclick: () => this.dropA()}, 'Drop A');
     document.body.append(el('main', {class: 'app'},
         el('section', {class: 'picture', 'aria-label': 'Picture'},
-           el('div', {class: 'top'}, this.name, el('div', {class: 'row tight'}, Object.values(this.steps)), el('div', {class: 'row'}, this.keep, this.drop), this.status),
+           el('div', {class: 'top'}, this.name, el('div', {class: 'row tight'}, Object.values(this.steps)), el('div', {class: 'row'}, this.keep, this.drop, el('button', {onclick: () => takeAway(this)}, 'Take away')), this.status),
            this.banner, this.viewer.element, this.explanation.element),
         this.panel.element));
     document.addEventListener('keydown', event => this.key(event));
@@ -64,7 +64,8 @@ class View {
     }
   }
 
-  sceneIs({scene, camera, name, layers, client}) {
+  sceneIs({scene, original, camera, name, file, given, layers, client}) {
+    Object.assign(this, {original, file, given});
     if (client) this.client = client;
     this.scene = scene;
     this.name.textContent = name;
