@@ -32,7 +32,9 @@ struct ServedPage {
 struct ServerEvents {
   std::function<void(ClientId)> opened, closed;
   std::function<void(ClientId, std::string_view)> message;  // throws Error for a bad one
-  std::function<void()> ready;                              // a page could take a picture
+  // A page could take a picture. It took `ms` to have the last one, of so many bytes; 0: it has had
+  // none.
+  std::function<void(double ms, size_t bytes)> ready;
   std::function<void()> tick;  // twenty times a second; what it throws comes out of Run
 };
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// view/document_test.cc: the scene that pages edit: its history, and what is refused.
 #include "view/document.h"
 
 #include <filesystem>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// view/mailbox_test.cc: which requests wait, and what messages say.
 #include "view/mailbox.h"
 
 #include <catch2/catch_test_macros.hpp>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// view/token_test.cc: who is let in.
 #include "view/token.h"
 
 #include <set>

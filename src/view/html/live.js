@@ -105,7 +105,7 @@ class LiveViewer extends Viewer {
     this.act.explain(this.mark.x, this.mark.y);
   }
   read() {
-    return this.head?.done || !this.head ? super.read() : undefined;
+    return this.head?.done && (this.reads || this.images.length > 1) ? super.read() : undefined;
   }
 
   // As large as the window has room for, controls and read-out beside it.
