@@ -28,8 +28,9 @@ constexpr std::chrono::milliseconds kRest(90);
 // A page that takes no picture for so long does not hold up the others.
 constexpr std::chrono::milliseconds kPatience(250);
 constexpr std::chrono::milliseconds kFilesEvery(300);
-// Between pictures that are refined.
-constexpr double kRefinedEveryMs = 60;
+// Between pictures that are refined, but for the first and the last: one that is on its way, all of
+// its pixels, holds up the next that moves.
+constexpr double kRefinedEveryMs = 250;
 // Of the picture's width and height, by which a frame may be smaller than it.
 constexpr std::array<int, 8> kDivisors = {1, 2, 3, 4, 6, 8, 12, 16};
 // Pixels that a page is sent at most: 33 MB. Larger pictures are shown smaller.
@@ -458,7 +459,7 @@ void Worker::Refine() {
   }
   if (!plan_ || planned_divisor_ != full) Plan(full);
   const int spp = plan_->scene->image.spp;
-  double last_shown = 0;
+  double last_shown = film_.samples == 0 ? -kRefinedEveryMs : 0;
   do {
     const int end = std::min(std::max(1, 2 * film_.samples), spp);
     RenderPass(*plan_, settings, end, &film_,

@@ -40,8 +40,8 @@ class Explanation {
         el('p', {class: 'soft'}, `Pixel ${x}, ${y}, through its centre. Terms in double, maps aside; radiances in linear units.`),
         el('div', {class: 'columns'}, el('div', {}, table(null, facts, {caption: 'What is there', words: true})),
            el('div', {}, table(null, total, {caption: 'How it adds up', words: true}))),
-        lights.length ? table(['light', ...names], rows, {caption: 'What each light brings'}) : null,
-        el('div', {class: 'columns'}, el('div', {}, this.polar(json)), el('div', {}, this.curves(json))));
+        el('div', {class: 'columns'}, el('div', {}, lights.length ? table(['light', ...names], rows, {caption: 'What each light brings'}) : null),
+           el('div', {}, this.polar(json), this.curves(json))));
   }
 
   // f n·l in the plane of normal and viewer. Lights outside of the plane are drawn at their angle
