@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include <catch2/catch_test_macros.hpp>
+#include <catch2/catch.hpp>
 
 #include "base/error.h"
 

@@ -2,7 +2,7 @@
 // view/mailbox_test.cc: which requests wait, and what messages say.
 #include "view/mailbox.h"
 
-#include <catch2/catch_test_macros.hpp>
+#include <catch2/catch.hpp>
 
 #include "base/error.h"
 

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include <catch2/catch_test_macros.hpp>
+#include <catch2/catch.hpp>
 
 namespace nacre {
 namespace {
