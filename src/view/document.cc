@@ -15,6 +15,10 @@ namespace {
 // Steps that can be undone. Each holds the values before and after it, which may be whole scenes.
 constexpr size_t kMaxSteps = 500;
 
+// Of more plain spheres no list is made, unless a change needs it: there are no controls for so
+// many, and the list would take more memory than the scene.
+constexpr size_t kMaxListedSpheres = 1000;
+
 // The deepest value on the way to where `pointer` points that exists: the pointer itself, or that
 // of the object in which a member is going to be made.
 std::string ExistingPart(const Json& root, std::string pointer) {
@@ -46,17 +50,27 @@ ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions&
       live_(path, Watching(options, &files_)),
       original_(live_.root()) {
   files_.try_emplace(path, KeyOfFile(path));
+  if (scene().spheres.size() <= kMaxListedSpheres) ListShapes();
 }
 
 ViewDocument::ViewDocument(const LoadOptions& options)
     : name_("material ball"),
       live_(ViewFirstScene(), name_, std::filesystem::current_path(), options),
-      original_(live_.root()) {}
+      original_(live_.root()) {
+  ListShapes();
+}
 
 void ViewDocument::UseImage(const ImageSettings& image) {
   if (image == live_.scene().image) return;
   live_.UseImage(image);
   prepared_.versions.Change(ScenePart::kImage);
+}
+
+// Shapes that are not in the tree have not changed either.
+void ViewDocument::ListShapes() {
+  if (live_.lists_all_shapes()) return;
+  live_.ListShapes();
+  original_["shapes"] = live_.root()["shapes"];
 }
 
 void ViewDocument::Put(const std::string& pointer, const Json& value) {
@@ -65,6 +79,7 @@ void ViewDocument::Put(const std::string& pointer, const Json& value) {
 
 void ViewDocument::Set(const std::string& pointer, const Json& value, uint64_t gesture) {
   const std::string place = ExistingPart(live_.root(), pointer);
+  if (place.empty() || place.starts_with("/shapes")) ListShapes();  // the history holds all of it
   Json before = live_.root().at(Json::json_pointer(place));
   Put(pointer, value);
   Json after = live_.root().at(Json::json_pointer(place));
@@ -110,6 +125,7 @@ bool ViewDocument::Reset() {
 
 Json ViewDocument::Tree() const {
   Json tree = live_.root();
+  if (!lists_all_shapes()) tree.erase("shapes");
   if (!tree.is_object() || !IsModelFile(path_)) return tree;
   Json& materials = tree["materials"];
   for (const Material& material : scene().materials) {

@@ -42,8 +42,10 @@ class ViewDocument {
   bool can_undo() const { return !past_.empty(); }
   bool can_redo() const { return !future_.empty(); }
 
-  // The file's tree with all changes. A model's has materials and camera of the file in it.
+  // The file's tree with all changes. A model's has materials and camera of the file in it. Without
+  // "shapes" if these are too many to be listed.
   Json Tree() const;
+  bool lists_all_shapes() const { return live_.lists_all_shapes(); }
   // The file's tree as it was read: of a model, what it was given besides.
   const Json& original() const { return original_; }
   // The camera that is rendered with, every member of it.
@@ -65,6 +67,7 @@ class ViewDocument {
   };
 
   void Put(const std::string& pointer, const Json& value);
+  void ListShapes();
 
   std::string name_;
   std::filesystem::path path_;                          // empty: the built-in scene

@@ -311,7 +311,8 @@ void Worker::Changed() {
 
 void Worker::SayScene(ClientId client) {
   Json tree = document_->Tree(), original = document_->original();
-  if (JsonText(tree).size() > kMaxSceneText && tree.is_object()) {
+  const bool whole = document_->lists_all_shapes() && JsonText(tree).size() <= kMaxSceneText;
+  if (!whole) {
     tree.erase("shapes");
     original.erase("shapes");
   }
@@ -325,6 +326,7 @@ void Worker::SayScene(ClientId client) {
                                {"given", std::move(given)},
                                {"camera", document_->Camera()},
                                {"original", std::move(original)},
+                               {"whole", whole},
                                {"name", Printable(document_->name())},
                                {"file", Printable(options_.file)},
                                {"layers", std::move(layers)},

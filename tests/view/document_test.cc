@@ -69,8 +69,42 @@ TEST_CASE("what is refused changes nothing") {
   CHECK_FALSE(document.can_undo());
 }
 
+std::filesystem::path TemporaryFile() {
+  return std::filesystem::temp_directory_path() / "nacre_view_document_test.json";
+}
+
+Json SphereJson(int i) {
+  return {{"type", "sphere"}, {"center", {i, 0, 0}}, {"radius", 0.5}, {"material", "red"}};
+}
+
+TEST_CASE("shapes are listed where a change needs it, and never lost") {
+  for (const int count : {2, 1500}) {
+    CAPTURE(count);
+    Json scene = {{"nacre", 1}, {"materials", {{"red", {{"model", "lambert"}}}}}};
+    for (int i = 0; i < count; ++i) scene["shapes"].push_back(SphereJson(i));
+    const std::filesystem::path path = TemporaryFile();
+    std::ofstream(path) << scene.dump();
+    ViewDocument document(path, LoadOptions{});
+    CHECK(document.lists_all_shapes() == (count == 2));
+    CHECK(document.Tree().contains("shapes") == (count == 2));
+    document.Set("/materials/red/albedo", 0.25, 1);
+    CHECK(document.lists_all_shapes() == (count == 2));
+    document.Set("/shapes/1/radius", 0.25, 2);
+    CHECK(document.Tree()["shapes"].size() == static_cast<size_t>(count));
+    CHECK(document.scene().spheres[1].radius == 0.25);
+    CHECK(document.Undo());
+    CHECK(document.Undo());
+    CHECK(document.Tree() == scene);
+    document.Set("/background", 1, 3);
+    CHECK(document.Reset());
+    CHECK(document.Tree() == scene);
+    CHECK(document.scene().spheres.size() == static_cast<size_t>(count));
+    std::filesystem::remove(path);
+  }
+}
+
 TEST_CASE("files are watched") {
-  const auto path = std::filesystem::temp_directory_path() / "nacre_view_document_test.json";
+  const std::filesystem::path path = TemporaryFile();
   const auto write = [&](const char* text) { std::ofstream(path) << text; };
   write(R"({"nacre": 1})");
   ViewDocument document(path, LoadOptions{});

@@ -64,8 +64,8 @@ class View {
     }
   }
 
-  sceneIs({scene, original, camera, name, file, given, layers, client}) {
-    Object.assign(this, {original, file, given});
+  sceneIs({scene, original, whole, camera, name, file, given, layers, client}) {
+    Object.assign(this, {original, whole, file, given});
     if (client) this.client = client;
     this.scene = scene;
     this.name.textContent = name;

@@ -31,7 +31,7 @@ function commandLine({file, given, original, scene, look, samples}) {
 // `view`: what the page holds.
 function takeAway(view) {
   const {viewer} = view, base = view.name.textContent.replace(/\.\w+$/, '').replace(/[^\w-]+/g, '_') || 'scene';
-  const whole = view.original && Object.keys(view.original).length > 0 && !/\.(gltf|glb|obj|ply)$/i.test(view.file);
+  const whole = view.whole && view.original && Object.keys(view.original).length > 0 && !/\.(gltf|glb|obj|ply)$/i.test(view.file);
   const command = commandLine({...view, look: viewer.look, samples: viewer.head?.ofSamples});
   const text = el('textarea', {readonly: true, rows: 6, 'aria-label': 'Command line'}, command);
   const dialog = el('dialog', {'aria-label': 'Take away', onclose: () => dialog.remove()}, el('h3', {}, 'Take away'),
