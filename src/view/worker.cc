@@ -413,7 +413,7 @@ void Worker::Plan(int divisor) {
 void Worker::RenderMoving() {
   const auto start = Clock::now();
   Plan(std::max(divisor_, FitDivisor()));
-  RenderPass(*plan_, Settings(), 1, &film_, [&](const Strip& strip) { PutStrip(strip, &image_); });
+  RenderPass(*plan_, Settings(), 1, &film_, [&](const Strip& strip) { CopyStrip(strip, &image_); });
   moved_ = false;
   render_ms_ = MsSince(start);
   done_ =
@@ -465,7 +465,7 @@ void Worker::Refine() {
   do {
     const int end = std::min(std::max(1, 2 * film_.samples), spp);
     RenderPass(*plan_, settings, end, &film_,
-               [&](const Strip& strip) { PutStrip(strip, &image_); });
+               [&](const Strip& strip) { CopyStrip(strip, &image_); });
     // Pictures follow one another no faster than pages can show them beside the rendering.
     if (film_.samples < spp && MsSince(start) - last_shown < kRefinedEveryMs) continue;
     last_shown = MsSince(start);
