@@ -17,7 +17,7 @@ constexpr size_t kMaxSteps = 500;
 
 // Of more plain spheres no list is made, unless a change needs it: there are no controls for so
 // many, and the list would take more memory than the scene.
-constexpr size_t kMaxListedSpheres = 1000;
+constexpr size_t kMaxTreeSpheres = 1000;
 
 // The deepest value on the way to where `pointer` points that exists: the pointer itself, or that
 // of the object in which a member is going to be made.
@@ -50,7 +50,7 @@ ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions&
       live_(path, Watching(options, &files_)),
       original_(live_.root()) {
   files_.try_emplace(path, KeyOfFile(path));
-  if (scene().spheres.size() <= kMaxListedSpheres) ListShapes();
+  if (scene().spheres.size() <= kMaxTreeSpheres) ListShapes();
 }
 
 ViewDocument::ViewDocument(const LoadOptions& options)
