@@ -1,23 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
-// cli/cmd_view.cc: nacre view [SCENE]
+// cli/cmd_view.cc: nacre view [SCENE | IMAGES...]
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/path.h"
 #include "base/version.h"
 #include "cli/commands.h"
 #include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
 #include "cli/render_options.h"
+#include "cli/report_page.h"
+#include "cli/report_sections.h"
+#include "report/child_process.h"
+#include "report/page_parts.h"
+#include "scene_io/kept_files.h"
 #include "view/page.h"
 #include "view/server.h"
 #include "view/token.h"
@@ -26,8 +38,10 @@
 namespace nacre {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct ViewArguments {
-  std::string scene;
+  std::vector<std::string> inputs;
   bool no_open = false;
   ServerOptions server;
   RenderOptions options;
@@ -37,11 +51,29 @@ struct ViewArguments {
 // address has been printed.
 void OpenBrowser(const std::string& url) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
-  std::string program = "/usr/bin/xdg-open", argument = url;
-  char* const arguments[] = {program.data(), argument.data(), nullptr};
+  std::optional<std::string> program = FindProgram("xdg-open");
+  if (!program) {
+    PrintError("note: there is no xdg-open to open a browser with; open the address yourself\n");
+    return;
+  }
+  std::string argument = url;
+  char* const arguments[] = {program->data(), argument.data(), nullptr};
+  // In a session of its own, which Ctrl-C does not reach, and silent: stdout has the address.
+  posix_spawnattr_t attributes;
+  posix_spawn_file_actions_t actions;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
   pid_t child = 0;
-  if (posix_spawn(&child, program.c_str(), nullptr, nullptr, arguments, environ) != 0) {
-    PrintError("note: there is no {} to open a browser with; open the address yourself\n", program);
+  const int failed =
+      posix_spawn(&child, program->c_str(), &actions, &attributes, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
+  if (failed != 0) {
+    PrintError("note: {} does not start; open the address yourself\n", *program);
     return;
   }
   std::thread([child] { waitpid(child, nullptr, 0); }).detach();
@@ -60,13 +92,126 @@ LoadOptions MakeViewLoadOptions(const RenderOptions& options) {
   return load;
 }
 
+// How pictures open in a page that is made of them. HDR-FLIP takes seconds.
+PerceptualArguments ShownAs(const DisplaySettings& display) {
+  PerceptualArguments shown;
+  shown.metrics = {"ssim", "flip"};
+  shown.tonemap = ToneOperatorName(display.tone);
+  shown.exposure = display.exposure_ev;
+  return shown;
+}
+
+// The report's page of pictures, the first against the second.
+std::string PicturesPage(const std::vector<ReportPicture>& pictures,
+                         const PerceptualArguments& shown) {
+  constexpr size_t kMaxSampleBytes = size_t{256} << 20;
+  Page page;
+  const Json section = PictureSection(pictures, pictures.size() > 1 ? 1 : 0,
+                                      MakePerceptualOptions(shown), kMaxSampleBytes, &page);
+  std::string title = pictures[0].name;
+  if (pictures.size() > 1) title += " against " + pictures[1].name;
+  return ReportHtml(title, Json::array({section}), shown, page);
+}
+
+void Announce(const ViewArguments& arguments, const Server& server) {
+  const std::string& address = arguments.server.address;
+  if (!IsLoopback(address)) {
+    PrintError(
+        "warning: {} can be reached from other machines, and what is sent there is not "
+        "encrypted: put a proxy with TLS ahead of it, and name it by --origin https://HOST\n",
+        address);
+  }
+  PrintOut("{}\n", server.url());
+  FinishOutput();
+  if (!arguments.options.quiet) {
+    PrintError("nacre view: open the address above; Ctrl-C ends it\n");
+  }
+  if (!arguments.no_open) OpenBrowser(server.url());
+}
+
+// Serves until a signal, which is how it ends.
+void RunServer(Server* server, int* exit_code) {
+  try {
+    server->Run();
+  } catch (const Error& error) {
+    if (error.code() != ExitCode::kInterrupted && error.code() != ExitCode::kTerminated) throw;
+    *exit_code = static_cast<int>(error.code());
+  }
+}
+
+ServerOptions MakeServerOptions(const ViewArguments& arguments) {
+  ServerOptions options = arguments.server;
+  while (options.origin.ends_with('/')) options.origin.pop_back();
+  // A port that was asked for is asked for again.
+  options.token = options.port != 0 ? KeptToken(options.port) : MakeToken();
+  return options;
+}
+
+// Images are shown by the report's page, with no scene behind it. Files that have changed are in it
+// when it is loaded again.
+void RunImages(const ViewArguments& arguments, int* exit_code) {
+  const RenderOptions& options = arguments.options;
+  PerceptualArguments shown = ShownAs({});
+  shown.tonemap = options.tonemap;
+  shown.exposure = options.exposure;
+  const auto keys = [&] {
+    std::vector<std::string> all;
+    for (const std::string& path : arguments.inputs) all.push_back(KeyOfFile(path));
+    return all;
+  };
+  const auto make = [&]() -> ServedPage {
+    std::vector<ReportPicture> pictures;
+    for (const std::string& path : arguments.inputs) pictures.push_back(ReadPicture(path, ""));
+    return {PicturesPage(pictures, shown), "'" + PolicySource(PageStyleSha256()) + "'",
+            "'" + PolicySource(PageScriptSha256()) + "'"};
+  };
+  std::vector<std::string> before = keys();
+  Server* running = nullptr;
+  int ticks = 0;
+  const auto tick = [&] {
+    ThrowIfStopped();
+    constexpr int kTicksBetweenLooks = 6;
+    if (++ticks % kTicksBetweenLooks != 0) return;
+    std::vector<std::string> now = keys();
+    if (now == before) return;
+    before = std::move(now);
+    try {
+      running->Serve(make());
+    } catch (const Error& error) {  // the pictures before stay
+      PrintError("{}\n", error.what());
+    }
+  };
+  Server server(MakeServerOptions(arguments), make(),
+                {[](ClientId) {}, [](ClientId) {},
+                 [](ClientId, std::string_view) {
+                   throw Error(ExitCode::kUsage, "", "images have nothing to ask for");
+                 },
+                 [](double, size_t) {}, tick});
+  running = &server;
+  Announce(arguments, server);
+  RunServer(&server, exit_code);
+}
+
+bool IsScene(const std::string& path) {
+  RefuseOtherModels(path);
+  return IsModelFile(path) || HasExtension(path, ".json");
+}
+
 void RunView(const ViewArguments& arguments, int* exit_code) {
   const RenderOptions& options = arguments.options;
   ApplyTarget(options.target);
+  const std::vector<std::string>& inputs = arguments.inputs;
+  const auto scenes = std::count_if(inputs.begin(), inputs.end(), IsScene);
+  if (!inputs.empty() && scenes == 0) return RunImages(arguments, exit_code);
+  if (inputs.size() > 1) {
+    throw Error(ExitCode::kUsage, "nacre view", "shows one scene, or images",
+                "nacre report renders several scenes into one page");
+  }
+  const std::string scene = inputs.empty() ? "" : inputs[0];
   const LoadOptions load = MakeViewLoadOptions(options);
   const auto open = [&]() -> std::unique_ptr<ViewDocument> {
-    if (arguments.scene.empty()) return std::make_unique<ViewDocument>(load);
-    return std::make_unique<ViewDocument>(arguments.scene, load);
+    if (scene.empty()) return std::make_unique<ViewDocument>(load);
+    return std::make_unique<ViewDocument>(scene, load);
   };
   WorkerOptions work;
   work.samples = options.spp.value_or(0);
@@ -74,7 +219,12 @@ void RunView(const ViewArguments& arguments, int* exit_code) {
   work.threads = options.threads;
   work.display.tone = ParseToneOperator(options.tonemap);
   work.display.exposure_ev = options.exposure;
-  work.file = arguments.scene;
+  work.file = scene;
+  const std::string generator = fmt::format("nacre {} ({})", kVersion, kCommit);
+  work.generator = generator;
+  work.make_report = [](const Image& a, const Image& b, const DisplaySettings& display) {
+    return PicturesPage({{"B", b, {}}, {"A", a, {}}}, ShownAs(display));
+  };
   if (!options.size.empty()) work.given = {"--size", options.size};
   for (const std::string& set : options.sets) {
     work.given.emplace_back("--set");
@@ -82,42 +232,24 @@ void RunView(const ViewArguments& arguments, int* exit_code) {
   }
   Worker worker(open, work);
 
-  ServerOptions server_options = arguments.server;
-  // A port that was asked for is asked for again.
-  server_options.token = server_options.port != 0 ? KeptToken(server_options.port) : MakeToken();
-  const std::string title =
-      arguments.scene.empty() ? "nacre view" : fmt::format("{} - nacre view", arguments.scene);
+  const std::string title = scene.empty() ? "nacre view" : fmt::format("{} - nacre view", scene);
   Server server(
-      server_options,
-      MakeViewPage(title, fmt::format("nacre {} ({})", kVersion, kCommit), options.tonemap,
-                   options.exposure),
+      MakeServerOptions(arguments),
+      MakeViewPage(title, generator, options.tonemap, options.exposure),
       {[&](ClientId id) { worker.Opened(id); }, [&](ClientId id) { worker.Closed(id); },
        [&](ClientId id, std::string_view text) { worker.Receive(id, text); },
        [&](double ms, size_t bytes) { worker.Ready(ms, bytes); }, [] { ThrowIfStopped(); }});
-  if (!IsLoopback(server_options.address)) {
-    PrintError(
-        "warning: {} can be reached from other machines, and what is sent there is not "
-        "encrypted: put a proxy with TLS ahead of it, and name it by --origin https://HOST\n",
-        server_options.address);
-  }
-  PrintOut("{}\n", server.url());
-  FinishOutput();
-  if (!options.quiet) PrintError("nacre view: open the address above; Ctrl-C ends it\n");
-  if (!arguments.no_open) OpenBrowser(server.url());
-
+  Announce(arguments, server);
   worker.Start({[&](SharedBytes frame) { server.Show(std::move(frame)); },
                 [&](ClientId id, std::string text) { server.Say(id, std::move(text)); },
                 [&](ClientId id, SharedBytes bytes) { server.Send(id, std::move(bytes)); }});
   try {
-    server.Run();
-  } catch (const Error& error) {
-    worker.Stop();
-    if (error.code() != ExitCode::kInterrupted && error.code() != ExitCode::kTerminated) throw;
-    *exit_code = static_cast<int>(error.code());  // a signal is how it ends
+    RunServer(&server, exit_code);
   } catch (...) {
-    worker.Stop();
+    worker.Stop();  // before the server, which it sends to
     throw;
   }
+  worker.Stop();
 }
 
 }  // namespace
@@ -126,9 +258,10 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
   CLI::App* command = app->add_subcommand(
       "view", "Show a scene in the browser, with a slider for everything that can be changed");
   const auto arguments = std::make_shared<ViewArguments>();
-  command->add_option("SCENE", arguments->scene,
-                      "Scene file (.json) or model (.gltf, .glb, .obj, .ply); without one, Phong "
-                      "and physically based spheres beside a grid");
+  command->add_option(
+      "INPUT", arguments->inputs,
+      "Scene file (.json) or model (.gltf, .glb, .obj, .ply), or images to compare; "
+      "without one, Phong and physically based spheres beside a grid");
   command
       ->add_option("--port", arguments->server.port,
                    "Port to listen on; 0: one that is free. With a port the address stays the same "
@@ -168,6 +301,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       "Examples:\n"
       "  nacre view\n"
       "  nacre view scenes/material_grid.json --spp 64\n"
+      "  nacre view a.exr b.exr\n"
       "  nacre view scene.json --port 8080 --no-open");
   command->callback([arguments, exit_code] { RunView(*arguments, exit_code); });
 }

@@ -53,6 +53,8 @@ class LiveScene {
   // Renders it with other settings than its own, until the next change of those. Nothing else
   // follows: a model's camera stays.
   void UseImage(const ImageSettings& image) { scene_.image = image; }
+  // The same of a material, until materials are read again.
+  void UseMaterial(size_t index, const Material& material) { scene_.materials[index] = material; }
   const ImageSettings& own_image() const { return own_image_; }
 
  private:

@@ -2,8 +2,10 @@
 #include "view/document.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "base/path.h"
 #include "scene/material_parameters.h"
 #include "scene_io/kept_files.h"
 #include "scene_io/material_json.h"
@@ -35,6 +37,13 @@ std::string ExistingPart(const Json& root, std::string pointer) {
 
 Json PointJson(const Vec3d& v) { return {v.x, v.y, v.z}; }
 
+bool IsImageFile(const std::filesystem::path& path) {
+  constexpr std::array kExtensions = {".png", ".jpg",  ".jpeg", ".exr", ".hdr", ".tga",
+                                      ".tif", ".tiff", ".ppm",  ".pgm", ".pfm"};
+  return std::any_of(kExtensions.begin(), kExtensions.end(),
+                     [&](const char* extension) { return HasExtension(path.string(), extension); });
+}
+
 LoadOptions Watching(LoadOptions options, std::map<std::filesystem::path, std::string>* files) {
   options.on_file = [files](const std::filesystem::path& file) {
     files->try_emplace(file, KeyOfFile(file));
@@ -47,6 +56,7 @@ LoadOptions Watching(LoadOptions options, std::map<std::filesystem::path, std::s
 ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions& options)
     : name_(path.filename().string()),
       path_(path),
+      folder_(path.parent_path()),
       live_(path, Watching(options, &files_)),
       original_(live_.root()) {
   files_.try_emplace(path, KeyOfFile(path));
@@ -55,9 +65,15 @@ ViewDocument::ViewDocument(const std::filesystem::path& path, const LoadOptions&
 
 ViewDocument::ViewDocument(const LoadOptions& options)
     : name_("material ball"),
-      live_(ViewFirstScene(), name_, std::filesystem::current_path(), options),
+      folder_(std::filesystem::current_path()),
+      live_(ViewFirstScene(), name_, folder_, options),
       original_(live_.root()) {
   ListShapes();
+}
+
+void ViewDocument::UseMaterial(size_t index, const Material& material) {
+  live_.UseMaterial(index, material);
+  prepared_.versions.Change(ScenePart::kMaterials);
 }
 
 void ViewDocument::UseImage(const ImageSettings& image) {
@@ -150,6 +166,30 @@ Json ViewDocument::Camera() const {
     json["height"] = camera.height;
   }
   return json;
+}
+
+std::vector<std::string> ViewDocument::ImageFiles() const {
+  namespace fs = std::filesystem;
+  constexpr int kMaxEntries = 2000, kMaxDepth = 2;
+  constexpr size_t kMaxFiles = 300;
+  std::vector<std::string> files;
+  std::error_code error;
+  const fs::path folder = folder_.empty() ? "." : folder_;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied,
+                                         error);
+  const fs::recursive_directory_iterator end;
+  for (int i = 0; !error && entry != end && i < kMaxEntries && files.size() < kMaxFiles; ++i) {
+    const fs::path& path = entry->path();
+    const bool hidden = path.filename().string().starts_with('.');
+    if (hidden || entry.depth() >= kMaxDepth) entry.disable_recursion_pending();
+    std::error_code ignored;
+    if (!hidden && IsImageFile(path) && entry->is_regular_file(ignored)) {
+      files.push_back(path.lexically_relative(folder).generic_string());
+    }
+    entry.increment(error);
+  }
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
 bool ViewDocument::FilesChanged() {

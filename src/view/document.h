@@ -29,6 +29,8 @@ class ViewDocument {
 
   // Renders it with these settings, as LiveScene::UseImage.
   void UseImage(const ImageSettings& image);
+  // The same of a material, until another is used or materials change.
+  void UseMaterial(size_t index, const Material& material);
 
   // As LiveScene::Set, and kept in the history: changes of one gesture are one step of it. Gesture
   // 0 is never the same as another. Throws Error: the scene is then the one before.
@@ -51,6 +53,9 @@ class ViewDocument {
   // The camera that is rendered with, every member of it.
   Json Camera() const;
   const std::string& name() const { return name_; }
+  // Image files of the scene's folder and of folders in it, as scenes name them: not all of very
+  // many.
+  std::vector<std::string> ImageFiles() const;
 
   // Whether a file that the scene was read from has changed since it was read, or since the last
   // call.
@@ -70,7 +75,8 @@ class ViewDocument {
   void ListShapes();
 
   std::string name_;
-  std::filesystem::path path_;                          // empty: the built-in scene
+  std::filesystem::path path_;  // empty: the built-in scene
+  std::filesystem::path folder_;
   std::map<std::filesystem::path, std::string> files_;  // with KeyOfFile of each
   LiveScene live_;
   PreparedScene prepared_;

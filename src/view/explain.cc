@@ -13,8 +13,10 @@
 #include "brdf/ggx.h"
 #include "brdf/phong.h"
 #include "scene/material_parameters.h"
+#include "scene/shapes.h"
 #include "shading/light.h"
 #include "shading/scalar_material.h"
+#include "study/share.h"
 
 namespace nacre {
 namespace {
@@ -45,6 +47,20 @@ Vec3d LayerOf(const Image& pixel, const std::string& layer, const char* letters 
 struct Point {
   Vec3d position, normal, to_view;
 };
+
+// The middle of a light with an extent, which its angles are told for; none of what is all around.
+std::optional<Vec3d> MiddleOf(const Light& light) {
+  const auto middle = [](const auto& kind) -> std::optional<Vec3d> {
+    if constexpr (requires { kind.center; }) return kind.center;
+    if constexpr (requires { kind.mesh; }) {
+      Vec3d sum(0, 0, 0);
+      for (const Vec3d& corner : kind.mesh->positions) sum += corner;
+      return sum / std::max(1.0, static_cast<double>(kind.mesh->positions.size()));
+    }
+    return {};
+  };
+  return std::visit(middle, light.kind);
+}
 
 // From the point towards a punctual light, and its irradiance there, shadows aside.
 struct Arrival {
@@ -101,28 +117,45 @@ Json TermsJson(const ShadingMaterial& material, const Point& point, const Vec3d&
   return terms;
 }
 
+void AddAngles(const ShadingMaterial& material, const Point& point, const Vec3d& to_light,
+               Json* json) {
+  const double n_dot_l = point.normal ^ to_light, n_dot_v = point.normal ^ point.to_view;
+  const Vec3d sum = to_light + point.to_view;
+  const Vec3d half = sum.length() > 0 ? sum / sum.length() : point.normal;
+  (*json)["to_light"] = TripleJson(to_light);
+  (*json)["n_dot_l"] = n_dot_l;
+  (*json)["n_dot_v"] = n_dot_v;
+  (*json)["n_dot_h"] = point.normal ^ half;
+  (*json)["v_dot_h"] = point.to_view ^ half;
+  (*json)["terms"] =
+      n_dot_l > 0 && n_dot_v > 0 ? TermsJson(material, point, to_light) : Json::object();
+}
+
 Json LightJson(const Light& light, const ShadingMaterial& material, const Point& point,
                const Image& pixel) {
   const Vec3d rendered = LayerOf(pixel, "light." + light.name);
   Json json = {{"name", Printable(light.name)}, {"rendered", TripleJson(rendered)}};
   const std::optional<Arrival> arrival = ArrivalOf(light, point);
-  if (!arrival) return json;  // it comes from many directions: the renderer samples it
+  if (!arrival) {
+    // It comes from many directions, and the renderer samples it.
+    const std::optional<Vec3d> middle = MiddleOf(light);
+    json["state"] = middle ? "has an extent; angles to its middle" : "all around";
+    if (!middle) return json;
+    const Vec3d way = *middle - point.position;
+    const double distance = way.length();
+    json["distance"] = NumberJson(distance);
+    if (distance > 0) AddAngles(material, point, way / distance, &json);
+    return json;
+  }
   const Vec3d& l = arrival->to_light;
-  const double n_dot_l = point.normal ^ l, n_dot_v = point.normal ^ point.to_view;
-  const Vec3d sum = l + point.to_view;
-  const Vec3d half = sum.length() > 0 ? sum / sum.length() : point.normal;
+  AddAngles(material, point, l, &json);
+  const double n_dot_l = point.normal ^ l;
   const Reflection reflected = Reflect(material, point.normal, l, point.to_view);
   const Rgb diffuse = reflected.diffuse * arrival->irradiance;
   const Rgb specular = reflected.specular * arrival->irradiance;
   const double brightest = std::max({rendered.x, rendered.y, rendered.z});
-  json["to_light"] = TripleJson(l);
   json["distance"] = NumberJson(arrival->distance);
   json["irradiance"] = TripleJson(arrival->irradiance);
-  json["n_dot_l"] = n_dot_l;
-  json["n_dot_v"] = n_dot_v;
-  json["n_dot_h"] = point.normal ^ half;
-  json["v_dot_h"] = point.to_view ^ half;
-  json["terms"] = n_dot_l > 0 && n_dot_v > 0 ? TermsJson(material, point, l) : Json::object();
   json["diffuse"] = TripleJson(diffuse);
   json["specular"] = TripleJson(specular);
   json["state"] = !(n_dot_l > 0) ? "below the horizon"
@@ -157,10 +190,23 @@ Json LobeJson(const ShadingMaterial& material, const Point& point) {
           {"specular", std::move(specular)}};
 }
 
-// Distribution over the half vector's angle, and Fresnel's term over v.h, degree by degree.
+// The share of light from everywhere that is seen at an angle from the normal: [[degrees, mean of
+// the channels]...].
+Json AlbedoCurve(const ShadingMaterial& material) {
+  Json curve = Json::array();
+  for (const int degrees : {0, 10, 20, 30, 40, 50, 60, 65, 70, 75, 80, 83, 86, 89}) {
+    const Rgb share = ReflectedShare(material, ShareOf::kFurnace, std::cos(degrees / kDegrees));
+    curve.push_back({degrees, NumberJson((share.x + share.y + share.z) / 3)});
+  }
+  return curve;
+}
+
+// The albedo; of microfacets also their distribution over the half vector's angle, and Fresnel's
+// term over v.h, degree by degree.
 Json CurvesJson(const ShadingMaterial& material) {
+  Json curves = {{"albedo", AlbedoCurve(material)}};
   const auto* const model = std::get_if<MicrofacetModel>(&material.model);
-  if (model == nullptr) return {};
+  if (model == nullptr) return curves;
   Json distribution = Json::array(), fresnel = Json::array();
   const Vec3d normal(0, 0, 1);
   for (int i = 0; i < kCurveSteps; ++i) {
@@ -171,7 +217,49 @@ Json CurvesJson(const ShadingMaterial& material) {
     const double half_sine = std::sin(i / kDegrees / 2);
     fresnel.push_back(TripleJson(FresnelOf(*model, cosine, 2 * half_sine * half_sine)));
   }
-  return {{"distribution", std::move(distribution)}, {"fresnel", std::move(fresnel)}};
+  curves["distribution"] = std::move(distribution);
+  curves["fresnel"] = std::move(fresnel);
+  return curves;
+}
+
+bool IsParameterOf(const MaterialParameter& parameter, const MapTarget& target,
+                   const Material& material) {
+  constexpr double kOther = 0.40625;  // unlike any that a person chooses
+  Material changed = material;
+  parameter.set(changed, Rgb(kOther, kOther, kOther));
+  return target.factor(changed) != target.factor(material);
+}
+
+// The material with what its maps give this hit; `parameters` gets name and value of what they
+// multiply. A map is seen as the albedo of a white Lambertian that has it.
+Material MaterialAtHit(const Material& material, size_t index, const AlbedoWith& albedo_with,
+                       Json* parameters) {
+  Material at_hit = material;
+  const MaterialModel* const model = ModelOf(material);
+  if (model == nullptr) return at_hit;
+  for (const MaterialMap& map : model->maps) {
+    const TextureId texture = map.get(material);
+    if (!texture.valid() || map.target_count == 0) continue;
+    Material white = material;
+    white.model = LambertMaterial{.albedo = {1, 1, 1}, .albedo_map = texture};
+    white.vertex_colors = VertexColors::kNone;
+    const Rgb texel = albedo_with(index, white);
+    for (const MapTarget& target : TargetsOf(map)) {
+      Rgb value = target.factor(at_hit);
+      for (int c = 0; c < 3; ++c) {
+        value[c] =
+            std::clamp(value[c] * texel[target.is_color ? c : target.channel], 0.0, target.most);
+      }
+      for (const MaterialParameter& parameter : model->parameters) {
+        if (!IsParameterOf(parameter, target, material)) continue;
+        parameter.set(at_hit, value);
+        (*parameters)[std::string(parameter.name)] =
+            target.is_color ? TripleJson(value) : NumberJson(value.x);
+      }
+    }
+    map.set(at_hit, TextureId{});
+  }
+  return at_hit;
 }
 
 Vec3d ToView(const Camera& camera, const Vec3d& position) {
@@ -183,7 +271,7 @@ Vec3d ToView(const Camera& camera, const Vec3d& position) {
 
 }  // namespace
 
-Json ExplainPixel(const Scene& scene, const Image& pixel) {
+Json ExplainPixel(const Scene& scene, const Image& pixel, const AlbedoWith& albedo_with) {
   Json json = {{"value", TripleJson(LayerOf(pixel, ""))}};
   const auto object = static_cast<size_t>(SampleOf(pixel, "id.object"));
   const auto number = static_cast<size_t>(SampleOf(pixel, "id.material"));
@@ -191,7 +279,9 @@ Json ExplainPixel(const Scene& scene, const Image& pixel) {
     json["background"] = true;
     return json;
   }
-  const Material& material = scene.materials[number - 1];
+  Json mapped = Json::object();
+  const Material material =
+      MaterialAtHit(scene.materials[number - 1], number - 1, albedo_with, &mapped);
   const MaterialModel* const model = ModelOf(material);
   Point point;
   point.position = LayerOf(pixel, "P", "XYZ");
@@ -202,6 +292,7 @@ Json ExplainPixel(const Scene& scene, const Image& pixel) {
                                     : "mesh " + std::to_string(object - spheres);
   json["material"] = Printable(material.name);
   json["model"] = model == nullptr ? "split" : std::string(model->name);
+  json["mapped"] = std::move(mapped);
   json["position"] = TripleJson(point.position);
   json["normal"] = TripleJson(point.normal);
   json["to_view"] = TripleJson(point.to_view);

@@ -41,6 +41,14 @@ SharedBytes PictureBytes(FrameHead head, const std::array<const float*, 3>& rgb,
   return message;
 }
 
+SharedBytes FileBytes(FileKind kind, const std::vector<uint8_t>& file) {
+  FrameHead head;
+  head.kind = static_cast<uint32_t>(kind);
+  const auto message = WithHead(head, file.size());
+  std::copy(file.begin(), file.end(), message->begin() + kFrameHeadBytes);
+  return message;
+}
+
 SharedBytes SampleBytes(FrameHead head, std::span<const Channel* const> channels) {
   const size_t pixels = size_t{head.width} * head.height;
   head.kind = 2;

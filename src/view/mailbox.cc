@@ -65,6 +65,7 @@ Request ReadRequest(ClientId client, std::string_view text) {
   const JsonPath root;
   JsonObject message({json, root, &faults});
   constexpr std::array<std::string_view, 3> kSteps = {"undo", "redo", "reset"};
+  constexpr std::array<std::string_view, 2> kFiles = {"exr", "report"};
   Request request{client, {}};
   size_t step = 0;
   if (message.Find("set") != nullptr) {
@@ -90,12 +91,19 @@ Request ReadRequest(ClientId client, std::string_view text) {
     convert.model = models[model];
     message.Whole("gesture", kCounter, &convert.gesture);
     request.what = convert;
+  } else if (message.Find("keep") != nullptr) {
+    KeepRequest keep;
+    message.Boolean("keep", &keep.keep);
+    request.what = keep;
+  } else if (message.Find("take") != nullptr) {
+    message.Choice("take", kFiles, &step);
+    request.what = static_cast<TakeRequest>(step);
   } else if (message.Find("history") != nullptr) {
     message.Choice("history", kSteps, &step);
     request.what = static_cast<HistoryRequest>(step);
   } else {
     faults.Add("", "asks for nothing known",
-               "it has one of set, look, samples, explain, convert, history");
+               "it has one of set, look, samples, explain, convert, keep, take, history");
   }
   message.RefuseOthers();
   ThrowFaults(faults, file);

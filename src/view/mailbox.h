@@ -42,12 +42,18 @@ struct ConvertRequest {
   std::string pointer, model;
   uint64_t gesture = 0;
 };
+// The picture at rest is kept as A, which later ones are measured against; or not any more.
+struct KeepRequest {
+  bool keep = true;
+};
+// A file to take away: the picture with all layers, or a report of A and the present picture.
+enum class TakeRequest : uint8_t { kExr, kReport };
 struct WelcomeRequest {};  // a page that has just connected: it is told all
 
 struct Request {
   ClientId client = 0;
   std::variant<SetRequest, HistoryRequest, LookRequest, SamplesRequest, ExplainRequest,
-               ConvertRequest, WelcomeRequest>
+               ConvertRequest, KeepRequest, TakeRequest, WelcomeRequest>
       what;
   // Whether it changes what the picture shows, or how: a render for what was before may end.
   bool ChangesPicture() const;

@@ -43,7 +43,7 @@ constexpr std::chrono::seconds kRequestTime(5);
 // A page that takes nothing for so long is gone, or asleep: it will connect again.
 constexpr std::chrono::seconds kIdleTime(60);
 // What may wait for a page that is slow.
-constexpr size_t kMaxWaitingBytes = size_t{96} << 20;
+constexpr size_t kMaxWaitingBytes = size_t{192} << 20;
 constexpr std::chrono::milliseconds kTick(50);
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
@@ -262,6 +262,12 @@ void Server::Impl::Listen() {
     throw Error(ExitCode::kUsage, "--listen", fmt::format("\"{}\" is no address", options.address),
                 "127.0.0.1 or ::1 for this machine alone, an address of its own for others");
   }
+  if (address.is_unspecified() && options.origin.empty()) {
+    throw Error(
+        ExitCode::kUsage, "--listen",
+        fmt::format("{} stands for all addresses, and no browser calls it so", options.address),
+        "one address of this machine; or --origin, how browsers call the proxy ahead");
+  }
   const Tcp::endpoint endpoint(address, options.port);
   acceptor.open(endpoint.protocol(), error);
   if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
@@ -364,7 +370,9 @@ Server::Server(ServerOptions options, ServedPage page, ServerEvents events)
 Server::~Server() { impl_->pages.clear(); }
 
 std::string Server::url() const {
-  return fmt::format("http://{}/{}/", impl_->HostName(), impl_->options.token);
+  const ServerOptions& options = impl_->options;
+  if (!options.origin.empty()) return fmt::format("{}/{}/", options.origin, options.token);
+  return fmt::format("http://{}/{}/", impl_->HostName(), options.token);
 }
 
 void Server::Run() {
@@ -389,6 +397,10 @@ void Server::Say(ClientId client, std::string text) {
       if (client == 0 || id == client) page->Say(text);
     }
   });
+}
+
+void Server::Serve(ServedPage page) {
+  asio::post(impl_->context, [impl = impl_.get(), page = std::move(page)] { impl->page = page; });
 }
 
 void Server::Send(ClientId client, SharedBytes bytes) {

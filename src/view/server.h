@@ -55,6 +55,7 @@ class Server {
   void Show(SharedBytes frame);
   void Say(ClientId client, std::string text);  // client 0: to all
   void Send(ClientId client, SharedBytes bytes);
+  void Serve(ServedPage page);  // from now on in the place of the one before
 
   struct Impl;
 

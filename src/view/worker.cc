@@ -13,6 +13,8 @@
 #include "shading/material_fit.h"
 #include "view/answer.h"
 #include "view/explain.h"
+#include "view/metrics.h"
+#include "view/take.h"
 
 namespace nacre {
 namespace {
@@ -31,6 +33,11 @@ constexpr std::chrono::milliseconds kFilesEvery(300);
 // Between pictures that are refined, but for the first and the last: one that is on its way, all of
 // its pixels, holds up the next that moves.
 constexpr double kRefinedEveryMs = 250;
+// How long a picture must have been at rest before it is measured against those that are kept: FLIP
+// takes longer than a hand waits.
+constexpr std::chrono::milliseconds kMeasureAfter(400);
+// Of all pictures that are kept.
+constexpr size_t kMaxKeptBytes = size_t{200} << 20;
 // Of the picture's width and height, by which a frame may be smaller than it.
 constexpr std::array<int, 8> kDivisors = {1, 2, 3, 4, 6, 8, 12, 16};
 // Pixels that a page is sent at most: 33 MB. Larger pictures are shown smaller.
@@ -43,6 +50,10 @@ double MsSince(Clock::time_point start) {
 }
 
 int DividedBy(int side, int divisor) { return std::max(1, (side + divisor - 1) / divisor); }
+
+size_t BytesOf(const Image& image) {
+  return image.channels.size() * image.data.pixel_count() * sizeof(float);
+}
 
 // The layer's channels of an image, in the order R G B, or X Y Z.
 std::vector<const Channel*> ChannelsOf(const Image& image, const std::string& layer) {
@@ -127,16 +138,23 @@ void Worker::Run() {
     {
       std::unique_lock lock(mutex_);
       refining_ = false;
-      const auto rested = [&] { return Clock::now() - last_change >= kRest; };
+      std::erase_if(kept_, [&](const auto& kept) {
+        return std::find(clients_.begin(), clients_.end(), kept.first) == clients_.end();
+      });
+      const auto since_change = [&] { return Clock::now() - last_change; };
+      const bool to_measure = AnyToMeasure();
       const auto has_work = [&] {
         if (stop_ || !mailbox_.empty()) return true;
         if (clients_.empty()) return false;
-        return moved_ || (!done_ && rested());
+        return moved_ || (!done_ && since_change() >= kRest) ||
+               (to_measure && since_change() >= kMeasureAfter);
       };
       if (!has_work()) {
         // Until there is a request, or until it is time to refine or to look at the files.
-        const auto until = !done_ && !clients_.empty() && !moved_ ? last_change + kRest
-                                                                  : Clock::now() + kFilesEvery;
+        const auto until = clients_.empty() || moved_ ? Clock::now() + kFilesEvery
+                           : !done_                   ? last_change + kRest
+                           : to_measure               ? last_change + kMeasureAfter
+                                                      : Clock::now() + kFilesEvery;
         woken_.wait_until(lock, until, has_work);
       }
       // A picture that nobody can take yet would be old when it is sent: newer values may come.
@@ -161,9 +179,10 @@ void Worker::Run() {
     {
       const std::lock_guard lock(mutex_);
       if (clients_.empty()) continue;
-      next = moved_                                          ? Next::kMoving
-             : !done_ && Clock::now() - last_change >= kRest ? Next::kRefine
-                                                             : Next::kNothing;
+      next = moved_                                                          ? Next::kMoving
+             : !done_ && Clock::now() - last_change >= kRest                 ? Next::kRefine
+             : AnyToMeasure() && Clock::now() - last_change >= kMeasureAfter ? Next::kMeasure
+                                                                             : Next::kNothing;
       // What came meanwhile ends it at once; a request before this line has set no flag.
       refining_ = next == Next::kRefine && mailbox_.empty();
       if (next == Next::kRefine && !mailbox_.empty()) continue;
@@ -172,6 +191,7 @@ void Worker::Run() {
     try {
       if (next == Next::kMoving) RenderMoving();
       if (next == Next::kRefine) Refine();
+      if (next == Next::kMeasure) Measure();
     } catch (const Cancelled&) {
       plan_.reset();  // its film is of no use any more
     } catch (const Error& error) {
@@ -198,6 +218,7 @@ void Worker::Serve(const Request& request) {
     } else if (const auto* look = std::get_if<LookRequest>(&request.what)) {
       display_.tone = ParseToneOperator(look->tone);
       display_.exposure_ev = look->exposure;
+      for (auto& [id, kept] : kept_) kept.measured = false;  // SSIM and FLIP are of what is seen
       const std::string layer = std::exchange(layer_, look->layer);
       try {
         ParseLayers({"all", look->layer.empty() ? "albedo" : look->layer}, document_->scene());
@@ -216,6 +237,10 @@ void Worker::Serve(const Request& request) {
       Explain(request.client, *explain);
     } else if (const auto* convert = std::get_if<ConvertRequest>(&request.what)) {
       ServeConvert(request.client, *convert);
+    } else if (const auto* keep = std::get_if<KeepRequest>(&request.what)) {
+      Keep(request.client, keep->keep);
+    } else if (const auto* take = std::get_if<TakeRequest>(&request.what)) {
+      Take(request.client, *take);
     } else {
       SayScene(request.client);
       if (image_.channels.empty()) {
@@ -286,8 +311,24 @@ void Worker::Explain(ClientId client, const ExplainRequest& request) {
   const int x = std::min(request.x / divisor, image.width - 1);
   const int y = std::min(request.y / divisor, image.height - 1);
   settings.region = {x, y, x + 1, y + 1};
-  const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
-  Json json = ExplainPixel(document_->scene(), RenderImage(plan, settings, nullptr));
+  const auto render = [&] {
+    const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+    return RenderImage(plan, settings, nullptr);
+  };
+  const auto albedo_with = [&](size_t index, const Material& other) {
+    const Material own = document_->scene().materials[index];
+    document_->UseMaterial(index, other);
+    settings.layers = {"albedo"};
+    const Image image = render();
+    document_->UseMaterial(index, own);
+    Rgb albedo;
+    for (int c = 0; c < 3; ++c) {
+      albedo[c] = image.Find(std::string("albedo.") + "RGB"[c])->samples.front();
+    }
+    return albedo;
+  };
+  const Image pixel = render();
+  Json json = ExplainPixel(document_->scene(), pixel, albedo_with);
   json["x"] = request.x;
   json["y"] = request.y;
   sinks_.say(client, JsonText({{"explained", std::move(json)}, {"revision", revision_}}));
@@ -307,6 +348,7 @@ void Worker::Changed() {
   ++revision_;
   moved_ = true;
   done_ = false;
+  for (auto& [id, kept] : kept_) kept.measured = false;
 }
 
 void Worker::SayScene(ClientId client) {
@@ -330,6 +372,8 @@ void Worker::SayScene(ClientId client) {
                                {"name", Printable(document_->name())},
                                {"file", Printable(options_.file)},
                                {"layers", std::move(layers)},
+                               {"files", document_->ImageFiles()},
+                               {"generator", options_.generator},
                                {"width", document_->own_image().width},
                                {"height", document_->own_image().height},
                                {"revision", revision_},
@@ -369,7 +413,78 @@ void Worker::SendSamples(ClientId client, const SamplesRequest& request) {
   head.width = static_cast<uint32_t>(channels.empty() ? 0 : image_.data.width());
   head.height = static_cast<uint32_t>(channels.empty() ? 0 : image_.data.height());
   head.done = done_ ? 1 : 0;
-  sinks_.samples(client, SampleBytes(head, channels));
+  sinks_.send(client, SampleBytes(head, channels));
+}
+
+// ---- A and B, and what is taken away ------------------------------------------------------------
+
+void Worker::Keep(ClientId client, bool keep) {
+  kept_.erase(client);
+  size_t bytes = 0;
+  for (const auto& [id, kept] : kept_) bytes += BytesOf(*kept.image);
+  if (keep && done_ && bytes + BytesOf(image_) > kMaxKeptBytes) {
+    throw Error(ExitCode::kUsage, "", "pictures that are kept as A take too much memory",
+                "a smaller picture, or fewer pages that keep one");
+  }
+  if (keep && done_) kept_[client] = {std::make_shared<const Image>(image_)};
+  sinks_.say(client, JsonText({{"kept", keep && done_}, {"revision", revision_}}));
+}
+
+bool Worker::AnyToMeasure() const {
+  return done_ && std::any_of(kept_.begin(), kept_.end(),
+                              [](const auto& kept) { return !kept.second.measured; });
+}
+
+void Worker::Measure() {
+  for (auto& [client, kept] : kept_) {
+    if (std::exchange(kept.measured, true)) continue;
+    Json metrics;  // null: the pictures are of different sizes
+    if (kept.image->data == image_.data) metrics = BeautyMetricsJson(image_, *kept.image, display_);
+    sinks_.say(client, JsonText({{"metrics", std::move(metrics)}, {"revision", revision_}}));
+  }
+}
+
+void Worker::Take(ClientId client, TakeRequest what) {
+  {
+    const std::lock_guard lock(mutex_);
+    refining_ = true;  // a change ends it
+  }
+  SharedBytes bytes;
+  try {
+    bytes = what == TakeRequest::kExr ? TakeExr() : TakeReport(client);
+  } catch (const Cancelled&) {
+    throw Error(ExitCode::kUsage, "", "the scene has changed meanwhile", "take it away again");
+  }
+  if (bytes->size() > kMaxFileBytes) {
+    throw Error(ExitCode::kUsage, "", "the file is too large to be sent",
+                "the command line makes it: nacre render, nacre report");
+  }
+  sinks_.send(client, std::move(bytes));
+}
+
+SharedBytes Worker::TakeExr() {
+  plan_.reset();  // it refers to the scene
+  document_->UseImage(FullImage());
+  RenderSettings settings = Settings();
+  settings.layers = {"all"};
+  if (options_.max_error > 0) {
+    settings.max_error = options_.max_error;
+    settings.max_samples = options_.samples > 0 ? options_.samples : settings.max_samples;
+  }
+  const FramePlan plan = MakePlan(document_->scene(), settings, document_->prepared());
+  return FileBytes(FileKind::kExr, RenderExr(plan, settings));
+}
+
+SharedBytes Worker::TakeReport(ClientId client) {
+  const auto kept = kept_.find(client);
+  if (kept == kept_.end() || !options_.make_report) {
+    throw Error(ExitCode::kUsage, "", "there is no A to compare with", "keep a picture as A first");
+  }
+  if (!done_) {
+    throw Error(ExitCode::kUsage, "", "the picture is not finished", "take it away once it is");
+  }
+  const std::string html = options_.make_report(*kept->second.image, image_, display_);
+  return FileBytes(FileKind::kReport, std::vector<uint8_t>(html.begin(), html.end()));
 }
 
 // ---- Rendering ----------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -27,15 +28,18 @@ struct WorkerOptions {
   int threads = 0;
   DisplaySettings display;
   // What the command line says of the scene, for the page's own command line.
+  std::string generator;  // "nacre 0.2.0 (c0ffee)"
   std::string file;
   std::vector<std::string> given;  // options that have changed it
+  // A page of A and B, as `nacre report` makes one.
+  std::function<std::string(const Image& a, const Image& b, const DisplaySettings&)> make_report;
 };
 
 // What the worker's pictures and answers go to. Called from its thread.
 struct WorkerSinks {
-  std::function<void(SharedBytes)> show;               // to all pages
-  std::function<void(ClientId, std::string)> say;      // JSON; client 0: to all
-  std::function<void(ClientId, SharedBytes)> samples;  // to one
+  std::function<void(SharedBytes)> show;            // to all pages
+  std::function<void(ClientId, std::string)> say;   // JSON; client 0: to all
+  std::function<void(ClientId, SharedBytes)> send;  // samples and files, to one
 };
 
 // Makes the document, when the worker starts and when its files have changed. Throws Error.
@@ -61,7 +65,12 @@ class Worker {
   void Ready(double ms, size_t bytes);
 
  private:
-  enum class Next { kMoving, kRefine, kNothing };
+  enum class Next { kMoving, kRefine, kMeasure, kNothing };
+  // A picture that a page has kept as A.
+  struct KeptPicture {
+    std::shared_ptr<const Image> image;
+    bool measured = false;  // against the present picture
+  };
 
   void Add(Request request);
   void Run();
@@ -71,8 +80,13 @@ class Worker {
   void ServeConvert(ClientId client, const ConvertRequest& convert);
   void Explain(ClientId client, const ExplainRequest& request);
   void SendSamples(ClientId client, const SamplesRequest& request);
+  void Keep(ClientId client, bool keep);
+  void Take(ClientId client, TakeRequest what);
+  SharedBytes TakeExr();
+  SharedBytes TakeReport(ClientId client);
+  bool AnyToMeasure() const;
+  void Measure();
   void SayScene(ClientId client);
-  void SayHistory();
   void SayFault(ClientId client, const std::string& pointer, const Error& error);
   void Changed();
   void CheckFiles();
@@ -111,6 +125,7 @@ class Worker {
   Image image_;
   int planned_divisor_ = 0;
   bool done_ = false;
+  std::map<ClientId, KeptPicture> kept_;
   double render_ms_ = 0;
   std::string banner_;
   std::thread thread_;

@@ -41,7 +41,7 @@ BRANCHES = {
     # The public API, nacre.h.
     "api": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "output"},
     # The live view: its scene and render thread, its page and the server of it.
-    "view": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "report"},
+    "view": TRUNK_FOLDERS | {"image_io", "scene_io", "compare", "report", "study", "output"},
     "textbook": {"base"},  # shares nothing with the renderer; only lesson/ and cli/ may use it
     "lesson": TRUNK_FOLDERS | {"textbook", "scene_io", "image_io", "compare"},
 }

@@ -275,6 +275,43 @@ class EndTest(unittest.TestCase):
         with Server(PROGRAM, SCENE, *SMALL, '--port', port) as again:
             self.assertEqual(again.port, port)
 
+    def test_addresses_for_others(self):
+        with Server(PROGRAM, SCENE, *SMALL, '--listen', '127.0.0.2') as server:
+            self.assertTrue(server.url.startswith('http://127.0.0.2:'))
+        # All addresses are none that a browser says; behind a proxy it says the proxy's.
+        command = [PROGRAM, 'view', '--no-open', *SMALL, '--listen', '0.0.0.0']
+        refused = subprocess.run([*command, SCENE], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((refused.returncode, refused.stdout), (64, ''))
+        self.assertIn('--origin', refused.stderr)
+        with Server(PROGRAM, SCENE, *SMALL, '--listen', '0.0.0.0', '--origin', 'https://nacre.example/') as server:
+            self.assertTrue(server.url.startswith('https://nacre.example/'))
+            self.assertIn('TLS', server.process.stderr.readline())
+
+    def test_a_display_opens_a_browser(self):
+        with tempfile.TemporaryDirectory() as folder:
+            opened, opener = pathlib.Path(folder, 'opened'), pathlib.Path(folder, 'xdg-open')
+            opener.write_text(f'#!/bin/sh\necho noise\necho "$1" > {opened}.new\nmv {opened}.new {opened}\n', encoding='utf-8')
+            opener.chmod(0o755)
+            for path, display in ((f'{folder}:{os.environ["PATH"]}', ':7'), (f'{folder}:{os.environ["PATH"]}', None), (folder, ':7')):
+                opened.unlink(missing_ok=True)
+                if path == folder:
+                    opener.unlink()
+                environment = {k: v for k, v in os.environ.items() if k not in ('DISPLAY', 'WAYLAND_DISPLAY')}
+                environment.update({'PATH': path}, **({'DISPLAY': display} if display else {}))
+                process = subprocess.Popen([PROGRAM, 'view', SCENE, *SMALL], env=environment, stdout=subprocess.PIPE,
+                                           stderr=subprocess.PIPE, text=True)
+                url = process.stdout.readline().strip()
+                end = time.monotonic() + (20 if display and path != folder else 0.5)
+                while not opened.exists() and time.monotonic() < end:
+                    time.sleep(0.05)
+                process.send_signal(signal.SIGINT)
+                out, errors = process.communicate(timeout=20)
+                self.assertEqual((process.returncode, out), (130, ''))
+                self.assertEqual(opened.exists(), bool(display) and path != folder)
+                if opened.exists():
+                    self.assertEqual(opened.read_text(encoding='utf-8').strip(), url)
+                self.assertEqual('no xdg-open' in errors, path == folder)
+
     def test_broken_scenes(self):
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder, 'broken.json')

@@ -247,6 +247,113 @@ class ViewTest(unittest.TestCase):
                                     return rows.length === 2 && [...rows].map(r => r.textContent)''')
         self.assertIn('B, now', rows[0])
 
+    def test_figures_of_a_and_b(self):
+        self.view()
+        self.browser.wait('return !VIEW.keep.disabled')
+        self.browser.script('VIEW.keep.click()')
+        self.browser.wait('return VIEW.viewer.images.length === 2')
+        self.slide('/materials/red/roughness', 800)
+        text = self.browser.wait("""const m = document.querySelector('.metrics:not(.old)');
+                                    return m && m.querySelector('[data-metric=FLIP]') && m.textContent""")
+        for name in ('RMSE', 'relMSE', 'PSNR', 'SSIM', 'FLIP', 'largest difference'):
+            self.assertIn(name, text)
+        self.browser.script('VIEW.drop.click()')
+        self.browser.wait('return document.querySelector(".metrics").hidden')
+
+    def test_phong_against_pbr_in_one_click(self):
+        self.view()
+        before = self.pixel()
+        self.browser.wait('return !VIEW.both.disabled')
+        self.browser.script('VIEW.both.click()')
+        self.browser.wait('return VIEW.scene.materials.red.model === "phong"')
+        self.changed(before)
+        self.assertEqual(self.browser.script('return VIEW.viewer.images.map(i => i.name)'), ['B, now', 'A'])
+        self.assertEqual(self.value('/materials/floor/model'), 'lambert')
+        # One step back.
+        self.click('[aria-label="Undo"]')
+        self.browser.wait('return VIEW.scene.materials.red.model === "metallic_roughness"')
+
+    def test_a_pixel_is_explained(self):
+        server = self.view()
+        page = server.upgrade()
+        self.browser.script('VIEW.viewer.inspect(96, 54)')
+        text = self.browser.wait('const e = document.querySelector(".explain"); return !e.hidden && e.textContent')
+        page.send({'explain': 96, 'y': 54})
+        told = page.until(lambda m: 'explained' in m)['explained']
+        page.close()
+        key = next(light for light in told['lights'] if light['name'] == 'key')
+        for value in (key['terms']['D'], key['terms']['G'], key['n_dot_l'], key['n_dot_h']):
+            shown = self.browser.script('return show(arguments[0], 4)', value)
+            self.assertIn(shown, text)
+        self.assertEqual(self.browser.script('return document.querySelectorAll(".explain svg").length'), 4)
+
+    def test_the_page_finds_a_server_that_starts_anew(self):
+        with tempfile.TemporaryDirectory() as folder:
+            before = os.environ.get('XDG_RUNTIME_DIR')
+            os.environ['XDG_RUNTIME_DIR'] = folder
+            try:
+                with Server(PROGRAM, SOURCE / 'scenes/first_scene.json', *QUICK) as first:
+                    port = first.port
+                shutil.copy(SOURCE / 'scenes/first_scene.json', self.scene)
+                arguments = (self.scene, *QUICK, '--port', port)
+                server = self.view(*arguments)
+                before_change = self.pixel()
+                self.slide('/materials/red/roughness', 900)
+                server.process.kill()
+                server.close()
+                self.browser.wait('return VIEW.status.textContent.startsWith("no connection")')
+                again = Server(PROGRAM, *arguments)
+                self.addCleanup(again.close)
+                self.assertEqual(again.url, server.url)
+                self.browser.wait('return VIEW.scene.materials.red.roughness === 0.3')
+                self.rest()
+                self.browser.wait('return !VIEW.status.textContent.startsWith("no connection")')
+                self.assertEqual(self.pixel(), before_change)
+                self.slide('/materials/red/roughness', 900)
+                self.assertNotEqual(self.pixel(), before_change)
+            finally:
+                if before is None:
+                    del os.environ['XDG_RUNTIME_DIR']
+                else:
+                    os.environ['XDG_RUNTIME_DIR'] = before
+
+    def test_a_map_is_chosen_among_files(self):
+        self.view()
+        pathlib.Path(self.folder.name, 'maps').mkdir(exist_ok=True)
+        shutil.copy(next((SOURCE / 'scenes').rglob('*.png')), pathlib.Path(self.folder.name, 'maps/a b.png'))
+        self.browser.post(self.browser.session + '/refresh', {})
+        self.rest()
+        before = self.pixel()
+        self.browser.script("""
+            const select = document.querySelector('[data-pointer="/materials/red/base_color_map"] select');
+            select.value = 'maps/a b.png';
+            select.dispatchEvent(new Event('change'));""")
+        self.browser.wait('return VIEW.scene.materials.red.base_color_map === "a b"')
+        self.assertEqual(self.value('/textures/a b/file'), 'maps/a b.png')
+        self.changed(before)
+        self.browser.wait("""return document.querySelector('[data-pointer="/materials/red/base_color_map"] select').value === 'a b'""")
+
+    def test_an_environment_is_turned(self):
+        scene = json.loads((SOURCE / 'scenes/first_scene.json').read_text(encoding='utf-8'))
+        scene['lights'] = {'sky': {'type': 'environment', 'quadratic': {'axis': [1, 0, 0], 'constant': 1, 'linear': 1}}}
+        path = pathlib.Path(self.folder.name, 'sky.json')
+        path.write_text(json.dumps(scene), encoding='utf-8')
+        self.view(path, *QUICK)
+        before = self.pixel()
+        self.slide('/lights/sky/rotate_deg', 750)
+        self.assertEqual(self.value('/lights/sky/rotate_deg'), 90)
+        self.assertNotEqual(self.pixel(), before)
+
+    def test_images_alone(self):
+        images = [pathlib.Path(self.folder.name, f'{name}.exr') for name in 'ab']
+        for image, spp in zip(images, '12'):
+            subprocess.run([PROGRAM, 'render', str(SOURCE / 'scenes/first_scene.json'), '--size', '96x54', '--spp', spp, '-o', str(image),
+                            '--quiet'], check=True, timeout=60)
+        with Server(PROGRAM, *images, '--quiet') as server:
+            self.browser.post(self.browser.session + '/url', {'url': server.url})
+            self.browser.wait('return Number(document.querySelector(".viewer")?.dataset.ready) > 0')
+            self.assertIn('FLIP', self.browser.script('return document.body.textContent'))
+
     def test_a_saved_file_and_a_broken_one(self):
         self.view()
         before = self.pixel()

@@ -12,6 +12,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -88,15 +89,18 @@ class ProtocolTest(unittest.TestCase):
             self.assertEqual(list(values[i * 14400:(i + 1) * 14400]), [v for row in planes[channel] for v in row])
 
     def test_an_explained_pixel_adds_up(self):
-        for scene in ('first_scene', 'phong_vs_pbr', 'metals'):
-            _, page = self.open(SOURCE / f'scenes/{scene}.json', *SIZE, '--spp', 2)
+        spot = {'type': 'spot', 'position': [0, 4, 4], 'direction_of_travel': [0, -3, -4], 'intensity': 80, 'cutoff_deg': 30, 'inner_deg': 5}
+        for scene, light in (('first_scene', spot), ('phong_vs_pbr', None), ('metals', None), ('textures', None)):
+            _, page = self.open(SOURCE / f'scenes/{scene}.json', *SIZE, '--spp', 2, *(('--set', f'/lights/spot={json.dumps(light)}') if light else ()))
             page.until(is_done)
-            lit = 0
+            lit = mapped = 0
             for x, y in ((80, 45), (70, 40), (40, 45), (120, 45), (85, 50), (2, 2)):
                 page.send({'explain': x, 'y': y})
                 answer = page.until(lambda m: 'explained' in m)['explained']
                 if answer.get('background'):
                     continue
+                mapped += len(answer['mapped'])
+                self.assertLess(max(value for _, value in answer['curves']['albedo']), 1.001)
                 parts = [answer['layers'][name] for name in ('diffuse', 'specular', 'ambient', 'emission')]
                 for c in range(3):
                     self.assertAlmostEqual(sum(p[c] for p in parts), answer['value'][c], delta=2e-6 * max(1, answer['value'][c]))
@@ -114,6 +118,7 @@ class ProtocolTest(unittest.TestCase):
                     length = math.hypot(*half)
                     self.assertAlmostEqual(sum(a * b for a, b in zip(answer['normal'], half)) / length, light['n_dot_h'], places=9)
             self.assertGreater(lit, 0, scene)
+            self.assertEqual(mapped > 0, scene == 'textures')
 
     def test_it_refines_while_nothing_moves(self):
         _, page = self.open(SCENE, '--size', '320x180', '--spp', 64)
@@ -137,11 +142,82 @@ class ProtocolTest(unittest.TestCase):
                                '--to', 'blinn_phong', '--quiet'], capture_output=True, text=True, check=True, timeout=60).stdout
         self.assertEqual(value, json.loads(text))
 
-    def test_memory_stays_flat(self):
-        """Half a minute of dragging; NACRE_VIEW_SECONDS for more."""
-        server, page = self.open(SCENE, '--size', '640x360', '--spp', 16)
+    def test_metrics_are_those_of_compare(self):
+        _, page = self.open()
         page.until(is_done)
-        seconds, count, sizes = float(os.environ.get('NACRE_VIEW_SECONDS', 30)), 0, []
+        page.send({'keep': True})
+        self.assertTrue(page.until(lambda m: 'kept' in m)['kept'])
+        self.assertEqual(page.until(lambda m: 'metrics' in m)['metrics']['rmse'], 0)
+        answer = self.set(page, '/materials/red/roughness', 0.7)
+        metrics = page.until(lambda m: 'metrics' in m and m['revision'] >= answer['revision'])['metrics']
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [pathlib.Path(folder, f'{name}.exr') for name in 'ab']
+            for path, change in zip(paths, ((), ('--set', '/materials/red/roughness=0.7'))):
+                subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', '8', *change, '-o', path, '--depth', 'float', '--quiet'],
+                               check=True, timeout=120)
+            text = subprocess.run([PROGRAM, 'compare', paths[1], paths[0], '--metrics', 'ssim,flip', '--json'], capture_output=True,
+                                  text=True, check=False, timeout=120).stdout
+        beauty, = (layer for layer in json.loads(text)['layers'] if layer['layer'] in ('', 'beauty'))
+        beauty['flip'] = beauty['flip']['mean']
+        # The same samples, by the same functions.
+        self.assertEqual(metrics, {name: beauty[name] for name in metrics})
+        page.send({'keep': False})
+        page.until(lambda m: m.get('kept') is False)
+
+    def test_files_to_take_away(self):
+        _, page = self.open()
+        page.until(is_done)
+        page.send({'take': 'report'})
+        self.assertIn('no A', page.until(lambda m: 'fault' in m)['faults'][0]['what'])
+        with tempfile.TemporaryDirectory() as folder:
+            exr = pathlib.Path(folder, 'a.exr')
+            subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', '8', '--layers', 'all', '--reproducible', '--quiet', '-o', exr],
+                           check=True, timeout=120)
+            page.send({'take': 'exr'})
+            self.assertEqual(page.until(lambda m: m.get('kind') == 3)['pixels'], exr.read_bytes())
+        page.send({'keep': True})
+        page.until(lambda m: 'kept' in m)
+        self.set(page, '/materials/red/roughness', 0.7)
+        page.until(is_done)
+        page.send({'take': 'report'})
+        html = page.until(lambda m: m.get('kind') == 4)['pixels'].decode()
+        self.assertTrue(html.startswith('<!DOCTYPE html>'))
+        self.assertIn('B against A', html)
+
+    def test_images_are_shown_by_the_report(self):
+        with tempfile.TemporaryDirectory() as folder:
+            images = [pathlib.Path(folder, f'{name}.exr') for name in 'ab']
+            for image, spp in zip(images, '12'):
+                subprocess.run([PROGRAM, 'render', SCENE, *SIZE, '--spp', spp, '-o', image, '--quiet'], check=True, timeout=60)
+            with Server(PROGRAM, *images, '--quiet') as server:
+                status, headers, body = server.request(f'/{server.token}/')
+                self.assertEqual(status, 200)
+                self.assertIn(b'a.exr against b.exr', body)
+                self.assertNotIn('unsafe', headers['content-security-policy'])
+                # A broken file changes nothing, a good one comes with the next request.
+                whole = images[1].read_bytes()
+                images[0].write_bytes(b'no image')
+                time.sleep(0.8)
+                self.assertEqual(server.request(f'/{server.token}/')[2], body)
+                images[0].write_bytes(whole)
+                end = time.monotonic() + 20
+                while server.request(f'/{server.token}/')[2] == body and time.monotonic() < end:
+                    time.sleep(0.1)
+                self.assertNotEqual(server.request(f'/{server.token}/')[2], body)
+            result = subprocess.run([PROGRAM, 'view', '--no-open', images[0], SCENE], capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(result.returncode, 64)
+            self.assertIn('one scene, or images', result.stderr)
+
+    def test_memory_stays_flat(self):
+        """Some seconds of dragging with four pages open; NACRE_VIEW_SECONDS for more."""
+        size = ('--size', '640x360', '--spp', 16)
+        server, page = self.open(SCENE, *size)
+        others = [server.upgrade() for _ in range(3)]
+        takers = [threading.Thread(target=self.take_all, args=(other,)) for other in others]
+        for taker in takers:
+            taker.start()
+        page.until(is_done)
+        seconds, count, sizes = float(os.environ.get('NACRE_VIEW_SECONDS', 8)), 0, []
         start = time.monotonic()
         while time.monotonic() - start < seconds:
             count += 1
@@ -151,8 +227,20 @@ class ProtocolTest(unittest.TestCase):
             if time.monotonic() - start > seconds / 3:
                 sizes.append(server.memory_mib())
         print(f'{count} changes in {seconds:.0f} s; {sizes[0]:.0f} MiB after a third, {max(sizes):.0f} at most, {sizes[-1]:.0f} at the end', flush=True)
+        server.close()
+        for taker in takers:
+            taker.join()
         self.assertLess(sizes[-1] - sizes[0], 20)
+        # `render` of the scene takes less than 40.
         self.assertLess(max(sizes), 300)
+
+    @staticmethod
+    def take_all(page):
+        """A page that takes its pictures until the server goes."""
+        try:
+            page.until(lambda m: False)
+        except OSError:
+            page.close()
 
     def test_the_address_stays_where_a_port_is_asked_for(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -17,7 +17,7 @@ class Server:
         if not self.url:
             raise RuntimeError(self.process.stderr.read())
         parts = urllib.parse.urlsplit(self.url)
-        self.port, self.token = parts.port, parts.path.strip('/')
+        self.port, self.token, self.address = parts.port, parts.path.strip('/'), parts.hostname
         self.host = parts.netloc
 
     def memory_mib(self):
@@ -43,7 +43,7 @@ class Server:
     # ---- Raw requests ----
 
     def connect(self):
-        connection = socket.create_connection(('127.0.0.1', self.port), 10)
+        connection = socket.create_connection((self.address, self.port), 10)
         connection.settimeout(10)
         return connection
 

@@ -23,21 +23,22 @@ class Explanation {
     }
     const facts = [['shape', json.shape], ['material', `${json.material} (${json.model.replaceAll('_', ' ')})`],
                    ['position', three(json.position)], ['normal', three(json.normal)], ['to viewer', three(json.to_view)]];
+    for (const [name, value] of Object.entries(json.mapped)) facts.push([`${name.replaceAll('_', ' ')}, by its map`, Array.isArray(value) ? three(value) : show(value, 4)]);
     const {lights, layers} = json, names = lights.map(l => l.name);
     const row = (name, of) => [name, ...lights.map(of)];
     const terms = (name, label = name) => lights.some(l => l.terms && name in l.terms)
         ? [row(label, l => l.terms && name in l.terms ? Array.isArray(l.terms[name]) ? three(l.terms[name]) : show(l.terms[name], 5) : '')] : [];
     const angle = (name, label) => row(label, l => name in l ? `${show(l[name], 4)} (${show(degrees(l[name]), 3)}°)` : '');
-    const rows = [row('', l => l.state || 'has an extent: it is sampled'),
-                  row('distance', l => l.distance === null ? '∞' : show(l.distance, 4)), row('irradiance', l => three(l.irradiance)),
+    const rows = [row('', l => l.state),
+                  row('distance', l => l.distance === null ? '∞' : l.distance === undefined ? '' : show(l.distance, 4)), row('irradiance', l => l.irradiance ? three(l.irradiance) : ''),
                   angle('n_dot_l', 'n·l'), angle('n_dot_v', 'n·v'), angle('n_dot_h', 'n·h'), angle('v_dot_h', 'v·h'),
                   ...terms('alpha', 'α'), ...terms('D'), ...terms('G'), ...terms('F'), ...terms('shininess', 'exponent'), ...terms('r_dot_v', 'r·v'), ...terms('lobe'),
-                  row('diffuse radiance', l => three(l.diffuse)), row('specular radiance', l => three(l.specular)),
+                  row('diffuse radiance', l => l.diffuse ? three(l.diffuse) : 'sampled'), row('specular radiance', l => l.specular ? three(l.specular) : 'sampled'),
                   row('as rendered', l => three(l.rendered))];
     const parts = [['diffuse', layers.diffuse], ['specular', layers.specular], ['ambient', layers.ambient], ['emission', layers.emission]];
     const total = [...parts.map(([name, v]) => [name, three(v)]), ['sum', three(sum3(parts.map(([, v]) => v)))], ...end];
     this.body.replaceChildren(
-        el('p', {class: 'soft'}, `Pixel ${x}, ${y}, through its centre. Terms in double, maps aside; radiances in linear units.`),
+        el('p', {class: 'soft'}, `Pixel ${x}, ${y}, through its centre. Terms in double; radiances in linear units.`),
         el('div', {class: 'columns'}, el('div', {}, table(null, facts, {caption: 'What is there', words: true})),
            el('div', {}, table(null, total, {caption: 'How it adds up', words: true}))),
         el('div', {class: 'columns'}, el('div', {}, lights.length ? table(['light', ...names], rows, {caption: 'What each light brings'}) : null),
@@ -67,18 +68,22 @@ class Explanation {
       el('figcaption', {class: 'soft'}, 'BRDF times n·l by the light’s direction: all (orange), diffuse (green); mean of the channels.'));
   }
 
-  curves({curves, lights}) {
-    if (!curves) return null;
+  // `points`: [[degrees, value]...].
+  curves({curves, lights, normal, to_view: view}) {
     const lit = lights.filter(l => l.terms && 'D' in l.terms), width = 330, height = 90;
-    const plot = (title, values, marks) => {
-      const most = Math.max(...values, 1e-12), x = deg => 10 + (width - 20) * deg / 90, y = v => height - (height - 12) * v / most;
+    const plot = (title, points, marks) => {
+      const most = Math.max(...points.map(p => p[1]), 1e-12), x = deg => 10 + (width - 20) * deg / 90, y = v => height - (height - 12) * v / most;
       return svg('svg', {viewBox: `0 0 ${width} ${height + 22}`, class: 'plot', role: 'img', 'aria-label': title},
           svg('line', {x1: 10, y1: height, x2: width - 10, y2: height, class: 'axis'}),
-          svg('path', {d: values.map((v, i) => `${i ? 'L' : 'M'}${x(i).toFixed(1)} ${y(v).toFixed(1)}`).join(''), class: 'line k0'}),
+          svg('path', {d: points.map(([deg, v], i) => `${i ? 'L' : 'M'}${x(deg).toFixed(1)} ${y(v).toFixed(1)}`).join(''), class: 'line k0'}),
           marks.map(deg => svg('line', {x1: x(deg), x2: x(deg), y1: 8, y2: height, class: 'k1', 'stroke-width': 1.5, 'stroke-dasharray': '4 3'})),
           svg('text', {x: 10, y: height + 16, class: 'soft'}, title), svg('text', {x: width - 10, y: 12, 'text-anchor': 'end', class: 'soft'}, show(most, 3)));
     };
-    return el('figure', {}, plot('D over the angle of h, 0 to 90°', curves.distribution, lit.map(l => degrees(l.n_dot_h))),
-              plot('F (green) over the angle of v and h, 0 to 90°', curves.fresnel.map(f => f[1]), lit.map(l => degrees(l.v_dot_h))));
+    const byDegree = values => values.map((v, i) => [i, v]);
+    return el('figure', {},
+        curves.distribution ? plot('D over the angle of h, 0 to 90°', byDegree(curves.distribution), lit.map(l => degrees(l.n_dot_h))) : null,
+        curves.fresnel ? plot('F (green) over the angle of v and h, 0 to 90°', byDegree(curves.fresnel.map(f => f[1])), lit.map(l => degrees(l.v_dot_h))) : null,
+        plot('albedo over the angle of v, 0 to 90°', curves.albedo, [degrees(dot(normal, view))]),
+        el('figcaption', {class: 'soft'}, 'Dashed: the angles here. Albedo: the share of light from everywhere that is seen, mean of the channels.'));
   }
 }

@@ -14,6 +14,7 @@ let lastControl = 0;
 // are logarithmic, those that the schema does not bound lie around the value.
 function sliderScale(schema, value) {
   const min = schema.minimum ?? schema.exclusiveMinimum ?? -1e15, max = schema.maximum ?? schema.exclusiveMaximum ?? 1e15;
+  if (schema.turns && min === -1e15 && max === 1e15) return {low: -180, high: 180, log: false};
   if (max - min <= 1000 && !(min > 0 && max / min > 1000)) return {low: min, high: max, log: false};
   const size = Math.abs(value) || Math.abs(schema.default) || 1;
   if (min < 0) return {low: Math.max(min, value - 3 * size), high: Math.min(max, value + 3 * size), log: false};
@@ -154,8 +155,32 @@ function textInput(label, edit) {
   }};
 }
 
+// A texture by its name, or a file of the scene's folder, of which one is made.
+function mapInput(names, files, label, edit, useFile) {
+  const select = el('select', {'aria-label': label, onchange: () => {
+    const {kind} = select.selectedOptions[0].dataset;
+    if (kind === 'file') useFile(select.value, newGesture());
+    else edit(select.value, newGesture());
+  }});
+  const group = (title, kind, values) => values.length ? el('optgroup', {label: title}, values.map(value => el('option', {value, 'data-kind': kind}, value))) : null;
+  select.append(...[el('option', {value: '', disabled: true}, 'none'), group('Textures', 'texture', names), group('Files of the scene’s folder', 'file', files)].filter(Boolean));
+  return {element: select, focus: select, show(now) { select.value = typeof now === 'string' ? now : ''; }};
+}
+
+// A file of the scene's folder.
+function fileInput(files, label, edit) {
+  const select = el('select', {'aria-label': label, onchange: () => edit(select.value, newGesture())});
+  return {element: select, focus: select, show(now) {
+    const all = now && !files.includes(now) ? [now, ...files] : files;
+    options(select, all.map(name => [name, name]));
+    select.value = now ?? '';
+  }};
+}
+
 // The control that suits a schema.
-function makeInput(schema, label, edit, {names, value}) {
+function makeInput(schema, label, edit, {names, files, useFile, value}) {
+  if (useFile) return mapInput(names, files, label, edit, useFile);
+  if (files) return fileInput(files, label, edit);
   if (schema.enum) return choiceInput(schema.enum, label, edit);
   if (schema.type === 'boolean') return switchInput(label, edit);
   if (schema.type === 'number' || schema.type === 'integer') return numberInput(schema, label, edit);
@@ -169,7 +194,7 @@ function makeInput(schema, label, edit, {names, value}) {
 // what it is by default.
 function makeControl(name, schema, pointer, edit, drop, known = {}) {
   const label = name.replaceAll('_', ' '), id = `control${++lastControl}`;
-  const input = makeInput(schema, label, (value, gesture) => edit(pointer, value, gesture), known);
+  const input = makeInput({...schema, turns: name.endsWith('_deg')}, label, (value, gesture) => edit(pointer, value, gesture), known);
   input.focus.id = id;
   const fault = el('div', {class: 'fault', role: 'alert', hidden: true});
   const dropper = drop ? el('button', {class: 'drop', title: 'Back to the default', 'aria-label': `${label}: back to the default`,

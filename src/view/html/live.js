@@ -19,6 +19,8 @@ class LiveViewer extends Viewer {
     this.act = act;
     this.hand = new Hand(this, act);
     this.pending = [];  // own changes that no picture shows yet
+    this.metrics = el('div', {class: 'metrics', 'aria-live': 'polite', hidden: true});
+    this.readout.before(this.metrics);
     for (const name of ['stage']) new ResizeObserver(() => this.hand.placeLamps()).observe(this[name]);
   }
 
@@ -51,6 +53,7 @@ class LiveViewer extends Viewer {
     while (this.pending.length && this.pending[0].revision <= head.revision) this.element.dataset.serial = this.pending.shift().serial;
     this.element.dataset.revision = head.revision;
     this.element.dataset.done = head.done;
+    this.metrics.classList.toggle('old', this.measured !== head.revision);
     if (head.done) this.rested();
   }
 
@@ -130,6 +133,17 @@ class LiveViewer extends Viewer {
     return this.hand?.action(event) || super.actionOf(event);
   }
 
+  // How far B is from A, by the server's measure.
+  showMetrics(metrics, revision) {
+    this.measured = revision;
+    this.metrics.classList.remove('old');
+    if (!metrics) { this.metrics.textContent = this.images.length > 1 ? 'A and B have no figures: their sizes differ, or the server is another' : ''; return; }
+    const {rmse, rel_mse: relative, psnr_db: psnr, ssim, flip, max_abs: most, max_abs_at: [x, y]} = metrics;
+    const figures = [['RMSE', rmse], ['relMSE', relative], ['PSNR', psnr === null ? '∞' : `${show(psnr, 4)} dB`], ['SSIM', ssim], ['FLIP', flip],
+                     [`largest difference, at ${x}, ${y}`, most]];
+    this.metrics.replaceChildren('B against A: ', ...figures.map(([name, value]) => el('span', {'data-metric': name.split(' ')[0]}, `${name} `, el('b', {}, typeof value === 'number' ? show(value, 4) : value ?? '–'))));
+  }
+
   // The present picture stays as A, to compare what follows with.
   async keepA(scene) {
     const {live, set} = this, layer = live.layers[0], planes = await this.samples(layer);
@@ -143,6 +157,8 @@ class LiveViewer extends Viewer {
     this.a = 0;
     this.shown = 0;
     this.mode = 'slider';
+    this.metrics.hidden = false;
+    this.metrics.textContent = 'B against A: equal so far';
     this.update();
     return true;
   }
@@ -152,6 +168,7 @@ class LiveViewer extends Viewer {
     set.images = [live];
     set.reference = 0;
     this.mode = 'single';
+    this.metrics.hidden = true;
     this.a = this.shown = 0;
     this.controls.open();
     this.update();

@@ -7,6 +7,9 @@ const MOST_SHAPES = 40;  // with controls; more are a cloud, and have none
 // Members that are no numbers to play with.
 const NO_CONTROLS = new Set(['$schema', 'nacre']);
 
+// Of an environment light: what it looks like, of which it has one, and what goes with an image.
+const SKIES = ['radiance', 'gradient', 'quadratic', 'image'], OF_IMAGES = ['part', 'clamp_negative', 'scale'];
+
 class Panel {
   // `act`: {set(pointer, value, gesture)}
   constructor(act) {
@@ -16,6 +19,7 @@ class Panel {
     this.find = el('input', {type: 'search', placeholder: 'Find a parameter ( / )', 'aria-label': 'Find a parameter', oninput: () => this.filter()});
     this.list = el('div', {});
     this.element = el('div', {class: 'panel', role: 'region', 'aria-label': 'Scene'}, el('div', {class: 'find'}, this.find), this.list);
+    this.files = [];  // images of the scene's folder
     this.open = new Map();  // whether a group is open, by pointer
   }
 
@@ -97,18 +101,46 @@ class Panel {
   }
 
   control(name, schema, pointer) {
-    const names = name.endsWith('_map') || name === 'texture' ? Object.keys(this.scene.textures || {})
-                : name === 'material' ? Object.keys(this.scene.materials || {}) : [];
     const control = makeControl(name, schema, pointer, (at, value, gesture) => this.edit(at, value, gesture),
-                                at => this.drop(at), {names: names.length ? names : null, value: this.valueOf(pointer)});
+                                at => this.drop(at), {...this.choices(name, pointer), value: this.valueOf(pointer)});
     this.controls.set(pointer, control);
     return control;
   }
 
-  // The camera is set whole: of one of its members alone the others would be defaults.
+  // The names and files that a value may be: {names, files, useFile}.
+  choices(name, pointer) {
+    const {scene, files} = this, textures = Object.keys(scene.textures || {});
+    if ((name.endsWith('_map') || name === 'texture') && textures.length + files.length) {
+      return {names: textures, files, useFile: (file, gesture) => this.useFile(pointer, file, gesture)};
+    }
+    if (name === 'file' && pointer.startsWith('/textures/')) return {files};
+    if (name === 'image' && pointer.startsWith('/lights/')) return {files: files.filter(file => /\.(exr|hdr)$/i.test(file))};
+    const materials = name === 'material' ? Object.keys(scene.materials || {}) : [];
+    return {names: materials.length ? materials : null};
+  }
+
+  // The map of this file: a texture that has it, or a new one.
+  useFile(pointer, file, gesture) {
+    const textures = this.scene.textures || {}, stem = file.replace(/^.*\//, '').replace(/\.\w+$/, '');
+    let name = Object.keys(textures).find(known => textures[known].file === file);
+    if (!name) {
+      for (let i = 1; !name || name in textures; ++i) name = i > 1 ? `${stem} ${i}` : stem;
+      this.act.set(`/textures/${token(name)}`, {file}, gesture);
+    }
+    this.act.set(pointer, name, gesture);
+  }
+
   edit(pointer, value, gesture) {
-    if (!pointer.startsWith('/camera/')) return this.act.set(pointer, value, gesture);
-    this.act.set('/camera', {...this.camera, [steps(pointer)[1]]: value}, gesture);
+    const [part, name, member] = steps(pointer);
+    // The camera is set whole: of one of its members alone the others would be defaults.
+    if (part === 'camera' && name) return this.act.set('/camera', {...this.camera, [name]: value}, gesture);
+    // What an environment looks like is one of four.
+    const light = part === 'lights' && this.scene.lights[name];
+    if (light?.type === 'environment' && SKIES.includes(member) && !(member in light)) {
+      const others = Object.entries(light).filter(([key]) => !SKIES.includes(key) && !(OF_IMAGES.includes(key) && member !== 'image'));
+      return this.act.set(`/lights/${token(name)}`, {...Object.fromEntries(others), [member]: value}, gesture);
+    }
+    this.act.set(pointer, value, gesture);
   }
 
   // The value by default: the object around it without the member.

@@ -55,6 +55,16 @@ const isPoint = schema => schema.type === 'array' && schema.minItems === 3 && sc
 // Other forms of the value of which one is an object: {schema of the object}.
 const objectForm = schema => schema.properties ? schema : (schema.anyOf || []).map(resolve).find(s => s.properties || s.oneOf);
 
+// Materials that nacre convert can make Phong of physically based and back: [{pointer, phong}...]. Those
+// of grids stay, whose axes are parameters of one model.
+const PHONG = ['phong', 'modified_phong', 'blinn_phong'], PBR = ['metallic_roughness', 'dielectric', 'conductor'];
+function convertible(scene) {
+  const named = Object.entries(scene.materials || {}).map(([name, material]) => [`/materials/${token(name)}`, material]);
+  const own = (scene.shapes || []).map((shape, i) => [`/shapes/${i}/material`, !shape.rows && !shape.columns && shape.material]);
+  return [...named, ...own].map(([pointer, material]) => ({pointer, model: material && (material.model ?? 'metallic_roughness'), phong: PHONG.includes(material?.model)}))
+      .filter(({model}) => PHONG.includes(model) || PBR.includes(model));
+}
+
 // Parameters of models that mean the same, and how a value becomes another's.
 const MEANINGS = [['color', 'albedo', 'base_color'], ['diffuse_map', 'albedo_map', 'base_color_map'],
                   ['roughness', 'shininess']];

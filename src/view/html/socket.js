@@ -4,9 +4,10 @@
 
 const HEAD = ['kind', 'revision', 'width', 'height', 'frameWidth', 'frameHeight', 'samples', 'ofSamples', 'done', 'renderUs'];
 const HEAD_BYTES = 4 * HEAD.length;
+const FILES = {3: 'exr', 4: 'html'};  // kinds of messages that are files
 
 class Connection {
-  // `on`: {text(message), frame(head, bytes), state(open)}
+  // `on`: {text(message), frame(head, bytes), file(extension, bytes), state(open)}
   constructor(on) {
     this.on = on;
     this.serial = 0;
@@ -38,6 +39,7 @@ class Connection {
       this.socket.send('taken');  // the next one may be made while this one is drawn
       return this.on.frame(head, new Uint8ClampedArray(data, HEAD_BYTES));
     }
+    if (head.kind in FILES) return this.on.file(FILES[head.kind], new Uint8Array(data, HEAD_BYTES));
     const done = this.waiting.get(head.samples), size = head.width * head.height, planes = [];
     this.waiting.delete(head.samples);
     for (let i = 0; i < head.ofSamples; ++i) planes.push(new Float32Array(data, HEAD_BYTES + 4 * i * size, size));

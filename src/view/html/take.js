@@ -28,16 +28,21 @@ function commandLine({file, given, original, scene, look, samples}) {
   return ['nacre render', quoted(file || 'scene.json'), ...(file ? given.map(quoted) : []), ...(samples ? [`--spp ${samples}`] : []), ...shown, ...sets, '-o picture.exr -o picture.png'].join(' ');
 }
 
-// `view`: what the page holds.
+const baseName = view => view.name.textContent.replace(/\.\w+$/, '').replace(/[^\w-]+/g, '_') || 'scene';
+
+// `view`: what the page holds. EXR and report are made by the server, which sends them (page.js).
 function takeAway(view) {
-  const {viewer} = view, base = view.name.textContent.replace(/\.\w+$/, '').replace(/[^\w-]+/g, '_') || 'scene';
+  const {viewer} = view, base = baseName(view), compared = viewer.images.length > 1;
   const whole = view.whole && view.original && Object.keys(view.original).length > 0 && !/\.(gltf|glb|obj|ply)$/i.test(view.file);
   const command = commandLine({...view, look: viewer.look, samples: viewer.head?.ofSamples});
   const text = el('textarea', {readonly: true, rows: 6, 'aria-label': 'Command line'}, command);
   const dialog = el('dialog', {'aria-label': 'Take away', onclose: () => dialog.remove()}, el('h3', {}, 'Take away'),
     el('div', {class: 'row'},
        whole || !view.file ? el('button', {onclick: () => save(`${base}.json`, new Blob([JSON.stringify(view.scene, null, 2) + '\n'], {type: 'application/json'}))}, 'Scene as JSON') : null,
-       el('button', {onclick: () => viewer.live.canvas.toBlob(blob => save(`${base}.png`, blob))}, 'Picture as PNG')),
+       el('button', {onclick: () => viewer.live.canvas.toBlob(blob => save(`${base}.png`, blob))}, 'Picture as PNG'),
+       el('button', {onclick: () => view.act.take('exr')}, 'EXR with all layers'),
+       el('button', {disabled: !compared, title: compared ? null : 'Keep a picture as A first', onclick: () => view.act.take('report')}, 'Report of A and B')),
+    el('p', {class: 'soft'}, 'EXR and report take as long as they take to render and compare; then the browser saves them.'),
     el('p', {}, view.file ? 'The command that renders this picture:' : 'The command that renders this picture, once the scene is saved as scene.json:'), text,
     el('div', {class: 'row'}, el('button', {onclick: () => { text.select(); navigator.clipboard?.writeText(text.value); }}, 'Copy'),
        el('button', {onclick: () => dialog.close()}, 'Close')));
