@@ -253,7 +253,8 @@ class EndTest(unittest.TestCase):
     """How it ends."""
 
     def test_signals(self):
-        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+        # A terminal that is closed sends the last one.
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, -signal.SIGHUP)):
             server = Server(PROGRAM, SCENE, '--size', '1920x1080', '--spp', '4096')
             page = server.upgrade()
             page.until(lambda m: m.get('kind') == 1)

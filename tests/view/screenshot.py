@@ -13,7 +13,7 @@ from server import Server  # noqa: E402
 def main():
     program, out = sys.argv[1], pathlib.Path(sys.argv[2])
     width, height = map(int, (sys.argv[3] if len(sys.argv) > 3 else '1280x860').split('x'))
-    browser = webdriver.Browser()
+    browser = webdriver.Browser(network_log=False)
     try:
         if 'dark' in sys.argv:
             browser.cdp('Emulation.setEmulatedMedia', features=[{'name': 'prefers-color-scheme', 'value': 'dark'}])
