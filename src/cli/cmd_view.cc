@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -21,6 +22,7 @@
 #include "base/path.h"
 #include "base/version.h"
 #include "cli/commands.h"
+#include "cli/given_options.h"
 #include "cli/help_text.h"
 #include "cli/print.h"
 #include "cli/progress.h"
@@ -149,8 +151,13 @@ ServerOptions MakeServerOptions(const ViewArguments& arguments) {
 
 // Images are shown by the report's page, with no scene behind it. Files that have changed are in it
 // when it is loaded again.
-void RunImages(const ViewArguments& arguments, int* exit_code) {
+void RunImages(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
   const RenderOptions& options = arguments.options;
+  const std::set<std::string> of_scenes = {"--size", "--spp",     "--max-error",
+                                           "--set",  "--threads", "--allow-paths"};
+  RefuseOptions(
+      command, [&](const CLI::Option& option) { return !of_scenes.contains(option.get_name()); },
+      "images", "it is for scenes, which are rendered");
   PerceptualArguments shown = ShownAs({});
   shown.tonemap = options.tonemap;
   shown.exposure = options.exposure;
@@ -197,12 +204,12 @@ bool IsScene(const std::string& path) {
   return IsModelFile(path) || HasExtension(path, ".json");
 }
 
-void RunView(const ViewArguments& arguments, int* exit_code) {
+void RunView(const ViewArguments& arguments, const CLI::App& command, int* exit_code) {
   const RenderOptions& options = arguments.options;
   ApplyTarget(options.target);
   const std::vector<std::string>& inputs = arguments.inputs;
   const auto scenes = std::count_if(inputs.begin(), inputs.end(), IsScene);
-  if (!inputs.empty() && scenes == 0) return RunImages(arguments, exit_code);
+  if (!inputs.empty() && scenes == 0) return RunImages(arguments, command, exit_code);
   if (inputs.size() > 1) {
     throw Error(ExitCode::kUsage, "nacre view", "shows one scene, or images",
                 "nacre report renders several scenes into one page");
@@ -303,7 +310,7 @@ void AddViewCommand(CLI::App* app, int* exit_code) {
       "  nacre view scenes/material_grid.json --spp 64\n"
       "  nacre view a.exr b.exr\n"
       "  nacre view scene.json --port 8080 --no-open");
-  command->callback([arguments, exit_code] { RunView(*arguments, exit_code); });
+  command->callback([arguments, command, exit_code] { RunView(*arguments, *command, exit_code); });
 }
 
 }  // namespace nacre

@@ -207,6 +207,9 @@ class ProtocolTest(unittest.TestCase):
             result = subprocess.run([PROGRAM, 'view', '--no-open', images[0], SCENE], capture_output=True, text=True, timeout=60, check=False)
             self.assertEqual(result.returncode, 64)
             self.assertIn('one scene, or images', result.stderr)
+            result = subprocess.run([PROGRAM, 'view', '--no-open', images[0], '--spp', '4'], capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual(result.returncode, 64)
+            self.assertIn('--spp: cannot be used with images', result.stderr)
 
     def test_memory_stays_flat(self):
         """Some seconds of dragging with four pages open; NACRE_VIEW_SECONDS for more."""
