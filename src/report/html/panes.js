@@ -125,7 +125,7 @@ class Pane {
       context.translate(w / 2 - camera.x * scale, h / 2 - camera.y * scale);
       context.scale(scale * picture.cell, scale * picture.cell);
       context.imageSmoothingEnabled = scale * picture.cell * ratio < 1;
-      context.imageSmoothingQuality = 'high';
+      context.imageSmoothingQuality = this.viewer.smoothing || 'high';
       context.drawImage(picture.canvas, picture.x0, picture.y0);
       context.restore();
     }

@@ -35,6 +35,7 @@ class LiveViewer extends Viewer {
     const reframed = frame.width !== head.frameWidth || frame.height !== head.frameHeight;
     live.cell = head.frameWidth / head.width;
     this.head = head;
+    this.smoothing = head.done ? 'high' : 'low';  // the finest takes milliseconds
     this.kept.clear();
     if (reframed) {
       Object.assign(frame, {width: head.frameWidth, height: head.frameHeight});
